@@ -1,0 +1,57 @@
+// Luminous intensity over the UN goniometer's angles: the one form in which every lamp file ends.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+/// How intensity runs between the samples of a table.
+enum class BetweenSamples { linear_cd, log_cd };
+
+/// Intensity in candela over H (right positive) and V (up positive), degrees, UN goniometer: H = atan2(x, z), V = asin(y) with x right, y up, z forward.
+/// Axes ascend strictly. Outside the axes, and in a cell marked as a gap, there is no light: intensity 0, never an extrapolation.
+/// A table whose H axis spans 360 degrees wraps round.
+struct CandelaTable {
+    std::vector<double> h_deg;
+    std::vector<double> v_deg;
+    std::vector<double> cd;          ///< row-major: cd[v * h_deg.size() + h], each finite and >= 0
+    std::vector<unsigned char> gaps; ///< empty, or (v_deg.size() - 1) * (h_deg.size() - 1) cells: 1 = no data between these four samples
+    BetweenSamples rule = BetweenSamples::linear_cd;
+
+    double at(std::size_t v, std::size_t h) const { return cd[v * h_deg.size() + h]; }
+    double& at(std::size_t v, std::size_t h) { return cd[v * h_deg.size() + h]; }
+    bool operator==(const CandelaTable&) const = default;
+};
+
+/// Intensity in cd by the table's rule at any direction. log_cd falls back to linear in a cell that holds a zero.
+double intensity_cd(const CandelaTable& table, double h_deg, double v_deg);
+
+struct Peak {
+    double cd = 0.0, h_deg = 0.0, v_deg = 0.0;
+};
+Peak peak_of(const CandelaTable& table);
+
+/// Luminous flux in lumen: the integral of I cos(V) dH dV over the table's cells, for the table's own rule.
+double flux_lm(const CandelaTable& table);
+
+/// Throws std::invalid_argument naming what is wrong when the invariants above do not hold.
+void check_invariants(const CandelaTable& table);
+
+CandelaTable scaled(CandelaTable table, double factor);      ///< factor >= 0
+CandelaTable mirrored(const CandelaTable& table);            ///< H -> -H: right-hand to left-hand traffic
+CandelaTable sum(const CandelaTable& a, const CandelaTable& b); ///< on the union of both axes
+/// a - b on the union of both axes; negative differences become 0 and are counted in `clamped`.
+CandelaTable difference(const CandelaTable& a, const CandelaTable& b, std::size_t& clamped);
+
+/// How wrong the rule is: every second row and column predicted from the others.
+struct InterpolationError {
+    std::size_t samples = 0;       ///< predicted samples; 0: table too small to tell
+    double median_relative = 0.0;  ///< of |predicted - given| / peak
+    double p95_relative = 0.0;
+    double worst_relative = 0.0;
+    double worst_h_deg = 0.0, worst_v_deg = 0.0;
+};
+InterpolationError interpolation_error(const CandelaTable& table);
+
+} // namespace fernlicht

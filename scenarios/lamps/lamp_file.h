@@ -1,0 +1,42 @@
+// A lamp as it stands in a file: candela table, what the file says of it, and what was read.
+#pragma once
+
+#include "scenarios/lamps/candela_table.h"
+#include "scenarios/values/files.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace fernlicht {
+
+/// Where a Type C file (and EULUMDAT) points its beam: at the horizon as headlamps are measured, or to the nadir as luminaires are.
+enum class TypeCAxis { automatic, horizontal, nadir };
+
+struct LampReadOptions {
+    BetweenSamples rule = BetweenSamples::linear_cd;
+    TypeCAxis type_c_axis = TypeCAxis::automatic;
+    /// Beam texture images only (method: E[lx] = pixel * scale at the distance, over the angular extent).
+    double texture_scale_lx = 0.0;      ///< lux of a pixel of value 1.0 (8-bit: 255); 0: take it from the image's metadata
+    double texture_distance_m = 25.0;
+    double texture_h_extent_deg[2] = {0.0, 0.0}; ///< left and right edge; equal: from the image's metadata
+    double texture_v_extent_deg[2] = {0.0, 0.0}; ///< bottom and top edge
+};
+
+struct LampFile {
+    std::string name;   ///< short: catalogue or luminaire name, else the file's stem
+    std::string format; ///< "IES LM-63-2002, type A", "EULUMDAT, Isym 0", "beam matrix", "beam texture"
+    CandelaTable table;
+    std::optional<double> declared_flux_lm; ///< as the file says; nullopt: absolute photometry or silent
+    std::vector<std::pair<std::string, std::string>> labels; ///< the file's own keywords and texts, UTF-8
+    std::vector<std::string> notes; ///< what was odd and how it was taken ("angles descend: sorted"), one sentence each
+    FilesRead opened;
+};
+
+/// Reads any supported lamp file, told by content first and extension second. Throws InputError.
+LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options = {});
+
+/// Writers; the extension decides in write_lamp: .ies (LM-63-2002 type A), .csv (beam matrix, cd), .exr (float beam texture).
+void write_lamp(const LampFile& lamp, const std::filesystem::path& path);
+
+} // namespace fernlicht

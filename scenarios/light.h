@@ -1,0 +1,18 @@
+// Illuminance at a point by the lamps of a moment, from the candela tables themselves, in double: the ground that rendered
+// lux images are measured against. Knows no shadows; callers that need them bring their own visibility.
+#pragma once
+
+#include "scenarios/drives/moment.h"
+
+namespace fernlicht {
+
+/// Intensity in cd of the lamp towards a world point; 0 behind, outside its table, or switched off.
+double intensity_towards_cd(const LitLamp& lamp, const glm::dvec3& point_m);
+
+/// E = I cos(alpha) / d^2 on a surface of unit `normal`, sky included. lx.
+double surface_illuminance_lx(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal);
+
+/// Sum over the lamps of I / d^2: a target that faces each lamp. lx. No sky.
+double target_illuminance_lx(const Moment& moment, const glm::dvec3& point_m);
+
+} // namespace fernlicht

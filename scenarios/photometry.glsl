@@ -1,0 +1,98 @@
+// Every light equation of fernlicht, once. The GPU compiles this text as GLSL in float; C++ includes it in double (photometry.h),
+// so the two cannot drift and their difference is the rounding error of the GPU path.
+//
+// The common subset: `real`, never float or double; literals with a point and no suffix; no swizzles; no samplers (pass what was
+// fetched); FN before a function, OUT(type) for results by reference; PRECISE before accumulators, so that leaving a feature out
+// cannot change the rounding of what stays. Angles in radians, lengths in metres, photometric units in the names.
+
+const real photometry_pi = 3.14159265358979323846;
+
+// World direction -> lamp space (x right, y up, z forward) by the lamp's own axes, each of unit length.
+FN vec3 lamp_space(vec3 v, vec3 right, vec3 up, vec3 forward) {
+    return vec3(dot(v, right), dot(v, up), dot(v, forward));
+}
+
+// Lamp space -> (H, V), UN goniometer with vertical polar axis: H right positive, V up positive.
+// V = asin(y / |w|) in the text of the regulation; atan(y, length(x, z)) is the same angle without asin's error near the horizon.
+FN vec2 goniometer_angles(vec3 w) {
+    return vec2(atan(w.x, w.z), atan(w.y, length(vec2(w.x, w.z))));
+}
+
+// Where in a beam texture an angle falls. grid = (first H, first V, 1 / step H, 1 / step V); texel centres stand on the samples,
+// so the result 0 is the first sample and count - 1 the last.
+FN vec2 beam_position(vec2 angles, vec4 grid) {
+    return vec2((angles.x - grid.x) * grid.z, (angles.y - grid.y) * grid.w);
+}
+
+// 1 where the texture knows the direction, else 0: no light is invented outside a table.
+FN real beam_known(vec2 position, vec2 count) {
+    return position.x >= 0.0 && position.y >= 0.0 && position.x <= count.x - 1.0 && position.y <= count.y - 1.0 ? 1.0 : 0.0;
+}
+
+// Bilinear by hand: texture units weigh with 8 fractional bits, which shows at a cut-off.
+// ab is the row below (a left, b right), cd the row above.
+FN real bilinear(real a, real b, real c, real d, vec2 f) {
+    PRECISE real lower = a + (b - a) * f.x;
+    PRECISE real upper = c + (d - c) * f.x;
+    PRECISE real result = lower + (upper - lower) * f.y;
+    return result;
+}
+
+// E = I / d^2 on a surface that faces the lamp. `to_lamp` from the point to the lamp, not normalised. Pole at d = 0.
+FN real facing_illuminance(real intensity_cd, vec3 to_lamp) {
+    PRECISE real e = intensity_cd / dot(to_lamp, to_lamp);
+    return e;
+}
+
+// cos(alpha) between the unit normal and the direction to the lamp; 0 on the far side.
+FN real incidence(vec3 normal, vec3 to_lamp) {
+    PRECISE real c = dot(normal, to_lamp) * inversesqrt(dot(to_lamp, to_lamp));
+    return max(c, 0.0);
+}
+
+// Diffuse (Lambert): L = rho E / pi.
+FN real diffuse_luminance(real albedo, real illuminance_lx) {
+    PRECISE real l = albedo * illuminance_lx / photometry_pi;
+    return l;
+}
+
+// Angle at the surface between light and eye; both vectors from the point, not normalised. Well-conditioned near 0, where
+// retroreflection happens and acos is not.
+FN real observation_angle(vec3 to_lamp, vec3 to_eye) {
+    return atan(length(cross(to_lamp, to_eye)), dot(to_lamp, to_eye));
+}
+
+// Retroreflection: L = R_L E_perp, R_L in cd/(m2 lx) at the reference observation angle, falling off exponentially with the angle.
+// E_perp is on a plane perpendicular to the light (EN 1436). Nothing from behind (cosine 0).
+FN real retro_luminance(real rl, real e_perp_lx, real cosine, real angle, real reference, real falloff) {
+    PRECISE real l = rl * e_perp_lx * exp((reference - angle) / falloff);
+    return cosine > 0.0 ? l : 0.0;
+}
+
+// How far `occluder` stands above the tangent plane of the point it might shade, in metres. Shadow maps compare this with a
+// tolerance in metres of height: no bias that grows at grazing incidence, where headlamps live. Both relative to one origin.
+FN real height_above_plane(vec3 occluder, vec3 point, vec3 normal) {
+    return dot(normal, occluder - point);
+}
+
+// Tone mappers: luminance -> 0..1, monotone, l_max -> 1. l >= 0, l_max > 0.
+FN real tone_linear(real l, real l_max) {
+    return clamp(l / l_max, 0.0, 1.0);
+}
+
+// L' = s L / (s L - L + L_max), s >= 1; s = 1 is linear. Written with a sum that cannot cancel.
+FN real tone_rational(real l, real l_max, real s) {
+    real x = min(l, l_max);
+    return s * x / ((s - 1.0) * x + l_max);
+}
+
+// L' = ln(1 + s L / L_max) / ln(1 + s), s > 0.
+FN real tone_logarithmic(real l, real l_max, real s) {
+    real x = min(l, l_max) / l_max;
+    return log(1.0 + s * x) / log(1.0 + s);
+}
+
+// IEC 61966-2-1, linear 0..1 -> encoded 0..1.
+FN real srgb_encoded(real c) {
+    return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055;
+}

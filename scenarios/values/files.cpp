@@ -1,0 +1,147 @@
+#include "scenarios/values/files.h"
+
+#include "scenarios/values/errors.h"
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <xxhash.h>
+
+namespace fernlicht {
+namespace {
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+/// Windows-1252's printable bytes 0x80..0x9f as code points; 0 where it defines none.
+constexpr std::uint16_t windows_1252[32] = {0x20ac, 0,      0x201a, 0x0192, 0x201e, 0x2026, 0x2020, 0x2021, 0x02c6, 0x2030, 0x0160,
+                                            0x2039, 0x0152, 0,      0x017d, 0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
+                                            0x2013, 0x2014, 0x02dc, 0x2122, 0x0161, 0x203a, 0x0153, 0,      0x017e, 0x0178};
+
+/// Length of the UTF-8 sequence at `p`, or 0 when the bytes are none (overlong forms and surrogates included).
+std::size_t utf8_length(const unsigned char* p, std::size_t left) {
+    const auto continues = [&](std::size_t i) { return i < left && (p[i] & 0xc0) == 0x80; };
+    if (p[0] < 0x80)
+        return 1;
+    if (p[0] >= 0xc2 && p[0] <= 0xdf && continues(1))
+        return 2;
+    if ((p[0] & 0xf0) == 0xe0 && continues(1) && continues(2)) {
+        const unsigned code = (p[0] & 0x0fU) << 12 | (p[1] & 0x3fU) << 6;
+        return code >= 0x800 && !(code >= 0xd800 && code <= 0xdfff) ? 3 : 0;
+    }
+    if (p[0] >= 0xf0 && p[0] <= 0xf4 && continues(1) && continues(2) && continues(3)) {
+        const unsigned code = (p[0] & 0x07U) << 18 | (p[1] & 0x3fU) << 12;
+        return code >= 0x10000 && code <= 0x10ffff ? 4 : 0;
+    }
+    return 0;
+}
+
+void append_code_point(std::string& out, unsigned code) {
+    if (code < 0x80) {
+        out += static_cast<char>(code);
+    } else if (code < 0x800) {
+        out += static_cast<char>(0xc0 | code >> 6);
+        out += static_cast<char>(0x80 | (code & 0x3f));
+    } else {
+        out += static_cast<char>(0xe0 | code >> 12);
+        out += static_cast<char>(0x80 | (code >> 6 & 0x3f));
+        out += static_cast<char>(0x80 | (code & 0x3f));
+    }
+}
+
+} // namespace
+
+std::string content_hash(const void* data, std::size_t bytes) {
+    const XXH128_hash_t hash = XXH3_128bits(data, bytes);
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string read_file(const std::filesystem::path& path, FilesRead& opened, std::size_t max_bytes, bool may_be_empty) {
+    struct stat status{};
+    if (::stat(path.c_str(), &status) != 0)
+        throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(errno), "a file");
+    if (!S_ISREG(status.st_mode))
+        throw InputError({path, 0, 0, {}}, S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file", "a file");
+    if (static_cast<std::size_t>(status.st_size) > max_bytes)
+        throw InputError({path, 0, 0, {}}, fmt::format("has {} bytes", status.st_size), fmt::format("at most {} bytes", max_bytes));
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(errno), "a readable file");
+    std::string content(static_cast<std::size_t>(status.st_size), '\0');
+    std::size_t done = 0;
+    while (done < content.size()) {
+        const ssize_t got = ::read(file, content.data() + done, content.size() - done);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            const int error = errno;
+            ::close(file);
+            throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(error), "a readable file");
+        }
+        if (got == 0)
+            break;
+        done += static_cast<std::size_t>(got);
+    }
+    ::close(file);
+    content.resize(done);
+    if (content.empty() && !may_be_empty)
+        throw InputError({path, 0, 0, {}}, "is empty", "content");
+    opened.push_back({path, content.size(), content_hash(content.data(), content.size())});
+    return content;
+}
+
+void write_file(const std::filesystem::path& path, const std::string& content) {
+    const std::string part = path.string() + fmt::format(".part-{}", ::getpid());
+    const auto fail = [&](int error) {
+        ::unlink(part.c_str());
+        throw DeviceError(path.string() + ": cannot be written: " + reason(error));
+    };
+    const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0)
+        fail(errno);
+    std::size_t done = 0;
+    while (done < content.size()) {
+        const ssize_t put = ::write(file, content.data() + done, content.size() - done);
+        if (put < 0 && errno == EINTR)
+            continue;
+        if (put < 0) {
+            const int error = errno;
+            ::close(file);
+            fail(error);
+        }
+        done += static_cast<std::size_t>(put);
+    }
+    if (::close(file) != 0)
+        fail(errno);
+    if (::rename(part.c_str(), path.c_str()) != 0)
+        fail(errno);
+}
+
+std::string to_utf8(const std::string& bytes) {
+    std::string_view text = bytes;
+    if (text.starts_with("\xef\xbb\xbf"))
+        text.remove_prefix(3);
+    const auto* p = reinterpret_cast<const unsigned char*>(text.data());
+    bool valid = true;
+    for (std::size_t i = 0; i < text.size() && valid;) {
+        const std::size_t length = utf8_length(p + i, text.size() - i);
+        valid = length > 0;
+        i += length;
+    }
+    if (valid)
+        return std::string(text);
+    std::string out;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        const unsigned code = byte >= 0x80 && byte < 0xa0 ? windows_1252[byte - 0x80] : byte;
+        append_code_point(out, code == 0 ? 0xfffd : code);
+    }
+    return out;
+}
+
+} // namespace fernlicht

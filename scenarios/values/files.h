@@ -1,0 +1,35 @@
+// Reading the user's files: whole, bounded, and with a record of what was read.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+/// A file that a reader opened; the report lists them so that a run can be repeated on the same bytes.
+struct FileRead {
+    std::filesystem::path path;
+    std::size_t bytes = 0;
+    std::string xxh128; ///< 32 hexadecimal digits of the content
+};
+
+using FilesRead = std::vector<FileRead>;
+
+/// The whole content of `path`. Appends to `opened`.
+/// Throws InputError: missing, unreadable, not a regular file, larger than `max_bytes`, empty (unless `may_be_empty`).
+std::string read_file(const std::filesystem::path& path, FilesRead& opened, std::size_t max_bytes = std::size_t{256} << 20,
+                      bool may_be_empty = false);
+
+/// 32 hexadecimal digits of xxHash's 128-bit hash.
+std::string content_hash(const void* data, std::size_t bytes);
+
+/// Writes `content` beside `path` and renames it into place: readers see the old file or the new one, never half of one.
+/// Throws DeviceError with the path and the system's reason (full disk, read-only folder ...).
+void write_file(const std::filesystem::path& path, const std::string& content);
+
+/// UTF-8 as it is (without byte order mark); anything else is taken as Windows-1252 and converted.
+std::string to_utf8(const std::string& bytes);
+
+} // namespace fernlicht

@@ -1,0 +1,55 @@
+// One Scene feeds the rasteriser, the double-precision twin and the reference: what is there, without light or time.
+#pragma once
+
+#include "scenarios/values/pose.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+enum class SurfaceKind : std::uint8_t { road, marking, verge, terrain, board, object, vehicle, target };
+
+/// How a surface returns light. Diffuse: L = albedo E / pi. Retroreflecting: L = retro_rl * E_perp * falloff(observation angle), with
+/// E_perp on a plane perpendicular to the light (EN 1436's R_L, CIE 54.2's R_A / cos(view angle)).
+struct Material {
+    std::string name;
+    SurfaceKind kind = SurfaceKind::object;
+    glm::vec3 albedo{0.2F};              ///< linear sRGB reflectances, each 0..1
+    float retro_rl = 0.0F;               ///< cd/(m2 lx) at the reference observation angle; 0: no retroreflection
+    float retro_reference_rad = 0.0183F; ///< observation angle (between light and eye, seen from the surface) at which retro_rl holds
+    float retro_falloff_rad = 0.1F;      ///< retro part goes as exp(-(angle - reference) / falloff)
+    glm::vec3 emission_cdm2{0.0F};       ///< luminance by its own light, linear sRGB with Y in cd/m2
+
+    bool operator==(const Material&) const = default;
+};
+
+struct Vertex {
+    glm::vec3 position_m; ///< relative to the mesh's origin
+    glm::vec3 normal;     ///< unit, on the lit side
+};
+
+/// A run of triangles of one material: `indices[first .. first + count)`.
+struct Batch {
+    std::uint32_t material = 0; ///< into Scene::materials
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Triangles near one another (at most some 100 m across), single precision about a double-precision origin. Counter-clockwise
+/// triangles face their normals. Small enough to be culled as a whole.
+struct Mesh {
+    std::string name; ///< "road 12", "board 44": what a report or an id image calls it
+    glm::dvec3 origin_m{0.0};
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<Batch> batches;
+};
+
+struct Scene {
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+};
+
+} // namespace fernlicht
