@@ -1,0 +1,16 @@
+// Spread of repeated measurements.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace fernlicht {
+
+struct Spread {
+    std::size_t count = 0;
+    double median = 0.0, p05 = 0.0, p95 = 0.0, minimum = 0.0, maximum = 0.0, mean = 0.0, standard_deviation = 0.0;
+};
+/// nullopt for no samples. Quantiles by linear interpolation between order statistics (type 7 of Hyndman and Fan 1996).
+std::optional<Spread> spread_of(std::vector<double> samples);
+
+} // namespace fernlicht
