@@ -1,0 +1,115 @@
+#include "renderer/beam_texture.h"
+
+#include "scenarios/values/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fernlicht {
+namespace {
+
+constexpr double finest_needed_deg = 0.05; // a cut-off of G = 0.4 runs over about 0.25 degrees
+
+/// First and last index of the axis that a lit part needs, one dark sample kept on either side, H clipped to the front half.
+struct Range {
+    std::size_t first = 0, last = 0;
+};
+
+bool lit(const CandelaTable& table, std::size_t index, bool across) {
+    const std::size_t other = across ? table.v_deg.size() : table.h_deg.size();
+    for (std::size_t k = 0; k < other; ++k)
+        if ((across ? table.at(k, index) : table.at(index, k)) > 0.0)
+            return true;
+    return false;
+}
+
+Range lit_range(const CandelaTable& table, bool across) {
+    const std::size_t count = across ? table.h_deg.size() : table.v_deg.size();
+    std::size_t first = 0, last = count - 1;
+    while (first < last && !lit(table, first, across))
+        ++first;
+    while (last > first && !lit(table, last, across))
+        --last;
+    return {first > 0 ? first - 1 : 0, std::min(last + 1, count - 1)};
+}
+
+/// The largest step of at most 0.05 degrees on which all samples of [first, last] fall; 0.05 where there is none.
+double common_step(const std::vector<double>& axis, Range range) {
+    double narrowest = 360.0;
+    for (std::size_t i = range.first; i < range.last; ++i)
+        narrowest = std::min(narrowest, axis[i + 1] - axis[i]);
+    for (int parts = std::max(1, static_cast<int>(std::ceil(narrowest / finest_needed_deg - 1e-9))); parts <= 64; ++parts) {
+        const double step = narrowest / parts;
+        if (step < 0.004)
+            break;
+        const bool all = std::all_of(axis.begin() + static_cast<std::ptrdiff_t>(range.first), axis.begin() + static_cast<std::ptrdiff_t>(range.last) + 1,
+                                     [&](double angle) {
+                                         const double texels = (angle - axis[range.first]) / step;
+                                         return std::abs(texels - std::round(texels)) < 1e-6 * std::max(1.0, texels);
+                                     });
+        if (all)
+            return step;
+    }
+    return finest_needed_deg;
+}
+
+struct Axis {
+    double first_deg = 0.0, step_deg = 0.0;
+    std::size_t count = 2;
+    double at(double index) const { return first_deg + index * step_deg; }
+};
+
+Axis choose_axis(const std::vector<double>& samples, Range range, double lowest, double highest, double coarsening) {
+    const double from = std::max(samples[range.first], lowest), to = std::min(samples[range.last], highest);
+    if (!(to > from))
+        return {from, finest_needed_deg, 2};
+    double step = common_step(samples, range) * coarsening;
+    const double texels = (to - from) / step;
+    std::size_t intervals = static_cast<std::size_t>(std::ceil(texels - 1e-6));
+    intervals = std::max<std::size_t>(intervals, 1);
+    if (std::abs(texels - static_cast<double>(intervals)) > 1e-6 * texels || from != samples[range.first])
+        step = (to - from) / static_cast<double>(intervals); // no common step: end exactly on the last sample
+    return {from, step, intervals + 1};
+}
+
+double worst_error(const CandelaTable& table, const BeamTexture& texture, const Axis& h, const Axis& v) {
+    double worst = 0.0;
+    const std::size_t skip_v = std::max<std::size_t>(1, h.count * v.count / 400'000);
+    for (std::size_t y = 0; y + 1 < v.count; y += skip_v)
+        for (std::size_t x = 0; x + 1 < h.count; ++x) {
+            const auto texel = [&](std::size_t row, std::size_t column) { return static_cast<double>(texture.cd[row * h.count + column]); };
+            const double middle = 0.25 * (texel(y, x) + texel(y, x + 1) + texel(y + 1, x) + texel(y + 1, x + 1));
+            const double truth = intensity_cd(table, h.at(static_cast<double>(x) + 0.5), v.at(static_cast<double>(y) + 0.5));
+            worst = std::max(worst, std::abs(middle - truth));
+        }
+    return worst;
+}
+
+} // namespace
+
+BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels) {
+    const Range across = lit_range(table, true), up = lit_range(table, false);
+    double coarser_h = 1.0, coarser_v = 1.0;
+    Axis h = choose_axis(table.h_deg, across, -90.0, 90.0, coarser_h);
+    Axis v = choose_axis(table.v_deg, up, -90.0, 90.0, coarser_v);
+    while (h.count * v.count > max_texels) {
+        (coarser_h < 8.0 * coarser_v ? coarser_h : coarser_v) *= 2.0;
+        h = choose_axis(table.h_deg, across, -90.0, 90.0, coarser_h);
+        v = choose_axis(table.v_deg, up, -90.0, 90.0, coarser_v);
+    }
+    BeamTexture texture{static_cast<int>(h.count), static_cast<int>(v.count),  {},
+                        radians(h.first_deg),      radians(v.first_deg), radians(h.step_deg), radians(v.step_deg), 0.0};
+    texture.cd.reserve(h.count * v.count);
+    // The last texel may lie a rounding error beyond the table's edge, where the table is dark: stay inside.
+    const auto inside = [](double angle, const std::vector<double>& axis) { return std::clamp(angle, axis.front(), axis.back()); };
+    for (std::size_t y = 0; y < v.count; ++y)
+        for (std::size_t x = 0; x < h.count; ++x)
+            texture.cd.push_back(static_cast<float>(
+                intensity_cd(table, inside(h.at(static_cast<double>(x)), table.h_deg), inside(v.at(static_cast<double>(y)), table.v_deg))));
+    if (const double peak = peak_of(table).cd; peak > 0.0)
+        texture.worst_error_of_peak = worst_error(table, texture, h, v) / peak;
+    return texture;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,20 @@
+// A candela table as the uniform float grid that the GPU looks up.
+#pragma once
+
+#include "scenarios/lamps/candela_table.h"
+
+namespace fernlicht {
+
+struct BeamTexture {
+    int width = 0, height = 0;
+    std::vector<float> cd;            ///< rows from low V to high V
+    double h_first_rad = 0.0, v_first_rad = 0.0, h_step_rad = 0.0, v_step_rad = 0.0;
+    double worst_error_of_peak = 0.0; ///< largest |texture - table| over peak, sampled between the texels
+};
+
+/// Resamples the lit part of a table (H within +-90 degrees). Steps are at most 0.05 degrees and such that the table's own samples fall on
+/// texels where a common step exists: bilinear look-up then gives the table's linear rule exactly. Beyond `max_texels` the
+/// steps grow, across before up, and the error says what it cost. A dark table gives a 2 x 2 texture of zeros.
+BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels = std::size_t{4} << 20);
+
+} // namespace fernlicht

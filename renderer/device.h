@@ -1,0 +1,49 @@
+// A machine that can draw: an offscreen OpenGL 4.5 context and what it says of itself.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+namespace gl {
+class Context;
+}
+
+struct DeviceInfo {
+    std::string backend; ///< "egl", "egl-device=0", "osmesa"
+    std::string gl_version, gl_renderer, gl_vendor;
+    bool software = false; ///< llvmpipe, softpipe, swrast
+};
+
+/// An open context, current on the thread that opened it. One at a time per process: a second one would draw into the first.
+class Device {
+  public:
+    explicit Device(std::unique_ptr<gl::Context> context);
+    ~Device();
+    Device(Device&&) noexcept;
+    Device& operator=(Device&&) = delete;
+
+    const DeviceInfo& info() const;
+    gl::Context& context() { return *context_; }
+
+  private:
+    std::unique_ptr<gl::Context> context_;
+};
+
+/// Opens "auto", "egl", "egl-device=N" or "osmesa". auto: the first hardware EGL device, else EGL without a surface, else OSMesa.
+/// Throws InputError for an unknown name, DeviceError with every attempt and why it failed.
+Device open_device(const std::string& backend);
+
+/// What `doctor` tells of one way to draw.
+struct BackendAttempt {
+    std::string backend;
+    bool works = false;
+    DeviceInfo info;     ///< when it works
+    std::string failure; ///< when it does not
+};
+/// Tries every backend there is, one after another, each closed before the next is opened.
+std::vector<BackendAttempt> try_all_backends();
+
+} // namespace fernlicht
