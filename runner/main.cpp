@@ -1,0 +1,38 @@
+// fernlicht: night drives played headless, headlamps measured. Options end here; below are plain values.
+#include "runner/doctor_command.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <fmt/format.h>
+
+namespace {
+
+enum ExitCode { within_limits = 0, limits_exceeded = 1, users_input = 2, device = 3, ours = 4 };
+
+int complain(ExitCode code, const std::exception& error) {
+    fmt::print(stderr, "fernlicht: {}\n", error.what());
+    return code;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("plays scripted night drives offscreen and measures what the headlamps do", "fernlicht");
+    app.set_version_flag("--version", FERNLICHT_VERSION);
+    app.require_subcommand(1);
+    std::function<int()> chosen;
+    fernlicht::add_doctor_command(app, chosen);
+    try {
+        app.parse(argc, argv);
+        return chosen();
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? within_limits : users_input;
+    } catch (const fernlicht::InputError& error) {
+        return complain(users_input, error);
+    } catch (const fernlicht::DeviceError& error) {
+        return complain(device, error);
+    } catch (const std::exception& error) {
+        return complain(ours, error);
+    }
+}
