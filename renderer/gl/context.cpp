@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace fernlicht::gl {
 namespace {
