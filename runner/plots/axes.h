@@ -13,8 +13,8 @@ struct Axis {
     std::string unit;  ///< "m"; "" for none
     double from = 0.0; ///< value at the left or bottom edge; above `to` the axis runs backwards
     double to = 1.0;
-    Scale scale = Scale::linear; ///< logarithmic: both ends above 0
-    std::vector<double> ticks;   ///< empty: chosen
+    Scale scale = Scale::linear;    ///< logarithmic: both ends above 0
+    std::vector<double> ticks = {}; ///< empty: chosen
 };
 
 /// 0 at `from`, 1 at `to`, outside beyond. NaN where the value has no place (not finite; not above 0 on a logarithmic axis).

@@ -10,7 +10,7 @@
 namespace fernlicht::plots {
 
 struct Stroke {
-    Colour colour;
+    Colour colour = {};
     double width_px = 1.0;
     std::string dash = {};
     double opacity = 1.0;
@@ -24,7 +24,7 @@ struct Fill {
 
 struct Lettering {
     double size_px = 12.0;
-    Colour colour;
+    Colour colour = {};
     bool bold = false;
     std::string anchor = "start";
     double turn_deg = 0.0;     ///< clockwise, round the anchor

@@ -101,7 +101,9 @@ void draw_heading(Canvas& c, const Figure& f, const Legend& legend, const Area& 
         const double base = a.top - 20.0 * (legend.rows - e.row) + 9.0, left = a.left + e.left;
         if (e.filled)
             c.rectangle(left, base - 9.0, 26.0, 10.0, {.fill = css(e.colour), .opacity = 0.35});
-        else
+        else if (luminance(e.colour) > 0.8) // a light line needs what it lies on in the plot
+            c.rectangle(left, base - 10.0, 26.0, 12.0, {.fill = css(sequential(0.25))});
+        if (!e.filled)
             c.line({{left, base - 4.0}, {left + 26.0, base - 4.0}}, {.colour = e.colour, .width_px = 2.2, .dash = e.dash});
         c.text(left + 33.0, base, e.name, {.size_px = 12.0, .colour = ink});
     }
@@ -160,8 +162,7 @@ class Inside {
             draw(s);
         for (const Mark& m : f_.marks)
             draw(m);
-        for (const Isoline& i : f_.isolines)
-            draw_label(i);
+        draw_labels();
         for (const Note& n : f_.notes)
             draw(n);
     }
@@ -188,14 +189,25 @@ class Inside {
         c_.picture(top_left.x, top_left.y, bottom_right.x - top_left.x, bottom_right.y - top_left.y, r.pixels);
     }
 
+    /// Where a limit is missing the band is interrupted like a line.
     void draw(const Band& b) {
-        Polyline outline;
-        for (std::size_t i = 0; i < b.x.size(); ++i)
-            outline.push_back(place({b.x[i], b.high.at(i)}));
-        for (std::size_t i = b.x.size(); i-- > 0;)
-            outline.push_back(place({b.x[i], b.low.at(i)}));
-        std::erase_if(outline, [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
-        c_.area(outline, {.fill = css(b.colour), .opacity = b.opacity});
+        Polyline high, low;
+        const auto finish_part = [&] {
+            high.insert(high.end(), low.rbegin(), low.rend());
+            c_.area(high, {.fill = css(b.colour), .opacity = b.opacity});
+            high.clear();
+            low.clear();
+        };
+        for (std::size_t i = 0; i < b.x.size(); ++i) {
+            const Point above = place({b.x[i], b.high.at(i)}), below = place({b.x[i], b.low.at(i)});
+            if (std::isfinite(above.x) && std::isfinite(above.y) && std::isfinite(below.y)) {
+                high.push_back(above);
+                low.push_back(below);
+            } else {
+                finish_part();
+            }
+        }
+        finish_part();
     }
 
     void draw_line(const Polyline& points, const Stroke& stroke) {
@@ -247,33 +259,52 @@ class Inside {
                 {.size_px = 11.0, .colour = n.colour, .anchor = near_right_edge ? "end" : "start"});
     }
 
-    /// On the point of the longest line that is farthest from all labels so far and from the edges.
-    void draw_label(const Isoline& i) {
-        if (i.label.empty())
-            return;
-        const double margin = 0.5 * text_width(i.label, 11.0) + 4.0;
-        const Point* best = nullptr;
-        double best_room = 0.0;
-        Polyline places;
+    /// About 200 points of a line set, in pixels: enough to judge where there is room.
+    Polyline sparse(const Isoline& i) const {
+        Polyline all, some;
         for (const Polyline& line : i.lines)
             for (const Point& p : line)
-                places.push_back(place(p));
-        for (const Point& px : places) {
-            if (!within(px, margin))
-                continue;
-            double room = 1e9;
-            for (const Point& taken : labels_)
-                room = std::min(room, std::hypot(px.x - taken.x, 2.0 * (px.y - taken.y))); // words are wider than high
-            if (!best || room > best_room) {
-                best = &px;
-                best_room = room;
+                all.push_back(place(p));
+        for (std::size_t k = 0; k < all.size(); k += 1 + all.size() / 200)
+            some.push_back(all[k]);
+        return some;
+    }
+
+    /// Each label stands on its line where the labels before it and the lines of other values are farthest.
+    void draw_labels() {
+        std::vector<Polyline> places;
+        for (const Isoline& i : f_.isolines)
+            places.push_back(sparse(i));
+        Polyline labels;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const Isoline& isoline = f_.isolines[i];
+            const double margin = 0.5 * text_width(isoline.label, 11.0) + 4.0;
+            const Point* best = nullptr;
+            double best_room = 0.0;
+            for (const Point& p : places[i]) {
+                const double room = isoline.label.empty() || !within(p, margin) ? 0.0 : room_at(p, i, places, labels);
+                if (room > best_room) {
+                    best = &p;
+                    best_room = room;
+                }
             }
+            if (!best)
+                continue;
+            labels.push_back(*best);
+            c_.text(best->x, best->y + 4.0, isoline.label,
+                    {.size_px = 11.0, .colour = isoline.colour, .bold = true, .anchor = "middle", .halo = halo_for(isoline.colour)});
         }
-        if (!best)
-            return;
-        labels_.push_back(*best);
-        c_.text(best->x, best->y + 4.0, i.label,
-                {.size_px = 11.0, .colour = i.colour, .bold = true, .anchor = "middle", .halo = halo_for(i.colour)});
+    }
+
+    static double room_at(const Point& p, std::size_t own, const std::vector<Polyline>& places, const Polyline& labels) {
+        double room = 60.0; // pixels; more is of no use
+        for (const Point& taken : labels)
+            room = std::min(room, 0.5 * std::hypot(p.x - taken.x, 2.0 * (p.y - taken.y))); // words are wider than high
+        for (std::size_t k = 0; k < places.size(); ++k)
+            if (k != own)
+                for (const Point& other : places[k])
+                    room = std::min(room, std::hypot(p.x - other.x, p.y - other.y));
+        return room;
     }
 
     /// What makes a word readable on anything: an outline as dark as it is light.
@@ -283,7 +314,6 @@ class Inside {
     Canvas& c_;
     const Figure& f_;
     const Area& a_;
-    Polyline labels_;
 };
 
 } // namespace

@@ -16,19 +16,19 @@ namespace fernlicht::plots {
 /// A line through points. A point with a coordinate that is not finite (or not above 0 on a logarithmic axis) interrupts it:
 /// what was not measured is not drawn.
 struct Series {
-    std::string name; ///< in the legend; "" for none
-    Polyline points;
-    Colour colour;
+    std::string name = {}; ///< in the legend; "" for none
+    Polyline points = {};
+    Colour colour = {};
     double width_px = 1.8;
-    std::string dash;     ///< SVG dash pattern, e.g. "5 3"; "" solid
-    bool markers = false; ///< a dot at each point, also at lone ones
+    std::string dash = {}; ///< SVG dash pattern, e.g. "5 3"; "" solid
+    bool markers = false;  ///< a dot at each point, also at lone ones
 };
 
 /// A shaded area between two curves over the same x (an error band, a spread).
 struct Band {
-    std::string name;
+    std::string name = {};
     std::vector<double> x, low, high;
-    Colour colour;
+    Colour colour = {};
     double opacity = 0.2;
 };
 
@@ -40,8 +40,8 @@ struct Raster {
 
 /// Lines of one value, with their label on the longest.
 struct Isoline {
-    std::string label; ///< "5 lx"; "" for none
-    std::vector<Polyline> lines;
+    std::string label = {}; ///< "5 lx"; "" for none
+    std::vector<Polyline> lines = {};
     Colour colour{255, 255, 255};
     double width_px = 1.4;
 };
@@ -70,18 +70,18 @@ struct ColourBar {
 
 struct Figure {
     std::string title;
-    std::string subtitle; ///< one line under the title: what, where, which conditions
+    std::string subtitle = {}; ///< one line under the title: what, where, which conditions
     double width_px = 860.0, height_px = 480.0;
     Axis x, y;
     bool equal_units = false; ///< one unit of x is as long as one of y: the plot area shrinks to fit
     bool grid = true;
     Colour background{255, 255, 255};
-    std::vector<Raster> rasters; ///< drawn in the order of these members, each list first to last
-    std::vector<Band> bands;
-    std::vector<Isoline> isolines;
-    std::vector<Series> series;
-    std::vector<Mark> marks;
-    std::vector<Note> notes;
+    std::vector<Raster> rasters = {}; ///< drawn in the order of these members, each list first to last
+    std::vector<Band> bands = {};
+    std::vector<Isoline> isolines = {};
+    std::vector<Series> series = {};
+    std::vector<Mark> marks = {};
+    std::vector<Note> notes = {};
     std::optional<ColourBar> colour_bar;
 };
 
