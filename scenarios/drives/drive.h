@@ -19,11 +19,15 @@ struct View {
     double vertical_fov_rad = 0.7;                         ///< perspective only; 0 < fov < pi
     int width_px = 1024, height_px = 768;
     double map_ahead_m = 0.0, map_behind_m = 0.0, map_left_m = 0.0, map_right_m = 0.0; ///< map only; from the car's origin
+
+    bool operator==(const View&) const = default;
 };
 
 struct Daylight {
     std::string name = "night";
     double horizontal_illuminance_lx = 0.0; ///< diffuse, from a uniform sky
+
+    bool operator==(const Daylight&) const = default;
 };
 
 enum class ToneMapperKind { linear, rational, logarithmic };
@@ -31,10 +35,14 @@ struct ToneMapper {
     ToneMapperKind kind = ToneMapperKind::rational;
     double s = 30.0;          ///< rational only; >= 1, 1 is linear
     double l_max_cdm2 = 50.0; ///< luminance that becomes white
+
+    bool operator==(const ToneMapper&) const = default;
 };
 
 struct SpeedPoint {
-    double time_s = 0.0, speed_mps = 0.0; ///< linear between points, constant after the last
+    double time_s = 0.0, speed_mps = 0.0; ///< linear between points, constant before the first and after the last
+
+    bool operator==(const SpeedPoint&) const = default;
 };
 
 /// At `time_s` the named lamps change; what is not given stays.
@@ -58,26 +66,41 @@ struct Variant {
 struct Probe {
     std::string name;
     double ahead_m = 0.0, left_m = 0.0, above_m = 0.0; ///< from the car's origin along the route; above the surface
+
+    bool operator==(const Probe&) const = default;
 };
 
 struct ExtentParameters {
     std::vector<double> limits_lx{1.0, 3.0, 5.0, 10.0};
-    double target_height_m = 0.25;   ///< of the target that faces the car
-    double ahead_m = 200.0;          ///< how far is looked
-    double beside_m = 20.0;          ///< how far to each side
-    double cell_m = 0.5;             ///< grid along the road; across: a quarter of it
+    double target_height_m = 0.25; ///< of the target that faces the car
+    double ahead_m = 200.0;        ///< how far is looked
+    double beside_m = 20.0;        ///< how far to each side
+    double cell_m = 0.5;           ///< grid along the road; across: a quarter of it
     std::vector<double> width_at_m{20.0, 50.0};
+
+    bool operator==(const ExtentParameters&) const = default;
 };
 
 struct Limit {
     std::string reading; ///< name of a row, e.g. "reach_5lx_road_own_m"
     std::optional<double> at_least, at_most;
+
+    bool operator==(const Limit&) const = default;
 };
 
 struct Capture {
     double per_second = 2.0;
     bool all = false;
     bool exr = true, png = true;
+
+    bool operator==(const Capture&) const = default;
+};
+
+/// A lamp file as the drive asked for it; each file is read once for each way of reading it.
+struct LampSource {
+    std::filesystem::path path;
+    LampReadOptions options;
+    std::shared_ptr<const LampFile> file;
 };
 
 struct Drive {
@@ -89,7 +112,8 @@ struct Drive {
     std::vector<SpeedPoint> speed;
     double duration_s = 0.0, step_s = 0.0;
     Daylight daylight;
-    double bumper_m = 0.0; ///< x of the front bumper in the car's frame; reach is measured from it
+    double bumper_m = 0.0;         ///< x of the front bumper in the car's frame; reach is measured from it
+    double wheelbase_m = 2.7;      ///< from the rear axle to the front axle
     std::vector<Variant> variants; ///< at least one
     std::vector<View> views;       ///< first is the driver's
     Capture capture;
@@ -100,20 +124,28 @@ struct Drive {
     std::vector<Limit> limits;
     bool shadows = true;
     std::uint64_t seed = 1;
+    std::vector<LampSource> lamp_sources; ///< where the lamps' files came from
+    std::vector<std::string> notes;       ///< what was decided for the user ("the route ends after 8.2 s"), one sentence each
     FilesRead opened;
 };
 
 /// What main's flags may change; applied before resolving, so that the resolved drive carries them.
 struct DriveEdits {
-    std::vector<std::pair<std::string, std::filesystem::path>> lamps; ///< side ("" = all) and file
+    /// Side and file: every lamp whose name contains the side ("" = all). High-beam lamps (name contains "high") are meant only
+    /// when the side says so: "high", "high-left".
+    std::vector<std::pair<std::string, std::filesystem::path>> lamps;
     std::optional<std::filesystem::path> road;
     std::optional<std::string> technique;
     std::optional<std::pair<int, int>> resolution;
     std::optional<bool> capture_all;
 };
 
+/// Reads and checks a drive file, schema version 1 (scenarios/drive.example.yaml explains every key). Throws InputError with file,
+/// line, column and key path. Lamp files are read; the road file must exist but is left to read_opendrive.
+/// `edits` that fit nothing (a side that no lamp has) throw InputError too.
 Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits = {});
-/// YAML that read_drive reads back to the same drive; paths become absolute.
+/// YAML that read_drive reads back to the same drive: nothing left to defaults, numbers exact, paths absolute. `file`, `notes` and
+/// `opened` are not part of it.
 std::string write_drive(const Drive& drive);
 
 } // namespace fernlicht

@@ -1,0 +1,37 @@
+// A drive over time: fixed steps, and what the world is like at each.
+#pragma once
+
+#include "scenarios/drives/moment.h"
+
+namespace fernlicht {
+
+/// Where a drive has got to. A function of the tick alone, so that no error adds up over the steps.
+struct State {
+    int tick = 0;
+    double time_s = 0.0, distance_m = 0.0, speed_mps = 0.0;
+
+    bool operator==(const State&) const = default;
+};
+
+State start(const Drive& drive);
+State advance(const State& state, const Drive& drive);
+
+/// Moments of the drive: ticks 0 .. tick_count - 1, times in [0, duration). At least 1.
+int tick_count(const Drive& drive);
+
+/// Speed at `time_s` and its exact integral from 0 (trapezia of the piecewise linear profile).
+double speed_mps(const std::vector<SpeedPoint>& profile, double time_s);
+double distance_m(const std::vector<SpeedPoint>& profile, double time_s);
+
+/// Cuts the duration so that the front bumper stays on the route, with a note. The whole drive must hold at least one tick:
+/// throws InputError when the car stands beyond the route's end from the start.
+void fit_to_route(Drive& drive, const Route& route);
+
+/// The car's frame on the route: origin on the surface under the rear axle, which follows the lane's centre; heading along the lane
+/// there; pitch from the contact points of both axles, roll from the mean of the surface under them. No suspension.
+Pose ego_pose(const Route& route, double distance_m, double wheelbase_m);
+
+/// Everything that the renderer and the metrics need at one state, with the variant's changes up to then applied.
+Moment moment_at(const State& state, const Drive& drive, const Route& route, const Variant& variant);
+
+} // namespace fernlicht

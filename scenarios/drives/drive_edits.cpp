@@ -1,0 +1,97 @@
+#include "scenarios/drives/drive_edits.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+bool is_high_beam(const std::string& lamp) { return lamp.find("high") != std::string::npos; }
+
+bool is_meant(const std::string& lamp, const std::string& side) {
+    return lamp.find(side) != std::string::npos && (!is_high_beam(lamp) || is_high_beam(side));
+}
+
+std::filesystem::path absolute(const std::filesystem::path& path) { return std::filesystem::absolute(path).lexically_normal(); }
+
+/// A file's stem as a name that a drive file may give.
+std::string name_from(const std::filesystem::path& path) {
+    std::string name = path.stem().string().substr(0, 64);
+    for (char& c : name)
+        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_'))
+            c = '-';
+    if (name.empty() || name[0] == '.')
+        name.insert(0, "lamp");
+    return name;
+}
+
+/// Replaces the file of the lamps meant, and drops later changes of their file: the user asked for this one.
+void replace_lamps(Drive& drive, const std::string& side, const std::shared_ptr<const LampFile>& file, std::set<std::string>& replaced) {
+    std::set<std::string> known;
+    bool found = false;
+    for (Variant& variant : drive.variants) {
+        for (MountedLamp& lamp : variant.lamps) {
+            known.insert(lamp.name);
+            if (!is_meant(lamp.name, side))
+                continue;
+            lamp.file = file;
+            replaced.insert(variant.name + '/' + lamp.name);
+            found = true;
+        }
+        for (LampChange& change : variant.changes)
+            if (is_meant(change.lamp, side))
+                change.file.reset();
+    }
+    if (!found)
+        throw InputError({drive.file, 0, 0, "lamp " + side}, "no lamp of this name", fmt::format("one of {}", fmt::join(known, ", ")));
+}
+
+/// When each variant had its low beams replaced by the same files, playing more than one says nothing new.
+void keep_one_variant(Drive& drive, const DriveEdits& edits, const std::set<std::string>& replaced) {
+    for (const Variant& variant : drive.variants)
+        for (const MountedLamp& lamp : variant.lamps)
+            if (!is_high_beam(lamp.name) && !replaced.contains(variant.name + '/' + lamp.name))
+                return;
+    Variant& kept = drive.variants.front();
+    if (drive.variants.size() > 1)
+        drive.notes.push_back(fmt::format("every lamp set would have the same low beams, so only the first ('{}') is played", kept.name));
+    drive.variants.resize(1);
+    drive.variants.front().name = name_from(edits.lamps.back().second);
+}
+
+void replace_road(Drive& drive, const std::filesystem::path& road) {
+    drive.road_file = absolute(road);
+    if (!std::filesystem::is_regular_file(drive.road_file))
+        throw InputError({drive.road_file, 0, 0, {}}, "there is no such road file", "an OpenDRIVE file");
+    const Route::Start standard;
+    if (!drive.via.empty() || drive.start.road != standard.road || drive.start.lane != standard.lane || drive.start.s_m != standard.s_m)
+        drive.notes.push_back("another road was given: the drive's own route does not hold there, it starts at the road's default start");
+    drive.start = standard;
+    drive.via.clear();
+}
+
+} // namespace
+
+void apply_edits(Drive& drive, const DriveEdits& edits, LampShelf& shelf) {
+    std::set<std::string> replaced;
+    for (const auto& [side, path] : edits.lamps)
+        replace_lamps(drive, side, shelf.lamp(absolute(path), {}), replaced);
+    if (!replaced.empty())
+        keep_one_variant(drive, edits, replaced);
+    if (edits.road)
+        replace_road(drive, *edits.road);
+    if (edits.technique)
+        drive.technique = *edits.technique;
+    if (edits.resolution)
+        for (View& view : drive.views)
+            if (view.projection == Projection::perspective)
+                std::tie(view.width_px, view.height_px) = *edits.resolution;
+    if (edits.capture_all)
+        drive.capture.all = *edits.capture_all;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,90 @@
+#include "scenarios/drives/drive.h"
+
+#include "scenarios/drives/drive_edits.h"
+#include "scenarios/drives/drive_keys.h"
+#include "scenarios/values/errors.h"
+
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr int schema_version = 1;
+constexpr std::size_t most_bytes = std::size_t{4} << 20;
+constexpr double most_ticks = 1.0e7;
+
+void read_route(const YamlMap& keys, Drive& drive) {
+    const auto given = keys.find("route");
+    if (!given)
+        return;
+    const YamlMap route = given->map({"road", "lane", "s_m", "via"});
+    if (const auto road = route.find("road"))
+        drive.start.road = road->text();
+    if (const auto lane = route.find("lane"))
+        drive.start.lane = lane->whole(-1000, 1000);
+    drive.start.s_m = route.number_or("s_m", 0.0, 0.0, 1.0e6);
+    if (const auto via = route.find("via"))
+        for (const YamlEntry& road : via->list(0, 10'000))
+            drive.via.push_back(road.text());
+}
+
+void read_time(const YamlMap& keys, Drive& drive) {
+    drive.speed = read_speed(keys);
+    drive.step_s = read_step_s(keys);
+    const YamlEntry duration = keys.require("duration_s");
+    drive.duration_s = duration.number_above(0.0, 1.0e6);
+    if (drive.duration_s / drive.step_s > most_ticks)
+        duration.refuse(fmt::format("{:.0f} steps of {} s", drive.duration_s / drive.step_s, drive.step_s),
+                        fmt::format("at most {:.0f}", most_ticks));
+}
+
+Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf& shelf) {
+    Drive drive;
+    drive.file = path;
+    const auto name = keys.find("name"), title = keys.find("title");
+    drive.name = name ? name->name() : path.stem().string();
+    drive.title = title ? title->text() : drive.name;
+    const YamlEntry road = keys.require("road");
+    drive.road_file = road.path();
+    check_file(drive.road_file, road);
+    read_route(keys, drive);
+    read_time(keys, drive);
+    drive.daylight = read_daylight(keys);
+    const Car car = read_car(keys);
+    drive.bumper_m = car.bumper_m;
+    drive.wheelbase_m = car.wheelbase_m;
+    drive.variants = read_variants(keys, car, shelf);
+    drive.views = read_views(keys);
+    drive.capture = read_capture(keys);
+    drive.tone_mapper = read_tone_mapper(keys);
+    if (const auto technique = keys.find("technique"))
+        drive.technique = technique->name();
+    read_measure(keys, drive.extent, drive.probes);
+    drive.limits = read_limits(keys);
+    drive.shadows = keys.flag_or("shadows", drive.shadows);
+    if (const auto seed = keys.find("seed"))
+        drive.seed = seed->count();
+    return drive;
+}
+
+} // namespace
+
+Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
+    FilesRead opened;
+    const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
+    const YamlMap keys(YamlEntry(document, path, ""),
+                       {"fernlicht", "name",        "title",      "road",     "route",  "speed_kmh", "speed_mps", "speed",
+                        "step_s",    "rate_hz",     "duration_s", "daylight", "car",    "variants",  "changes",   "views",
+                        "capture",   "tone_mapper", "technique",  "measure",  "limits", "shadows",   "seed"});
+    if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
+        keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
+    LampShelf shelf;
+    Drive drive = read_all(keys, path, shelf);
+    apply_edits(drive, edits, shelf);
+    drive.lamp_sources = shelf.sources();
+    drive.opened = std::move(opened);
+    drive.opened.insert(drive.opened.end(), shelf.opened().begin(), shelf.opened().end());
+    return drive;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,26 @@
+// The parts of a drive file, each read by one function. Every one throws InputError (yaml_entry.h).
+#pragma once
+
+#include "scenarios/drives/drive.h"
+#include "scenarios/drives/yaml_entry.h"
+
+namespace fernlicht {
+
+/// `speed_kmh`, `speed_mps` or `speed` (a list of {at_s, speed_kmh or speed_mps}, times ascending).
+std::vector<SpeedPoint> read_speed(const YamlMap& drive);
+/// `step_s` or `rate_hz`; 30 per second by default.
+double read_step_s(const YamlMap& drive);
+/// "night", "twilight", "day", or {name, horizontal_illuminance_lx}.
+Daylight read_daylight(const YamlMap& drive);
+/// Named views; a driver's view and a map by default.
+std::vector<View> read_views(const YamlMap& drive);
+Capture read_capture(const YamlMap& drive);
+ToneMapper read_tone_mapper(const YamlMap& drive);
+/// `measure`: extent (nullopt for `extent: false`) and probes.
+void read_measure(const YamlMap& drive, std::optional<ExtentParameters>& extent, std::vector<Probe>& probes);
+std::vector<Limit> read_limits(const YamlMap& drive);
+
+/// Position from [x, y, z], each within 100 m of the car's origin.
+glm::dvec3 read_position(const YamlEntry& entry);
+
+} // namespace fernlicht

@@ -1,0 +1,104 @@
+#include "scenarios/drives/drive_keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fernlicht {
+namespace {
+
+constexpr int largest_px = 16384;
+constexpr double map_px_per_m = 4.0;
+
+View driver_view() {
+    View view;
+    view.name = "driver";
+    // A driver's eye in a left-hand-drive car: 1.2 m above the road, 1.3 m before the rear axle.
+    view.position_m = {1.3, 0.35, 1.2};
+    view.vertical_fov_rad = radians(40.0);
+    return view;
+}
+
+int map_pixels(double length_m) { return std::clamp(static_cast<int>(std::lround(length_m * map_px_per_m)), 1, largest_px); }
+
+/// Four pixels a metre, so that both axes have one scale.
+void fit_map_pixels(View& view) {
+    view.width_px = map_pixels(view.map_left_m + view.map_right_m);
+    view.height_px = map_pixels(view.map_ahead_m + view.map_behind_m);
+}
+
+View map_view() {
+    View view;
+    view.name = "map";
+    view.projection = Projection::map;
+    view.map_ahead_m = 150.0;
+    view.map_behind_m = 10.0;
+    view.map_left_m = view.map_right_m = 25.0;
+    fit_map_pixels(view);
+    return view;
+}
+
+void read_map(View& view, const YamlEntry& entry) {
+    const YamlMap keys = entry.map({"ahead_m", "behind_m", "left_m", "right_m"});
+    const View standard = map_view();
+    view.projection = Projection::map;
+    view.map_ahead_m = keys.number_or("ahead_m", standard.map_ahead_m, -2000.0, 2000.0);
+    view.map_behind_m = keys.number_or("behind_m", standard.map_behind_m, -2000.0, 2000.0);
+    view.map_left_m = keys.number_or("left_m", standard.map_left_m, -500.0, 500.0);
+    view.map_right_m = keys.number_or("right_m", standard.map_right_m, -500.0, 500.0);
+    if (view.map_ahead_m + view.map_behind_m < 0.1 || view.map_left_m + view.map_right_m < 0.1)
+        entry.refuse("a map without area", "ahead_m + behind_m and left_m + right_m of at least 0.1");
+    fit_map_pixels(view);
+}
+
+void read_perspective(View& view, const YamlMap& keys) {
+    const View standard = driver_view();
+    const auto position = keys.find("position_m");
+    view.position_m = position ? read_position(*position) : standard.position_m;
+    view.yaw_rad = keys.angle_rad("yaw", 360.0).value_or(0.0);
+    view.pitch_rad = keys.angle_rad("pitch", 90.0).value_or(0.0);
+    view.roll_rad = keys.angle_rad("roll", 360.0).value_or(0.0);
+    view.vertical_fov_rad = keys.angle_rad("vertical_fov", 179.0).value_or(standard.vertical_fov_rad);
+    if (view.vertical_fov_rad < radians(0.01))
+        keys.entry().refuse("a vertical field of view below 0.01 degrees", "0.01 to 179 degrees");
+}
+
+View read_view(const std::string& name, const YamlEntry& entry) {
+    const YamlMap keys = entry.map({"position_m", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad",
+                                    "vertical_fov_deg", "vertical_fov_rad", "resolution_px", "map"});
+    View view;
+    view.name = name;
+    if (const auto map = keys.find("map")) {
+        for (const std::string_view key :
+             {"position_m", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad", "vertical_fov_deg", "vertical_fov_rad"})
+            if (const auto camera = keys.find(key))
+                camera->refuse("a camera's key in a map", "only map and resolution_px here");
+        read_map(view, *map);
+    } else {
+        read_perspective(view, keys);
+    }
+    if (const auto resolution = keys.find("resolution_px")) {
+        const std::vector<YamlEntry> sides = resolution->list(2, 2);
+        view.width_px = sides[0].whole(1, largest_px);
+        view.height_px = sides[1].whole(1, largest_px);
+    }
+    return view;
+}
+
+} // namespace
+
+glm::dvec3 read_position(const YamlEntry& entry) {
+    const std::vector<double> xyz = entry.numbers(3, 3, -100.0, 100.0);
+    return {xyz[0], xyz[1], xyz[2]};
+}
+
+std::vector<View> read_views(const YamlMap& drive) {
+    const auto given = drive.find("views");
+    if (!given)
+        return {driver_view(), map_view()};
+    std::vector<View> views;
+    for (const auto& [name, entry] : given->named(64))
+        views.push_back(read_view(name, entry));
+    return views;
+}
+
+} // namespace fernlicht
