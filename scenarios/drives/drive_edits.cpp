@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <set>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -16,7 +17,7 @@ bool is_meant(const std::string& lamp, const std::string& side) {
     return lamp.find(side) != std::string::npos && (!is_high_beam(lamp) || is_high_beam(side));
 }
 
-std::filesystem::path absolute(const std::filesystem::path& path) { return std::filesystem::absolute(path).lexically_normal(); }
+std::filesystem::path made_absolute(const std::filesystem::path& path) { return std::filesystem::absolute(path).lexically_normal(); }
 
 /// A file's stem as a name that a drive file may give.
 std::string name_from(const std::filesystem::path& path) {
@@ -64,7 +65,7 @@ void keep_one_variant(Drive& drive, const DriveEdits& edits, const std::set<std:
 }
 
 void replace_road(Drive& drive, const std::filesystem::path& road) {
-    drive.road_file = absolute(road);
+    drive.road_file = made_absolute(road);
     if (!std::filesystem::is_regular_file(drive.road_file))
         throw InputError({drive.road_file, 0, 0, {}}, "there is no such road file", "an OpenDRIVE file");
     const Route::Start standard;
@@ -79,7 +80,7 @@ void replace_road(Drive& drive, const std::filesystem::path& road) {
 void apply_edits(Drive& drive, const DriveEdits& edits, LampShelf& shelf) {
     std::set<std::string> replaced;
     for (const auto& [side, path] : edits.lamps)
-        replace_lamps(drive, side, shelf.lamp(absolute(path), {}), replaced);
+        replace_lamps(drive, side, shelf.lamp(made_absolute(path), {}), replaced);
     if (!replaced.empty())
         keep_one_variant(drive, edits, replaced);
     if (edits.road)
