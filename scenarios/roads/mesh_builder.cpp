@@ -29,8 +29,9 @@ std::uint32_t MeshBuilder::vertex(const glm::dvec3& position_m, const glm::dvec3
     // + 0.0F turns -0 into 0: equal places must have equal bits.
     const glm::vec3 position = glm::vec3(on_lattice(position_m) - mesh_.origin_m) + 0.0F;
     const glm::vec3 n = glm::vec3(glm::normalize(normal)) + 0.0F;
-    const Key key{{std::bit_cast<std::uint32_t>(position.x), std::bit_cast<std::uint32_t>(position.y), std::bit_cast<std::uint32_t>(position.z),
-                   std::bit_cast<std::uint32_t>(n.x), std::bit_cast<std::uint32_t>(n.y), std::bit_cast<std::uint32_t>(n.z)}};
+    const Key key{{std::bit_cast<std::uint32_t>(position.x), std::bit_cast<std::uint32_t>(position.y),
+                   std::bit_cast<std::uint32_t>(position.z), std::bit_cast<std::uint32_t>(n.x), std::bit_cast<std::uint32_t>(n.y),
+                   std::bit_cast<std::uint32_t>(n.z)}};
     const auto [found, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
     if (is_new)
         mesh_.vertices.push_back({position, n});

@@ -26,9 +26,7 @@ Heights heights_at(const Lane& lane, double ds) {
     return {a.inner_m + f * (next->inner_m - a.inner_m), a.outer_m + f * (next->outer_m - a.outer_m)};
 }
 
-bool same_surface(const Strip& a, const Strip& b) {
-    return a.material == b.material && a.paved == b.paved && !a.kerb_face && !b.kerb_face;
-}
+bool same_surface(const Strip& a, const Strip& b) { return a.material == b.material && a.paved == b.paved && !a.kerb_face && !b.kerb_face; }
 
 /// Joins neighbours of one material. Only where no lane has heights: there is no kink between them then.
 std::vector<Strip> joined(const std::vector<Strip>& strips) {

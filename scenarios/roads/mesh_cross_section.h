@@ -52,7 +52,8 @@ class SectionProfile {
         RoadMaterial material;
     };
     std::vector<Paint> paint(const Edge& edge, double layout_s_m, double s_m) const;
-    void append_lane(std::vector<Strip>& out, const Lane& lane, const std::vector<Paint>& right, const std::vector<Paint>& left, double s_m) const;
+    void append_lane(std::vector<Strip>& out, const Lane& lane, const std::vector<Paint>& right, const std::vector<Paint>& left,
+                     double s_m) const;
 
     const Road* road_;
     const LaneSection* section_;

@@ -70,7 +70,7 @@ std::vector<Material> road_materials() {
     set(post, diffuse("post", SurfaceKind::object, glm::vec3(0.30F)));             // galvanised steel [estimate]
     set(delineator, diffuse("delineator", SurfaceKind::object, glm::vec3(0.70F))); // white plastic [estimate]
     set(object, diffuse("object", SurfaceKind::object, glm::vec3(0.30F)));
-    set(trunk, diffuse("trunk", SurfaceKind::object, glm::vec3(0.12F, 0.09F, 0.06F)));  // bark [estimate]
+    set(trunk, diffuse("trunk", SurfaceKind::object, glm::vec3(0.12F, 0.09F, 0.06F)));   // bark [estimate]
     set(leaves, diffuse("leaves", SurfaceKind::object, glm::vec3(0.06F, 0.12F, 0.04F))); // green canopy, about 0.1 [M]
     return all;
 }
@@ -81,8 +81,8 @@ RoadMaterial lane_material(const std::string& lane_type) {
         RoadMaterial material;
     };
     static constexpr std::array rows{
-        Row{"none", RoadMaterial::verge},        Row{"median", RoadMaterial::verge},     Row{"sidewalk", RoadMaterial::concrete},
-        Row{"walking", RoadMaterial::concrete},  Row{"curb", RoadMaterial::kerb},        Row{"tram", RoadMaterial::concrete},
+        Row{"none", RoadMaterial::verge},       Row{"median", RoadMaterial::verge}, Row{"sidewalk", RoadMaterial::concrete},
+        Row{"walking", RoadMaterial::concrete}, Row{"curb", RoadMaterial::kerb},    Row{"tram", RoadMaterial::concrete},
         Row{"rail", RoadMaterial::terrain},
     };
     for (const Row& row : rows)

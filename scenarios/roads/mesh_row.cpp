@@ -67,7 +67,8 @@ std::vector<double> common_borders(const std::vector<Strip>& before, const std::
     return out;
 }
 
-Row make_row(const RoadNetwork& network, const Road& road, double s_m, const std::vector<Strip>& strips, const std::vector<double>& borders) {
+Row make_row(const RoadNetwork& network, const Road& road, double s_m, const std::vector<Strip>& strips,
+             const std::vector<double>& borders) {
     Row row;
     row.s_m = s_m;
     const auto place = [&](double t, double h) {

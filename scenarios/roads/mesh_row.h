@@ -30,7 +30,8 @@ struct Row {
 /// Every t of both cross-sections and of the crown, ascending; those nearer than 0.1 mm are one.
 std::vector<double> common_borders(const std::vector<Strip>& before, const std::vector<Strip>& after, const std::vector<double>& crown);
 
-Row make_row(const RoadNetwork& network, const Road& road, double s_m, const std::vector<Strip>& strips, const std::vector<double>& borders);
+Row make_row(const RoadNetwork& network, const Road& road, double s_m, const std::vector<Strip>& strips,
+             const std::vector<double>& borders);
 
 /// Triangles between strip `index` of two rows, `from` at the smaller s. Each advance takes the shorter diagonal.
 void append_strip(MeshBuilder& builder, std::uint32_t material, const Strip& at_from, const Row& from, const Strip& at_to, const Row& to,

@@ -115,7 +115,8 @@ std::vector<double> fixed_stations(const Road& road, const std::vector<SectionPr
         stations.push_back(road.length_m * static_cast<double>(i) / static_cast<double>(chunks));
     std::erase_if(stations, [&](double s) { return !(s >= 0.0 && s <= road.length_m); });
     std::sort(stations.begin(), stations.end());
-    stations.erase(std::unique(stations.begin(), stations.end(), [](double a, double b) { return b - a < same_station_m; }), stations.end());
+    stations.erase(std::unique(stations.begin(), stations.end(), [](double a, double b) { return b - a < same_station_m; }),
+                   stations.end());
     return stations;
 }
 

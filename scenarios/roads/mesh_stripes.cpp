@@ -22,16 +22,23 @@ std::vector<Explicit> stripes_by_kind(MarkKind kind, double width, bool left_sid
     };
     const double inner = left_side ? -width : width;
     switch (kind) {
-    case MarkKind::solid: return {line(false, 0.0)};
-    case MarkKind::broken: return {line(true, 0.0)};
-    case MarkKind::solid_solid: return {line(false, inner), line(false, -inner)};
-    case MarkKind::solid_broken: return {line(false, inner), line(true, -inner)};
-    case MarkKind::broken_solid: return {line(true, inner), line(false, -inner)};
-    case MarkKind::broken_broken: return {line(true, inner), line(true, -inner)};
+    case MarkKind::solid:
+        return {line(false, 0.0)};
+    case MarkKind::broken:
+        return {line(true, 0.0)};
+    case MarkKind::solid_solid:
+        return {line(false, inner), line(false, -inner)};
+    case MarkKind::solid_broken:
+        return {line(false, inner), line(true, -inner)};
+    case MarkKind::broken_solid:
+        return {line(true, inner), line(false, -inner)};
+    case MarkKind::broken_broken:
+        return {line(true, inner), line(true, -inner)};
     case MarkKind::none:
     case MarkKind::botts_dots:
     case MarkKind::curb:
-    case MarkKind::other: return {};
+    case MarkKind::other:
+        return {};
     }
     return {};
 }
@@ -83,8 +90,9 @@ std::vector<Stripe> stripes_of(const LaneSection& section, const Lane& lane) {
         const double to = i + 1 < lane.marks.size() ? section.s_m + lane.marks[i + 1].s_m : section.end_m;
         if (mark.kind == MarkKind::none || mark.kind == MarkKind::curb || from >= to)
             continue;
-        const auto lines = mark.stripes.empty() ? stripes_by_kind(mark.kind, mark.width_m > 0.0 ? mark.width_m : default_width_m, lane.id > 0)
-                                                : mark.stripes;
+        const auto lines = mark.stripes.empty()
+                               ? stripes_by_kind(mark.kind, mark.width_m > 0.0 ? mark.width_m : default_width_m, lane.id > 0)
+                               : mark.stripes;
         for (const Explicit& line : lines)
             all.push_back(placed(line, mark, from, std::min(to, section.end_m)));
     }

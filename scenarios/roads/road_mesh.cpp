@@ -1,7 +1,7 @@
 #include "scenarios/roads/road_mesh.h"
 
 #include "scenarios/roads/mesh_materials.h"
-#include "scenarios/roads/mesh_surface.h"
+#include "scenarios/roads/mesh_terrain.h"
 
 namespace fernlicht {
 
@@ -12,8 +12,11 @@ Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options) {
     plans.reserve(network.roads.size());
     for (const Road& road : network.roads)
         plans.push_back(plan_surface(network, road, options));
-    for (const SurfacePlan& plan : plans)
-        append_surface(scene, network, plan, {});
+    const Footprints footprints(network, plans);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const std::vector<StretchRows> rows = append_surface(scene, network, plans[i], {});
+        append_terrain(scene, plans[i], i, rows, footprints, options);
+    }
     return scene;
 }
 
