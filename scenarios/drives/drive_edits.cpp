@@ -1,5 +1,6 @@
 #include "scenarios/drives/drive_edits.h"
 
+#include "scenarios/drives/drive_keys.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -19,18 +20,17 @@ bool is_meant(const std::string& lamp, const std::string& side) {
 
 std::filesystem::path made_absolute(const std::filesystem::path& path) { return std::filesystem::absolute(path).lexically_normal(); }
 
-/// A file's stem as a name that a drive file may give.
-std::string name_from(const std::filesystem::path& path) {
-    std::string name = path.stem().string().substr(0, 64);
-    for (char& c : name)
-        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_'))
-            c = '-';
-    if (name.empty() || name[0] == '.')
-        name.insert(0, "lamp");
-    return name;
+/// Takes a later switch to another file out of a change, with the source and colour that came with it; true when nothing is left.
+bool becomes_empty(LampChange& change) {
+    if (!change.file)
+        return false;
+    change.file.reset();
+    change.source.reset();
+    change.colour.reset();
+    return !change.level && !change.pitch_rad && !change.yaw_rad && !change.roll_rad;
 }
 
-/// Replaces the file of the lamps meant, and drops later changes of their file: the user asked for this one.
+/// Replaces the file of the lamps meant, for the whole drive.
 void replace_lamps(Drive& drive, const std::string& side, const std::shared_ptr<const LampFile>& file, std::set<std::string>& replaced) {
     std::set<std::string> known;
     bool found = false;
@@ -43,9 +43,7 @@ void replace_lamps(Drive& drive, const std::string& side, const std::shared_ptr<
             replaced.insert(variant.name + '/' + lamp.name);
             found = true;
         }
-        for (LampChange& change : variant.changes)
-            if (is_meant(change.lamp, side))
-                change.file.reset();
+        std::erase_if(variant.changes, [&](LampChange& change) { return is_meant(change.lamp, side) && becomes_empty(change); });
     }
     if (!found)
         throw InputError({drive.file, 0, 0, "lamp " + side}, "no lamp of this name", fmt::format("one of {}", fmt::join(known, ", ")));

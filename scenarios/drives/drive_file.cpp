@@ -42,7 +42,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     Drive drive;
     drive.file = path;
     const auto name = keys.find("name"), title = keys.find("title");
-    drive.name = name ? name->name() : path.stem().string();
+    drive.name = name ? name->name() : name_from(path);
     drive.title = title ? title->text() : drive.name;
     const YamlEntry road = keys.require("road");
     drive.road_file = road.path();

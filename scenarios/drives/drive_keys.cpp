@@ -64,6 +64,16 @@ Probe read_probe(const std::string& name, const YamlEntry& entry) {
 
 } // namespace
 
+std::string name_from(const std::filesystem::path& path) {
+    std::string name = path.stem().string().substr(0, 64);
+    for (char& c : name)
+        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_'))
+            c = '-';
+    if (name.empty() || name[0] == '.')
+        name.insert(0, "lamp");
+    return name;
+}
+
 std::vector<SpeedPoint> read_speed(const YamlMap& drive) {
     const auto given = drive.one_of({"speed_kmh", "speed_mps", "speed"});
     if (!given)

@@ -22,5 +22,7 @@ std::vector<Limit> read_limits(const YamlMap& drive);
 
 /// Position from [x, y, z], each within 100 m of the car's origin.
 glm::dvec3 read_position(const YamlEntry& entry);
+/// A file's stem, made a name that YamlEntry::name accepts.
+std::string name_from(const std::filesystem::path& path);
 
 } // namespace fernlicht

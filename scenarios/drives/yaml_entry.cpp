@@ -44,6 +44,14 @@ std::string child_path(const std::string& parent, std::string_view key) {
     return parent.empty() ? printable(std::string(key)) : fmt::format("{}.{}", parent, printable(std::string(key)));
 }
 
+/// The known key that was meant: the same without its unit, else the nearest by letters; "" if none.
+std::string meant_key(const std::string& key, std::initializer_list<std::string_view> known_keys) {
+    for (const std::string_view known : known_keys)
+        if (known.starts_with(key + '_'))
+            return std::string(known);
+    return nearest_name(key, known_keys);
+}
+
 } // namespace
 
 YamlEntry::YamlEntry(const YamlValue& value, const std::filesystem::path& file, std::string key_path)
@@ -167,7 +175,7 @@ YamlMap::YamlMap(YamlEntry entry, std::initializer_list<std::string_view> known_
     for (const YamlMember& member : entry_.value().members) {
         if (std::find(known_keys.begin(), known_keys.end(), member.key) != known_keys.end())
             continue;
-        const std::string near = nearest_name(member.key, known_keys);
+        const std::string near = meant_key(member.key, known_keys);
         throw InputError({entry_.file(), member.line, member.column, child_path(entry_.key_path(), member.key)}, "unknown key",
                          near.empty() ? fmt::format("one of {}", fmt::join(known_keys, ", ")) : "'" + near + "', the nearest known key");
     }

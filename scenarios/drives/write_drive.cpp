@@ -1,0 +1,227 @@
+#include "scenarios/drives/drive.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <iterator>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+/// Text in double quotes, as YAML and JSON both read it.
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            out += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+        else
+            out += c;
+    }
+    return out + '"';
+}
+
+std::string list(const std::vector<double>& numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); }
+std::string list(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+/// `key`_deg where some number of degrees gives exactly these radians, else `key`_rad.
+std::string angle(std::string_view key, double angle_rad) {
+    const double middle = degrees(angle_rad);
+    for (const double candidate : {middle, std::nextafter(middle, -HUGE_VAL), std::nextafter(middle, HUGE_VAL)})
+        if (radians(candidate) == angle_rad)
+            return fmt::format("{}_deg: {}", key, candidate);
+    return fmt::format("{}_rad: {}", key, angle_rad);
+}
+
+/// Writes lines at a depth of two spaces each.
+class Lines {
+  public:
+    template <class... Args> void add(int depth, fmt::format_string<Args...> format, Args&&... args) {
+        text_.append(static_cast<std::size_t>(2 * depth), ' ');
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+        text_ += '\n';
+    }
+    std::string take() { return std::move(text_); }
+
+  private:
+    std::string text_;
+};
+
+std::string_view word(SourceKind kind) { return kind == SourceKind::filament ? "filament" : kind == SourceKind::arc ? "arc" : "led"; }
+std::string_view word(ToneMapperKind kind) {
+    return kind == ToneMapperKind::linear ? "linear" : kind == ToneMapperKind::rational ? "rational" : "logarithmic";
+}
+std::string_view word(BetweenSamples rule) { return rule == BetweenSamples::linear_cd ? "linear_cd" : "log_cd"; }
+std::string_view word(TypeCAxis axis) {
+    return axis == TypeCAxis::automatic ? "automatic" : axis == TypeCAxis::horizontal ? "horizontal" : "nadir";
+}
+
+void write_texture(Lines& out, int depth, const LampReadOptions& options) {
+    const double(&h)[2] = options.texture_h_extent_deg;
+    const double(&v)[2] = options.texture_v_extent_deg;
+    const std::string h_extent = h[0] == h[1] ? "" : fmt::format(", h_extent_deg: [{}, {}]", h[0], h[1]);
+    const std::string v_extent = v[0] == v[1] ? "" : fmt::format(", v_extent_deg: [{}, {}]", v[0], v[1]);
+    out.add(depth, "texture: {{scale_lx: {}, distance_m: {}{}{}}}", options.texture_scale_lx, options.texture_distance_m, h_extent,
+            v_extent);
+}
+
+void write_file_keys(Lines& out, int depth, const Drive& drive, const std::shared_ptr<const LampFile>& file) {
+    for (const LampSource& source : drive.lamp_sources) {
+        if (source.file != file)
+            continue;
+        out.add(depth, "file: {}", quoted(source.path.string()));
+        out.add(depth, "between_samples: {}", word(source.options.rule));
+        out.add(depth, "type_c_axis: {}", word(source.options.type_c_axis));
+        write_texture(out, depth, source.options);
+        return;
+    }
+    throw std::invalid_argument("write_drive: a lamp's file is not among the drive's lamp_sources");
+}
+
+void write_colour(Lines& out, int depth, const LampColour& colour) {
+    out.add(depth, "colour: {{linear_srgb: {}, sp_ratio: {}, cct_k: {}}}", list(colour.linear_srgb), colour.sp_ratio, colour.cct_k);
+}
+
+void write_lamp_keys(Lines& out, const Drive& drive, const MountedLamp& lamp) {
+    out.add(3, "{}:", quoted(lamp.name));
+    write_file_keys(out, 4, drive, lamp.file);
+    out.add(4, "position_m: {}", list(lamp.position_m));
+    out.add(4, "aim: {{{}, {}, {}}}", angle("pitch", lamp.pitch_rad), angle("yaw", lamp.yaw_rad), angle("roll", lamp.roll_rad));
+    out.add(4, "level: {}", lamp.level);
+    out.add(4, "source: {}", word(lamp.source));
+    out.add(4, "voltage_v: {}", lamp.voltage_v);
+    out.add(4, "reference_voltage_v: {}", lamp.reference_voltage_v);
+    write_colour(out, 4, lamp.colour);
+    out.add(4, "photometric_distance_m: {}", lamp.photometric_distance_m);
+}
+
+void write_change(Lines& out, const Drive& drive, const LampChange& change) {
+    out.add(3, "- at_s: {}", change.time_s);
+    out.add(4, "lamp: {}", quoted(change.lamp));
+    if (change.level)
+        out.add(4, "level: {}", *change.level);
+    std::vector<std::string> aim;
+    if (change.pitch_rad)
+        aim.push_back(angle("pitch", *change.pitch_rad));
+    if (change.yaw_rad)
+        aim.push_back(angle("yaw", *change.yaw_rad));
+    if (change.roll_rad)
+        aim.push_back(angle("roll", *change.roll_rad));
+    if (!aim.empty())
+        out.add(4, "aim: {{{}}}", fmt::join(aim, ", "));
+    if (change.file)
+        write_file_keys(out, 4, drive, change.file);
+    if (change.source)
+        out.add(4, "source: {}", word(*change.source));
+    if (change.colour)
+        write_colour(out, 4, *change.colour);
+}
+
+void write_variants(Lines& out, const Drive& drive) {
+    out.add(0, "variants:");
+    for (const Variant& variant : drive.variants) {
+        out.add(1, "{}:", quoted(variant.name));
+        out.add(2, "lamps:");
+        for (const MountedLamp& lamp : variant.lamps)
+            write_lamp_keys(out, drive, lamp);
+        out.add(2, "changes:{}", variant.changes.empty() ? " []" : "");
+        for (const LampChange& change : variant.changes)
+            write_change(out, drive, change);
+    }
+}
+
+void write_views(Lines& out, const Drive& drive) {
+    out.add(0, "views:");
+    for (const View& view : drive.views) {
+        out.add(1, "{}:", quoted(view.name));
+        if (view.projection == Projection::map) {
+            out.add(2, "map: {{ahead_m: {}, behind_m: {}, left_m: {}, right_m: {}}}", view.map_ahead_m, view.map_behind_m, view.map_left_m,
+                    view.map_right_m);
+        } else {
+            out.add(2, "position_m: {}", list(view.position_m));
+            out.add(2, "{}", angle("yaw", view.yaw_rad));
+            out.add(2, "{}", angle("pitch", view.pitch_rad));
+            out.add(2, "{}", angle("roll", view.roll_rad));
+            out.add(2, "{}", angle("vertical_fov", view.vertical_fov_rad));
+        }
+        out.add(2, "resolution_px: [{}, {}]", view.width_px, view.height_px);
+    }
+}
+
+void write_route(Lines& out, const Drive& drive) {
+    out.add(0, "road: {}", quoted(drive.road_file.string()));
+    out.add(0, "route:");
+    if (!drive.start.road.empty())
+        out.add(1, "road: {}", quoted(drive.start.road));
+    out.add(1, "lane: {}", drive.start.lane);
+    out.add(1, "s_m: {}", drive.start.s_m);
+    std::vector<std::string> via;
+    for (const std::string& road : drive.via)
+        via.push_back(quoted(road));
+    out.add(1, "via: [{}]", fmt::join(via, ", "));
+}
+
+void write_time(Lines& out, const Drive& drive) {
+    out.add(0, "speed:");
+    for (const SpeedPoint& point : drive.speed)
+        out.add(1, "- {{at_s: {}, speed_mps: {}}}", point.time_s, point.speed_mps);
+    out.add(0, "step_s: {}", drive.step_s);
+    out.add(0, "duration_s: {}", drive.duration_s);
+}
+
+void write_measure(Lines& out, const Drive& drive) {
+    out.add(0, "measure:");
+    if (const auto& extent = drive.extent) {
+        out.add(1, "extent:");
+        out.add(2, "limits_lx: {}", list(extent->limits_lx));
+        out.add(2, "target_height_m: {}", extent->target_height_m);
+        out.add(2, "ahead_m: {}", extent->ahead_m);
+        out.add(2, "beside_m: {}", extent->beside_m);
+        out.add(2, "cell_m: {}", extent->cell_m);
+        out.add(2, "width_at_m: {}", list(extent->width_at_m));
+    } else {
+        out.add(1, "extent: false");
+    }
+    if (!drive.probes.empty())
+        out.add(1, "probes:");
+    for (const Probe& probe : drive.probes)
+        out.add(2, "{}: {{ahead_m: {}, left_m: {}, above_m: {}}}", quoted(probe.name), probe.ahead_m, probe.left_m, probe.above_m);
+}
+
+void write_limits(Lines& out, const Drive& drive) {
+    out.add(0, "limits:{}", drive.limits.empty() ? " []" : "");
+    for (const Limit& limit : drive.limits)
+        out.add(1, "- {{reading: {}{}{}}}", quoted(limit.reading), limit.at_least ? fmt::format(", at_least: {}", *limit.at_least) : "",
+                limit.at_most ? fmt::format(", at_most: {}", *limit.at_most) : "");
+}
+
+} // namespace
+
+std::string write_drive(const Drive& drive) {
+    Lines out;
+    out.add(0, "# The resolved drive, written by fernlicht {}: running it again gives the same results.", FERNLICHT_VERSION);
+    out.add(0, "fernlicht: 1");
+    out.add(0, "name: {}", quoted(drive.name));
+    out.add(0, "title: {}", quoted(drive.title));
+    write_route(out, drive);
+    write_time(out, drive);
+    out.add(0, "daylight: {{name: {}, horizontal_illuminance_lx: {}}}", quoted(drive.daylight.name),
+            drive.daylight.horizontal_illuminance_lx);
+    out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}}}", drive.bumper_m, drive.wheelbase_m);
+    write_variants(out, drive);
+    write_views(out, drive);
+    out.add(0, "capture: {{per_second: {}, all: {}, exr: {}, png: {}}}", drive.capture.per_second, drive.capture.all, drive.capture.exr,
+            drive.capture.png);
+    out.add(0, "tone_mapper: {{kind: {}, s: {}, l_max_cdm2: {}}}", word(drive.tone_mapper.kind), drive.tone_mapper.s,
+            drive.tone_mapper.l_max_cdm2);
+    out.add(0, "technique: {}", quoted(drive.technique));
+    write_measure(out, drive);
+    write_limits(out, drive);
+    out.add(0, "shadows: {}", drive.shadows);
+    out.add(0, "seed: {}", drive.seed);
+    return out.take();
+}
+
+} // namespace fernlicht
