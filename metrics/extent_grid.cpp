@@ -1,0 +1,46 @@
+#include "metrics/extent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+/// Whole steps in a length, one more where rounding took it away.
+int steps_in(double length_m, double step_m) { return static_cast<int>(std::floor(length_m / step_m * (1.0 + 1e-12))); }
+
+void check(const ExtentParameters& parameters) {
+    constexpr double most_points = 4e7;
+    const double rows = parameters.ahead_m / parameters.cell_m + 1.0;
+    const double columns = 8.0 * parameters.beside_m / parameters.cell_m + 1.0;
+    if (!(parameters.cell_m > 0.0 && parameters.ahead_m > 0.0 && parameters.beside_m > 0.0 && rows * columns <= most_points))
+        throw std::invalid_argument(fmt::format("a grid of {} m cells over {} m ahead and {} m to each side cannot be made",
+                                                parameters.cell_m, parameters.ahead_m, parameters.beside_m));
+}
+
+} // namespace
+
+ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bumper_m, const ExtentParameters& parameters) {
+    check(parameters);
+    ExtentGrid grid;
+    grid.target_height_m = parameters.target_height_m;
+    const double across_m = parameters.cell_m / 4.0;
+    const int beside = steps_in(parameters.beside_m, across_m);
+    for (int i = -beside; i <= beside; ++i)
+        grid.offset_m.push_back(i * across_m);
+    const double bumper_at_m = moment.distance_m + bumper_m;
+    const double ahead_m = std::min(parameters.ahead_m, route.length_m() - bumper_at_m);
+    for (int i = 0; ahead_m >= 0.0 && i <= steps_in(ahead_m, parameters.cell_m); ++i)
+        grid.ahead_m.push_back(i * parameters.cell_m);
+    grid.surface.reserve(grid.ahead_m.size() * grid.offset_m.size());
+    for (const double row_m : grid.ahead_m) {
+        grid.sections.push_back(route.cross_section(bumper_at_m + row_m));
+        for (const double offset_m : grid.offset_m)
+            grid.surface.push_back(route.pose(bumper_at_m + row_m, offset_m));
+    }
+    return grid;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,57 @@
+// Measured illuminance on a grid, ready to be asked along, across and by lane.
+#pragma once
+
+#include "metrics/lit_area.h"
+#include "metrics/lit_line.h"
+
+#include <string>
+#include <utility>
+
+namespace fernlicht {
+
+/// Throws std::invalid_argument where measure_extent says so.
+void check_measurable(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& limits_lx);
+
+/// A lane with its edges in every row.
+struct LaneStrip {
+    std::string name;
+    bool same_direction = true;
+    LaneSpans spans;
+};
+
+/// Lanes from left to right as the nearest row has them, then those that begin farther on. Where part of a lane lies beyond the
+/// width that was looked at, the lane is taken as absent.
+std::vector<LaneStrip> lane_strips(const ExtentGrid& grid);
+
+/// Illuminance between the grid's columns. `row` points to its first column's value; the offset lies within the grid.
+double lx_across(const std::vector<double>& offsets_m, const double* row, double offset_m);
+
+/// A grid of at least two rows and columns with its values; refers to both.
+class LitRoad {
+  public:
+    LitRoad(const ExtentGrid& grid, const std::vector<double>& lx) : grid_(grid), lx_(lx), areas_m2_(triangle_areas_m2(grid)) {}
+
+    const ExtentGrid& grid() const { return grid_; }
+
+    /// Samples along the road, one per row, at these offsets; nullopt where there is nothing to follow.
+    std::vector<LineSample> along(const std::vector<std::optional<double>>& offsets_m) const;
+    std::vector<LineSample> along_column(std::size_t column) const;
+
+    /// Row before a distance and the share of the way to the next.
+    std::pair<std::size_t, double> place(double ahead_m) const;
+    bool looked_at(double ahead_m) const { return ahead_m >= grid_.ahead_m.front() && ahead_m <= grid_.ahead_m.back(); }
+    /// Values of all columns at a distance that was looked at.
+    std::vector<double> across(double ahead_m) const;
+
+    double area_m2(double limit_lx) const { return lit_area_m2(grid_, areas_m2_, lx_, limit_lx); }
+    double area_m2(double limit_lx, const LaneSpans& lane) const { return lit_area_m2(grid_, areas_m2_, lx_, limit_lx, lane); }
+
+  private:
+    const double* row(std::size_t index) const { return &lx_[index * grid_.offset_m.size()]; }
+
+    const ExtentGrid& grid_;
+    const std::vector<double>& lx_;
+    std::vector<double> areas_m2_;
+};
+
+} // namespace fernlicht
