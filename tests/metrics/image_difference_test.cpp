@@ -44,12 +44,12 @@ TEST(ImageDifference, FiguresByHand) {
     EXPECT_DOUBLE_EQ(difference.percent_over, 50.0);
 }
 
-// Thresholds 1 + 0.2 * reference: 3 at 10 (a difference of 3 is not over), 5 at 20 (4 is not), then 0.1 at 20: 3 (4 is over).
+// Differences 3 at 10 and 4 at 20; 1 + 0.2 * reference is 3 and 5, which is met and not passed.
 TEST(ImageDifference, ThresholdIsAbsolutePlusRelativeAndMayBeMet) {
     const auto reference = picture(2, 1, {10.0F, 20.0F});
     const auto tested = picture(2, 1, {7.0F, 24.0F});
     EXPECT_DOUBLE_EQ(compare_images(tested, reference, 1.0, 0.2).percent_over, 0.0);
-    EXPECT_DOUBLE_EQ(compare_images(tested, reference, 1.0, 0.125).percent_over, 100.0 / 2.0);
+    EXPECT_DOUBLE_EQ(compare_images(tested, reference, 3.0, 0.0).percent_over, 50.0);
     EXPECT_DOUBLE_EQ(compare_images(tested, reference, 0.0, 0.1).percent_over, 100.0);
 }
 
