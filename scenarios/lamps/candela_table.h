@@ -9,9 +9,9 @@ namespace fernlicht {
 /// How intensity runs between the samples of a table.
 enum class BetweenSamples { linear_cd, log_cd };
 
-/// Intensity in candela over H (right positive) and V (up positive), degrees, UN goniometer: H = atan2(x, z), V = asin(y) with x right, y up, z forward.
-/// Axes ascend strictly. Outside the axes, and in a cell marked as a gap, there is no light: intensity 0, never an extrapolation.
-/// A table whose H axis spans 360 degrees wraps round.
+/// Intensity in candela over H (right positive) and V (up positive), degrees, UN goniometer: H = atan2(x, z), V = asin(y) with x right, y
+/// up, z forward. Axes ascend strictly, at least two samples each, H within -180..180, V within -90..90. Outside the axes, and inside a
+/// cell marked as a gap, there is no light: intensity 0, never an extrapolation. A table whose H axis runs from -180 to 180 wraps round.
 struct CandelaTable {
     std::vector<double> h_deg;
     std::vector<double> v_deg;
@@ -24,7 +24,8 @@ struct CandelaTable {
     bool operator==(const CandelaTable&) const = default;
 };
 
-/// Intensity in cd by the table's rule at any direction. log_cd falls back to linear in a cell that holds a zero.
+/// Intensity in cd by the table's rule at any direction; H is taken modulo 360, a NaN angle gives 0. log_cd falls back to linear in a cell
+/// that holds a zero.
 double intensity_cd(const CandelaTable& table, double h_deg, double v_deg);
 
 struct Peak {
@@ -38,16 +39,17 @@ double flux_lm(const CandelaTable& table);
 /// Throws std::invalid_argument naming what is wrong when the invariants above do not hold.
 void check_invariants(const CandelaTable& table);
 
-CandelaTable scaled(CandelaTable table, double factor);      ///< factor >= 0
-CandelaTable mirrored(const CandelaTable& table);            ///< H -> -H: right-hand to left-hand traffic
-CandelaTable sum(const CandelaTable& a, const CandelaTable& b); ///< on the union of both axes
+CandelaTable scaled(CandelaTable table, double factor); ///< factor >= 0
+CandelaTable mirrored(const CandelaTable& table);       ///< H -> -H: right-hand to left-hand traffic
+CandelaTable sum(const CandelaTable& a,
+                 const CandelaTable& b); ///< on the union of both axes: exact for linear_cd, for log_cd at its samples
 /// a - b on the union of both axes; negative differences become 0 and are counted in `clamped`.
 CandelaTable difference(const CandelaTable& a, const CandelaTable& b, std::size_t& clamped);
 
 /// How wrong the rule is: every second row and column predicted from the others.
 struct InterpolationError {
-    std::size_t samples = 0;       ///< predicted samples; 0: table too small to tell
-    double median_relative = 0.0;  ///< of |predicted - given| / peak
+    std::size_t samples = 0;      ///< predicted samples; 0: table too small to tell
+    double median_relative = 0.0; ///< of |predicted - given| / peak
     double p95_relative = 0.0;
     double worst_relative = 0.0;
     double worst_h_deg = 0.0, worst_v_deg = 0.0;

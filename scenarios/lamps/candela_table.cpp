@@ -1,0 +1,201 @@
+#include "scenarios/lamps/candela_table.h"
+
+#include "scenarios/values/pose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+/// A place on an axis: between samples `cell` and `cell + 1`, `fraction` of the way.
+struct Place {
+    std::size_t cell = 0;
+    double fraction = 0.0;
+};
+
+/// `value` lies on the axis.
+Place place_on(const std::vector<double>& axis, double value) {
+    const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, value);
+    const auto cell = static_cast<std::size_t>(above - axis.begin()) - 1;
+    return {cell, (value - axis[cell]) / (axis[cell + 1] - axis[cell])};
+}
+
+bool is_gap(const CandelaTable& table, std::size_t v, std::size_t h) {
+    return !table.gaps.empty() && table.gaps[v * (table.h_deg.size() - 1) + h] != 0;
+}
+
+/// Gaps are open: a direction on the border of a gap belongs to the neighbouring cell that has data, if there is one.
+bool leave_gap(const CandelaTable& table, Place& v, Place& h) {
+    const bool lower = v.fraction == 0.0 && v.cell > 0;
+    const bool left = h.fraction == 0.0 && h.cell > 0;
+    if (left && !is_gap(table, v.cell, h.cell - 1)) {
+        h = {h.cell - 1, 1.0};
+        return true;
+    }
+    if (lower && !is_gap(table, v.cell - 1, h.cell)) {
+        v = {v.cell - 1, 1.0};
+        return true;
+    }
+    if (lower && left && !is_gap(table, v.cell - 1, h.cell - 1)) {
+        h = {h.cell - 1, 1.0};
+        v = {v.cell - 1, 1.0};
+        return true;
+    }
+    return false;
+}
+
+// Weighted so that both ends are exact.
+double blend(double a, double b, double fraction) { return a * (1.0 - fraction) + b * fraction; }
+
+/// The four samples of a cell.
+struct Corners {
+    double a, b, c, d; ///< lower left, lower right, upper left, upper right
+    bool any_zero() const { return a == 0.0 || b == 0.0 || c == 0.0 || d == 0.0; }
+    Corners logarithms() const { return {std::log(a), std::log(b), std::log(c), std::log(d)}; }
+};
+
+Corners corners(const CandelaTable& table, std::size_t v, std::size_t h) {
+    return {table.at(v, h), table.at(v, h + 1), table.at(v + 1, h), table.at(v + 1, h + 1)};
+}
+
+double between(const Corners& k, double fv, double fh) { return blend(blend(k.a, k.b, fh), blend(k.c, k.d, fh), fv); }
+
+/// Weights of the lower and the upper sample in the integral of a linear function times cos V over one row of cells, radians.
+/// With m the middle and s half the step: lower + upper = 2 cos m sin s, upper - lower = 2 sin m (cos s - sin s / s).
+std::array<double, 2> cosine_weights(double v0_deg, double v1_deg) {
+    const double middle = radians((v0_deg + v1_deg) / 2.0);
+    const double half = radians((v1_deg - v0_deg) / 2.0);
+    const double total = 2.0 * std::cos(middle) * std::sin(half);
+    const double tilt = 2.0 * std::sin(middle) * (std::cos(half) - std::sin(half) / half);
+    return {(total - tilt) / 2.0, (total + tilt) / 2.0};
+}
+
+/// Mean of exp over a line whose logarithm runs linearly from la to lb.
+double logarithmic_mean(double la, double lb) {
+    const double x = lb - la;
+    if (std::abs(x) > 1e-3)
+        return (std::exp(lb) - std::exp(la)) / x;
+    return std::exp((la + lb) / 2.0) * (1.0 + x * x / 24.0); // sinh(x/2)/(x/2), next term x^4/1920
+}
+
+/// Integral over a cell per radian of H. Along H in closed form; along V by 8-point Gauss-Legendre on panels over which the
+/// intensity changes by at most exp(4), where the rule's relative error is below 1e-12.
+double log_cell_integral(const Corners& logs, double v0_deg, double v1_deg) {
+    static constexpr std::array<double, 4> node{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+    static constexpr std::array<double, 4> weight{0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+    const double change = std::max(std::abs(logs.c - logs.a), std::abs(logs.d - logs.b));
+    const double turn = radians(v1_deg - v0_deg);
+    const int panels = 1 + static_cast<int>(std::max(change / 4.0, turn));
+    const auto value = [&](double t) {
+        return logarithmic_mean(blend(logs.a, logs.c, t), blend(logs.b, logs.d, t)) * std::cos(radians(blend(v0_deg, v1_deg, t)));
+    };
+    double integral = 0.0;
+    for (int panel = 0; panel < panels; ++panel) {
+        const double centre = (panel + 0.5) / panels;
+        for (std::size_t i = 0; i < node.size(); ++i)
+            integral += weight[i] * (value(centre - node[i] / (2.0 * panels)) + value(centre + node[i] / (2.0 * panels)));
+    }
+    return integral * turn / (2.0 * panels);
+}
+
+void check_axis(const std::vector<double>& axis, const char* name, double limit_deg) {
+    const auto fail = [&](const std::string& what) { throw std::invalid_argument(fmt::format("candela table: {} axis {}", name, what)); };
+    if (axis.size() < 2)
+        fail(fmt::format("has {} samples, expected at least 2", axis.size()));
+    for (std::size_t i = 0; i < axis.size(); ++i) {
+        if (!(std::abs(axis[i]) <= limit_deg))
+            fail(fmt::format("has {} at sample {}, expected -{} to {}", axis[i], i, limit_deg, limit_deg));
+        if (i > 0 && !(axis[i] > axis[i - 1]))
+            fail(fmt::format("has {} after {}, expected ascending angles", axis[i], axis[i - 1]));
+    }
+}
+
+} // namespace
+
+double intensity_cd(const CandelaTable& table, double h_deg, double v_deg) {
+    if (std::abs(h_deg) > 180.0)
+        h_deg = std::remainder(h_deg, 360.0);
+    const bool inside =
+        h_deg >= table.h_deg.front() && h_deg <= table.h_deg.back() && v_deg >= table.v_deg.front() && v_deg <= table.v_deg.back();
+    if (!inside) // also when an angle is not a number
+        return 0.0;
+    Place v = place_on(table.v_deg, v_deg);
+    Place h = place_on(table.h_deg, h_deg);
+    if (is_gap(table, v.cell, h.cell) && !leave_gap(table, v, h))
+        return 0.0;
+    const Corners k = corners(table, v.cell, h.cell);
+    if (table.rule == BetweenSamples::linear_cd || k.any_zero())
+        return between(k, v.fraction, h.fraction);
+    return std::exp(between(k.logarithms(), v.fraction, h.fraction));
+}
+
+Peak peak_of(const CandelaTable& table) {
+    const auto highest = std::max_element(table.cd.begin(), table.cd.end());
+    if (highest == table.cd.end())
+        return {};
+    const auto index = static_cast<std::size_t>(highest - table.cd.begin());
+    return {*highest, table.h_deg[index % table.h_deg.size()], table.v_deg[index / table.h_deg.size()]};
+}
+
+double flux_lm(const CandelaTable& table) {
+    double flux = 0.0;
+    for (std::size_t v = 0; v + 1 < table.v_deg.size(); ++v) {
+        const double v0 = table.v_deg[v], v1 = table.v_deg[v + 1];
+        const auto [lower, upper] = cosine_weights(v0, v1);
+        double row = 0.0;
+        for (std::size_t h = 0; h + 1 < table.h_deg.size(); ++h) {
+            if (is_gap(table, v, h))
+                continue;
+            const Corners k = corners(table, v, h);
+            const bool linear = table.rule == BetweenSamples::linear_cd || k.any_zero();
+            const double per_radian =
+                linear ? lower * (k.a + k.b) / 2.0 + upper * (k.c + k.d) / 2.0 : log_cell_integral(k.logarithms(), v0, v1);
+            row += per_radian * radians(table.h_deg[h + 1] - table.h_deg[h]);
+        }
+        flux += row;
+    }
+    return flux;
+}
+
+void check_invariants(const CandelaTable& table) {
+    check_axis(table.h_deg, "H", 180.0);
+    check_axis(table.v_deg, "V", 90.0);
+    const std::size_t samples = table.h_deg.size() * table.v_deg.size();
+    if (table.cd.size() != samples)
+        throw std::invalid_argument(fmt::format("candela table: has {} intensities, expected {}", table.cd.size(), samples));
+    for (std::size_t i = 0; i < samples; ++i)
+        if (!(std::isfinite(table.cd[i]) && table.cd[i] >= 0.0))
+            throw std::invalid_argument(fmt::format("candela table: has {} cd at H {}, V {} deg, expected a finite intensity of at least 0",
+                                                    table.cd[i], table.h_deg[i % table.h_deg.size()], table.v_deg[i / table.h_deg.size()]));
+    const std::size_t cells = (table.h_deg.size() - 1) * (table.v_deg.size() - 1);
+    if (!table.gaps.empty() && table.gaps.size() != cells)
+        throw std::invalid_argument(fmt::format("candela table: has {} gap marks, expected none or {}", table.gaps.size(), cells));
+}
+
+CandelaTable scaled(CandelaTable table, double factor) {
+    if (!(std::isfinite(factor) && factor >= 0.0))
+        throw std::invalid_argument(fmt::format("candela table: scaled by {}, expected a factor of at least 0", factor));
+    for (double& cd : table.cd)
+        cd *= factor;
+    return table;
+}
+
+CandelaTable mirrored(const CandelaTable& table) {
+    CandelaTable out = table;
+    std::reverse(out.h_deg.begin(), out.h_deg.end());
+    for (double& h : out.h_deg)
+        h = 0.0 - h; // not -h: no negative zero in files
+    const auto reverse_rows = [](auto& values, std::size_t row_length) {
+        for (auto row = values.begin(); row != values.end(); row += static_cast<std::ptrdiff_t>(row_length))
+            std::reverse(row, row + static_cast<std::ptrdiff_t>(row_length));
+    };
+    reverse_rows(out.cd, out.h_deg.size());
+    reverse_rows(out.gaps, out.h_deg.size() - 1);
+    return out;
+}
+
+} // namespace fernlicht
