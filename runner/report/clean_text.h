@@ -1,0 +1,27 @@
+// Text of others on its way into a report: names, paths and labels may hold anything.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace fernlicht {
+
+/// Valid UTF-8 that every reader can take: bad bytes and code points that must not be seen (C1 controls, U+FFFE, U+FFFF, marks that turn
+/// the direction of writing) become U+FFFD; C0 controls and DEL become their pictures (U+2400 ff.), so that a newline in a file name shows.
+std::string clean_text(std::string_view bytes);
+
+/// clean_text, its middle replaced by an ellipsis when longer than `max_characters` (code points; at least 3).
+std::string short_text(std::string_view bytes, std::size_t max_characters);
+
+/// clean_text with & < > " ' as entities: good for XML text and attributes.
+std::string xml_text(std::string_view bytes);
+
+/// A field of RFC 4180: quoted where it must be. A text that a spreadsheet would take for a formula gets a leading apostrophe.
+std::string csv_text(std::string_view bytes);
+
+/// A relative path as the reference of a link: everything but unreserved characters and / percent-encoded, "./" before it so that no scheme
+/// can be meant.
+std::string relative_link(std::string_view path);
+
+} // namespace fernlicht

@@ -1,0 +1,13 @@
+// JSON laid out for people and for diff.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace fernlicht {
+
+/// Objects and arrays that fit into a line, and arrays of plain values of any length, stand on one line; everything else is
+/// indented by two. Invalid UTF-8 becomes U+FFFD. Ends with a newline.
+std::string json_text(const nlohmann::ordered_json& value);
+
+} // namespace fernlicht

@@ -1,0 +1,172 @@
+#include "runner/report/clean_text.h"
+#include "runner/report/extent_summary.h"
+#include "runner/report/page_parts.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+using kainjow::mustache::data;
+using List = data::type;
+
+constexpr const char* nothing = "\u2013";
+
+std::string text_or_dash(const std::optional<double>& value, int decimals) { return value ? figure(*value, decimals) : nothing; }
+
+/// A measured figure of a lamp set and how far it is from the first lamp set's.
+data compared(const std::optional<Spread>& own, const std::optional<Spread>& first, bool is_first, int decimals, bool at_least) {
+    data cell;
+    cell.set("figure", own ? (at_least ? "\u2265\u202f" : "") + figure(own->median, decimals) : nothing);
+    if (is_first)
+        cell.set("difference", false);
+    else
+        cell.set("difference", own && first ? signed_figure(own->median - first->median, decimals) : nothing);
+    return cell;
+}
+
+std::optional<Spread> width_at(const ExtentSummary& summary, double at_m) {
+    for (const auto& [distance_m, spread] : summary.width_m)
+        if (distance_m == at_m)
+            return spread;
+    return std::nullopt;
+}
+
+std::string range(const std::optional<Spread>& spread) {
+    return spread ? figure(spread->minimum, 1) + "\u2009\u2026\u2009" + figure(spread->maximum, 1) : nothing;
+}
+
+data table_row(const ExtentSummary& summary, const ExtentSummary& first, bool is_first, const std::vector<double>& widths_at_m) {
+    data row, cells{List::list};
+    const bool lower_bound = summary.cut_off * 2 > summary.moments; // so is the median then
+    cells.push_back(compared(summary.reach_m, first.reach_m, is_first, 1, lower_bound));
+    for (const double at_m : widths_at_m)
+        cells.push_back(compared(width_at(summary, at_m), width_at(first, at_m), is_first, 1, false));
+    cells.push_back(compared(summary.area_m2, first.area_m2, is_first, 0, false));
+    row.set("cells", cells);
+    row.set("range", range(summary.reach_m));
+    row.set("per_degree", text_or_dash(summary.metres_per_tenth_degree, 1));
+    row.set("per_flux", text_or_dash(summary.metres_per_tenth_flux, 1));
+    row.set("twin", text_or_dash(summary.largest_twin_difference_m, 2));
+    row.set("grid", text_or_dash(summary.grid_error_m, 2));
+    return row;
+}
+
+/// What all lamp sets of a drive have together: (plane, lane) in order of sight, limits and width distances ascending.
+struct Axes {
+    std::vector<std::pair<ExtentPlane, std::string>> places;
+    std::vector<double> limits_lx, widths_at_m;
+};
+
+void insert_sorted(std::vector<double>& values, double value) {
+    const auto place = std::lower_bound(values.begin(), values.end(), value);
+    if (place == values.end() || *place != value)
+        values.insert(place, value);
+}
+
+Axes axes_of(const ComparedDrive& drive, const std::vector<std::vector<ExtentSummary>>& summaries) {
+    Axes axes;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i)
+        for (const ExtentSummary& summary : summaries[i]) {
+            const std::pair place(summary.key.plane, summary.key.lane);
+            if (std::find(axes.places.begin(), axes.places.end(), place) == axes.places.end())
+                axes.places.push_back(place);
+            insert_sorted(axes.limits_lx, summary.key.limit_lx);
+            for (const auto& [at_m, spread] : summary.width_m)
+                insert_sorted(axes.widths_at_m, at_m);
+        }
+    const auto rank = [](const auto& place) { return std::tuple(place.second != "own", place.first); };
+    std::stable_sort(axes.places.begin(), axes.places.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    return axes;
+}
+
+std::string lane_title(const std::string& lane) {
+    return lane == "own" ? "Own lane" : lane == "all" ? "Whole width that was looked at" : "Lane \u201c" + short_text(lane, 60) + "\u201d";
+}
+
+data table(const ComparedDrive& drive, const std::vector<std::vector<ExtentSummary>>& summaries, const Axes& axes, ExtentPlane plane,
+           const std::string& lane) {
+    data part, limits{List::list}, heads{List::list};
+    for (const double at_m : axes.widths_at_m)
+        heads.push_back(fmt::format("{:g}", at_m));
+    for (const double limit_lx : axes.limits_lx) {
+        const ExtentKey key{plane, lane, limit_lx};
+        data rows{List::list};
+        ExtentSummary first;
+        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+            const auto found =
+                std::find_if(summaries[i].begin(), summaries[i].end(), [&](const auto& summary) { return summary.key == key; });
+            const ExtentSummary summary = found == summaries[i].end() ? ExtentSummary{} : *found;
+            if (i == 0)
+                first = summary;
+            data row = table_row(summary, first, i == 0, axes.widths_at_m);
+            row.set("lamp", short_text(drive.variants[i]->variant, 40));
+            row.set("colour", variant_colour(i));
+            row.set("first", i == 0);
+            row.set("limit", fmt::format("{:g}", limit_lx));
+            row.set("rows", fmt::format("{}", drive.variants.size()));
+            rows.push_back(row);
+        }
+        data limit;
+        limit.set("limit_rows", rows);
+        limits.push_back(limit);
+    }
+    part.set("title",
+             lane_title(lane) + (plane == ExtentPlane::road ? ", on the road\u2019s surface" : ", on a target that faces the lamps"));
+    part.set("own", lane == "own");
+    part.set("widths", heads);
+    part.set("limits", limits);
+    return part;
+}
+
+} // namespace
+
+data extent_tables(const ComparedDrive& drive) {
+    std::vector<std::vector<ExtentSummary>> summaries;
+    for (const PlayedVariant* const played : drive.variants) {
+        summaries.emplace_back();
+        for (const ExtentKey& key : extent_keys(*played))
+            summaries.back().push_back(summarise(*played, key));
+    }
+    const Axes axes = axes_of(drive, summaries);
+    data own{List::list}, others{List::list};
+    bool has_own = false, has_others = false;
+    for (const auto& [plane, lane] : axes.places) {
+        (lane == "own" ? own : others).push_back(table(drive, summaries, axes, plane, lane));
+        (lane == "own" ? has_own : has_others) = true;
+    }
+    data part;
+    part.set("has_extents", has_own || has_others);
+    part.set("own_tables", own);
+    part.set("has_other_tables", has_others);
+    part.set("other_tables", others);
+    part.set("compares", drive.variants.size() > 1);
+    part.set("first_lamp", drive.variants.empty() ? "" : short_text(drive.variants.front()->variant, 40));
+    return part;
+}
+
+data headline_reaches(const ComparedDrive& drive) {
+    data cards{List::list};
+    for (const double limit_lx : {1.0, 5.0}) {
+        std::optional<Spread> first;
+        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+            const ExtentSummary summary = summarise(*drive.variants[i], {ExtentPlane::road, "own", limit_lx});
+            if (i == 0)
+                first = summary.reach_m;
+            if (!summary.reach_m)
+                continue;
+            data card;
+            card.set("lamp", short_text(drive.variants[i]->variant, 30));
+            card.set("colour", variant_colour(i));
+            card.set("limit", fmt::format("{:g}", limit_lx));
+            card.set("reach", compared(summary.reach_m, first, i == 0, 1, summary.cut_off * 2 > summary.moments));
+            card.set("aim", text_or_dash(summary.metres_per_tenth_degree, 1));
+            card.set("has_aim", summary.metres_per_tenth_degree.has_value());
+            cards.push_back(card);
+        }
+    }
+    return cards;
+}
+
+} // namespace fernlicht

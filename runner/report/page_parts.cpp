@@ -1,0 +1,170 @@
+#include "runner/report/page_parts.h"
+
+#include "runner/report/clean_text.h"
+#include "runner/report/extent_summary.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace fernlicht {
+
+using kainjow::mustache::data;
+using List = data::type;
+
+std::vector<ComparedDrive> compared_drives(const Report& report) {
+    std::vector<ComparedDrive> drives;
+    for (const PlayedVariant& played : report.played) {
+        const auto same = [&](const ComparedDrive& drive) { return drive.name == played.drive; };
+        auto found = std::find_if(drives.begin(), drives.end(), same);
+        if (found == drives.end())
+            found = drives.insert(drives.end(), ComparedDrive{played.drive, {}});
+        found->variants.push_back(&played);
+    }
+    return drives;
+}
+
+const char* variant_colour(std::size_t index) {
+    constexpr std::array<const char*, 6> colours{"#c24e00", "#0068a8", "#00795a", "#a8407f", "#8a6a00", "#4a4a4a"};
+    return colours[index % colours.size()];
+}
+
+std::string figure(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-')
+        text.erase(0, 1); // minus nothing
+    if (text.front() == '-')
+        text.replace(0, 1, "\u2212");
+    return text;
+}
+
+std::string signed_figure(double value, int decimals) {
+    const std::string text = figure(value, decimals);
+    const bool negative = text.starts_with("\u2212"), nothing = text.find_first_not_of("0.") == std::string::npos;
+    return negative || nothing ? text : "+" + text;
+}
+
+data verdict_part(const Report& report) {
+    data part;
+    std::size_t passed = 0, failed = 0, unmeasured = 0;
+    data failures{List::list}, gaps{List::list}, passes{List::list};
+    for (const PlayedVariant& played : report.played)
+        for (const Verdict& verdict : played.verdicts) {
+            data row;
+            row.set("name", clean_text(verdict.name));
+            row.set("text", clean_text(verdict.text));
+            row.set("rerun", clean_text(verdict.rerun));
+            row.set("has_rerun", !verdict.rerun.empty());
+            row.set("drive", clean_text(played.drive));
+            row.set("variant", clean_text(played.variant));
+            switch (verdict.kind) {
+            case VerdictKind::pass:
+                ++passed;
+                passes.push_back(row);
+                break;
+            case VerdictKind::fail:
+                ++failed;
+                failures.push_back(row);
+                break;
+            case VerdictKind::not_measured:
+                ++unmeasured;
+                gaps.push_back(row);
+                break;
+            }
+        }
+    const std::size_t limits = passed + failed + unmeasured;
+    const VerdictKind verdict = overall(report);
+    const bool none = limits == 0 && report.complete;
+    const char* const word = verdict == VerdictKind::fail           ? "Limits exceeded"
+                             : !report.complete                     ? "Incomplete"
+                             : verdict == VerdictKind::not_measured ? "Not everything was measured"
+                             : none                                 ? "No limits were set"
+                                                                    : "Within limits";
+    part.set("word", word);
+    part.set("class", none ? "none" : verdict_name(verdict));
+    part.set("mark", none ? "\u2013" : verdict == VerdictKind::fail ? "\u2717" : verdict == VerdictKind::pass ? "\u2713" : "?");
+    part.set("has_limits", limits > 0);
+    part.set("passed", fmt::format("{}", passed));
+    part.set("limits", fmt::format("{}", limits));
+    part.set("incomplete", !report.complete);
+    part.set("interrupted", clean_text(report.interrupted));
+    part.set("has_failures", failed > 0);
+    part.set("failures", failures);
+    part.set("has_gaps", unmeasured > 0);
+    part.set("gaps", gaps);
+    part.set("has_passes", passed > 0);
+    part.set("passes", passes);
+    return part;
+}
+
+data variant_details(const PlayedVariant& played) {
+    data part;
+    part.set("variant", clean_text(played.variant));
+    data lamps{List::list}, readings{List::list}, left_out{List::list}, notes{List::list};
+    for (const auto& [name, file] : played.lamps) {
+        data lamp;
+        lamp.set("lamp", clean_text(name));
+        lamp.set("file", clean_text(file));
+        lamps.push_back(lamp);
+    }
+    for (const Reading& reading : played.readings) {
+        data row;
+        row.set("name", clean_text(reading.name));
+        row.set("measured", reading.value.has_value());
+        row.set("value", reading.value ? fmt::format("{:.5g}", *reading.value) : "");
+        row.set("unit", clean_text(reading.unit == "m2" ? "m\u00b2" : reading.unit == "1" ? "" : reading.unit));
+        row.set("where", clean_text(reading.where));
+        row.set("frame", reading.tick < 0 ? "whole drive" : fmt::format("{}", reading.tick));
+        row.set("why_not", clean_text(reading.why_not));
+        readings.push_back(row);
+    }
+    for (const std::string& sentence : played.left_out)
+        left_out.push_back(clean_text(sentence));
+    for (const std::string& sentence : played.notes)
+        notes.push_back(clean_text(sentence));
+    part.set("ticks_done", fmt::format("{}", played.ticks_done));
+    part.set("ticks_planned", fmt::format("{}", played.ticks_planned));
+    part.set("lamps", lamps);
+    part.set("has_readings", !played.readings.empty());
+    part.set("readings", readings);
+    part.set("has_left_out", !played.left_out.empty());
+    part.set("left_out", left_out);
+    part.set("has_notes", !played.notes.empty());
+    part.set("notes", notes);
+    return part;
+}
+
+data context_part(const RunContext& context) {
+    data part;
+    part.set("command", clean_text(context.command));
+    part.set("started_utc", clean_text(context.started_utc));
+    data facts{List::list}, inputs{List::list};
+    const auto fact = [&](const std::string& name, const std::string& text) {
+        data row;
+        row.set("name", clean_text(name));
+        row.set("text", text.empty() ? "not known" : clean_text(text));
+        facts.push_back(row);
+    };
+    fact("Started", context.started_utc);
+    fact("Seed", fmt::format("{}", context.seed));
+    fact("Backend", context.backend);
+    fact("OpenGL renderer", context.gl_renderer);
+    fact("OpenGL version", context.gl_version);
+    fact("CPU", context.cpu);
+    fact("System", context.os);
+    for (const auto& [name, version] : context.versions)
+        fact(name, version);
+    for (const FileRead& file : context.inputs) {
+        data row;
+        row.set("path", clean_text(file.path.string()));
+        row.set("bytes", fmt::format("{}", file.bytes));
+        row.set("xxh128", clean_text(file.xxh128));
+        inputs.push_back(row);
+    }
+    part.set("facts", facts);
+    part.set("has_inputs", !context.inputs.empty());
+    part.set("inputs", inputs);
+    return part;
+}
+
+} // namespace fernlicht

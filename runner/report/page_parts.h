@@ -1,0 +1,43 @@
+// The parts of report.html as data for its template. Every text in them is clean; the template escapes it.
+#pragma once
+
+#include "runner/report/report.h"
+
+#include <kainjow/mustache.hpp>
+
+namespace fernlicht {
+
+/// One drive with every lamp set that it was played with, in the order of the report.
+struct ComparedDrive {
+    std::string name;
+    std::vector<const PlayedVariant*> variants;
+};
+std::vector<ComparedDrive> compared_drives(const Report& report);
+
+/// Colours of the variants in every table and plot (after Okabe and Ito: told apart by colour-blind readers too); starts again after six.
+const char* variant_colour(std::size_t index);
+
+/// Numbers for people: fixed decimals with U+2212 as minus sign; a difference always carries its sign.
+std::string figure(double value, int decimals);
+std::string signed_figure(double value, int decimals);
+
+/// Verdict, its reasons, and what could not be measured.
+kainjow::mustache::data verdict_part(const Report& report);
+
+/// Reach, width and area per limit and lamp with differences from the first lamp set; one table per plane and lane.
+kainjow::mustache::data extent_tables(const ComparedDrive& drive);
+
+/// Figures for the top of the page: reach in the own lane at 1 and 5 lx per lamp set.
+kainjow::mustache::data headline_reaches(const ComparedDrive& drive);
+
+/// Moments with pictures: views and maps side by side per lamp set. Takes the bytes that it embeds from `budget_bytes`; pictures that no
+/// longer fit are linked.
+kainjow::mustache::data moments_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes);
+
+/// Readings, lamps, left-out list and notes of one lamp set.
+kainjow::mustache::data variant_details(const PlayedVariant& played);
+
+/// Commands, versions, machine, input files.
+kainjow::mustache::data context_part(const RunContext& context);
+
+} // namespace fernlicht

@@ -1,0 +1,61 @@
+#include "report_files.h"
+#include "runner/report/clean_text.h"
+#include "runner/report/page_parts.h"
+#include "runner/report/report_writers.h"
+
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+using kainjow::mustache::data;
+using List = data::type;
+
+/// Of pictures as they lie on disk; base64 makes a third more of it. Larger pages open slowly.
+constexpr std::size_t embedded_bytes = std::size_t{48} << 20;
+
+std::string title_of(const std::vector<ComparedDrive>& drives) {
+    std::string title;
+    for (const ComparedDrive& drive : drives)
+        title += (title.empty() ? "" : ", ") + short_text(drive.name, 60);
+    return title.empty() ? "Nothing was played" : short_text(title, 160);
+}
+
+data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes, std::size_t number) {
+    data part, details{List::list};
+    for (const PlayedVariant* const played : drive.variants)
+        details.push_back(variant_details(*played));
+    part.set("number", fmt::format("{}", number));
+    part.set("name", short_text(drive.name, 200));
+    part.set("headline", headline_reaches(drive));
+    part.set("extents", extent_tables(drive));
+    part.set("pictures", moments_part(drive, folder, budget_bytes));
+    part.set("columns", fmt::format("{}", drive.variants.size()));
+    part.set("details", details);
+    return part;
+}
+
+} // namespace
+
+std::string report_html(const Report& report, const std::filesystem::path& folder) {
+    const std::vector<ComparedDrive> drives = compared_drives(report);
+    std::size_t budget_bytes = embedded_bytes;
+    data page, parts{List::list};
+    for (std::size_t i = 0; i < drives.size(); ++i)
+        parts.push_back(drive_part(drives[i], folder, budget_bytes, i + 1));
+    page.set("title", title_of(drives));
+    page.set("style", std::string(report_file("report.css")));
+    page.set("script", std::string(report_file("report.js")));
+    page.set("extent_table", std::string(report_file("extent_table.mustache")));
+    page.set("verdict", verdict_part(report));
+    page.set("drives", parts);
+    page.set("context", context_part(report.context));
+    kainjow::mustache::mustache page_template{std::string(report_file("report.html.mustache"))};
+    std::string html = page_template.render(page);
+    if (!page_template.is_valid())
+        throw std::logic_error("report.html.mustache: " + page_template.error_message());
+    return html;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,272 @@
+#include "runner/report/clean_text.h"
+#include "runner/report/extent_summary.h"
+#include "runner/report/json_text.h"
+#include "runner/report/report_writers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double finite(double value, const char* what) {
+    if (!std::isfinite(value))
+        throw std::logic_error(fmt::format("report: {} is {}; a measurement that cannot be made is not_measured", what, value));
+    return value;
+}
+
+/// Extents per moment are stored to a tenth of a millimetre: far below the grid's own error, a third of the bytes.
+double rounded(double value, const char* what) { return std::round(finite(value, what) * 1e4) / 1e4 + 0.0; }
+
+Json pairs(const std::vector<std::pair<std::string, std::string>>& texts) {
+    Json out = Json::object();
+    for (const auto& [name, text] : texts)
+        out[name] = text;
+    return out;
+}
+
+Json optional_number(const std::optional<double>& value, const char* what) { return value ? Json(finite(*value, what)) : Json(nullptr); }
+
+Json spread_json(const std::optional<Spread>& spread) {
+    if (!spread)
+        return nullptr;
+    return {{"count", spread->count},
+            {"median", finite(spread->median, "median")},
+            {"p05", finite(spread->p05, "p05")},
+            {"p95", finite(spread->p95, "p95")},
+            {"minimum", finite(spread->minimum, "minimum")},
+            {"maximum", finite(spread->maximum, "maximum")},
+            {"mean", finite(spread->mean, "mean")},
+            {"standard_deviation", finite(spread->standard_deviation, "standard deviation")}};
+}
+
+Json context_json(const RunContext& context) {
+    Json inputs = Json::array();
+    for (const FileRead& file : context.inputs)
+        inputs.push_back({{"path", file.path.string()}, {"bytes", file.bytes}, {"xxh128", file.xxh128}});
+    return {{"command", context.command},
+            {"started_utc", context.started_utc},
+            {"seed", context.seed},
+            {"backend", context.backend},
+            {"gl_renderer", context.gl_renderer},
+            {"gl_version", context.gl_version},
+            {"cpu", context.cpu},
+            {"os", context.os},
+            {"versions", pairs(context.versions)},
+            {"inputs", inputs}};
+}
+
+Json rows_json(const Report& report) {
+    Json rows = Json::array();
+    for (const PlayedVariant& played : report.played)
+        for (const Reading& reading : played.readings) {
+            Json row{{"name", reading.name},     {"value", optional_number(reading.value, reading.name.c_str())},  {"unit", reading.unit},
+                     {"where", reading.where},   {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)}, {"drive", played.drive},
+                     {"variant", played.variant}};
+            if (!reading.value)
+                row["not_measured"] = reading.why_not;
+            rows.push_back(std::move(row));
+        }
+    return rows;
+}
+
+Json verdicts_json(const std::vector<Verdict>& verdicts) {
+    Json out = Json::array();
+    for (const Verdict& verdict : verdicts)
+        out.push_back({{"name", verdict.name}, {"verdict", verdict_name(verdict.kind)}, {"text", verdict.text}, {"rerun", verdict.rerun}});
+    return out;
+}
+
+Json key_json(const ExtentKey& key) {
+    return {{"plane", plane_name(key.plane)}, {"lane", key.lane}, {"limit_lx", finite(key.limit_lx, "limit")}};
+}
+
+Json summary_json(const PlayedVariant& played) {
+    Json out = Json::array();
+    for (const ExtentKey& key : extent_keys(played)) {
+        const ExtentSummary summary = summarise(played, key);
+        Json entry = key_json(key);
+        entry["moments"] = summary.moments;
+        entry["moments_cut_off"] = summary.cut_off;
+        entry["reach_m"] = spread_json(summary.reach_m);
+        entry["widths_m"] = Json::array();
+        for (const auto& [at_m, spread] : summary.width_m)
+            entry["widths_m"].push_back({{"at_m", finite(at_m, "width's distance")}, {"width_m", spread_json(spread)}});
+        entry["area_m2"] = spread_json(summary.area_m2);
+        entry["largest_twin_difference_m"] = optional_number(summary.largest_twin_difference_m, "difference from the twin");
+        if (key.lane == "own") {
+            entry["metres_per_tenth_degree"] = optional_number(summary.metres_per_tenth_degree, "sensitivity to aim");
+            entry["metres_per_tenth_flux"] = optional_number(summary.metres_per_tenth_flux, "sensitivity to flux");
+            entry["grid_error_m"] = optional_number(summary.grid_error_m, "grid error");
+        }
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+using ExtentsOfRow = std::vector<LaneExtent> ExtentRow::*;
+
+/// One column per quantity, one entry per moment; null where the lane is not there.
+Json series_json(const PlayedVariant& played, ExtentsOfRow source, const ExtentKey& key) {
+    Json reach = Json::array(), left_edge = Json::array(), right_edge = Json::array(), unlit = Json::array(), cut_off = Json::array(),
+         area = Json::array();
+    std::map<double, std::array<Json, 3>> widths; // left, right, width by distance ahead
+    std::size_t moment = 0;
+    for (const ExtentRow& row : played.extents) {
+        const LaneExtent* const extent = find_extent(row.*source, key);
+        const auto metres = [&](double value, const char* what) { return extent ? Json(rounded(value, what)) : Json(nullptr); };
+        static const LaneExtent nothing;
+        const LaneExtent& shown = extent ? *extent : nothing;
+        reach.push_back(metres(shown.reach_centre_m, "reach"));
+        left_edge.push_back(metres(shown.reach_left_edge_m, "reach at the left edge"));
+        right_edge.push_back(metres(shown.reach_right_edge_m, "reach at the right edge"));
+        unlit.push_back(metres(shown.unlit_before_reach_m, "unlit length"));
+        cut_off.push_back(extent ? Json(extent->reach_is_cut_off) : Json(nullptr));
+        area.push_back(metres(shown.area_m2, "area"));
+        for (const LaneExtent::Width& width : shown.widths) {
+            auto& columns = widths[finite(width.at_m, "width's distance")];
+            const std::array<double, 3> values{width.left_m, width.right_m, width.width_m};
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                if (columns[i].is_null())
+                    columns[i] = Json::array();
+                while (columns[i].size() < moment)
+                    columns[i].push_back(nullptr);
+                columns[i].push_back(rounded(values[i], "width"));
+            }
+        }
+        ++moment;
+    }
+    Json out = key_json(key);
+    out["reach_centre_m"] = reach;
+    out["reach_left_edge_m"] = left_edge;
+    out["reach_right_edge_m"] = right_edge;
+    out["unlit_before_reach_m"] = unlit;
+    out["reach_is_cut_off"] = cut_off;
+    out["area_m2"] = area;
+    out["widths"] = Json::array();
+    for (auto& [at_m, columns] : widths) {
+        for (Json& column : columns)
+            while (column.size() < moment)
+                column.push_back(nullptr);
+        out["widths"].push_back({{"at_m", at_m}, {"left_m", columns[0]}, {"right_m", columns[1]}, {"width_m", columns[2]}});
+    }
+    return out;
+}
+
+/// Sensitivities or grid errors of the own lane: one column per quantity of each (plane, limit).
+template <class Entry> Json columns_json(const PlayedVariant& played, std::vector<Entry> ExtentRow::*entries,
+                                         const std::vector<std::pair<const char*, double Entry::*>>& quantities) {
+    std::vector<std::pair<ExtentPlane, double>> keys;
+    for (const ExtentRow& row : played.extents)
+        for (const Entry& entry : row.*entries)
+            if (std::find(keys.begin(), keys.end(), std::pair(entry.plane, entry.limit_lx)) == keys.end())
+                keys.emplace_back(entry.plane, entry.limit_lx);
+    Json out = Json::array();
+    for (const auto& [plane, limit_lx] : keys) {
+        Json columns{{"plane", plane_name(plane)}, {"limit_lx", finite(limit_lx, "limit")}};
+        for (const auto& [name, quantity] : quantities) {
+            Json column = Json::array();
+            for (const ExtentRow& row : played.extents) {
+                const auto found = std::find_if((row.*entries).begin(), (row.*entries).end(),
+                                                [&](const Entry& entry) { return entry.plane == plane && entry.limit_lx == limit_lx; });
+                column.push_back(found == (row.*entries).end() ? Json(nullptr) : Json(rounded((*found).*quantity, name)));
+            }
+            columns[name] = std::move(column);
+        }
+        out.push_back(std::move(columns));
+    }
+    return out;
+}
+
+Json extents_json(const PlayedVariant& played) {
+    Json frames = Json::array(), time = Json::array(), distance = Json::array();
+    for (const ExtentRow& row : played.extents) {
+        frames.push_back(row.tick);
+        time.push_back(rounded(row.time_s, "time"));
+        distance.push_back(rounded(row.distance_m, "distance"));
+    }
+    Json out{{"frame", frames}, {"time_s", time}, {"distance_m", distance}, {"rendered", Json::array()}, {"twin", Json::array()}};
+    for (const ExtentKey& key : extent_keys(played)) {
+        const auto occurs = [&](ExtentsOfRow source) {
+            return std::any_of(played.extents.begin(), played.extents.end(),
+                               [&](const ExtentRow& row) { return find_extent(row.*source, key) != nullptr; });
+        };
+        if (occurs(&ExtentRow::rendered))
+            out["rendered"].push_back(series_json(played, &ExtentRow::rendered, key));
+        if (occurs(&ExtentRow::twin))
+            out["twin"].push_back(series_json(played, &ExtentRow::twin, key));
+    }
+    out["sensitivity"] = columns_json<ReachSensitivity>(played, &ExtentRow::sensitivity,
+                                                        {{"metres_per_tenth_degree", &ReachSensitivity::metres_per_tenth_degree},
+                                                         {"metres_per_tenth_flux", &ReachSensitivity::metres_per_tenth_flux}});
+    out["grid_error"] =
+        columns_json<GridError>(played, &ExtentRow::grid_errors, {{"reach_m", &GridError::reach_m}, {"area_m2", &GridError::area_m2}});
+    return out;
+}
+
+Json drive_json(const PlayedVariant& played) {
+    Json frames = Json::array(), speed = Json::array();
+    for (const StoredFrame& frame : played.frames)
+        frames.push_back({{"frame", frame.tick},
+                          {"time_s", finite(frame.time_s, "time")},
+                          {"view", frame.view},
+                          {"png", frame.png.empty() ? Json(nullptr) : Json(frame.png)},
+                          {"exr", frame.exr.empty() ? Json(nullptr) : Json(frame.exr)}});
+    for (const auto& [time_s, mps] : played.speed_mps)
+        speed.push_back({finite(time_s, "time"), finite(mps, "speed")});
+    return {{"drive", played.drive},
+            {"variant", played.variant},
+            {"lamps", pairs(played.lamps)},
+            {"ticks_planned", played.ticks_planned},
+            {"ticks_done", played.ticks_done},
+            {"verdicts", verdicts_json(played.verdicts)},
+            {"left_out", played.left_out},
+            {"notes", played.notes},
+            {"summary", summary_json(played)},
+            {"frames", frames},
+            {"speed_mps", speed},
+            {"extents", extents_json(played)}};
+}
+
+Json timing_json(const Report& report) {
+    Json out = Json::array();
+    for (const PlayedVariant& played : report.played)
+        for (const PassTime& pass : played.passes) {
+            Json samples = Json::array();
+            for (const double seconds : pass.seconds)
+                samples.push_back(finite(seconds, "a time"));
+            out.push_back({{"drive", played.drive},
+                           {"variant", played.variant},
+                           {"pass", pass.name},
+                           {"warm_up_dropped", played.warm_up_dropped},
+                           {"spread_s", spread_json(spread_of(pass.seconds))},
+                           {"samples_s", samples}});
+        }
+    return out;
+}
+
+} // namespace
+
+std::string report_json(const Report& report) {
+    Json drives = Json::array();
+    for (const PlayedVariant& played : report.played)
+        drives.push_back(drive_json(played));
+    const Json whole{{"schema", "fernlicht report"},
+                     {"schema_version", 1},
+                     {"verdict", verdict_name(overall(report))},
+                     {"complete", report.complete},
+                     {"interrupted", report.complete ? Json(nullptr) : Json(report.interrupted)},
+                     {"rows", rows_json(report)},
+                     {"drives", drives},
+                     {"context", context_json(report.context)},
+                     {"timing", timing_json(report)}};
+    return json_text(whole);
+}
+
+} // namespace fernlicht

@@ -1,0 +1,11 @@
+// A report with plausible numbers from two made-up beams, for the tests of the writers.
+#pragma once
+
+#include "runner/report/report.h"
+
+namespace fernlicht::tests {
+
+/// `moments` moments, 0.1 s apart, of two lamp sets ("halogen", "xenon") over a drive called "country road"; maps, but no picture files.
+Report sample_report(int moments = 120);
+
+} // namespace fernlicht::tests
