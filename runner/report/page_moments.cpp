@@ -1,6 +1,7 @@
 #include "runner/plots/png.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/page_parts.h"
+#include "runner/report/page_plots.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -115,6 +116,16 @@ data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const st
     return rows;
 }
 
+data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
+    data maps{List::list};
+    for (const PlayedVariant* const played : drive.variants)
+        for (const LuxMap& map : played->maps)
+            if (map.tick == moment.tick)
+                if (std::string svg = lux_map_svg(map, played->variant); !svg.empty())
+                    maps.push_back(std::move(svg));
+    return maps;
+}
+
 /// Links to the stored pictures of moments that the page does not show.
 data links_of(const ComparedDrive& drive, const std::set<int>& shown) {
     data links{List::list};
@@ -145,6 +156,7 @@ data moments_part(const ComparedDrive& drive, const std::filesystem::path& folde
         part.set("time", figure(moment.time_s, 2));
         part.set("has_distance", moment.distance_m.has_value());
         part.set("distance", moment.distance_m ? figure(*moment.distance_m, 1) : "");
+        part.set("maps", maps_at(drive, moment));
         part.set("views", views_at(drive, moment, views, folder, budget_bytes));
         moments.push_back(part);
     }

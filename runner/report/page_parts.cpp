@@ -134,6 +134,28 @@ data variant_details(const PlayedVariant& played) {
     return part;
 }
 
+data timing_table(const ComparedDrive& drive) {
+    data rows{List::list};
+    for (std::size_t i = 0; i < drive.variants.size(); ++i)
+        for (const PassTime& pass : drive.variants[i]->passes) {
+            const std::optional<Spread> spread = spread_of(pass.seconds);
+            if (!spread)
+                continue;
+            data row;
+            row.set("lamp", short_text(drive.variants[i]->variant, 40));
+            row.set("colour", variant_colour(i));
+            row.set("pass", short_text(pass.name, 40));
+            row.set("count", fmt::format("{}", spread->count));
+            row.set("dropped", fmt::format("{}", drive.variants[i]->warm_up_dropped));
+            for (const auto& [name, seconds] :
+                 {std::pair("median", spread->median), std::pair("p05", spread->p05), std::pair("p95", spread->p95),
+                  std::pair("minimum", spread->minimum), std::pair("maximum", spread->maximum)})
+                row.set(name, figure(1e3 * seconds, 2));
+            rows.push_back(row);
+        }
+    return rows;
+}
+
 data context_part(const RunContext& context) {
     data part;
     part.set("command", clean_text(context.command));

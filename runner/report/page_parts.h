@@ -37,6 +37,9 @@ kainjow::mustache::data moments_part(const ComparedDrive& drive, const std::file
 /// Readings, lamps, left-out list and notes of one lamp set.
 kainjow::mustache::data variant_details(const PlayedVariant& played);
 
+/// Spread of each pass of each lamp set.
+kainjow::mustache::data timing_table(const ComparedDrive& drive);
+
 /// Commands, versions, machine, input files.
 kainjow::mustache::data context_part(const RunContext& context);
 

@@ -1,6 +1,7 @@
 #include "report_files.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/page_parts.h"
+#include "runner/report/page_plots.h"
 #include "runner/report/report_writers.h"
 
 #include <fmt/format.h>
@@ -22,6 +23,29 @@ std::string title_of(const std::vector<ComparedDrive>& drives) {
     return title.empty() ? "Nothing was played" : short_text(title, 160);
 }
 
+data plots_part(const ComparedDrive& drive) {
+    data part, reaches{List::list};
+    bool has_reaches = false;
+    const auto add = [&](data& list, const std::string& svg) {
+        if (!svg.empty())
+            list.push_back(svg);
+        return !svg.empty();
+    };
+    const std::vector<double> limits_lx = plotted_limits_lx(drive);
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
+        for (const double limit_lx : limits_lx)
+            has_reaches = add(reaches, reach_svg(drive, plane, limit_lx)) || has_reaches;
+    data speeds{List::list}, timings{List::list};
+    part.set("has_reaches", has_reaches);
+    part.set("reaches", reaches);
+    add(speeds, speed_svg(drive));
+    part.set("speeds", speeds);
+    part.set("has_timing", add(timings, timing_svg(drive)));
+    part.set("timings", timings);
+    part.set("passes", timing_table(drive));
+    return part;
+}
+
 data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes, std::size_t number) {
     data part, details{List::list};
     for (const PlayedVariant* const played : drive.variants)
@@ -31,6 +55,7 @@ data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder,
     part.set("headline", headline_reaches(drive));
     part.set("extents", extent_tables(drive));
     part.set("pictures", moments_part(drive, folder, budget_bytes));
+    part.set("plots", plots_part(drive));
     part.set("columns", fmt::format("{}", drive.variants.size()));
     part.set("details", details);
     return part;

@@ -1,5 +1,7 @@
 #include "tests/runner/sample_report.h"
 
+#include "runner/plots/png.h"
+
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -131,7 +133,31 @@ PlayedVariant played_with(const std::string& name, const MadeUpBeam& beam, int m
     return played;
 }
 
+plots::Colour seen(const MadeUpBeam& beam, double right_deg, double up_deg) {
+    if (up_deg >= -0.2)
+        return {3, 4, 9};
+    const double ahead_m = 1.2 / std::tan(radians(-up_deg)), left_m = -ahead_m * std::tan(radians(right_deg));
+    const bool marking = std::abs(std::abs(left_m) - 1.75) < 0.07;
+    const double luminance = beam.lux(ahead_m, left_m, ExtentPlane::road) * (marking ? 0.1 : 0.02);
+    const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * std::pow(std::min(1.0, luminance * 0.8), 1.0 / 2.2)));
+    return {grey, grey, static_cast<std::uint8_t>(grey * 0.9)};
+}
+
+const MadeUpBeam halogen{24000.0, 14.0, 3.0, -0.573}, xenon{42000.0, 19.0, 2.6, -0.573};
+
 } // namespace
+
+void write_sample_frames(const Report& report, const std::filesystem::path& folder) {
+    for (const PlayedVariant& played : report.played)
+        for (const StoredFrame& frame : played.frames) {
+            Image<plots::Colour> pixels(320, 180);
+            for (int y = 0; y < pixels.height(); ++y)
+                for (int x = 0; x < pixels.width(); ++x)
+                    pixels.at(x, y) = seen(played.variant == "xenon" ? xenon : halogen, (x - 159.5) * 0.12, (70.0 - y) * 0.12);
+            std::filesystem::create_directories((folder / frame.png).parent_path());
+            write_file(folder / frame.png, plots::png_of_pixels(pixels));
+        }
+}
 
 Report sample_report(int moments) {
     Report report;
@@ -145,8 +171,8 @@ Report sample_report(int moments) {
     report.context.started_utc = "2024-11-21T19:30:00Z";
     report.context.inputs = {{"drives/country road.yaml", 1834, "0123456789abcdef0123456789abcdef"},
                              {"lamps/halogen-low.ies", 48213, "fedcba9876543210fedcba9876543210"}};
-    report.played.push_back(played_with("halogen", {24000.0, 14.0, 3.0, -0.573}, moments));
-    report.played.push_back(played_with("xenon", {42000.0, 19.0, 2.6, -0.573}, moments));
+    report.played.push_back(played_with("halogen", halogen, moments));
+    report.played.push_back(played_with("xenon", xenon, moments));
     report.played[0].verdicts.push_back({VerdictKind::fail, "reach_5lx_road_own_m", "13.5 m, limit at least 15 m",
                                          "fernlicht run 'drives/country road.yaml' --frames 0:1"});
     report.played[1].verdicts.push_back({VerdictKind::pass, "reach_5lx_road_own_m", "17.5 m, limit at least 15 m", ""});

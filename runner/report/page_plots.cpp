@@ -1,0 +1,179 @@
+#include "runner/report/page_plots.h"
+
+#include "runner/plots/svg.h"
+#include "runner/report/clean_text.h"
+#include "runner/report/extent_summary.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace fernlicht {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN(); // what plots leave out
+
+plots::Colour colour_of(std::size_t variant) {
+    unsigned rgb = 0;
+    std::from_chars(variant_colour(variant) + 1, variant_colour(variant) + 7, rgb, 16);
+    return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255), static_cast<std::uint8_t>(rgb & 255)};
+}
+
+/// A drive that stands still has no use for distance as its axis.
+bool by_distance(const ComparedDrive& drive) {
+    double farthest_m = 0.0;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const ExtentRow& row : played->extents)
+            farthest_m = std::max(farthest_m, row.distance_m);
+    return farthest_m > 1.0;
+}
+
+std::vector<double> all_of(const plots::Polyline& points, double plots::Point::*coordinate) {
+    std::vector<double> values;
+    for (const plots::Point& point : points)
+        values.push_back(point.*coordinate);
+    return values;
+}
+
+plots::Polyline reach_line(const PlayedVariant& played, std::vector<LaneExtent> ExtentRow::*source, const ExtentKey& key, bool distance) {
+    plots::Polyline line;
+    for (const ExtentRow& row : played.extents) {
+        const LaneExtent* const extent = find_extent(row.*source, key);
+        line.push_back({distance ? row.distance_m : row.time_s, extent ? extent->reach_centre_m : not_a_number});
+    }
+    return line;
+}
+
+plots::Band aim_band(const PlayedVariant& played, const ExtentKey& key, const plots::Polyline& reach) {
+    plots::Band band;
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+        const auto& sensitivity = played.extents[i].sensitivity;
+        const auto found = std::find_if(sensitivity.begin(), sensitivity.end(), [&](const ReachSensitivity& entry) {
+            return entry.plane == key.plane && entry.limit_lx == key.limit_lx;
+        });
+        const double half_m = found == sensitivity.end() ? not_a_number : std::abs(found->metres_per_tenth_degree);
+        band.x.push_back(reach[i].x);
+        band.low.push_back(std::max(0.0, reach[i].y - half_m));
+        band.high.push_back(reach[i].y + half_m);
+    }
+    return band;
+}
+
+bool has_value(const plots::Polyline& line) {
+    return std::any_of(line.begin(), line.end(), [](const plots::Point& point) { return std::isfinite(point.y); });
+}
+
+void set_axes(plots::Figure& figure, const std::string& x_label, const std::string& x_unit, const std::string& y_label,
+              const std::string& y_unit) {
+    std::vector<double> x, y;
+    for (const plots::Series& series : figure.series) {
+        const std::vector<double> xs = all_of(series.points, &plots::Point::x), ys = all_of(series.points, &plots::Point::y);
+        x.insert(x.end(), xs.begin(), xs.end());
+        y.insert(y.end(), ys.begin(), ys.end());
+    }
+    for (const plots::Band& band : figure.bands)
+        y.insert(y.end(), band.high.begin(), band.high.end());
+    figure.x = plots::axis_around(x_label, x_unit, x);
+    figure.y = plots::axis_around(y_label, y_unit, y, plots::Scale::linear, true);
+    // Zero to the last sample fills the plot; round ends would leave it half empty.
+    if (const double last = *std::max_element(x.begin(), x.end()), first = *std::min_element(x.begin(), x.end()); last > first) {
+        figure.x.from = first;
+        figure.x.to = last;
+    }
+}
+
+} // namespace
+
+std::vector<double> plotted_limits_lx(const ComparedDrive& drive) {
+    std::vector<double> limits;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const ExtentKey& key : extent_keys(*played))
+            if (key.lane == "own")
+                limits.push_back(key.limit_lx);
+    std::sort(limits.begin(), limits.end());
+    limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
+    std::vector<double> usual;
+    for (const double limit_lx : {1.0, 5.0})
+        if (std::binary_search(limits.begin(), limits.end(), limit_lx))
+            usual.push_back(limit_lx);
+    if (!usual.empty() || limits.size() < 2)
+        return usual.empty() ? limits : usual;
+    return {limits.front(), limits.back()};
+}
+
+std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limit_lx) {
+    const ExtentKey key{plane, "own", limit_lx};
+    const bool distance = by_distance(drive);
+    plots::Figure figure;
+    bool measured = false;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const PlayedVariant& played = *drive.variants[i];
+        const std::string name = short_text(played.variant, 24);
+        plots::Polyline rendered = reach_line(played, &ExtentRow::rendered, key, distance),
+                        twin = reach_line(played, &ExtentRow::twin, key, distance);
+        measured = measured || has_value(rendered) || has_value(twin);
+        plots::Band band = aim_band(played, key, has_value(rendered) ? rendered : twin);
+        band.colour = colour_of(i);
+        band.opacity = 0.16;
+        figure.bands.push_back(std::move(band));
+        const bool lone = played.extents.size() == 1;
+        if (has_value(rendered))
+            figure.series.push_back({name, std::move(rendered), colour_of(i), 2.2, "", lone});
+        if (has_value(twin))
+            figure.series.push_back({name + ", twin", std::move(twin), colour_of(i), 0.9, "3 3", lone});
+    }
+    if (!measured)
+        return {};
+    figure.title = fmt::format("Reach at {:g} lx on {}", limit_lx, plane == ExtentPlane::road ? "the road" : "a facing target");
+    figure.width_px = 640.0;
+    figure.height_px = 340.0;
+    set_axes(figure, distance ? "distance along the route" : "time", distance ? "m" : "s", "reach, own lane", "m");
+    return plots::svg_of(figure);
+}
+
+std::string speed_svg(const ComparedDrive& drive) {
+    plots::Figure figure;
+    plots::Series speed;
+    speed.colour = {60, 60, 60};
+    for (const auto& [time_s, mps] : drive.variants.front()->speed_mps)
+        speed.points.push_back({time_s, mps * 3.6});
+    if (!has_value(speed.points))
+        return {};
+    speed.markers = speed.points.size() == 1;
+    figure.series.push_back(std::move(speed));
+    figure.title = "Speed";
+    figure.width_px = 640.0;
+    figure.height_px = 240.0;
+    set_axes(figure, "time", "s", "speed", "km/h");
+    return plots::svg_of(figure);
+}
+
+std::string timing_svg(const ComparedDrive& drive) {
+    plots::Figure figure;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i)
+        for (const PassTime& pass : drive.variants[i]->passes) {
+            if (pass.name != "frame" || pass.seconds.empty())
+                continue;
+            plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.3, "", pass.seconds.size() == 1};
+            for (std::size_t k = 0; k < pass.seconds.size(); ++k)
+                series.points.push_back(
+                    {static_cast<double>(k + static_cast<std::size_t>(drive.variants[i]->warm_up_dropped)), 1e3 * pass.seconds[k]});
+            figure.series.push_back(std::move(series));
+            plots::Mark median;
+            median.value = 1e3 * spread_of(pass.seconds)->median;
+            median.colour = colour_of(i);
+            figure.marks.push_back(median);
+        }
+    if (figure.series.empty())
+        return {};
+    figure.title = "Time per frame";
+    figure.subtitle = "broken lines: medians";
+    figure.width_px = 640.0;
+    figure.height_px = 340.0;
+    set_axes(figure, "frame", "", "time", "ms");
+    return plots::svg_of(figure);
+}
+
+} // namespace fernlicht

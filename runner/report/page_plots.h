@@ -1,0 +1,25 @@
+// The figures of report.html as SVG, ready to stand in the page.
+#pragma once
+
+#include "runner/report/page_parts.h"
+
+namespace fernlicht {
+
+/// Lux on the road from above, ahead to the right: false colours on one fixed logarithmic scale (0.1 to 100 lx, so that any two maps
+/// compare), isolux lines at 1, 3, 5, 10, 30 and 50 lx, lane and road edges, metres from the car's origin. "" for an empty map.
+std::string lux_map_svg(const LuxMap& map, const std::string& lamp);
+
+/// Reach in the own lane over the drive: a line per lamp set, the twin's as a thin dashed line, the band of +-0.1 degrees of aim.
+/// "" when nothing of that plane and limit was measured.
+std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limit_lx);
+
+/// Speed over time. All lamp sets drive alike, so the first one's. "" without samples.
+std::string speed_svg(const ComparedDrive& drive);
+
+/// Time per moment of the pass "frame" per lamp set, with its median. "" without samples.
+std::string timing_svg(const ComparedDrive& drive);
+
+/// Limits worth a figure: 1 and 5 lx where they were measured, else the lowest and the highest that were.
+std::vector<double> plotted_limits_lx(const ComparedDrive& drive);
+
+} // namespace fernlicht
