@@ -21,6 +21,11 @@ plots::Colour colour_of(std::size_t variant) {
     return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255), static_cast<std::uint8_t>(rgb & 255)};
 }
 
+plots::Colour darker(plots::Colour colour) {
+    const auto half = [](std::uint8_t channel) { return static_cast<std::uint8_t>(channel / 2); };
+    return {half(colour.r), half(colour.g), half(colour.b)};
+}
+
 /// A drive that stands still has no use for distance as its axis.
 bool by_distance(const ComparedDrive& drive) {
     double farthest_m = 0.0;
@@ -122,7 +127,7 @@ std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limi
         if (has_value(rendered))
             figure.series.push_back({name, std::move(rendered), colour_of(i), 2.2, "", lone});
         if (has_value(twin))
-            figure.series.push_back({name + ", twin", std::move(twin), colour_of(i), 0.9, "3 3", lone});
+            figure.series.push_back({name + ", twin", std::move(twin), darker(colour_of(i)), 1.1, "2 4", lone});
     }
     if (!measured)
         return {};

@@ -4,6 +4,7 @@
 #include "runner/report/page_plots.h"
 #include "runner/report/report_writers.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -46,6 +47,18 @@ data plots_part(const ComparedDrive& drive) {
     return part;
 }
 
+/// "halogen against xenon, played 2024-11-21T19:30:00Z"
+std::string subtitle_of(const Report& report) {
+    std::vector<std::string> names;
+    for (const PlayedVariant& played : report.played)
+        if (std::find(names.begin(), names.end(), played.variant) == names.end())
+            names.push_back(played.variant);
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : " against ") + short_text(name, 40);
+    return (text.empty() ? "Played " : text + ", played ") + clean_text(report.context.started_utc);
+}
+
 data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes, std::size_t number) {
     data part, details{List::list};
     for (const PlayedVariant* const played : drive.variants)
@@ -70,6 +83,8 @@ std::string report_html(const Report& report, const std::filesystem::path& folde
     for (std::size_t i = 0; i < drives.size(); ++i)
         parts.push_back(drive_part(drives[i], folder, budget_bytes, i + 1));
     page.set("title", title_of(drives));
+    page.set("subtitle", subtitle_of(report));
+    page.set("several", drives.size() > 1);
     page.set("style", std::string(report_file("report.css")));
     page.set("script", std::string(report_file("report.js")));
     page.set("extent_table", std::string(report_file("extent_table.mustache")));

@@ -1,0 +1,34 @@
+// The folder that a run writes to: never another run's, never somebody's files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace fernlicht {
+
+/// "out/<drive>-20241121T193000Z" below the working folder; characters of `drive` that are not plain become "-". When that exists, "-2",
+/// "-3" ... is added.
+std::filesystem::path default_output_folder(const std::string& drive, const std::string& started_utc);
+
+/// A run's folder while it is written. The file INCOMPLETE in it says so until finish(); after a crash, a full disk or Ctrl-C it stays and
+/// tells readers that not all is there.
+class OutputFolder {
+  public:
+    /// Creates `folder` (and those above it) or takes an empty one, and marks it as in progress.
+    /// Throws InputError naming it when it holds anything (another run, other files) or is no folder, DeviceError when it cannot be created
+    /// or written to (read-only, full disk, no right).
+    explicit OutputFolder(std::filesystem::path folder);
+
+    const std::filesystem::path& path() const { return folder_; }
+
+    /// Removes the mark: everything is there. Throws DeviceError.
+    void finish();
+
+  private:
+    std::filesystem::path folder_;
+};
+
+/// True for a folder whose run did not end.
+bool is_marked_incomplete(const std::filesystem::path& folder);
+
+} // namespace fernlicht
