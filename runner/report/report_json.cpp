@@ -118,11 +118,13 @@ Json series_json(const PlayedVariant& played, ExtentsOfRow source, const ExtentK
          area = Json::array();
     std::map<double, std::array<Json, 3>> widths; // left, right, width by distance ahead
     std::size_t moment = 0;
+    bool same_direction = true;
     for (const ExtentRow& row : played.extents) {
         const LaneExtent* const extent = find_extent(row.*source, key);
         const auto metres = [&](double value, const char* what) { return extent ? Json(rounded(value, what)) : Json(nullptr); };
         static const LaneExtent nothing;
         const LaneExtent& shown = extent ? *extent : nothing;
+        same_direction = extent ? extent->same_direction : same_direction;
         reach.push_back(metres(shown.reach_centre_m, "reach"));
         left_edge.push_back(metres(shown.reach_left_edge_m, "reach at the left edge"));
         right_edge.push_back(metres(shown.reach_right_edge_m, "reach at the right edge"));
@@ -143,6 +145,7 @@ Json series_json(const PlayedVariant& played, ExtentsOfRow source, const ExtentK
         ++moment;
     }
     Json out = key_json(key);
+    out["same_direction"] = same_direction;
     out["reach_centre_m"] = reach;
     out["reach_left_edge_m"] = left_edge;
     out["reach_right_edge_m"] = right_edge;

@@ -1,0 +1,116 @@
+// report.json against runner/report/report.schema.json, by the few words of JSON Schema that the schema uses.
+#include "runner/report/report_writers.h"
+#include "scenarios/values/files.h"
+#include "tests/runner/sample_report.h"
+
+#include <algorithm>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class Schema {
+  public:
+    explicit Schema(json root) : root_(std::move(root)) {}
+
+    /// Complaints about `value`, each with its place; none when it fits.
+    std::vector<std::string> check(const json& value) {
+        complaints_.clear();
+        check(value, root_, "");
+        return complaints_;
+    }
+
+  private:
+    void complain(const std::string& place, const std::string& what) { complaints_.push_back(place + ": " + what); }
+
+    static bool is_of(const json& value, const std::string& type) {
+        return (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
+               (type == "string" && value.is_string()) || (type == "integer" && value.is_number_integer()) ||
+               (type == "number" && value.is_number()) || (type == "boolean" && value.is_boolean()) || (type == "null" && value.is_null());
+    }
+
+    void check(const json& value, const json& schema, const std::string& place) {
+        static const std::set<std::string> known{"$schema", "$defs", "$ref",     "title",      "description", "type",
+                                                 "const",   "enum",  "required", "properties", "items",       "additionalProperties"};
+        for (const auto& [word, meaning] : schema.items())
+            if (!known.contains(word))
+                complain(place, "the schema says '" + word + "', which this test does not know");
+        if (schema.contains("$ref"))
+            check(value, root_.at(json::json_pointer(schema.at("$ref").get<std::string>().substr(1))), place);
+        if (schema.contains("const") && value != schema.at("const"))
+            complain(place, "is not " + schema.at("const").dump());
+        if (schema.contains("enum") && std::find(schema.at("enum").begin(), schema.at("enum").end(), value) == schema.at("enum").end())
+            complain(place, "is none of " + schema.at("enum").dump());
+        if (schema.contains("type")) {
+            const json types = schema.at("type").is_array() ? schema.at("type") : json::array({schema.at("type")});
+            if (std::none_of(types.begin(), types.end(), [&](const json& type) { return is_of(value, type.get<std::string>()); }))
+                complain(place, "is no " + types.dump());
+        }
+        if (value.is_object())
+            check_members(value, schema, place);
+        if (value.is_array() && schema.contains("items"))
+            for (std::size_t i = 0; i < value.size(); ++i)
+                check(value[i], schema.at("items"), place + "/" + std::to_string(i));
+    }
+
+    void check_members(const json& value, const json& schema, const std::string& place) {
+        for (const json& name : schema.value("required", json::array()))
+            if (!value.contains(name.get<std::string>()))
+                complain(place, "lacks " + name.dump());
+        const json properties = schema.value("properties", json::object());
+        for (const auto& [name, member] : value.items()) {
+            const json rest = schema.value("additionalProperties", json(true));
+            if (properties.contains(name))
+                check(member, properties.at(name), place + "/" + name);
+            else if (rest.is_object())
+                check(member, rest, place + "/" + name);
+            else if (rest == json(false))
+                complain(place, "has an unknown member '" + name + "'");
+        }
+    }
+
+    json root_;
+    std::vector<std::string> complaints_;
+};
+
+Schema report_schema() {
+    FilesRead opened;
+    return Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/report/report.schema.json", opened)));
+}
+
+TEST(ReportSchema, DescribesReports) {
+    Report report = tests::sample_report(3);
+    EXPECT_THAT(report_schema().check(json::parse(report_json(report))), IsEmpty());
+    report.played[0].extents[1] = {};
+    report.played[1].extents.clear();
+    report.complete = false;
+    report.interrupted = "a reason";
+    report.played[0].passes[0].seconds.clear();
+    EXPECT_THAT(report_schema().check(json::parse(report_json(report))), IsEmpty());
+    EXPECT_THAT(report_schema().check(json::parse(report_json({}))), IsEmpty());
+}
+
+TEST(ReportSchema, RefusesWhatIsNoReport) {
+    const json good = json::parse(report_json(tests::sample_report(1)));
+    const auto complaint = [&](const char* pointer, const json& value) {
+        json bad = good;
+        bad[json::json_pointer(pointer)] = value;
+        const std::vector<std::string> complaints = report_schema().check(bad);
+        return complaints.empty() ? std::string("none") : complaints.front();
+    };
+    EXPECT_THAT(complaint("/schema_version", 2), HasSubstr("/schema_version: is not 1"));
+    EXPECT_THAT(complaint("/rows/0/value", "61.2"), HasSubstr("/rows/0/value: is no"));
+    EXPECT_THAT(complaint("/verdict", "maybe"), HasSubstr("/verdict: is none of"));
+    EXPECT_THAT(complaint("/drives/0/extents/twin/0/widths/0/left_m/0", true), HasSubstr("is no"));
+    EXPECT_THAT(complaint("/surprise", 1), HasSubstr("unknown member 'surprise'"));
+}
+
+} // namespace
+} // namespace fernlicht
