@@ -13,6 +13,10 @@ struct State {
     bool operator==(const State&) const = default;
 };
 
+/// Ticks are counted, and changes fall due, with this part of a step to spare: times are tick * step with step perhaps 1/30, so that a
+/// moment meant to be at 4 s may lie a rounding error before it.
+inline constexpr double tick_tolerance = 1.0e-6;
+
 State start(const Drive& drive);
 State advance(const State& state, const Drive& drive);
 

@@ -1,0 +1,65 @@
+#include "scenarios/drives/advance.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace fernlicht {
+namespace {
+
+/// Surface point and normal at a distance; beyond the route's end the surface goes on straight.
+Pose contact(const Route& route, double distance_m, double offset_left_m) {
+    Pose pose = route.pose(std::min(distance_m, route.length_m()), offset_left_m);
+    pose.position_m += pose.forward() * std::max(distance_m - route.length_m(), 0.0);
+    return pose;
+}
+
+void apply(const LampChange& change, MountedLamp& lamp) {
+    lamp.level = change.level.value_or(lamp.level);
+    lamp.pitch_rad = change.pitch_rad.value_or(lamp.pitch_rad);
+    lamp.yaw_rad = change.yaw_rad.value_or(lamp.yaw_rad);
+    lamp.roll_rad = change.roll_rad.value_or(lamp.roll_rad);
+    lamp.file = change.file ? change.file : lamp.file;
+    lamp.colour = change.colour.value_or(lamp.colour);
+    lamp.source = change.source.value_or(lamp.source);
+}
+
+LitLamp lit(const MountedLamp& lamp, const Pose& ego) {
+    return {lamp.name, lamp.file, compose(ego, lamp.pose()), lamp.intensity_factor(), lamp.colour, lamp.photometric_distance_m};
+}
+
+} // namespace
+
+Pose ego_pose(const Route& route, double distance_m, double wheelbase_m) {
+    const Pose rear = contact(route, distance_m, 0.0);
+    // The front axle's place seen from the lane there: the lane may bend away from under it.
+    const glm::dvec3 straight_ahead = to_parent(rear, {wheelbase_m, 0.0, 0.0});
+    const glm::dvec3 beside = to_local(contact(route, distance_m + wheelbase_m, 0.0), straight_ahead);
+    const Pose front = contact(route, distance_m + wheelbase_m + beside.x, beside.y);
+
+    const glm::dvec3 forward = glm::normalize(front.position_m - rear.position_m);
+    const glm::dvec3 left = glm::normalize(glm::cross(rear.up() + front.up(), forward));
+    return {rear.position_m, {forward, left, glm::cross(forward, left)}};
+}
+
+Moment moment_at(const State& state, const Drive& drive, const Route& route, const Variant& variant) {
+    std::vector<MountedLamp> lamps = variant.lamps;
+    for (const LampChange& change : variant.changes) {
+        if (change.time_s > state.time_s + tick_tolerance * drive.step_s)
+            break; // sorted by time
+        for (MountedLamp& lamp : lamps)
+            if (lamp.name == change.lamp)
+                apply(change, lamp);
+    }
+    Moment moment;
+    moment.tick = state.tick;
+    moment.time_s = state.time_s;
+    moment.distance_m = state.distance_m;
+    moment.speed_mps = state.speed_mps;
+    moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
+    moment.daylight = drive.daylight;
+    for (const MountedLamp& lamp : lamps)
+        moment.lamps.push_back(lit(lamp, moment.ego));
+    return moment;
+}
+
+} // namespace fernlicht
