@@ -1,0 +1,106 @@
+#include "scenarios/lamps/lamp_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fernlicht {
+namespace {
+
+constexpr double edge_h_deg = 52.0, edge_top_deg = 16.0, edge_bottom_deg = -21.0;
+
+/// Bell with longer tails than a Gaussian, as scatter in lens and reflector gives them: (1 + x2 / 8)^-4.
+double bell(double x) {
+    const double y = 1.0 + x * x / 8.0;
+    return 1.0 / (y * y * y * y);
+}
+
+/// 1 inside, 0 from the edge on, level at both ends.
+double fade(double distance_to_edge, double over) {
+    const double t = std::clamp(distance_to_edge / over, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+double part_cd(const BeamPart& p, double h, double v, double level_deg, double line_deg) {
+    const double upper = level_deg + p.follows_rise * (line_deg - level_deg);
+    const double x = h - p.h_deg, depth = upper - v - p.depth_deg;
+    return p.peak_cd * bell(x / (x < 0.0 ? p.left_deg : p.right_deg)) * bell(depth / (depth < 0.0 ? p.above_deg : p.below_deg));
+}
+
+struct Stretch {
+    double to, step;
+};
+
+/// An axis from `from` on in stretches of even steps; each value is computed from whole steps, so that it is exact in print.
+std::vector<double> axis(double from, std::initializer_list<Stretch> stretches) {
+    std::vector<double> values{from};
+    for (const Stretch& s : stretches) {
+        const double start = values.back();
+        const long steps = std::lround((s.to - start) / s.step);
+        for (long i = 1; i <= steps; ++i)
+            values.push_back(std::round((start + static_cast<double>(i) * s.step) * 1000.0) / 1000.0);
+    }
+    return values;
+}
+
+CandelaTable axes_of(const LampModel& model) {
+    CandelaTable table;
+    if (model.cut_off) {
+        table.h_deg = axis(
+            -52.0, {{-20.0, 2.0}, {-10.0, 1.0}, {-4.0, 0.5}, {-1.0, 0.25}, {2.0, 0.1}, {9.0, 0.2}, {12.0, 0.5}, {20.0, 1.0}, {52.0, 2.0}});
+        table.v_deg = axis(-21.0, {{-8.0, 1.0}, {-4.0, 0.5}, {-2.0, 0.2}, {2.0, 0.05}, {4.0, 0.2}, {8.0, 0.5}, {16.0, 1.0}});
+    } else {
+        table.h_deg = axis(-52.0, {{-20.0, 2.0}, {-10.0, 1.0}, {-4.0, 0.5}, {4.0, 0.2}, {10.0, 0.5}, {20.0, 1.0}, {52.0, 2.0}});
+        table.v_deg = axis(-21.0, {{-8.0, 1.0}, {-4.0, 0.5}, {4.0, 0.2}, {8.0, 0.5}, {16.0, 1.0}});
+    }
+    return table;
+}
+
+} // namespace
+
+double CutOff::line_deg(double h_deg) const {
+    // log(1 + exp) rounds the kink over 0.1 degrees, as no bulb images a corner; the second one flattens the top.
+    constexpr double kink_deg = 0.1, flattening_deg = 0.25;
+    const double x = (h_deg - kink_h_deg) / kink_deg;
+    const double rise = rise_slope * kink_deg * (x > 30.0 ? x : std::log1p(std::exp(x)));
+    const double room = top_deg - level_deg;
+    return level_deg + room - flattening_deg * std::log1p(std::exp((room - rise) / flattening_deg));
+}
+
+double CutOff::glow(double h_deg, double v_deg) const {
+    return glow_cd * bell(h_deg / glow_h_deg) * bell(std::max(v_deg - level_deg, 0.0) / glow_v_deg);
+}
+
+double model_intensity_cd(const LampModel& model, double h, double v) {
+    const double level = model.cut_off ? model.cut_off->level_deg : 0.0;
+    const double line = model.cut_off ? model.cut_off->line_deg(h) : 0.0;
+    double cd = 0.0;
+    for (const BeamPart& part : model.parts)
+        cd += part_cd(part, h, v, level, line);
+    if (model.cut_off) {
+        // A logistic step between beam and glow in log intensity: its inflection lies on the cut-off line whatever the levels.
+        const double share = 1.0 / (1.0 + std::exp((v - line) / model.cut_off->softness_deg));
+        cd = std::pow(cd, share) * std::pow(model.cut_off->glow(h, v), 1.0 - share);
+    }
+    return cd * fade(edge_h_deg - std::abs(h), 16.0) * fade(edge_top_deg - v, 8.0) * fade(v - edge_bottom_deg, 9.0);
+}
+
+LampFile lamp_of_model(const LampModel& model) {
+    LampFile lamp;
+    lamp.name = model.title;
+    lamp.format = "model " + model.name;
+    lamp.table = axes_of(model);
+    for (const double v : lamp.table.v_deg)
+        for (const double h : lamp.table.h_deg)
+            lamp.table.cd.push_back(std::round(model_intensity_cd(model, h, v) * 10.0) / 10.0);
+    lamp.labels = {
+        {"TEST", "fernlicht lamp model " + model.name + ": a model, not a measurement"},
+        {"TESTLAB", "none"},
+        {"ISSUEDATE", "2026"},
+        {"MANUFAC", "fernlicht"},
+        {"LUMINAIRE", model.title},
+        {"OTHER", model.meets},
+        {"OTHER", model.cut_off ? "right-hand traffic; as on the goniometer in regulation aim: cut-off at 0.57 D" : "axis at HV"}};
+    return lamp;
+}
+
+} // namespace fernlicht
