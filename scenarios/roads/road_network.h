@@ -21,8 +21,16 @@ struct Cubic {
 
 struct Line {};
 struct Arc { double curvature_per_m = 0.0; };
-struct Spiral { double start_per_m = 0.0, end_per_m = 0.0; };
-struct Poly3 { double a = 0.0, b = 0.0, c = 0.0, d = 0.0; };
+struct Spiral {
+    double start_per_m = 0.0, end_per_m = 0.0;
+    std::vector<glm::dvec2> steps_m = {}; ///< cache of prepare(): local positions at equal steps; may be empty
+};
+/// v(u) in the element's own frame; s is the arc length of the curve, not u.
+struct Poly3 {
+    double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
+    struct Knot { double s_m, u_m; };
+    std::vector<Knot> knots = {}; ///< cache of prepare(): arc length against u; may be empty
+};
 struct ParamPoly3 {
     double au = 0.0, bu = 0.0, cu = 0.0, du = 0.0, av = 0.0, bv = 0.0, cv = 0.0, dv = 0.0;
     bool normalized = true; ///< parameter 0..1 over the element, else 0..length

@@ -1,0 +1,132 @@
+#include "scenarios/roads/plan_curves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fernlicht {
+namespace {
+
+/// Gauss-Legendre on -1..1 with five points.
+constexpr double node[5] = {-0.90617984593866399, -0.53846931010568309, 0.0, 0.53846931010568309, 0.90617984593866399};
+constexpr double weight[5] = {0.23692688505618909, 0.47862867049936647, 0.56888888888888889, 0.47862867049936647, 0.23692688505618909};
+
+template <class Function> double gauss(const Function& f, double from, double to) {
+    const double half = 0.5 * (to - from), middle = 0.5 * (from + to);
+    double sum = 0.0;
+    for (int i = 0; i < 5; ++i)
+        sum += weight[i] * f(middle + half * node[i]);
+    return half * sum;
+}
+
+/// Integral of f from `from` to `to`, halved until both halves agree with the whole; at most 2^max_depth pieces.
+/// `piece(end, integral of this piece)` is called for each piece in order.
+template <class Function, class Piece>
+void adaptive(const Function& f, double from, double to, double whole, int depth, const Piece& piece) {
+    const double middle = 0.5 * (from + to);
+    const double left = gauss(f, from, middle), right = gauss(f, middle, to);
+    if (depth == 0 || std::abs(left + right - whole) <= 1e-13 * (std::abs(whole) + 1e-300)) {
+        piece(to, left + right);
+        return;
+    }
+    adaptive(f, from, middle, left, depth - 1, piece);
+    adaptive(f, middle, to, right, depth - 1, piece);
+}
+
+constexpr int max_depth = 12;
+
+double slope(const Poly3& poly, double u) { return poly.b + u * (2.0 * poly.c + u * 3.0 * poly.d); }
+
+auto stretch(const Poly3& poly) {
+    return [&poly](double u) { return std::hypot(1.0, slope(poly, u)); };
+}
+
+/// u in [low.u_m, high.u_m] where the arc length from low.u_m is `ds`: Newton, kept in the bracket by bisection.
+double invert(const Poly3& poly, const Poly3::Knot& low, const Poly3::Knot& high, double ds) {
+    const auto f = stretch(poly);
+    double from = low.u_m, to = high.u_m;
+    const double span = high.s_m - low.s_m;
+    double u = span > 0.0 ? from + (to - from) * ds / span : from;
+    for (int i = 0; i < 20; ++i) {
+        const double error = gauss(f, low.u_m, u) - ds;
+        (error > 0.0 ? to : from) = u;
+        double next = u - error / f(u);
+        if (next < from || next > to)
+            next = 0.5 * (from + to);
+        if (std::abs(next - u) <= 1e-14 * (1.0 + std::abs(u)))
+            return next;
+        u = next;
+    }
+    return u;
+}
+
+struct Derivatives {
+    double u, v, du, dv, ddu, ddv; ///< by the parameter p
+};
+
+Derivatives derivatives(const ParamPoly3& f, double p) {
+    return {f.au + p * (f.bu + p * (f.cu + p * f.du)),
+            f.av + p * (f.bv + p * (f.cv + p * f.dv)),
+            f.bu + p * (2.0 * f.cu + p * 3.0 * f.du),
+            f.bv + p * (2.0 * f.cv + p * 3.0 * f.dv),
+            2.0 * f.cu + 6.0 * p * f.du,
+            2.0 * f.cv + 6.0 * p * f.dv};
+}
+
+double parameter_per_m(const ParamPoly3& poly, double length_m) {
+    return poly.normalized ? (length_m > 0.0 ? 1.0 / length_m : 0.0) : 1.0;
+}
+
+} // namespace
+
+std::vector<Poly3::Knot> poly3_knots(const Poly3& poly, double length_m) {
+    std::vector<Poly3::Knot> knots{{0.0, 0.0}};
+    const double end = std::max(length_m, 0.0); // the arc is at least as long as u: u never passes the length
+    const auto f = stretch(poly);
+    // Equal pieces first, so that a sharp bend between the nodes of one long piece cannot hide.
+    constexpr int pieces = 16;
+    for (int i = 0; i < pieces; ++i) {
+        const double from = end * i / pieces, to = end * (i + 1) / pieces;
+        adaptive(f, from, to, gauss(f, from, to), max_depth - 4,
+                 [&](double u, double part) { knots.push_back({knots.back().s_m + part, u}); });
+    }
+    return knots;
+}
+
+PlanPoint poly3_point(const Poly3& poly, double length_m, double ds_m) {
+    if (poly.knots.empty()) {
+        Poly3 prepared = poly;
+        prepared.knots = poly3_knots(poly, length_m);
+        return poly3_point(prepared, length_m, ds_m);
+    }
+    const auto after = std::upper_bound(poly.knots.begin() + 1, poly.knots.end() - 1, ds_m,
+                                        [](double s, const Poly3::Knot& knot) { return s < knot.s_m; });
+    const Poly3::Knot& low = *(after - 1);
+    const double u = invert(poly, low, *after, ds_m - low.s_m);
+    const double b = slope(poly, u), one = 1.0 + b * b;
+    return {u, poly.a + u * (poly.b + u * (poly.c + u * poly.d)), std::atan(b), (2.0 * poly.c + 6.0 * poly.d * u) / (one * std::sqrt(one)),
+            1.0};
+}
+
+PlanPoint param_poly3_point(const ParamPoly3& poly, double length_m, double ds_m) {
+    const double per_m = parameter_per_m(poly, length_m);
+    const Derivatives at = derivatives(poly, ds_m * per_m);
+    const double speed2 = at.du * at.du + at.dv * at.dv;
+    // Where the curve stands still (bU = bV = 0) it leaves in the direction of its second derivative.
+    const bool still = speed2 <= 1e-24;
+    const double heading = still ? std::atan2(at.ddv, at.ddu) : std::atan2(at.dv, at.du);
+    const double rate = still ? 0.0 : (at.du * at.ddv - at.dv * at.ddu) / speed2 * per_m;
+    return {at.u, at.v, heading, rate, std::sqrt(speed2) * per_m};
+}
+
+double param_poly3_length(const ParamPoly3& poly, double length_m) {
+    const auto f = [&](double p) {
+        const Derivatives at = derivatives(poly, p);
+        return std::hypot(at.du, at.dv);
+    };
+    const double end = length_m * parameter_per_m(poly, length_m);
+    double length = 0.0;
+    adaptive(f, 0.0, end, gauss(f, 0.0, end), max_depth, [&](double, double part) { length += part; });
+    return length;
+}
+
+} // namespace fernlicht
