@@ -8,9 +8,7 @@
 namespace fernlicht {
 namespace {
 
-template <class... Visitors> struct Overloaded : Visitors... {
-    using Visitors::operator()...;
-};
+template <class... Visitors> struct Overloaded : Visitors... { using Visitors::operator()...; };
 
 /// sin(x)/x and (1 - cos(x))/x, both smooth through 0: an arc of any curvature, nearly straight ones included.
 void unit_arc(double x, double& along, double& across) {
@@ -32,7 +30,9 @@ PlanPoint arc_point(const Arc& arc, double ds) {
 }
 
 PlanPoint local_point(const PlanElement& element, double ds) {
-    return std::visit(Overloaded{[&](const Line&) { return PlanPoint{ds, 0.0, 0.0, 0.0, 1.0}; },
+    return std::visit(Overloaded{[&](const Line&) {
+                                     return PlanPoint{ds, 0.0, 0.0, 0.0, 1.0};
+                                 },
                                  [&](const Arc& arc) { return arc_point(arc, ds); },
                                  [&](const Spiral& spiral) { return spiral_point(spiral, element.length_m, ds); },
                                  [&](const Poly3& poly) { return poly3_point(poly, element.length_m, ds); },

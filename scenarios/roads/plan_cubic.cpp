@@ -72,24 +72,34 @@ Derivatives derivatives(const ParamPoly3& f, double p) {
             2.0 * f.cv + 6.0 * p * f.dv};
 }
 
-double parameter_per_m(const ParamPoly3& poly, double length_m) {
-    return poly.normalized ? (length_m > 0.0 ? 1.0 / length_m : 0.0) : 1.0;
+double parameter_per_m(const ParamPoly3& poly, double length_m) { return poly.normalized ? (length_m > 0.0 ? 1.0 / length_m : 0.0) : 1.0; }
+
+} // namespace
+
+namespace {
+
+/// Knots over u = 0 .. end. Equal pieces first, so that a sharp bend between the nodes of one long piece cannot hide.
+std::vector<Poly3::Knot> knots_over(const Poly3& poly, double end) {
+    std::vector<Poly3::Knot> knots{{0.0, 0.0}};
+    const auto f = stretch(poly);
+    constexpr int pieces = 16;
+    for (int i = 0; i < pieces; ++i) {
+        const double from = end * i / pieces, to = end * (i + 1) / pieces;
+        adaptive(f, from, to, gauss(f, from, to), max_depth - 4, [&](double u, double part) {
+            knots.push_back({knots.back().s_m + part, u});
+        });
+    }
+    return knots;
 }
 
 } // namespace
 
 std::vector<Poly3::Knot> poly3_knots(const Poly3& poly, double length_m) {
-    std::vector<Poly3::Knot> knots{{0.0, 0.0}};
-    const double end = std::max(length_m, 0.0); // the arc is at least as long as u: u never passes the length
-    const auto f = stretch(poly);
-    // Equal pieces first, so that a sharp bend between the nodes of one long piece cannot hide.
-    constexpr int pieces = 16;
-    for (int i = 0; i < pieces; ++i) {
-        const double from = end * i / pieces, to = end * (i + 1) / pieces;
-        adaptive(f, from, to, gauss(f, from, to), max_depth - 4,
-                 [&](double u, double part) { knots.push_back({knots.back().s_m + part, u}); });
-    }
-    return knots;
+    // The arc is at least as long as u, so u never passes the length; a steep curve uses a small part of that: look there more closely.
+    const std::vector<Poly3::Knot> coarse = knots_over(poly, std::max(length_m, 0.0));
+    const auto last =
+        std::lower_bound(coarse.begin(), coarse.end() - 1, length_m, [](const Poly3::Knot& knot, double s) { return knot.s_m < s; });
+    return knots_over(poly, last->u_m);
 }
 
 PlanPoint poly3_point(const Poly3& poly, double length_m, double ds_m) {

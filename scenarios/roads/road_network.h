@@ -82,7 +82,8 @@ struct RoadObject {
     std::string id, name, type;
     double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0, heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
     double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0; ///< radius > 0: a post, else a box
-    std::vector<glm::dvec3> outline_m; ///< corners in the object's own frame (x, y, height); empty: box or post
+    std::vector<glm::dvec3> outline_m; ///< corners in the object's own frame (x, y, height above its base); empty: box or post
+    std::vector<double> outline_base_m; ///< base of each corner above the object's origin; as many as corners
     bool closed_outline = true;
 };
 

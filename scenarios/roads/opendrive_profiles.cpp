@@ -1,0 +1,61 @@
+#include "scenarios/roads/opendrive_parts.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht::opendrive {
+
+std::vector<Cubic> read_cubics(OpenDriveXml& xml, pugi::xml_node parent, const char* element, const char* start) {
+    std::vector<Cubic> pieces;
+    for (const pugi::xml_node node : parent.children(element))
+        pieces.push_back(
+            {xml.number(node, start), xml.number(node, "a"), xml.number(node, "b"), xml.number(node, "c"), xml.number(node, "d")});
+    const auto ascending = [](const Cubic& a, const Cubic& b) { return a.s0 < b.s0; };
+    if (!std::is_sorted(pieces.begin(), pieces.end(), ascending)) {
+        xml.warn(parent.child(element), fmt::format("{} elements are not in ascending order of {}; they are sorted", element, start));
+        std::stable_sort(pieces.begin(), pieces.end(), ascending);
+    }
+    return pieces;
+}
+
+namespace {
+
+/// Before its first piece a profile is zero by the standard: a step there is told.
+void check_beginning(OpenDriveXml& xml, pugi::xml_node parent, const char* element, const std::vector<Cubic>& pieces) {
+    if (!pieces.empty() && pieces.front().s0 > 0.01 && pieces.front().a != 0.0)
+        xml.warn(parent.child(element), fmt::format("the first {} begins at s = {}; before it, zero holds", element, pieces.front().s0));
+}
+
+std::vector<ShapeProfile> read_shapes(OpenDriveXml& xml, pugi::xml_node lateral) {
+    std::vector<ShapeProfile> profiles;
+    struct Entry {
+        double s;
+        Cubic cubic;
+    };
+    std::vector<Entry> entries;
+    for (const pugi::xml_node node : lateral.children("shape"))
+        entries.push_back(
+            {xml.number(node, "s"),
+             {xml.number(node, "t"), xml.number(node, "a"), xml.number(node, "b"), xml.number(node, "c"), xml.number(node, "d")}});
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.s != b.s ? a.s < b.s : a.cubic.s0 < b.cubic.s0; });
+    for (const Entry& entry : entries) {
+        if (profiles.empty() || profiles.back().s_m != entry.s)
+            profiles.push_back({entry.s, {}});
+        profiles.back().over_t.push_back(entry.cubic);
+    }
+    return profiles;
+}
+
+} // namespace
+
+void read_profiles(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+    const pugi::xml_node elevation = road_node.child("elevationProfile"), lateral = road_node.child("lateralProfile");
+    road.elevation = read_cubics(xml, elevation, "elevation", "s");
+    road.superelevation = read_cubics(xml, lateral, "superelevation", "s");
+    check_beginning(xml, elevation, "elevation", road.elevation);
+    check_beginning(xml, lateral, "superelevation", road.superelevation);
+    road.shapes = read_shapes(xml, lateral);
+}
+
+} // namespace fernlicht::opendrive

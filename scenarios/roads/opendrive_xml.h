@@ -1,0 +1,55 @@
+// An OpenDRIVE file as an XML tree whose every node knows its line: typed attributes, refusals, warnings.
+#pragma once
+
+#include "scenarios/values/files.h"
+
+#include <optional>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fernlicht {
+
+class OpenDriveXml {
+  public:
+    /// Reads and parses. Namespace prefixes of elements are dropped. Throws InputError: unreadable, not XML, nested deeper than
+    /// `max_depth`, root not OpenDRIVE.
+    OpenDriveXml(const std::filesystem::path& path, FilesRead& opened);
+
+    pugi::xml_node root() const { return root_; }
+    std::size_t line(pugi::xml_node node) const;
+
+    /// Ends the reading: what stands at `node` cannot be meant.
+    [[noreturn]] void refuse(pugi::xml_node node, std::string_view attribute, const std::string& found,
+                             const std::string& expected = {}) const;
+    /// Notes what is odd at `node` and how it was taken. Only the first 1000 are kept.
+    void warn(pugi::xml_node node, const std::string& what);
+    std::vector<std::string> take_warnings();
+
+    /// Finite and at most 1e9 in size; refuses anything else. Without a fallback the attribute must be there.
+    double number(pugi::xml_node node, const char* attribute, std::optional<double> fallback = {}) const;
+    /// As number(), and not below zero.
+    double length(pugi::xml_node node, const char* attribute, std::optional<double> fallback = {}) const;
+    int integer(pugi::xml_node node, const char* attribute, std::optional<int> fallback = {}) const;
+    std::string text(pugi::xml_node node, const char* attribute, const std::string& fallback = {}) const;
+
+    static constexpr int max_depth = 64;
+
+  private:
+    void parse();
+    void simplify();
+
+    std::filesystem::path path_;
+    std::string text_;
+    std::vector<std::size_t> line_starts_;
+    pugi::xml_document document_;
+    pugi::xml_node root_;
+    std::vector<std::string> warnings_;
+    std::size_t warnings_left_out_ = 0;
+};
+
+/// Words for messages: "road '12'".
+std::string named(std::string_view element, const std::string& id);
+
+} // namespace fernlicht
