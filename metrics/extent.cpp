@@ -79,19 +79,14 @@ LaneExtent extent_of_lane(const LitRoad& road, const LaneStrip& strip, const Lan
     return extent;
 }
 
-LaneExtent extent_of_all(const LitRoad& road, const std::vector<std::vector<LineSample>>& columns, const std::vector<AcrossCut>& cuts,
-                         double limit_lx) {
+LaneExtent extent_of_all(const LitRoad& road, const std::vector<AcrossCut>& cuts, double limit_lx) {
+    const std::vector<double>& offsets = road.grid().offset_m;
     LaneExtent extent;
     extent.limit_lx = limit_lx;
     extent.lane = "all";
-    LitLine farthest;
-    for (const std::vector<LineSample>& column : columns)
-        if (const LitLine line = lit_line(column, limit_lx); line.lit && (!farthest.lit || line.last_m > farthest.last_m))
-            farthest = line;
-    set_reach(extent, farthest);
-    extent.reach_left_edge_m = lit_line(columns.back(), limit_lx).last_m;
-    extent.reach_right_edge_m = lit_line(columns.front(), limit_lx).last_m;
-    const std::vector<double>& offsets = road.grid().offset_m;
+    set_reach(extent, road.farthest(limit_lx));
+    extent.reach_left_edge_m = road.column(offsets.size() - 1, limit_lx).last_m;
+    extent.reach_right_edge_m = road.column(0, limit_lx).last_m;
     for (const AcrossCut& cut : cuts)
         extent.widths.push_back(width_of(cut, offsets, {offsets.back(), offsets.front()}, limit_lx));
     extent.area_m2 = road.area_m2(limit_lx);
@@ -116,11 +111,8 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
         for (const double limit : limits_lx)
             extents.push_back(extent_of_lane(road, strip, lines, cuts, limit));
     }
-    std::vector<std::vector<LineSample>> columns;
-    for (std::size_t column = 0; column < grid.offset_m.size(); ++column)
-        columns.push_back(road.along_column(column));
     for (const double limit : limits_lx)
-        extents.push_back(extent_of_all(road, columns, cuts, limit));
+        extents.push_back(extent_of_all(road, cuts, limit));
     for (LaneExtent& extent : extents)
         extent.plane = plane;
     return extents;

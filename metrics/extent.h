@@ -36,8 +36,8 @@ struct LaneExtent {
     double area_m2 = 0.0;      ///< of road surface inside the isolux line
 };
 
-/// Rows every cell_m from the bumper to ahead_m or the route's end; columns every cell_m / 4 out to beside_m, one of them on the own
-/// lane's centre. No rows when the bumper stands beyond the route's end.
+/// Rows every cell_m from the bumper to ahead_m or the route's end. Columns out to beside_m, one of them on the own lane's centre: every
+/// cell_m / 4 where the road is paved in any row, every cell_m farther out. No rows when the bumper stands beyond the route's end.
 ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bumper_m, const ExtentParameters& parameters);
 
 /// Illuminance at every grid point from the candela tables in double (scenarios/light.h); row-major like `surface`. No shadows.

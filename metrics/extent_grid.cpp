@@ -20,26 +20,42 @@ void check(const ExtentParameters& parameters) {
                                                 parameters.cell_m, parameters.ahead_m, parameters.beside_m));
 }
 
+/// Every cell_m / 4 where lanes may be paved, and a cell beside them; every cell_m farther out, where only light on grass is looked at.
+std::vector<double> columns_of(const ExtentGrid& grid, const ExtentParameters& parameters) {
+    double left_m = 0.0, right_m = 0.0;
+    for (const CrossSection& section : grid.sections) {
+        left_m = std::max(left_m, section.paved_left_m + parameters.cell_m);
+        right_m = std::min(right_m, section.paved_right_m - parameters.cell_m);
+    }
+    const double across_m = parameters.cell_m / 4.0;
+    const int beside = steps_in(parameters.beside_m, across_m);
+    std::vector<double> offsets_m;
+    for (int i = -beside; i <= beside; ++i) {
+        const double offset_m = i * across_m;
+        const bool fine = offset_m >= right_m && offset_m <= left_m;
+        if (fine || i % 4 == 0 || std::abs(i) == beside)
+            offsets_m.push_back(offset_m);
+    }
+    return offsets_m;
+}
+
 } // namespace
 
 ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bumper_m, const ExtentParameters& parameters) {
     check(parameters);
     ExtentGrid grid;
     grid.target_height_m = parameters.target_height_m;
-    const double across_m = parameters.cell_m / 4.0;
-    const int beside = steps_in(parameters.beside_m, across_m);
-    for (int i = -beside; i <= beside; ++i)
-        grid.offset_m.push_back(i * across_m);
     const double bumper_at_m = moment.distance_m + bumper_m;
     const double ahead_m = std::min(parameters.ahead_m, route.length_m() - bumper_at_m);
     for (int i = 0; ahead_m >= 0.0 && i <= steps_in(ahead_m, parameters.cell_m); ++i)
         grid.ahead_m.push_back(i * parameters.cell_m);
-    grid.surface.reserve(grid.ahead_m.size() * grid.offset_m.size());
-    for (const double row_m : grid.ahead_m) {
+    for (const double row_m : grid.ahead_m)
         grid.sections.push_back(route.cross_section(bumper_at_m + row_m));
+    grid.offset_m = columns_of(grid, parameters);
+    grid.surface.reserve(grid.ahead_m.size() * grid.offset_m.size());
+    for (const double row_m : grid.ahead_m)
         for (const double offset_m : grid.offset_m)
             grid.surface.push_back(route.pose(bumper_at_m + row_m, offset_m));
-    }
     return grid;
 }
 

@@ -76,35 +76,52 @@ struct Cell {
     }
 };
 
+double triangle_area_m2(const Pose& a, const Pose& b, const Pose& c) {
+    return 0.5 * glm::length(glm::cross(b.position_m - a.position_m, c.position_m - a.position_m));
+}
+
 /// The grid's numbers as the functions below walk over them.
 struct Field {
     const ExtentGrid& grid;
-    const std::vector<double>& areas_m2;
     const std::vector<double>& lx;
+    const std::vector<double>& brightest_lx;
     double limit_lx;
 
     std::size_t columns() const { return grid.offset_m.size(); }
-    const double* areas(std::size_t row, std::size_t column) const { return &areas_m2[2 * (row * (columns() - 1) + column)]; }
+    std::size_t strips() const { return grid.ahead_m.empty() || columns() < 2 ? 0 : grid.ahead_m.size() - 1; }
+    bool strip_is_dark(std::size_t row) const { return brightest_lx[row] < limit_lx && brightest_lx[row + 1] < limit_lx; }
     Cell cell(std::size_t row, std::size_t column) const {
         const auto corner = [this](std::size_t r, std::size_t c) {
             return Corner{grid.ahead_m[r], grid.offset_m[c], lx[r * columns() + c]};
         };
         return {corner(row, column), corner(row, column + 1), corner(row + 1, column), corner(row + 1, column + 1)};
     }
+    /// Road surface in m2 of the cell's two triangles, in the order of Cell::triangles.
+    std::array<double, 2> areas_m2(std::size_t row, std::size_t column) const {
+        const Pose* near = &grid.surface[row * columns() + column];
+        const Pose* far = near + columns();
+        return {triangle_area_m2(near[0], far[0], far[1]), triangle_area_m2(near[0], far[1], near[1])};
+    }
 };
+
+/// Area of the part that `cut` leaves of the lit part of each of the cell's triangles.
+template <class Cut> double lit_part_m2(const Field& field, std::size_t row, std::size_t column, const Cell& cell, Cut cut) {
+    const std::array<double, 2> areas_m2 = field.areas_m2(row, column);
+    const std::array<Polygon, 2> triangles = cell.triangles();
+    double lit_m2 = 0.0;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        lit_m2 += areas_m2[i] * (signed_area(cut(lit_part(triangles[i], field.limit_lx))) / signed_area(triangles[i]));
+    return lit_m2;
+}
 
 double lit_in_cell_m2(const Field& field, std::size_t row, std::size_t column) {
     const Cell cell = field.cell(row, column);
-    const double* areas = field.areas(row, column);
-    if (cell.lit(field.limit_lx))
-        return areas[0] + areas[1];
-    double lit_m2 = 0.0;
-    if (!cell.dark(field.limit_lx))
-        for (std::size_t i = 0; i < 2; ++i) {
-            const Polygon triangle = cell.triangles()[i];
-            lit_m2 += areas[i] * (signed_area(lit_part(triangle, field.limit_lx)) / signed_area(triangle));
-        }
-    return lit_m2;
+    if (cell.dark(field.limit_lx))
+        return 0.0;
+    if (!cell.lit(field.limit_lx))
+        return lit_part_m2(field, row, column, cell, [](const Polygon& part) { return part; });
+    const std::array<double, 2> areas_m2 = field.areas_m2(row, column);
+    return areas_m2[0] + areas_m2[1];
 }
 
 double lit_in_cut_cell_m2(const Field& field, std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) {
@@ -113,16 +130,10 @@ double lit_in_cut_cell_m2(const Field& field, std::size_t row, std::size_t colum
         return 0.0;
     const double ahead_m = field.grid.ahead_m[row];
     const double length_m = field.grid.ahead_m[row + 1] - ahead_m;
-    const double* areas = field.areas(row, column);
-    double lit_m2 = 0.0;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const Polygon triangle = cell.triangles()[i];
-        Polygon part = lit_part(triangle, field.limit_lx);
-        part = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
-        part = beside(part, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
-        lit_m2 += areas[i] * (signed_area(part) / signed_area(triangle));
-    }
-    return lit_m2;
+    return lit_part_m2(field, row, column, cell, [&](const Polygon& part) {
+        const Polygon right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
+        return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
+    });
 }
 
 /// Between two rows: cells wholly inside the lane count as they are, those that an edge cuts are clipped.
@@ -144,43 +155,23 @@ double lit_in_strip_m2(const Field& field, std::size_t row, const LaneSpan& near
     return lit_m2;
 }
 
-double triangle_area_m2(const Pose& a, const Pose& b, const Pose& c) {
-    return 0.5 * glm::length(glm::cross(b.position_m - a.position_m, c.position_m - a.position_m));
-}
-
 } // namespace
 
-std::vector<double> triangle_areas_m2(const ExtentGrid& grid) {
-    std::vector<double> areas;
-    const std::size_t columns = grid.offset_m.size();
-    if (grid.ahead_m.size() < 2 || columns < 2)
-        return areas;
-    areas.reserve(2 * (grid.ahead_m.size() - 1) * (columns - 1));
-    for (std::size_t row = 0; row + 1 < grid.ahead_m.size(); ++row)
-        for (std::size_t column = 0; column + 1 < columns; ++column) {
-            const Pose* near = &grid.surface[row * columns + column];
-            const Pose* far = near + columns;
-            areas.push_back(triangle_area_m2(near[0], far[0], far[1]));
-            areas.push_back(triangle_area_m2(near[0], far[1], near[1]));
-        }
-    return areas;
-}
-
-double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& areas_m2, const std::vector<double>& lx, double limit_lx) {
-    const Field field{grid, areas_m2, lx, limit_lx};
+double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& brightest_lx, double limit_lx) {
+    const Field field{grid, lx, brightest_lx, limit_lx};
     double lit_m2 = 0.0;
-    for (std::size_t row = 0; row + 1 < grid.ahead_m.size(); ++row)
-        for (std::size_t column = 0; column + 1 < grid.offset_m.size(); ++column)
+    for (std::size_t row = 0; row < field.strips(); ++row)
+        for (std::size_t column = 0; !field.strip_is_dark(row) && column + 1 < field.columns(); ++column)
             lit_m2 += lit_in_cell_m2(field, row, column);
     return lit_m2;
 }
 
-double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& areas_m2, const std::vector<double>& lx, double limit_lx,
+double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& brightest_lx, double limit_lx,
                    const LaneSpans& lane) {
-    const Field field{grid, areas_m2, lx, limit_lx};
+    const Field field{grid, lx, brightest_lx, limit_lx};
     double lit_m2 = 0.0;
-    for (std::size_t row = 0; row + 1 < grid.ahead_m.size() && grid.offset_m.size() >= 2; ++row)
-        if (lane[row] && lane[row + 1])
+    for (std::size_t row = 0; row < field.strips(); ++row)
+        if (lane[row] && lane[row + 1] && !field.strip_is_dark(row))
             lit_m2 += lit_in_strip_m2(field, row, *lane[row], *lane[row + 1]);
     return lit_m2;
 }

@@ -13,15 +13,13 @@ struct LaneSpan {
 };
 using LaneSpans = std::vector<std::optional<LaneSpan>>;
 
-/// Road surface in m2 of each grid cell's two triangles, from their corners in the world: in a curve the inner side is shorter.
-/// Index: 2 * (row * (columns - 1) + column), then + 1 for the second triangle.
-std::vector<double> triangle_areas_m2(const ExtentGrid& grid);
-
-/// Area with E >= limit over the whole grid: each cell is cut into two triangles, the isolux line crosses their sides as in crossing.h.
-double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& areas_m2, const std::vector<double>& lx, double limit_lx);
+/// Area of road surface with E >= limit over the whole grid, m2. Each cell is cut into two triangles, the isolux line crosses their sides
+/// as in crossing.h, and what lies inside counts as the triangle does in the world: in a curve the inner side is shorter.
+/// `brightest_lx`: the largest value of each row, so that dark rows cost nothing.
+double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& brightest_lx, double limit_lx);
 
 /// The same between the edges of a lane, which run straight from row to row.
-double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& areas_m2, const std::vector<double>& lx, double limit_lx,
+double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& brightest_lx, double limit_lx,
                    const LaneSpans& lane);
 
 } // namespace fernlicht

@@ -44,6 +44,11 @@ double lx_across(const std::vector<double>& offsets_m, const double* row, double
     return share == 0.0 ? row[left - 1] : between_samples(row[left - 1], row[left], share);
 }
 
+LitRoad::LitRoad(const ExtentGrid& grid, const std::vector<double>& lx) : grid_(grid), lx_(lx) {
+    for (std::size_t i = 0; i < grid.ahead_m.size(); ++i)
+        brightest_lx_.push_back(*std::max_element(row(i), row(i) + grid.offset_m.size()));
+}
+
 std::vector<LineSample> LitRoad::along(const std::vector<std::optional<double>>& offsets_m) const {
     std::vector<LineSample> line;
     line.reserve(grid_.ahead_m.size());
@@ -52,12 +57,34 @@ std::vector<LineSample> LitRoad::along(const std::vector<std::optional<double>>&
     return line;
 }
 
-std::vector<LineSample> LitRoad::along_column(std::size_t column) const {
+LitLine LitRoad::column(std::size_t index, double limit_lx) const {
     std::vector<LineSample> line;
     line.reserve(grid_.ahead_m.size());
     for (std::size_t i = 0; i < grid_.ahead_m.size(); ++i)
-        line.push_back({grid_.ahead_m[i], row(i)[column]});
-    return line;
+        line.push_back({grid_.ahead_m[i], row(i)[index]});
+    return lit_line(line, limit_lx);
+}
+
+LitLine LitRoad::farthest(double limit_lx) const {
+    std::size_t last = brightest_lx_.size();
+    while (last > 0 && brightest_lx_[last - 1] < limit_lx)
+        --last;
+    if (last == 0)
+        return {};
+    // Only a column that is lit in the last lit row can reach farthest, and it does so by how far it goes on from there.
+    std::size_t best = 0;
+    double best_share = -1.0;
+    for (std::size_t i = 0; i < grid_.offset_m.size(); ++i) {
+        const double lx = row(last - 1)[i];
+        if (lx < limit_lx)
+            continue;
+        const double share = last < brightest_lx_.size() ? crossing_share(lx, row(last)[i], limit_lx) : 0.0;
+        if (share > best_share) {
+            best = i;
+            best_share = share;
+        }
+    }
+    return column(best, limit_lx);
 }
 
 std::pair<std::size_t, double> LitRoad::place(double ahead_m) const {

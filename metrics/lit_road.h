@@ -29,13 +29,15 @@ double lx_across(const std::vector<double>& offsets_m, const double* row, double
 /// A grid of at least two rows and columns with its values; refers to both.
 class LitRoad {
   public:
-    LitRoad(const ExtentGrid& grid, const std::vector<double>& lx) : grid_(grid), lx_(lx), areas_m2_(triangle_areas_m2(grid)) {}
+    LitRoad(const ExtentGrid& grid, const std::vector<double>& lx);
 
     const ExtentGrid& grid() const { return grid_; }
 
     /// Samples along the road, one per row, at these offsets; nullopt where there is nothing to follow.
     std::vector<LineSample> along(const std::vector<std::optional<double>>& offsets_m) const;
-    std::vector<LineSample> along_column(std::size_t column) const;
+    /// The line that reaches farthest of all columns.
+    LitLine farthest(double limit_lx) const;
+    LitLine column(std::size_t index, double limit_lx) const;
 
     /// Row before a distance and the share of the way to the next.
     std::pair<std::size_t, double> place(double ahead_m) const;
@@ -43,15 +45,15 @@ class LitRoad {
     /// Values of all columns at a distance that was looked at.
     std::vector<double> across(double ahead_m) const;
 
-    double area_m2(double limit_lx) const { return lit_area_m2(grid_, areas_m2_, lx_, limit_lx); }
-    double area_m2(double limit_lx, const LaneSpans& lane) const { return lit_area_m2(grid_, areas_m2_, lx_, limit_lx, lane); }
+    double area_m2(double limit_lx) const { return lit_area_m2(grid_, lx_, brightest_lx_, limit_lx); }
+    double area_m2(double limit_lx, const LaneSpans& lane) const { return lit_area_m2(grid_, lx_, brightest_lx_, limit_lx, lane); }
 
   private:
     const double* row(std::size_t index) const { return &lx_[index * grid_.offset_m.size()]; }
 
     const ExtentGrid& grid_;
     const std::vector<double>& lx_;
-    std::vector<double> areas_m2_;
+    std::vector<double> brightest_lx_; ///< of each row
 };
 
 } // namespace fernlicht
