@@ -6,7 +6,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr double near_m = 0.1;
+constexpr double near_plane_m = 0.1;
 constexpr double map_half_height_m = 500.0;
 
 /// View space (x right, y up, z forward) from ego-relative positions.
@@ -61,7 +61,7 @@ Camera camera_of(const Moment& moment, const View& view) {
     camera.eye_m = moment.ego.axes * view.position_m;
     const double tangent = std::tan(0.5 * view.vertical_fov_rad);
     camera.half_extent = {tangent * view.width_px / view.height_px, tangent};
-    camera.clip_from_ego = tangent_projection(-camera.half_extent.x, camera.half_extent.x, -camera.half_extent.y, camera.half_extent.y, near_m) *
+    camera.clip_from_ego = tangent_projection(-camera.half_extent.x, camera.half_extent.x, -camera.half_extent.y, camera.half_extent.y, near_plane_m) *
                            view_matrix(camera.right, camera.up, camera.axis, camera.eye_m);
     return camera;
 }

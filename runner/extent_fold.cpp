@@ -1,0 +1,78 @@
+#include "runner/extent_fold.h"
+
+#include "renderer/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fernlicht {
+namespace {
+
+constexpr double margin_m = 1.0, pixel_m = 0.25;
+constexpr int most_pixels = 1024;
+
+int pixels_for(double length_m) { return std::clamp(static_cast<int>(std::ceil(length_m / pixel_m)), 2, most_pixels); }
+
+/// The picture at grid points: bilinear between pixel centres.
+std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const Camera& camera, const View& view, const Moment& moment) {
+    std::vector<double> values;
+    values.reserve(grid.surface.size());
+    for (const Pose& pose : grid.surface) {
+        const glm::dvec2 at = map_pixel(camera, view, moment, pose.position_m) - 0.5;
+        const double x = std::clamp(at.x, 0.0, picture.width() - 1.0), y = std::clamp(at.y, 0.0, picture.height() - 1.0);
+        const int x0 = std::min(static_cast<int>(x), picture.width() - 2), y0 = std::min(static_cast<int>(y), picture.height() - 2);
+        const double fx = x - x0, fy = y - y0;
+        const auto e = [&](int dx, int dy) { return static_cast<double>(picture.at(x0 + dx, y0 + dy)); };
+        values.push_back((e(0, 0) * (1.0 - fx) + e(1, 0) * fx) * (1.0 - fy) + (e(0, 1) * (1.0 - fx) + e(1, 1) * fx) * fy);
+    }
+    return values;
+}
+
+} // namespace
+
+View map_over(const ExtentGrid& grid, const Moment& moment) {
+    View view;
+    view.name = "extent";
+    view.projection = Projection::map;
+    const Camera axes = camera_of(moment, view);
+    double low_x = 0.0, high_x = 0.0, low_y = 0.0, high_y = 0.0;
+    for (const Pose& pose : grid.surface) {
+        const glm::dvec3 p = pose.position_m - moment.ego.position_m;
+        const double ahead = glm::dot(p, axes.up), right = glm::dot(p, axes.right);
+        low_x = std::min(low_x, right);
+        high_x = std::max(high_x, right);
+        low_y = std::min(low_y, ahead);
+        high_y = std::max(high_y, ahead);
+    }
+    view.map_left_m = margin_m - low_x;
+    view.map_right_m = high_x + margin_m;
+    view.map_behind_m = margin_m - low_y;
+    view.map_ahead_m = high_y + margin_m;
+    view.width_px = pixels_for(view.map_left_m + view.map_right_m);
+    view.height_px = pixels_for(view.map_ahead_m + view.map_behind_m);
+    return view;
+}
+
+ExtentRow ExtentFold::add(const Moment& moment, const Draw& draw) {
+    const ExtentParameters& p = *drive_.extent;
+    const ExtentGrid grid = make_extent_grid(route_, moment, drive_.bumper_m, p);
+    const View view = map_over(grid, moment);
+    const Frame frame = draw(moment, view, {.illuminance = true, .target = true});
+    const Camera camera = camera_of(moment, view);
+    ExtentRow row;
+    row.tick = moment.tick;
+    row.time_s = moment.time_s;
+    row.distance_m = moment.distance_m;
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
+        const std::vector<double> drawn = sampled(plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx, grid, camera, view, moment);
+        const std::vector<double> twin = twin_illuminance_lx(grid, moment, plane);
+        std::ranges::copy(measure_extent(grid, drawn, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.rendered));
+        std::ranges::copy(measure_extent(grid, twin, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.twin));
+        std::ranges::copy(grid_error(grid, twin, plane, p.limits_lx), std::back_inserter(row.grid_errors));
+    }
+    row.sensitivity = reach_sensitivity(grid, moment, p.limits_lx);
+    return row;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,78 @@
+#include "runner/picture_file.h"
+
+#include "scenarios/values/errors.h"
+
+#include <OpenImageIO/imageio.h>
+#include <array>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+namespace fernlicht {
+namespace {
+
+/// Writes beside `path` and renames into place, so that an interrupted run leaves no half picture under a good name.
+void write_whole(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
+    std::filesystem::path part = path;
+    part.replace_extension(".part" + path.extension().string());
+    const auto fail = [&](const std::string& reason) {
+        std::error_code ignored;
+        std::filesystem::remove(part, ignored);
+        throw DeviceError(path.string() + ": cannot be written: " + reason);
+    };
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.string());
+    if (!output)
+        fail(OIIO::geterror());
+    if (!output->open(part.string(), spec) || !output->write_image(type, pixels) || !output->close())
+        fail(output->geterror());
+    std::error_code error;
+    std::filesystem::rename(part, path, error);
+    if (error)
+        fail(error.message());
+}
+
+void add_context(OIIO::ImageSpec& spec, const Moment& moment, const View& view) {
+    spec.attribute("fernlicht:view", view.name);
+    spec.attribute("fernlicht:tick", moment.tick);
+    const auto number = [&](const char* name, double value) { spec.attribute(name, OIIO::TypeDesc::DOUBLE, &value); };
+    number("fernlicht:time_s", moment.time_s);
+    number("fernlicht:distance_m", moment.distance_m);
+    number("fernlicht:speed_mps", moment.speed_mps);
+    const std::array<double, 3> position{moment.ego.position_m.x, moment.ego.position_m.y, moment.ego.position_m.z};
+    spec.attribute("fernlicht:ego_position_m", OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE, 3), position.data());
+    const std::array<double, 3> forward{moment.ego.forward().x, moment.ego.forward().y, moment.ego.forward().z};
+    spec.attribute("fernlicht:ego_forward", OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE, 3), forward.data());
+    if (view.projection == Projection::perspective)
+        number("fernlicht:vertical_fov_deg", degrees(view.vertical_fov_rad));
+}
+
+} // namespace
+
+void write_exr(const Frame& frame, const Moment& moment, const View& view, const std::filesystem::path& path) {
+    const std::array<std::pair<const char*, const Image<float>*>, 4> possible{
+        {{"illuminance.lx", &frame.illuminance_lx}, {"target.lx", &frame.target_lx}, {"luminance.cdm2", &frame.luminance_cdm2}, {"depth.m", &frame.depth_m}}};
+    std::vector<const Image<float>*> images;
+    std::vector<std::string> names;
+    for (const auto& [name, image] : possible)
+        if (!image->empty()) {
+            names.emplace_back(name);
+            images.push_back(image);
+        }
+    OIIO::ImageSpec spec(view.width_px, view.height_px, static_cast<int>(images.size()), OIIO::TypeDesc::FLOAT);
+    spec.channelnames = names;
+    spec.attribute("compression", "zip");
+    add_context(spec, moment, view);
+    std::vector<float> pixels(images.size() * static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
+    for (std::size_t c = 0; c < images.size(); ++c)
+        for (std::size_t i = 0; i < images[c]->size(); ++i)
+            pixels[i * images.size() + c] = images[c]->pixels()[i];
+    write_whole(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
+void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path) {
+    OIIO::ImageSpec spec(picture.width(), picture.height(), 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    write_whole(path, spec, OIIO::TypeDesc::UINT8, picture.data());
+}
+
+} // namespace fernlicht

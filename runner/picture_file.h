@@ -1,0 +1,17 @@
+// Pictures on disk: EXR with linear, named channels and their units; PNG for eyes. The runner's one door to OpenImageIO.
+#pragma once
+
+#include "scenarios/drives/frame.h"
+
+#include <filesystem>
+
+namespace fernlicht {
+
+/// Channels of the frame that are there, as 32-bit float: illuminance.lx, target.lx, luminance.cdm2, depth.m. Metadata carry the
+/// moment (fernlicht:time_s ...), the car's pose and the view. Throws DeviceError with the path and the reason.
+void write_exr(const Frame& frame, const Moment& moment, const View& view, const std::filesystem::path& path);
+
+/// 8-bit sRGB. Throws DeviceError.
+void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path);
+
+} // namespace fernlicht

@@ -1,0 +1,62 @@
+#include "runner/probe_fold.h"
+
+#include "renderer/camera.h"
+#include "scenarios/light.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace fernlicht {
+namespace {
+
+constexpr double patch_m = 0.03; // three pixels of a centimetre, the probe in the middle one
+
+/// A map of 3 x 3 pixels about a point.
+View map_around(const glm::dvec3& point_m, const Moment& moment) {
+    View view;
+    view.name = "probe";
+    view.projection = Projection::map;
+    view.width_px = view.height_px = 3;
+    const Camera axes = camera_of(moment, view);
+    const glm::dvec3 p = point_m - moment.ego.position_m;
+    const double ahead = glm::dot(p, axes.up), right = glm::dot(p, axes.right);
+    view.map_ahead_m = ahead + 0.5 * patch_m;
+    view.map_behind_m = 0.5 * patch_m - ahead;
+    view.map_right_m = right + 0.5 * patch_m;
+    view.map_left_m = 0.5 * patch_m - right;
+    return view;
+}
+
+} // namespace
+
+void ProbeFold::add(const Moment& moment, const Draw& draw) {
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        const Probe& probe = drive_.probes[i];
+        const Pose surface = route_.pose(moment.distance_m + probe.ahead_m, probe.left_m);
+        const glm::dvec3 point = surface.position_m + glm::dvec3(0.0, 0.0, probe.above_m);
+        const bool on_surface = probe.above_m == 0.0;
+        found_[i].twin.push_back(on_surface ? surface_illuminance_lx(moment, point, surface.up()) : target_illuminance_lx(moment, point));
+        if (on_surface)
+            found_[i].drawn.push_back(static_cast<double>(draw(moment, map_around(surface.position_m, moment), {.illuminance = true}).illuminance_lx.at(1, 1)));
+    }
+}
+
+Readings ProbeFold::finish() const {
+    Readings readings;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        const Probe& probe = drive_.probes[i];
+        const std::string where = fmt::format("{} m ahead, {} m left, {} m above the road", probe.ahead_m, probe.left_m, probe.above_m);
+        const auto say = [&](const char* suffix, std::optional<double> value, const char* why_not) {
+            readings.push_back({fmt::format("probe_{}{}_lx", probe.name, suffix), value, "lx", where, -1, value ? "" : why_not});
+        };
+        const std::optional<Spread> drawn = spread_of(found_[i].drawn), twin = spread_of(found_[i].twin);
+        const char* unseen = probe.above_m != 0.0 ? "the point is not on a surface that is drawn" : "no moment was played";
+        say("", drawn ? std::optional(drawn->median) : std::nullopt, unseen);
+        say("_min", drawn ? std::optional(drawn->minimum) : std::nullopt, unseen);
+        say("_max", drawn ? std::optional(drawn->maximum) : std::nullopt, unseen);
+        say("_twin", twin ? std::optional(twin->median) : std::nullopt, "no moment was played");
+    }
+    return readings;
+}
+
+} // namespace fernlicht
