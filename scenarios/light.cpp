@@ -14,6 +14,8 @@ double intensity_towards_cd(const LitLamp& lamp, const glm::dvec3& point_m) {
     if (lamp.intensity_factor == 0.0)
         return 0.0;
     const glm::dvec3 w = photometry::lamp_space(point_m - lamp.pose.position_m, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward());
+    if (w.z <= 0.0)
+        return 0.0;
     const glm::dvec2 angles = photometry::goniometer_angles(w);
     return lamp.intensity_factor * intensity_cd(lamp.file->table, degrees(angles.x), degrees(angles.y));
 }
