@@ -5,9 +5,16 @@
 #include "scenarios/drives/frame.h"
 #include "scenarios/values/scene.h"
 
+#include <functional>
 #include <map>
 
 namespace fernlicht {
+
+/// plain: the pixels are fetched at once. overlapped: they travel while the GPU and the caller go on.
+enum class ReadBack { plain, overlapped };
+
+/// A frame on its way; call it once to wait for the pixels.
+using Pending = std::function<Frame()>;
 
 struct RendererSettings {
     ToneMapper tone_mapper;
@@ -15,10 +22,12 @@ struct RendererSettings {
     int shadow_width = 1024, shadow_height = 512;
     double shadow_tolerance_m = 0.03; ///< an occluder counts when it stands this far above the receiver's tangent plane
     double target_height_m = 0.25;
-    bool profile = false; ///< finish after each pass and time it; slower, so never together with frame times
+    ReadBack read_back = ReadBack::plain;
+    bool profile = false;   ///< finish after each pass and time it; slower, so never together with frame times
+    bool gpu_clock = false; ///< time passes by GL_TIME_ELAPSED; only where check_timer() has found it right
 };
 
-/// Names of passes with their time in the last frame drawn with `profile`.
+/// Names of passes with their seconds in the last frame that was collected, with `profile` or `gpu_clock`; else empty.
 using PassTimes = std::map<std::string, double>;
 
 class Renderer {
@@ -30,7 +39,9 @@ class Renderer {
     Renderer& operator=(const Renderer&) = delete;
 
     /// Draws and reads back what is wanted. Maps draw ground surfaces only. At most 8 lamps. Throws DeviceError.
-    Frame draw(const Moment& moment, const View& view, const Wanted& wanted);
+    Frame draw(const Moment& moment, const View& view, const Wanted& wanted) { return submit(moment, view, wanted)(); }
+    /// The same in two steps, so that the caller can work meanwhile. Several frames may be on their way.
+    Pending submit(const Moment& moment, const View& view, const Wanted& wanted);
 
     const PassTimes& pass_times() const;
     /// What the scene and this moment did not need, one sentence each.
@@ -43,5 +54,12 @@ class Renderer {
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// Which way of reading back is faster on this device, by trying both on frames of 1024 x 768.
+struct ReadBackCheck {
+    double plain_s = 0.0, overlapped_s = 0.0; ///< medians, submit to collected, with drawing
+    ReadBack faster() const { return overlapped_s < 0.95 * plain_s ? ReadBack::overlapped : ReadBack::plain; }
+};
+ReadBackCheck check_read_back(Device& device);
 
 } // namespace fernlicht

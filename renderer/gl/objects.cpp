@@ -18,6 +18,15 @@ Buffer make_buffer(Context& context, std::span<const std::byte> bytes, GLbitfiel
     return buffer;
 }
 
+Buffer make_read_buffer(Context& context, std::size_t bytes) {
+    GLuint name = 0;
+    context.gl.CreateBuffers(1, &name);
+    Buffer buffer(context, name);
+    context.gl.NamedBufferStorage(name, static_cast<GLsizeiptr>(bytes > 0 ? bytes : 1), nullptr, GL_MAP_READ_BIT | GL_CLIENT_STORAGE_BIT);
+    context.check("making a read buffer");
+    return buffer;
+}
+
 Texture make_texture(Context& context, GLenum internal_format, int width, int height) {
     GLint limit = 0;
     context.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);

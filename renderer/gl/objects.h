@@ -52,6 +52,8 @@ using VertexArray = Name<FreeVertexArray>;
 
 /// Immutable storage holding `bytes`; empty content still gets one byte, because GL forbids buffers of size 0.
 Buffer make_buffer(Context& context, std::span<const std::byte> bytes, GLbitfield flags = 0);
+/// A buffer that the GPU writes and the CPU maps for reading.
+Buffer make_read_buffer(Context& context, std::size_t bytes);
 template <class T> Buffer make_buffer(Context& context, const std::vector<T>& values, GLbitfield flags = 0) {
     return make_buffer(context, std::as_bytes(std::span(values)), flags);
 }

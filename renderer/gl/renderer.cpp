@@ -2,6 +2,7 @@
 
 #include "renderer/camera.h"
 #include "renderer/gl/lamp_lights.h"
+#include "renderer/gl/pass_clock.h"
 #include "renderer/gl/targets.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/errors.h"
@@ -13,6 +14,7 @@
 namespace fernlicht {
 namespace {
 
+using gl::PassClock;
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -50,7 +52,6 @@ struct Renderer::State {
     const Variant& variant(const Features& features, const Wanted& wanted);
     void draw_scene(const Moment& moment, const View& view, const Wanted& wanted, const Camera& camera, bool shadows);
     gl::Targets& targets_for(const View& view, const Wanted& wanted);
-    void finish_pass(const char* name, Clock::time_point& since);
 
     gl::Context& context;
     RendererSettings settings;
@@ -59,9 +60,6 @@ struct Renderer::State {
     std::map<Features, Variant> variants;
     std::map<std::tuple<int, int, int>, gl::Targets> targets;
     PassTimes pass_times;
-    /// The moment whose places and shadow maps are on the GPU: several views of one moment share them.
-    std::pair<int, const void*> prepared{-1, nullptr};
-    std::vector<LitLamp> prepared_lamps;
 };
 
 const Renderer::State::Variant& Renderer::State::variant(const Features& features, const Wanted& wanted) {
@@ -88,14 +86,6 @@ const Renderer::State::Variant& Renderer::State::variant(const Features& feature
 
 gl::Targets& Renderer::State::targets_for(const View& view, const Wanted& wanted) {
     return targets.try_emplace({view.width_px, view.height_px, bits(wanted)}, context, view.width_px, view.height_px, wanted).first->second;
-}
-
-void Renderer::State::finish_pass(const char* name, Clock::time_point& since) {
-    if (!settings.profile)
-        return;
-    context.gl.Finish();
-    pass_times[name] += seconds_since(since);
-    since = Clock::now();
 }
 
 void Renderer::State::draw_scene(const Moment& moment, const View& view, const Wanted& wanted, const Camera& camera, bool shadows) {
@@ -137,25 +127,38 @@ Renderer::Renderer(Device& device, const Scene& scene, const RendererSettings& s
 
 Renderer::~Renderer() = default;
 
-Frame Renderer::draw(const Moment& moment, const View& view, const Wanted& wanted) {
+Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& wanted) {
     State& s = *state_;
     const Clock::time_point start = Clock::now();
-    Clock::time_point since = start;
-    s.pass_times.clear();
+    PassClock passes(s.context, s.settings.profile, s.settings.gpu_clock);
     const bool shadows = s.settings.shadows && !s.buffers.flat();
     s.buffers.place(moment.ego.position_m);
     s.lights.set(moment, shadows);
     if (shadows && s.lights.count() > 0) {
+        passes.begin("shadow maps");
         s.lights.draw_shadow_maps(s.buffers, moment.ego.position_m);
-        s.finish_pass("shadow maps", since);
+        passes.end();
     }
+    passes.begin("scene");
     s.draw_scene(moment, view, wanted, camera_of(moment, view), shadows && s.lights.count() > 0);
-    s.finish_pass("scene", since);
-    Frame frame;
-    s.targets_for(view, wanted).read(frame);
-    s.finish_pass("read back", since);
-    frame.cpu_s = seconds_since(start);
-    return frame;
+    passes.end();
+    gl::Targets& targets = s.targets_for(view, wanted);
+    if (s.settings.read_back == ReadBack::overlapped) {
+        const auto reading = std::make_shared<gl::Targets::Reading>(targets.start_read());
+        const auto times = std::make_shared<PassClock>(std::move(passes));
+        return [&s, &targets, reading, times, start] {
+            Frame frame = targets.finish_read(std::move(*reading));
+            s.pass_times = times->seconds();
+            frame.cpu_s = seconds_since(start);
+            return frame;
+        };
+    }
+    passes.begin("read back");
+    const auto frame = std::make_shared<Frame>(targets.read());
+    passes.end();
+    frame->cpu_s = seconds_since(start);
+    s.pass_times = passes.seconds();
+    return [frame] { return std::move(*frame); };
 }
 
 const PassTimes& Renderer::pass_times() const { return state_->pass_times; }

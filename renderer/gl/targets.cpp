@@ -2,7 +2,9 @@
 
 #include "scenarios/values/errors.h"
 
+#include <cstring>
 #include <fmt/format.h>
+#include <type_traits>
 
 namespace fernlicht::gl {
 namespace {
@@ -83,36 +85,89 @@ void Targets::begin(const glm::vec3& background, float sky_luminance_cdm2) {
     gl.ClearNamedFramebufferfv(framebuffer_, GL_DEPTH, 0, &far_away);
 }
 
-void Targets::read(Frame& frame) {
+std::size_t Targets::bytes_of(Result result) const {
+    return is_wanted(wanted_, result) ? std::size_t{4} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) : 0;
+}
+
+void Targets::read_pixels(Result result, void* place) {
     const GladGLContext& gl = context_.gl;
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    const auto read_one = [&](Result result, void* pixels) {
-        gl.NamedFramebufferReadBuffer(framebuffer_, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot(wanted_, result)));
-        gl.ReadPixels(0, 0, width_, height_, formats[result].layout, formats[result].type, pixels);
-    };
-    const auto read_floats = [&](Result result, Image<float>& image) {
+    gl.NamedFramebufferReadBuffer(framebuffer_, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot(wanted_, result)));
+    gl.ReadPixels(0, 0, width_, height_, formats[result].layout, formats[result].type, place);
+}
+
+template <class Fill> Frame Targets::make_frame(Fill fill) {
+    Frame frame;
+    const auto take = [&](Result result, auto& image) {
         if (!is_wanted(wanted_, result))
             return;
-        image = Image<float>(width_, height_);
-        read_one(result, image.data());
+        image = std::remove_reference_t<decltype(image)>(width_, height_);
+        fill(result, image.data(), bytes_of(result));
     };
-    read_floats(illuminance, frame.illuminance_lx);
-    read_floats(target, frame.target_lx);
-    read_floats(luminance, frame.luminance_cdm2);
-    read_floats(depth, frame.depth_m);
-    if (wanted_.ids) {
-        frame.ids = Image<std::uint32_t>(width_, height_);
-        read_one(ids, frame.ids.data());
-    }
+    take(illuminance, frame.illuminance_lx);
+    take(target, frame.target_lx);
+    take(luminance, frame.luminance_cdm2);
+    take(depth, frame.depth_m);
+    take(ids, frame.ids);
+    Image<std::uint32_t> rgba;
+    take(colour, rgba);
     if (wanted_.colour) {
         frame.colour = Image<Rgb8>(width_, height_);
-        rgba_.resize(frame.colour.size() * 4);
-        read_one(colour, rgba_.data());
+        const auto* bytes = reinterpret_cast<const unsigned char*>(rgba.data());
         for (std::size_t i = 0; i < frame.colour.size(); ++i)
-            frame.colour.pixels()[i] = {rgba_[4 * i], rgba_[4 * i + 1], rgba_[4 * i + 2]};
+            frame.colour.pixels()[i] = {bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2]};
     }
+    return frame;
+}
+
+Frame Targets::read() {
+    Frame frame = make_frame([&](Result result, void* destination, std::size_t) { read_pixels(result, destination); });
     context_.check("reading a frame");
+    return frame;
+}
+
+Targets::Reading Targets::start_read() {
+    std::size_t bytes = 0;
+    for (int r = 0; r < result_count; ++r)
+        bytes += bytes_of(static_cast<Result>(r));
+    Reading reading{make_read_buffer(context_, bytes), nullptr};
+    const GladGLContext& gl = context_.gl;
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, reading.pixels);
+    std::uintptr_t offset = 0;
+    for (int r = 0; r < result_count; ++r) {
+        const auto result = static_cast<Result>(r);
+        if (is_wanted(wanted_, result))
+            read_pixels(result, reinterpret_cast<void*>(offset));
+        offset += bytes_of(result);
+    }
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    reading.drawn = gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.Flush();
+    context_.check("starting to read a frame");
+    return reading;
+}
+
+Frame Targets::finish_read(Reading reading) {
+    const GladGLContext& gl = context_.gl;
+    constexpr GLuint64 a_minute_ns = 60'000'000'000;
+    const GLenum waited = gl.ClientWaitSync(reading.drawn, GL_SYNC_FLUSH_COMMANDS_BIT, a_minute_ns);
+    gl.DeleteSync(reading.drawn);
+    if (waited == GL_TIMEOUT_EXPIRED || waited == GL_WAIT_FAILED)
+        throw DeviceError(fmt::format("{} did not finish a frame within a minute", context_.info.gl_renderer));
+    std::size_t offsets[result_count] = {};
+    std::size_t bytes = 0;
+    for (int r = 0; r < result_count; ++r) {
+        offsets[r] = bytes;
+        bytes += bytes_of(static_cast<Result>(r));
+    }
+    const auto* mapped = static_cast<const std::byte*>(gl.MapNamedBufferRange(reading.pixels, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
+    if (mapped == nullptr)
+        throw DeviceError(fmt::format("{} cannot map a frame's pixels", context_.info.gl_renderer));
+    Frame frame = make_frame([&](Result result, void* destination, std::size_t size) { std::memcpy(destination, mapped + offsets[result], size); });
+    gl.UnmapNamedBuffer(reading.pixels);
+    context_.check("reading a frame");
+    return frame;
 }
 
 } // namespace fernlicht::gl

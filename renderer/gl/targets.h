@@ -16,7 +16,15 @@ class Targets {
     /// Binds, sets the viewport and clears: everything 0, colour to `background`, luminance to the sky's.
     void begin(const glm::vec3& background, float sky_luminance_cdm2);
     /// Reads every wanted result; waits for the drawing to finish.
-    void read(Frame& frame);
+    Frame read();
+
+    /// Pixels on their way into a buffer of the driver's, while the GPU and we go on.
+    struct Reading {
+        Buffer pixels;
+        GLsync drawn = nullptr;
+    };
+    Reading start_read();
+    Frame finish_read(Reading reading);
 
     /// WANT_* and OUT_* for the fragment shader.
     static std::vector<Program::Define> defines(const Wanted& wanted);
@@ -25,6 +33,11 @@ class Targets {
     enum Result { colour, illuminance, target, luminance, depth, ids, result_count };
     static bool is_wanted(const Wanted& wanted, Result result);
     static int slot(const Wanted& wanted, Result result);
+    std::size_t bytes_of(Result result) const;
+    /// glReadPixels of one result, to memory or, with a pack buffer bound, to an offset in it.
+    void read_pixels(Result result, void* place);
+    /// Makes the frame's pictures, each filled by fill(result, destination, bytes).
+    template <class Fill> Frame make_frame(Fill fill);
 
     Context& context_;
     int width_, height_;
@@ -32,7 +45,6 @@ class Targets {
     Framebuffer framebuffer_;
     Texture textures_[result_count];
     Texture depth_;
-    std::vector<unsigned char> rgba_;
 };
 
 } // namespace fernlicht::gl
