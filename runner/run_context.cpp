@@ -64,6 +64,10 @@ std::string os_name() {
     return fmt::format("{}, {} {} {}", pretty, names.sysname, names.release, names.machine);
 }
 
+std::string utc_now() {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
 RunContext make_context(const DeviceInfo& device, const std::vector<std::string>& command, std::uint64_t seed) {
     RunContext context;
     context.versions = library_versions();
@@ -73,7 +77,7 @@ RunContext make_context(const DeviceInfo& device, const std::vector<std::string>
     context.cpu = fmt::format("{} ({})", cpu_name(), simd_class());
     context.os = os_name();
     context.command = shell_quoted(command);
-    context.started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+    context.started_utc = utc_now();
     context.seed = seed;
     return context;
 }

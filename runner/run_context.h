@@ -11,6 +11,9 @@ RunContext make_context(const DeviceInfo& device, const std::vector<std::string>
 /// A command line that a POSIX shell splits back into these words.
 std::string shell_quoted(const std::vector<std::string>& words);
 
+/// Now as ISO 8601: 2026-01-31T22:15:00Z.
+std::string utc_now();
+
 std::string cpu_name();
 /// The widest SIMD that Mesa's llvmpipe would use here: its pictures depend on it. "avx512", "avx2", "avx", "sse4.1", "other".
 std::string simd_class();
