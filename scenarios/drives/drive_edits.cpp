@@ -66,10 +66,9 @@ void replace_road(Drive& drive, const std::filesystem::path& road) {
     drive.road_file = made_absolute(road);
     if (!std::filesystem::is_regular_file(drive.road_file))
         throw InputError({drive.road_file, 0, 0, {}}, "there is no such road file", "an OpenDRIVE file");
-    const Route::Start standard;
-    if (!drive.via.empty() || drive.start.road != standard.road || drive.start.lane != standard.lane || drive.start.s_m != standard.s_m)
+    if (!drive.via.empty() || !drive.start.road.empty() || drive.start.lane != 0)
         drive.notes.push_back("another road was given: the drive's own route does not hold there, it starts at the road's default start");
-    drive.start = standard;
+    drive.start = {};
     drive.via.clear();
 }
 
