@@ -1,6 +1,7 @@
 #include "scenarios/roads/road_mesh.h"
 
 #include "scenarios/roads/mesh_materials.h"
+#include "scenarios/roads/mesh_objects.h"
 #include "scenarios/roads/mesh_terrain.h"
 
 namespace fernlicht {
@@ -16,6 +17,8 @@ Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options) {
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const std::vector<StretchRows> rows = append_surface(scene, network, plans[i], {});
         append_terrain(scene, plans[i], i, rows, footprints, options);
+        append_objects(scene, network, plans[i], options);
+        append_signals(scene, network, plans[i]);
     }
     return scene;
 }
