@@ -24,6 +24,7 @@ class SectionProfile {
     SectionProfile(const Road& road, const LaneSection& section);
 
     const LaneSection& section() const { return *section_; }
+    bool has_heights() const { return has_heights_; }
     /// From right to left at s. Which strips there are is decided by `layout_s_m` (inside the stretch between two stations), so
     /// that both ends of a stretch have the same strips, of no width where a lane tapers out.
     std::vector<Strip> strips(double layout_s_m, double s_m) const;

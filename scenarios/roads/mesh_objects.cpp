@@ -61,6 +61,23 @@ Pose standing(const RoadNetwork& network, const Road& road, double s_m, double t
 
 double or_default(double value, double otherwise) { return value > 0.0 ? value : otherwise; }
 
+std::vector<Corner> corners(const RoadObject& object) {
+    std::vector<Corner> out;
+    for (std::size_t i = 0; i < object.outline_m.size(); ++i) {
+        const glm::dvec3& corner = object.outline_m[i];
+        out.push_back({{corner.x, corner.y, i < object.outline_base_m.size() ? object.outline_base_m[i] : 0.0}, corner.z});
+    }
+    return out;
+}
+
+/// Outlines are given in a frame that lies in the road's surface, all else stands upright.
+Pose frame_of(const RoadNetwork& network, const Road& road, const RoadObject& object, Solid solid) {
+    if (solid != Solid::outline)
+        return standing(network, road, object.s_m, object.t_m, object.z_offset_m, object.heading_rad, object.pitch_rad, object.roll_rad);
+    const Pose stand{{0.0, 0.0, object.z_offset_m}, axes_from_angles(object.heading_rad, object.pitch_rad, object.roll_rad)};
+    return compose(surface_pose(network, road, object.s_m, object.t_m), stand);
+}
+
 void append_object(MeshBuilder& builder, Solid solid, const RoadObject& object, const Pose& foot) {
     const double across = std::max(object.length_m, object.width_m);
     switch (solid) {
@@ -78,7 +95,7 @@ void append_object(MeshBuilder& builder, Solid solid, const RoadObject& object, 
     case Solid::delineator:
         return append_delineator(builder, foot, or_default(object.height_m, 1.0));
     case Solid::outline:
-        return append_extrusion(builder, RoadMaterial::object, foot, object.outline_m, object.closed_outline);
+        return append_extrusion(builder, RoadMaterial::object, foot, corners(object), object.closed_outline);
     case Solid::box:
         return append_box(builder, foot, {or_default(object.length_m, 0.1), or_default(object.width_m, 0.1), object.height_m},
                           RoadMaterial::object, RoadMaterial::object);
@@ -126,8 +143,7 @@ void append_objects(Scene& scene, const RoadNetwork& network, const SurfacePlan&
         const Solid solid = solid_of(object);
         if (solid == Solid::nothing)
             continue;
-        const Pose foot =
-            standing(network, road, object.s_m, object.t_m, object.z_offset_m, object.heading_rad, object.pitch_rad, object.roll_rad);
+        const Pose foot = frame_of(network, road, object, solid);
         const std::string name = called(object, solid);
         const double at = chunk * std::floor(object.s_m / chunk);
         auto mesh = meshes.find({name, at});

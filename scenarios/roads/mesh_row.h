@@ -14,30 +14,35 @@ struct RowPoint {
     Pose pose; ///< position with the height; axes of the surface
 };
 
-/// The points of one station from right to left, as one of the two stretches that meet there sees them: its own strips, with the
-/// other's borders inserted. Both have a point at every t where either has one, so no edge of one ends inside an edge of the other.
+/// The points of one station from right to left. Both stretches that meet there use the same ones, so that no edge of one ends inside
+/// an edge of the other. A kerb has two points at one t.
 struct Row {
-    struct Range {
-        std::size_t first = 0, last = 0; ///< into points
-    };
     double s_m = 0.0;
     std::vector<RowPoint> points;
-    std::vector<Range> strips; ///< the points of each strip
-
-    bool empty() const { return points.empty(); }
 };
 
-/// Every t of both cross-sections and of the crown, ascending; those nearer than 0.1 mm are one.
-std::vector<double> common_borders(const std::vector<Strip>& before, const std::vector<Strip>& after, const std::vector<double>& crown);
+/// The points of one strip in a row.
+struct Range {
+    std::size_t first = 0, last = 0;
+};
 
-Row make_row(const RoadNetwork& network, const Road& road, double s_m, const std::vector<Strip>& strips,
-             const std::vector<double>& borders);
+/// Points at every border of both cross-sections and at the crown lines; borders nearer than 0.1 mm are one. Where the heights of the
+/// two differ (a kerb that begins with a lane section), those of `after` count, and the end of the stretch before is a ramp.
+Row make_row(const RoadNetwork& network, const Road& road, double s_m, const std::vector<Strip>& before, const std::vector<Strip>& after,
+             const std::vector<double>& crown);
 
-/// Triangles between strip `index` of two rows, `from` at the smaller s. Each advance takes the shorter diagonal.
-void append_strip(MeshBuilder& builder, std::uint32_t material, const Strip& at_from, const Row& from, const Strip& at_to, const Row& to,
-                  std::size_t index);
+/// Where each strip of one of the two cross-sections lies in the row.
+std::vector<Range> ranges_in(const Row& row, const std::vector<Strip>& strips);
 
-/// Upright faces where the heights of two cross-sections at one station differ (a kerb that begins with a lane section).
-void append_risers(MeshBuilder& builder, const Row& before, const Row& after);
+/// One side of a strip: its place in a cross-section there, and in a row.
+struct StripEnd {
+    const Strip& strip;
+    const Row& row;
+    Range range;
+};
+
+/// Triangles of one strip between two rows, `from` at the smaller s. Each advance takes the shorter diagonal. Where the road is
+/// folded, because it is wider than the radius of its bend, the triangles beyond the bend's centre are turned over: all face up.
+void append_strip(MeshBuilder& builder, std::uint32_t material, const StripEnd& from, const StripEnd& to);
 
 } // namespace fernlicht

@@ -41,23 +41,25 @@ double cross(const glm::dvec3& o, const glm::dvec3& a, const glm::dvec3& b) {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
-double signed_area(const std::vector<glm::dvec3>& polygon) {
+double signed_area(const std::vector<Corner>& outline) {
     double twice = 0.0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3& a = polygon[i];
-        const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const glm::dvec3& a = outline[i].base_m;
+        const glm::dvec3& b = outline[(i + 1) % outline.size()].base_m;
         twice += a.x * b.y - b.x * a.y;
     }
     return 0.5 * twice;
 }
 
+bool same_place(const Corner& a, const Corner& b) { return glm::length(a.base_m - b.base_m) <= 1e-3; }
+
 /// Without corners that repeat their predecessor (a closing corner that repeats the first), counter-clockwise.
-std::vector<glm::dvec3> tidy(const std::vector<glm::dvec3>& outline, bool closed) {
-    std::vector<glm::dvec3> out;
-    for (const glm::dvec3& corner : outline)
-        if (out.empty() || glm::length(corner - out.back()) > 1e-3)
+std::vector<Corner> tidy(const std::vector<Corner>& outline, bool closed) {
+    std::vector<Corner> out;
+    for (const Corner& corner : outline)
+        if (out.empty() || !same_place(corner, out.back()))
             out.push_back(corner);
-    if (closed && out.size() > 1 && glm::length(out.front() - out.back()) <= 1e-3)
+    if (closed && out.size() > 1 && same_place(out.front(), out.back()))
         out.pop_back();
     if (closed && signed_area(out) < 0.0)
         std::reverse(out.begin(), out.end());
@@ -123,25 +125,26 @@ std::vector<std::array<std::size_t, 3>> triangulated(const std::vector<glm::dvec
     return out;
 }
 
-void append_extrusion(MeshBuilder& builder, RoadMaterial material, const Pose& foot, const std::vector<glm::dvec3>& outline_m,
-                      bool closed) {
-    const std::vector<glm::dvec3> corners = tidy(outline_m, closed);
-    const std::size_t walls = closed ? corners.size() : corners.size() - std::min<std::size_t>(1, corners.size());
+void append_extrusion(MeshBuilder& builder, RoadMaterial material, const Pose& foot, const std::vector<Corner>& outline, bool closed) {
+    const std::vector<Corner> corners = tidy(outline, closed);
     if (corners.size() < 2)
         return;
+    std::vector<glm::dvec3> roof;
+    for (const Corner& corner : corners)
+        roof.push_back(corner.base_m + glm::dvec3(0.0, 0.0, corner.height_m));
+    const std::size_t walls = closed ? corners.size() : corners.size() - 1;
     for (std::size_t i = 0; i < walls; ++i) {
-        const glm::dvec3& a = corners[i];
-        const glm::dvec3& b = corners[(i + 1) % corners.size()];
-        const std::array<glm::dvec3, 4> wall{at(foot, a.x, a.y, 0.0), at(foot, b.x, b.y, 0.0), at(foot, b.x, b.y, b.z),
-                                             at(foot, a.x, a.y, a.z)};
+        const std::size_t k = (i + 1) % corners.size();
+        const std::array<glm::dvec3, 4> wall{to_parent(foot, corners[i].base_m), to_parent(foot, corners[k].base_m),
+                                             to_parent(foot, roof[k]), to_parent(foot, roof[i])};
         builder.quad(index_of(material), wall);
         if (!closed)
             builder.quad(index_of(material), {wall[1], wall[0], wall[3], wall[2]});
     }
-    if (!closed || corners.size() > 2000) // ears cost the square of the corners
+    if (!closed || corners.size() > 2000) // ears cost the square of the corners and more
         return;
-    for (const auto& ear : triangulated(corners)) {
-        const glm::dvec3 a = to_parent(foot, corners[ear[0]]), b = to_parent(foot, corners[ear[1]]), c = to_parent(foot, corners[ear[2]]);
+    for (const auto& ear : triangulated(roof)) {
+        const glm::dvec3 a = to_parent(foot, roof[ear[0]]), b = to_parent(foot, roof[ear[1]]), c = to_parent(foot, roof[ear[2]]);
         const glm::dvec3 normal = glm::cross(b - a, c - a);
         builder.triangle(index_of(material), builder.vertex(a, normal), builder.vertex(b, normal), builder.vertex(c, normal));
     }

@@ -14,9 +14,15 @@ void append_post(MeshBuilder& builder, RoadMaterial material, const Pose& foot, 
 /// Length along the pose's x, width along y, the pose in the middle of the bottom face. Materials may differ on the face towards +x.
 void append_box(MeshBuilder& builder, const Pose& foot, const glm::dvec3& size_m, RoadMaterial material, RoadMaterial front);
 
-/// Walls from the pose's ground plane to each corner's height (z), and a roof over them if the outline is closed. Open outlines are
-/// walls seen from both sides. Outlines that cross themselves get no roof.
-void append_extrusion(MeshBuilder& builder, RoadMaterial material, const Pose& foot, const std::vector<glm::dvec3>& outline_m, bool closed);
+/// A corner of an outline in the pose's frame: where its wall stands, and how high it is.
+struct Corner {
+    glm::dvec3 base_m{0.0};
+    double height_m = 0.0;
+};
+
+/// Walls between the corners, and a roof over them if the outline is closed. Open outlines are walls seen from both sides. Outlines
+/// that cross themselves or have more than 2000 corners get no roof.
+void append_extrusion(MeshBuilder& builder, RoadMaterial material, const Pose& foot, const std::vector<Corner>& outline, bool closed);
 
 /// A trunk and a crown of two eight-sided cones, base to base: 0.25 of the height free below the crown (a bush: none).
 void append_tree(MeshBuilder& builder, const Pose& foot, double height_m, double crown_radius_m, bool bush);

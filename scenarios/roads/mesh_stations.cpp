@@ -10,9 +10,10 @@ namespace fernlicht {
 namespace {
 
 constexpr double shortest_stretch_m = 0.02;
-constexpr double same_station_m = 1e-6;
+constexpr double same_station_m = 0.005; ///< nearer ones (two records of one place, differently rounded) are one
 /// Long straight stretches are cut as well: terrain is fitted to its neighbours stretch by stretch.
 constexpr double longest_stretch_m = 15.0;
+constexpr double kerb_ramp_m = 0.5;
 constexpr double longest_in_junction_m = 2.5;
 
 double distance_to_chord(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
@@ -111,6 +112,11 @@ std::vector<double> fixed_stations(const Road& road, const std::vector<SectionPr
         stations.push_back(shape.s_m);
     for (const SectionProfile& profile : profiles)
         profile.append_stations(stations);
+    for (std::size_t i = 0; i + 1 < profiles.size(); ++i) { // where a kerb of the next section rises
+        const LaneSection& section = profiles[i].section();
+        if ((profiles[i].has_heights() || profiles[i + 1].has_heights()) && section.end_m - section.s_m > 2.0 * kerb_ramp_m)
+            stations.push_back(section.end_m - kerb_ramp_m);
+    }
     for (std::size_t i = 1; i < chunks; ++i)
         stations.push_back(road.length_m * static_cast<double>(i) / static_cast<double>(chunks));
     std::erase_if(stations, [&](double s) { return !(s >= 0.0 && s <= road.length_m); });

@@ -38,36 +38,34 @@ Cut cut_at(const SurfacePlan& plan, const Stretch& stretch) {
 
 } // namespace
 
-std::vector<StretchRows> append_surface(Scene& scene, const RoadNetwork& network, const SurfacePlan& plan, const Repaint& repaint) {
-    std::vector<StretchRows> rows;
-    if (plan.stretches.empty())
-        return rows;
+SurfaceRows append_surface(Scene& scene, const RoadNetwork& network, const SurfacePlan& plan, const Repaint& repaint) {
+    SurfaceRows surface;
     const Road& road = *plan.road;
+    std::vector<Cut> cuts;
+    for (const Stretch& stretch : plan.stretches)
+        cuts.push_back(cut_at(plan, stretch));
+    for (std::size_t i = 0; i <= cuts.size() && !cuts.empty(); ++i) {
+        const double s = i < cuts.size() ? plan.stretches[i].from_s_m : plan.stretches.back().to_s_m;
+        surface.rows.push_back(make_row(network, road, s, i > 0 ? cuts[i - 1].to : std::vector<Strip>{},
+                                        i < cuts.size() ? cuts[i].from : std::vector<Strip>{}, plan.crown));
+    }
     std::optional<MeshBuilder> builder;
-    Cut before, here = cut_at(plan, plan.stretches.front());
-    for (std::size_t i = 0; i < plan.stretches.size(); ++i) {
-        const Stretch& stretch = plan.stretches[i];
-        const Cut after = i + 1 < plan.stretches.size() ? cut_at(plan, plan.stretches[i + 1]) : Cut{};
-        StretchRows both{&stretch, {}, {}};
-        both.from = make_row(network, road, stretch.from_s_m, here.from, common_borders(before.to, here.from, plan.crown));
-        both.to = make_row(network, road, stretch.to_s_m, here.to, common_borders(here.to, after.from, plan.crown));
-        if (!builder || stretch.chunk != plan.stretches[i - 1].chunk) {
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+        const Row &from = surface.rows[i], &to = surface.rows[i + 1];
+        surface.ends.push_back({ranges_in(from, cuts[i].from), ranges_in(to, cuts[i].to)});
+        if (!builder || plan.stretches[i].chunk != plan.stretches[i - 1].chunk) {
             if (builder)
                 std::move(*builder).add_to(scene);
-            builder.emplace(chunk_name("road", plan, i), surface_pose(network, road, stretch.from_s_m, 0.0).position_m);
+            builder.emplace(chunk_name("road", plan, i), surface_pose(network, road, from.s_m, 0.0).position_m);
         }
-        for (std::size_t k = 0; k < here.from.size(); ++k) {
-            const RoadMaterial material = repaint ? repaint(here.from[k], both.from, both.to, k) : here.from[k].material;
-            append_strip(*builder, index_of(material), here.from[k], both.from, here.to[k], both.to, k);
+        for (std::size_t k = 0; k < cuts[i].from.size(); ++k) {
+            const StripEnd start{cuts[i].from[k], from, surface.ends[i].from[k]}, end{cuts[i].to[k], to, surface.ends[i].to[k]};
+            append_strip(*builder, index_of(repaint ? repaint(start, end) : start.strip.material), start, end);
         }
-        if (!rows.empty())
-            append_risers(*builder, rows.back().to, both.from);
-        rows.push_back(std::move(both));
-        before = std::move(here);
-        here = after;
     }
-    std::move(*builder).add_to(scene);
-    return rows;
+    if (builder)
+        std::move(*builder).add_to(scene);
+    return surface;
 }
 
 } // namespace fernlicht

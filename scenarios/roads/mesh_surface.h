@@ -22,17 +22,21 @@ struct SurfacePlan {
 
 SurfacePlan plan_surface(const RoadNetwork& network, const Road& road, const RoadMeshOptions& options);
 
-/// A stretch with its rows: what terrain joins to.
-struct StretchRows {
-    const Stretch* stretch;
-    Row from, to;
+/// The rows of a road, one a station, and where the strips of each stretch lie in the rows at its ends.
+struct SurfaceRows {
+    struct Ends {
+        std::vector<Range> from, to;
+    };
+    std::vector<Row> rows;  ///< one more than there are stretches
+    std::vector<Ends> ends; ///< of each stretch
+    bool empty(std::size_t stretch) const { return ends[stretch].from.empty(); }
 };
 
-/// Called with each cell (one strip of one stretch) before it is built; returns the material to use.
-using Repaint = std::function<RoadMaterial(const Strip&, const Row& from, const Row& to, std::size_t strip)>;
+/// Called with each strip of each stretch before it is built; returns the material to use.
+using Repaint = std::function<RoadMaterial(const StripEnd& from, const StripEnd& to)>;
 
-/// Adds the meshes "road ID s 120-180" to the scene and returns the rows of every stretch, in order.
-std::vector<StretchRows> append_surface(Scene& scene, const RoadNetwork& network, const SurfacePlan& plan, const Repaint& repaint);
+/// Adds the meshes "road ID s 120-180" to the scene. Returns the rows, to which the terrain joins.
+SurfaceRows append_surface(Scene& scene, const RoadNetwork& network, const SurfacePlan& plan, const Repaint& repaint);
 
 /// "road 12 s 120-180"
 std::string chunk_name(const char* what, const SurfacePlan& plan, std::size_t first_stretch);

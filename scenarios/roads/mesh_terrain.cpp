@@ -53,10 +53,11 @@ struct Rib {
 
 class Side {
   public:
-    Side(const SurfacePlan& plan, std::size_t road_index, const std::vector<StretchRows>& rows, bool left, double verge_width)
+    Side(const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, bool left, double verge_width)
         : plan_(plan), road_index_(road_index), left_(left) {
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            follow(rows, i);
+        for (std::size_t i = 0; i < plan.stretches.size(); ++i)
+            if (!surface.empty(i))
+                follow(surface, i);
         place(verge_width);
     }
 
@@ -64,15 +65,14 @@ class Side {
     void append(Scene& scene) const;
 
   private:
-    void follow(const std::vector<StretchRows>& rows, std::size_t i);
-    void append_step(const Row& before, const Row& after, const Row& wide);
-    bool is_wider(const Row& a, const Row& b) const {
-        return left_ ? outermost(a).t_m > outermost(b).t_m : outermost(a).t_m < outermost(b).t_m;
-    }
+    void follow(const SurfaceRows& surface, std::size_t i);
+    void append_step(const Row& row, std::size_t before, std::size_t after);
+    bool is_wider(std::size_t a, std::size_t b) const { return left_ ? a > b : a < b; }
     void add_edge(const Row& row, const RowPoint& point);
     void add_rib(const Row& row, const RowPoint& point, std::size_t chunk, bool always);
     void place(double verge_width);
-    const RowPoint& outermost(const Row& row) const { return left_ ? row.points.back() : row.points.front(); }
+    /// The point of the road's edge in a row, as a stretch beside it has it.
+    std::size_t outermost(const std::vector<Range>& strips) const { return left_ ? strips.back().last : strips.front().first; }
     Ground cell(std::size_t rib, std::size_t column) const;
     double allowed(const Footprints& footprints, std::size_t rib, std::size_t column, bool& open) const;
     void append_cell(MeshBuilder& builder, std::size_t rib, std::size_t column) const;
@@ -114,41 +114,34 @@ void Side::add_rib(const Row& row, const RowPoint& point, std::size_t chunk, boo
 
 /// Walks along the edge; where the road gets wider or narrower at a station, along the row's own points. The rib of such a station
 /// starts at the wider of both, so that the ground joins the end of the wider row as well.
-void Side::follow(const std::vector<StretchRows>& rows, std::size_t i) {
-    const Row& from = rows[i].from;
-    const Row& to = rows[i].to;
-    if (from.empty())
-        return;
-    const std::size_t chunk = rows[i].stretch->chunk;
-    if (i == 0 || rows[i - 1].to.empty()) {
-        add_edge(from, outermost(from));
-        add_rib(from, outermost(from), chunk, true);
+void Side::follow(const SurfaceRows& surface, std::size_t i) {
+    const Row& from = surface.rows[i];
+    const Row& to = surface.rows[i + 1];
+    const std::size_t edge_from = outermost(surface.ends[i].from), edge_to = outermost(surface.ends[i].to);
+    const std::size_t chunk = plan_.stretches[i].chunk;
+    if (i == 0 || surface.empty(i - 1)) {
+        add_edge(from, from.points[edge_from]);
+        add_rib(from, from.points[edge_from], chunk, true);
         ribs_.back().begins = true;
     } else {
-        const Row& before = rows[i - 1].to;
-        const bool wider = is_wider(from, before);
-        append_step(before, from, wider ? from : before);
-        add_edge(from, outermost(from));
-        if (wider)
-            add_rib(from, outermost(from), rows[i - 1].stretch->chunk, true);
+        const std::size_t before = outermost(surface.ends[i - 1].to);
+        append_step(from, before, edge_from);
+        if (is_wider(edge_from, before))
+            add_rib(from, from.points[edge_from], plan_.stretches[i - 1].chunk, true);
     }
-    add_edge(to, outermost(to));
-    const bool last = i + 1 == rows.size() || rows[i + 1].from.empty();
-    if (last || !is_wider(rows[i + 1].from, to))
-        add_rib(to, outermost(to), chunk, last || rows[i + 1].stretch->chunk != chunk || is_wider(to, rows[i + 1].from));
+    add_edge(to, to.points[edge_to]);
+    const bool last = i + 1 == plan_.stretches.size() || surface.empty(i + 1);
+    const std::size_t after = last ? edge_to : outermost(surface.ends[i + 1].from);
+    if (!is_wider(after, edge_to))
+        add_rib(to, to.points[edge_to], chunk, last || plan_.stretches[i + 1].chunk != chunk || after != edge_to);
 }
 
-/// The points of `wide` between the outer edges of two rows at one station, in the order of the walk.
-void Side::append_step(const Row& before, const Row& after, const Row& wide) {
-    const double t0 = outermost(before).t_m, t1 = outermost(after).t_m;
-    const auto add = [&](const RowPoint& point) {
-        if (point.t_m > std::min(t0, t1) && point.t_m < std::max(t0, t1))
-            add_edge(wide, point);
-    };
-    if (t1 > t0)
-        std::for_each(wide.points.begin(), wide.points.end(), add);
-    else
-        std::for_each(wide.points.rbegin(), wide.points.rend(), add);
+/// The points of a row from the edge before it to the edge after it.
+void Side::append_step(const Row& row, std::size_t before, std::size_t after) {
+    for (std::size_t k = before; k < after; ++k)
+        add_edge(row, row.points[k + 1]);
+    for (std::size_t k = before; k > after; --k)
+        add_edge(row, row.points[k - 1]);
 }
 
 void Side::place(double verge_width) {
@@ -292,12 +285,12 @@ void Side::append(Scene& scene) const {
 
 } // namespace
 
-void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_index, const std::vector<StretchRows>& rows,
+void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface,
                     const Footprints& footprints, const RoadMeshOptions& options) {
     if (!(options.verge_width_m > 0.0))
         return;
     for (const bool left : {false, true}) {
-        Side side(plan, road_index, rows, left, options.verge_width_m);
+        Side side(plan, road_index, surface, left, options.verge_width_m);
         side.fit(footprints);
         side.append(scene);
     }

@@ -15,8 +15,8 @@ Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options) {
         plans.push_back(plan_surface(network, road, options));
     const Footprints footprints(network, plans);
     for (std::size_t i = 0; i < plans.size(); ++i) {
-        const std::vector<StretchRows> rows = append_surface(scene, network, plans[i], {});
-        append_terrain(scene, plans[i], i, rows, footprints, options);
+        const SurfaceRows surface = append_surface(scene, network, plans[i], {});
+        append_terrain(scene, plans[i], i, surface, footprints, options);
         append_objects(scene, network, plans[i], options);
         append_signals(scene, network, plans[i]);
     }
