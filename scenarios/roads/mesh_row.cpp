@@ -69,6 +69,9 @@ Heights heights_over(const std::vector<double>& borders, const std::vector<Strip
         out.at[left].left_h_m = strip.left_h_m;
         out.last = left;
     }
+    // No step at the outer edges: it would be the kerb of a lane that has no width left.
+    out.at[out.first].right_h_m = out.at[out.first].left_h_m;
+    out.at[out.last].left_h_m = out.at[out.last].right_h_m;
     return out;
 }
 
@@ -85,9 +88,30 @@ glm::dvec3 surface_normal(const Strip& strip, const RowPoint& point) {
     return slope == 0.0 ? point.pose.up() : glm::normalize(point.pose.up() - slope * point.pose.left());
 }
 
-/// Whether a triangle lies upside down: the strip is folded, for it reaches beyond the centre of a bend.
-bool upside_down(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& up) {
-    return glm::dot(glm::cross(b - a, c - a), up) < -1e-9;
+struct StripCorner {
+    glm::dvec3 position_m;
+    glm::dvec3 normal;
+};
+
+/// Triangles of a fold, where the road reaches beyond the centre of its bend, lie upside down and are turned over. Where the triangle
+/// is far from the surface that the normals belong to (the ramp of a kerb), it has its own.
+void append_triangle(MeshBuilder& builder, std::uint32_t material, std::array<StripCorner, 3> corners, bool upright) {
+    const auto across = [&] {
+        return glm::cross(corners[1].position_m - corners[0].position_m, corners[2].position_m - corners[0].position_m);
+    };
+    const glm::dvec3 up = corners[0].normal;
+    if (glm::dot(across(), up) < -1e-9 && !upright)
+        std::swap(corners[1], corners[2]);
+    const glm::dvec3 own = across();
+    const double twice_area = glm::length(own);
+    constexpr double cosine_of_60 = 0.5;
+    for (StripCorner& corner : corners)
+        if (twice_area > 1e-9 && glm::dot(own, corner.normal) < cosine_of_60 * twice_area)
+            corner.normal = own;
+    std::array<std::uint32_t, 3> v{};
+    for (std::size_t k = 0; k < 3; ++k)
+        v[k] = builder.vertex(corners[k].position_m, corners[k].normal);
+    builder.triangle(material, v[0], v[1], v[2]);
 }
 
 /// The first and the last point at t.
@@ -152,38 +176,22 @@ std::vector<Range> ranges_in(const Row& row, const std::vector<Strip>& strips) {
 }
 
 void append_strip(MeshBuilder& builder, std::uint32_t material, const StripEnd& from, const StripEnd& to) {
-    const Range a = from.range, b = to.range;
-    if (a.first == a.last && b.first == b.last)
-        return;
-    const auto near = [&](std::size_t i) { return from.row.points[i].pose.position_m; };
-    const auto far = [&](std::size_t j) { return to.row.points[j].pose.position_m; };
     const bool face = from.strip.kerb_face;
     const double direction = face ? face_direction(from.strip, to.strip) : 0.0;
-    const auto vertex = [&](const Strip& strip, const RowPoint& point) {
-        return builder.vertex(point.pose.position_m, face ? direction * point.pose.left() : surface_normal(strip, point));
+    const auto corner = [&](const StripEnd& end, std::size_t i) {
+        const Pose& pose = end.row.points[i].pose;
+        return StripCorner{pose.position_m, face ? direction * pose.left() : surface_normal(end.strip, end.row.points[i])};
     };
-    std::size_t i = a.first, j = b.first;
-    std::uint32_t vi = vertex(from.strip, from.row.points[i]), vj = vertex(to.strip, to.row.points[j]);
-    const auto add = [&](std::uint32_t next, const glm::dvec3& next_place) {
-        if (!face && upside_down(near(i), far(j), next_place, from.row.points[i].pose.up()))
-            builder.triangle(material, vi, next, vj);
-        else
-            builder.triangle(material, vi, vj, next);
-    };
-    while (i < a.last || j < b.last) {
-        const auto diagonal = [](const glm::dvec3& p, const glm::dvec3& q) { return glm::dot(p - q, p - q); };
-        const bool step_near = j == b.last || (i < a.last && diagonal(near(i + 1), far(j)) <= diagonal(far(j + 1), near(i)));
-        if (step_near) {
-            const std::uint32_t next = vertex(from.strip, from.row.points[i + 1]);
-            add(next, near(i + 1));
-            vi = next;
-            ++i;
-        } else {
-            const std::uint32_t next = vertex(to.strip, to.row.points[j + 1]);
-            add(next, far(j + 1));
-            vj = next;
-            ++j;
-        }
+    std::size_t i = from.range.first, j = to.range.first;
+    StripCorner near = corner(from, i), far = corner(to, j);
+    while (i < from.range.last || j < to.range.last) {
+        const auto squared = [](const glm::dvec3& v) { return glm::dot(v, v); };
+        const bool near_ends = i == from.range.last, far_ends = j == to.range.last;
+        const bool step_near = far_ends || (!near_ends && squared(from.row.points[i + 1].pose.position_m - far.position_m) <=
+                                                              squared(to.row.points[j + 1].pose.position_m - near.position_m));
+        const StripCorner next = step_near ? corner(from, ++i) : corner(to, ++j);
+        append_triangle(builder, material, {near, far, next}, face);
+        (step_near ? near : far) = next;
     }
 }
 
