@@ -97,43 +97,6 @@ data verdict_part(const Report& report) {
     return part;
 }
 
-data variant_details(const PlayedVariant& played) {
-    data part;
-    part.set("variant", clean_text(played.variant));
-    data lamps{List::list}, readings{List::list}, left_out{List::list}, notes{List::list};
-    for (const auto& [name, file] : played.lamps) {
-        data lamp;
-        lamp.set("lamp", clean_text(name));
-        lamp.set("file", clean_text(file));
-        lamps.push_back(lamp);
-    }
-    for (const Reading& reading : played.readings) {
-        data row;
-        row.set("name", clean_text(reading.name));
-        row.set("measured", reading.value.has_value());
-        row.set("value", reading.value ? fmt::format("{:.5g}", *reading.value) : "");
-        row.set("unit", clean_text(reading.unit == "m2" ? "m\u00b2" : reading.unit == "1" ? "" : reading.unit));
-        row.set("where", clean_text(reading.where));
-        row.set("frame", reading.tick < 0 ? "whole drive" : fmt::format("{}", reading.tick));
-        row.set("why_not", clean_text(reading.why_not));
-        readings.push_back(row);
-    }
-    for (const std::string& sentence : played.left_out)
-        left_out.push_back(clean_text(sentence));
-    for (const std::string& sentence : played.notes)
-        notes.push_back(clean_text(sentence));
-    part.set("ticks_done", fmt::format("{}", played.ticks_done));
-    part.set("ticks_planned", fmt::format("{}", played.ticks_planned));
-    part.set("lamps", lamps);
-    part.set("has_readings", !played.readings.empty());
-    part.set("readings", readings);
-    part.set("has_left_out", !played.left_out.empty());
-    part.set("left_out", left_out);
-    part.set("has_notes", !played.notes.empty());
-    part.set("notes", notes);
-    return part;
-}
-
 data timing_table(const ComparedDrive& drive) {
     data rows{List::list};
     for (std::size_t i = 0; i < drive.variants.size(); ++i)

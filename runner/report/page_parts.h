@@ -34,8 +34,8 @@ kainjow::mustache::data headline_reaches(const ComparedDrive& drive);
 /// longer fit are linked.
 kainjow::mustache::data moments_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes);
 
-/// Readings, lamps, left-out list and notes of one lamp set.
-kainjow::mustache::data variant_details(const PlayedVariant& played);
+/// Readings beside each other per lamp set; lamps with their files; what was left out and noted, once where it holds for all.
+kainjow::mustache::data details_part(const ComparedDrive& drive);
 
 /// Spread of each pass of each lamp set.
 kainjow::mustache::data timing_table(const ComparedDrive& drive);

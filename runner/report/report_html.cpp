@@ -60,9 +60,7 @@ std::string subtitle_of(const Report& report) {
 }
 
 data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes, std::size_t number) {
-    data part, details{List::list};
-    for (const PlayedVariant* const played : drive.variants)
-        details.push_back(variant_details(*played));
+    data part;
     part.set("number", fmt::format("{}", number));
     part.set("name", short_text(drive.name, 200));
     part.set("headline", headline_reaches(drive));
@@ -70,7 +68,7 @@ data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder,
     part.set("pictures", moments_part(drive, folder, budget_bytes));
     part.set("plots", plots_part(drive));
     part.set("columns", fmt::format("{}", drive.variants.size()));
-    part.set("details", details);
+    part.set("details", details_part(drive));
     return part;
 }
 
