@@ -17,6 +17,7 @@ lawful() {
     printf '#include "photometry.glsl"\n' >"$tree/renderer/shaders/lamps.glsl"
     printf '#include "report_files.h"\n#include "renderer/renderer.h"\n#include "metrics/extent.h"\n#include <OpenImageIO/imageio.h>\n' >"$tree/runner/report/html.cpp"
     printf '#include "tests/metrics/frames.h"\n#include "metrics/extent.h"\n#include <OpenImageIO/imageio.h>\n' >"$tree/tests/metrics/extent_test.cpp"
+    printf '#include <OpenImageIO/oiioversion.h>\n' >"$tree/runner/versions.cpp"
     printf 'int generated;\n' >"$tree/build/release/generated.cpp"
 }
 
