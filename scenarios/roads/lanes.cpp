@@ -26,6 +26,11 @@ double outer_edge(const Lane& lane, double inner_t, double offset, double ds) {
 
 } // namespace
 
+bool travels_with_s(const Road& road, const Lane& lane) {
+    const bool usual = (lane.id < 0) != road.left_hand_traffic;
+    return usual != lane.reversed;
+}
+
 const LaneSection& section_at(const Road& road, double s_m) {
     if (road.sections.empty())
         return empty_section();

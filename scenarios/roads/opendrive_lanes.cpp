@@ -21,6 +21,7 @@ Lane read_lane(OpenDriveXml& xml, pugi::xml_node node) {
     lane.type = xml.text(node, "type", "none");
     const std::string level = xml.text(node, "level", "false");
     lane.level = level == "true" || level == "1";
+    lane.reversed = xml.text(node, "direction") == "reversed";
     lane.predecessor = read_link(xml, node, "predecessor");
     lane.successor = read_link(xml, node, "successor");
     lane.marks = read_marks(xml, node);

@@ -49,15 +49,18 @@ PlanPoint plan_point(const PlanElement& element, double ds_m) {
             element.heading_rad + local.heading_rad, local.heading_rate_per_m, local.speed};
 }
 
+const PlanElement& element_at(const Road& road, double s_m) {
+    const auto after =
+        std::upper_bound(road.plan.begin(), road.plan.end(), s_m, [](double s, const PlanElement& element) { return s < element.s_m; });
+    return after == road.plan.begin() ? *after : *(after - 1);
+}
+
 PlanPoint plan_point(const Road& road, double s_m) {
     if (road.plan.empty())
         return {};
     const double s = std::clamp(s_m, 0.0, std::max(road.length_m, 0.0));
-    auto after = std::upper_bound(road.plan.begin(), road.plan.end(), s,
-                                  [](double value, const PlanElement& element) { return value < element.s_m; });
-    if (after != road.plan.begin())
-        --after;
-    return plan_point(*after, s - after->s_m);
+    const PlanElement& element = element_at(road, s);
+    return plan_point(element, s - element.s_m);
 }
 
 Pose plan_pose(const Road& road, double s_m) {

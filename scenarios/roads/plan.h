@@ -21,6 +21,9 @@ PlanPoint plan_point(const PlanElement& element, double ds_m);
 /// The point of the road's reference line at s, clamped to the road. A road without elements lies at the origin.
 PlanPoint plan_point(const Road& road, double s_m);
 
+/// The element that holds at s. The road must have one.
+const PlanElement& element_at(const Road& road, double s_m);
+
 /// Length of the curve an element draws, by integration; equals length_m for everything but a badly written paramPoly3.
 double drawn_length_m(const PlanElement& element);
 

@@ -20,7 +20,9 @@ struct Cubic {
 };
 
 struct Line {};
-struct Arc { double curvature_per_m = 0.0; };
+struct Arc {
+    double curvature_per_m = 0.0;
+};
 struct Spiral {
     double start_per_m = 0.0, end_per_m = 0.0;
     std::vector<glm::dvec2> steps_m = {}; ///< cache of prepare(): local positions at equal steps; may be empty
@@ -28,7 +30,9 @@ struct Spiral {
 /// v(u) in the element's own frame; s is the arc length of the curve, not u.
 struct Poly3 {
     double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
-    struct Knot { double s_m, u_m; };
+    struct Knot {
+        double s_m, u_m;
+    };
     std::vector<Knot> knots = {}; ///< cache of prepare(): arc length against u; may be empty
 };
 struct ParamPoly3 {
@@ -56,7 +60,9 @@ struct RoadMark {
     double width_m = 0.12;
     std::string colour = "white";
     /// explicit lines (OpenDRIVE `type`/`line`), else by kind: dash length, gap, lateral offset, start offset
-    struct Stripe { double width_m, dash_m, gap_m, t_m, start_m; };
+    struct Stripe {
+        double width_m, dash_m, gap_m, t_m, start_m;
+    };
     std::vector<Stripe> stripes;
 };
 
@@ -64,10 +70,13 @@ struct Lane {
     int id = 0; ///< left positive, right negative, 0 the centre without width
     std::string type = "driving";
     bool level = false;
+    bool reversed = false;      ///< driven against the side's usual direction (OpenDRIVE 1.8 `direction`)
     std::vector<Cubic> widths;  ///< s0 relative to the section's start; empty when borders are given
     std::vector<Cubic> borders; ///< t of the outer edge; used when widths is empty
     std::vector<RoadMark> marks;
-    struct Height { double s_m, inner_m, outer_m; };
+    struct Height {
+        double s_m, inner_m, outer_m;
+    };
     std::vector<Height> heights;
     std::optional<int> predecessor, successor;
 };
@@ -82,7 +91,7 @@ struct RoadObject {
     std::string id, name, type;
     double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0, heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
     double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0; ///< radius > 0: a post, else a box
-    std::vector<glm::dvec3> outline_m; ///< corners in the object's own frame (x, y, height above its base); empty: box or post
+    std::vector<glm::dvec3> outline_m;  ///< corners in the object's own frame (x, y, height above its base); empty: box or post
     std::vector<double> outline_base_m; ///< base of each corner above the object's origin; as many as corners
     bool closed_outline = true;
 };
@@ -91,8 +100,8 @@ struct RoadSignal {
     std::string id, name, type, subtype, country;
     double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0, heading_offset_rad = 0.0;
     double width_m = 0.0, height_m = 0.0; ///< 0: by type, else 0.6
-    bool facing_forward = true; ///< orientation "+": valid for traffic in +s, so its face looks towards -s
-    bool dynamic = false;       ///< traffic light
+    bool facing_forward = true;           ///< orientation "+": valid for traffic in +s, so its face looks towards -s
+    bool dynamic = false;                 ///< traffic light
 };
 
 struct RoadLink {
@@ -147,9 +156,14 @@ Pose plan_pose(const Road& road, double s_m);
 /// t is measured from the reference line, left positive. Lane height offsets (kerbs) are not included.
 Pose surface_pose(const RoadNetwork& network, const Road& road, double s_m, double t_m);
 
+/// True when traffic on the lane moves towards growing s: by the side of the road and the traffic rule.
+bool travels_with_s(const Road& road, const Lane& lane);
+
 const LaneSection& section_at(const Road& road, double s_m);
 /// Outer and inner edge of a lane as t (lane offset included), at s. Throws std::out_of_range for an unknown lane.
-struct LaneEdges { double inner_t_m, outer_t_m; };
+struct LaneEdges {
+    double inner_t_m, outer_t_m;
+};
 LaneEdges lane_edges(const Road& road, const LaneSection& section, int lane_id, double s_m);
 
 } // namespace fernlicht

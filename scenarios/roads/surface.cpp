@@ -1,5 +1,6 @@
+#include "scenarios/roads/surface.h"
+
 #include "scenarios/roads/cubics.h"
-#include "scenarios/roads/plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,7 @@ struct Jet {
     double value = 0.0, slope = 0.0, curve = 0.0; ///< value and its first two derivatives
 };
 
-Jet jet_at(const std::vector<Cubic>& pieces, double s) {
-    const Cubic* piece = piece_at(pieces, s);
+Jet jet_at(const Cubic* piece, double s) {
     return piece ? Jet{piece->at(s), piece->slope(s), 2.0 * piece->c + 6.0 * piece->d * (s - piece->s0)} : Jet{};
 }
 
@@ -49,33 +49,56 @@ Height shape_height(const std::vector<ShapeProfile>& shapes, double s, double t)
 
 } // namespace
 
-Pose surface_pose(const RoadNetwork&, const Road& road, double s_m, double t_m) {
-    const double s = std::clamp(s_m, 0.0, std::max(road.length_m, 0.0));
-    const PlanPoint plan = plan_point(road, s);
-    const Jet elevation = jet_at(road.elevation, s), roll = jet_at(road.superelevation, s);
+SurfaceStrip strip_at(const Road& road, double s_m) {
+    static const PlanElement nowhere{};
+    return {road.plan.empty() ? &nowhere : &element_at(road, s_m), piece_at(road.elevation, s_m), piece_at(road.superelevation, s_m),
+            road.shapes.empty() ? nullptr : &road.shapes};
+}
+
+SurfacePoint surface_point(const SurfaceStrip& strip, double s_m, double t_m) {
+    const PlanPoint plan = plan_point(*strip.element, s_m - strip.element->s_m);
+    const Jet elevation = jet_at(strip.elevation, s_m), roll = jet_at(strip.superelevation, s_m);
+    const Height height = strip.shapes ? shape_height(*strip.shapes, s_m, t_m) : Height{};
     const double speed = std::max(plan.speed, 1e-9); // elevation is given over s, the plane is walked at `speed` per s
-    const double gradient = elevation.slope / speed, pitch = std::atan(gradient);
-    const glm::dmat3 axes = axes_from_angles(plan.heading_rad, pitch, roll.value);
-    const Height height = road.shapes.empty() ? Height{} : shape_height(road.shapes, s, t_m);
+    const double gradient = elevation.slope / speed, steepness = std::sqrt(1.0 + gradient * gradient);
+    const double c = std::cos(plan.heading_rad), s = std::sin(plan.heading_rad);
+
+    // The frame of axes_from_angles(heading, atan(gradient), roll), without its inverse functions.
+    const glm::dvec3 forward = glm::dvec3(c, s, gradient) / steepness, across{-s, c, 0.0};
+    glm::dvec3 left = across, up = glm::dvec3(-gradient * c, -gradient * s, 1.0) / steepness;
+    if (roll.value != 0.0) {
+        const double cr = std::cos(roll.value), sr = std::sin(roll.value);
+        left = cr * across + sr * up;
+        up = cr * up - sr * across;
+    }
+    SurfacePoint point;
+    const glm::dvec3 arm = t_m * left + height.h * up;
+    point.position_m = glm::dvec3(plan.x_m, plan.y_m, elevation.value) + arm;
 
     // The cross-section turns with heading about the vertical, with pitch about the horizontal across, with roll about the tangent.
-    const glm::dvec3 arm = axes * glm::dvec3(0.0, t_m, height.h);
-    const glm::dvec3 across{-std::sin(plan.heading_rad), std::cos(plan.heading_rad), 0.0};
-    const glm::dvec3 turning = plan.heading_rate_per_m * glm::dvec3(0.0, 0.0, 1.0) -
-                               elevation.curve / speed / (1.0 + gradient * gradient) * across + roll.slope * axes[0];
-    const glm::dvec3 base_by_s = axes[0] * (speed * std::sqrt(1.0 + gradient * gradient));
-    glm::dvec3 by_s = base_by_s + glm::cross(turning, arm) + height.by_s * axes[2];
-    const glm::dvec3 by_t = axes * glm::dvec3(0.0, 1.0, height.by_t);
+    const glm::dvec3 turning =
+        glm::dvec3(0.0, 0.0, plan.heading_rate_per_m) - elevation.curve / speed / (steepness * steepness) * across + roll.slope * forward;
+    point.by_s = speed * steepness * forward + glm::cross(turning, arm) + height.by_s * up;
+    point.by_t = left + height.by_t * up;
     // Beyond the centre of a bend lines of constant t run backwards; the surface is still the road's upper side.
-    if (glm::dot(by_s, axes[0]) <= 1e-9)
-        by_s = axes[0];
+    if (glm::dot(point.by_s, forward) <= 1e-9)
+        point.by_s = forward;
+    return point;
+}
 
+Pose pose_along(const SurfacePoint& point, const glm::dvec3& direction) {
     Pose pose;
-    pose.position_m = glm::dvec3(plan.x_m, plan.y_m, elevation.value) + arm;
-    pose.axes[0] = glm::normalize(by_s);
-    pose.axes[2] = glm::normalize(glm::cross(by_s, by_t));
+    pose.position_m = point.position_m;
+    pose.axes[0] = glm::normalize(direction);
+    pose.axes[2] = glm::normalize(glm::cross(point.by_s, point.by_t));
     pose.axes[1] = glm::cross(pose.axes[2], pose.axes[0]);
     return pose;
+}
+
+Pose surface_pose(const RoadNetwork&, const Road& road, double s_m, double t_m) {
+    const double s = std::clamp(s_m, 0.0, std::max(road.length_m, 0.0));
+    const SurfacePoint point = surface_point(strip_at(road, s), s, t_m);
+    return pose_along(point, point.by_s);
 }
 
 } // namespace fernlicht

@@ -1,0 +1,188 @@
+#include "scenarios/roads/route.h"
+
+#include "scenarios/roads/route_links.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fernlicht {
+namespace {
+
+[[noreturn]] void refuse(const RoadNetwork& network, const std::string& key, const std::string& found, const std::string& expected) {
+    throw InputError({network.opened.empty() ? std::filesystem::path() : network.opened.front().path, 0, 0, key}, found, expected);
+}
+
+std::string road_list(const RoadNetwork& network) {
+    constexpr std::size_t most = 12;
+    std::vector<std::string> ids;
+    for (const Road& road : network.roads)
+        if (ids.size() < most)
+            ids.push_back(printable(road.id));
+    const std::string more = network.roads.size() > most ? fmt::format(" and {} more", network.roads.size() - most) : "";
+    return fmt::format("one of the roads {}{}", fmt::join(ids, ", "), more);
+}
+
+/// Outermost driving lane on the side of the traffic rule, else on the other; 0 when there is none wide enough to begin on.
+int outermost_driving_lane(const Road& road, double s) {
+    constexpr double narrowest_m = 1.0;
+    const LaneSection& section = section_at(road, s);
+    int best = 0;
+    const auto usual = [&](int id) { return (id < 0) != road.left_hand_traffic; };
+    for (const Lane& lane : section.lanes) {
+        if (lane.type != "driving" || lane.id == 0)
+            continue;
+        if (const LaneEdges edges = lane_edges(road, section, lane.id, s); std::abs(edges.outer_t_m - edges.inner_t_m) < narrowest_m)
+            continue;
+        const bool better =
+            best == 0 || (usual(lane.id) && !usual(best)) || (usual(lane.id) == usual(best) && std::abs(lane.id) > std::abs(best));
+        if (better)
+            best = lane.id;
+    }
+    return best;
+}
+
+std::size_t start_road(const RoadNetwork& network, const std::string& id) {
+    for (std::size_t i = 0; i < network.roads.size(); ++i) {
+        const Road& road = network.roads[i];
+        if (id.empty() ? outermost_driving_lane(road, 0.0) != 0 : road.id == id)
+            return i;
+    }
+    if (id.empty())
+        refuse(network, "route", "the network has no road with driving lanes", "at least one");
+    refuse(network, "route", fmt::format("found no road '{}'", printable(id)), road_list(network));
+}
+
+LanePlace start_place(const RoadNetwork& network, const Route::Start& start) {
+    LanePlace place;
+    place.road = start_road(network, start.road);
+    const Road& road = network.roads[place.road];
+    if (!(start.s_m >= 0.0 && start.s_m <= road.length_m))
+        refuse(network, "route", fmt::format("the start s = {} m lies outside road '{}'", start.s_m, road.id),
+               fmt::format("a station from 0 to {} m", road.length_m));
+    const LaneSection& section = section_at(road, start.s_m);
+    place.section = static_cast<std::size_t>(&section - road.sections.data());
+    place.lane = start.lane != 0 ? start.lane : outermost_driving_lane(road, start.s_m);
+    std::vector<int> ids;
+    for (const Lane& lane : section.lanes) {
+        if (lane.id == place.lane && lane.id != 0) {
+            place.with_s = travels_with_s(road, lane);
+            return place;
+        }
+        if (lane.id != 0)
+            ids.push_back(lane.id);
+    }
+    refuse(network, "route",
+           fmt::format("found no {} at s = {} m of road '{}'", place.lane == 0 ? "driving lane" : fmt::format("lane {}", place.lane),
+                       start.s_m, road.id),
+           ids.empty() ? "a road with lanes" : fmt::format("one of the lanes {}", fmt::join(ids, ", ")));
+}
+
+/// The way to go on: where `via` names a road that can be reached now or behind the connecting road, that one; else the least turn.
+const LanePlace& choose(const RoadNetwork& network, const std::vector<LanePlace>& places, const std::string* via) {
+    if (via)
+        for (const LanePlace& place : places) {
+            const Road& road = network.roads[place.road];
+            const std::optional<RoadLink>& behind = place.with_s ? road.successor : road.predecessor;
+            if (road.id == *via || (road.junction != "-1" && behind && !behind->is_junction && behind->id == *via))
+                return place;
+        }
+    return places.front();
+}
+
+bool paved(const std::string& type) {
+    static constexpr std::array<std::string_view, 19> types{
+        "driving",  "shoulder",      "stop", "parking", "biking", "entry",    "exit",    "onRamp",     "offRamp",  "connectingRamp",
+        "slipLane", "bidirectional", "bus",  "taxi",    "HOV",    "mwyEntry", "mwyExit", "restricted", "roadWorks"};
+    return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+} // namespace
+
+Route::Route(const RoadNetwork& network, Start start, const std::vector<std::string>& via) : network_(&network) {
+    struct Visit {
+        LanePlace place;
+        std::size_t met; ///< how many of `via`
+        bool operator==(const Visit&) const = default;
+    };
+    std::vector<Visit> visits;
+    LanePlace place = start_place(network, start);
+    for (std::size_t met = 0;;) {
+        if (met < via.size() && network.roads[place.road].id == via[met])
+            ++met;
+        if (std::find(visits.begin(), visits.end(), Visit{place, met}) != visits.end())
+            break; // once round
+        visits.push_back({place, met});
+        const LaneSection& section = network.roads[place.road].sections[place.section];
+        const double begin = place.with_s ? section.s_m : section.end_m, end = place.with_s ? section.end_m : section.s_m;
+        legs_.push_back({place.road, place.lane, place.with_s, visits.size() == 1 ? start.s_m : begin, end, length_m_, place.section});
+        add_cells(legs_.size() - 1);
+        const std::vector<LanePlace> next = next_places(network, place);
+        if (next.empty()) {
+            if (met < via.size())
+                refuse(
+                    network, "route",
+                    fmt::format("the way does not meet road '{}': it ends on road '{}'", printable(via[met]), network.roads[place.road].id),
+                    "roads that follow one another");
+            break;
+        }
+        place = choose(network, next, met < via.size() ? &via[met] : nullptr);
+    }
+    if (visits.back().met < via.size())
+        refuse(network, "route", fmt::format("the way does not meet road '{}'", printable(via[visits.back().met])),
+               "roads that follow one another");
+    if (!(length_m_ > 0.0))
+        refuse(network, "route",
+               fmt::format("lane {} of road '{}' ends at the start s = {} m: traffic on it moves towards {} s", legs_.front().lane,
+                           network.roads[legs_.front().road].id, start.s_m, legs_.front().with_s ? "growing" : "falling"),
+               "a start from which there is a way to go");
+}
+
+Pose Route::pose(double distance_m, double offset_left_m) const {
+    const Cell& cell = cell_at(distance_m);
+    const double s = s_at(cell, distance_m), side = cell.to_s_m >= cell.from_s_m ? 1.0 : -1.0;
+    const SurfacePoint point = surface_point(cell.strip, s, cell.centre.at(s) + side * offset_left_m);
+    return pose_along(point, side * (point.by_s + cell.centre.slope(s) * point.by_t));
+}
+
+std::pair<std::string, double> Route::place(double distance_m) const {
+    const Cell& cell = cell_at(distance_m);
+    return {network_->roads[legs_[cell.leg].road].id, s_at(cell, distance_m)};
+}
+
+CrossSection Route::cross_section(double distance_m) const {
+    const Cell& cell = cell_at(distance_m);
+    const Leg& leg = legs_[cell.leg];
+    const Road& road = network_->roads[leg.road];
+    const LaneSection& section = road.sections[leg.section];
+    const double s = s_at(cell, distance_m), centre = cell.centre.at(s), side = leg.with_s ? 1.0 : -1.0;
+    CrossSection cross;
+    for (const Lane& lane : section.lanes) {
+        if (lane.id == 0)
+            continue;
+        const LaneEdges edges = lane_edges(road, section, lane.id, s);
+        const double a = side * (edges.inner_t_m - centre), b = side * (edges.outer_t_m - centre);
+        constexpr double narrowest_m = 0.001;
+        if (lane.id != leg.lane && std::abs(a - b) < narrowest_m)
+            continue;
+        cross.lanes.push_back({"", lane.type, lane.id, travels_with_s(road, lane) == leg.with_s, std::max(a, b), std::min(a, b)});
+    }
+    if (!leg.with_s)
+        std::reverse(cross.lanes.begin(), cross.lanes.end());
+    const auto own =
+        std::find_if(cross.lanes.begin(), cross.lanes.end(), [&](const RouteLane& lane) { return lane.road_lane_id == leg.lane; });
+    for (auto lane = cross.lanes.begin(); lane != cross.lanes.end(); ++lane) {
+        const auto steps = lane - own;
+        lane->name = steps == 0 ? "own" : fmt::format("{} {}", steps < 0 ? "left" : "right", std::abs(steps));
+        if (steps == 0 || paved(lane->type)) {
+            cross.paved_left_m = std::max(cross.paved_left_m, lane->left_m);
+            cross.paved_right_m = std::min(cross.paved_right_m, lane->right_m);
+        }
+    }
+    return cross;
+}
+
+} // namespace fernlicht
