@@ -48,9 +48,7 @@ Colour series_colour(std::size_t n) {
 
 Colour sequential(double t) {
     t = std::clamp(t, 0.0, 1.0);
-    // Chroma follows what sRGB can show along the hues 300 (violet) to 105 degrees (yellow).
-    const double chroma =
-        0.085 + 0.095 * std::sin(pi * std::clamp(0.15 + 0.75 * t, 0.0, 1.0)) * (t < 0.5 ? 0.75 : 1.0 - 0.25 * (1.0 - t) * 2.0);
+    const double chroma = 0.09 + 0.07 * std::sin(pi * t); // about what sRGB can show along these hues, violet to yellow
     return from_oklch(between(0.20, 0.94, t), chroma, between(300.0, 105.0, t));
 }
 

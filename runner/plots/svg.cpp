@@ -280,7 +280,7 @@ class Inside {
             const Isoline& isoline = f_.isolines[i];
             const double margin = 0.5 * text_width(isoline.label, 11.0) + 4.0;
             const Point* best = nullptr;
-            double best_room = 0.0;
+            double best_room = 9.0; // crowded lines stay without a label: two on one another say less than none
             for (const Point& p : places[i]) {
                 const double room = isoline.label.empty() || !within(p, margin) ? 0.0 : room_at(p, i, places, labels);
                 if (room > best_room) {

@@ -8,6 +8,9 @@ namespace {
 
 constexpr double edge_h_deg = 52.0, edge_top_deg = 16.0, edge_bottom_deg = -21.0;
 
+/// Over how much of H the kink is rounded: sharp in the edge, which images one shield or filament, soft in the light under it.
+constexpr double edge_kink_deg = 0.1, body_kink_deg = 0.8;
+
 /// Bell with longer tails than a Gaussian, as scatter in lens and reflector gives them: (1 + x2 / 8)^-4.
 double bell(double x) {
     const double y = 1.0 + x * x / 8.0;
@@ -37,7 +40,7 @@ std::vector<double> axis(double from, std::initializer_list<Stretch> stretches) 
         const double start = values.back();
         const long steps = std::lround((s.to - start) / s.step);
         for (long i = 1; i <= steps; ++i)
-            values.push_back(std::round((start + static_cast<double>(i) * s.step) * 1000.0) / 1000.0);
+            values.push_back(std::round((start + static_cast<double>(i) * s.step) * 1000.0) / 1000.0 + 0.0); // never -0
     }
     return values;
 }
@@ -57,11 +60,12 @@ CandelaTable axes_of(const LampModel& model) {
 
 } // namespace
 
-double CutOff::line_deg(double h_deg) const {
-    // log(1 + exp) rounds the kink over 0.1 degrees, as no bulb images a corner; the second one flattens the top.
-    constexpr double kink_deg = 0.1, flattening_deg = 0.25;
+double CutOff::line_deg(double h_deg, double kink_deg) const {
+    constexpr double flattening_deg = 0.25;
     const double x = (h_deg - kink_h_deg) / kink_deg;
-    const double rise = rise_slope * kink_deg * (x > 30.0 ? x : std::log1p(std::exp(x)));
+    // Only the images of the bulb's end reach the rising sector; beside it the edge sinks back to the level that the wide light has.
+    const double beyond = std::max(h_deg - rise_ends_h_deg, 0.0) / rise_ends_h_deg;
+    const double rise = bell(beyond) * rise_slope * kink_deg * (x > 30.0 ? x : std::log1p(std::exp(x)));
     const double room = top_deg - level_deg;
     return level_deg + room - flattening_deg * std::log1p(std::exp((room - rise) / flattening_deg));
 }
@@ -72,11 +76,12 @@ double CutOff::glow(double h_deg, double v_deg) const {
 
 double model_intensity_cd(const LampModel& model, double h, double v) {
     const double level = model.cut_off ? model.cut_off->level_deg : 0.0;
-    const double line = model.cut_off ? model.cut_off->line_deg(h) : 0.0;
+    const double body = model.cut_off ? model.cut_off->line_deg(h, body_kink_deg) : 0.0;
     double cd = 0.0;
     for (const BeamPart& part : model.parts)
-        cd += part_cd(part, h, v, level, line);
+        cd += part_cd(part, h, v, level, body);
     if (model.cut_off) {
+        const double line = model.cut_off->line_deg(h, edge_kink_deg);
         // A logistic step between beam and glow in log intensity: its inflection lies on the cut-off line whatever the levels.
         const double share = 1.0 / (1.0 + std::exp((v - line) / model.cut_off->softness_deg));
         cd = std::pow(cd, share) * std::pow(model.cut_off->glow(h, v), 1.0 - share);

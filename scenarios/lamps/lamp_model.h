@@ -24,14 +24,15 @@ struct BeamPart {
 struct CutOff {
     double level_deg = 0.0; ///< V of the level part. Regulations measure with it at -0.57 (1 % down)
     double kink_h_deg = 0.0;
-    double rise_slope = 0.0; ///< tangent of the rise
-    double top_deg = 0.0;    ///< V towards which the rise flattens
+    double rise_slope = 0.0;      ///< tangent of the rise
+    double rise_ends_h_deg = 8.0; ///< from here on the edge sinks back; also the width over which it does
+    double top_deg = 0.0;         ///< V towards which the rise flattens
     double softness_deg =
         0.1;              ///< width of the transition in log intensity; sharpness G is about (decades across the edge) * 0.025 / softness
     double glow_cd = 0.0; ///< scattered light just above the edge
     double glow_h_deg = 1.0, glow_v_deg = 1.0; ///< its widths
 
-    double line_deg(double h_deg) const;
+    double line_deg(double h_deg, double kink_deg) const; ///< V of the edge, its kink rounded over kink_deg of H
     double glow(double h_deg, double v_deg) const;
 };
 

@@ -1,0 +1,181 @@
+#include "runner/lamp_command.h"
+
+#include "runner/lamp_description.h"
+#include "runner/plots/isocandela.h"
+#include "runner/plots/png.h"
+#include "scenarios/lamps/lamp_model.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+LampFile modelled(const std::string& name) {
+    std::vector<std::string> names;
+    for (const LampModel& model : lamp_models()) {
+        if (model.name == name)
+            return lamp_of_model(model);
+        names.push_back(model.name);
+    }
+    throw InputError({{}, 0, 0, "--model"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+void scale(LampFile& lamp, double factor) {
+    if (!(factor >= 0.0) || !std::isfinite(factor))
+        throw InputError({{}, 0, 0, "--scale"}, fmt::format("found {}", factor), "a number of 0 or more");
+    lamp.table = scaled(std::move(lamp.table), factor);
+    if (lamp.declared_flux_lm)
+        *lamp.declared_flux_lm *= factor;
+    lamp.notes.push_back(fmt::format("intensities scaled by {}", factor));
+}
+
+void add(LampFile& lamp, const LampFile& other) {
+    lamp.table = sum(lamp.table, other.table);
+    if (lamp.declared_flux_lm && other.declared_flux_lm)
+        *lamp.declared_flux_lm += *other.declared_flux_lm;
+    else
+        lamp.declared_flux_lm.reset();
+    lamp.notes.push_back(fmt::format("added: {}", other.name));
+}
+
+void subtract(LampFile& lamp, const LampFile& other) {
+    std::size_t clamped = 0;
+    lamp.table = difference(lamp.table, other.table, clamped);
+    lamp.declared_flux_lm.reset();
+    lamp.notes.push_back(
+        fmt::format("subtracted: {}; {} of {} samples would be negative and were set to 0", other.name, clamped, lamp.table.cd.size()));
+}
+
+LampFile read_other(const std::filesystem::path& path, const LampReadOptions& reading, LampFile& lamp) {
+    LampFile other = read_lamp(path, reading);
+    lamp.opened.insert(lamp.opened.end(), other.opened.begin(), other.opened.end());
+    return other;
+}
+
+void refuse_to_overwrite_input(const LampRequest& request, const std::filesystem::path& out, const char* option) {
+    const auto same = [&](const std::filesystem::path& in) {
+        std::error_code ignored; // a path that is not there is no input
+        return !in.empty() && std::filesystem::equivalent(in, out, ignored);
+    };
+    bool input = same(request.file);
+    for (const auto* list : {&request.add, &request.subtract})
+        for (const auto& path : *list)
+            input = input || same(path);
+    if (input)
+        throw InputError({out, 0, 0, option}, "found a file that is read", "another name to write to");
+}
+
+std::optional<plots::AngleWindow> window_of(const std::vector<double>& edges) {
+    if (edges.empty())
+        return std::nullopt;
+    const plots::AngleWindow w{edges.at(0), edges.at(1), edges.at(2), edges.at(3)};
+    const bool fits = w.left_deg >= -180.0 && w.left_deg < w.right_deg && w.right_deg <= 360.0 && w.bottom_deg >= -90.0 &&
+                      w.bottom_deg < w.top_deg && w.top_deg <= 90.0;
+    if (!fits)
+        throw InputError({{}, 0, 0, "--window"}, fmt::format("found {}", fmt::join(edges, " ")),
+                         "degrees of the left, right, bottom and top edge");
+    return w;
+}
+
+void write_picture(const LampFile& lamp, const LampRequest& request) {
+    const std::string svg = plots::svg_of(plots::isocandela_diagram(lamp.table, lamp.name, window_of(request.window)));
+    write_file(request.picture, request.picture.extension() == ".png" ? plots::png_of_svg(svg) : svg);
+}
+
+void check_picture_name(const std::filesystem::path& path) {
+    if (!path.empty() && path.extension() != ".png" && path.extension() != ".svg")
+        throw InputError({path, 0, 0, "--picture"}, fmt::format("found extension '{}'", printable(path.extension().string())),
+                         ".svg or .png");
+}
+
+void add_texture_options(CLI::App& command, LampReadOptions& reading) {
+    const char* group = "Beam textures (where the image's own metadata are silent)";
+    command.add_option("--texture-scale", reading.texture_scale_lx, "lux of a pixel of value 1 (8-bit: 255)")->group(group);
+    command.add_option("--texture-distance", reading.texture_distance_m, "metres at which those lux hold")
+        ->capture_default_str()
+        ->group(group);
+    const auto extent = [&](const char* name, double(&edges)[2], const char* text) {
+        command
+            .add_option_function<std::vector<double>>(
+                name,
+                [&edges](const std::vector<double>& values) {
+                    edges[0] = values[0];
+                    edges[1] = values[1];
+                },
+                text)
+            ->expected(2)
+            ->group(group);
+    };
+    extent("--texture-h", reading.texture_h_extent_deg, "degrees of the left and the right edge");
+    extent("--texture-v", reading.texture_v_extent_deg, "degrees of the bottom and the top edge");
+}
+
+} // namespace
+
+LampFile lamp_of(const LampRequest& request) {
+    if (request.file.empty() == request.model.empty())
+        throw InputError({}, request.file.empty() ? "found no lamp" : "found both a file and --model", "a lamp file or --model NAME");
+    LampFile lamp = request.model.empty() ? read_lamp(request.file, request.reading) : modelled(request.model);
+    if (request.model.empty() == false)
+        lamp.table.rule = request.reading.rule;
+    if (request.scale != 1.0)
+        scale(lamp, request.scale);
+    if (request.mirror) {
+        lamp.table = mirrored(lamp.table);
+        lamp.notes.emplace_back("mirrored: left and right exchanged");
+    }
+    for (const auto& path : request.add)
+        add(lamp, read_other(path, request.reading, lamp));
+    for (const auto& path : request.subtract)
+        subtract(lamp, read_other(path, request.reading, lamp));
+    return lamp;
+}
+
+int lamp_command(const LampRequest& request) {
+    check_picture_name(request.picture);
+    if (!request.convert.empty())
+        refuse_to_overwrite_input(request, request.convert, "--convert");
+    if (!request.picture.empty())
+        refuse_to_overwrite_input(request, request.picture, "--picture");
+    const LampFile lamp = lamp_of(request);
+    const LampDescription description = describe(lamp);
+    if (!request.convert.empty())
+        write_lamp(lamp, request.convert);
+    if (!request.picture.empty())
+        write_picture(lamp, request);
+    fmt::print("{}", request.json ? json_of(description) : text_of(description));
+    return 0;
+}
+
+void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto request = std::make_shared<LampRequest>();
+    CLI::App* command = app.add_subcommand("lamp", "tells what a lamp file holds; scales, mirrors, sums, converts and pictures it");
+    command->add_option("FILE", request->file, "IES LM-63, EULUMDAT, beam matrix (CSV) or beam texture (image)");
+    command->add_option("--model", request->model,
+                        "one of our own models in place of a file: halogen-low, halogen-high, xenon-low, xenon-high");
+    command->add_flag("--json", request->json, "prints JSON");
+    command->add_option("--picture", request->picture, "writes the isocandela diagram: .svg or .png");
+    command->add_option("--window", request->window, "of the picture: left, right, bottom and top in degrees")->expected(4);
+    command->add_option("--convert", request->convert,
+                        "writes the lamp: .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");
+    command->add_option("--scale", request->scale, "multiplies the intensities")->capture_default_str();
+    command->add_flag("--mirror", request->mirror, "exchanges left and right: right-hand to left-hand traffic and back");
+    command->add_option("--add", request->add, "adds another lamp's light");
+    command->add_option("--subtract", request->subtract, "takes another lamp's light off; what would be negative becomes 0 and is counted");
+    const std::map<std::string, BetweenSamples> rules{{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}};
+    command->add_option("--rule", request->reading.rule, "between the samples: linear (in cd) or log (in log cd)")
+        ->transform(CLI::CheckedTransformer(rules));
+    const std::map<std::string, TypeCAxis> axes{
+        {"automatic", TypeCAxis::automatic}, {"horizontal", TypeCAxis::horizontal}, {"nadir", TypeCAxis::nadir}};
+    command->add_option("--axis", request->reading.type_c_axis, "where Type C and EULUMDAT beams point: automatic, horizontal or nadir")
+        ->transform(CLI::CheckedTransformer(axes));
+    add_texture_options(*command, request->reading);
+    command->footer("Order of the changes: scale, mirror, add, subtract.");
+    command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
+}
+
+} // namespace fernlicht

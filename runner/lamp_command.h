@@ -1,0 +1,36 @@
+// `fernlicht lamp FILE`: what a lamp file holds, as text, JSON or picture; scaled, mirrored, summed and converted.
+#pragma once
+
+#include "scenarios/lamps/lamp_file.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace fernlicht {
+
+struct LampRequest {
+    std::filesystem::path file;
+    std::string model; ///< one of our own models in place of a file
+    LampReadOptions reading;
+    double scale = 1.0;
+    bool mirror = false;
+    std::vector<std::filesystem::path> add, subtract;
+    std::filesystem::path convert, picture; ///< empty: none
+    std::vector<double> window;             ///< of the picture: left, right, bottom, top in degrees; empty: chosen
+    bool json = false;
+};
+
+/// Reads or models the lamp, then scales, mirrors, adds and subtracts, in this order. Throws InputError.
+LampFile lamp_of(const LampRequest& request);
+
+/// All that the request asks for; text or JSON goes to standard output. Returns the exit code 0. Throws InputError, DeviceError.
+int lamp_command(const LampRequest& request);
+
+void add_lamp_command(CLI::App& app, std::function<int()>& chosen);
+
+} // namespace fernlicht
