@@ -72,6 +72,16 @@ void replace_road(Drive& drive, const std::filesystem::path& road) {
     drive.via.clear();
 }
 
+void replace_resolution(Drive& drive, const std::pair<int, int>& resolution) {
+    const auto [width, height] = resolution;
+    if (std::min(width, height) < 1 || std::max(width, height) > largest_view_px)
+        throw InputError({drive.file, 0, 0, "resolution"}, fmt::format("{}x{}", width, height),
+                         fmt::format("sides from 1 to {} pixels", largest_view_px));
+    for (View& view : drive.views)
+        if (view.projection == Projection::perspective)
+            std::tie(view.width_px, view.height_px) = resolution;
+}
+
 } // namespace
 
 void apply_edits(Drive& drive, const DriveEdits& edits, LampShelf& shelf) {
@@ -85,9 +95,7 @@ void apply_edits(Drive& drive, const DriveEdits& edits, LampShelf& shelf) {
     if (edits.technique)
         drive.technique = *edits.technique;
     if (edits.resolution)
-        for (View& view : drive.views)
-            if (view.projection == Projection::perspective)
-                std::tie(view.width_px, view.height_px) = *edits.resolution;
+        replace_resolution(drive, *edits.resolution);
     if (edits.capture_all)
         drive.capture.all = *edits.capture_all;
 }

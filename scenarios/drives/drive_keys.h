@@ -6,6 +6,8 @@
 
 namespace fernlicht {
 
+inline constexpr int largest_view_px = 16384; ///< to a side; the least that OpenGL 4.5 promises
+
 /// `speed_kmh`, `speed_mps` or `speed` (a list of {at_s, speed_kmh or speed_mps}, times ascending).
 std::vector<SpeedPoint> read_speed(const YamlMap& drive);
 /// `step_s` or `rate_hz`; 30 per second by default.

@@ -6,7 +6,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr int largest_px = 16384;
 constexpr double map_px_per_m = 4.0;
 
 View driver_view() {
@@ -18,7 +17,7 @@ View driver_view() {
     return view;
 }
 
-int map_pixels(double length_m) { return std::clamp(static_cast<int>(std::lround(length_m * map_px_per_m)), 1, largest_px); }
+int map_pixels(double length_m) { return std::clamp(static_cast<int>(std::lround(length_m * map_px_per_m)), 1, largest_view_px); }
 
 /// Four pixels a metre, so that both axes have one scale.
 void fit_map_pixels(View& view) {
@@ -78,8 +77,8 @@ View read_view(const std::string& name, const YamlEntry& entry) {
     }
     if (const auto resolution = keys.find("resolution_px")) {
         const std::vector<YamlEntry> sides = resolution->list(2, 2);
-        view.width_px = sides[0].whole(1, largest_px);
-        view.height_px = sides[1].whole(1, largest_px);
+        view.width_px = sides[0].whole(1, largest_view_px);
+        view.height_px = sides[1].whole(1, largest_view_px);
     }
     return view;
 }
