@@ -56,17 +56,6 @@ std::vector<double> union_axis(const CandelaTable& a, const CandelaTable& b, boo
     return axis;
 }
 
-bool has_data(const CandelaTable& table, double h_deg, double v_deg) {
-    if (h_deg < table.h_deg.front() || h_deg > table.h_deg.back() || v_deg < table.v_deg.front() || v_deg > table.v_deg.back())
-        return false;
-    if (table.gaps.empty())
-        return true;
-    const auto cell = [](const std::vector<double>& axis, double angle) {
-        return static_cast<std::size_t>(std::upper_bound(axis.begin() + 1, axis.end() - 1, angle) - axis.begin()) - 1;
-    };
-    return table.gaps[cell(table.v_deg, v_deg) * (table.h_deg.size() - 1) + cell(table.h_deg, h_deg)] == 0;
-}
-
 /// A cell of the union is a gap where neither table has data.
 void mark_gaps(CandelaTable& out, const CandelaTable& a, const CandelaTable& b) {
     bool any = false;

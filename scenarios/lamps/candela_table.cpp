@@ -48,6 +48,19 @@ bool leave_gap(const CandelaTable& table, Place& v, Place& h) {
     return false;
 }
 
+/// False where there is no data, and when an angle is not a number.
+bool place_with_data(const CandelaTable& table, double h_deg, double v_deg, Place& v, Place& h) {
+    if (std::abs(h_deg) > 180.0)
+        h_deg = std::remainder(h_deg, 360.0);
+    const bool inside =
+        h_deg >= table.h_deg.front() && h_deg <= table.h_deg.back() && v_deg >= table.v_deg.front() && v_deg <= table.v_deg.back();
+    if (!inside)
+        return false;
+    v = place_on(table.v_deg, v_deg);
+    h = place_on(table.h_deg, h_deg);
+    return !is_gap(table, v.cell, h.cell) || leave_gap(table, v, h);
+}
+
 // Weighted so that both ends are exact.
 double blend(double a, double b, double fraction) { return a * (1.0 - fraction) + b * fraction; }
 
@@ -117,20 +130,18 @@ void check_axis(const std::vector<double>& axis, const char* name, double limit_
 } // namespace
 
 double intensity_cd(const CandelaTable& table, double h_deg, double v_deg) {
-    if (std::abs(h_deg) > 180.0)
-        h_deg = std::remainder(h_deg, 360.0);
-    const bool inside =
-        h_deg >= table.h_deg.front() && h_deg <= table.h_deg.back() && v_deg >= table.v_deg.front() && v_deg <= table.v_deg.back();
-    if (!inside) // also when an angle is not a number
-        return 0.0;
-    Place v = place_on(table.v_deg, v_deg);
-    Place h = place_on(table.h_deg, h_deg);
-    if (is_gap(table, v.cell, h.cell) && !leave_gap(table, v, h))
+    Place v, h;
+    if (!place_with_data(table, h_deg, v_deg, v, h))
         return 0.0;
     const Corners k = corners(table, v.cell, h.cell);
     if (table.rule == BetweenSamples::linear_cd || k.any_zero())
         return between(k, v.fraction, h.fraction);
     return std::exp(between(k.logarithms(), v.fraction, h.fraction));
+}
+
+bool has_data(const CandelaTable& table, double h_deg, double v_deg) {
+    Place v, h;
+    return place_with_data(table, h_deg, v_deg, v, h);
 }
 
 Peak peak_of(const CandelaTable& table) {

@@ -28,6 +28,9 @@ struct CandelaTable {
 /// that holds a zero.
 double intensity_cd(const CandelaTable& table, double h_deg, double v_deg);
 
+/// Whether the direction lies on the axes and not inside a gap. A border belongs to the side that has data.
+bool has_data(const CandelaTable& table, double h_deg, double v_deg);
+
 struct Peak {
     double cd = 0.0, h_deg = 0.0, v_deg = 0.0;
 };

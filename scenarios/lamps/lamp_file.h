@@ -17,7 +17,7 @@ struct LampReadOptions {
     BetweenSamples rule = BetweenSamples::linear_cd;
     TypeCAxis type_c_axis = TypeCAxis::automatic;
     /// Beam texture images only (method: E[lx] = pixel * scale at the distance, over the angular extent).
-    double texture_scale_lx = 0.0;      ///< lux of a pixel of value 1.0 (8-bit: 255); 0: take it from the image's metadata
+    double texture_scale_lx = 0.0; ///< lux of a pixel of value 1.0 (8-bit: 255); 0: take it from the image's metadata
     double texture_distance_m = 25.0;
     double texture_h_extent_deg[2] = {0.0, 0.0}; ///< left and right edge; equal: from the image's metadata
     double texture_v_extent_deg[2] = {0.0, 0.0}; ///< bottom and top edge
@@ -27,7 +27,7 @@ struct LampFile {
     std::string name;   ///< short: catalogue or luminaire name, else the file's stem
     std::string format; ///< "IES LM-63-2002, type A", "EULUMDAT, Isym 0", "beam matrix", "beam texture"
     CandelaTable table;
-    std::optional<double> declared_flux_lm; ///< as the file says; nullopt: absolute photometry or silent
+    std::optional<double> declared_flux_lm;                  ///< as the file says; nullopt: absolute photometry or silent
     std::vector<std::pair<std::string, std::string>> labels; ///< the file's own keywords and texts, UTF-8
     std::vector<std::string> notes; ///< what was odd and how it was taken ("angles descend: sorted"), one sentence each
     FilesRead opened;

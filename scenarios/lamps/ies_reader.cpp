@@ -1,0 +1,261 @@
+#include "scenarios/lamps/ies.h"
+
+#include "scenarios/lamps/c_planes.h"
+#include "scenarios/lamps/goniometer.h"
+#include "scenarios/lamps/ies_header.h"
+#include "scenarios/lamps/written_gaps.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr std::string_view separators{" \t\v\f,\0", 6};
+
+/// The numbers after the TILT line: separated by blanks, commas and line ends, wrapped anywhere.
+class IesNumbers {
+  public:
+    IesNumbers(const std::filesystem::path& path, LineReader& lines) : path_(path), lines_(lines) {}
+
+    double number(const char* name) {
+        const std::string_view text = token(name);
+        return finite_number(text, where(name));
+    }
+    double above_zero(const char* name) {
+        const double value = number(name);
+        if (!(value > 0.0))
+            throw InputError(where(name), fmt::format("found {}", value), "a number above 0");
+        return value;
+    }
+    long whole(const char* name, long least, long most) {
+        const std::string_view text = token(name);
+        return whole_number(text, least, most, where(name));
+    }
+    std::vector<double> numbers(const char* name, std::size_t count) {
+        std::vector<double> out; // grows with what is there, not with what the header promises
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!more())
+                throw InputError({path_, lines_.number(), 0, name}, fmt::format("the file ends after {} of {}", i, count), "all of them");
+            out.push_back(number(name));
+        }
+        return out;
+    }
+    bool more() {
+        for (;;) {
+            begin_ = line_.find_first_not_of(separators, end_);
+            if (begin_ != std::string_view::npos)
+                return true;
+            if (!lines_.next(line_))
+                return false;
+            end_ = 0;
+        }
+    }
+    std::size_t line_number() const { return lines_.number(); }
+
+  private:
+    std::string_view token(const char* name) {
+        if (!more())
+            throw InputError({path_, lines_.number(), 0, name}, "the file ends before it", "a number");
+        end_ = std::min(line_.find_first_of(separators, begin_), line_.size());
+        return line_.substr(begin_, end_ - begin_);
+    }
+    InputError::Where where(const char* name) const { return {path_, lines_.number(), begin_ + 1, name}; }
+
+    const std::filesystem::path& path_;
+    LineReader& lines_;
+    std::string_view line_;
+    std::size_t begin_ = 0, end_ = 0;
+};
+
+/// Lamp-to-luminaire geometry, angles and factors. Gives the factor of the lamp as it was measured, at tilt 0.
+double tilt_factor(IesNumbers& numbers, Notes& notes) {
+    numbers.whole("lamp-to-luminaire geometry", 1, 3);
+    const auto count = static_cast<std::size_t>(numbers.whole("number of tilt angles", 1, 1000));
+    const std::vector<double> angles = numbers.numbers("tilt angle", count), factors = numbers.numbers("tilt factor", count);
+    const auto zero = std::find(angles.begin(), angles.end(), 0.0);
+    const double factor = zero == angles.end() ? 1.0 : factors[static_cast<std::size_t>(zero - angles.begin())];
+    notes.push_back(
+        fmt::format("TILT factors hold for tilted luminaires; the lamp is taken as measured, with the factor {} of tilt 0.", factor));
+    return factor;
+}
+
+double read_tilt(const IesHeader& header, IesNumbers& numbers, const std::filesystem::path& path, FilesRead& opened, Notes& notes) {
+    if (header.tilt == "NONE")
+        return 1.0;
+    const InputError::Where where{path, header.tilt_line, 0, "TILT"};
+    double factor = 1.0;
+    if (header.tilt == "INCLUDE") {
+        factor = tilt_factor(numbers, notes);
+    } else {
+        const std::filesystem::path name = header.tilt;
+        if (header.tilt.empty() || header.tilt.find_first_of("/\\") != std::string::npos || header.tilt.find("..") != std::string::npos)
+            throw InputError(where, fmt::format("found '{}'", printable(header.tilt)),
+                             "NONE, INCLUDE or the name of a file beside this one");
+        if (header.edition >= 2019)
+            notes.push_back("TILT names a file, which LM-63-2019 forbids: read all the same.");
+        const std::filesystem::path file = path.parent_path() / name;
+        if (!std::filesystem::exists(file))
+            throw InputError(where, fmt::format("there is no file '{}' beside this one", printable(header.tilt)),
+                             "NONE, INCLUDE or a file");
+        const std::string text = to_utf8(read_file(file, opened, max_lamp_text_bytes));
+        LineReader lines(text);
+        IesNumbers tilt_numbers(file, lines);
+        factor = tilt_factor(tilt_numbers, notes);
+    }
+    if (!(factor > 0.0))
+        throw InputError(where, fmt::format("the factor at tilt 0 is {}", factor), "a factor above 0");
+    return factor;
+}
+
+struct Photometry {
+    char type = 'C';
+    double factor = 1.0; ///< cd per listed value
+    std::optional<double> lamp_flux_lm;
+    MeasuredGrid grid;
+};
+
+void check_range(const std::vector<double>& angles, double least, double most, const InputError::Where& where) {
+    for (const double angle : angles)
+        if (angle < least || angle > most)
+            throw InputError(where, fmt::format("found {}", angle), fmt::format("angles from {} to {}", least, most));
+}
+
+/// What the type code means, and whether the angles can be of that type.
+char checked_type(long code, const MeasuredGrid& grid, const std::filesystem::path& path, Notes& notes) {
+    const auto [low, high] = std::minmax_element(grid.v_deg.begin(), grid.v_deg.end());
+    char type = code == 1 ? 'C' : code == 2 ? 'B' : 'A';
+    if (type == 'C' && *low < 0.0) {
+        notes.push_back("Type code 1 (C) with vertical angles below 0, which type C has not: read as type A.");
+        type = 'A';
+    } else if (type == 'A' && *high > 90.0) {
+        notes.push_back("Type code 3 (A) with vertical angles above 90, which type A has not: read as type C.");
+        type = 'C';
+    }
+    const InputError::Where v{path, grid.v_line, 0, "vertical angles"}, h{path, grid.h_line, 0, "horizontal angles"};
+    check_range(grid.v_deg, type == 'C' ? 0.0 : -90.0, type == 'C' ? 180.0 : 90.0, v);
+    const double h_limit = type == 'A' ? 180.0 : type == 'B' ? 90.0 : 360.0;
+    check_range(grid.h_deg, -h_limit, h_limit, h);
+    if (type != 'C' && grid.h_deg.size() == 1)
+        throw InputError(h, "found a single one, which says nothing beside its plane", fmt::format("at least 2 in type {}", type));
+    return type;
+}
+
+Photometry read_photometry(IesNumbers& numbers, int edition, const std::filesystem::path& path, Notes& notes) {
+    Photometry p;
+    const long lamps = numbers.whole("number of lamps", -1000, 1'000'000);
+    const double lumens = numbers.number("lumens per lamp");
+    const double multiplier = numbers.above_zero("candela multiplier");
+    const auto nv = static_cast<std::size_t>(numbers.whole("number of vertical angles", 2, static_cast<long>(max_lamp_samples)));
+    const auto nh = static_cast<std::size_t>(numbers.whole("number of horizontal angles", 1, static_cast<long>(max_lamp_samples)));
+    if (nv * nh > max_lamp_samples)
+        throw InputError({path, numbers.line_number(), 0, "number of angles"}, fmt::format("found {} x {}", nv, nh),
+                         fmt::format("at most {} intensities", max_lamp_samples));
+    const long code = numbers.whole("photometric type", 1, 3);
+    numbers.whole("units type", 1, 2);
+    for (const char* dimension : {"width", "length", "height"}) // 2002 codes round shapes as negative sizes; any size will do
+        numbers.number(dimension);
+    const double ballast = numbers.above_zero("ballast factor");
+    const double reserved = numbers.number("ballast-lamp photometric factor");
+    numbers.number("input watts");
+    p.factor = multiplier * ballast;
+    if (edition < 1995 && reserved > 0.0)
+        p.factor *= reserved;
+    else if (edition < 1995)
+        notes.push_back(fmt::format("The ballast-lamp photometric factor is {}: taken as 1.", reserved));
+    if (lumens > 0.0 && lamps > 0)
+        p.lamp_flux_lm = static_cast<double>(lamps) * lumens;
+    const auto next_line = [&] { return numbers.more() ? numbers.line_number() : 0; };
+    p.grid.v_line = next_line();
+    p.grid.v_deg = numbers.numbers("vertical angle", nv);
+    p.grid.h_line = next_line();
+    p.grid.h_deg = numbers.numbers("horizontal angle", nh);
+    const std::vector<double> planes = numbers.numbers("candela value", nv * nh);
+    p.grid.cd.resize(planes.size());
+    for (std::size_t h = 0; h < nh; ++h)
+        for (std::size_t v = 0; v < nv; ++v)
+            p.grid.cd[v * nh + h] = planes[h * nv + v] * p.factor;
+    if (numbers.more())
+        notes.push_back(fmt::format("Line {} goes on after the last candela value: not read.", numbers.line_number()));
+    p.type = checked_type(code, p.grid, path, notes);
+    return p;
+}
+
+PlaneSymmetry symmetry_of(const std::vector<double>& c_deg) {
+    const double first = c_deg.front(), last = c_deg.back();
+    if (c_deg.size() == 1)
+        return PlaneSymmetry::rotational;
+    if (first == 0.0 && last == 90.0)
+        return PlaneSymmetry::quadrants;
+    if (first == 0.0 && last == 180.0)
+        return PlaneSymmetry::about_c0_c180;
+    return first == 90.0 && last == 270.0 ? PlaneSymmetry::about_c90_c270 : PlaneSymmetry::none;
+}
+
+/// H 0..x stands for -x..x in types A and B.
+MeasuredGrid laterally_completed(const MeasuredGrid& half, Notes& notes) {
+    notes.push_back("The horizontal angles begin at 0, which is lateral symmetry: mirrored.");
+    MeasuredGrid whole;
+    const std::size_t n = half.h_deg.size();
+    for (std::size_t i = n - 1; i > 0; --i)
+        whole.h_deg.push_back(-half.h_deg[i]);
+    whole.h_deg.insert(whole.h_deg.end(), half.h_deg.begin(), half.h_deg.end());
+    whole.v_deg = half.v_deg;
+    for (std::size_t v = 0; v < half.v_deg.size(); ++v) {
+        for (std::size_t i = n - 1; i > 0; --i)
+            whole.cd.push_back(half.cd[v * n + i]);
+        for (std::size_t i = 0; i < n; ++i)
+            whole.cd.push_back(half.cd[v * n + i]);
+    }
+    return whole;
+}
+
+} // namespace
+
+bool looks_like_ies(std::string_view text) {
+    LineReader lines(text);
+    std::string_view line;
+    Notes unused;
+    bool first = true;
+    for (std::size_t seen = 0; seen < 2000 && lines.next(line); ++seen) {
+        if (tilt_of(line) || (first && ies_edition(trimmed(line), unused)))
+            return true;
+        first = first && trimmed(line).empty();
+    }
+    return false;
+}
+
+LampFile read_ies(const std::filesystem::path& path, std::string_view text, const LampReadOptions& options, FilesRead opened) {
+    LampFile lamp;
+    lamp.opened = std::move(opened);
+    LineReader lines(text);
+    IesHeader header = read_ies_header(lines, path, lamp.notes);
+    IesNumbers numbers(path, lines);
+    const double tilt = read_tilt(header, numbers, path, lamp.opened, lamp.notes);
+    Photometry p = read_photometry(numbers, header.edition, path, lamp.notes);
+    for (double& cd : p.grid.cd)
+        cd *= tilt;
+    put_in_order(p.grid, path, lamp.notes);
+    refuse_negative(p.grid, path, lamp.notes);
+    lamp.format = fmt::format("IES LM-63-{}, type {}", header.edition, p.type);
+    lamp.declared_flux_lm = p.lamp_flux_lm;
+    lamp.labels = std::move(header.labels);
+    lamp.name = path.stem().string();
+    for (const char* key : {"LUMINAIRE", "LUMCAT"})
+        for (const auto& [name, value] : lamp.labels)
+            if (name == key && !value.empty())
+                lamp.name = value;
+    if (p.type == 'C') {
+        lamp.table = from_c_planes(p.grid, symmetry_of(p.grid.h_deg), options, lamp.notes);
+        return lamp;
+    }
+    if (p.grid.h_deg.front() == 0.0)
+        p.grid = laterally_completed(p.grid, lamp.notes);
+    CandelaTable table{p.grid.h_deg, p.grid.v_deg, p.grid.cd, {}, options.rule};
+    if (!take_written_gaps(lamp.labels, table, path))
+        mark_padding(table, lamp.notes);
+    lamp.table = p.type == 'B' ? on_un_goniometer(table, type_b(), lamp.notes) : std::move(table);
+    return lamp;
+}
+
+} // namespace fernlicht

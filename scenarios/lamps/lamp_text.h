@@ -1,0 +1,44 @@
+// What the text readers of lamp files share: lines with their numbers, and numbers that are numbers.
+#pragma once
+
+#include "scenarios/values/errors.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fernlicht {
+
+inline constexpr std::size_t max_lamp_text_bytes = std::size_t{128} << 20;
+inline constexpr std::size_t max_lamp_samples = 4'000'000;
+/// Brighter than any lamp by far; keeps products of header factors finite.
+inline constexpr double max_intensity_cd = 1e12;
+
+/// Walks through text line by line; a line ends with LF, CR LF or CR alone. Holds views only.
+class LineReader {
+  public:
+    explicit LineReader(std::string_view text) : rest_(text) {}
+    bool next(std::string_view& line);
+    std::size_t number() const { return number_; } ///< 1-based number of the line that next() gave last
+    std::string_view rest() const { return rest_; }
+
+  private:
+    std::string_view rest_;
+    std::size_t number_ = 0;
+};
+
+std::string_view trimmed(std::string_view text);
+std::string uppercase(std::string_view text);
+
+/// The whole of `text`, blanks around it apart, as a decimal number: no hexadecimal, a leading plus is fine; "nan" and "inf" are numbers
+/// here.
+std::optional<double> number_in(std::string_view text);
+
+/// Throws InputError unless `text` is a finite number.
+double finite_number(std::string_view text, const InputError::Where& where);
+/// Throws InputError unless `text` is a whole number within the bounds.
+long whole_number(std::string_view text, long least, long most, const InputError::Where& where);
+
+} // namespace fernlicht

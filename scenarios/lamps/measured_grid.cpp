@@ -1,0 +1,131 @@
+#include "scenarios/lamps/measured_grid.h"
+
+#include "scenarios/lamps/lamp_text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace fernlicht {
+namespace {
+
+/// Swaps the two axes: rows become columns.
+MeasuredGrid transposed(const MeasuredGrid& grid) {
+    MeasuredGrid out{grid.v_deg, grid.h_deg, std::vector<double>(grid.cd.size()), grid.v_line, grid.h_line};
+    for (std::size_t v = 0; v < grid.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < grid.h_deg.size(); ++h)
+            out.cd[h * grid.v_deg.size() + v] = grid.cd[v * grid.h_deg.size() + h];
+    return out;
+}
+
+void put_rows_in_order(MeasuredGrid& grid, const char* axis, const std::filesystem::path& file, Notes& notes) {
+    const auto strictly_rising = [](const std::vector<double>& a) {
+        return std::adjacent_find(a.begin(), a.end(), std::greater_equal<>()) == a.end();
+    };
+    if (strictly_rising(grid.v_deg))
+        return;
+    std::vector<std::size_t> order(grid.v_deg.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return grid.v_deg[a] < grid.v_deg[b]; });
+    const std::size_t width = grid.h_deg.size();
+    const auto row = [&](std::size_t i) { return grid.cd.begin() + static_cast<std::ptrdiff_t>(i * width); };
+    std::vector<double> angles, cd;
+    cd.reserve(grid.cd.size());
+    std::size_t repeated = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const double angle = grid.v_deg[order[i]];
+        if (!angles.empty() && angle == angles.back()) {
+            if (!std::equal(row(order[i]), row(order[i]) + static_cast<std::ptrdiff_t>(width), row(order[i - 1])))
+                throw InputError({file, grid.v_line, 0, fmt::format("{} angles", axis)},
+                                 fmt::format("the angle {} is given twice with different intensities", angle), "each angle once");
+            ++repeated;
+            continue;
+        }
+        angles.push_back(angle);
+        cd.insert(cd.end(), row(order[i]), row(order[i]) + static_cast<std::ptrdiff_t>(width));
+    }
+    if (!std::is_sorted(grid.v_deg.begin(), grid.v_deg.end()))
+        notes.push_back(fmt::format("The {} angles do not ascend: sorted.", axis));
+    if (repeated > 0)
+        notes.push_back(fmt::format("{} {} angles are repeated with the same intensities: taken once.", repeated, axis));
+    grid.v_deg = std::move(angles);
+    grid.cd = std::move(cd);
+}
+
+struct Padding {
+    bool low = false, high = false;
+};
+
+/// `dark(i)`: all samples at index i of the axis are 0.
+template <class Dark> Padding padding_of(const std::vector<double>& axis, Dark dark) {
+    constexpr double ratio = 8.0;
+    const std::size_t n = axis.size();
+    if (n < 3)
+        return {};
+    return {axis[1] - axis[0] > ratio * (axis[2] - axis[1]) && dark(0),
+            axis[n - 1] - axis[n - 2] > ratio * (axis[n - 2] - axis[n - 3]) && dark(n - 1)};
+}
+
+} // namespace
+
+void put_in_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes) {
+    put_rows_in_order(grid, "vertical", file, notes);
+    grid = transposed(grid);
+    put_rows_in_order(grid, "horizontal", file, notes);
+    grid = transposed(grid);
+}
+
+void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes) {
+    const auto [lowest, highest] = std::minmax_element(grid.cd.begin(), grid.cd.end());
+    const auto complain = [&](std::vector<double>::iterator at, const std::string& expected) {
+        const auto index = static_cast<std::size_t>(at - grid.cd.begin());
+        throw InputError({file, 0, 0,
+                          fmt::format("intensity at horizontal {}, vertical {}", grid.h_deg[index % grid.h_deg.size()],
+                                      grid.v_deg[index / grid.h_deg.size()])},
+                         fmt::format("is {} cd", *at), expected);
+    };
+    if (!(*highest <= max_intensity_cd))
+        complain(highest, fmt::format("at most {} cd", max_intensity_cd));
+    if (*lowest < -1e-3 * std::max(*highest, 0.0))
+        complain(lowest, "at least 0 cd");
+    const auto negative = std::count_if(grid.cd.begin(), grid.cd.end(), [](double cd) { return cd < 0.0; });
+    if (negative == 0)
+        return;
+    notes.push_back(fmt::format("{} intensities are slightly negative, down to {} cd: taken as 0.", negative, *lowest));
+    std::replace_if(
+        grid.cd.begin(), grid.cd.end(), [](double cd) { return cd < 0.0; }, 0.0);
+}
+
+void mark_padding(CandelaTable& table, Notes& notes) {
+    const std::size_t rows = table.v_deg.size(), columns = table.h_deg.size();
+    const Padding v = padding_of(table.v_deg, [&](std::size_t row) {
+        const auto first = table.cd.begin() + static_cast<std::ptrdiff_t>(row * columns);
+        return std::all_of(first, first + static_cast<std::ptrdiff_t>(columns), [](double cd) { return cd == 0.0; });
+    });
+    const Padding h = padding_of(table.h_deg, [&](std::size_t column) {
+        for (std::size_t row = 0; row < rows; ++row)
+            if (table.at(row, column) != 0.0)
+                return false;
+        return true;
+    });
+    if (!(v.low || v.high || h.low || h.high))
+        return;
+    table.gaps.resize((rows - 1) * (columns - 1), 0);
+    for (std::size_t y = 0; y + 1 < rows; ++y)
+        for (std::size_t x = 0; x + 1 < columns; ++x)
+            if ((v.low && y == 0) || (v.high && y + 2 == rows) || (h.low && x == 0) || (h.high && x + 2 == columns))
+                table.gaps[y * (columns - 1) + x] = 1;
+    const auto gap = [&](const char* axis, double from, double to) {
+        notes.push_back(fmt::format("{} from {} to {} degrees holds only zeros at its end: padding, no data.", axis, from, to));
+    };
+    if (h.low)
+        gap("H", table.h_deg[0], table.h_deg[1]);
+    if (h.high)
+        gap("H", table.h_deg[columns - 2], table.h_deg[columns - 1]);
+    if (v.low)
+        gap("V", table.v_deg[0], table.v_deg[1]);
+    if (v.high)
+        gap("V", table.v_deg[rows - 2], table.v_deg[rows - 1]);
+}
+
+} // namespace fernlicht

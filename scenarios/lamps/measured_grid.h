@@ -1,0 +1,32 @@
+// Intensities as a file lists them, on the file's own two axes, and how they become a well-formed table.
+#pragma once
+
+#include "scenarios/lamps/candela_table.h"
+#include "scenarios/values/errors.h"
+
+namespace fernlicht {
+
+using Notes = std::vector<std::string>;
+
+/// cd[v * h_deg.size() + h]; the axes in the file's order. `*_line` say where each axis begins in the file, for messages.
+struct MeasuredGrid {
+    std::vector<double> h_deg;
+    std::vector<double> v_deg;
+    std::vector<double> cd;
+    std::size_t h_line = 0;
+    std::size_t v_line = 0;
+};
+
+/// Brings both axes into ascending order. Repeated angles with the same intensities are dropped; with others they are an InputError.
+void put_in_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes);
+
+/// Negative intensities down to -0.1 % of the peak are a meter's noise about zero and become 0; below that they are an InputError.
+/// So are intensities above max_intensity_cd.
+void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes);
+
+/// Marks as gap the outermost rows and columns of cells that only pad the file: more than eight times as wide as their neighbour and
+/// ending in zeros all along (a goniometer's range of -5..7 degrees, say, closed by zeros at -90 and 90). Light does not fade over such
+/// a width: nothing was measured there. Eight, because real files close 5-degree steps at 45 degrees with zeros at 90.
+void mark_padding(CandelaTable& table, Notes& notes);
+
+} // namespace fernlicht

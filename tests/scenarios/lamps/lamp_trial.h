@@ -1,0 +1,111 @@
+// Small lamp files that the tests write themselves.
+#pragma once
+
+#include "scenarios/lamps/lamp_file.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/pose.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <random>
+#include <string>
+
+namespace fernlicht {
+
+/// A folder of one test, gone with it.
+class LampTrial : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string name = (std::filesystem::temp_directory_path() / "fernlicht-lamps-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::filesystem::path write(const std::string& name, const std::string& content) const {
+        const std::filesystem::path path = folder_ / name;
+        std::ofstream(path, std::ios::binary) << content;
+        return path;
+    }
+    LampFile read(const std::string& name, const std::string& content, const LampReadOptions& options = {}) const {
+        return read_lamp(write(name, content), options);
+    }
+    /// What the reader says, "" when it reads.
+    std::string refusal(const std::string& name, const std::string& content, const LampReadOptions& options = {}) const {
+        try {
+            read(name, content, options);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    /// Reads or refuses with an InputError that names the file; anything else is a failure.
+    void must_not_fall_over(const std::string& name, const std::string& content) const {
+        const std::string complaint = refusal(name, content);
+        if (!complaint.empty()) {
+            EXPECT_THAT(complaint, testing::HasSubstr(name));
+        }
+    }
+    void must_survive_random_bytes(const std::string& name, const std::string& head, unsigned seed) const {
+        std::mt19937 random(seed);
+        std::uniform_int_distribution<int> byte(0, 255), length(0, 400);
+        for (int i = 0; i < 300; ++i) {
+            std::string content = head;
+            for (int n = length(random); n > 0; --n)
+                content += static_cast<char>(byte(random));
+            must_not_fall_over(name, content);
+        }
+    }
+    /// One byte of a good file replaced at a time.
+    void must_survive_changed_bytes(const std::string& name, const std::string& good, unsigned seed) const {
+        std::mt19937 random(seed);
+        std::uniform_int_distribution<std::size_t> place(0, good.size() - 1);
+        const std::string bytes("0\0 -9e.,;\n\r\xff[]#", 15);
+        std::uniform_int_distribution<std::size_t> which(0, bytes.size() - 1);
+        for (int i = 0; i < 250; ++i) {
+            std::string content = good;
+            content[place(random)] = bytes[which(random)];
+            must_not_fall_over(name, content);
+        }
+    }
+
+    std::filesystem::path folder_;
+};
+
+inline std::string all_notes(const LampFile& lamp) {
+    std::string out;
+    for (const std::string& note : lamp.notes)
+        out += note + "\n";
+    return out;
+}
+
+/// Angles of a grid with random steps, and random intensities with zeros among them.
+inline CandelaTable random_lamp_table(unsigned seed, bool even = false) {
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> count(2, 14);
+    std::uniform_real_distribution<double> step(0.01, 4.0), cd(-500.0, 60000.0);
+    const auto axis = [&](double from) {
+        std::vector<double> out{from};
+        const double fixed = step(random);
+        for (int n = count(random); n > 0; --n)
+            out.push_back(even ? from + fixed * static_cast<double>(out.size()) : out.back() + step(random));
+        return out;
+    };
+    CandelaTable table{axis(-31.7 - step(random)), axis(-22.1 - step(random)), {}, {}, BetweenSamples::linear_cd};
+    for (std::size_t i = table.h_deg.size() * table.v_deg.size(); i > 0; --i)
+        table.cd.push_back(std::max(0.0, cd(random)));
+    if (seed % 3 == 1) {
+        table.gaps.resize((table.h_deg.size() - 1) * (table.v_deg.size() - 1));
+        for (auto& gap : table.gaps)
+            gap = random() % 4 == 0;
+        table.gaps.front() = 1;
+    }
+    check_invariants(table);
+    return table;
+}
+
+} // namespace fernlicht
