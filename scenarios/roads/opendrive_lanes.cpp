@@ -1,3 +1,4 @@
+#include "scenarios/roads/cubics.h"
 #include "scenarios/roads/opendrive_parts.h"
 
 #include <algorithm>
@@ -75,18 +76,44 @@ LaneSection read_section(OpenDriveXml& xml, pugi::xml_node node, const std::stri
     return section;
 }
 
-/// The outermost edges in steps over the section: cubics may run away between the values that look sane.
+bool has_roll(const Road& road) {
+    return std::any_of(road.superelevation.begin(), road.superelevation.end(),
+                       [](const Cubic& piece) { return piece.a != 0.0 || piece.b != 0.0 || piece.c != 0.0 || piece.d != 0.0; });
+}
+
+/// Edges in steps over the section: cubics may run away, or cross, between the values that look sane.
 void check_edges(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const LaneSection& section) {
-    constexpr int samples = 8;
-    for (int i = 0; i <= samples; ++i) {
-        const double s = section.s_m + (section.end_m - section.s_m) * i / samples;
-        for (const Lane& lane : {section.lanes.front(), section.lanes.back()}) {
-            const double t = lane_edges(road, section, lane.id, s).outer_t_m;
-            if (!(std::abs(t) <= widest_m))
+    constexpr int samples = 20;
+    constexpr double told_overlap_m = 0.001;
+    const std::string road_name = named("road", road.id);
+    for (const Lane& lane : section.lanes) {
+        double overlap = 0.0, overlap_s = 0.0;
+        for (int i = 0; i <= samples && lane.id != 0; ++i) {
+            const double s = section.s_m + (section.end_m - section.s_m) * i / samples, ds = s - section.s_m;
+            const LaneEdges edges = lane_edges(road, section, lane.id, s);
+            if (!(std::abs(edges.outer_t_m) <= widest_m))
                 xml.refuse(node, {},
-                           fmt::format("the edge of lane {} of {} lies at t = {} m at s = {}", lane.id, named("road", road.id), t, s),
+                           fmt::format("the edge of lane {} of {} lies at t = {} m at s = {}", lane.id, road_name, edges.outer_t_m, s),
                            fmt::format("at most {} m from the reference line", widest_m));
+            const double side = lane.id > 0 ? 1.0 : -1.0;
+            const double width = !lane.widths.empty() ? value_at(lane.widths, ds)
+                                 : !lane.borders.empty()
+                                     ? side * (value_at(road.lane_offset, s) + value_at(lane.borders, ds) - edges.inner_t_m)
+                                     : 0.0;
+            if (-width > overlap)
+                overlap = -width, overlap_s = s;
         }
+        if (overlap > told_overlap_m)
+            xml.warn(node, fmt::format("{}: lane {} overlaps its inner neighbour by {:.3f} m at s = {}; it has no width there", road_name,
+                                       lane.id, overlap, overlap_s));
+        if (lane.id != 0 && !lane.borders.empty() && !road.lane_offset.empty())
+            xml.warn(node,
+                     fmt::format("{}: lane {} has borders although the road has a lane offset; they are counted from the shifted centre",
+                                 road_name, lane.id));
+        if (lane.level && (has_roll(road) || !road.shapes.empty()))
+            xml.warn_once(node, "level",
+                          fmt::format("{}: lane {} is to stay level; it follows the road's superelevation and shape all the same",
+                                      road_name, lane.id));
     }
 }
 

@@ -29,14 +29,15 @@ MarkKind mark_kind(OpenDriveXml& xml, pugi::xml_node node) {
     for (const auto& [word, kind] : kinds)
         if (name == word)
             return kind;
-    xml.warn(node, fmt::format("the road mark type '{}' is unknown; it is not drawn unless its lines are given", name));
+    xml.warn_once(node, "mark type " + name,
+                  fmt::format("the road mark type '{}' is unknown; it is not drawn unless its lines are given", name));
     return MarkKind::other;
 }
 
 double mark_width(OpenDriveXml& xml, pugi::xml_node node, const char* attribute, double fallback) {
     const double width = xml.number(node, attribute, fallback);
     if (width <= 0.0 || width > widest_m) {
-        xml.warn(node, fmt::format("the road mark's width of {} m is taken as {} m", width, fallback));
+        xml.warn_once(node, "mark width", fmt::format("the road mark's width of {} m is taken as {} m", width, fallback));
         return fallback;
     }
     return width;
@@ -72,7 +73,7 @@ std::vector<RoadMark> read_marks(OpenDriveXml& xml, pugi::xml_node lane_node) {
         if (mark.kind != MarkKind::none)
             read_stripes(xml, node, mark);
         if (node.child("sway"))
-            xml.warn(node, "the road mark's sway is left out: the mark is drawn along the lane's edge");
+            xml.warn_once(node, "sway", "the road mark's sway is left out: the mark is drawn along the lane's edge");
         marks.push_back(std::move(mark));
     }
     const auto ascending = [](const RoadMark& a, const RoadMark& b) { return a.s_m < b.s_m; };

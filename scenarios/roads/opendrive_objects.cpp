@@ -39,9 +39,11 @@ std::vector<RoadObject> with_outlines(OpenDriveXml& xml, pugi::xml_node node, co
             outlines.push_back(outline);
     std::vector<RoadObject> objects;
     const Pose frame = object_frame(road, object);
+    const auto inner = [&](pugi::xml_node outline) { return xml.text(outline, "outer", "true") == "false"; };
+    const bool all_inner = std::all_of(outlines.begin(), outlines.end(), inner); // some exporters call their only outline an inner one
     for (const pugi::xml_node outline : outlines) {
-        if (xml.text(outline, "outer", "true") == "false") {
-            xml.warn(outline, fmt::format("{}: an inner outline (a hole) is left out", named("object", object.id)));
+        if (inner(outline) && !all_inner) {
+            xml.warn_once(outline, "hole", fmt::format("{}: an inner outline (a hole) is left out", named("object", object.id)));
             continue;
         }
         RoadObject shaped = object;
@@ -51,8 +53,9 @@ std::vector<RoadObject> with_outlines(OpenDriveXml& xml, pugi::xml_node node, co
                 add_corner(xml, corner, road, frame, shaped);
         const std::size_t least = shaped.closed_outline ? 3 : 2;
         if (shaped.outline_m.size() < least)
-            xml.warn(outline, fmt::format("{}: an outline of {} corners encloses nothing and is left out", named("object", object.id),
-                                          shaped.outline_m.size()));
+            xml.warn_once(outline, "few corners",
+                          fmt::format("{}: an outline of {} corners encloses nothing and is left out", named("object", object.id),
+                                      shaped.outline_m.size()));
         else
             objects.push_back(std::move(shaped));
     }
@@ -129,7 +132,13 @@ void read_objects(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
             xml.warn(node, fmt::format("{} stands at s = {}, beyond {} of {} m; it is moved to the end", named("object", object.id),
                                        object.s_m, named("road", road.id), road.length_m));
         if (node.child("skeleton"))
-            xml.warn(node, fmt::format("{}: its skeleton is left out", named("object", object.id)));
+            xml.warn_once(node, "skeleton", fmt::format("{}: its skeleton is left out", named("object", object.id)));
+        for (const char* part : {"markings", "borders"})
+            if (node.child(part))
+                xml.warn_once(node, part, fmt::format("{}: its {} are left out", named("object", object.id), part));
+        if (object.radius_m > 0.0 && (object.length_m > 0.0 || object.width_m > 0.0))
+            xml.warn_once(node, "radius and length",
+                          fmt::format("{} has a radius beside length or width; the radius holds", named("object", object.id)));
         std::vector<RoadObject> shaped = with_outlines(xml, node, road, object);
         if (shaped.empty())
             shaped.push_back(object);
@@ -140,7 +149,7 @@ void read_objects(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
             if (road.objects.size() == before)
                 road.objects.push_back(one);
             if (!has_size(road.objects.back()))
-                xml.warn(node, fmt::format("{} has no size: it is not drawn", named("object", object.id)));
+                xml.warn_once(node, "no size", fmt::format("{} has no size: it is not drawn", named("object", object.id)));
         }
     }
 }
@@ -164,7 +173,8 @@ void read_signals(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
             xml.warn(node, fmt::format("{} stands at s = {}, beyond {} of {} m; it is moved to the end", named("signal", signal.id),
                                        signal.s_m, named("road", road.id), road.length_m));
         if (node.child("positionInertial") || node.child("positionRoad"))
-            xml.warn(node, fmt::format("{}: its physical position is left out; it stands at its s and t", named("signal", signal.id)));
+            xml.warn_once(node, "physical position",
+                          fmt::format("{}: its physical position is left out; it stands at its s and t", named("signal", signal.id)));
         road.signals.push_back(std::move(signal));
     }
 }

@@ -74,16 +74,35 @@ std::optional<ElementNode> read_element(OpenDriveXml& xml, pugi::xml_node node, 
     return read;
 }
 
+/// Metres on the curve per metre of s, least and greatest.
+std::pair<double, double> speeds(const PlanElement& element) {
+    constexpr int samples = 50;
+    std::pair<double, double> range{plan_point(element, 0.0).speed, 0.0};
+    for (int i = 0; i <= samples; ++i) {
+        const double speed = plan_point(element, element.length_m * i / samples).speed;
+        range = {std::min(range.first, speed), std::max(range.second, speed)};
+    }
+    return range;
+}
+
 void check_parameters(OpenDriveXml& xml, const ElementNode& read, const std::string& road_name) {
     const auto* poly = std::get_if<ParamPoly3>(&read.element.shape);
     if (!poly)
         return;
+    constexpr double told_difference_m = 0.001, told_speed = 0.05;
     const double length = read.element.length_m, drawn = drawn_length_m(read.element);
-    if (!(std::abs(drawn - length) <= std::max(told_length_m, 1e-3 * length)))
-        xml.warn(read.node,
-                 fmt::format("{}: the paramPoly3 at s = {} is {:.3f} m long, its length says {:.3f} m; its parameter is followed, so "
-                             "distances along it are stretched",
-                             road_name, read.element.s_m, drawn, length));
+    if (!(std::abs(drawn - length) <= told_difference_m))
+        xml.warn_once(
+            read.node, "paramPoly3 length",
+            fmt::format("{}: the paramPoly3 at s = {} is {:.4f} m long, its length says {:.4f} m; its parameter is followed, so distances "
+                        "along it are stretched",
+                        road_name, read.element.s_m, drawn, length));
+    if (const auto [least, most] = speeds(read.element); !(least >= 1.0 - told_speed && most <= 1.0 + told_speed))
+        xml.warn_once(
+            read.node, "paramPoly3 speed",
+            fmt::format(
+                "{}: the paramPoly3 at s = {} runs {:.2f} to {:.2f} m per metre of s; what stands along it by s is taken by its parameter",
+                road_name, read.element.s_m, least, most));
     constexpr double negligible = 1e-6; // of the start: exporters leave rounding there
     if (std::abs(poly->au) > negligible || std::abs(poly->av) > negligible || std::abs(poly->bv) > negligible || poly->bu <= 0.0)
         xml.warn(read.node,

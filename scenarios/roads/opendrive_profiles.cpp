@@ -56,6 +56,14 @@ void read_profiles(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
     check_beginning(xml, elevation, "elevation", road.elevation);
     check_beginning(xml, lateral, "superelevation", road.superelevation);
     road.shapes = read_shapes(xml, lateral);
+    if (const pugi::xml_node surface = lateral.child("crossSectionSurface")) {
+        const bool both = lateral.child("shape") || lateral.child("superelevation");
+        xml.warn(surface,
+                 fmt::format("{}: its crossSectionSurface is left out{}", named("road", road.id),
+                             both ? "; superelevation and shape, which must not stand beside it, hold" : "; the cross-section is flat"));
+    }
+    if (const pugi::xml_node crossfall = lateral.child("crossfall"))
+        xml.warn(crossfall, fmt::format("{}: its crossfall is left out; the cross-section is flat", named("road", road.id)));
 }
 
 } // namespace fernlicht::opendrive

@@ -118,7 +118,20 @@ void OpenDriveXml::warn(pugi::xml_node node, const std::string& what) {
         ++warnings_left_out_;
 }
 
+void OpenDriveXml::warn_once(pugi::xml_node node, const std::string& kind, const std::string& what) {
+    if (const auto known = kinds_.find(kind); known != kinds_.end()) {
+        ++known->second.more;
+        return;
+    }
+    if (warnings_.size() < most_warnings)
+        kinds_[kind] = {warnings_.size(), 0};
+    warn(node, what);
+}
+
 std::vector<std::string> OpenDriveXml::take_warnings() {
+    for (const auto& [kind, first] : kinds_)
+        if (first.more > 0)
+            warnings_[first.warning] += fmt::format(" (and {} more of this kind)", first.more);
     if (warnings_left_out_ > 0)
         warnings_.push_back(fmt::format("{}: {} further warnings are left out", path_.string(), warnings_left_out_));
     return std::move(warnings_);

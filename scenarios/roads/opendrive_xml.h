@@ -3,6 +3,7 @@
 
 #include "scenarios/values/files.h"
 
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -25,6 +26,8 @@ class OpenDriveXml {
                              const std::string& expected = {}) const;
     /// Notes what is odd at `node` and how it was taken. Only the first 1000 are kept.
     void warn(pugi::xml_node node, const std::string& what);
+    /// As warn(), but of one `kind` only the first is kept, with the number of the others behind it.
+    void warn_once(pugi::xml_node node, const std::string& kind, const std::string& what);
     std::vector<std::string> take_warnings();
 
     /// Finite and at most 1e9 in size; refuses anything else. Without a fallback the attribute must be there.
@@ -47,6 +50,10 @@ class OpenDriveXml {
     pugi::xml_node root_;
     std::vector<std::string> warnings_;
     std::size_t warnings_left_out_ = 0;
+    struct Kind {
+        std::size_t warning, more;
+    };
+    std::map<std::string, Kind> kinds_;
 };
 
 /// Words for messages: "road '12'".
