@@ -1,0 +1,103 @@
+// What flags do to a drive.
+#include "tests/scenarios/drives/drive_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class DriveEditsTest : public DriveFixture {
+  protected:
+    double peak(const Drive& drive, std::size_t variant, std::size_t lamp) {
+        return intensity_cd(drive.variants.at(variant).lamps.at(lamp).file->table, 0.0, 0.0);
+    }
+    DriveEdits with_lamp(const std::string& side) {
+        DriveEdits edits;
+        edits.lamps = {{side, folder / "other.ies"}};
+        return edits;
+    }
+    const std::string pair =
+        "fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\n"
+        "car: {mounts: {left: [3, 1, 1], right: [3, -1, 1], high-left: [3, 0, 1]}}\n"
+        "variants:\n  a: {file: low.ies}\n  b: {file: low.ies}\n"
+        "changes: [{at_s: 1, lamp: left, file: low.ies, source: arc}, {at_s: 1, lamp: left, level: 0.5, file: low.ies}]\n";
+};
+
+TEST_F(DriveEditsTest, OneSideInEveryVariant) {
+    const Drive drive = read(pair, with_lamp("left"));
+    ASSERT_EQ(drive.variants.size(), 2U);
+    for (const std::size_t variant : {0U, 1U}) {
+        EXPECT_DOUBLE_EQ(peak(drive, variant, 0), 2000.0);
+        EXPECT_DOUBLE_EQ(peak(drive, variant, 1), 1000.0);
+        EXPECT_DOUBLE_EQ(peak(drive, variant, 2), 1000.0) << "the high beam was not meant";
+        ASSERT_EQ(drive.variants[variant].changes.size(), 1U) << "no later switch back to the drive's own file";
+        EXPECT_EQ(drive.variants[variant].changes[0].level, 0.5);
+        EXPECT_FALSE(drive.variants[variant].changes[0].file);
+    }
+    EXPECT_EQ(drive.opened.back().path, folder / "other.ies");
+}
+
+TEST_F(DriveEditsTest, AllLampsLeaveOneVariant) {
+    const Drive drive = read(pair, with_lamp(""));
+    ASSERT_EQ(drive.variants.size(), 1U);
+    EXPECT_EQ(drive.variants[0].name, "other");
+    EXPECT_DOUBLE_EQ(peak(drive, 0, 0), 2000.0);
+    EXPECT_DOUBLE_EQ(peak(drive, 0, 1), 2000.0);
+    EXPECT_DOUBLE_EQ(peak(drive, 0, 2), 1000.0);
+    EXPECT_THAT(drive.notes, ElementsAre(HasSubstr("only the first ('a') is played")));
+}
+
+TEST_F(DriveEditsTest, HighBeamsAreMeantByName) {
+    const Drive drive = read(pair, with_lamp("high-left"));
+    EXPECT_EQ(drive.variants.size(), 2U);
+    EXPECT_DOUBLE_EQ(peak(drive, 0, 0), 1000.0);
+    EXPECT_DOUBLE_EQ(peak(drive, 0, 2), 2000.0);
+}
+
+TEST_F(DriveEditsTest, ASideThatNoLampHas) { EXPECT_THAT(refusal(pair, with_lamp("top")), HasSubstr("one of high-left, left, right")); }
+
+TEST_F(DriveEditsTest, AMissingLampOrRoad) {
+    DriveEdits edits;
+    edits.lamps = {{"", folder / "none.ies"}};
+    EXPECT_THAT(refusal(minimal, edits), HasSubstr("none.ies"));
+    edits = {};
+    edits.road = folder / "none.xodr";
+    EXPECT_THAT(refusal(minimal, edits), HasSubstr("none.xodr: there is no such road file"));
+}
+
+TEST_F(DriveEditsTest, AnotherRoadForgetsTheRoute) {
+    write_file(folder / "road2.xodr", "<OpenDRIVE/>");
+    DriveEdits edits;
+    edits.road = folder / "road2.xodr";
+    const Drive drive = read(minimal + "route: {road: 4, lane: -1, s_m: 30, via: [5]}\n", edits);
+    EXPECT_EQ(drive.road_file, folder / "road2.xodr");
+    EXPECT_EQ(drive.start.road, "");
+    EXPECT_EQ(drive.start.lane, 0);
+    EXPECT_EQ(drive.start.s_m, 0.0);
+    EXPECT_TRUE(drive.via.empty());
+    EXPECT_EQ(drive.notes.size(), 1U);
+}
+
+TEST_F(DriveEditsTest, TechniqueResolutionAndCapture) {
+    DriveEdits edits;
+    edits.technique = "as-printed";
+    edits.resolution = {{320, 240}};
+    edits.capture_all = true;
+    const Drive drive = read(minimal, edits);
+    EXPECT_EQ(drive.technique, "as-printed");
+    EXPECT_EQ(drive.views[0].width_px, 320);
+    EXPECT_EQ(drive.views[0].height_px, 240);
+    EXPECT_EQ(drive.views[1].width_px, 200) << "the map keeps its own";
+    EXPECT_TRUE(drive.capture.all);
+    EXPECT_EQ(read(minimal).technique, "photometric");
+    for (const auto& bad : {std::pair{0, 10}, {10, -1}, {16385, 10}}) {
+        edits.resolution = bad;
+        EXPECT_THAT(refusal(minimal, edits), HasSubstr("sides from 1 to 16384 pixels"));
+    }
+}
+
+} // namespace
+} // namespace fernlicht

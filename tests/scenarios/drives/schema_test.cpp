@@ -1,0 +1,304 @@
+// drive.schema.json says the same as the reader: editors that use it must neither refuse good drives nor pass misspelt keys.
+#include "scenarios/drives/yaml_tree.h"
+#include "tests/scenarios/drives/drive_fixture.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+
+json to_json(const YamlValue& value) {
+    if (value.kind == YamlValue::Kind::null)
+        return nullptr;
+    if (value.kind == YamlValue::Kind::scalar) {
+        double number = 0.0;
+        const auto [end, error] = std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);
+        if (!value.quoted && error == std::errc{} && end == value.text.data() + value.text.size())
+            return number;
+        if (!value.quoted && (value.text == "true" || value.text == "false"))
+            return value.text == "true";
+        return value.text;
+    }
+    json result = value.kind == YamlValue::Kind::list ? json::array() : json::object();
+    for (const YamlValue& item : value.items)
+        result.push_back(to_json(item));
+    for (const YamlMember& member : value.members)
+        result[member.key] = to_json(member.value);
+    return result;
+}
+
+/// The part of JSON Schema, draft 7, that our schema uses. Gives the first violation, "" for none; throws for keywords it does not know.
+class SchemaCheck {
+  public:
+    explicit SchemaCheck(json schema) : root_(std::move(schema)) {}
+
+    std::string violation(const json& value) const { return violation(root_, value, ""); }
+
+  private:
+    static bool has_type(const std::string& type, const json& value) {
+        return type == "object"    ? value.is_object()
+               : type == "array"   ? value.is_array()
+               : type == "string"  ? value.is_string()
+               : type == "boolean" ? value.is_boolean()
+               : type == "integer" ? value.is_number() && value.get<double>() == std::floor(value.get<double>())
+                                   : type == "number" && value.is_number();
+    }
+
+    std::size_t passing(const json& schemas, const json& value, const std::string& where) const {
+        return static_cast<std::size_t>(
+            std::count_if(schemas.begin(), schemas.end(), [&](const json& schema) { return violation(schema, value, where).empty(); }));
+    }
+
+    std::string violation(const json& schema, const json& value, const std::string& where) const {
+        for (const auto& [keyword, rule] : schema.items())
+            if (const std::string text = keyword_violation(schema, keyword, rule, value, where); !text.empty())
+                return text;
+        return "";
+    }
+
+    std::string keyword_violation(const json& schema, const std::string& keyword, const json& rule, const json& value,
+                                  const std::string& where) const {
+        const auto unless = [&](bool holds) {
+            return holds ? std::string() : where + " against " + keyword + " " + rule.dump().substr(0, 80);
+        };
+        if (keyword == "$schema" || keyword == "title" || keyword == "description" || keyword == "definitions")
+            return "";
+        if (keyword == "$ref")
+            return violation(root_.at(json::json_pointer(rule.get<std::string>().substr(1))), value, where);
+        if (keyword == "type") {
+            const json types = rule.is_array() ? rule : json::array({rule});
+            return unless(std::any_of(types.begin(), types.end(), [&](const json& type) { return has_type(type, value); }));
+        }
+        if (keyword == "const")
+            return unless(value == rule);
+        if (keyword == "enum")
+            return unless(std::find(rule.begin(), rule.end(), value) != rule.end());
+        if (keyword == "anyOf")
+            return unless(passing(rule, value, where) >= 1);
+        if (keyword == "oneOf")
+            return unless(passing(rule, value, where) == 1);
+        if (keyword == "allOf")
+            return unless(passing(rule, value, where) == rule.size());
+        if (keyword == "not")
+            return unless(!violation(rule, value, where).empty());
+        if (keyword == "minimum")
+            return unless(!value.is_number() || value >= rule);
+        if (keyword == "maximum")
+            return unless(!value.is_number() || value <= rule);
+        if (keyword == "exclusiveMinimum")
+            return unless(!value.is_number() || value > rule);
+        if (keyword == "minLength")
+            return unless(!value.is_string() || value.get<std::string>().size() >= rule);
+        if (keyword == "pattern")
+            return unless(!value.is_string() || std::regex_search(value.get<std::string>(), std::regex(rule.get<std::string>())));
+        if (keyword == "minItems")
+            return unless(!value.is_array() || value.size() >= rule);
+        if (keyword == "maxItems")
+            return unless(!value.is_array() || value.size() <= rule);
+        if (keyword == "minProperties")
+            return unless(!value.is_object() || value.size() >= rule);
+        if (keyword == "maxProperties")
+            return unless(!value.is_object() || value.size() <= rule);
+        if (keyword == "required")
+            return unless(!value.is_object() ||
+                          std::all_of(rule.begin(), rule.end(), [&](const json& key) { return value.contains(key.get<std::string>()); }));
+        if (keyword == "items" || keyword == "properties" || keyword == "additionalProperties" || keyword == "propertyNames")
+            return children_violation(schema, keyword, rule, value, where);
+        throw std::logic_error("schema keyword that this test does not know: " + keyword);
+    }
+
+    std::string children_violation(const json& schema, const std::string& keyword, const json& rule, const json& value,
+                                   const std::string& where) const {
+        if (keyword == "items" && value.is_array())
+            for (const json& item : value)
+                if (const std::string text = violation(rule, item, where + "[]"); !text.empty())
+                    return text;
+        if (keyword == "items" || !value.is_object())
+            return "";
+        for (const auto& [key, member] : value.items()) {
+            const bool described = schema.contains("properties") && schema["properties"].contains(key);
+            std::string text;
+            if (keyword == "propertyNames")
+                text = violation(rule, json(key), where + "." + key);
+            else if (keyword == "properties" && described)
+                text = violation(rule[key], member, where + "." + key);
+            else if (keyword == "additionalProperties" && !described)
+                text = rule.is_boolean() ? where + "." + key + " is unknown" : violation(rule, member, where + "." + key);
+            if (!text.empty())
+                return text;
+        }
+        return "";
+    }
+
+    json root_;
+};
+
+class Schema : public DriveFixture {
+  protected:
+    Schema() : check(json::parse(std::ifstream(scenarios / "drive.schema.json"))) {}
+
+    std::string violation(const std::string& yaml) { return check.violation(to_json(parse_yaml(yaml, "test.yaml"))); }
+    static std::string content(const std::filesystem::path& file) {
+        FilesRead opened;
+        return read_file(file, opened);
+    }
+
+    const std::filesystem::path scenarios = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios";
+    SchemaCheck check;
+};
+
+TEST_F(Schema, PassesTheExampleAndEveryShippedDrive) {
+    EXPECT_EQ(violation(content(scenarios / "drive.example.yaml")), "");
+    int drives = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(scenarios / "library/drives")) {
+        EXPECT_EQ(violation(content(entry.path())), "") << entry.path();
+        ++drives;
+    }
+    EXPECT_GE(drives, 6);
+}
+
+TEST_F(Schema, PassesResolvedDrives) {
+    const Drive drive =
+        read(minimal + "changes: [{at_s: 1, file: other.ies, source: arc, aim: {pitch_rad: 0.1}}]\nlimits: [{reading: x, at_most: 1}]\n"
+                       "measure: {probes: {p: {ahead_m: 7}}}\n");
+    EXPECT_EQ(violation(write_drive(drive)), "");
+}
+
+/// Good or bad, schema and reader must agree.
+TEST_F(Schema, AgreesWithTheReader) {
+    const std::vector<std::string> endings = {"",
+                                              "rate_hz: 60",
+                                              "rate_hz: 0",
+                                              "step_s: 0",
+                                              "step_s: 1\nrate_hz: 2",
+                                              "speed_mps: 1",
+                                              "daylight: night",
+                                              "daylight: dawn",
+                                              "daylight: {horizontal_illuminance_lx: 3}",
+                                              "daylight: {name: x}",
+                                              "car: {bumper_x_m: 3, wheelbase_m: 2.5}",
+                                              "car: {bumper: 3}",
+                                              "car: {wheelbase_m: 0}",
+                                              "car: {mounts: {left: [1, 2]}}",
+                                              "car: {mounts: {left: [1, 2, 3]}}",
+                                              "car: {mounts: {}}",
+                                              "changes: [{at_s: 1, level: 0}]",
+                                              "changes: [{at_s: 1, level: 2}]",
+                                              "changes: [{level: 1}]",
+                                              "changes: [{at_s: 1, lamp: left, lamps: [left], level: 1}]",
+                                              "views: {a: {}}",
+                                              "views: {}",
+                                              "views: {../a: {}}",
+                                              "views: {a: {fov: 3}}",
+                                              "views: {a: {vertical_fov_deg: 180}}",
+                                              "views: {a: {pitch_deg: -90}}",
+                                              "views: {a: {pitch_deg: -91}}",
+                                              "views: {a: {resolution_px: [10, 10]}}",
+                                              "views: {a: {resolution_px: [10, 0]}}",
+                                              "views: {a: {resolution_px: [10]}}",
+                                              "views: {a: {map: {ahead_m: 30}}}",
+                                              "views: {a: {map: {up_m: 30}}}",
+                                              "capture: {all: true}",
+                                              "capture: {all: 1}",
+                                              "capture: {every: 1}",
+                                              "tone_mapper: {kind: rational}",
+                                              "tone_mapper: {kind: urqv}",
+                                              "tone_mapper: {s: 0.9}",
+                                              "tone_mapper: {l_max_cdm2: 0}",
+                                              "technique: a/b",
+                                              "technique: photometric",
+                                              "measure: {extent: true}",
+                                              "measure: {extent: 3}",
+                                              "measure: {extent: {cell_m: 0.5}}",
+                                              "measure: {extent: {cell_m: 0}}",
+                                              "measure: {extent: {limits_lx: []}}",
+                                              "measure: {probes: {a: {left_m: 3}}}",
+                                              "measure: {probes: {a: {ahead_m: 3}}}",
+                                              "limits: []",
+                                              "limits: [{reading: x}]",
+                                              "limits: [{reading: x, at_least: 3}]",
+                                              "limits: [{at_least: 3}]",
+                                              "shadows: true",
+                                              "shadows: 1",
+                                              "seed: 3",
+                                              "seed: -1",
+                                              "seed: 1.5",
+                                              "route: {lane: 1}",
+                                              "route: {lane: 1.5}",
+                                              "route: {road: 3, s_m: 1, via: [a]}",
+                                              "route: {s: 1}",
+                                              "name: a b",
+                                              "name: a-b",
+                                              "title: any text",
+                                              "nonsense: 1"};
+    for (const std::string& ending : endings) {
+        const std::string yaml = minimal + ending + "\n";
+        const std::string by_reader = refusal(yaml), by_schema = violation(yaml);
+        EXPECT_EQ(by_reader == "not refused", by_schema.empty()) << ending << "\n reader: " << by_reader << "\n schema: " << by_schema;
+    }
+    for (const char* lamp : {"level: 0.5",
+                             "level: 2",
+                             "voltage_v: 11",
+                             "source: arc",
+                             "source: xenon",
+                             "temperature_k: 3000",
+                             "temperature_k: 30",
+                             "aim: {percent_down: 1}",
+                             "aim: {down: 1}",
+                             "aim: {yaw_rad: 3.2}",
+                             "type_c_axis: nadir",
+                             "type_c_axis: up",
+                             "between_samples: log_cd",
+                             "texture: {scale_lx: 1}",
+                             "texture: {scale: 1}",
+                             "photometric_distance_m: -1",
+                             "colour: {linear_srgb: [1, 1, 1], sp_ratio: 1}",
+                             "colour: {linear_srgb: [1, 1], sp_ratio: 1}",
+                             "lamps: {left: low.ies}",
+                             "lamps: {left: {mount: right}}",
+                             "lamps: {left: {pos: 3}}",
+                             "lamps: []",
+                             "changes: []"}) {
+        const std::string yaml =
+            fmt::format("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants: {{a: {{file: low.ies, {}}}}}\n", lamp);
+        const std::string by_reader = refusal(yaml), by_schema = violation(yaml);
+        EXPECT_EQ(by_reader == "not refused", by_schema.empty()) << lamp << "\n reader: " << by_reader << "\n schema: " << by_schema;
+    }
+}
+
+TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
+    std::filesystem::create_directories(folder / "library/roads");
+    std::filesystem::create_directories(folder / "library/lamps");
+    write_file(folder / "library/roads/country.xodr", "<OpenDRIVE/>");
+    for (const char* lamp : {"halogen-low", "halogen-high", "xenon-low", "xenon-high"})
+        write_file(folder / "library/lamps" / (std::string(lamp) + ".ies"), ies_text(1.0));
+    const std::string example = content(scenarios / "drive.example.yaml");
+    ASSERT_EQ(refusal(example), "not refused");
+    const std::regex key(R"(\b([a-z_]{4,})(: ))");
+    std::size_t tried = 0;
+    for (std::sregex_iterator match(example.begin(), example.end(), key), end; match != end; ++match) {
+        const auto at = static_cast<std::size_t>(match->position(1));
+        const std::size_t line = example.rfind('\n', at) + 1;
+        if (example.substr(line, at - line).find('#') != std::string::npos)
+            continue; // a comment
+        const std::string name = match->str(1);
+        if (name == "left" || name == "right" || name == "halogen" || name == "xenon" || name == "driver")
+            continue; // names are the user's
+        std::string misspelt = example;
+        misspelt.insert(at + 2, "q");
+        EXPECT_NE(violation(misspelt), "") << name;
+        EXPECT_THAT(refusal(misspelt), testing::AnyOf(testing::HasSubstr("unknown key"), testing::HasSubstr("no mount"))) << name;
+        ++tried;
+    }
+    EXPECT_GT(tried, 40U);
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,285 @@
+// The resolved drive: what write_drive writes, read_drive reads back, to the last bit.
+#include "tests/scenarios/drives/drive_fixture.h"
+
+#include <gmock/gmock.h>
+#include <random>
+
+namespace fernlicht {
+namespace {
+
+void expect_same_file(const std::shared_ptr<const LampFile>& a, const std::shared_ptr<const LampFile>& b) {
+    ASSERT_EQ(a == nullptr, b == nullptr);
+    if (a) {
+        EXPECT_EQ(a->opened.front().path, b->opened.front().path);
+        EXPECT_EQ(a->table, b->table);
+    }
+}
+
+void expect_same_colour(const LampColour& a, const LampColour& b) {
+    EXPECT_EQ(a.linear_srgb, b.linear_srgb);
+    EXPECT_EQ(a.sp_ratio, b.sp_ratio);
+    EXPECT_EQ(a.cct_k, b.cct_k);
+}
+
+void expect_same_lamp(const MountedLamp& a, const MountedLamp& b) {
+    EXPECT_EQ(a.name, b.name);
+    expect_same_file(a.file, b.file);
+    EXPECT_EQ(a.position_m, b.position_m);
+    EXPECT_EQ(a.yaw_rad, b.yaw_rad);
+    EXPECT_EQ(a.pitch_rad, b.pitch_rad);
+    EXPECT_EQ(a.roll_rad, b.roll_rad);
+    EXPECT_EQ(a.level, b.level);
+    EXPECT_EQ(a.voltage_v, b.voltage_v);
+    EXPECT_EQ(a.reference_voltage_v, b.reference_voltage_v);
+    EXPECT_EQ(a.source, b.source);
+    expect_same_colour(a.colour, b.colour);
+    EXPECT_EQ(a.photometric_distance_m, b.photometric_distance_m);
+}
+
+void expect_same_change(const LampChange& a, const LampChange& b) {
+    EXPECT_EQ(a.time_s, b.time_s);
+    EXPECT_EQ(a.lamp, b.lamp);
+    EXPECT_EQ(a.level, b.level);
+    EXPECT_EQ(a.pitch_rad, b.pitch_rad);
+    EXPECT_EQ(a.yaw_rad, b.yaw_rad);
+    EXPECT_EQ(a.roll_rad, b.roll_rad);
+    expect_same_file(a.file, b.file);
+    ASSERT_EQ(a.colour.has_value(), b.colour.has_value());
+    if (a.colour)
+        expect_same_colour(*a.colour, *b.colour);
+    EXPECT_EQ(a.source, b.source);
+}
+
+void expect_same_variant(const Variant& a, const Variant& b) {
+    EXPECT_EQ(a.name, b.name);
+    ASSERT_EQ(a.lamps.size(), b.lamps.size());
+    for (std::size_t i = 0; i < a.lamps.size(); ++i)
+        expect_same_lamp(a.lamps[i], b.lamps[i]);
+    ASSERT_EQ(a.changes.size(), b.changes.size());
+    for (std::size_t i = 0; i < a.changes.size(); ++i)
+        expect_same_change(a.changes[i], b.changes[i]);
+}
+
+void expect_same(const Drive& a, const Drive& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.title, b.title);
+    EXPECT_EQ(a.road_file, b.road_file);
+    EXPECT_EQ(a.start.road, b.start.road);
+    EXPECT_EQ(a.start.lane, b.start.lane);
+    EXPECT_EQ(a.start.s_m, b.start.s_m);
+    EXPECT_EQ(a.via, b.via);
+    EXPECT_EQ(a.speed, b.speed);
+    EXPECT_EQ(a.duration_s, b.duration_s);
+    EXPECT_EQ(a.step_s, b.step_s);
+    EXPECT_EQ(a.daylight, b.daylight);
+    EXPECT_EQ(a.bumper_m, b.bumper_m);
+    EXPECT_EQ(a.wheelbase_m, b.wheelbase_m);
+    ASSERT_EQ(a.variants.size(), b.variants.size());
+    for (std::size_t i = 0; i < a.variants.size(); ++i)
+        expect_same_variant(a.variants[i], b.variants[i]);
+    EXPECT_EQ(a.views, b.views);
+    EXPECT_EQ(a.capture, b.capture);
+    EXPECT_EQ(a.tone_mapper, b.tone_mapper);
+    EXPECT_EQ(a.technique, b.technique);
+    EXPECT_EQ(a.extent, b.extent);
+    EXPECT_EQ(a.probes, b.probes);
+    EXPECT_EQ(a.limits, b.limits);
+    EXPECT_EQ(a.shadows, b.shadows);
+    EXPECT_EQ(a.seed, b.seed);
+}
+
+/// Any drive that the format can hold; numbers with all their digits.
+class AnyDrive {
+  public:
+    AnyDrive(unsigned seed, std::vector<LampSource> sources) : random_(seed), sources_(std::move(sources)) {}
+
+    Drive make() {
+        Drive drive;
+        drive.name = name();
+        drive.title = text();
+        drive.road_file = sources_.front().path.parent_path() / "road.xodr";
+        drive.start = {coin() ? "" : text(), whole(-5, 5), number(0.0, 1000.0)};
+        drive.via = several<std::string>(3, [&] { return text(); });
+        double time_s = 0.0;
+        drive.speed = several<SpeedPoint>(4, [&] { return SpeedPoint{time_s += number(0.1, 3.0), number(0.0, 150.0)}; });
+        drive.speed.push_back({time_s + 1.0, 20.0 / 3.6});
+        drive.duration_s = number(0.5, 100.0);
+        drive.step_s = number(0.001, 1.0);
+        drive.daylight = {name(), number(0.0, 27000.0)};
+        drive.bumper_m = number(2.0, 5.0);
+        drive.wheelbase_m = number(2.0, 4.0);
+        for (int i = 0; i <= whole(0, 2); ++i)
+            drive.variants.push_back(variant("v" + std::to_string(i)));
+        drive.lamp_sources = sources_;
+        for (int i = 0; i <= whole(0, 6); ++i)
+            drive.views.push_back(coin() ? camera(i) : map(i));
+        drive.capture = {number(0.0, 10.0), coin(), coin(), coin()};
+        drive.tone_mapper = {coin() ? ToneMapperKind::logarithmic : ToneMapperKind::linear, number(1.0, 99.0), number(0.1, 1e4)};
+        drive.technique = name();
+        if (coin())
+            drive.extent =
+                ExtentParameters{{number(0.1, 9.0), 1e-6}, number(0.0, 2.0), number(50.0, 300.0), number(5.0, 30.0), number(0.3, 2.0), {}};
+        for (int i = 0; i < whole(0, 3); ++i)
+            drive.probes.push_back({"p" + std::to_string(i), number(-9.0, 200.0), number(-9.0, 9.0), number(0.0, 2.0)});
+        drive.limits = several<Limit>(3, [&] {
+            return Limit{text(), number(-5.0, 0.0), coin() ? std::optional(number(0.0, 1e9)) : std::nullopt};
+        });
+        drive.shadows = coin();
+        drive.seed = random_();
+        return drive;
+    }
+
+  private:
+    double number(double least, double greatest) { return std::uniform_real_distribution(least, greatest)(random_); }
+    int whole(int least, int greatest) { return std::uniform_int_distribution(least, greatest)(random_); }
+    bool coin() { return whole(0, 1) == 1; }
+    std::optional<double> maybe(double least, double greatest) { return coin() ? std::optional(number(least, greatest)) : std::nullopt; }
+    template <class T> std::vector<T> several(int most, const auto& make) {
+        std::vector<T> result;
+        for (int i = whole(0, most); i > 0; --i)
+            result.push_back(make());
+        return result;
+    }
+    std::string name() {
+        return std::vector<std::string>{"a", "null", "-1", "true", "1.5", "x_9.y", "A-b"}[static_cast<std::size_t>(whole(0, 6))];
+    }
+    std::string text() {
+        return std::vector<std::string>{"plain",
+                                        "with \"quotes\" and \\",
+                                        "ümläut €",
+                                        "a: b # c",
+                                        "line\nbreak\ttab\r\x01\x7f",
+                                        " spaces  ",
+                                        "- [x] {y} *z &w !v |u >t %s @r",
+                                        "\xe2\x80\xa8 \xc2\x85 .",
+                                        "~",
+                                        "12"}[static_cast<std::size_t>(whole(0, 9))];
+    }
+    const LampSource& source() { return sources_[static_cast<std::size_t>(whole(0, static_cast<int>(sources_.size()) - 1))]; }
+    glm::dvec3 position() { return {number(-9.0, 9.0), number(-9.0, 9.0), number(0.0, 3.0)}; }
+    LampColour colour() { return {{number(-0.1, 2.0), number(0.0, 2.0), number(0.0, 2.0)}, number(0.5, 3.0), number(1000.0, 9000.0)}; }
+    SourceKind kind() { return std::vector{SourceKind::filament, SourceKind::arc, SourceKind::led}[static_cast<std::size_t>(whole(0, 2))]; }
+
+    Variant variant(const std::string& named) {
+        Variant result{named, {}, {}};
+        for (const char* lamp : {"left", "right", "null"}) {
+            MountedLamp mounted;
+            mounted.name = lamp;
+            mounted.file = source().file;
+            mounted.position_m = position();
+            mounted.yaw_rad = number(-3.0, 3.0);
+            mounted.pitch_rad = coin() ? number(-1.5, 1.5) : radians(number(-2.0, 2.0));
+            mounted.roll_rad = coin() ? 0.0 : number(-1e-9, 1e-9);
+            mounted.level = number(0.0, 1.0);
+            mounted.voltage_v = number(12.0, 13.8);
+            mounted.reference_voltage_v = number(12.0, 13.8);
+            mounted.source = kind();
+            mounted.colour = colour();
+            mounted.photometric_distance_m = number(0.0, 25.0);
+            result.lamps.push_back(mounted);
+        }
+        double time_s = 0.0;
+        for (int i = 0; i < whole(0, 3); ++i)
+            result.changes.push_back(change(time_s += coin() ? 0.0 : number(0.0, 2.0)));
+        return result;
+    }
+    LampChange change(double time_s) {
+        LampChange result{
+            time_s, coin() ? "left" : "null", number(0.0, 1.0), maybe(-1.5, 1.5), maybe(-3.0, 3.0), maybe(-3.0, 3.0), nullptr, {}, {}};
+        if (coin())
+            result.file = source().file;
+        if (coin())
+            result.colour = colour();
+        if (result.colour && coin())
+            result.source = kind();
+        return result;
+    }
+    View camera(int i) {
+        View view;
+        view.name = "view-" + std::to_string(i);
+        view.position_m = position();
+        view.yaw_rad = number(-6.0, 6.0);
+        view.pitch_rad = number(-1.5, 1.5);
+        view.roll_rad = number(-6.0, 6.0);
+        view.vertical_fov_rad = number(0.01, 3.0);
+        view.width_px = whole(1, 16384);
+        view.height_px = whole(1, 16384);
+        return view;
+    }
+    View map(int i) {
+        View view;
+        view.name = "map-" + std::to_string(i);
+        view.projection = Projection::map;
+        view.map_ahead_m = number(1.0, 500.0);
+        view.map_behind_m = number(-0.5, 50.0);
+        view.map_left_m = number(1.0, 50.0);
+        view.map_right_m = number(0.0, 50.0);
+        view.width_px = whole(1, 16384);
+        view.height_px = whole(1, 16384);
+        return view;
+    }
+
+    std::mt19937 random_;
+    std::vector<LampSource> sources_;
+};
+
+class WriteDrive : public DriveFixture {
+  protected:
+    Drive back(const Drive& drive) {
+        write_file(folder / "resolved.yaml", write_drive(drive));
+        return read_drive(folder / "resolved.yaml");
+    }
+};
+
+TEST_F(WriteDrive, AnyDriveComesBackToTheBit) {
+    std::vector<LampSource> sources;
+    for (const char* file : {"low.ies", "other.ies"})
+        for (const BetweenSamples rule : {BetweenSamples::linear_cd, BetweenSamples::log_cd}) {
+            LampReadOptions options;
+            options.rule = rule;
+            options.type_c_axis = rule == BetweenSamples::log_cd ? TypeCAxis::horizontal : TypeCAxis::automatic;
+            sources.push_back({folder / file, options, std::make_shared<const LampFile>(read_lamp(folder / file, options))});
+        }
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        SCOPED_TRACE(fmt::format("seed {}", seed));
+        const Drive drive = AnyDrive(seed, sources).make();
+        const Drive again = back(drive);
+        expect_same(drive, again);
+        EXPECT_EQ(write_drive(drive), write_drive(again));
+        if (HasFailure())
+            break;
+    }
+}
+
+TEST_F(WriteDrive, ADriveWithFlagsAppliedComesBack) {
+    DriveEdits edits;
+    edits.lamps = {{"", folder / "other.ies"}};
+    edits.resolution = {{64, 48}};
+    edits.capture_all = true;
+    const Drive drive = read(minimal + "changes: [{at_s: 1, file: low.ies, source: arc, level: 0.5}]\n", edits);
+    expect_same(drive, back(drive));
+}
+
+TEST_F(WriteDrive, DegreesWhereTheyAreExact) {
+    const std::string text = write_drive(read(minimal + "views: {v: {yaw_deg: 0.3, pitch_deg: -1}}\n"));
+    EXPECT_THAT(text, testing::HasSubstr("yaw_deg: 0.3\n"));
+    EXPECT_THAT(text, testing::HasSubstr("pitch_deg: -1\n"));
+}
+
+TEST_F(WriteDrive, TextureOptionsComeBack) {
+    Drive drive = read(minimal);
+    LampReadOptions& options = drive.lamp_sources.front().options;
+    options.texture_scale_lx = 50.0 / 3.0;
+    options.texture_distance_m = 10.0;
+    options.texture_h_extent_deg[0] = -20.1;
+    options.texture_h_extent_deg[1] = 20.2;
+    const LampReadOptions again = back(drive).lamp_sources.front().options;
+    EXPECT_EQ(again.texture_scale_lx, 50.0 / 3.0);
+    EXPECT_EQ(again.texture_distance_m, 10.0);
+    EXPECT_EQ(again.texture_h_extent_deg[0], -20.1);
+    EXPECT_EQ(again.texture_h_extent_deg[1], 20.2);
+    EXPECT_EQ(again.texture_v_extent_deg[0], again.texture_v_extent_deg[1]);
+}
+
+} // namespace
+} // namespace fernlicht
