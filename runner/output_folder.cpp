@@ -4,8 +4,11 @@
 #include "scenarios/values/files.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -40,6 +43,19 @@ std::string contents(const fs::path& folder) {
     return fmt::format("is not empty (it holds '{}')", printable(fs::directory_iterator(folder)->path().filename().string()));
 }
 
+/// Made, not overwritten: of two runs that start at once in one folder the second is refused.
+void put_mark(const fs::path& folder) {
+    const fs::path mark = folder / mark_name;
+    const int file = ::open(mark.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int error = errno;
+    if (file < 0 && error == EEXIST)
+        throw InputError({folder, 0, 0, "--out"}, contents(folder), "a new or an empty folder");
+    if (file < 0)
+        throw DeviceError(printable(mark.string(), 400) + ": cannot be written: " + std::generic_category().message(error));
+    ::close(file);
+    write_file(mark, "This run has not ended: results may be missing.\n");
+}
+
 } // namespace
 
 fs::path default_output_folder(const std::string& drive, const std::string& started_utc) {
@@ -67,7 +83,7 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
     } catch (const fs::filesystem_error& error) {
         throw DeviceError(printable(folder_.string(), 400) + ": cannot be made or used as output folder: " + error.code().message());
     }
-    write_file(folder_ / mark_name, "This run has not ended: results may be missing.\n");
+    put_mark(folder_);
 }
 
 void OutputFolder::finish() {

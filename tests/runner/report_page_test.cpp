@@ -52,7 +52,7 @@ struct ReportPage : testing::Test {
         page.insert(page.rfind("</body>"), "<script>" + script + "</script>");
         write_file(folder / "opened.html", page);
         const std::string dom = output_of(fmt::format(
-            "timeout 60 {} --headless --no-sandbox --disable-gpu --window-size=500,800 --enable-logging=stderr --user-data-dir={}/browser "
+            "timeout 120 {} --headless --no-sandbox --disable-gpu --window-size=500,800 --enable-logging=stderr --user-data-dir={}/browser "
             "--dump-dom file://{}/opened.html 2>{}/console.txt",
             browser, folder.string(), folder.string(), folder.string()));
         console = read_file(folder / "console.txt", opened, std::size_t{256} << 20, true);
