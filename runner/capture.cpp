@@ -77,7 +77,8 @@ bool is_captured(const Capture& capture, int tick, double step_s) {
 std::string file_name_of(const std::string& text) {
     std::string name;
     for (const char c : text.substr(0, 80)) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || (c == '.' && !name.empty());
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+                           (c == '.' && !name.empty());
         name += plain ? c : '_';
     }
     return name.empty() ? "_" : name;

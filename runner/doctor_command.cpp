@@ -37,7 +37,8 @@ bool tell_chosen() {
     Device device = open_device("auto");
     line("auto", device.info().backend);
     try {
-        line("sanity", fmt::format("a wall at 25 m is lit rightly: worst error {:.1e} of the illuminance, bound {:.0e}", check_sanity(device), sanity_bound));
+        line("sanity", fmt::format("a wall at 25 m is lit rightly: worst error {:.1e} of the illuminance, bound {:.0e}",
+                                   check_sanity(device), sanity_bound));
     } catch (const DeviceError& error) {
         line("sanity", error.what());
         return false;
@@ -52,12 +53,14 @@ bool tell_chosen() {
 void tell_machine() {
     const KernelCan can = probe_kernel_can();
     if (can.available)
-        line("kernel CAN", fmt::format("present, interfaces: {}", can.interfaces.empty() ? "none" : fmt::format("{}", fmt::join(can.interfaces, ", "))));
+        line("kernel CAN",
+             fmt::format("present, interfaces: {}", can.interfaces.empty() ? "none" : fmt::format("{}", fmt::join(can.interfaces, ", "))));
     else
         line("kernel CAN", "absent: " + can.reason);
     std::error_code error;
     const std::filesystem::space_info space = std::filesystem::space(".", error);
-    line("disk", error ? "unknown: " + error.message() : fmt::format("{:.1f} GiB free in this folder", static_cast<double>(space.available) / (1 << 30)));
+    line("disk", error ? "unknown: " + error.message()
+                       : fmt::format("{:.1f} GiB free in this folder", static_cast<double>(space.available) / (1 << 30)));
     line("CPU", fmt::format("{} ({})", cpu_name(), simd_class()));
     line("system", os_name());
     for (const auto& [name, version] : library_versions())

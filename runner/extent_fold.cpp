@@ -15,7 +15,8 @@ constexpr int most_pixels = 1024;
 int pixels_for(double length_m) { return std::clamp(static_cast<int>(std::ceil(length_m / pixel_m)), 2, most_pixels); }
 
 /// The picture at grid points: bilinear between pixel centres.
-std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const Camera& camera, const View& view, const Moment& moment) {
+std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const Camera& camera, const View& view,
+                            const Moment& moment) {
     std::vector<double> values;
     values.reserve(grid.surface.size());
     for (const Pose& pose : grid.surface) {
@@ -65,7 +66,8 @@ ExtentRow ExtentFold::add(const Moment& moment, const Draw& draw) {
     row.time_s = moment.time_s;
     row.distance_m = moment.distance_m;
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        const std::vector<double> drawn = sampled(plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx, grid, camera, view, moment);
+        const std::vector<double> drawn =
+            sampled(plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx, grid, camera, view, moment);
         const std::vector<double> twin = twin_illuminance_lx(grid, moment, plane);
         std::ranges::copy(measure_extent(grid, drawn, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.rendered));
         std::ranges::copy(measure_extent(grid, twin, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.twin));

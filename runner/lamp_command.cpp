@@ -92,6 +92,29 @@ void check_picture_name(const std::filesystem::path& path) {
                          ".svg or .png");
 }
 
+/// An option with a fixed set of words; another word is an InputError.
+template <class Value> void add_choice(CLI::App& command, const std::string& name, Value& value,
+                                       std::vector<std::pair<std::string, Value>> choices, const char* text) {
+    std::vector<std::string> words;
+    for (const auto& choice : choices)
+        words.push_back(choice.first);
+    const std::string expected = fmt::format("{}", fmt::join(words, "|"));
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, &value, choices = std::move(choices), expected](const std::string& word) {
+                for (const auto& choice : choices) {
+                    if (choice.first == word) {
+                        value = choice.second;
+                        return;
+                    }
+                }
+                throw InputError({{}, 0, 0, name}, "found '" + printable(word) + "'", expected);
+            },
+            text)
+        ->option_text(expected);
+}
+
 void add_texture_options(CLI::App& command, LampReadOptions& reading) {
     const char* group = "Beam textures (where the image's own metadata are silent)";
     command.add_option("--texture-scale", reading.texture_scale_lx, "lux of a pixel of value 1 (8-bit: 255)")->group(group);
@@ -120,7 +143,7 @@ LampFile lamp_of(const LampRequest& request) {
     if (request.file.empty() == request.model.empty())
         throw InputError({}, request.file.empty() ? "found no lamp" : "found both a file and --model", "a lamp file or --model NAME");
     LampFile lamp = request.model.empty() ? read_lamp(request.file, request.reading) : modelled(request.model);
-    if (request.model.empty() == false)
+    if (!request.model.empty())
         lamp.table.rule = request.reading.rule;
     if (request.scale != 1.0)
         scale(lamp, request.scale);
@@ -166,13 +189,11 @@ void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
     command->add_flag("--mirror", request->mirror, "exchanges left and right: right-hand to left-hand traffic and back");
     command->add_option("--add", request->add, "adds another lamp's light");
     command->add_option("--subtract", request->subtract, "takes another lamp's light off; what would be negative becomes 0 and is counted");
-    const std::map<std::string, BetweenSamples> rules{{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}};
-    command->add_option("--rule", request->reading.rule, "between the samples: linear (in cd) or log (in log cd)")
-        ->transform(CLI::CheckedTransformer(rules));
-    const std::map<std::string, TypeCAxis> axes{
-        {"automatic", TypeCAxis::automatic}, {"horizontal", TypeCAxis::horizontal}, {"nadir", TypeCAxis::nadir}};
-    command->add_option("--axis", request->reading.type_c_axis, "where Type C and EULUMDAT beams point: automatic, horizontal or nadir")
-        ->transform(CLI::CheckedTransformer(axes));
+    add_choice(*command, "--rule", request->reading.rule, {{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}},
+               "between the samples: linear (in cd) or log (in log cd)");
+    add_choice(*command, "--axis", request->reading.type_c_axis,
+               {{"automatic", TypeCAxis::automatic}, {"horizontal", TypeCAxis::horizontal}, {"nadir", TypeCAxis::nadir}},
+               "where Type C and EULUMDAT beams point: automatic, horizontal or nadir");
     add_texture_options(*command, request->reading);
     command->footer("Order of the changes: scale, mirror, add, subtract.");
     command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });

@@ -81,7 +81,7 @@ std::string flux_text(const LampDescription& d) {
 std::string edge_text(const LampDescription& d) {
     if (d.covered_share > 1.0 - 1e-9)
         return "nothing: the table covers every direction";
-    if (d.edge_cd <= 0.0)
+    if (d.edge_cd <= 1e-9 * d.peak.cd) // rounding of resampled angles
         return "no light, and none is cut off: intensity is 0 all along the table's edges";
     return fmt::format("taken as 0; at the edges the table still has up to {:.4g} cd ({:.3g} % of the peak)", d.edge_cd,
                        100.0 * d.edge_cd / d.peak.cd);
@@ -89,7 +89,7 @@ std::string edge_text(const LampDescription& d) {
 
 std::string interpolation_text(const InterpolationError& e) {
     if (e.samples == 0)
-        return "not measured: the table has too few samples";
+        return "not measured: too few samples or no light";
     return fmt::format("median {:.2g} %, p95 {:.2g} %, worst {:.2g} % of the peak at H {:.4g}, V {:.4g} ({} samples predicted)",
                        100.0 * e.median_relative, 100.0 * e.p95_relative, 100.0 * e.worst_relative, e.worst_h_deg, e.worst_v_deg,
                        e.samples);
@@ -113,7 +113,7 @@ nlohmann::ordered_json coverage_json(const LampDescription& d) {
 
 nlohmann::ordered_json interpolation_json(const InterpolationError& e) {
     if (e.samples == 0)
-        return {{"samples", 0}, {"not_measured", "the table has too few samples"}};
+        return {{"samples", 0}, {"not_measured", "too few samples or no light"}};
     return {{"samples", e.samples},          {"median_of_peak", e.median_relative},
             {"p95_of_peak", e.p95_relative}, {"worst_of_peak", e.worst_relative},
             {"worst_h_deg", e.worst_h_deg},  {"worst_v_deg", e.worst_v_deg}};
@@ -151,7 +151,9 @@ std::string text_of(const LampDescription& d) {
     std::string out;
     add_line(out, "lamp", printable(d.name, 90));
     add_line(out, "format", printable(d.format, 90));
-    add_line(out, "peak", lux(d.peak.cd) + fmt::format(", at H {:.4g}, V {:.4g} degrees", d.peak.h_deg, d.peak.v_deg));
+    add_line(out, "peak",
+             d.peak.cd > 0.0 ? lux(d.peak.cd) + fmt::format(", at H {:.4g}, V {:.4g} degrees", d.peak.h_deg, d.peak.v_deg)
+                             : std::string("no light in any direction"));
     add_line(out, "straight ahead", lux(d.hv_cd));
     add_line(out, "flux", flux_text(d));
     add_line(out, "covers",

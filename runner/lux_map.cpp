@@ -29,7 +29,8 @@ LuxMap lux_map_of(const Frame& frame, const Moment& moment, const View& view, co
     };
     // One line for each side of each lane, followed while the lane exists.
     std::map<std::string, LuxMap::Polyline> open;
-    const double from = std::max(0.0, moment.distance_m - view.map_behind_m), to = std::min(route.length_m(), moment.distance_m + view.map_ahead_m);
+    const double from = std::max(0.0, moment.distance_m - view.map_behind_m),
+                 to = std::min(route.length_m(), moment.distance_m + view.map_ahead_m);
     for (double distance = from; distance <= to; distance += edge_step_m) {
         const CrossSection section = route.cross_section(distance);
         std::map<std::string, double> here;

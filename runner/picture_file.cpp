@@ -49,8 +49,10 @@ void add_context(OIIO::ImageSpec& spec, const Moment& moment, const View& view) 
 } // namespace
 
 void write_exr(const Frame& frame, const Moment& moment, const View& view, const std::filesystem::path& path) {
-    const std::array<std::pair<const char*, const Image<float>*>, 4> possible{
-        {{"illuminance.lx", &frame.illuminance_lx}, {"target.lx", &frame.target_lx}, {"luminance.cdm2", &frame.luminance_cdm2}, {"depth.m", &frame.depth_m}}};
+    const std::array<std::pair<const char*, const Image<float>*>, 4> possible{{{"illuminance.lx", &frame.illuminance_lx},
+                                                                               {"target.lx", &frame.target_lx},
+                                                                               {"luminance.cdm2", &frame.luminance_cdm2},
+                                                                               {"depth.m", &frame.depth_m}}};
     std::vector<const Image<float>*> images;
     std::vector<std::string> names;
     for (const auto& [name, image] : possible)

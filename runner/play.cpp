@@ -76,7 +76,8 @@ int ticks_to_play(const Drive& drive, TickRange range) {
     return std::max(0, std::min(tick_count(drive) - 1, range.last) - std::max(0, range.first) + 1);
 }
 
-PlayedVariant play(const Drive& drive, const Route& route, const Variant& variant, const PlayOptions& options, const Draw& draw, Writers& writers) {
+PlayedVariant play(const Drive& drive, const Route& route, const Variant& variant, const PlayOptions& options, const Draw& draw,
+                   Writers& writers) {
     PlayedVariant played;
     played.drive = drive.name;
     played.variant = variant.name;

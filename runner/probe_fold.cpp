@@ -37,7 +37,8 @@ void ProbeFold::add(const Moment& moment, const Draw& draw) {
         const bool on_surface = probe.above_m == 0.0;
         found_[i].twin.push_back(on_surface ? surface_illuminance_lx(moment, point, surface.up()) : target_illuminance_lx(moment, point));
         if (on_surface)
-            found_[i].drawn.push_back(static_cast<double>(draw(moment, map_around(surface.position_m, moment), {.illuminance = true}).illuminance_lx.at(1, 1)));
+            found_[i].drawn.push_back(
+                static_cast<double>(draw(moment, map_around(surface.position_m, moment), {.illuminance = true}).illuminance_lx.at(1, 1)));
     }
 }
 

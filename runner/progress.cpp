@@ -16,7 +16,8 @@ std::string clock_text(double s) { return fmt::format("{}:{:02}", static_cast<in
 } // namespace
 
 Progress::Progress(std::string label, int total, bool quiet)
-    : label_(std::move(label)), total_(total), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()), shown_(start_) {}
+    : label_(std::move(label)), total_(total), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()), shown_(start_) {}
 
 Progress::~Progress() { show(true); }
 
@@ -37,7 +38,8 @@ void Progress::show(bool last) {
         shown_ = now;
         const int filled = bar_width * count_ / total_;
         fmt::print(stderr, "\r{} [{}{}] {}/{} {:.1f}/s, {} left {}", label_, std::string(static_cast<std::size_t>(filled), '#'),
-                   std::string(static_cast<std::size_t>(bar_width - filled), '.'), count_, total_, rate, clock_text(left), last ? "\n" : "");
+                   std::string(static_cast<std::size_t>(bar_width - filled), '.'), count_, total_, rate, clock_text(left),
+                   last ? "\n" : "");
         return;
     }
     const int tenth = 10 * count_ / total_;

@@ -50,7 +50,8 @@ std::string cpu_name() {
 
 std::string simd_class() {
     const std::string flags = " " + value_of("/proc/cpuinfo", "flags", ":") + " ";
-    for (const auto& [flag, name] : {std::pair(" avx512f ", "avx512"), std::pair(" avx2 ", "avx2"), std::pair(" avx ", "avx"), std::pair(" sse4_1 ", "sse4.1")})
+    for (const auto& [flag, name] :
+         {std::pair(" avx512f ", "avx512"), std::pair(" avx2 ", "avx2"), std::pair(" avx ", "avx"), std::pair(" sse4_1 ", "sse4.1")})
         if (flags.find(flag) != std::string::npos)
             return name;
     return "other";

@@ -48,7 +48,10 @@ Colour series_colour(std::size_t n) {
 
 Colour sequential(double t) {
     t = std::clamp(t, 0.0, 1.0);
-    const double chroma = 0.09 + 0.07 * std::sin(pi * t); // about what sRGB can show along these hues, violet to yellow
+    // Within what sRGB can show at each hue (least, 0.092, in the blue-greens): a clipped component would draw an edge that the data
+    // do not have.
+    const double warm = std::clamp((t - 0.4) / 0.6, 0.0, 1.0);
+    const double chroma = 0.091 + 0.07 * warm * warm * (3.0 - 2.0 * warm);
     return from_oklch(between(0.20, 0.94, t), chroma, between(300.0, 105.0, t));
 }
 

@@ -31,7 +31,7 @@ AngleWindow window_of(const CandelaTable& t, double least_cd) {
         return std::min(step * (std::ceil(edge / step) + 1.0), edge < table_edge ? table_edge : limit);
     };
     return {below(w.left_deg, h_step, t.h_deg.front(), -180.0), above(w.right_deg, h_step, t.h_deg.back(), 180.0),
-            below(w.bottom_deg, v_step, t.v_deg.front(), -90.0), above(w.top_deg + v_step, v_step, t.v_deg.back(), 90.0)};
+            below(w.bottom_deg, v_step, t.v_deg.front(), -90.0), above(w.top_deg, v_step, t.v_deg.back(), 90.0)};
 }
 
 /// A direction the table says something of.
@@ -98,7 +98,7 @@ Figure isocandela_diagram(const CandelaTable& table, const std::string& title, c
         return f;
     }
     const double peak_lx = peak.cd / cd_per_lx_at_25_m;
-    const AngleWindow w = window ? *window : window_of(table, 0.02 * peak.cd);
+    const AngleWindow w = window ? *window : window_of(table, 0.05 * peak.cd);
     f.subtitle = fmt::format("lux at 25 m on a target facing the lamp (1 lx = 625 cd); peak {:.3g} lx at H {:.2f}°, V {:.2f}°", peak_lx,
                              peak.h_deg, peak.v_deg);
     f.x = {"H, right positive", "°", w.left_deg, w.right_deg};

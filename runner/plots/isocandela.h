@@ -16,7 +16,7 @@ struct AngleWindow {
 };
 
 /// Log scale over three decades below the peak, lines at 1, 2, 5 ... lx, H-H and V-V, the peak. Without a window it shows the
-/// directions with at least 2 % of the peak. Directions outside the table and gaps in it are grey. A table without light gives an empty
+/// directions with at least 5 % of the peak. Directions outside the table and gaps in it are grey. A table without light gives an empty
 /// diagram that says so.
 Figure isocandela_diagram(const CandelaTable& table, const std::string& title, const std::optional<AngleWindow>& window = std::nullopt);
 

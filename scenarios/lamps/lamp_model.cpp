@@ -102,7 +102,6 @@ LampFile lamp_of_model(const LampModel& model) {
         {"TESTLAB", "none"},
         {"ISSUEDATE", "2026"},
         {"MANUFAC", "fernlicht"},
-        {"LUMINAIRE", model.title},
         {"OTHER", model.meets},
         {"OTHER", model.cut_off ? "right-hand traffic; as on the goniometer in regulation aim: cut-off at 0.57 D" : "axis at HV"}};
     return lamp;

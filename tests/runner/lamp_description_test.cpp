@@ -81,8 +81,8 @@ TEST(LampDescription, JsonHoldsHostileLabels) {
 TEST(IsocandelaDiagram, ShowsTheBeamWithItsLines) {
     const LampFile lamp = lamp_of_model(lamp_models().front());
     const plots::Figure f = plots::isocandela_diagram(lamp.table, lamp.name);
-    EXPECT_LT(f.x.from, -20.0);
-    EXPECT_GT(f.x.to, 20.0);
+    EXPECT_LT(f.x.from, -15.0);
+    EXPECT_GT(f.x.to, 15.0);
     EXPECT_LT(f.y.from, -5.0);
     EXPECT_TRUE(f.equal_units);
     std::vector<std::string> labels;
