@@ -1,0 +1,82 @@
+// The example and the shipped drives: each can be read, has its road, and keeps enough of it ahead for what it measures.
+#include "scenarios/drives/advance.h"
+
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+const std::filesystem::path library = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
+
+class Shipped : public testing::TestWithParam<std::string> {};
+
+TEST_P(Shipped, ReadsAndFitsItsRoad) {
+    Drive drive = read_drive(library / (GetParam() + ".yaml"));
+    EXPECT_EQ(drive.name, GetParam() + "-1");
+    ASSERT_EQ(drive.variants.size(), 2U);
+    EXPECT_EQ(drive.variants[0].name, "halogen");
+    EXPECT_EQ(drive.variants[1].name, "xenon");
+    EXPECT_EQ(drive.variants[1].lamps[0].source, SourceKind::arc);
+    EXPECT_EQ(drive.views[0].width_px, 1024);
+    EXPECT_EQ(drive.views[0].height_px, 768);
+    ASSERT_TRUE(drive.extent);
+    EXPECT_THAT(drive.extent->limits_lx, testing::ElementsAre(1.0, 3.0, 5.0, 10.0));
+
+    const RoadNetwork network = read_opendrive(drive.road_file);
+    const Route route(network, drive.start, drive.via);
+    const double end_m = distance_m(drive.speed, (tick_count(drive) - 1) * drive.step_s);
+    EXPECT_LE(end_m + drive.bumper_m + drive.extent->ahead_m, route.length_m()) << "the last moment must see as far as the first";
+    fit_to_route(drive, route);
+    EXPECT_TRUE(drive.notes.empty());
+    const Moment moment = moment_at(start(drive), drive, route, drive.variants[0]);
+    EXPECT_GT(moment.lamps[0].intensity_factor, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, Shipped, testing::Values("straight", "s-bend", "country", "motorway", "village", "first-light"),
+                         [](const auto& test) {
+                             std::string name = test.param;
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+TEST(ShippedDrives, AreAllTested) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(library))
+        names.insert(entry.path().stem().string());
+    // The worked example is not a route: the runner's tests play it and hold it to its own limits.
+    EXPECT_THAT(names, testing::ElementsAre("country", "first-light", "motorway", "s-bend", "straight", "village", "worked-example"));
+}
+
+TEST(ShippedDrives, FirstLightDipsAfterThreeSecondsOfHighBeam) {
+    const Drive drive = read_drive(library / "first-light.yaml");
+    EXPECT_EQ(tick_count(drive), 360);
+    const RoadNetwork network = read_opendrive(drive.road_file);
+    const Route route(network, drive.start, drive.via);
+    State state = start(drive);
+    for (int tick = 0; tick < 360; ++tick, state = advance(state, drive))
+        for (const Variant& variant : drive.variants)
+            for (const LitLamp& lamp : moment_at(state, drive, route, variant).lamps) {
+                const bool high = lamp.name.starts_with("high");
+                EXPECT_EQ(lamp.intensity_factor, high && (tick < 150 || tick >= 240) ? 0.0 : 1.0)
+                    << variant.name << ' ' << lamp.name << ' ' << tick;
+            }
+}
+
+TEST(DriveExample, EveryKeyIsRead) {
+    const std::filesystem::path file = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/drive.example.yaml";
+    const Drive drive = read_drive(file);
+    EXPECT_EQ(drive.name, "example-1");
+    ASSERT_EQ(drive.variants.size(), 2U);
+    EXPECT_EQ(drive.variants[0].lamps.size(), 4U);
+    EXPECT_EQ(drive.variants[0].changes.size(), 4U);
+    EXPECT_EQ(drive.variants[1].changes.size(), 5U);
+    EXPECT_EQ(drive.views.size(), 2U);
+    EXPECT_EQ(drive.speed.size(), 3U);
+    EXPECT_EQ(drive.probes.size(), 1U);
+    EXPECT_EQ(drive.limits.size(), 1U);
+}
+
+} // namespace
+} // namespace fernlicht
