@@ -116,7 +116,9 @@ void SectionProfile::keep_on_one_side(Edge& edge, const Lane* owner) {
 }
 
 SectionProfile::Span SectionProfile::span(const Lane& lane, double s_m) const {
-    const LaneEdges edges = lane_edges(*road_, *section_, lane.id, s_m);
+    // A station may stand for a border some millimetres away; the section has no widths outside itself.
+    const double s = std::clamp(s_m, section_->s_m, std::max(section_->s_m, section_->end_m));
+    const LaneEdges edges = lane_edges(*road_, *section_, lane.id, s);
     // A width that is negative for rounding or by mistake counts as none; the inner edge stays where the neighbours put it.
     return lane.id > 0 ? Span{edges.inner_t_m, std::max(edges.inner_t_m, edges.outer_t_m)}
                        : Span{std::min(edges.inner_t_m, edges.outer_t_m), edges.inner_t_m};

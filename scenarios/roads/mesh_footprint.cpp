@@ -62,18 +62,6 @@ template <class Visit> void for_tiles(const Bounds& b, const Visit& visit) {
             visit(tile_key(x, y));
 }
 
-/// The quadrilateral between two lateral positions on two rows.
-Ground ground_between(const std::array<glm::dvec3, 4>& points) {
-    Ground ground;
-    ground.lowest_m = ground.highest_m = points[0].z;
-    for (std::size_t i = 0; i < 4; ++i) {
-        ground.corners_m[i] = glm::dvec2(points[i]);
-        ground.lowest_m = std::min(ground.lowest_m, points[i].z);
-        ground.highest_m = std::max(ground.highest_m, points[i].z);
-    }
-    return ground;
-}
-
 struct Extent {
     double right_t = 0.0, left_t = 0.0;
 };
@@ -92,6 +80,17 @@ Extent paved_extent(const std::vector<Strip>& strips) {
 }
 
 } // namespace
+
+Ground ground_between(const std::array<glm::dvec3, 4>& points) {
+    Ground ground;
+    ground.lowest_m = ground.highest_m = points[0].z;
+    for (std::size_t i = 0; i < 4; ++i) {
+        ground.corners_m[i] = glm::dvec2(points[i]);
+        ground.lowest_m = std::min(ground.lowest_m, points[i].z);
+        ground.highest_m = std::max(ground.highest_m, points[i].z);
+    }
+    return ground;
+}
 
 bool overlap(const Ground& a, const Ground& b, double margin_m) { return !separated(a, b, margin_m) && !separated(b, a, margin_m); }
 

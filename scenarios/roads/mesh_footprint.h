@@ -19,6 +19,9 @@ struct Ground {
     double lowest_m = 0.0, highest_m = 0.0;
 };
 
+/// The quadrilateral under four points in space.
+Ground ground_between(const std::array<glm::dvec3, 4>& points);
+
 /// True where the insides meet by more than `margin_m`: neighbours that only touch do not overlap.
 bool overlap(const Ground& a, const Ground& b, double margin_m);
 

@@ -169,17 +169,9 @@ void Side::place(double verge_width) {
 }
 
 Ground Side::cell(std::size_t rib, std::size_t column) const {
-    const std::array<glm::dvec3, 4> p{ribs_[rib].points_m[column], ribs_[rib + 1].points_m[column], ribs_[rib + 1].points_m[column + 1],
-                                      ribs_[rib].points_m[column + 1]};
-    Ground ground;
-    ground.lowest_m = unlimited;
-    ground.highest_m = -unlimited;
-    for (std::size_t i = 0; i < 4; ++i) {
-        ground.corners_m[i] = glm::dvec2(p[i]);
-        ground.lowest_m = std::min(ground.lowest_m, p[i].z);
-        ground.highest_m = std::max(ground.highest_m, p[i].z);
-    }
-    return ground;
+    const Rib& a = ribs_[rib];
+    const Rib& b = ribs_[rib + 1];
+    return ground_between({a.points_m[column], b.points_m[column], b.points_m[column + 1], a.points_m[column + 1]});
 }
 
 /// The height that keeps the cell below every other road it lies under or over; `open` if one passes far below.
@@ -285,8 +277,8 @@ void Side::append(Scene& scene) const {
 
 } // namespace
 
-void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface,
-                    const Footprints& footprints, const RoadMeshOptions& options) {
+void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, const Footprints& footprints,
+                    const RoadMeshOptions& options) {
     if (!(options.verge_width_m > 0.0))
         return;
     for (const bool left : {false, true}) {

@@ -61,7 +61,7 @@ Faults faults(const std::vector<Triangle>& surface) {
             ++found.without_area;
             continue;
         }
-        found.downward += !is_face(triangle) && across.z < 0.0 ? 1U : 0U;
+        found.downward += !is_face(triangle) && across.z < -0.01 * glm::length(across) ? 1U : 0U;
         for (const glm::dvec3& normal : triangle.normals)
             if (glm::dot(across, normal) < 0.0) {
                 ++found.turned;
