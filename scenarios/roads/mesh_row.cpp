@@ -187,8 +187,10 @@ void append_strip(MeshBuilder& builder, std::uint32_t material, const StripEnd& 
     while (i < from.range.last || j < to.range.last) {
         const auto squared = [](const glm::dvec3& v) { return glm::dot(v, v); };
         const bool near_ends = i == from.range.last, far_ends = j == to.range.last;
-        const bool step_near = far_ends || (!near_ends && squared(from.row.points[i + 1].pose.position_m - far.position_m) <=
-                                                              squared(to.row.points[j + 1].pose.position_m - near.position_m));
+        const double near_diagonal = near_ends ? 0.0 : squared(from.row.points[i + 1].pose.position_m - far.position_m);
+        const double far_diagonal = far_ends ? 0.0 : squared(to.row.points[j + 1].pose.position_m - near.position_m);
+        // Equal diagonals are common; the tolerance keeps rounding (a road far from the origin) from choosing between them.
+        const bool step_near = far_ends || (!near_ends && near_diagonal <= far_diagonal + 1e-6);
         const StripCorner next = step_near ? corner(from, ++i) : corner(to, ++j);
         append_triangle(builder, material, {near, far, next}, face);
         (step_near ? near : far) = next;

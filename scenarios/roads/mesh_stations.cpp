@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fernlicht {
 
@@ -29,8 +30,8 @@ class ChordError {
     ChordError(const RoadNetwork& network, const Road& road, const SectionProfile& profile, const std::vector<double>& crown)
         : network_(network), road_(road), profile_(profile), crown_(crown) {}
 
-    /// Along each border between strips and each crown line; and in the middle of each strip, where a twisted surface is
-    /// farthest from both of its diagonals.
+    /// Along each border between strips and each crown line, and along both diagonals of each strip: which of them the triangles take
+    /// is decided later, and on a twisted surface one lies above and the other below.
     double of(double from_s, double to_s) const {
         const double layout = 0.5 * (from_s + to_s);
         const std::vector<Line> lines_from = lines(layout, from_s);
@@ -40,8 +41,7 @@ class ChordError {
             const std::vector<Line> between = lines(layout, from_s + f * (to_s - from_s));
             for (std::size_t i = 0; i < between.size(); ++i)
                 worst = std::max(worst, distance_to_chord(between[i].point, lines_from[i].point, lines_to[i].point));
-            if (f == 0.5)
-                worst = std::max(worst, twist(lines_from, between, lines_to));
+            worst = std::max(worst, twist(lines_from, between, lines_to, f));
         }
         return worst;
     }
@@ -74,13 +74,15 @@ class ChordError {
         return out;
     }
 
-    static double twist(const std::vector<Line>& from, const std::vector<Line>& middle, const std::vector<Line>& to) {
+    /// Distance of both diagonals of each strip from the surface, where they pass the part `f` of the stretch.
+    static double twist(const std::vector<Line>& from, const std::vector<Line>& between, const std::vector<Line>& to, double f) {
         double worst = 0.0;
-        for (std::size_t i = 0; i + 1 < middle.size(); ++i) {
-            const glm::dvec3 on_surface = 0.5 * (middle[i].point + middle[i + 1].point);
-            const glm::dvec3 diagonal = 0.5 * (from[i + 1].point + to[i].point);
-            worst = std::max(worst, std::abs(glm::dot(diagonal - on_surface, middle[i].up)));
-        }
+        const auto part = [f](const glm::dvec3& a, const glm::dvec3& b) { return a + f * (b - a); };
+        for (std::size_t i = 0; i + 1 < between.size(); ++i)
+            for (const auto& [a, b] : {std::pair(i, i + 1), std::pair(i + 1, i)}) {
+                const glm::dvec3 off = part(from[a].point, to[b].point) - part(between[a].point, between[b].point);
+                worst = std::max({worst, std::abs(glm::dot(off, between[a].up)), std::abs(glm::dot(off, between[b].up))});
+            }
         return worst;
     }
 

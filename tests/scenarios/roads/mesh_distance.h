@@ -44,8 +44,8 @@ struct Distances {
     glm::dvec3 where{0.0};
 };
 
-/// Samples every triangle of the mesh that is not a kerb's, at its middle and the middles of its sides.
-inline Distances distances(const RoadNetwork& network, const Road& road, const Scene& scene, const Mesh& mesh) {
+/// Samples every `stride`-th triangle of the mesh that is not a kerb's, at its middle and the middles of its sides.
+inline Distances distances(const RoadNetwork& network, const Road& road, const Scene& scene, const Mesh& mesh, std::size_t stride) {
     Distances result;
     Scene one;
     one.materials = scene.materials;
@@ -55,8 +55,9 @@ inline Distances distances(const RoadNetwork& network, const Road& road, const S
     const int steps = std::max(1, static_cast<int>(2.0 * (to - from)));
     for (int i = 0; i <= steps; ++i)
         guides.push_back(surface_pose(network, road, from + (to - from) * i / steps, 0.0));
+    std::size_t count = 0;
     for (const Triangle& triangle : triangles(one, "")) {
-        if (triangle.material == index_of(RoadMaterial::kerb))
+        if (count++ % stride != 0 || triangle.material == index_of(RoadMaterial::kerb))
             continue;
         const auto& p = triangle.corners;
         for (const glm::dvec3& point : {(p[0] + p[1] + p[2]) / 3.0, (p[0] + p[1]) / 2.0, (p[1] + p[2]) / 2.0, (p[2] + p[0]) / 2.0}) {

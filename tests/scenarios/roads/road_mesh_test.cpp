@@ -1,7 +1,7 @@
 // Invariants of the road mesh on our own roads and on every real file at hand.
 #include "scenarios/roads/mesh_builder.h"
 #include "scenarios/values/errors.h"
-#include "tests/scenarios/roads/mesh_checks.h"
+#include "tests/scenarios/roads/mesh_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +95,199 @@ TEST(RoadMesh, LibraryRoadsAreSound) {
         const Scene scene = build_scene(network);
         expect_well_formed(scene);
         expect_sound(network, scene);
+    }
+}
+
+/// Roads whose last point is their first: their surface is a ring, whose Euler number is 0, and no disc.
+bool closed(const RoadNetwork& network, const Road& road) {
+    return glm::distance(surface_pose(network, road, 0.0, 0.0).position_m, surface_pose(network, road, road.length_m, 0.0).position_m) <
+           0.01;
+}
+
+/// Files that are meant to be invalid; the reader's tests deal with them.
+bool meant_to_fail(const std::filesystem::path& file) {
+    const std::string path = file.string();
+    return path.find("invalid") != std::string::npos || path.find("negative") != std::string::npos;
+}
+
+std::vector<std::filesystem::path> valid_shared_roads() {
+    std::vector<std::filesystem::path> files = roads_under(std::filesystem::path(FERNLICHT_SHARED_DATA) / "roads");
+    std::erase_if(files, meant_to_fail);
+    return files;
+}
+
+TEST(RoadMesh, RealRoadsAreSound) {
+    const auto files = valid_shared_roads();
+    if (files.empty())
+        GTEST_SKIP() << "no roads in " << FERNLICHT_SHARED_DATA;
+    for (const auto& file : files) {
+        SCOPED_TRACE(file.filename());
+        RoadNetwork network;
+        ASSERT_NO_THROW(network = read_opendrive(file));
+        const Scene scene = build_scene(network);
+        expect_well_formed(scene);
+        std::size_t triangle_count = 0;
+        double length_m = 0.0;
+        for (const Mesh& mesh : scene.meshes)
+            triangle_count += mesh.indices.size() / 3;
+        for (const Road& road : network.roads)
+            length_m += road.length_m;
+        EXPECT_LT(static_cast<double>(triangle_count), 20000.0 + 130.0 * length_m);
+        std::erase_if(network.roads, [&](const Road& road) { return closed(network, road); });
+        expect_sound(network, scene);
+    }
+}
+
+double greatest_distance_m(const RoadNetwork& network, const Scene& scene, std::size_t& samples, std::size_t stride = 1) {
+    double worst = 0.0;
+    for (const Road& road : network.roads) {
+        bool heights = false; // kerbs stand above the surface that is measured against
+        for (const LaneSection& section : road.sections)
+            for (const Lane& lane : section.lanes)
+                heights = heights || !lane.heights.empty();
+        for (const Mesh& mesh : scene.meshes)
+            if (!heights && mesh.name.rfind("road " + road.id + " s ", 0) == 0) {
+                const Distances found = distances(network, road, scene, mesh, stride);
+                samples += found.samples - found.lost;
+                worst = std::max(worst, found.greatest_m);
+            }
+    }
+    return worst;
+}
+
+TEST(RoadMesh, LibraryRoadsKeepTheChordError) {
+    for (const auto& file : roads_under(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads")) {
+        SCOPED_TRACE(file.filename());
+        const RoadNetwork network = read_opendrive(file);
+        std::size_t samples = 0;
+        EXPECT_LE(greatest_distance_m(network, build_scene(network), samples), 0.005);
+        EXPECT_GT(samples, 1000U);
+    }
+}
+
+TEST(RoadMesh, ChordErrorFollowsTheOption) {
+    const RoadNetwork network = read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads/country.xodr");
+    std::size_t samples = 0;
+    RoadMeshOptions coarse, fine;
+    coarse.chord_error_m = 0.05;
+    fine.chord_error_m = 0.0005;
+    const double coarse_m = greatest_distance_m(network, build_scene(network, coarse), samples);
+    EXPECT_GT(coarse_m, 0.005) << "no finer than asked for";
+    EXPECT_LE(coarse_m, 0.05);
+    EXPECT_LE(greatest_distance_m(network, build_scene(network, fine), samples),
+              0.0005 + 2e-5); // the lattice rounds by 15 micrometres an axis
+}
+
+TEST(RoadMesh, RealRoadsKeepTheChordError) {
+    const auto files = valid_shared_roads();
+    if (files.empty())
+        GTEST_SKIP() << "no roads in " << FERNLICHT_SHARED_DATA;
+    // Surfaces that jump (an elevation record 1 or 2 m above the one before) or fold over themselves: no triangles can follow them.
+    const std::set<std::string> jump_or_fold{"performance_avoid_redundant_info_elevation_valid.xodr",
+                                             "performance_avoid_redundant_info_line_geometry_valid.xodr", "mixed_roads.xodr", "Town03.xodr",
+                                             "slope_up_leaning_right.xodr"};
+    for (const auto& file : files) {
+        if (jump_or_fold.contains(file.filename().string()))
+            continue;
+        SCOPED_TRACE(file.filename());
+        const RoadNetwork network = read_opendrive(file);
+        std::size_t samples = 0;
+        EXPECT_LE(greatest_distance_m(network, build_scene(network), samples, 5), 0.005);
+    }
+}
+
+/// Triangles of one kind found by where they lie in plan.
+class PlanIndex {
+  public:
+    explicit PlanIndex(const std::vector<Triangle>& all) : all_(all) {
+        for (std::uint32_t i = 0; i < all.size(); ++i) {
+            const auto& p = all[i].corners;
+            const glm::dvec3 low = glm::min(glm::min(p[0], p[1]), p[2]), high = glm::max(glm::max(p[0], p[1]), p[2]);
+            for (std::int64_t x = tile(low.x); x <= tile(high.x); ++x)
+                for (std::int64_t y = tile(low.y); y <= tile(high.y); ++y)
+                    tiles_[{x, y}].push_back(i);
+        }
+    }
+    /// The greatest height at (x, y) that is not above `ceiling`; -1e9 where there is none.
+    double height_below(const glm::dvec3& at, double ceiling) const {
+        double found = -1e9;
+        const auto here = tiles_.find({tile(at.x), tile(at.y)});
+        if (here == tiles_.end())
+            return found;
+        for (const std::uint32_t i : here->second) {
+            const auto& p = all_[i].corners;
+            const glm::dvec3 a = p[1] - p[0], b = p[2] - p[0], d = at - p[0];
+            const double area = a.x * b.y - a.y * b.x;
+            if (std::abs(area) < 1e-9)
+                continue;
+            const double u = (d.x * b.y - d.y * b.x) / area, v = (a.x * d.y - a.y * d.x) / area;
+            const double z = p[0].z + u * a.z + v * b.z;
+            if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && z <= ceiling)
+                found = std::max(found, z);
+        }
+        return found;
+    }
+
+  private:
+    static std::int64_t tile(double v) { return static_cast<std::int64_t>(std::floor(v / 8.0)); }
+    const std::vector<Triangle>& all_;
+    std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> tiles_;
+};
+
+/// Points of road surfaces that ground lies on.
+std::size_t buried_points(const Scene& scene, std::size_t& points) {
+    std::vector<Triangle> ground = triangles(scene, "left of road");
+    const std::vector<Triangle> right = triangles(scene, "right of road");
+    ground.insert(ground.end(), right.begin(), right.end());
+    const PlanIndex index(ground);
+    std::size_t buried = 0;
+    for (const Triangle& triangle : triangles(scene, "road ")) {
+        const glm::dvec3 middle = (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0;
+        ++points;
+        buried += index.height_below(middle, middle.z + 3.0) > middle.z + 0.002 ? 1U : 0U;
+    }
+    return buried;
+}
+
+TEST(RoadMesh, GroundLiesBelowEveryRoad) {
+    for (const auto& file : roads_under(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads")) {
+        SCOPED_TRACE(file.filename());
+        std::size_t points = 0;
+        EXPECT_EQ(buried_points(build_scene(read_opendrive(file)), points), 0U);
+        EXPECT_GT(points, 1000U);
+    }
+}
+
+TEST(RoadMesh, GroundLiesBelowRealRoads) {
+    const auto files = valid_shared_roads();
+    if (files.empty())
+        GTEST_SKIP() << "no roads in " << FERNLICHT_SHARED_DATA;
+    for (const auto& file : files) {
+        SCOPED_TRACE(file.filename());
+        std::size_t points = 0;
+        const std::size_t buried = buried_points(build_scene(read_opendrive(file)), points);
+        EXPECT_LE(static_cast<double>(buried), 0.001 * static_cast<double>(points)) << points;
+    }
+}
+
+TEST(RoadMesh, FarFromTheOriginNothingChanges) {
+    RoadNetwork here = read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads/country.xodr");
+    RoadNetwork there = here;
+    const glm::dvec3 moved(680000.0, 5400000.0, 0.0); // UTM
+    for (Road& road : there.roads)
+        for (PlanElement& element : road.plan) {
+            element.x_m += moved.x;
+            element.y_m += moved.y;
+        }
+    const Scene a = build_scene(here), b = build_scene(there);
+    ASSERT_EQ(a.meshes.size(), b.meshes.size());
+    for (std::size_t i = 0; i < a.meshes.size(); ++i) {
+        ASSERT_EQ(a.meshes[i].vertices.size(), b.meshes[i].vertices.size()) << a.meshes[i].name;
+        for (std::size_t k = 0; k < a.meshes[i].vertices.size(); ++k) {
+            const glm::dvec3 p = a.meshes[i].origin_m + glm::dvec3(a.meshes[i].vertices[k].position_m) + moved;
+            const glm::dvec3 q = b.meshes[i].origin_m + glm::dvec3(b.meshes[i].vertices[k].position_m);
+            ASSERT_LE(glm::distance(p, q), 6e-5) << a.meshes[i].name << ": more than one step of the lattice in each axis";
+        }
     }
 }
 
