@@ -43,8 +43,8 @@ double common_step(const std::vector<double>& axis, Range range) {
         const double step = narrowest / parts;
         if (step < 0.004)
             break;
-        const bool all = std::all_of(axis.begin() + static_cast<std::ptrdiff_t>(range.first), axis.begin() + static_cast<std::ptrdiff_t>(range.last) + 1,
-                                     [&](double angle) {
+        const bool all = std::all_of(axis.begin() + static_cast<std::ptrdiff_t>(range.first),
+                                     axis.begin() + static_cast<std::ptrdiff_t>(range.last) + 1, [&](double angle) {
                                          const double texels = (angle - axis[range.first]) / step;
                                          return std::abs(texels - std::round(texels)) < 1e-6 * std::max(1.0, texels);
                                      });
@@ -98,8 +98,8 @@ BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels)
         h = choose_axis(table.h_deg, across, -90.0, 90.0, coarser_h);
         v = choose_axis(table.v_deg, up, -90.0, 90.0, coarser_v);
     }
-    BeamTexture texture{static_cast<int>(h.count), static_cast<int>(v.count),  {},
-                        radians(h.first_deg),      radians(v.first_deg), radians(h.step_deg), radians(v.step_deg), 0.0};
+    BeamTexture texture{static_cast<int>(h.count), static_cast<int>(v.count), {}, radians(h.first_deg), radians(v.first_deg),
+                        radians(h.step_deg),       radians(v.step_deg),       0.0};
     texture.cd.reserve(h.count * v.count);
     // The last texel may lie a rounding error beyond the table's edge, where the table is dark: stay inside.
     const auto inside = [](double angle, const std::vector<double>& axis) { return std::clamp(angle, axis.front(), axis.back()); };

@@ -7,7 +7,7 @@ namespace fernlicht {
 
 struct BeamTexture {
     int width = 0, height = 0;
-    std::vector<float> cd;            ///< rows from low V to high V
+    std::vector<float> cd; ///< rows from low V to high V
     double h_first_rad = 0.0, v_first_rad = 0.0, h_step_rad = 0.0, v_step_rad = 0.0;
     double worst_error_of_peak = 0.0; ///< largest |texture - table| over peak, sampled between the texels
 };

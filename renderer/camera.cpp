@@ -61,13 +61,15 @@ Camera camera_of(const Moment& moment, const View& view) {
     camera.eye_m = moment.ego.axes * view.position_m;
     const double tangent = std::tan(0.5 * view.vertical_fov_rad);
     camera.half_extent = {tangent * view.width_px / view.height_px, tangent};
-    camera.clip_from_ego = tangent_projection(-camera.half_extent.x, camera.half_extent.x, -camera.half_extent.y, camera.half_extent.y, near_plane_m) *
-                           view_matrix(camera.right, camera.up, camera.axis, camera.eye_m);
+    camera.clip_from_ego =
+        tangent_projection(-camera.half_extent.x, camera.half_extent.x, -camera.half_extent.y, camera.half_extent.y, near_plane_m) *
+        view_matrix(camera.right, camera.up, camera.axis, camera.eye_m);
     return camera;
 }
 
 Ray pixel_ray(const Camera& camera, const View& view, double x_px, double y_px) {
-    const double x = (2.0 * x_px / view.width_px - 1.0) * camera.half_extent.x, y = (1.0 - 2.0 * y_px / view.height_px) * camera.half_extent.y;
+    const double x = (2.0 * x_px / view.width_px - 1.0) * camera.half_extent.x,
+                 y = (1.0 - 2.0 * y_px / view.height_px) * camera.half_extent.y;
     if (camera.is_map)
         return {camera.eye_m + camera.right * x + camera.up * y - camera.axis * map_half_height_m, camera.axis};
     return {camera.eye_m, glm::normalize(camera.axis + camera.right * x + camera.up * y)};

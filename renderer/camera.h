@@ -12,10 +12,10 @@ namespace fernlicht {
 struct Camera {
     glm::dmat4 clip_from_ego{1.0}; ///< depth 0..1 reversed: 1 is near; y down, so that row 0 is the top of the picture
     glm::dvec3 eye_m{0.0};
-    glm::dvec3 axis{1.0, 0.0, 0.0};  ///< viewing direction
-    glm::dvec3 right{0.0}, up{0.0};  ///< unit, of the picture
+    glm::dvec3 axis{1.0, 0.0, 0.0}; ///< viewing direction
+    glm::dvec3 right{0.0}, up{0.0}; ///< unit, of the picture
     bool is_map = false;
-    glm::dvec2 half_extent{0.0};     ///< map: metres from the centre to the right and top edge; perspective: tangents
+    glm::dvec2 half_extent{0.0}; ///< map: metres from the centre to the right and top edge; perspective: tangents
 };
 
 Camera camera_of(const Moment& moment, const View& view);

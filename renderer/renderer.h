@@ -5,16 +5,10 @@
 #include "scenarios/drives/frame.h"
 #include "scenarios/values/scene.h"
 
-#include <functional>
-#include <map>
-
 namespace fernlicht {
 
 /// plain: the pixels are fetched at once. overlapped: they travel while the GPU and the caller go on.
 enum class ReadBack { plain, overlapped };
-
-/// A frame on its way; call it once to wait for the pixels.
-using Pending = std::function<Frame()>;
 
 struct RendererSettings {
     ToneMapper tone_mapper;
@@ -26,9 +20,6 @@ struct RendererSettings {
     bool profile = false;   ///< finish after each pass and time it; slower, so never together with frame times
     bool gpu_clock = false; ///< time passes by GL_TIME_ELAPSED; only where check_timer() has found it right
 };
-
-/// Names of passes with their seconds in the last frame that was collected, with `profile` or `gpu_clock`; else empty.
-using PassTimes = std::map<std::string, double>;
 
 class Renderer {
   public:
@@ -43,7 +34,6 @@ class Renderer {
     /// The same in two steps, so that the caller can work meanwhile. Several frames may be on their way.
     Pending submit(const Moment& moment, const View& view, const Wanted& wanted);
 
-    const PassTimes& pass_times() const;
     /// What the scene and this moment did not need, one sentence each.
     std::vector<std::string> left_out(const Moment& moment) const;
     /// Worst error of a lamp's texture against its table, relative to the peak.

@@ -16,7 +16,10 @@ constexpr double intensity = 6250.0, distance_m = 25.0;
 Scene wall() {
     Mesh mesh{"wall", {distance_m, 0.0, 0.0}, {}, {0, 1, 2, 0, 2, 3}, {{0, 0, 6}}};
     const glm::vec3 to_lamp{-1.0F, 0.0F, 0.0F};
-    mesh.vertices = {{{0.0F, 20.0F, -20.0F}, to_lamp}, {{0.0F, 20.0F, 20.0F}, to_lamp}, {{0.0F, -20.0F, 20.0F}, to_lamp}, {{0.0F, -20.0F, -20.0F}, to_lamp}};
+    mesh.vertices = {{{0.0F, 20.0F, -20.0F}, to_lamp},
+                     {{0.0F, 20.0F, 20.0F}, to_lamp},
+                     {{0.0F, -20.0F, 20.0F}, to_lamp},
+                     {{0.0F, -20.0F, -20.0F}, to_lamp}};
     return {{Material{}}, {mesh}};
 }
 
@@ -51,8 +54,9 @@ double check_sanity(Device& device) {
             const double found = static_cast<double>(frame.illuminance_lx.at(x, y));
             const double error = std::abs(found / expected - 1.0);
             if (!(error <= sanity_bound))
-                throw DeviceError(fmt::format("{} computes light wrongly: a wall at 25 m before a lamp of 6250 cd should have {} lx at pixel ({}, {}), it has {}",
-                                              device.info().gl_renderer, expected, x, y, found));
+                throw DeviceError(fmt::format(
+                    "{} computes light wrongly: a wall at 25 m before a lamp of 6250 cd should have {} lx at pixel ({}, {}), it has {}",
+                    device.info().gl_renderer, expected, x, y, found));
             worst = std::max(worst, error);
         }
     return worst;

@@ -45,15 +45,18 @@ double log_gradient_per_rad(const CandelaTable& table, double h_deg, double v_de
     const double step = 0.01, i = intensity_cd(table, h_deg, v_deg);
     if (i <= 0.0)
         return 0.0;
-    const double across = std::max(std::abs(intensity_cd(table, h_deg + step, v_deg) - i), std::abs(intensity_cd(table, h_deg - step, v_deg) - i));
-    const double up = std::max(std::abs(intensity_cd(table, h_deg, v_deg + step) - i), std::abs(intensity_cd(table, h_deg, v_deg - step) - i));
+    const double across =
+        std::max(std::abs(intensity_cd(table, h_deg + step, v_deg) - i), std::abs(intensity_cd(table, h_deg - step, v_deg) - i));
+    const double up =
+        std::max(std::abs(intensity_cd(table, h_deg, v_deg + step) - i), std::abs(intensity_cd(table, h_deg, v_deg - step) - i));
     return (across + up) / (i * radians(step));
 }
 
 } // namespace
 
 double float_bound_lx(double illuminance_lx, double cosine, double log_gradient) {
-    return illuminance_lx * (operations * half_ulp + position_error * (3.0 + 1.0 / std::max(cosine, 1e-6)) + log_gradient * angle_error_rad);
+    return illuminance_lx *
+           (operations * half_ulp + position_error * (3.0 + 1.0 / std::max(cosine, 1e-6)) + log_gradient * angle_error_rad);
 }
 
 std::optional<Twin::Hit> Twin::cast(const Moment& moment, const Ray& ray, double from_m, bool ground_only) const {
@@ -66,7 +69,7 @@ std::optional<Twin::Hit> Twin::cast(const Moment& moment, const Ray& ray, double
         const auto corner = [&](std::uint32_t index) { return offset + glm::dvec3(mesh.vertices[index].position_m); };
         for (const Batch& batch : mesh.batches)
             for (std::uint32_t k = batch.first; k + 2 < batch.first + batch.count; k += 3) {
-                const std::uint32_t *i = &mesh.indices[k];
+                const std::uint32_t* i = &mesh.indices[k];
                 const auto hit = intersect(ray, corner(i[0]), corner(i[1]), corner(i[2]));
                 if (!hit || hit->x < from_m || (nearest && hit->x >= nearest->distance_m))
                     continue;
@@ -110,7 +113,8 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
         }
         const double e = e_perp * cosine;
         pixel.illuminance_lx += e;
-        const glm::dvec2 angles = photometry::goniometer_angles(photometry::lamp_space(-to_lamp, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()));
+        const glm::dvec2 angles =
+            photometry::goniometer_angles(photometry::lamp_space(-to_lamp, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()));
         pixel.bound_lx += float_bound_lx(e, cosine, log_gradient_per_rad(lamp.file->table, degrees(angles.x), degrees(angles.y)));
         light += lamp.colour.linear_srgb * (albedo * e / pi);
         if (material.retro_rl > 0.0F)

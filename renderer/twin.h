@@ -41,9 +41,9 @@ class Twin {
 };
 
 /// Bound on |float - double| of one lamp's illuminance at a point, given the intensity's logarithmic gradient per radian there:
-/// E (rounding + gradient * angle). rounding: 24 operations of half a unit in the last place of a float (6e-8) each, and the position's error of
-/// 1e-6 of the distance, which enters E with the power of about 3 and, at grazing incidence, divided by the cosine. angle: atan's measured 2.2e-6 rad of Mesa
-/// doubled, and the position's error seen from the lamp.
+/// E (rounding + gradient * angle). rounding: 24 operations of half a unit in the last place of a float (6e-8) each, and the position's
+/// error of 1e-6 of the distance, which enters E with the power of about 3 and, at grazing incidence, divided by the cosine. angle: atan's
+/// measured 2.2e-6 rad of Mesa doubled, and the position's error seen from the lamp.
 double float_bound_lx(double illuminance_lx, double cosine, double log_gradient_per_rad);
 
 } // namespace fernlicht

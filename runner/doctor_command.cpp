@@ -1,5 +1,6 @@
 #include "runner/doctor_command.h"
 
+#include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "renderer/timer_check.h"
 #include "runner/kernel_can.h"
@@ -47,6 +48,9 @@ bool tell_chosen() {
     line("GPU clock",
          fmt::format("GL_TIME_ELAPSED says {:.2f} ms of a load that takes {:.2f} ms: {}", 1e3 * timer.query_s, 1e3 * timer.finish_s,
                      timer.agrees() ? "it is used for passes" : "GPU times are not measured here, passes are timed finish to finish"));
+    const ReadBackCheck reading = check_read_back(device);
+    line("read back", fmt::format("{:.2f} ms a frame plainly, {:.2f} ms overlapped: {}", 1e3 * reading.plain_s, 1e3 * reading.overlapped_s,
+                                  reading.faster() == ReadBack::plain ? "plain" : "overlapped"));
     return true;
 }
 

@@ -59,7 +59,11 @@ ExtentRow ExtentFold::add(const Moment& moment, const Draw& draw) {
     const ExtentParameters& p = *drive_.extent;
     const ExtentGrid grid = make_extent_grid(route_, moment, drive_.bumper_m, p);
     const View view = map_over(grid, moment);
-    const Frame frame = draw(moment, view, {.illuminance = true, .target = true});
+    Pending drawing = draw(moment, view, {.illuminance = true, .target = true});
+    std::vector<double> twin[2]; // computed while the GPU draws
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
+        twin[static_cast<int>(plane)] = twin_illuminance_lx(grid, moment, plane);
+    const Frame frame = drawing();
     const Camera camera = camera_of(moment, view);
     ExtentRow row;
     row.tick = moment.tick;
@@ -68,10 +72,10 @@ ExtentRow ExtentFold::add(const Moment& moment, const Draw& draw) {
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
         const std::vector<double> drawn =
             sampled(plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx, grid, camera, view, moment);
-        const std::vector<double> twin = twin_illuminance_lx(grid, moment, plane);
+        const std::vector<double>& truth = twin[static_cast<int>(plane)];
         std::ranges::copy(measure_extent(grid, drawn, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.rendered));
-        std::ranges::copy(measure_extent(grid, twin, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.twin));
-        std::ranges::copy(grid_error(grid, twin, plane, p.limits_lx), std::back_inserter(row.grid_errors));
+        std::ranges::copy(measure_extent(grid, truth, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.twin));
+        std::ranges::copy(grid_error(grid, truth, plane, p.limits_lx), std::back_inserter(row.grid_errors));
     }
     row.sensitivity = reach_sensitivity(grid, moment, p.limits_lx);
     return row;

@@ -1,5 +1,7 @@
 // fernlicht: night drives played headless, headlamps measured. Options end here; below are plain values.
 #include "runner/doctor_command.h"
+#include "runner/lamp_command.h"
+#include "runner/run_command.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -22,6 +24,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", FERNLICHT_VERSION);
     app.require_subcommand(1);
     std::function<int()> chosen;
+    fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_doctor_command(app, chosen);
     try {
         app.parse(argc, argv);

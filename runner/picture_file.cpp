@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 
 #include <OpenImageIO/imageio.h>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <system_error>
@@ -42,6 +43,10 @@ void add_context(OIIO::ImageSpec& spec, const Moment& moment, const View& view) 
     spec.attribute("fernlicht:ego_position_m", OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE, 3), position.data());
     const std::array<double, 3> forward{moment.ego.forward().x, moment.ego.forward().y, moment.ego.forward().z};
     spec.attribute("fernlicht:ego_forward", OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE, 3), forward.data());
+    double near_field_m = 0.0; // pixels nearer to a lamp than this are near-field
+    for (const LitLamp& lamp : moment.lamps)
+        near_field_m = std::max(near_field_m, lamp.photometric_distance_m);
+    number("fernlicht:near_field_below_m", near_field_m);
     if (view.projection == Projection::perspective)
         number("fernlicht:vertical_fov_deg", degrees(view.vertical_fov_rad));
 }

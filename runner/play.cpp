@@ -35,13 +35,13 @@ class Pictures {
             if (captured)
                 store(moment, view, draw, i == 0);
             else if (i == 0)
-                time(draw(moment, view, {.colour = true}), "driver's view");
+                time(draw(moment, view, {.colour = true})(), "driver's view");
         }
     }
 
   private:
     void store(const Moment& moment, const View& view, const Draw& draw, bool timed) {
-        Frame frame = draw(moment, view, stored_results(view, drive_.capture));
+        Frame frame = draw(moment, view, stored_results(view, drive_.capture))();
         if (timed)
             time(frame, drive_.capture.exr ? "driver's view with linear results" : "driver's view");
         if (view.projection == Projection::map)
@@ -50,16 +50,22 @@ class Pictures {
             store_frame(writers_, options_.folder, drive_.name + "-" + played_.variant, drive_.capture, std::move(frame), moment, view));
     }
 
-    void time(const Frame& frame, const char* pass) {
+    void time(const Frame& frame, const std::string& name) {
         if (drawn_++ < options_.warm_up) {
             ++played_.warm_up_dropped;
             return;
         }
+        add_time(name, frame.cpu_s);
+        for (const auto& [pass, seconds] : frame.pass_s)
+            add_time(name + ": " + pass, seconds);
+    }
+
+    void add_time(const std::string& pass, double seconds) {
         const auto known = std::find_if(played_.passes.begin(), played_.passes.end(), [&](const PassTime& p) { return p.name == pass; });
         if (known == played_.passes.end())
-            played_.passes.push_back({pass, {frame.cpu_s}});
+            played_.passes.push_back({pass, {seconds}});
         else
-            known->seconds.push_back(frame.cpu_s);
+            known->seconds.push_back(seconds);
     }
 
     const Drive& drive_;

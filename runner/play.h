@@ -8,7 +8,7 @@
 namespace fernlicht {
 
 /// Whatever draws a view of a moment: the renderer, or in tests any callable.
-using Draw = std::function<Frame(const Moment&, const View&, const Wanted&)>;
+using Draw = std::function<Pending(const Moment&, const View&, const Wanted&)>;
 
 /// Ticks first..last, both included.
 struct TickRange {
@@ -17,8 +17,8 @@ struct TickRange {
 
 struct PlayOptions {
     TickRange ticks;
-    std::filesystem::path folder; ///< of the report; frames go below it
-    int warm_up = 3;              ///< frames whose times are dropped
+    std::filesystem::path folder;                                   ///< of the report; frames go below it
+    int warm_up = 3;                                                ///< frames whose times are dropped
     std::function<bool(int done)> go_on = [](int) { return true; }; ///< called after each moment; false stops with what was done
 };
 
@@ -26,6 +26,7 @@ struct PlayOptions {
 int ticks_to_play(const Drive& drive, TickRange range);
 
 /// Plays one lamp set of a drive. Readings and verdicts are left to the caller.
-PlayedVariant play(const Drive& drive, const Route& route, const Variant& variant, const PlayOptions& options, const Draw& draw, Writers& writers);
+PlayedVariant play(const Drive& drive, const Route& route, const Variant& variant, const PlayOptions& options, const Draw& draw,
+                   Writers& writers);
 
 } // namespace fernlicht

@@ -35,10 +35,12 @@ void ProbeFold::add(const Moment& moment, const Draw& draw) {
         const Pose surface = route_.pose(moment.distance_m + probe.ahead_m, probe.left_m);
         const glm::dvec3 point = surface.position_m + glm::dvec3(0.0, 0.0, probe.above_m);
         const bool on_surface = probe.above_m == 0.0;
+        for (const LitLamp& lamp : moment.lamps)
+            found_[i].near_field = found_[i].near_field || glm::length(point - lamp.pose.position_m) < lamp.photometric_distance_m;
         found_[i].twin.push_back(on_surface ? surface_illuminance_lx(moment, point, surface.up()) : target_illuminance_lx(moment, point));
         if (on_surface)
             found_[i].drawn.push_back(
-                static_cast<double>(draw(moment, map_around(surface.position_m, moment), {.illuminance = true}).illuminance_lx.at(1, 1)));
+                static_cast<double>(draw(moment, map_around(surface.position_m, moment), {.illuminance = true})().illuminance_lx.at(1, 1)));
     }
 }
 
@@ -46,7 +48,8 @@ Readings ProbeFold::finish() const {
     Readings readings;
     for (std::size_t i = 0; i < found_.size(); ++i) {
         const Probe& probe = drive_.probes[i];
-        const std::string where = fmt::format("{} m ahead, {} m left, {} m above the road", probe.ahead_m, probe.left_m, probe.above_m);
+        const std::string where = fmt::format("{} m ahead, {} m left, {} m above the road{}", probe.ahead_m, probe.left_m, probe.above_m,
+                                              found_[i].near_field ? ", near-field: nearer than a lamp's photometric distance" : "");
         const auto say = [&](const char* suffix, std::optional<double> value, const char* why_not) {
             readings.push_back({fmt::format("probe_{}{}_lx", probe.name, suffix), value, "lx", where, -1, value ? "" : why_not});
         };

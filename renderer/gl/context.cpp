@@ -29,12 +29,14 @@ bool contains(const std::string& text, const char* part) { return text.find(part
 void Context::load_functions(GLADapiproc (*load)(const char*), const std::string& backend) {
     const int version = gladLoadGLContext(&gl, load);
     if (version < GLAD_MAKE_VERSION(4, 5))
-        throw DeviceError(fmt::format("{}: OpenGL {}.{} is too old, 4.5 is needed", backend, GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
+        throw DeviceError(
+            fmt::format("{}: OpenGL {}.{} is too old, 4.5 is needed", backend, GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
     info.backend = backend;
     info.gl_version = text(gl, GL_VERSION);
     info.gl_renderer = text(gl, GL_RENDERER);
     info.gl_vendor = text(gl, GL_VENDOR);
-    info.software = contains(info.gl_renderer, "llvmpipe") || contains(info.gl_renderer, "softpipe") || contains(info.gl_renderer, "swrast");
+    info.software =
+        contains(info.gl_renderer, "llvmpipe") || contains(info.gl_renderer, "softpipe") || contains(info.gl_renderer, "swrast");
     gl.Enable(GL_DEBUG_OUTPUT);
     gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     gl.DebugMessageCallback(on_debug_message, this);

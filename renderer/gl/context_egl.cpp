@@ -115,7 +115,7 @@ class EglContext final : public Context {
         EGLint count = 0;
         if (api.choose_config(display_, config_wishes.data(), &config, 1, &count) != EGL_TRUE || count < 1)
             fail(backend, "eglChooseConfig");
-        const std::array wishes{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        const std::array wishes{EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
         context_ = api.create_context(display_, config, EGL_NO_CONTEXT, wishes.data());
         if (context_ == EGL_NO_CONTEXT)
@@ -161,7 +161,8 @@ std::unique_ptr<Context> open_egl_device(int index) {
     const std::vector<EGLDeviceEXT> devices = enumerate_devices();
     if (index < 0 || static_cast<std::size_t>(index) >= devices.size())
         throw DeviceError(fmt::format("{}: there are {} EGL devices", backend, devices.size()));
-    return std::make_unique<EglContext>(api.get_platform_display(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(index)], nullptr), backend);
+    return std::make_unique<EglContext>(
+        api.get_platform_display(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(index)], nullptr), backend);
 }
 
 std::vector<EglDevice> list_egl_devices() {

@@ -53,8 +53,20 @@ class OsMesaHolder final : public Context {
         const OsMesa& api = osmesa();
         if (!api.failure.empty())
             throw DeviceError(api.failure);
-        const std::array attributes{osmesa_format, GL_RGBA, osmesa_depth_bits, 0,           osmesa_stencil_bits, 0, osmesa_profile, osmesa_core_profile,
-                                    osmesa_major,  4,       osmesa_minor,      5,           0,                   0};
+        const std::array attributes{osmesa_format,
+                                    GL_RGBA,
+                                    osmesa_depth_bits,
+                                    0,
+                                    osmesa_stencil_bits,
+                                    0,
+                                    osmesa_profile,
+                                    osmesa_core_profile,
+                                    osmesa_major,
+                                    4,
+                                    osmesa_minor,
+                                    5,
+                                    0,
+                                    0};
         context_ = api.create(attributes.data(), nullptr);
         if (context_ == nullptr)
             throw DeviceError("osmesa: OSMesaCreateContextAttribs for OpenGL 4.5 core failed");

@@ -20,8 +20,8 @@ constexpr double widest_tangent = 1.4, highest_tangent = 0.36, lowest_tangent = 
 
 LampLights::LampLights(Context& context, int shadow_width, int shadow_height)
     : context_(context), shadow_width_(shadow_width), shadow_height_(shadow_height), depth_program_(context, "depth.vert.glsl", "", {}),
-      depth_matrix_(depth_program_.uniform("clip_from_ego")), block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
-      shadow_target_(make_framebuffer(context)) {}
+      depth_matrix_(depth_program_.uniform("clip_from_ego")),
+      block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)), shadow_target_(make_framebuffer(context)) {}
 
 const LampLights::Beam& LampLights::beam(const std::shared_ptr<const LampFile>& file) {
     if (const auto known = beams_.find(file.get()); known != beams_.end())
@@ -44,8 +44,10 @@ LampLights::Window LampLights::window_of(const Beam& beam) {
     const BeamTexture& g = beam.grid;
     const auto tangent = [](double angle) { return std::tan(std::clamp(angle, -1.5, 1.5)); };
     const double top_angle = g.v_first_rad + (g.height - 1) * g.v_step_rad;
-    Window w{std::max(-widest_tangent, tangent(g.h_first_rad)), std::min(widest_tangent, tangent(g.h_first_rad + (g.width - 1) * g.h_step_rad)),
-             std::max(lowest_tangent, 1.75 * std::min(tangent(g.v_first_rad), 0.0)), std::min(highest_tangent, 1.75 * std::max(tangent(top_angle), 0.0))};
+    Window w{std::max(-widest_tangent, tangent(g.h_first_rad)),
+             std::min(widest_tangent, tangent(g.h_first_rad + (g.width - 1) * g.h_step_rad)),
+             std::max(lowest_tangent, 1.75 * std::min(tangent(g.v_first_rad), 0.0)),
+             std::min(highest_tangent, 1.75 * std::max(tangent(top_angle), 0.0))};
     // 1.75: at the window's side the tangent of a given V is larger by 1 / cos(H).
     if (w.right - w.left < 1e-3)
         w.right = w.left + 1e-3;
@@ -61,14 +63,15 @@ void LampLights::set(const Moment& moment, bool shadows) {
         if (lamp.intensity_factor > 0.0 && peak_of(lamp.file->table).cd > 0.0)
             lit_.push_back(lamp);
     if (lit_.size() > most_lamps)
-        throw InputError({{}, 0, 0, "lamps"}, fmt::format("{} lamps are on at {} s", lit_.size(), moment.time_s), fmt::format("at most {}", most_lamps));
+        throw InputError({{}, 0, 0, "lamps"}, fmt::format("{} lamps are on at {} s", lit_.size(), moment.time_s),
+                         fmt::format("at most {}", most_lamps));
     for (const LitLamp& lamp : lit_) {
         const Beam& b = beam(lamp.file);
         const BeamTexture& g = b.grid;
         const Window w = window_of(b);
         const auto four = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0.0F); };
-        packed_.push_back({four(lamp.pose.position_m - moment.ego.position_m), four(-lamp.pose.left()), four(lamp.pose.up()), four(lamp.pose.forward()),
-                           glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
+        packed_.push_back({four(lamp.pose.position_m - moment.ego.position_m), four(-lamp.pose.left()), four(lamp.pose.up()),
+                           four(lamp.pose.forward()), glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
                            glm::vec4(g.width, g.height, lamp.intensity_factor, shadows ? 1.0 : 0.0), four(lamp.colour.linear_srgb),
                            glm::vec4(w.left, w.bottom, shadow_width_ / (w.right - w.left), shadow_height_ / (w.top - w.bottom))});
     }

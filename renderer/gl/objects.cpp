@@ -31,7 +31,8 @@ Texture make_texture(Context& context, GLenum internal_format, int width, int he
     GLint limit = 0;
     context.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width < 1 || height < 1 || width > limit || height > limit)
-        throw DeviceError(fmt::format("{} draws at most {} x {} pixels, {} x {} were asked for", context.info.gl_renderer, limit, limit, width, height));
+        throw DeviceError(
+            fmt::format("{} draws at most {} x {} pixels, {} x {} were asked for", context.info.gl_renderer, limit, limit, width, height));
     GLuint name = 0;
     context.gl.CreateTextures(GL_TEXTURE_2D, 1, &name);
     Texture texture(context, name);

@@ -5,7 +5,8 @@
 namespace fernlicht::gl {
 
 PassClock::PassClock(PassClock&& other) noexcept
-    : context_(other.context_), finish_(other.finish_), query_(other.query_), passes_(std::exchange(other.passes_, {})), since_(other.since_) {}
+    : context_(other.context_), finish_(other.finish_), query_(other.query_), passes_(std::exchange(other.passes_, {})),
+      since_(other.since_) {}
 
 PassClock::~PassClock() {
     for (const Pass& pass : passes_)
@@ -35,8 +36,8 @@ void PassClock::end() {
     passes_.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
 }
 
-std::map<std::string, double> PassClock::seconds() {
-    std::map<std::string, double> result;
+std::vector<std::pair<std::string, double>> PassClock::seconds() {
+    std::vector<std::pair<std::string, double>> result;
     for (const Pass& pass : passes_) {
         double seconds = pass.seconds;
         if (pass.query != 0) {
@@ -44,7 +45,7 @@ std::map<std::string, double> PassClock::seconds() {
             context_->gl.GetQueryObjectui64v(pass.query, GL_QUERY_RESULT, &nanoseconds);
             seconds = 1e-9 * static_cast<double>(nanoseconds);
         }
-        result[pass.name] += seconds;
+        result.emplace_back(pass.name, seconds);
     }
     return result;
 }

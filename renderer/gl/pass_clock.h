@@ -4,8 +4,8 @@
 #include "renderer/gl/context.h"
 
 #include <chrono>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fernlicht::gl {
@@ -20,8 +20,8 @@ class PassClock {
 
     void begin(const char* name);
     void end();
-    /// Waits for the queries. Seconds by pass.
-    std::map<std::string, double> seconds();
+    /// Waits for the queries. Seconds by pass, in their order.
+    std::vector<std::pair<std::string, double>> seconds();
 
   private:
     struct Pass {

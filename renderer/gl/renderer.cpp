@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <fmt/format.h>
+#include <map>
 #include <tuple>
 
 namespace fernlicht {
@@ -19,7 +20,8 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 int bits(const Wanted& w) {
-    return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) | (w.ids ? 32 : 0);
+    return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) |
+           (w.ids ? 32 : 0);
 }
 
 double toned(const ToneMapper& tone, double luminance) {
@@ -40,7 +42,8 @@ constexpr double farthest_drawn_m = 2000.0;
 
 struct Renderer::State {
     State(Device& device, const Scene& scene, const RendererSettings& wishes)
-        : context(device.context()), settings(wishes), buffers(context, scene), lights(context, wishes.shadow_width, wishes.shadow_height) {}
+        : context(device.context()), settings(wishes), buffers(context, scene), lights(context, wishes.shadow_width, wishes.shadow_height) {
+    }
 
     struct Variant {
         gl::Program program;
@@ -59,7 +62,6 @@ struct Renderer::State {
     gl::LampLights lights;
     std::map<Features, Variant> variants;
     std::map<std::tuple<int, int, int>, gl::Targets> targets;
-    PassTimes pass_times;
 };
 
 const Renderer::State::Variant& Renderer::State::variant(const Features& features, const Wanted& wanted) {
@@ -113,7 +115,8 @@ void Renderer::State::draw_scene(const Moment& moment, const View& view, const W
     buffers.draw(camera.clip_from_ego, camera.is_map, farthest_drawn_m);
 }
 
-Renderer::Renderer(Device& device, const Scene& scene, const RendererSettings& settings) : state_(std::make_unique<State>(device, scene, settings)) {
+Renderer::Renderer(Device& device, const Scene& scene, const RendererSettings& settings)
+    : state_(std::make_unique<State>(device, scene, settings)) {
     const GladGLContext& gl = state_->context.gl;
     gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     gl.Enable(GL_DEPTH_TEST);
@@ -146,9 +149,9 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& w
     if (s.settings.read_back == ReadBack::overlapped) {
         const auto reading = std::make_shared<gl::Targets::Reading>(targets.start_read());
         const auto times = std::make_shared<PassClock>(std::move(passes));
-        return [&s, &targets, reading, times, start] {
+        return [&targets, reading, times, start] {
             Frame frame = targets.finish_read(std::move(*reading));
-            s.pass_times = times->seconds();
+            frame.pass_s = times->seconds();
             frame.cpu_s = seconds_since(start);
             return frame;
         };
@@ -157,11 +160,10 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& w
     const auto frame = std::make_shared<Frame>(targets.read());
     passes.end();
     frame->cpu_s = seconds_since(start);
-    s.pass_times = passes.seconds();
+    frame->pass_s = passes.seconds();
     return [frame] { return std::move(*frame); };
 }
 
-const PassTimes& Renderer::pass_times() const { return state_->pass_times; }
 double Renderer::beam_error(const LampFile& lamp) const { return state_->lights.beam_error(lamp); }
 int Renderer::compiled_programs() const { return static_cast<int>(state_->variants.size()) + 1; }
 

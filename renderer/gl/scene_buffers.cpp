@@ -58,7 +58,8 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene) : context_(cont
             retroreflecting_ = retroreflecting_ || material.retro_rl > 0.0F;
             for (std::uint32_t k = batch.first; k < batch.first + batch.count; ++k) {
                 const std::uint32_t index = mesh.indices.at(k);
-                const auto [it, fresh] = copied.try_emplace(index, static_cast<GLuint>(vertices.size() - static_cast<std::size_t>(piece.base_vertex)));
+                const auto [it, fresh] =
+                    copied.try_emplace(index, static_cast<GLuint>(vertices.size() - static_cast<std::size_t>(piece.base_vertex)));
                 if (fresh) {
                     const Vertex& vertex = mesh.vertices.at(index);
                     vertices.push_back({vertex.position_m, vertex.normal, batch.material});

@@ -44,7 +44,8 @@ std::vector<Program::Define> Targets::defines(const Wanted& wanted) {
     return list;
 }
 
-Targets::Targets(Context& context, int width, int height, const Wanted& wanted) : context_(context), width_(width), height_(height), wanted_(wanted) {
+Targets::Targets(Context& context, int width, int height, const Wanted& wanted)
+    : context_(context), width_(width), height_(height), wanted_(wanted) {
     const GladGLContext& gl = context.gl;
     framebuffer_ = make_framebuffer(context);
     std::vector<GLenum> draw_buffers;
@@ -61,7 +62,8 @@ Targets::Targets(Context& context, int width, int height, const Wanted& wanted) 
     gl.NamedFramebufferTexture(framebuffer_, GL_DEPTH_ATTACHMENT, depth_, 0);
     gl.NamedFramebufferDrawBuffers(framebuffer_, static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
     if (const GLenum status = gl.CheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
-        throw DeviceError(fmt::format("{} cannot draw into {} x {} targets (status 0x{:04x})", context.info.gl_renderer, width, height, status));
+        throw DeviceError(
+            fmt::format("{} cannot draw into {} x {} targets (status 0x{:04x})", context.info.gl_renderer, width, height, status));
     context.check("making targets");
 }
 
@@ -74,7 +76,8 @@ void Targets::begin(const glm::vec3& background, float sky_luminance_cdm2) {
         if (!is_wanted(wanted_, result))
             continue;
         const GLint place = slot(wanted_, result);
-        const float value[4] = {result == colour ? background.r : (result == luminance ? sky_luminance_cdm2 : 0.0F), background.g, background.b, 1.0F};
+        const float value[4] = {result == colour ? background.r : (result == luminance ? sky_luminance_cdm2 : 0.0F), background.g,
+                                background.b, 1.0F};
         const GLuint zero[4] = {0, 0, 0, 0};
         if (result == ids)
             gl.ClearNamedFramebufferuiv(framebuffer_, GL_COLOR, place, zero);
@@ -161,10 +164,12 @@ Frame Targets::finish_read(Reading reading) {
         offsets[r] = bytes;
         bytes += bytes_of(static_cast<Result>(r));
     }
-    const auto* mapped = static_cast<const std::byte*>(gl.MapNamedBufferRange(reading.pixels, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
+    const auto* mapped =
+        static_cast<const std::byte*>(gl.MapNamedBufferRange(reading.pixels, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT));
     if (mapped == nullptr)
         throw DeviceError(fmt::format("{} cannot map a frame's pixels", context_.info.gl_renderer));
-    Frame frame = make_frame([&](Result result, void* destination, std::size_t size) { std::memcpy(destination, mapped + offsets[result], size); });
+    Frame frame =
+        make_frame([&](Result result, void* destination, std::size_t size) { std::memcpy(destination, mapped + offsets[result], size); });
     gl.UnmapNamedBuffer(reading.pixels);
     context_.check("reading a frame");
     return frame;

@@ -4,7 +4,11 @@
 #include "scenarios/drives/moment.h"
 #include "scenarios/values/image.h"
 
+#include <functional>
 #include <glm/vec3.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace fernlicht {
 
@@ -25,6 +29,10 @@ struct Frame {
     Image<float> depth_m;        ///< distance from the camera along its axis; 0: nothing
     Image<std::uint32_t> ids;    ///< mesh index + 1; 0: nothing
     double cpu_s = 0.0;          ///< submit to finish
+    std::vector<std::pair<std::string, double>> pass_s; ///< seconds by pass, where passes were timed
 };
+
+/// A frame on its way; call it once to wait for the pixels.
+using Pending = std::function<Frame()>;
 
 } // namespace fernlicht

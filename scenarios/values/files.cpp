@@ -62,7 +62,7 @@ std::string content_hash(const void* data, std::size_t bytes) {
 }
 
 std::string read_file(const std::filesystem::path& path, FilesRead& opened, std::size_t max_bytes, bool may_be_empty) {
-    struct stat status{};
+    struct stat status {};
     if (::stat(path.c_str(), &status) != 0)
         throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(errno), "a file");
     if (!S_ISREG(status.st_mode))

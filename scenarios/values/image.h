@@ -11,8 +11,7 @@ namespace fernlicht {
 template <class T> class Image {
   public:
     Image() = default;
-    Image(int width, int height, T fill = T{})
-        : width_(width), height_(height), pixels_(checked_size(width, height), fill) {}
+    Image(int width, int height, T fill = T{}) : width_(width), height_(height), pixels_(checked_size(width, height), fill) {}
 
     int width() const { return width_; }
     int height() const { return height_; }

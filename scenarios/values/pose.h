@@ -23,9 +23,7 @@ inline glm::dvec3 to_parent(const Pose& frame, const glm::dvec3& point) { return
 inline glm::dvec3 to_local(const Pose& frame, const glm::dvec3& point) {
     return (point - frame.position_m) * frame.axes; // row vector times axes = transpose(axes) * vector
 }
-inline Pose compose(const Pose& parent, const Pose& child) {
-    return {to_parent(parent, child.position_m), parent.axes * child.axes};
-}
+inline Pose compose(const Pose& parent, const Pose& child) { return {to_parent(parent, child.position_m), parent.axes * child.axes}; }
 
 /// Yaw turns left (about z), then pitch raises the nose (about -y), then roll lifts the left side (about x). Radians.
 /// Pitch is positive upwards: a lamp aimed 1 % down has pitch_rad = -atan(0.01).

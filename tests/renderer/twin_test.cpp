@@ -22,7 +22,8 @@ CandelaTable steep_beam() {
     for (const double v : table.v_deg)
         for (const double h : table.h_deg) {
             const double cut = -0.57 + (h > 0.0 ? std::min(h * 0.268, 2.0) : 0.0);
-            table.cd.push_back(300.0 + 20000.0 / (1.0 + std::exp((v - cut) / 0.11)) * std::exp(-h * h / 200.0) * std::exp(-(v - cut) * (v - cut) / 40.0));
+            table.cd.push_back(300.0 + 20000.0 / (1.0 + std::exp((v - cut) / 0.11)) * std::exp(-h * h / 200.0) *
+                                           std::exp(-(v - cut) * (v - cut) / 40.0));
         }
     return table;
 }
@@ -66,7 +67,8 @@ Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
     LampColour warm;
     warm.linear_srgb = glm::dvec3(1.6, 0.9, 0.22) / glm::dot(glm::dvec3(1.6, 0.9, 0.22), glm::dvec3(0.2126, 0.7152, 0.0722));
     for (const double side : {0.6, -0.6})
-        moment.lamps.push_back({side > 0 ? "left" : "right", file, Pose{origin + glm::dvec3(3.5, side, 0.65), axes_from_angles(0.01 * side, 0.0, 0.0)}, 1.0, warm, 0.0});
+        moment.lamps.push_back({side > 0 ? "left" : "right", file,
+                                Pose{origin + glm::dvec3(3.5, side, 0.65), axes_from_angles(0.01 * side, 0.0, 0.0)}, 1.0, warm, 0.0});
     return moment;
 }
 
@@ -112,7 +114,8 @@ Comparison compare(const Frame& frame, const Twin& twin, const Moment& moment, c
             result.beyond += difference > bound ? 1 : 0;
             if (truth.luminance_cdm2 > 0.0)
                 result.worst_relative_luminance =
-                    std::max(result.worst_relative_luminance, std::abs(static_cast<double>(frame.luminance_cdm2.at(x, y)) / truth.luminance_cdm2 - 1.0));
+                    std::max(result.worst_relative_luminance,
+                             std::abs(static_cast<double>(frame.luminance_cdm2.at(x, y)) / truth.luminance_cdm2 - 1.0));
         }
     return result;
 }
@@ -171,7 +174,8 @@ TEST_F(TwinTest, UtmCoordinatesGiveTheSameFrame) {
     for (int y = 0; y < a.ids.height(); ++y)
         for (int x = 0; x < a.ids.width(); ++x) {
             const TwinPixel truth = twin.pixel(moment, driver(), x + 0.5, y + 0.5);
-            const double difference = std::abs(static_cast<double>(a.illuminance_lx.at(x, y)) - static_cast<double>(b.illuminance_lx.at(x, y)));
+            const double difference =
+                std::abs(static_cast<double>(a.illuminance_lx.at(x, y)) - static_cast<double>(b.illuminance_lx.at(x, y)));
             differing += difference > 2.0 * truth.bound_lx + 1e-9 ? 1 : 0;
         }
     EXPECT_LE(differing, 12) << "pixels on silhouettes and shadow edges may fall to either side";
@@ -253,7 +257,8 @@ TEST_F(TwinTest, RetroreflectionAtTheThirtyMetreGeometryIsMeasuredInTheImage) {
     view.width_px = view.height_px = 33;
     Renderer renderer(device_, scene, {});
     const Frame frame = renderer.draw(moment, view, everything);
-    const double luminance = static_cast<double>(frame.luminance_cdm2.at(16, 16)), illuminance = static_cast<double>(frame.illuminance_lx.at(16, 16));
+    const double luminance = static_cast<double>(frame.luminance_cdm2.at(16, 16)),
+                 illuminance = static_cast<double>(frame.illuminance_lx.at(16, 16));
     const double cosine = 0.65 / std::hypot(30.0, 0.65);
     const double rl = luminance / (illuminance / cosine);
     // 0.0145 by retroreflection and 0.08 cos / pi = 0.00055 by diffusion; the text book's 0.55 mcd is the latter alone.

@@ -1,0 +1,135 @@
+#include "runner/run_command.h"
+
+#include "runner/output_folder.h"
+#include "runner/run_context.h"
+#include "runner/run_drives.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct Flags {
+    std::vector<std::filesystem::path> drives;
+    std::vector<std::string> lamps;
+    std::string road, technique, resolution, frames, capture, backend = "auto", out, references;
+    bool quiet = false, profile = false;
+};
+
+[[noreturn]] void refuse(const char* flag, const std::string& found, const char* expected) {
+    throw InputError({{}, 0, 0, flag}, "found '" + printable(found) + "'", expected);
+}
+
+/// Two whole numbers with a separator: "1024x768", "0:59". Either may be missing where `open` says so (-1).
+std::pair<int, int> two_numbers(const char* flag, const std::string& text, char separator, bool open, const char* expected) {
+    const std::size_t at = text.find(separator);
+    if (at == std::string::npos)
+        refuse(flag, text, expected);
+    const auto number = [&](std::string_view part) {
+        if (part.empty() && open)
+            return -1;
+        int value = 0;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (error != std::errc{} || end != part.data() + part.size() || value < 0)
+            refuse(flag, text, expected);
+        return value;
+    };
+    const std::string_view all = text;
+    return {number(all.substr(0, at)), number(all.substr(at + 1))};
+}
+
+DriveEdits edits_of(const Flags& flags) {
+    DriveEdits edits;
+    for (const std::string& lamp : flags.lamps) {
+        const std::size_t at = lamp.find('=');
+        edits.lamps.emplace_back(at == std::string::npos ? "" : lamp.substr(0, at), at == std::string::npos ? lamp : lamp.substr(at + 1));
+    }
+    if (!flags.road.empty())
+        edits.road = flags.road;
+    if (!flags.technique.empty())
+        edits.technique = flags.technique;
+    if (!flags.resolution.empty())
+        edits.resolution = two_numbers("--resolution", flags.resolution, 'x', false, "WIDTHxHEIGHT, e.g. 1024x768");
+    if (!flags.capture.empty()) {
+        if (flags.capture != "all")
+            refuse("--capture", flags.capture, "all");
+        edits.capture_all = true;
+    }
+    return edits;
+}
+
+TickRange ticks_of(const Flags& flags) {
+    TickRange range;
+    if (flags.frames.empty())
+        return range;
+    const auto [first, last] = two_numbers("--frames", flags.frames, ':', true, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
+    range.first = first < 0 ? 0 : first;
+    range.last = last < 0 ? range.last : last;
+    if (range.first > range.last)
+        refuse("--frames", flags.frames, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
+    return range;
+}
+
+void refuse_equal_names(const std::vector<Drive>& drives) {
+    for (std::size_t i = 0; i < drives.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (drives[i].name == drives[k].name)
+                throw InputError({drives[i].file, 0, 0, "name"},
+                                 "found '" + printable(drives[i].name) + "', as in " + drives[k].file.string(),
+                                 "a name of its own for each drive of a run");
+}
+
+int run(const Flags& flags, const std::vector<std::string>& command) {
+    RunOptions options;
+    options.backend = flags.backend;
+    options.ticks = ticks_of(flags);
+    options.quiet = flags.quiet;
+    options.profile = flags.profile;
+    options.references = flags.references;
+    options.command = command;
+    const DriveEdits edits = edits_of(flags);
+    std::vector<Drive> drives;
+    for (const std::filesystem::path& file : flags.drives)
+        drives.push_back(read_drive(file, edits));
+    refuse_equal_names(drives);
+    options.folder = flags.out.empty() ? default_output_folder(drives.front().name, utc_now()) : std::filesystem::path(flags.out);
+    const Report report = run_drives(drives, options);
+    const VerdictKind verdict = overall(report);
+    for (const PlayedVariant& played : report.played)
+        for (const Verdict& v : played.verdicts)
+            if (v.kind != VerdictKind::pass)
+                fmt::print("{} {}, {}: {}: {}\n", v.kind == VerdictKind::fail ? "FAIL" : "NOT MEASURED", played.drive, played.variant,
+                           v.name, v.text);
+    if (!report.complete)
+        fmt::print("incomplete: {}\n", report.interrupted);
+    fmt::print("{}\n", (options.folder / "report.html").string());
+    return report.complete && verdict == VerdictKind::pass ? 0 : 1;
+}
+
+} // namespace
+
+void add_run_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand("run", "play drives, measure, and write a report");
+    sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
+    sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
+        ->allow_extra_args(false);
+    sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
+    sub->add_option("--technique", flags->technique, "how to light the scene");
+    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
+    sub->add_option("--frames", flags->frames, "FIRST:LAST moments to play, from 0");
+    sub->add_option("--capture", flags->capture, "all: store every frame");
+    sub->add_option("--references", flags->references, "folder of accepted results to judge against");
+    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
+    sub->add_flag("--profile", flags->profile, "time each pass (slows the frames down)");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });
+}
+
+} // namespace fernlicht

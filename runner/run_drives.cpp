@@ -1,0 +1,143 @@
+#include "runner/run_drives.h"
+
+#include "renderer/renderer.h"
+#include "renderer/sanity.h"
+#include "renderer/timer_check.h"
+#include "runner/interruption.h"
+#include "runner/limits.h"
+#include "runner/output_folder.h"
+#include "runner/progress.h"
+#include "runner/run_context.h"
+#include "runner/summary.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/roads/road_mesh.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <deque>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+/// Everything of a drive that does not change over its lamp sets.
+struct Stage {
+    Drive drive;
+    RoadNetwork network;
+    Route route;
+    Scene scene;
+
+    explicit Stage(Drive d)
+        : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via),
+          scene(build_scene(network)) {
+        fit_to_route(drive, route);
+    }
+};
+
+/// What suits the device, found out by trying it.
+RendererSettings settings_for(Device& device, bool profile) {
+    RendererSettings settings;
+    settings.profile = profile;
+    if (!device.info().software) {
+        settings.read_back = check_read_back(device).faster();
+        settings.gpu_clock = check_timer(device).agrees();
+    }
+    return settings;
+}
+
+RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
+    settings.tone_mapper = drive.tone_mapper;
+    settings.shadows = drive.shadows;
+    if (drive.extent)
+        settings.target_height_m = drive.extent->target_height_m;
+    return settings;
+}
+
+void add_inputs(FilesRead& all, const FilesRead& more) {
+    for (const FileRead& file : more)
+        if (std::none_of(all.begin(), all.end(), [&](const FileRead& known) { return known.path == file.path; }))
+            all.push_back(file);
+}
+
+std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, const Renderer& renderer) {
+    std::vector<std::string> notes = stage.drive.notes;
+    notes.insert(notes.end(), stage.network.warnings.begin(), stage.network.warnings.end());
+    for (const MountedLamp& lamp : variant.lamps) {
+        if (lamp.photometric_distance_m > 0.0)
+            notes.push_back(fmt::format("{}: nearer than {} m it is in its near field, where a point source is an approximation", lamp.name,
+                                        lamp.photometric_distance_m));
+        for (const std::string& note : lamp.file->notes)
+            notes.push_back(lamp.name + ": " + note);
+        notes.push_back(fmt::format("{}: the beam texture differs from the candela table by at most {:.2g} % of the peak", lamp.name,
+                                    100.0 * renderer.beam_error(*lamp.file)));
+    }
+    return notes;
+}
+
+/// Plays one lamp set and completes it with readings and verdicts.
+PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options, Writers& writers) {
+    const std::string label = stage.drive.name + ", " + variant.name;
+    Progress progress(label, ticks_to_play(stage.drive, options.ticks), options.quiet);
+    PlayOptions play_options;
+    play_options.ticks = options.ticks;
+    play_options.folder = options.folder;
+    play_options.go_on = [&](int done) {
+        progress.done(done);
+        return !Interruption::asked();
+    };
+    const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) { return renderer.submit(moment, view, wanted); };
+    PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
+    writers.finish();
+    played.left_out = renderer.left_out(moment_at(start(stage.drive), stage.drive, stage.route, variant));
+    played.notes = notes_for(stage, variant, renderer);
+    std::ranges::copy(summarise(played, stage.drive), std::back_inserter(played.readings));
+    played.verdicts = judge_limits(stage.drive, played.readings);
+    return played;
+}
+
+void run_drive(Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
+    write_file(options.folder / (file_name_of(stage.drive.name) + ".yaml"), write_drive(stage.drive));
+    add_inputs(report.context.inputs, stage.drive.opened);
+    add_inputs(report.context.inputs, stage.network.opened);
+    Renderer renderer(device, stage.scene, settings_for(stage.drive, settings));
+    Writers writers;
+    for (const Variant& variant : stage.drive.variants) {
+        report.played.push_back(play_variant(stage, variant, renderer, options, writers));
+        if (Interruption::asked()) {
+            report.complete = false;
+            report.interrupted = "interrupted by the user";
+            return;
+        }
+    }
+}
+
+} // namespace
+
+Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
+    std::deque<Stage> stages; // everything is read and checked before the first frame; a route points into its own network
+    for (const Drive& drive : drives)
+        stages.emplace_back(drive);
+    Device device = open_device(options.backend);
+    check_sanity(device);
+    const RendererSettings settings = settings_for(device, options.profile);
+    OutputFolder folder(options.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
+    Report report;
+    report.context = make_context(device.info(), options.command, drives.front().seed);
+    const Interruption listening;
+    try {
+        for (Stage& stage : stages)
+            if (report.complete)
+                run_drive(stage, device, settings, options, report);
+    } catch (const std::exception& error) {
+        report.complete = false;
+        report.interrupted = error.what();
+        write_report(report, options.folder);
+        throw;
+    }
+    write_report(report, options.folder);
+    if (report.complete)
+        folder.finish();
+    return report;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,22 @@
+// A whole run: each drive with each of its lamp sets, on one device, into one report.
+#pragma once
+
+#include "runner/play.h"
+
+namespace fernlicht {
+
+struct RunOptions {
+    std::string backend = "auto";
+    std::filesystem::path folder; ///< for the report; made when all input is read and the device is found sane
+    TickRange ticks;
+    bool quiet = false;
+    bool profile = false;             ///< time each pass by finishing after it; frame times are then not representative
+    std::filesystem::path references; ///< accepted results to judge against; "" for none
+    std::vector<std::string> command;
+};
+
+/// Plays the drives and writes the report, also when interrupted (SIGINT, SIGTERM) or stopped by an error, in which case what
+/// was done is kept, marked incomplete, and the error is thrown on.
+Report run_drives(const std::vector<Drive>& drives, const RunOptions& options);
+
+} // namespace fernlicht

@@ -1,0 +1,154 @@
+// Whole runs through the program: real files in, a report out.
+#include "program.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+
+double reading(const json& report, const std::string& name, const std::string& variant = {}) {
+    for (const json& row : report.at("rows"))
+        if (row.at("name") == name && (variant.empty() || row.at("variant") == variant))
+            return row.at("value").get<double>();
+    throw std::runtime_error("no reading " + name);
+}
+
+json report_of(const std::string& folder) { return json::parse(content_of(folder + "/report.json")); }
+
+/// The report without what may differ between two runs: machine, date, durations.
+json timeless(json report) {
+    report.erase("context");
+    report.erase("timing");
+    return report;
+}
+
+std::map<std::string, std::string> files_below(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.is_regular_file())
+            files[std::filesystem::relative(entry.path(), folder).generic_string()] = content_of(entry.path());
+    return files;
+}
+
+constexpr const char* few_moments = " --quiet --frames 0:4 --resolution 96x72 --capture all ";
+
+TEST(Run, TheWorkedExampleGives0386LuxOnBothPaths) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program("run " + library_file("drives/worked-example.yaml") + " --quiet --out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json report = report_of(folder / "out");
+    const double by_hand = 206.25 * 0.65 / std::pow(std::hypot(7.0, 0.65), 3); // 0.3859 lx
+    EXPECT_NEAR(reading(report, "probe_road-7m_twin_lx"), by_hand, 1e-9);
+    EXPECT_NEAR(reading(report, "probe_road-7m_lx"), by_hand, 2e-6);
+}
+
+TEST(Run, TwiceTheSameBytes) {
+    const TemporaryFolder folder;
+    const std::string drive = library_file("drives/straight.yaml");
+    for (const std::string& out : {folder / "a", folder / "b"}) {
+        const Outcome run =
+            run_program("run " + drive + few_moments + "--out " + out, out.ends_with('b') ? "LP_NUM_THREADS=1" : "LP_NUM_THREADS=2");
+        ASSERT_LE(run.exit_code, 1) << run.output;
+    }
+    EXPECT_EQ(timeless(report_of(folder / "a")), timeless(report_of(folder / "b")));
+    const auto a = files_below(folder / "a/frames"), b = files_below(folder / "b/frames");
+    ASSERT_GT(a.size(), 10U);
+    EXPECT_EQ(a, b);
+}
+
+TEST(Run, TheResolvedDriveGivesTheSameBytes) {
+    const TemporaryFolder folder;
+    const Outcome first = run_program("run " + library_file("drives/straight.yaml") + few_moments + "--out " + (folder / "a"));
+    ASSERT_LE(first.exit_code, 1) << first.output;
+    std::string resolved;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "a"))
+        if (entry.path().extension() == ".yaml")
+            resolved = entry.path().string();
+    ASSERT_FALSE(resolved.empty());
+    const Outcome second = run_program("run " + resolved + " --quiet --frames 0:4 --out " + (folder / "b"));
+    ASSERT_LE(second.exit_code, 1) << second.output;
+    EXPECT_EQ(files_below(folder / "a/frames"), files_below(folder / "b/frames"));
+    EXPECT_EQ(timeless(report_of(folder / "a")).at("rows"), timeless(report_of(folder / "b")).at("rows"));
+}
+
+TEST(Run, EglAndOsMesaAgree) {
+    const TemporaryFolder folder;
+    for (const std::string backend : {"egl", "osmesa"}) {
+        const Outcome run = run_program("run " + library_file("drives/straight.yaml") + few_moments + "--backend " + backend + " --out " +
+                                        (folder / backend));
+        if (run.exit_code == 3)
+            GTEST_SKIP() << run.output;
+        ASSERT_LE(run.exit_code, 1) << run.output;
+    }
+    // One Mesa: equal to the byte.
+    EXPECT_EQ(files_below(folder / "egl/frames"), files_below(folder / "osmesa/frames"));
+}
+
+TEST(Run, AnotherLampGivesAnotherReach) {
+    const TemporaryFolder folder;
+    const Outcome run =
+        run_program("run " + library_file("drives/straight.yaml") + few_moments + "--lamp left=" + library_file("lamps/even-0.33lx.csv") +
+                    " --lamp right=" + library_file("lamps/even-0.33lx.csv") + " --out " + (folder / "out"));
+    ASSERT_LE(run.exit_code, 1) << run.output;
+    // 206.25 cd twice reach 1 lx on a facing target at sqrt(412.5) = 20.3 m from the lamps, a little less from the bumper ahead of them.
+    EXPECT_NEAR(reading(report_of(folder / "out"), "reach_1lx_target_own_m", "halogen"), 20.3, 0.5);
+}
+
+TEST(Run, AnInterruptedRunLeavesAValidReportThatSaysSo) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program("run " + library_file("drives/straight.yaml") + " --quiet --resolution 64x48 --out " + (folder / "out"),
+                                    "timeout --signal=INT --kill-after=60 4");
+    EXPECT_EQ(run.exit_code, 124) << run.output; // timeout's own code: it had to ask
+    const json report = report_of(folder / "out");
+    EXPECT_FALSE(report.at("complete").get<bool>());
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/report.html"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/INCOMPLETE"));
+}
+
+TEST(Run, BadInputIsOneSentenceAndExitCodeTwo) {
+    const TemporaryFolder folder;
+    const std::string drive = library_file("drives/straight.yaml");
+    for (const std::string& arguments :
+         {"run /nonexistent.yaml", "run " + drive + " --lamp /nonexistent.ies", "run " + drive + " --road /dev/null",
+          "run " + drive + " --technique magic", "run " + drive + " --backend vulkan", "run " + drive + " --resolution 0x0",
+          "run " + drive + " --resolution 99999x99999", "run " + drive + " --frames 5:2", "run " + drive + " --frames x", "run",
+          "run " + drive + " --no-such-flag", "run " + drive + " " + drive, "nonsense"}) {
+        const Outcome run = run_program(arguments + " --out " + (folder / "out"));
+        EXPECT_EQ(run.exit_code, 2) << arguments << '\n' << run.output;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out")) << arguments;
+        EXPECT_LT(run.output.size(), 800U) << run.output;
+    }
+}
+
+TEST(Run, NothingIsOverwritten) {
+    const TemporaryFolder folder;
+    const std::string command = "run " + library_file("drives/worked-example.yaml") + " --quiet --out " + (folder / "out");
+    ASSERT_EQ(run_program(command).exit_code, 0);
+    const auto before = files_below(folder / "out");
+    const Outcome again = run_program(command);
+    EXPECT_EQ(again.exit_code, 2) << again.output;
+    EXPECT_EQ(files_below(folder / "out"), before);
+}
+
+TEST(Doctor, FindsAWayToDraw) {
+    const Outcome doctor = run_program("doctor");
+    EXPECT_EQ(doctor.exit_code, 0) << doctor.output;
+    for (const char* word : {"egl", "osmesa", "sanity", "GPU clock", "kernel CAN", "disk", "GLM", "OpenImageIO"})
+        EXPECT_NE(doctor.output.find(word), std::string::npos) << word << '\n' << doctor.output;
+}
+
+TEST(Doctor, FailsWhereNothingCanDraw) {
+    const Outcome doctor = run_program("doctor", "LIBGL_DRIVERS_PATH=/nonexistent GALLIUM_DRIVER=nonsense");
+    if (doctor.exit_code == 0)
+        GTEST_SKIP() << "this Mesa draws all the same";
+    EXPECT_EQ(doctor.exit_code, 3) << doctor.output;
+    EXPECT_NE(doctor.output.find("nothing here can draw"), std::string::npos) << doctor.output;
+}
+
+} // namespace
+} // namespace fernlicht
