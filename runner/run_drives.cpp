@@ -27,10 +27,13 @@ struct Stage {
     Route route;
     Scene scene;
 
+    /// Throws InputError for what the drive's road, route or technique lacks.
     explicit Stage(Drive d)
         : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via),
           scene(build_scene(network)) {
         fit_to_route(drive, route);
+        if (drive.technique != "photometric")
+            throw InputError({drive.file, 0, 0, "technique"}, "found '" + printable(drive.technique) + "'", "photometric");
     }
 };
 
