@@ -1,4 +1,5 @@
 // fernlicht: night drives played headless, headlamps measured. Options end here; below are plain values.
+#include "runner/accept_command.h"
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
 #include "runner/run_command.h"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
     fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_doctor_command(app, chosen);
+    fernlicht::add_accept_command(app, chosen);
     try {
         app.parse(argc, argv);
         return chosen();

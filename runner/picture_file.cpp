@@ -82,4 +82,32 @@ void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path) {
     write_whole(path, spec, OIIO::TypeDesc::UINT8, picture.data());
 }
 
+std::vector<PictureChannel> read_exr(const std::filesystem::path& path) {
+    const auto refuse = [&](const std::string& found) {
+        throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(found, 200), "an EXR picture");
+    };
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+    if (!input)
+        refuse(OIIO::geterror());
+    if (std::string_view(input->format_name()) != "openexr")
+        refuse(std::string("is ") + input->format_name());
+    const OIIO::ImageSpec spec = input->spec();
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
+        spec.image_pixels() * static_cast<OIIO::imagesize_t>(spec.nchannels) > (OIIO::imagesize_t{1} << 28))
+        refuse("it claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels of " +
+               std::to_string(spec.nchannels) + " channels");
+    const auto count = static_cast<std::size_t>(spec.nchannels);
+    std::vector<float> pixels(static_cast<std::size_t>(spec.image_pixels()) * count);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
+        refuse(input->geterror());
+    std::vector<PictureChannel> channels;
+    for (std::size_t c = 0; c < count; ++c) {
+        PictureChannel channel{spec.channel_name(static_cast<int>(c)), Image<float>(spec.width, spec.height)};
+        for (std::size_t i = 0; i < channel.values.size(); ++i)
+            channel.values.pixels()[i] = pixels[i * count + c];
+        channels.push_back(std::move(channel));
+    }
+    return channels;
+}
+
 } // namespace fernlicht

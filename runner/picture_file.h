@@ -4,6 +4,8 @@
 #include "scenarios/drives/frame.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace fernlicht {
 
@@ -13,5 +15,12 @@ void write_exr(const Frame& frame, const Moment& moment, const View& view, const
 
 /// 8-bit sRGB. Throws DeviceError.
 void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path);
+
+struct PictureChannel {
+    std::string name;
+    Image<float> values;
+};
+/// All channels of an EXR file. Throws InputError: missing, no EXR, cut short, more than 2^28 values.
+std::vector<PictureChannel> read_exr(const std::filesystem::path& path);
 
 } // namespace fernlicht

@@ -87,6 +87,7 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
     PlayedVariant played;
     played.drive = drive.name;
     played.variant = variant.name;
+    played.technique = drive.technique;
     for (const MountedLamp& lamp : variant.lamps)
         played.lamps.emplace_back(lamp.name, lamp.file->name);
     played.ticks_planned = ticks_to_play(drive, options.ticks);

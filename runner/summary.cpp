@@ -175,6 +175,11 @@ Readings summarise(const PlayedVariant& played, const Drive& drive) {
             if (key.lane == "all")
                 add_area_trust(readings, played, subject);
         }
+    return readings;
+}
+
+Readings times(const PlayedVariant& played) {
+    Readings readings;
     for (const PassTime& pass : played.passes)
         add_times(readings, pass);
     return readings;

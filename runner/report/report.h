@@ -59,7 +59,7 @@ struct PassTime { std::string name; std::vector<double> seconds; };
 
 /// One drive played with one lamp set.
 struct PlayedVariant {
-    std::string drive, variant;
+    std::string drive, variant, technique;
     std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
     int ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;

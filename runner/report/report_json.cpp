@@ -225,6 +225,7 @@ Json drive_json(const PlayedVariant& played) {
         speed.push_back({finite(time_s, "time"), finite(mps, "speed")});
     return {{"drive", played.drive},
             {"variant", played.variant},
+            {"technique", played.technique},
             {"lamps", pairs(played.lamps)},
             {"ticks_planned", played.ticks_planned},
             {"ticks_done", played.ticks_done},

@@ -132,7 +132,7 @@ TEST(Summary, TwinAloneIsNotTakenForRendered) {
 TEST(Summary, TimesOfPasses) {
     PlayedVariant variant;
     variant.passes = {{"frame", {0.010, 0.012, 0.030}}, {"shadow", {}}};
-    const Readings readings = summarise(variant, Drive{});
+    const Readings readings = times(variant);
     EXPECT_DOUBLE_EQ(value(readings, "frame_time_median_ms"), 12.0);
     EXPECT_NEAR(value(readings, "frame_time_p95_ms"), 28.2, 1e-9);
     EXPECT_NEAR(value(readings, "frame_time_spread_ms"), 28.2 - 10.2, 1e-9);

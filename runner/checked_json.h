@@ -1,0 +1,42 @@
+// JSON of files that others may have touched: every access says what was found where.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+/// A value within a file. Each function throws InputError with the file and the place when the value is not what is asked for.
+class CheckedJson {
+  public:
+    /// Reads a file of at most 1 GiB.
+    static CheckedJson read(const std::filesystem::path& file);
+
+    CheckedJson at(const std::string& key) const;
+    std::vector<CheckedJson> items() const; ///< of a list
+    bool is_null() const { return value_->is_null(); }
+    std::string text() const;
+    double number() const;
+    std::optional<double> number_or_null() const;
+    int whole() const; ///< a number without fraction that fits an int
+    bool truth() const;
+    /// Refuses a file that says it is something else.
+    void expect_schema(const std::string& name, int version) const;
+    [[noreturn]] void refuse(const std::string& expected) const;
+
+  private:
+    /// `root` keeps the document that `value` lies in.
+    CheckedJson(std::shared_ptr<const nlohmann::json> root, const nlohmann::json& value, std::filesystem::path file, std::string place)
+        : root_(std::move(root)), value_(&value), file_(std::move(file)), place_(std::move(place)) {}
+
+    std::shared_ptr<const nlohmann::json> root_;
+    const nlohmann::json* value_;
+    std::filesystem::path file_;
+    std::string place_;
+};
+
+} // namespace fernlicht

@@ -1,0 +1,33 @@
+// Files that outlive a power cut: on the disk before anything refers to them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace fernlicht {
+
+/// Writes a new file and waits until it is on the disk. Throws DeviceError with the path and the reason.
+void write_durably(const std::filesystem::path& path, const std::string& content);
+
+/// Renames within one file system, over a file that may be there, and waits until the folder is on the disk. Throws DeviceError.
+void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Waits until the folder's list of names is on the disk. Throws DeviceError.
+void sync_folder(const std::filesystem::path& folder);
+
+/// Creates the folder and those above it. Throws DeviceError.
+void make_folder(const std::filesystem::path& folder);
+
+/// Held while it lives; a second process waits. Throws DeviceError.
+class FolderLock {
+  public:
+    explicit FolderLock(const std::filesystem::path& folder);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+  private:
+    int file_;
+};
+
+} // namespace fernlicht
