@@ -148,12 +148,12 @@ std::vector<SectionProfile::Paint> SectionProfile::paint(const Edge& edge, doubl
     for (const Stripe& stripe : edge.stripes) {
         if (!stripe.painted_at(layout_s_m))
             continue;
-        const double middle = t + stripe.t_m + edge.shift_m;
+        const double from_edge = stripe.t_m + edge.shift_m, middle = t + from_edge, half = 0.5 * stripe.width_m;
         // Not beyond the middle of a lane, where the other edge's paint begins; and stripes that meet share the border.
         const double from = out.empty() ? t - half_right : out.back().left_t_m;
-        const double right = std::clamp(middle - 0.5 * stripe.width_m, from, std::max(from, t + half_left));
-        const double left = std::clamp(middle + 0.5 * stripe.width_m, right, std::max(right, t + half_left));
-        out.push_back({right, left, stripe.material});
+        const double right = std::clamp(middle - half, from, std::max(from, t + half_left));
+        const double left = std::clamp(middle + half, right, std::max(right, t + half_left));
+        out.push_back({right, left, stripe.material, from_edge - half<0.0, from_edge + half> 0.0});
     }
     return out;
 }
@@ -172,11 +172,16 @@ void SectionProfile::append_lane(std::vector<Strip>& out, const Lane& lane, cons
         out.push_back(strip);
         t = strip.left_t_m;
     };
-    for (const std::vector<Paint>* side : {&right, &left})
-        for (const Paint& stripe : *side) {
-            add(std::clamp(stripe.right_t_m, base.right_t_m, base.left_t_m), base.material);
-            add(std::clamp(stripe.left_t_m, base.right_t_m, base.left_t_m), stripe.material);
-        }
+    const auto add_paint = [&](const Paint& stripe) {
+        add(std::clamp(stripe.right_t_m, base.right_t_m, base.left_t_m), base.material);
+        add(std::clamp(stripe.left_t_m, base.right_t_m, base.left_t_m), stripe.material);
+    };
+    for (const Paint& stripe : right)
+        if (stripe.reaches_left)
+            add_paint(stripe);
+    for (const Paint& stripe : left)
+        if (stripe.reaches_right)
+            add_paint(stripe);
     add(base.left_t_m, base.material);
 }
 

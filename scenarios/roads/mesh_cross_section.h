@@ -51,6 +51,7 @@ class SectionProfile {
     struct Paint {
         double right_t_m, left_t_m;
         RoadMaterial material;
+        bool reaches_right, reaches_left; ///< of the edge
     };
     std::vector<Paint> paint(const Edge& edge, double layout_s_m, double s_m) const;
     void append_lane(std::vector<Strip>& out, const Lane& lane, const std::vector<Paint>& right, const std::vector<Paint>& left,

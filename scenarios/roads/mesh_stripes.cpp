@@ -11,6 +11,7 @@ namespace {
 constexpr double dash_of_broken_m = 4.0;
 constexpr double gap_of_broken_m = 8.0;
 constexpr double shortest_period_m = 0.2;
+constexpr double most_dashes = 20'000.0; ///< of one mark: 240 km of guide line
 constexpr double default_width_m = 0.12;
 
 using Explicit = RoadMark::Stripe;
@@ -52,7 +53,7 @@ Stripe placed(const Explicit& line, const RoadMark& mark, double from_s, double 
     stripe.first_dash_m = from_s + line.start_m;
     stripe.dash_m = line.dash_m;
     stripe.period_m = line.gap_m > 0.0 ? line.dash_m + line.gap_m : 0.0;
-    if (stripe.period_m < shortest_period_m)
+    if (stripe.period_m < shortest_period_m || (to_s - from_s) / stripe.period_m > most_dashes)
         stripe.period_m = 0.0;
     stripe.material = marking_material(mark.colour);
     return stripe;

@@ -24,7 +24,7 @@ struct Stripe {
 
 /// The stripes of a lane's marks. Kinds without explicit lines: broken lines have 4 m dashes and 8 m gaps; the two lines of a double
 /// mark stand one line's width apart. Kerbs, botts' dots and marks without paint give none. Dashes with a period below 0.2 m
-/// are drawn solid: they are finer than any picture shows and would cost a row of vertices each.
+/// are drawn solid, as are marks of more than 20 000 dashes: each would cost a row of vertices.
 std::vector<Stripe> stripes_of(const LaneSection& section, const Lane& lane);
 
 } // namespace fernlicht
