@@ -1,5 +1,7 @@
 #include "scenarios/lamps/lamp_file.h"
 
+#include "scenarios/lamps/beam_matrix.h"
+#include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/ies.h"
 #include "scenarios/lamps/lamp_text.h"
 
@@ -13,10 +15,21 @@ LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& opt
     const std::string text = to_utf8(bytes);
     const std::string extension = uppercase(path.extension().string());
     LampFile lamp;
-    if (looks_like_ies(text) || extension == ".IES")
+    // By content first; a file whose content says nothing is what its name says, so that its reader can tell what is wrong with it.
+    if (looks_like_ies(text))
         lamp = read_ies(path, text, options, std::move(opened));
+    else if (looks_like_beam_matrix(text))
+        lamp = read_beam_matrix(path, text, options, std::move(opened));
+    else if (looks_like_eulumdat(text))
+        lamp = read_eulumdat(path, text, options, std::move(opened));
+    else if (extension == ".IES")
+        lamp = read_ies(path, text, options, std::move(opened));
+    else if (extension == ".CSV")
+        lamp = read_beam_matrix(path, text, options, std::move(opened));
+    else if (extension == ".LDT")
+        lamp = read_eulumdat(path, text, options, std::move(opened));
     else
-        throw InputError({path, 0, 0, {}}, "is no lamp file that we know", "an IES file");
+        throw InputError({path, 0, 0, {}}, "is no lamp file that we know", "IES LM-63, EULUMDAT or a beam matrix");
     check_invariants(lamp.table);
     return lamp;
 }
@@ -26,7 +39,9 @@ void write_lamp(const LampFile& lamp, const std::filesystem::path& path) {
     const std::string extension = uppercase(path.extension().string());
     if (extension == ".IES")
         return write_file(path, ies_text(lamp));
-    throw InputError({path, 0, 0, {}}, "cannot be written as a lamp file", "a name that ends in .ies");
+    if (extension == ".CSV")
+        return write_file(path, beam_matrix_text(lamp));
+    throw InputError({path, 0, 0, {}}, "cannot be written as a lamp file", "a name that ends in .ies or .csv");
 }
 
 } // namespace fernlicht

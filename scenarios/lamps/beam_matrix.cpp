@@ -1,0 +1,262 @@
+#include "scenarios/lamps/beam_matrix.h"
+
+#include "scenarios/lamps/goniometer.h"
+#include "scenarios/lamps/lamp_text.h"
+#include "scenarios/lamps/written_gaps.h"
+#include "scenarios/values/pose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+struct MatrixHeader {
+    bool lux = false, flat_angles = false, planar = false;
+    bool unit_given = false;
+    double distance_m = 25.0;
+    std::optional<std::string> gaps;
+    std::size_t gaps_line = 0;
+};
+
+constexpr std::array<const char*, 7> known_keys{"unit", "distance_m", "angles", "screen", "name", "flux_lm", "gaps_deg"};
+
+/// The key of `# key: value` when it is one lower-case word; "" for comments.
+std::string_view key_of(std::string_view line) {
+    line = trimmed(line.substr(line.find_first_not_of('#')));
+    const std::size_t colon = line.find(':');
+    const std::string_view key = trimmed(line.substr(0, colon));
+    const bool word = std::all_of(key.begin(), key.end(), [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });
+    return colon != std::string_view::npos && word ? key : std::string_view{};
+}
+
+bool one_of_two(std::string_view value, const char* no, const char* yes, const InputError::Where& where) {
+    if (value == no || value == yes)
+        return value == yes;
+    throw InputError(where, fmt::format("found '{}'", printable(std::string(value.substr(0, 200)))), fmt::format("{} or {}", no, yes));
+}
+
+double above_zero(std::string_view value, const InputError::Where& where) {
+    const double number = finite_number(value, where);
+    if (!(number > 0.0))
+        throw InputError(where, fmt::format("found {}", number), "a number above 0");
+    return number;
+}
+
+void take_header_line(std::string_view line, const InputError::Where& at, MatrixHeader& header, LampFile& lamp) {
+    const std::string_view value = line.find(':') == std::string_view::npos ? std::string_view{} : trimmed(line.substr(line.find(':') + 1));
+    const std::string_view body = trimmed(line.substr(std::min(line.find_first_not_of('#'), line.size())));
+    if (body.starts_with("label ") && body.find(':') != std::string_view::npos) {
+        lamp.labels.emplace_back(trimmed(body.substr(6, body.find(':') - 6)), value);
+        return;
+    }
+    const std::string_view key = body.empty() ? std::string_view{} : key_of(body);
+    if (key.empty())
+        return;
+    InputError::Where where = at;
+    where.key = key;
+    if (key == "unit") {
+        header.lux = one_of_two(value, "cd", "lx", where);
+        header.unit_given = true;
+    } else if (key == "distance_m") {
+        header.distance_m = above_zero(value, where);
+    } else if (key == "angles") {
+        header.flat_angles = one_of_two(value, "goniometer", "screen", where);
+    } else if (key == "screen") {
+        header.planar = one_of_two(value, "spherical", "planar", where);
+    } else if (key == "name") {
+        lamp.name = value;
+    } else if (key == "flux_lm") {
+        lamp.declared_flux_lm = above_zero(value, where);
+    } else if (key == "gaps_deg") {
+        header.gaps = value;
+        header.gaps_line = at.line;
+    } else {
+        const std::string nearest = nearest_name(std::string(key.substr(0, 40)), known_keys);
+        throw InputError(where, "is no key of a beam matrix", nearest.empty() ? "one of unit, distance_m, angles, screen" : nearest);
+    }
+}
+
+class Cells {
+  public:
+    explicit Cells(std::string_view first_line)
+        : separator_(first_line.find(';') != std::string_view::npos    ? ';'
+                     : first_line.find('\t') != std::string_view::npos ? '\t'
+                     : first_line.find(',') != std::string_view::npos  ? ','
+                                                                       : ' ') {}
+
+    std::vector<std::string_view> of(std::string_view line) const {
+        std::vector<std::string_view> cells;
+        line = trimmed_but_tabs(line);
+        for (;;) {
+            const std::size_t end = line.find(separator_);
+            cells.push_back(unquoted(line.substr(0, end)));
+            if (end == std::string_view::npos)
+                break;
+            line.remove_prefix(end + 1);
+            while (separator_ == ' ' && line.starts_with(' '))
+                line.remove_prefix(1);
+        }
+        if (cells.size() > 1 && cells.back().empty())
+            cells.pop_back(); // a separator that ends the line
+        return cells;
+    }
+    double number(std::string_view cell, const InputError::Where& where) const {
+        if (separator_ == ',' || cell.find(',') == std::string_view::npos)
+            return finite_number(cell, where);
+        std::string copy(cell.substr(0, 100));
+        std::replace(copy.begin(), copy.end(), ',', '.');
+        return finite_number(copy, where);
+    }
+
+  private:
+    std::string_view trimmed_but_tabs(std::string_view line) const { return separator_ == '\t' ? line : trimmed(line); }
+    static std::string_view unquoted(std::string_view cell) {
+        cell = trimmed(cell);
+        return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+    }
+    char separator_;
+};
+
+void take_row(std::string_view line, const Cells& cells, const InputError::Where& at, MeasuredGrid& grid) {
+    const std::vector<std::string_view> row = cells.of(line);
+    InputError::Where where = at;
+    if (row.size() != grid.h_deg.size() + 1)
+        throw InputError(where, fmt::format("found {} cells", row.size()),
+                         fmt::format("{}: a vertical angle and one per horizontal angle", grid.h_deg.size() + 1));
+    if (grid.cd.size() + grid.h_deg.size() > max_lamp_samples)
+        throw InputError(where, "the matrix goes on", fmt::format("at most {} cells", max_lamp_samples));
+    where.key = "vertical angle";
+    grid.v_deg.push_back(cells.number(row[0], where));
+    for (std::size_t i = 1; i < row.size(); ++i) {
+        where.key = fmt::format("column {}", i + 1);
+        grid.cd.push_back(cells.number(row[i], where));
+    }
+}
+
+void check_angles(const MeasuredGrid& grid, const MatrixHeader& header, const std::filesystem::path& path) {
+    // Beyond 89 degrees a wall is more than 57 times as far away as straight ahead.
+    const bool wall = header.flat_angles || (header.lux && header.planar);
+    const auto check = [&](const std::vector<double>& angles, double limit, const char* name, std::size_t line) {
+        for (const double angle : angles)
+            if (std::abs(angle) > limit)
+                throw InputError({path, line, 0, name}, fmt::format("found {}", angle), fmt::format("angles from -{} to {}", limit, limit));
+        if (angles.size() < 2)
+            throw InputError({path, line, 0, name}, fmt::format("found {} of them", angles.size()), "at least 2");
+    };
+    check(grid.h_deg, wall ? 89.0 : 180.0, "horizontal angles", grid.h_line);
+    check(grid.v_deg, wall ? 89.0 : 90.0, "vertical angles", grid.v_line);
+}
+
+/// What a lux is worth in candela at these angles.
+double cd_per_lux(const MatrixHeader& header, double h_deg, double v_deg) {
+    const double facing = header.distance_m * header.distance_m;
+    if (!header.planar)
+        return facing;
+    const double h = radians(h_deg), v = radians(v_deg);
+    const double cosine = header.flat_angles ? 1.0 / std::hypot(1.0, std::tan(h), std::tan(v)) : std::cos(h) * std::cos(v);
+    return facing / (cosine * cosine * cosine);
+}
+
+MeasuredGrid read_matrix(const std::filesystem::path& path, std::string_view text, MatrixHeader& header, LampFile& lamp) {
+    MeasuredGrid grid;
+    LineReader lines(text);
+    std::string_view line;
+    std::optional<Cells> cells;
+    while (lines.next(line)) {
+        const InputError::Where at{path, lines.number(), 0, {}};
+        if (trimmed(line).empty())
+            continue;
+        if (trimmed(line).starts_with('#')) {
+            take_header_line(trimmed(line), at, header, lamp);
+        } else if (!cells) {
+            cells.emplace(line);
+            const std::vector<std::string_view> row = cells->of(line);
+            grid.h_line = lines.number();
+            InputError::Where where = at;
+            where.key = "horizontal angle";
+            for (std::size_t i = 1; i < row.size(); ++i)
+                grid.h_deg.push_back(cells->number(row[i], where));
+        } else {
+            grid.v_line = grid.v_line == 0 ? lines.number() : grid.v_line;
+            take_row(line, *cells, at, grid);
+        }
+    }
+    if (!header.unit_given)
+        throw InputError({path, lines.number(), 0, "unit"}, "is not given", "a line '# unit: lx' or '# unit: cd'");
+    if (!cells || grid.v_deg.empty())
+        throw InputError({path, lines.number(), 0, {}}, "the file ends before the matrix", "horizontal angles, then rows");
+    return grid;
+}
+
+} // namespace
+
+bool looks_like_beam_matrix(std::string_view text) {
+    LineReader lines(text);
+    std::string_view line;
+    for (std::size_t seen = 0; seen < 2000 && lines.next(line); ++seen) {
+        line = trimmed(line);
+        if (!line.empty() && !line.starts_with('#'))
+            return false;
+        if (line.find_first_not_of('#') != std::string_view::npos && key_of(line) == "unit")
+            return true;
+    }
+    return false;
+}
+
+LampFile read_beam_matrix(const std::filesystem::path& path, std::string_view text, const LampReadOptions& options, FilesRead opened) {
+    LampFile lamp;
+    lamp.opened = std::move(opened);
+    lamp.format = "beam matrix";
+    lamp.name = path.stem().string();
+    MatrixHeader header;
+    MeasuredGrid grid = read_matrix(path, text, header, lamp);
+    check_angles(grid, header, path);
+    if (header.lux)
+        for (std::size_t v = 0; v < grid.v_deg.size(); ++v)
+            for (std::size_t h = 0; h < grid.h_deg.size(); ++h)
+                grid.cd[v * grid.h_deg.size() + h] *= cd_per_lux(header, grid.h_deg[h], grid.v_deg[v]);
+    put_in_order(grid, path, lamp.notes);
+    refuse_negative(grid, path, lamp.notes);
+    CandelaTable table{grid.h_deg, grid.v_deg, grid.cd, {}, options.rule};
+    check_angles(grid, header, path); // repeated angles may have left a single one
+    if (header.gaps)
+        mark_written_gaps(*header.gaps, table, {path, header.gaps_line, 0, "gaps_deg"});
+    else
+        mark_padding(table, lamp.notes);
+    lamp.table = header.flat_angles ? on_un_goniometer(table, flat_screen(), lamp.notes) : std::move(table);
+    return lamp;
+}
+
+std::string beam_matrix_text(const LampFile& lamp) {
+    const auto on_one_line = [](std::string text) {
+        std::replace_if(
+            text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+        return text;
+    };
+    const CandelaTable& table = lamp.table;
+    std::string out = "# unit: cd\n# angles: goniometer\n";
+    out += fmt::format("# name: {}\n# gaps_deg: {}\n", on_one_line(lamp.name), gaps_text(table));
+    if (lamp.declared_flux_lm && *lamp.declared_flux_lm > 0.0)
+        out += fmt::format("# flux_lm: {}\n", *lamp.declared_flux_lm);
+    for (const auto& [key, value] : lamp.labels) {
+        std::string clean = on_one_line(key);
+        std::replace(clean.begin(), clean.end(), ':', ' ');
+        out += fmt::format("# label {}: {}\n", clean, on_one_line(value));
+    }
+    out += "V\\H";
+    for (const double h : table.h_deg)
+        out += fmt::format(",{}", h);
+    out += '\n';
+    for (std::size_t v = 0; v < table.v_deg.size(); ++v) {
+        out += fmt::format("{}", table.v_deg[v]);
+        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
+            out += fmt::format(",{}", table.at(v, h));
+        out += '\n';
+    }
+    return out;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,218 @@
+// EULUMDAT: symmetries, lamp sets, absolute values, and broken files.
+#include "lamp_trial.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+
+/// The parts of a file that the tests change.
+struct Ldt {
+    int symmetry = 1;
+    std::vector<double> c{0}, gamma{0, 90, 180};
+    std::vector<double> intensities{100, 100, 100}; ///< cd/klm, plane by plane
+    std::string output = "100", conversion = "1", sets = "1\n1\nLED\n1000\n4000\n80\n15";
+
+    std::string text() const {
+        std::string out = fmt::format("ACME\n2\n{}\n{}\n0\n{}\n0\nreport\nWidget\n4711\nw.ldt\n2024\n", symmetry, c.size(), gamma.size());
+        out += "100\n100\n50\n100\n100\n0\n0\n0\n0\n90\n" + output + "\n" + conversion + "\n0\n" + sets + "\n";
+        for (int i = 0; i < 10; ++i)
+            out += "0\n";
+        for (const auto* list : {&c, &gamma, &intensities})
+            for (const double value : *list)
+                out += fmt::format("{}\n", value);
+        return out;
+    }
+};
+
+class Eulumdat : public LampTrial {
+  protected:
+    static LampReadOptions horizontal() {
+        LampReadOptions options;
+        options.type_c_axis = TypeCAxis::horizontal;
+        return options;
+    }
+    LampFile lamp(const Ldt& ldt) const { return read("w.ldt", ldt.text(), horizontal()); }
+};
+
+TEST_F(Eulumdat, ListsCandelaPerThousandLumen) {
+    Ldt ldt;
+    ldt.sets = "1\n1\nLED\n2500\n4000 K\nRa > 80\n29.50";
+    ldt.output = "80";
+    const LampFile l = lamp(ldt);
+    EXPECT_EQ(l.format, "EULUMDAT, Isym 1");
+    EXPECT_EQ(l.name, "Widget");
+    EXPECT_NEAR(flux_lm(l.table), 4 * pi * 250, 1e-9);
+    EXPECT_DOUBLE_EQ(l.declared_flux_lm.value(), 2000.0);
+    EXPECT_EQ(l.labels[0], (std::pair<std::string, std::string>{"company", "ACME"}));
+    EXPECT_EQ(read("w.dat", ldt.text(), horizontal()).table, l.table) << "told by content";
+}
+
+TEST_F(Eulumdat, TheConversionFactorMultiplies) {
+    Ldt ldt;
+    ldt.conversion = "1.5";
+    EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 150.0, 1e-12);
+    ldt.conversion = "0";
+    EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 100.0, 1e-12);
+}
+
+TEST_F(Eulumdat, AbsoluteFilesHaveANegativeNumberOfLamps) {
+    Ldt ldt;
+    ldt.sets = "1\n-1\nLED\n500\n4000\n80\n15";
+    const LampFile l = lamp(ldt);
+    EXPECT_NEAR(peak_of(l.table).cd, 50.0, 1e-12);
+    EXPECT_THAT(all_notes(l), HasSubstr("absolute photometry"));
+}
+
+TEST_F(Eulumdat, SeveralLampSetsAreAlternatives) {
+    Ldt ldt;
+    ldt.sets = "2\n1\nsmall\n500\n3000\n80\n10\n2\nlarge\n1200\n3000\n80\n30";
+    EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 50.0, 1e-12);
+    EXPECT_THAT(all_notes(lamp(ldt)), HasSubstr("the first, 'small' with 500 lm"));
+    ldt.sets = "2\n1\n2\nsmall\nlarge\n500\n1200\nwarm\ncold\n80\n80\n10\n30";
+    EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 50.0, 1e-12);
+    EXPECT_THAT(all_notes(lamp(ldt)), HasSubstr("field by field"));
+    EXPECT_THAT(all_notes(lamp(ldt)), HasSubstr("'small' with 500 lm"));
+}
+
+/// No symmetry: cd over the turn.
+double lopsided(double c, double gamma) {
+    return 100.0 +
+           std::sin(radians(gamma)) * (30.0 * std::cos(radians(c)) + 12.0 * std::sin(radians(c)) + 7.0 * std::sin(2.0 * radians(c)));
+}
+
+template <class Form> Ldt planes(int symmetry, const std::vector<double>& stored_c, Form form) {
+    Ldt ldt;
+    ldt.symmetry = symmetry;
+    ldt.c.clear();
+    for (int c = 0; c < 360; c += 15)
+        ldt.c.push_back(c);
+    ldt.gamma = {0, 30, 60, 90, 120, 150, 180};
+    ldt.intensities.clear();
+    for (const double c : stored_c)
+        for (const double g : ldt.gamma)
+            ldt.intensities.push_back(form(c, g));
+    return ldt;
+}
+
+std::vector<double> turn(double from, double to) {
+    std::vector<double> out;
+    for (double c = from; c <= to; c += 15)
+        out.push_back(c);
+    return out;
+}
+
+TEST_F(Eulumdat, EachSymmetryFillsTheTurn) {
+    const auto expect_form = [&](const Ldt& ldt, auto form) {
+        const LampFile l = lamp(ldt);
+        ASSERT_THAT(all_notes(l), HasSubstr("Plane C 0 is taken"));
+        for (double c = 0; c < 360; c += 15)
+            for (const double g : ldt.gamma)
+                EXPECT_NEAR(intensity_cd(l.table, -c, g - 90.0), form(c, g), 1e-9)
+                    << "Isym " << ldt.symmetry << ", C " << c << ", gamma " << g;
+    };
+    expect_form(planes(0, turn(0, 345), lopsided), lopsided);
+    const auto about_0 = [](double c, double g) {
+        return 100.0 + std::sin(radians(g)) * (30.0 * std::cos(radians(c)) + 8.0 * std::cos(2.0 * radians(c)));
+    };
+    expect_form(planes(2, turn(0, 180), about_0), about_0);
+    const auto quarters = [](double c, double g) { return 100.0 + 30.0 * std::sin(radians(g)) * std::cos(2.0 * radians(c)); };
+    expect_form(planes(4, turn(0, 90), quarters), quarters);
+}
+
+TEST_F(Eulumdat, SymmetryThreeIsStoredFromC270ThroughC0ToC90) {
+    const auto about_90 = [](double c, double g) {
+        return 100.0 + std::sin(radians(g)) * (40.0 * std::sin(radians(c)) + 8.0 * std::cos(2.0 * radians(c)));
+    };
+    const LampFile l = lamp(planes(3, turn(-90, 90), about_90));
+    ASSERT_THAT(all_notes(l), HasSubstr("Plane C 90 is taken as forward"));
+    for (double c = 0; c < 360; c += 15)
+        for (double g = 0; g <= 180; g += 30)
+            EXPECT_NEAR(intensity_cd(l.table, 90.0 - c, g - 90.0), about_90(c, g), 1e-9) << "C " << c << ", gamma " << g;
+}
+
+TEST_F(Eulumdat, DecimalCommasByteOrderMarksAndOldEncodingsAreRead) {
+    Ldt ldt;
+    ldt.intensities = {100.5, 100.25, 100.125};
+    const LampFile plain = lamp(ldt);
+    std::string commas = ldt.text();
+    for (std::size_t at = commas.find("\n0\n90\n180\n"); at < commas.size(); ++at)
+        if (commas[at] == '.')
+            commas[at] = ',';
+    EXPECT_EQ(read("c.ldt", commas, horizontal()).table, plain.table);
+    EXPECT_EQ(read("b.ldt", "\xef\xbb\xbf" + ldt.text(), horizontal()).table, plain.table);
+    EXPECT_EQ(read("e.ldt", ldt.text() + "\n\n\r\n", horizontal()).table, plain.table);
+    std::string old = ldt.text();
+    old.replace(old.find("Widget"), 6,
+                "Stra\xdf"
+                "e \x84 60");
+    EXPECT_EQ(read("o.ldt", old, horizontal()).name, "Stra\xc3\x9f"
+                                                     "e \xe2\x80\x9e 60");
+}
+
+TEST_F(Eulumdat, ASinglePlaneIsRotationalWhateverTheSymmetrySays) {
+    Ldt ldt;
+    ldt.symmetry = 0;
+    EXPECT_NEAR(flux_lm(lamp(ldt).table), 4 * pi * 100, 1e-9);
+}
+
+TEST_F(Eulumdat, MessagesNameTheLine) {
+    const auto complaint = [&](auto change) {
+        Ldt ldt;
+        change(ldt);
+        return refusal("x.ldt", ldt.text());
+    };
+    const auto line = [&](std::size_t number, const std::string& content) {
+        std::string text = Ldt{}.text(), out;
+        std::size_t n = 1;
+        for (std::size_t at = 0; at < text.size(); ++n) {
+            const std::size_t end = text.find('\n', at);
+            out += (n == number ? content : text.substr(at, end - at)) + "\n";
+            at = end + 1;
+        }
+        return refusal("x.ldt", out);
+    };
+    EXPECT_THAT(refusal("x.ldt", ""), HasSubstr("x.ldt: is empty"));
+    EXPECT_THAT(line(2, "LED"), HasSubstr("x.ldt:2: type (Ityp): found 'LED'"));
+    EXPECT_THAT(line(3, "7"), HasSubstr("x.ldt:3: symmetry (Isym): found 7, expected a whole number from 0 to 4"));
+    EXPECT_THAT(line(4, "1000000000"), HasSubstr("x.ldt:4: number of C planes (Mc): found 1000000000"));
+    EXPECT_THAT(line(4, "-1"), HasSubstr("found -1"));
+    EXPECT_THAT(line(6, "1e9"), HasSubstr("x.ldt:6: number of gamma angles (Ng)"));
+    EXPECT_THAT(line(6, "4000000"), HasSubstr("the file ends before it"));
+    EXPECT_THAT(line(26, "1000000000"), HasSubstr("x.ldt:26: number of lamp sets: found 1000000000, expected a whole number from 1 to 20"));
+    EXPECT_THAT(line(26, "-1"), HasSubstr("x.ldt:26"));
+    EXPECT_THAT(line(29, "bright"), HasSubstr("x.ldt:27: lamp sets: found '1' lamps of 'bright' lm"));
+    EXPECT_THAT(line(29, "nan"), HasSubstr("found a lamp flux of nan lm"));
+    EXPECT_THAT(line(29, "0"), HasSubstr("expected a flux above 0"));
+    EXPECT_THAT(line(44, "91 deg"), HasSubstr("x.ldt:44: gamma angle: found '91 deg'"));
+    EXPECT_THAT(line(45, "181"), HasSubstr("x.ldt:45: gamma angle: found 181, expected an angle from 0 to 180"));
+    EXPECT_THAT(line(47, "nan"), HasSubstr("x.ldt:47: intensity: found 'nan', expected a finite number"));
+    EXPECT_THAT(line(47, "-inf"), HasSubstr("x.ldt:47: intensity: found '-inf'"));
+    EXPECT_THAT(line(47, "-50"), HasSubstr("is -50 cd"));
+    EXPECT_THAT(complaint([](Ldt& l) {
+                    l.symmetry = 4, l.c = {0, 90};
+                }),
+                HasSubstr("Mc): found 2, expected a multiple of 4 for symmetry 4"));
+    EXPECT_THAT(complaint([](Ldt& l) { l.intensities.pop_back(); }), HasSubstr("x.ldt:48: intensity: the file ends before it"));
+    EXPECT_THAT(complaint([](Ldt& l) { l.gamma = {0, 90, 90}, l.intensities = {1, 2, 3}; }), HasSubstr("the angle 90 is given twice"));
+}
+
+TEST_F(Eulumdat, NoPrefixOfAGoodFileIsTakenForAGoodFile) {
+    const std::string good = Ldt{}.text();
+    const std::size_t last_number = good.rfind('\n', good.size() - 2) + 1;
+    for (std::size_t n = 0; n <= last_number; ++n)
+        EXPECT_THAT(refusal("p.ldt", good.substr(0, n)), HasSubstr("p.ldt")) << n;
+    EXPECT_EQ(refusal("p.ldt", good), "");
+}
+
+TEST_F(Eulumdat, NothingMakesItFallOver) {
+    must_survive_random_bytes("r.ldt", "", 11);
+    must_survive_random_bytes("r.ldt", "ACME\n2\n0\n2\n0\n3\n0\n", 12);
+    must_survive_changed_bytes("r.ldt", planes(4, turn(0, 90), [](double, double g) { return g; }).text(), 13);
+}
+
+} // namespace
+} // namespace fernlicht
