@@ -1,6 +1,7 @@
 #include "scenarios/lamps/lamp_file.h"
 
 #include "scenarios/lamps/beam_matrix.h"
+#include "scenarios/lamps/beam_texture.h"
 #include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/ies.h"
 #include "scenarios/lamps/lamp_text.h"
@@ -12,9 +13,14 @@ namespace fernlicht {
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options) {
     FilesRead opened;
     const std::string bytes = read_file(path, opened, max_lamp_text_bytes);
+    LampFile lamp;
+    if (looks_like_beam_texture(bytes)) {
+        lamp = read_beam_texture(path, bytes, options, std::move(opened));
+        check_invariants(lamp.table);
+        return lamp;
+    }
     const std::string text = to_utf8(bytes);
     const std::string extension = uppercase(path.extension().string());
-    LampFile lamp;
     // By content first; a file whose content says nothing is what its name says, so that its reader can tell what is wrong with it.
     if (looks_like_ies(text))
         lamp = read_ies(path, text, options, std::move(opened));
@@ -29,7 +35,8 @@ LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& opt
     else if (extension == ".LDT")
         lamp = read_eulumdat(path, text, options, std::move(opened));
     else
-        throw InputError({path, 0, 0, {}}, "is no lamp file that we know", "IES LM-63, EULUMDAT or a beam matrix");
+        throw InputError({path, 0, 0, {}}, "is no lamp file that we know",
+                         "IES LM-63, EULUMDAT, a beam matrix or a beam texture (PNG, EXR)");
     check_invariants(lamp.table);
     return lamp;
 }
@@ -41,7 +48,9 @@ void write_lamp(const LampFile& lamp, const std::filesystem::path& path) {
         return write_file(path, ies_text(lamp));
     if (extension == ".CSV")
         return write_file(path, beam_matrix_text(lamp));
-    throw InputError({path, 0, 0, {}}, "cannot be written as a lamp file", "a name that ends in .ies or .csv");
+    if (extension == ".EXR")
+        return write_file(path, beam_texture_bytes(lamp));
+    throw InputError({path, 0, 0, {}}, "cannot be written as a lamp file", "a name that ends in .ies, .csv or .exr");
 }
 
 } // namespace fernlicht

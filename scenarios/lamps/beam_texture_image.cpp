@@ -1,0 +1,75 @@
+#include "scenarios/lamps/beam_texture_image.h"
+
+#include "scenarios/values/errors.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+struct Channels {
+    int first = 0, count = 1;
+};
+
+/// Our own channel, three colours, or the only one there is. Alpha is no light.
+Channels channels_of(const OIIO::ImageSpec& spec) {
+    for (int c = 0; c < spec.nchannels; ++c)
+        if (spec.channelnames[static_cast<std::size_t>(c)] == "illuminance.lx")
+            return {c, 1};
+    return {0, spec.nchannels >= 3 ? 3 : 1};
+}
+
+} // namespace
+
+TextureImage decode_texture(const std::filesystem::path& path, const std::string& bytes, std::size_t max_pixels) {
+    const auto fail = [&](const std::string& found) { throw InputError({path, 0, 0, {}}, found, "a PNG or EXR picture"); };
+    const bool png = bytes.starts_with("\x89PNG");
+    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size()); // only read from; the type wants it so
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    const std::string name = png ? "texture.png" : "texture.exr";
+    const auto in = OIIO::ImageInput::create(name, false, &config, &memory);
+    OIIO::ImageSpec spec;
+    if (!in || !in->set_ioproxy(&memory) || !in->open(name, spec, config))
+        fail("cannot be decoded: " + printable(in ? in->geterror() : OIIO::geterror(), 200));
+    if (spec.width < 2 || spec.height < 2 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64)
+        fail(fmt::format("has {} x {} x {} pixels of {} channels", spec.width, spec.height, spec.depth, spec.nchannels));
+    if (static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) > max_pixels)
+        throw InputError({path, 0, 0, {}}, fmt::format("has {} x {} pixels", spec.width, spec.height),
+                         fmt::format("at most {}", max_pixels));
+    const Channels channels = channels_of(spec);
+    TextureImage out;
+    out.value = Image<float>(spec.width, spec.height);
+    std::vector<float> pixels(out.value.size() * static_cast<std::size_t>(channels.count));
+    if (!in->read_image(0, 0, channels.first, channels.first + channels.count, OIIO::TypeDesc::FLOAT, pixels.data()))
+        fail("cannot be decoded: " + printable(in->geterror(), 200));
+    for (std::size_t i = 0; i < out.value.size(); ++i) {
+        const float* p = &pixels[i * static_cast<std::size_t>(channels.count)];
+        out.value.pixels()[i] = channels.count == 1 ? p[0] : 0.2126F * p[0] + 0.7152F * p[1] + 0.0722F * p[2];
+        out.was_coloured = out.was_coloured || (channels.count == 3 && !(p[0] == p[1] && p[1] == p[2]));
+    }
+    out.pixel_type = spec.format.c_str();
+    for (const auto& attribute : spec.extra_attribs)
+        if (attribute.type() == OIIO::TypeDesc::STRING)
+            out.attributes.emplace(attribute.name().string(), attribute.get_string());
+    return out;
+}
+
+std::string encode_texture(const Image<float>& value, const std::string& channel, const std::map<std::string, std::string>& attributes) {
+    std::vector<unsigned char> buffer;
+    OIIO::Filesystem::IOVecOutput memory(buffer);
+    OIIO::ImageSpec spec(value.width(), value.height(), 1, OIIO::TypeDesc::FLOAT);
+    spec.channelnames = {channel};
+    spec.attribute("compression", "zip");
+    for (const auto& [name, text] : attributes)
+        spec.attribute(name, text);
+    const auto out = OIIO::ImageOutput::create("texture.exr", &memory);
+    if (!out || !out->open("texture.exr", spec) || !out->write_image(OIIO::TypeDesc::FLOAT, value.data()) || !out->close())
+        throw std::runtime_error("EXR cannot be encoded: " + (out ? out->geterror() : OIIO::geterror()));
+    return {buffer.begin(), buffer.end()};
+}
+
+} // namespace fernlicht
