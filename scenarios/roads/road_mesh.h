@@ -13,9 +13,15 @@ struct RoadMeshOptions {
 };
 
 /// Surface with marks as materials of their own strips (no overlapping geometry), verge and terrain, objects, signal boards with posts.
+/// Meshes are called "road 12 s 120-180", "left of road 12 s 120-180" (ground), "trees, road 12 s 120-180", "signal 44".
+/// A road's surface has no cracks or T-junctions, within its chunks and between them, and keeps the chord error except where the
+/// surface itself jumps (a ramp of 2 cm then). Lane heights rise from record to record; kerbs are vertical faces.
+/// In junctions roads lie over one another at one height: what is level with another road's paved surface is asphalt, so that it does
+/// not matter which of the two is seen; marks of connecting roads are lost there. Nothing is thrown; the reader has judged the network.
 Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options = {});
 
-/// The materials that build_scene uses, by name: asphalt, concrete, marking-white, marking-yellow, verge, terrain, kerb, post, board, object ...
+/// The materials that build_scene uses, by name: asphalt, concrete, kerb, marking-white, marking-yellow, verge, terrain, board, board-back,
+/// post, delineator, object, trunk, leaves.
 std::vector<Material> road_materials();
 
 } // namespace fernlicht
