@@ -51,6 +51,7 @@ Road read_road(OpenDriveXml& xml, pugi::xml_node node, const RoadNetwork& networ
     read_plan(xml, node, road);
     read_profiles(xml, node, road);
     read_lanes(xml, node, road);
+    end_shapes(road);
     read_objects(xml, node, road);
     read_signals(xml, node, road);
     apply_offset(network, road);

@@ -13,6 +13,9 @@ void apply_offset(const RoadNetwork& network, Road& road);
 
 /// elevationProfile and lateralProfile.
 void read_profiles(OpenDriveXml& xml, pugi::xml_node road_node, Road& road);
+/// Left of the outermost lane each profile goes on with the slope it has there, so that what lies beside the road stays near it.
+/// Needs the lanes.
+void end_shapes(Road& road);
 /// a + b ds + c ds^2 + d ds^3 of each `element`; `start` names the attribute of its beginning. Ascending.
 std::vector<Cubic> read_cubics(OpenDriveXml& xml, pugi::xml_node parent, const char* element, const char* start);
 

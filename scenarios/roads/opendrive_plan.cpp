@@ -12,6 +12,9 @@ namespace {
 /// Larger steps of the reference line are told. Exporters write positions to the centimetre and headings to 1e-4.
 constexpr double told_gap_m = 0.01, told_kink_rad = 0.01, told_length_m = 0.01;
 
+/// Beyond, a number is mistyped, and everything that walks along the road would take too long.
+constexpr double longest_road_m = 1e6;
+
 struct ElementNode {
     pugi::xml_node node;
     PlanElement element;
@@ -65,6 +68,9 @@ std::optional<ElementNode> read_element(OpenDriveXml& xml, pugi::xml_node node, 
     element.y_m = xml.number(node, "y");
     element.heading_rad = xml.number(node, "hdg");
     element.length_m = xml.length(node, "length");
+    if (element.s_m + element.length_m > longest_road_m)
+        xml.refuse(node, {}, fmt::format("{} reaches s = {} m", road_name, element.s_m + element.length_m),
+                   fmt::format("a road of at most {} m", longest_road_m));
     read_shape(xml, node, element);
     if (element.length_m == 0.0) {
         xml.warn(node, fmt::format("{}: the geometry at s = {} has no length and is left out", road_name, element.s_m));

@@ -12,6 +12,8 @@
 namespace fernlicht {
 namespace {
 
+constexpr double longest_route_m = 5e6;
+
 [[noreturn]] void refuse(const RoadNetwork& network, const std::string& key, const std::string& found, const std::string& expected) {
     throw InputError({network.opened.empty() ? std::filesystem::path() : network.opened.front().path, 0, 0, key}, found, expected);
 }
@@ -26,9 +28,8 @@ std::string road_list(const RoadNetwork& network) {
     return fmt::format("one of the roads {}{}", fmt::join(ids, ", "), more);
 }
 
-/// Outermost driving lane on the side of the traffic rule, else on the other; 0 when there is none wide enough to begin on.
-int outermost_driving_lane(const Road& road, double s) {
-    constexpr double narrowest_m = 1.0;
+/// Outermost driving lane of at least this width on the side of the traffic rule, else on the other; 0 when there is none.
+int outermost_driving_lane(const Road& road, double s, double narrowest_m) {
     const LaneSection& section = section_at(road, s);
     int best = 0;
     const auto usual = [&](int id) { return (id < 0) != road.left_hand_traffic; };
@@ -43,6 +44,12 @@ int outermost_driving_lane(const Road& road, double s) {
             best = lane.id;
     }
     return best;
+}
+
+/// A lane that a car fits on, else one that has yet to open.
+int outermost_driving_lane(const Road& road, double s) {
+    const int wide = outermost_driving_lane(road, s, 1.0);
+    return wide != 0 ? wide : outermost_driving_lane(road, s, 0.0);
 }
 
 std::size_t start_road(const RoadNetwork& network, const std::string& id) {
@@ -120,6 +127,11 @@ Route::Route(const RoadNetwork& network, Start start, const std::vector<std::str
         const double begin = place.with_s ? section.s_m : section.end_m, end = place.with_s ? section.end_m : section.s_m;
         legs_.push_back({place.road, place.lane, place.with_s, visits.size() == 1 ? start.s_m : begin, end, length_m_, place.section});
         add_cells(legs_.size() - 1);
+        if (length_m_ > longest_route_m)
+            refuse(
+                network, "route",
+                fmt::format("the way from road '{}' is longer than {} km", network.roads[legs_.front().road].id, longest_route_m / 1000.0),
+                "a shorter one");
         const std::vector<LanePlace> next = next_places(network, place);
         if (next.empty()) {
             if (met < via.size())

@@ -81,8 +81,10 @@ SurfacePoint surface_point(const SurfaceStrip& strip, double s_m, double t_m) {
     point.by_s = speed * steepness * forward + glm::cross(turning, arm) + height.by_s * up;
     point.by_t = left + height.by_t * up;
     // Beyond the centre of a bend lines of constant t run backwards; the surface is still the road's upper side.
-    if (glm::dot(point.by_s, forward) <= 1e-9)
+    if (glm::dot(point.by_s, forward) <= 1e-9 || glm::cross(point.by_s, point.by_t).z <= 0.0) {
         point.by_s = forward;
+        point.by_t = left;
+    }
     return point;
 }
 

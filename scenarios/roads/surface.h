@@ -16,7 +16,7 @@ SurfaceStrip strip_at(const Road& road, double s_m);
 
 struct SurfacePoint {
     glm::dvec3 position_m{0.0};
-    glm::dvec3 by_s{1.0, 0.0, 0.0}, by_t{0.0, 1.0, 0.0}; ///< derivatives of the position; by_s never points backwards
+    glm::dvec3 by_s{1.0, 0.0, 0.0}, by_t{0.0, 1.0, 0.0}; ///< derivatives of the position, by_s never backwards
 };
 
 SurfacePoint surface_point(const SurfaceStrip& strip, double s_m, double t_m);

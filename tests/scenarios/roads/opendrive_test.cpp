@@ -1,0 +1,198 @@
+// What a file says, as numbers: header, profiles, lanes, marks, objects, signals.
+#include "scenarios/roads/plan.h"
+#include "tests/scenarios/roads/opendrive_text.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+using namespace opendrive_text;
+using testing::Contains;
+using testing::HasSubstr;
+
+RoadNetwork network_of(const std::string& content) {
+    const TemporaryFile written(content);
+    return read_opendrive(written.path());
+}
+
+RoadNetwork network_of(const RoadText& text) { return network_of(file(road(text))); }
+
+TEST(OpenDrive, CleanFileHasNoWarnings) {
+    const RoadNetwork network = network_of(RoadText{});
+    EXPECT_TRUE(network.warnings.empty());
+    ASSERT_EQ(network.opened.size(), 1U);
+    EXPECT_NE(network.find("1"), nullptr);
+    EXPECT_EQ(network.find("2"), nullptr);
+}
+
+TEST(OpenDrive, HeaderOffsetTurnsThenMoves) {
+    const RoadNetwork network = network_of(file(road({}), R"(<header revMajor="1" revMinor="6" name="n">
+        <geoReference><![CDATA[+proj=utm +zone=32]]></geoReference><offset x="680000" y="5400000" z="400" hdg="1.5707963267948966"/></header>)"));
+    EXPECT_EQ(network.geo_reference, "+proj=utm +zone=32");
+    const Pose pose = surface_pose(network, network.roads[0], 10.0, 2.0);
+    EXPECT_NEAR(pose.position_m.x, 680'000.0 - 2.0, 1e-9);
+    EXPECT_NEAR(pose.position_m.y, 5'400'010.0, 1e-9);
+    EXPECT_NEAR(pose.position_m.z, 400.0, 1e-12);
+}
+
+TEST(OpenDrive, NamespacesLatin1AndByteOrderMark) {
+    const std::string spaced =
+        "\xef\xbb\xbf<x:OpenDRIVE xmlns:x=\"http://code.asam.net/simulation/standard/opendrive_schema\">"
+        "<x:header revMajor=\"1\" revMinor=\"8\"/><x:road id=\"1\" name=\"B\xc3\xa4umle\" length=\"10\"><x:planView>"
+        "<x:geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"10\"><x:line/></x:geometry></x:planView><x:lanes><x:laneSection s=\"0\">"
+        "<x:center><x:lane id=\"0\"/></x:center></x:laneSection></x:lanes></x:road></x:OpenDRIVE>";
+    EXPECT_EQ(network_of(spaced).roads[0].name, "B\xc3\xa4umle");
+    std::string latin = file(road({}));
+    latin.replace(latin.find("UTF-8"), 5, "ISO-8859-1");
+    latin.replace(latin.find("road id"), 4, "road name=\"B\xe4umle\"");
+    EXPECT_EQ(network_of(latin).roads[0].name, "B\xc3\xa4umle");
+}
+
+TEST(OpenDrive, GradeAndRoll) {
+    RoadText text;
+    text.profiles =
+        R"(<elevationProfile><elevation s="0" a="10" b="0.1" c="0" d="0"/><elevation s="50" a="15" b="0.1" c="-0.002" d="0"/></elevationProfile>
+        <lateralProfile><superelevation s="0" a="0.05" b="0" c="0" d="0"/></lateralProfile>)";
+    const RoadNetwork network = network_of(text);
+    const Pose pose = surface_pose(network, network.roads[0], 20.0, 4.0);
+    const glm::dmat3 axes = axes_from_angles(0.0, std::atan(0.1), 0.05);
+    const glm::dvec3 expected = glm::dvec3(20.0, 0.0, 12.0) + 4.0 * axes[1];
+    EXPECT_NEAR(glm::distance(pose.position_m, expected), 0.0, 1e-12);
+    EXPECT_GT(pose.position_m.z, 12.0); // positive superelevation lifts the left side
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(glm::distance(pose.axes[i], axes[i]), 0.0, 1e-12);
+    EXPECT_NEAR(surface_pose(network, network.roads[0], 60.0, 0.0).position_m.z, 15.0 + 1.0 - 0.2, 1e-12);
+}
+
+/// Tangents and normal against differences of positions, with everything bending at once.
+TEST(OpenDrive, SurfaceAxesAreTangents) {
+    RoadText text;
+    text.plan = geometry(0.0, 3.0, 4.0, 0.7, 100.0, R"(<spiral curvStart="0.01" curvEnd="-0.02"/>)");
+    text.profiles = R"(<elevationProfile><elevation s="0" a="1" b="0.05" c="0.001" d="-1e-5"/></elevationProfile>
+        <lateralProfile><superelevation s="0" a="0.02" b="0.001" c="0" d="0"/>
+        <shape s="0" t="-5" a="0.2" b="-0.04" c="0" d="0"/><shape s="0" t="0" a="0" b="0.03" c="0.001" d="0"/>
+        <shape s="80" t="-5" a="0.1" b="-0.02" c="0" d="0"/><shape s="80" t="0" a="0" b="0.01" c="0.002" d="0"/></lateralProfile>)";
+    const RoadNetwork network = network_of(text);
+    const Road& only = network.roads[0];
+    for (double s = 5.0; s < 79.0; s += 9.3)
+        for (const double t : {-12.0, -3.0, 0.5, 2.0, 20.0}) {
+            constexpr double h = 1e-5;
+            const Pose pose = surface_pose(network, only, s, t);
+            const glm::dvec3 by_s = surface_pose(network, only, s + h, t).position_m - surface_pose(network, only, s - h, t).position_m;
+            const glm::dvec3 by_t = surface_pose(network, only, s, t + h).position_m - surface_pose(network, only, s, t - h).position_m;
+            EXPECT_NEAR(glm::distance(glm::normalize(by_s), pose.forward()), 0.0, 1e-7) << s << ' ' << t;
+            EXPECT_NEAR(glm::distance(glm::normalize(glm::cross(by_s, by_t)), pose.up()), 0.0, 1e-7) << s << ' ' << t;
+        }
+}
+
+TEST(OpenDrive, ShapeIsLinearInSAndGoesOnStraightBesideTheRoad) {
+    RoadText text;
+    text.profiles = R"(<lateralProfile><shape s="0" t="-3.5" a="0.1" b="-0.02" c="0" d="0"/><shape s="0" t="0" a="0" b="0" c="0.01" d="0"/>
+        <shape s="100" t="-3.5" a="0.3" b="-0.02" c="0" d="0"/><shape s="100" t="0" a="0" b="0" c="0.01" d="0"/></lateralProfile>)";
+    const RoadNetwork network = network_of(text);
+    const auto z = [&](double s, double t) { return surface_pose(network, network.roads[0], s, t).position_m.z; };
+    EXPECT_NEAR(z(0.0, 2.0), 0.04, 1e-12);
+    EXPECT_NEAR(z(50.0, -3.5), 0.2, 1e-12);
+    EXPECT_NEAR(z(0.0, 3.5), 0.1225, 1e-12);
+    EXPECT_NEAR(z(0.0, 13.5), 0.1225 + 10.0 * 0.07, 1e-12); // slope at the edge of lane 1
+    EXPECT_NEAR(z(0.0, -13.5), 0.1 + 10.0 * 0.02, 1e-12);
+}
+
+TEST(OpenDrive, WidthsBordersAndOffset) {
+    RoadText text;
+    text.lanes =
+        R"(<laneOffset s="0" a="1" b="0.01" c="0" d="0"/>)" + section(0.0, lane(2, "3") + lane(1), lane(-1) + lane(-2, "-2")) +
+        section(
+            60.0, "",
+            R"(<lane id="-1" type="driving"><width sOffset="0" a="3" b="0" c="0" d="0"/><width sOffset="10" a="3" b="0.1" c="0" d="0"/></lane>)");
+    const RoadNetwork network = network_of(text);
+    const Road& only = network.roads[0];
+    const LaneSection& first = section_at(only, 20.0);
+    EXPECT_NEAR(lane_edges(only, first, 2, 20.0).inner_t_m, 1.2 + 3.5, 1e-12);
+    EXPECT_NEAR(lane_edges(only, first, 2, 20.0).outer_t_m, 1.2 + 6.5, 1e-12);
+    EXPECT_NEAR(lane_edges(only, first, -2, 20.0).outer_t_m, 1.2 - 3.5, 1e-12); // a width below zero is none
+    EXPECT_NEAR(lane_edges(only, first, 0, 20.0).outer_t_m, 1.2, 1e-12);
+    EXPECT_NEAR(lane_edges(only, section_at(only, 80.0), -1, 80.0).outer_t_m, 1.8 - 4.0, 1e-12);
+    EXPECT_THROW(lane_edges(only, first, 3, 20.0), std::out_of_range);
+    EXPECT_THAT(network.warnings, Contains(HasSubstr("lane -2 overlaps its inner neighbour by 2.000 m")));
+}
+
+TEST(OpenDrive, RoadMarks) {
+    RoadText text;
+    const std::string centre = R"(<lane id="0"><roadMark sOffset="0" type="solid broken" weight="bold" color="yellow"/>
+        <roadMark sOffset="30" type="broken" width="0.15" color="standard"><type name="b" width="0.15"><line length="3" space="9" tOffset="0.1" sOffset="1" width="0.2"/></type></roadMark>
+        <roadMark sOffset="60" type="custom"><explicit><line length="2" tOffset="-0.2" sOffset="4" width="0.3"/></explicit><sway ds="0" a="0" b="1" c="0" d="0"/></roadMark></lane>)";
+    text.lanes = section(0.0, lane(1), lane(-1), centre);
+    const RoadNetwork network = network_of(text);
+    const auto& marks = network.roads[0].sections[0].lanes[1].marks;
+    ASSERT_EQ(marks.size(), 3U);
+    EXPECT_EQ(marks[0].kind, MarkKind::solid_broken);
+    EXPECT_EQ(marks[0].width_m, 0.25);
+    EXPECT_EQ(marks[0].colour, "yellow");
+    ASSERT_EQ(marks[1].stripes.size(), 1U);
+    EXPECT_EQ(marks[1].colour, "white");
+    EXPECT_EQ(marks[1].stripes[0].dash_m, 3.0);
+    EXPECT_EQ(marks[1].stripes[0].gap_m, 9.0);
+    EXPECT_EQ(marks[1].stripes[0].t_m, 0.1);
+    EXPECT_EQ(marks[1].stripes[0].width_m, 0.2);
+    ASSERT_EQ(marks[2].stripes.size(), 1U);
+    EXPECT_GT(marks[2].stripes[0].gap_m, 1e6); // stands alone
+    EXPECT_THAT(network.warnings, Contains(HasSubstr("sway")));
+}
+
+TEST(OpenDrive, ObjectsOutlinesAndRepeats) {
+    RoadText text;
+    text.rest = R"(<objects>
+        <object id="post" type="pole" s="10" t="5" zOffset="0" height="1" radius="0.06"><repeat s="10" length="50" distance="25" tStart="5" tEnd="6" heightStart="1" heightEnd="2" zOffsetStart="0" zOffsetEnd="0"/></object>
+        <object id="rail" type="barrier" s="0" t="0" width="0.3" height="0.8"><repeat s="20" length="10" distance="0" tStart="-6" tEnd="-6" heightStart="0.8" heightEnd="0.8" zOffsetStart="0.1" zOffsetEnd="0.1"/></object>
+        <object id="local" type="building" s="30" t="10" hdg="1.5707963267948966"><outline><cornerLocal u="0" v="0" z="0" height="3"/><cornerLocal u="2" v="0" z="0.5" height="3"/><cornerLocal u="2" v="1" z="0" height="3"/></outline></object>
+        <object id="road" type="island" s="50" t="-8" hdg="1.5707963267948966"><outlines><outline id="1"><cornerRoad s="50" t="-8" dz="0" height="0.2"/><cornerRoad s="52" t="-8" dz="0" height="0.2"/><cornerRoad s="52" t="-7" dz="0.3" height="0.2"/></outline></outlines></object>
+        </objects>)";
+    const RoadNetwork network = network_of(text);
+    const auto& objects = network.roads[0].objects;
+    ASSERT_EQ(objects.size(), 3U + 3U + 2U);
+    EXPECT_EQ(objects[1].s_m, 35.0);
+    EXPECT_EQ(objects[1].t_m, 5.5);
+    EXPECT_EQ(objects[2].height_m, 2.0);
+    EXPECT_NEAR(objects[3].length_m, 10.0 / 3.0, 1e-12); // continuous: three pieces, end to end
+    EXPECT_NEAR(objects[3].s_m, 20.0 + 10.0 / 6.0, 1e-12);
+    EXPECT_EQ(objects[3].z_offset_m, 0.1);
+    ASSERT_EQ(objects[6].outline_m.size(), 3U);
+    EXPECT_EQ(objects[6].outline_m[1], glm::dvec3(2.0, 0.0, 3.0));
+    EXPECT_EQ(objects[6].outline_base_m[1], 0.5);
+    // corners on the road, seen from an object that is turned to the left by 90 degrees
+    EXPECT_NEAR(glm::distance(objects[7].outline_m[1], glm::dvec3(0.0, -2.0, 0.2)), 0.0, 1e-12);
+    EXPECT_NEAR(glm::distance(objects[7].outline_m[2], glm::dvec3(1.0, -2.0, 0.2)), 0.0, 1e-12);
+    EXPECT_NEAR(objects[7].outline_base_m[2], 0.3, 1e-12);
+}
+
+TEST(OpenDrive, Signals) {
+    RoadText text;
+    text.rest =
+        R"(<signals><signal id="7" name="limit" s="40" t="-5" zOffset="2" orientation="-" type="274" subtype="57" country="DE" hOffset="0.1" width="0.6" height="0.7" dynamic="no"/>
+        <signal id="8" s="50" t="5" zOffset="3" orientation="none" type="1000001" country="OpenDRIVE" dynamic="yes"/></signals>)";
+    const auto signals = network_of(text).roads[0].signals;
+    ASSERT_EQ(signals.size(), 2U);
+    EXPECT_FALSE(signals[0].facing_forward);
+    EXPECT_EQ(signals[0].heading_offset_rad, 0.1);
+    EXPECT_EQ(signals[0].subtype, "57");
+    EXPECT_EQ(signals[0].height_m, 0.7);
+    EXPECT_TRUE(signals[1].facing_forward);
+    EXPECT_TRUE(signals[1].dynamic);
+}
+
+TEST(OpenDrive, GapsAreToldWithPlaceAndSize) {
+    RoadText text;
+    text.length = "20";
+    text.plan = "\n" + geometry(0.0, 0.0, 0.0, 0.0, 10.0) + "\n" + geometry(10.0, 10.0, 0.25, 0.0, 10.0) + "\n";
+    const RoadNetwork network = network_of(text);
+    ASSERT_EQ(network.warnings.size(), 1U);
+    EXPECT_THAT(network.warnings[0], HasSubstr(":9: road '1': the reference line jumps by 0.250 m at s = 10"));
+}
+
+} // namespace
+} // namespace fernlicht
