@@ -35,7 +35,7 @@ class Pictures {
             if (captured)
                 store(moment, view, draw, i == 0);
             else if (i == 0)
-                time(draw(moment, view, {.colour = true})(), "driver's view");
+                time(draw(moment, view, {.colour = true})(), "frame");
         }
     }
 
@@ -43,13 +43,14 @@ class Pictures {
     void store(const Moment& moment, const View& view, const Draw& draw, bool timed) {
         Frame frame = draw(moment, view, stored_results(view, drive_.capture))();
         if (timed)
-            time(frame, drive_.capture.exr ? "driver's view with linear results" : "driver's view");
+            time(frame, drive_.capture.exr && !drive_.capture.all ? "frame that is stored, with lux and luminance" : "frame");
         if (view.projection == Projection::map)
             played_.maps.push_back(lux_map_of(frame, moment, view, route_));
         played_.frames.push_back(
             store_frame(writers_, options_.folder, drive_.name + "-" + played_.variant, drive_.capture, std::move(frame), moment, view));
     }
 
+    /// "frame" is what a simulator would draw each time: the driver's view in colour; where every frame is stored, with its linear results.
     void time(const Frame& frame, const std::string& name) {
         if (drawn_++ < options_.warm_up) {
             ++played_.warm_up_dropped;

@@ -17,8 +17,9 @@ struct Outcome {
     std::string output; ///< stdout and stderr together
 };
 
-inline Outcome run_program(const std::string& arguments, const std::string& before = {}) {
-    const std::string line = before + " '" FERNLICHT_BINARY "' " + arguments + " 2>&1";
+/// A shell's command line.
+inline Outcome run_shell(const std::string& command) {
+    const std::string line = command + " 2>&1";
     std::FILE* pipe = ::popen(line.c_str(), "r");
     Outcome outcome;
     std::array<char, 4096> buffer{};
@@ -27,6 +28,11 @@ inline Outcome run_program(const std::string& arguments, const std::string& befo
     const int status = ::pclose(pipe);
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return outcome;
+}
+
+/// `before` is put before the program: variables, timeout.
+inline Outcome run_program(const std::string& arguments, const std::string& before = {}) {
+    return run_shell(before + " '" FERNLICHT_BINARY "' " + arguments);
 }
 
 inline std::string library_file(const std::string& below) { return std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/") + below; }

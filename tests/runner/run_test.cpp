@@ -1,7 +1,9 @@
 // Whole runs through the program: real files in, a report out.
 #include "program.h"
 
+#include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -133,6 +135,38 @@ TEST(Run, NothingIsOverwritten) {
     const Outcome again = run_program(command);
     EXPECT_EQ(again.exit_code, 2) << again.output;
     EXPECT_EQ(files_below(folder / "out"), before);
+}
+
+TEST(Run, AFullDiskIsOneSentenceAndKeepsWhatWasDone) {
+    const TemporaryFolder folder;
+    const std::string program = "run " + library_file("drives/straight.yaml") +
+                                " --quiet --capture all --frames 0:40 --resolution 256x192 --out " + folder.path().string();
+    const std::string script = folder.path().string() + ".sh";
+    std::ofstream(script) << "mount -t tmpfs -o size=1500k tmpfs " << folder.path().string() << " || exit 77\n"
+                          << "'" FERNLICHT_BINARY "' " << program << "\ncode=$?\nls -A " << folder.path().string() << "\nexit $code\n";
+    const Outcome run = run_shell("unshare --mount sh " + script);
+    std::filesystem::remove(script);
+    if (run.exit_code == 77 || run.output.find("unshare") != std::string::npos)
+        GTEST_SKIP() << "no right to mount here: " << run.output;
+    EXPECT_EQ(run.exit_code, 3) << run.output;
+    EXPECT_NE(run.output.find("No space left on device"), std::string::npos) << run.output;
+    EXPECT_NE(run.output.find("INCOMPLETE"), std::string::npos) << run.output;
+    EXPECT_NE(run.output.find("frames"), std::string::npos) << run.output;
+}
+
+TEST(Run, AReadOnlyFolderIsOneSentence) {
+    const TemporaryFolder folder;
+    const std::string script = folder.path().string() + ".sh";
+    std::ofstream(script) << "mount -t tmpfs -o ro tmpfs " << folder.path().string() << " || exit 77\n"
+                          << "'" FERNLICHT_BINARY "' run " << library_file("drives/worked-example.yaml") << " --quiet --out "
+                          << folder / "out"
+                          << "\n";
+    const Outcome run = run_shell("unshare --mount sh " + script);
+    std::filesystem::remove(script);
+    if (run.exit_code == 77 || run.output.find("unshare") != std::string::npos)
+        GTEST_SKIP() << "no right to mount here: " << run.output;
+    EXPECT_EQ(run.exit_code, 3) << run.output;
+    EXPECT_NE(run.output.find("Read-only file system"), std::string::npos) << run.output;
 }
 
 TEST(Doctor, FindsAWayToDraw) {
