@@ -49,6 +49,8 @@ void take_header_line(std::string_view line, const InputError::Where& at, Matrix
     const std::string_view value = line.find(':') == std::string_view::npos ? std::string_view{} : trimmed(line.substr(line.find(':') + 1));
     const std::string_view body = trimmed(line.substr(std::min(line.find_first_not_of('#'), line.size())));
     if (body.starts_with("label ") && body.find(':') != std::string_view::npos) {
+        if (lamp.labels.size() >= max_lamp_labels)
+            throw InputError(at, "the labels go on", fmt::format("at most {}", max_lamp_labels));
         lamp.labels.emplace_back(trimmed(body.substr(6, body.find(':') - 6)), value);
         return;
     }

@@ -97,7 +97,7 @@ void take_texts(const Metadata& metadata, LampFile& lamp) {
         lamp.declared_flux_lm = metadata.above_zero("flux_lm", 0.0);
     const std::string* labels = metadata.text("labels");
     LineReader lines(labels ? *labels : std::string_view{});
-    for (std::string_view line; lines.next(line);)
+    for (std::string_view line; lines.next(line) && lamp.labels.size() < max_lamp_labels;)
         lamp.labels.emplace_back(line.substr(0, line.find(':')),
                                  line.find(':') == std::string_view::npos ? "" : trimmed(line.substr(line.find(':') + 1)));
 }

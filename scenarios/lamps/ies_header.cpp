@@ -80,6 +80,9 @@ IesHeader read_ies_header(LineReader& lines, const std::filesystem::path& path, 
             continue;
         const auto edition = seen_first ? std::nullopt : ies_edition(line, notes);
         seen_first = true;
+        if (header.labels.size() >= max_lamp_labels)
+            throw InputError({path, lines.number(), 0, "TILT"}, fmt::format("does not come within {} lines of text", max_lamp_labels),
+                             "a line TILT=NONE, TILT=INCLUDE or TILT=<file>");
         if (edition)
             header.edition = *edition;
         else

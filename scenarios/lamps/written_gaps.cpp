@@ -51,23 +51,39 @@ void mark_written_gaps(const std::string& text, CandelaTable& table, const Input
     if (trimmed(text) == "none")
         return;
     const std::size_t columns = table.h_deg.size() - 1, rows = table.v_deg.size() - 1;
-    table.gaps.assign(rows * columns, 0);
+    // The first cell whose middle lies above the angle, so that rounded angles still name the same cells.
+    const auto first_above = [](const std::vector<double>& axis, double angle) {
+        std::size_t low = 0, high = axis.size() - 1;
+        while (low < high) {
+            const std::size_t middle = (low + high) / 2;
+            (axis[middle] + axis[middle + 1]) / 2.0 > angle ? high = middle : low = middle + 1;
+        }
+        return low;
+    };
+    // Each rectangle as four corners, then summed up: time does not grow with rectangles times cells.
+    std::vector<long> corners((rows + 1) * (columns + 1), 0);
+    const auto corner = [&](std::size_t y, std::size_t x) -> long& { return corners[y * (columns + 1) + x]; };
     std::string_view rest = text;
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find(';'), rest.size());
         const std::vector<double> g = four_numbers(rest.substr(0, end));
-        if (g.size() != 4)
-            throw InputError(where, fmt::format("found '{}'", printable(std::string(rest.substr(0, end)))),
-                             "none, or four angles h0 h1 v0 v1");
-        // By the middles of the cells, so that rounded angles still name the same cells.
-        for (std::size_t y = 0; y < rows; ++y)
-            for (std::size_t x = 0; x < columns; ++x) {
-                const double h = (table.h_deg[x] + table.h_deg[x + 1]) / 2.0, v = (table.v_deg[y] + table.v_deg[y + 1]) / 2.0;
-                if (h > g[0] && h < g[1] && v > g[2] && v < g[3])
-                    table.gaps[y * columns + x] = 1;
-            }
+        if (g.size() != 4 || !(g[0] < g[1]) || !(g[2] < g[3]))
+            throw InputError(where, fmt::format("found '{}'", printable(std::string(rest.substr(0, std::min<std::size_t>(end, 200))))),
+                             "none, or angles h0 h1 v0 v1 with h0 < h1 and v0 < v1");
+        const std::size_t x0 = first_above(table.h_deg, g[0]), x1 = first_above(table.h_deg, g[1]);
+        const std::size_t y0 = first_above(table.v_deg, g[2]), y1 = first_above(table.v_deg, g[3]);
+        ++corner(y0, x0);
+        ++corner(y1, x1);
+        --corner(y0, x1);
+        --corner(y1, x0);
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
+    table.gaps.assign(rows * columns, 0);
+    for (std::size_t y = 0; y < rows; ++y)
+        for (std::size_t x = 0; x < columns; ++x) {
+            corner(y, x) += (x > 0 ? corner(y, x - 1) : 0) + (y > 0 ? corner(y - 1, x) : 0) - (x > 0 && y > 0 ? corner(y - 1, x - 1) : 0);
+            table.gaps[y * columns + x] = corner(y, x) > 0;
+        }
 }
 
 bool take_written_gaps(std::vector<std::pair<std::string, std::string>>& labels, CandelaTable& table, const std::filesystem::path& path) {

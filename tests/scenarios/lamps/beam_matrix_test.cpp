@@ -107,6 +107,21 @@ TEST_F(BeamMatrix, ZeroPaddingIsAGapUnlessTheFileSaysWhatIs) {
     EXPECT_THAT(refusal("g.csv", "# unit: cd\n# gaps_deg: some\n" + padded), HasSubstr("g.csv:2: gaps_deg: found 'some'"));
 }
 
+TEST_F(BeamMatrix, ManyRectanglesOfGapsTakeNoMoreThanTheirText) {
+    std::string text = "# unit: cd\n# gaps_deg: -1 1 -2 2";
+    for (int i = 0; i < 200'000; ++i)
+        text += ";-300 300 -300 300";
+    text += "\nV\\H";
+    for (int h = 0; h < 1500; ++h)
+        text += fmt::format(",{}", h * 0.01);
+    for (int v = 0; v < 1000; ++v) {
+        text += fmt::format("\n{}", v * 0.01);
+        for (int h = 0; h < 1500; ++h)
+            text += ",1";
+    }
+    EXPECT_EQ(flux_lm(table(text)), 0.0); // 3e11 steps if each rectangle visited its cells
+}
+
 TEST_F(BeamMatrix, MessagesNameLineAndCell) {
     const auto complaint = [&](const std::string& text) { return refusal("x.csv", text); };
     EXPECT_THAT(complaint(""), HasSubstr("x.csv: is empty"));
