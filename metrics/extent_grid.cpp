@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -15,7 +16,8 @@ void check(const ExtentParameters& parameters) {
     constexpr double most_points = 4e7;
     const double rows = parameters.ahead_m / parameters.cell_m + 1.0;
     const double columns = 8.0 * parameters.beside_m / parameters.cell_m + 1.0;
-    if (!(parameters.cell_m > 0.0 && parameters.ahead_m > 0.0 && parameters.beside_m > 0.0 && rows * columns <= most_points))
+    if (!(std::isfinite(parameters.cell_m) && parameters.cell_m > 0.0 && parameters.ahead_m > 0.0 && parameters.beside_m > 0.0 &&
+          rows * columns <= most_points))
         throw std::invalid_argument(fmt::format("a grid of {} m cells over {} m ahead and {} m to each side cannot be made",
                                                 parameters.cell_m, parameters.ahead_m, parameters.beside_m));
 }
@@ -52,10 +54,12 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
     for (const double row_m : grid.ahead_m)
         grid.sections.push_back(route.cross_section(bumper_at_m + row_m));
     grid.offset_m = columns_of(grid, parameters);
-    grid.surface.reserve(grid.ahead_m.size() * grid.offset_m.size());
-    for (const double row_m : grid.ahead_m)
-        for (const double offset_m : grid.offset_m)
-            grid.surface.push_back(route.pose(bumper_at_m + row_m, offset_m));
+    const std::size_t columns = grid.offset_m.size();
+    grid.surface.resize(grid.ahead_m.size() * columns);
+    oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
+        for (std::size_t column = 0; column < columns; ++column)
+            grid.surface[row * columns + column] = route.pose(bumper_at_m + grid.ahead_m[row], grid.offset_m[column]);
+    });
     return grid;
 }
 

@@ -7,6 +7,7 @@
 #include "runner/limits.h"
 #include "runner/output_folder.h"
 #include "runner/progress.h"
+#include "runner/references.h"
 #include "runner/run_context.h"
 #include "runner/summary.h"
 #include "scenarios/drives/advance.h"
@@ -78,7 +79,8 @@ std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, c
 }
 
 /// Plays one lamp set and completes it with readings and verdicts.
-PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options, Writers& writers) {
+PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options,
+                           const RunContext& context, Writers& writers) {
     const std::string label = stage.drive.name + ", " + variant.name;
     Progress progress(label, ticks_to_play(stage.drive, options.ticks), options.quiet);
     PlayOptions play_options;
@@ -94,7 +96,12 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     played.left_out = renderer.left_out(moment_at(start(stage.drive), stage.drive, stage.route, variant));
     played.notes = notes_for(stage, variant, renderer);
     std::ranges::copy(summarise(played, stage.drive), std::back_inserter(played.readings));
-    played.verdicts = judge_limits(stage.drive, played.readings);
+    Readings judged = played.readings;
+    std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not
+    played.verdicts = judge_limits(stage.drive, judged);
+    if (!options.references.empty())
+        std::ranges::copy(judge_against_references(played, context, options.folder, options.references, stage.drive.technique),
+                          std::back_inserter(played.verdicts));
     return played;
 }
 
@@ -105,7 +112,7 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
     Renderer renderer(device, stage.scene, settings_for(stage.drive, settings));
     Writers writers;
     for (const Variant& variant : stage.drive.variants) {
-        report.played.push_back(play_variant(stage, variant, renderer, options, writers));
+        report.played.push_back(play_variant(stage, variant, renderer, options, report.context, writers));
         if (Interruption::asked()) {
             report.complete = false;
             report.interrupted = "interrupted by the user";

@@ -41,12 +41,12 @@ LitLamp dipped_lamp() { return lamp_with(cut_off_at_horizon(50000.0), {0.0, 0.0,
 TEST(TwinIlluminance, IsTheLawOfLampAndRoad) {
     ExtentGrid grid = straight_grid({.ahead_m = 60.0, .target_height_m = 0.25});
     const Moment moment =
-        moment_with({lamp_with(everywhere(10000.0), {0.0, 0.6, 0.65}), lamp_with(everywhere(10000.0), {0.0, -0.6, 0.65})});
+        moment_with({lamp_with(everywhere(10000.0), {-0.2, 0.6, 0.65}), lamp_with(everywhere(10000.0), {-0.2, -0.6, 0.65})});
     const auto road = twin_illuminance_lx(grid, moment, ExtentPlane::road);
     const auto target = twin_illuminance_lx(grid, moment, ExtentPlane::target);
     for (std::size_t row = 0; row < grid.ahead_m.size(); row += 7)
         for (std::size_t column = 0; column < grid.offset_m.size(); column += 5) {
-            const double x = grid.ahead_m[row], y = grid.offset_m[column];
+            const double x = grid.ahead_m[row] + 0.2, y = grid.offset_m[column];
             double on_road = 0.0, on_target = 0.0;
             for (const double side : {0.6, -0.6}) {
                 on_road += 10000.0 * 0.65 / std::pow(x * x + (y - side) * (y - side) + 0.65 * 0.65, 1.5);
