@@ -13,7 +13,7 @@ namespace {
 /// What a stored frame of a view holds.
 Wanted stored_results(const View& view, const Capture& capture) {
     Wanted wanted;
-    wanted.colour = true;
+    wanted.colour = view.projection == Projection::perspective; // a map is shown by its lux, in false colour
     wanted.illuminance = wanted.luminance = capture.exr;
     wanted.depth = capture.exr && view.projection == Projection::perspective;
     wanted.target = capture.exr && view.projection == Projection::map;
@@ -43,7 +43,7 @@ class Pictures {
     void store(const Moment& moment, const View& view, const Draw& draw, bool timed) {
         Frame frame = draw(moment, view, stored_results(view, drive_.capture))();
         if (timed)
-            time(frame, drive_.capture.exr && !drive_.capture.all ? "frame that is stored, with lux and luminance" : "frame");
+            time(frame, drive_.capture.exr && !drive_.capture.all ? "frame, stored" : "frame");
         if (view.projection == Projection::map)
             played_.maps.push_back(lux_map_of(frame, moment, view, route_));
         played_.frames.push_back(
