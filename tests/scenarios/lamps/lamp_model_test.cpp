@@ -17,18 +17,15 @@ using namespace regulation;
 
 constexpr double step_deg = 0.05; // along segments and across zones; the texts give none
 
-const LampModel& model(const std::string& name) {
-    for (const LampModel& m : lamp_models())
-        if (m.name == name)
-            return m;
-    throw std::invalid_argument(name);
+std::filesystem::path shipped(const std::string& name) {
+    return std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/lamps" / (name + ".ies");
 }
 
 const CandelaTable& table(const std::string& name) {
     static std::map<std::string, CandelaTable> tables;
     auto [it, added] = tables.try_emplace(name);
     if (added)
-        it->second = lamp_of_model(model(name)).table;
+        it->second = read_lamp(shipped(name)).table;
     return it->second;
 }
 
@@ -73,6 +70,14 @@ void expect_rows(const std::string& lamp, const std::vector<Row>& rows) {
     }
 }
 
+std::vector<std::string> broken(const CandelaTable& t, const std::vector<Row>& rows) {
+    std::vector<std::string> names;
+    for (const Row& row : rows)
+        if (const Span span = over(t, row); span.low < row.min_cd || span.high > row.max_cd)
+            names.push_back(row.name);
+    return names;
+}
+
 /// Even-odd rule; the boundary is sampled by itself.
 bool inside(const std::vector<std::pair<double, double>>& polygon, double h, double v) {
     bool in = false;
@@ -100,6 +105,18 @@ double most_in_zone_3(const CandelaTable& t) {
     return span.high;
 }
 
+TEST(RegulationRows, LampsThatAreWrongBreakThem) {
+    const CandelaTable& low = table("halogen-low");
+    EXPECT_THAT(broken(low, r112_b), testing::IsEmpty());
+    EXPECT_THAT(broken(mirrored(low), r112_b), testing::IsSupersetOf({"75R", "75L", "50L"}));
+    EXPECT_THAT(broken(scaled(low, 0.3), r112_b), testing::IsSupersetOf({"75R", "50R", "25L", "25R", "zone IV"}));
+    EXPECT_THAT(broken(scaled(low, 1.5), r112_b), testing::Contains("B50L"));
+    CandelaTable raised = low; // aimed at the horizon in place of 1 % down
+    for (double& v : raised.v_deg)
+        v += 0.57;
+    EXPECT_GT(most_in_zone_3(raised), zone_3_max_cd);
+}
+
 void expect_glow(const std::string& lamp) {
     const CandelaTable& t = table(lamp);
     const double most = most_in_zone_3(t);
@@ -111,6 +128,28 @@ void expect_glow(const std::string& lamp) {
             cd += intensity_cd(t, h, v);
         EXPECT_GE(cd, sum.min_cd) << sum.name;
         print(lamp, sum.name, cd, "at least", sum.min_cd);
+    }
+}
+
+TEST(LampModel, ShippedFilesAreWhatTheModelWritesByteForByte) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "lamp_model";
+    std::filesystem::create_directories(folder);
+    for (const LampModel& m : lamp_models()) {
+        const auto path = folder / (m.name + ".ies");
+        write_lamp(lamp_of_model(m), path);
+        FilesRead opened;
+        EXPECT_TRUE(read_file(path, opened) == read_file(shipped(m.name), opened)) << m.name;
+        EXPECT_LT(opened.back().bytes, 1'000'000u);
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST(LampModel, ShippedFilesSayThatTheyAreAModel) {
+    for (const LampModel& m : lamp_models()) {
+        const LampFile lamp = read_lamp(shipped(m.name));
+        EXPECT_THAT(lamp.labels, testing::Contains(testing::Pair("TEST", testing::HasSubstr("a model, not a measurement"))));
+        EXPECT_EQ(lamp.table, lamp_of_model(m).table) << m.name; // no digit is lost
+        EXPECT_TRUE(lamp.notes.empty()) << m.name;
     }
 }
 
