@@ -9,7 +9,7 @@ namespace fernlicht::plots {
 namespace {
 
 /// Round step for the window's edges: a few of them across it.
-double edge_step(double width_deg) { return width_deg > 60.0 ? 10.0 : width_deg > 12.0 ? 2.0 : 0.5; }
+double edge_step(double width_deg) { return width_deg > 120.0 ? 10.0 : width_deg > 30.0 ? 5.0 : width_deg > 5.0 ? 2.0 : 0.5; }
 
 /// The directions with at least `least_cd` and a little room round them. It shows what lies outside the table only where the table
 /// ends in the midst of such light.
@@ -24,14 +24,14 @@ AngleWindow window_of(const CandelaTable& t, double least_cd) {
         }
     }
     const double h_step = edge_step(w.right_deg - w.left_deg), v_step = edge_step(w.top_deg - w.bottom_deg);
-    const auto below = [](double edge, double step, double table_edge, double limit) {
-        return std::max(step * (std::floor(edge / step) - 1.0), edge > table_edge ? table_edge : limit);
+    const auto below = [](double edge, double step, double room, double table_edge, double limit) {
+        return std::max(step * std::floor(edge / step - room), edge > table_edge ? table_edge : limit);
     };
-    const auto above = [](double edge, double step, double table_edge, double limit) {
-        return std::min(step * (std::ceil(edge / step) + 1.0), edge < table_edge ? table_edge : limit);
+    const auto above = [](double edge, double step, double room, double table_edge, double limit) {
+        return std::min(step * std::ceil(edge / step + room), edge < table_edge ? table_edge : limit);
     };
-    return {below(w.left_deg, h_step, t.h_deg.front(), -180.0), above(w.right_deg, h_step, t.h_deg.back(), 180.0),
-            below(w.bottom_deg, v_step, t.v_deg.front(), -90.0), above(w.top_deg, v_step, t.v_deg.back(), 90.0)};
+    return {below(w.left_deg, h_step, 0.5, t.h_deg.front(), -180.0), above(w.right_deg, h_step, 0.5, t.h_deg.back(), 180.0),
+            below(w.bottom_deg, v_step, 1.0, t.v_deg.front(), -90.0), above(w.top_deg, v_step, 1.0, t.v_deg.back(), 90.0)};
 }
 
 /// A direction the table says something of.
