@@ -43,7 +43,8 @@ struct BackendAttempt {
     DeviceInfo info;     ///< when it works
     std::string failure; ///< when it does not
 };
-/// Tries every backend there is, one after another, each closed before the next is opened.
+/// Tries every backend there is, each in a process of its own, so that a driver that crashes is told of like one that fails.
+/// Call it before any device is opened.
 std::vector<BackendAttempt> try_all_backends();
 
 } // namespace fernlicht

@@ -72,7 +72,11 @@ void tell_machine() {
 }
 
 int doctor() {
-    const bool works = tell_backends() && tell_chosen();
+    bool works = tell_backends();
+    if (works)
+        works = tell_chosen();
+    else
+        line("auto", "nothing here can draw");
     tell_machine();
     return works ? 0 : 3;
 }

@@ -68,6 +68,7 @@ void write_exr(const Frame& frame, const Moment& moment, const View& view, const
     OIIO::ImageSpec spec(view.width_px, view.height_px, static_cast<int>(images.size()), OIIO::TypeDesc::FLOAT);
     spec.channelnames = names;
     spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "1970:01:01 00:00:00"); // else OpenImageIO writes the time of day, and no two runs are alike
     add_context(spec, moment, view);
     std::vector<float> pixels(images.size() * static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
     for (std::size_t c = 0; c < images.size(); ++c)

@@ -22,7 +22,10 @@ std::string text(const GladGLContext& gl, GLenum name) {
     return value == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(value));
 }
 
-bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+bool is_software(const std::string& renderer) {
+    const auto contains = [&](const char* part) { return renderer.find(part) != std::string::npos; };
+    return contains("llvmpipe") || contains("softpipe") || contains("swrast");
+}
 
 } // namespace
 
@@ -35,8 +38,7 @@ void Context::load_functions(GLADapiproc (*load)(const char*), const std::string
     info.gl_version = text(gl, GL_VERSION);
     info.gl_renderer = text(gl, GL_RENDERER);
     info.gl_vendor = text(gl, GL_VENDOR);
-    info.software =
-        contains(info.gl_renderer, "llvmpipe") || contains(info.gl_renderer, "softpipe") || contains(info.gl_renderer, "swrast");
+    info.software = is_software(info.gl_renderer);
     gl.Enable(GL_DEBUG_OUTPUT);
     gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     gl.DebugMessageCallback(on_debug_message, this);
@@ -50,77 +52,3 @@ void Context::check(const char* doing) {
 }
 
 } // namespace fernlicht::gl
-
-namespace fernlicht {
-namespace {
-
-std::unique_ptr<gl::Context> open_named(const std::string& name) {
-    if (name == "egl")
-        return gl::open_egl_surfaceless();
-    if (name == "osmesa")
-        return gl::open_osmesa();
-    const std::string digits = name.substr(std::string("egl-device=").size());
-    return gl::open_egl_device(std::stoi(digits));
-}
-
-bool is_known(const std::string& name) {
-    const std::string prefix = "egl-device=";
-    if (name.starts_with(prefix)) {
-        const std::string digits = name.substr(prefix.size());
-        return !digits.empty() && digits.size() <= 3 && digits.find_first_not_of("0123456789") == std::string::npos;
-    }
-    return name == "egl" || name == "osmesa";
-}
-
-std::vector<std::string> order_of_auto() {
-    std::vector<std::string> names;
-    for (const gl::EglDevice& device : gl::list_egl_devices())
-        if (!device.software)
-            names.push_back(fmt::format("egl-device={}", device.index));
-    names.insert(names.end(), {"egl", "osmesa"});
-    return names;
-}
-
-} // namespace
-
-Device::Device(std::unique_ptr<gl::Context> context) : context_(std::move(context)) {}
-Device::~Device() = default;
-Device::Device(Device&&) noexcept = default;
-const DeviceInfo& Device::info() const { return context_->info; }
-
-Device open_device(const std::string& backend) {
-    if (backend != "auto" && !is_known(backend))
-        throw InputError({{}, 0, 0, "--backend"}, "found '" + printable(backend) + "'", "auto, egl, egl-device=N or osmesa");
-    if (backend != "auto")
-        return Device(open_named(backend));
-    std::string failures;
-    for (const std::string& name : order_of_auto()) {
-        try {
-            return Device(open_named(name));
-        } catch (const DeviceError& error) {
-            failures += (failures.empty() ? "" : "; ") + std::string(error.what());
-        }
-    }
-    throw DeviceError("nothing here can draw: " + failures);
-}
-
-std::vector<BackendAttempt> try_all_backends() {
-    std::vector<std::string> names{"egl"};
-    for (const gl::EglDevice& device : gl::list_egl_devices())
-        names.push_back(fmt::format("egl-device={}", device.index));
-    names.emplace_back("osmesa");
-    std::vector<BackendAttempt> attempts;
-    for (const std::string& name : names) {
-        BackendAttempt attempt{name, false, {}, {}};
-        try {
-            attempt.info = open_named(name)->info;
-            attempt.works = true;
-        } catch (const DeviceError& error) {
-            attempt.failure = error.what();
-        }
-        attempts.push_back(std::move(attempt));
-    }
-    return attempts;
-}
-
-} // namespace fernlicht

@@ -37,6 +37,17 @@ std::map<std::string, std::string> files_below(const std::filesystem::path& fold
     return files;
 }
 
+/// The same files with the same bytes; names the first that differs (whole pictures are no message).
+testing::AssertionResult same_files(const std::filesystem::path& a, const std::filesystem::path& b) {
+    const auto left = files_below(a), right = files_below(b);
+    if (left.size() != right.size() || left.empty())
+        return testing::AssertionFailure() << left.size() << " files against " << right.size();
+    for (const auto& [name, content] : left)
+        if (!right.contains(name) || right.at(name) != content)
+            return testing::AssertionFailure() << name << " differs";
+    return testing::AssertionSuccess();
+}
+
 constexpr const char* few_moments = " --quiet --frames 0:4 --resolution 96x72 --capture all ";
 
 TEST(Run, TheWorkedExampleGives0386LuxOnBothPaths) {
@@ -57,10 +68,8 @@ TEST(Run, TwiceTheSameBytes) {
             run_program("run " + drive + few_moments + "--out " + out, out.ends_with('b') ? "LP_NUM_THREADS=1" : "LP_NUM_THREADS=2");
         ASSERT_LE(run.exit_code, 1) << run.output;
     }
-    EXPECT_EQ(timeless(report_of(folder / "a")), timeless(report_of(folder / "b")));
-    const auto a = files_below(folder / "a/frames"), b = files_below(folder / "b/frames");
-    ASSERT_GT(a.size(), 10U);
-    EXPECT_EQ(a, b);
+    EXPECT_TRUE(timeless(report_of(folder / "a")) == timeless(report_of(folder / "b")));
+    EXPECT_TRUE(same_files(folder / "a/frames", folder / "b/frames"));
 }
 
 TEST(Run, TheResolvedDriveGivesTheSameBytes) {
@@ -74,8 +83,8 @@ TEST(Run, TheResolvedDriveGivesTheSameBytes) {
     ASSERT_FALSE(resolved.empty());
     const Outcome second = run_program("run " + resolved + " --quiet --frames 0:4 --out " + (folder / "b"));
     ASSERT_LE(second.exit_code, 1) << second.output;
-    EXPECT_EQ(files_below(folder / "a/frames"), files_below(folder / "b/frames"));
-    EXPECT_EQ(timeless(report_of(folder / "a")).at("rows"), timeless(report_of(folder / "b")).at("rows"));
+    EXPECT_TRUE(same_files(folder / "a/frames", folder / "b/frames"));
+    EXPECT_TRUE(timeless(report_of(folder / "a")).at("rows") == timeless(report_of(folder / "b")).at("rows"));
 }
 
 TEST(Run, EglAndOsMesaAgree) {
@@ -88,7 +97,7 @@ TEST(Run, EglAndOsMesaAgree) {
         ASSERT_LE(run.exit_code, 1) << run.output;
     }
     // One Mesa: equal to the byte.
-    EXPECT_EQ(files_below(folder / "egl/frames"), files_below(folder / "osmesa/frames"));
+    EXPECT_TRUE(same_files(folder / "egl/frames", folder / "osmesa/frames"));
 }
 
 TEST(Run, AnotherLampGivesAnotherReach) {
@@ -98,7 +107,7 @@ TEST(Run, AnotherLampGivesAnotherReach) {
                     " --lamp right=" + library_file("lamps/even-0.33lx.csv") + " --out " + (folder / "out"));
     ASSERT_LE(run.exit_code, 1) << run.output;
     // 206.25 cd twice reach 1 lx on a facing target at sqrt(412.5) = 20.3 m from the lamps, a little less from the bumper ahead of them.
-    EXPECT_NEAR(reading(report_of(folder / "out"), "reach_1lx_target_own_m", "halogen"), 20.3, 0.5);
+    EXPECT_NEAR(reading(report_of(folder / "out"), "reach_1lx_target_own_m"), 20.3, 0.5);
 }
 
 TEST(Run, AnInterruptedRunLeavesAValidReportThatSaysSo) {
@@ -134,7 +143,7 @@ TEST(Run, NothingIsOverwritten) {
     const auto before = files_below(folder / "out");
     const Outcome again = run_program(command);
     EXPECT_EQ(again.exit_code, 2) << again.output;
-    EXPECT_EQ(files_below(folder / "out"), before);
+    EXPECT_TRUE(files_below(folder / "out") == before);
 }
 
 TEST(Run, AFullDiskIsOneSentenceAndKeepsWhatWasDone) {

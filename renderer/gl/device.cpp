@@ -1,0 +1,128 @@
+#include "renderer/device.h"
+
+#include "renderer/gl/context.h"
+#include "scenarios/values/errors.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+std::unique_ptr<gl::Context> open_named(const std::string& name) {
+    if (name == "egl")
+        return gl::open_egl_surfaceless();
+    if (name == "osmesa")
+        return gl::open_osmesa();
+    const std::string digits = name.substr(std::string("egl-device=").size());
+    return gl::open_egl_device(std::stoi(digits));
+}
+
+bool is_known(const std::string& name) {
+    const std::string prefix = "egl-device=";
+    if (name.starts_with(prefix)) {
+        const std::string digits = name.substr(prefix.size());
+        return !digits.empty() && digits.size() <= 3 && digits.find_first_not_of("0123456789") == std::string::npos;
+    }
+    return name == "egl" || name == "osmesa";
+}
+
+/// What the child says of a backend: "+" and four lines, or "-" and the failure.
+std::string tried(const std::string& name) {
+    try {
+        const DeviceInfo info = open_named(name)->info;
+        return "+" + info.gl_version + "\n" + info.gl_renderer + "\n" + info.gl_vendor + (info.software ? "\nsoftware\n" : "\nhardware\n");
+    } catch (const DeviceError& error) {
+        return std::string("-") + error.what();
+    }
+}
+
+/// Opens the backend in a process of its own: a broken driver may crash (OSMesa does where it finds none), and one library's context must
+/// not meet another's.
+BackendAttempt try_in_child(const std::string& name) {
+    BackendAttempt attempt{name, false, {}, {}};
+    int ends[2];
+    if (::pipe(ends) != 0)
+        throw DeviceError("a pipe cannot be made");
+    const pid_t child = ::fork();
+    if (child < 0)
+        throw DeviceError("a process cannot be started");
+    if (child == 0) {
+        ::close(ends[0]);
+        const std::string said = tried(name);
+        const ssize_t put = ::write(ends[1], said.data(), said.size());
+        ::_exit(put == static_cast<ssize_t>(said.size()) ? 0 : 1);
+    }
+    ::close(ends[1]);
+    std::string said;
+    std::array<char, 1024> buffer{};
+    for (ssize_t got = 0; (got = ::read(ends[0], buffer.data(), buffer.size())) > 0;)
+        said.append(buffer.data(), static_cast<std::size_t>(got));
+    ::close(ends[0]);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (WIFSIGNALED(status)) {
+        attempt.failure = fmt::format("{}: the driver crashes (signal {})", name, WTERMSIG(status));
+    } else if (said.starts_with('+')) {
+        attempt.works = true;
+        attempt.info.backend = name;
+        std::istringstream lines(said.substr(1));
+        std::getline(lines, attempt.info.gl_version);
+        std::getline(lines, attempt.info.gl_renderer);
+        std::getline(lines, attempt.info.gl_vendor);
+        std::string kind;
+        std::getline(lines, kind);
+        attempt.info.software = kind == "software";
+    } else {
+        attempt.failure = said.empty() ? name + ": the driver ends the process" : said.substr(1);
+    }
+    return attempt;
+}
+
+std::vector<std::string> order_of_auto() {
+    std::vector<std::string> names;
+    for (const gl::EglDevice& device : gl::list_egl_devices())
+        if (!device.software)
+            names.push_back(fmt::format("egl-device={}", device.index));
+    names.insert(names.end(), {"egl", "osmesa"});
+    return names;
+}
+
+} // namespace
+
+Device::Device(std::unique_ptr<gl::Context> context) : context_(std::move(context)) {}
+Device::~Device() = default;
+Device::Device(Device&&) noexcept = default;
+const DeviceInfo& Device::info() const { return context_->info; }
+
+Device open_device(const std::string& backend) {
+    if (backend != "auto" && !is_known(backend))
+        throw InputError({{}, 0, 0, "--backend"}, "found '" + printable(backend) + "'", "auto, egl, egl-device=N or osmesa");
+    if (backend != "auto")
+        return Device(open_named(backend));
+    std::string failures;
+    for (const std::string& name : order_of_auto()) {
+        try {
+            return Device(open_named(name));
+        } catch (const DeviceError& error) {
+            failures += (failures.empty() ? "" : "; ") + std::string(error.what());
+        }
+    }
+    throw DeviceError("nothing here can draw: " + failures);
+}
+
+std::vector<BackendAttempt> try_all_backends() {
+    std::vector<std::string> names{"egl"};
+    for (const gl::EglDevice& device : gl::list_egl_devices())
+        names.push_back(fmt::format("egl-device={}", device.index));
+    names.emplace_back("osmesa");
+    std::vector<BackendAttempt> attempts;
+    for (const std::string& name : names)
+        attempts.push_back(try_in_child(name));
+    return attempts;
+}
+
+} // namespace fernlicht
