@@ -14,8 +14,8 @@ namespace fernlicht {
 struct RunContext {
     std::vector<std::pair<std::string, std::string>> versions; ///< fernlicht, libraries, compiler
     std::string backend, gl_renderer, gl_version, cpu, os;
-    std::string command;       ///< as typed, shell-quoted, ready to paste
-    std::string started_utc;   ///< ISO 8601
+    std::string command;     ///< as typed, shell-quoted, ready to paste
+    std::string started_utc; ///< ISO 8601
     std::uint64_t seed = 1;
     FilesRead inputs;
 };
@@ -23,9 +23,9 @@ struct RunContext {
 enum class VerdictKind { pass, fail, not_measured };
 struct Verdict {
     VerdictKind kind = VerdictKind::pass;
-    std::string name;   ///< "reach_5lx_road_own_m"
-    std::string text;   ///< "61.2 m, limit at least 60 m"
-    std::string rerun;  ///< command that repeats just this
+    std::string name;  ///< "reach_5lx_road_own_m"
+    std::string text;  ///< "61.2 m, limit at least 60 m"
+    std::string rerun; ///< command that repeats just this
 };
 
 /// A picture stored at a captured moment; paths are relative to the report's folder.
@@ -40,7 +40,10 @@ struct StoredFrame {
 struct LuxMap {
     Image<float> lx;
     double ahead_m = 0.0, behind_m = 0.0, left_m = 0.0, right_m = 0.0; ///< extent from the car's origin
-    struct Polyline { std::string kind; std::vector<std::pair<double, double>> ahead_left_m; }; ///< kind: "lane edge", "road edge"; straight map coordinates
+    struct Polyline {
+        std::string kind;
+        std::vector<std::pair<double, double>> ahead_left_m;
+    }; ///< kind: "lane edge", "road edge"; straight map coordinates
     std::vector<Polyline> edges;
     int tick = 0;
     double time_s = 0.0;
@@ -55,7 +58,10 @@ struct ExtentRow {
     std::vector<GridError> grid_errors;
 };
 
-struct PassTime { std::string name; std::vector<double> seconds; };
+struct PassTime {
+    std::string name;
+    std::vector<double> seconds;
+};
 
 /// One drive played with one lamp set.
 struct PlayedVariant {
@@ -63,12 +69,12 @@ struct PlayedVariant {
     std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
     int ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;
-    std::vector<LuxMap> maps;        ///< at captured moments
-    std::vector<ExtentRow> extents;  ///< every moment
+    std::vector<LuxMap> maps;                         ///< at captured moments
+    std::vector<ExtentRow> extents;                   ///< every moment
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed
-    std::vector<PassTime> passes;    ///< raw samples, warm-up dropped: "frame", "shadow", ...
+    std::vector<PassTime> passes;                     ///< raw samples, warm-up dropped: "frame", "shadow", ...
     int warm_up_dropped = 0;
-    Readings readings;               ///< summary of the drive and probes
+    Readings readings; ///< summary of the drive and probes
     std::vector<Verdict> verdicts;
     std::vector<std::string> left_out; ///< what the scene did not need, one sentence each
     std::vector<std::string> notes;    ///< near-field, warnings of readers ...

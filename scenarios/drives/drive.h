@@ -33,7 +33,7 @@ struct Daylight {
 enum class ToneMapperKind { linear, rational, logarithmic };
 struct ToneMapper {
     ToneMapperKind kind = ToneMapperKind::rational;
-    double s = 20.0;          ///< rational only; >= 1, 1 is linear
+    double s = 20.0;           ///< rational only; >= 1, 1 is linear
     double l_max_cdm2 = 100.0; ///< luminance that becomes white
 
     bool operator==(const ToneMapper&) const = default;

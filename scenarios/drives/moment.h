@@ -8,7 +8,7 @@ namespace fernlicht {
 struct LitLamp {
     std::string name;
     std::shared_ptr<const LampFile> file;
-    Pose pose;                    ///< in the world; x forward along the beam axis, y left, z up
+    Pose pose;                     ///< in the world; x forward along the beam axis, y left, z up
     double intensity_factor = 1.0; ///< 0: off
     LampColour colour;
     double photometric_distance_m = 0.0;
@@ -19,7 +19,7 @@ struct Moment {
     double time_s = 0.0;
     double distance_m = 0.0; ///< along the route
     double speed_mps = 0.0;
-    Pose ego;                ///< the car's frame in the world: on the road's surface under the rear axle
+    Pose ego; ///< the car's frame in the world: on the road's surface under the rear axle
     std::vector<LitLamp> lamps;
     Daylight daylight;
 };

@@ -13,7 +13,8 @@ enum class SourceKind { filament, arc, led };
 
 /// What a spectrum gives through V(lambda), V'(lambda) and the colour matching functions.
 struct LampColour {
-    glm::dvec3 linear_srgb{1.0}; ///< scaled so that luminance (0.2126, 0.7152, 0.0722) . rgb = 1; components may be negative only after gamut clipping is noted
+    glm::dvec3 linear_srgb{1.0}; ///< scaled so that luminance (0.2126, 0.7152, 0.0722) . rgb = 1; components may be negative only after
+                                 ///< gamut clipping is noted
     double sp_ratio = 1.0;       ///< scotopic over photopic
     double cct_k = 0.0;
 };
@@ -26,9 +27,9 @@ LampColour read_spectrum(const std::filesystem::path& path, FilesRead& opened);
 struct MountedLamp {
     std::string name; ///< "left", "right", "high-left" ...
     std::shared_ptr<const LampFile> file;
-    glm::dvec3 position_m{0.0}; ///< in the car's frame: x forward, y left, z up
+    glm::dvec3 position_m{0.0};                            ///< in the car's frame: x forward, y left, z up
     double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0; ///< aim; pitch positive upwards
-    double level = 1.0;         ///< 0..1, dimming
+    double level = 1.0;                                    ///< 0..1, dimming
     double voltage_v = 13.2;
     double reference_voltage_v = 13.2; ///< at which the file was measured
     SourceKind source = SourceKind::filament;
@@ -36,7 +37,8 @@ struct MountedLamp {
     double photometric_distance_m = 0.0; ///< nearer than this the point-source equation is marked near-field
 
     Pose pose() const { return {position_m, axes_from_angles(yaw_rad, pitch_rad, roll_rad)}; }
-    /// level times the supply's factor: (U / U_ref)^3.4 for filament lamps between 12.0 and 13.8 V (law of filament lamps' flux), 1 for arc and LED.
+    /// level times the supply's factor: (U / U_ref)^3.4 for filament lamps between 12.0 and 13.8 V (law of filament lamps' flux), 1 for arc
+    /// and LED.
     double intensity_factor() const;
 };
 

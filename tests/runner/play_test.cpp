@@ -1,7 +1,7 @@
 // The play loop with a picture that is made up: no GPU, so that what the loop does can be told exactly.
 #include "runner/play.h"
 
-#include "program.h"
+#include "tests/runner/program.h"
 
 #include <atomic>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Whole runs through the program: real files in, a report out.
-#include "program.h"
+#include "tests/runner/program.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Beam matrices: units, screens, separators and round trips.
-#include "lamp_trial.h"
+#include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,5 @@
 // Beam textures: where pixels lie, what they are worth, and round trips through EXR.
-#include "lamp_trial.h"
+#include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // Type C: symmetries, open and closed turns, and where the beam points.
-#include "lamp_trial.h"
+#include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <fmt/format.h>
 

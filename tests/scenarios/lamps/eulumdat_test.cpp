@@ -1,5 +1,5 @@
 // EULUMDAT: symmetries, lamp sets, absolute values, and broken files.
-#include "lamp_trial.h"
+#include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

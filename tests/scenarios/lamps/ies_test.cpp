@@ -1,5 +1,5 @@
 // IES LM-63: what each edition and type means, and what real files do to it.
-#include "lamp_trial.h"
+#include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <fmt/format.h>
 

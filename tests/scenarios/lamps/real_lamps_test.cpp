@@ -1,5 +1,5 @@
 // Files of others: each loads, and gives the flux that it declares, or else there is a reason why not.
-#include "lamp_trial.h"
+#include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <algorithm>
 #include <fmt/format.h>
