@@ -59,7 +59,8 @@ std::vector<std::string> views_of(const ComparedDrive& drive) {
     std::vector<std::string> views;
     for (const PlayedVariant* const played : drive.variants)
         for (const StoredFrame& frame : played->frames)
-            if (std::find(views.begin(), views.end(), frame.view) == views.end())
+            // A map view has no picture of its own: it is shown as the lux map.
+            if ((!frame.png.empty() || played->maps.empty()) && std::find(views.begin(), views.end(), frame.view) == views.end())
                 views.push_back(frame.view);
     return views;
 }
