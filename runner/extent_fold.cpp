@@ -14,7 +14,18 @@ constexpr int most_pixels = 1024;
 
 int pixels_for(double length_m) { return std::clamp(static_cast<int>(std::ceil(length_m / pixel_m)), 2, most_pixels); }
 
-/// The picture at grid points: bilinear between pixel centres.
+/// Bilinear in the logarithm where all four are lit, as reach is found along the lane: beside a cut-off a target's light changes by a
+/// factor of 1.8 from pixel to pixel, and a straight line between such values lies 5 % too high in the middle.
+double between(double a, double b, double c, double d, double fx, double fy) {
+    const auto mixed = [&](double w, double x, double y, double z) {
+        return (w * (1.0 - fx) + x * fx) * (1.0 - fy) + (y * (1.0 - fx) + z * fx) * fy;
+    };
+    if (a > 0.0 && b > 0.0 && c > 0.0 && d > 0.0)
+        return std::exp(mixed(std::log(a), std::log(b), std::log(c), std::log(d)));
+    return mixed(a, b, c, d);
+}
+
+/// The picture at grid points, interpolated between pixel centres.
 std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const Camera& camera, const View& view,
                             const Moment& moment) {
     std::vector<double> values;
@@ -25,7 +36,7 @@ std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid,
         const int x0 = std::min(static_cast<int>(x), picture.width() - 2), y0 = std::min(static_cast<int>(y), picture.height() - 2);
         const double fx = x - x0, fy = y - y0;
         const auto e = [&](int dx, int dy) { return static_cast<double>(picture.at(x0 + dx, y0 + dy)); };
-        values.push_back((e(0, 0) * (1.0 - fx) + e(1, 0) * fx) * (1.0 - fy) + (e(0, 1) * (1.0 - fx) + e(1, 1) * fx) * fy);
+        values.push_back(between(e(0, 0), e(1, 0), e(0, 1), e(1, 1), fx, fy));
     }
     return values;
 }
