@@ -33,8 +33,11 @@ TextureImage decode_texture(const std::filesystem::path& path, const std::string
     const std::string name = png ? "texture.png" : "texture.exr";
     const auto in = OIIO::ImageInput::create(name, false, &config, &memory);
     OIIO::ImageSpec spec;
-    if (!in || !in->set_ioproxy(&memory) || !in->open(name, spec, config))
-        fail("cannot be decoded: " + printable(in ? in->geterror() : OIIO::geterror(), 200));
+    if (!in || !in->set_ioproxy(&memory) || !in->open(name, spec, config)) {
+        // Named: g++ 12 leaks a conditional temporary when the exception passes it.
+        const std::string reason = in ? in->geterror() : OIIO::geterror();
+        fail("cannot be decoded: " + printable(reason, 200));
+    }
     if (spec.width < 2 || spec.height < 2 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64)
         fail(fmt::format("has {} x {} x {} pixels of {} channels", spec.width, spec.height, spec.depth, spec.nchannels));
     if (static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) > max_pixels)

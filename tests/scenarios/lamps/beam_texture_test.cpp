@@ -189,15 +189,15 @@ TEST_F(BeamTexture, NothingMakesItFallOver) {
     EXPECT_EQ(refusal("p.png", png), "");
     for (std::size_t n = 0; n < png.size(); ++n)
         must_not_fall_over("p.png", png.substr(0, n));
-    must_survive_changed_bytes("p.png", png, 31);
-    must_survive_random_bytes("p.png", "\x89PNG\r\n\x1a\n", 32);
+    must_survive_changed_bytes("p.png", png, 31, 60);
+    must_survive_random_bytes("p.png", "\x89PNG\r\n\x1a\n", 32, 30);
     write_lamp(lamp_with(random_lamp_table(2, true)), folder_ / "good.exr");
     std::ifstream in(folder_ / "good.exr", std::ios::binary);
     const std::string exr((std::istreambuf_iterator<char>(in)), {});
-    for (std::size_t n = 0; n < exr.size(); n += 7)
+    for (std::size_t n = 0; n < exr.size(); n += 29)
         must_not_fall_over("p.exr", exr.substr(0, n));
-    must_survive_changed_bytes("p.exr", exr, 33);
-    must_survive_random_bytes("p.exr", "\x76\x2f\x31\x01\x02" + std::string(3, '\0'), 34);
+    must_survive_changed_bytes("p.exr", exr, 33, 60);
+    must_survive_random_bytes("p.exr", "\x76\x2f\x31\x01\x02" + std::string(3, '\0'), 34, 30);
 }
 
 } // namespace

@@ -50,10 +50,10 @@ class LampTrial : public testing::Test {
             EXPECT_THAT(complaint, testing::HasSubstr(name));
         }
     }
-    void must_survive_random_bytes(const std::string& name, const std::string& head, unsigned seed) const {
+    void must_survive_random_bytes(const std::string& name, const std::string& head, unsigned seed, int times = 150) const {
         std::mt19937 random(seed);
         std::uniform_int_distribution<int> byte(0, 255), length(0, 400);
-        for (int i = 0; i < 300; ++i) {
+        for (int i = 0; i < times; ++i) {
             std::string content = head;
             for (int n = length(random); n > 0; --n)
                 content += static_cast<char>(byte(random));
@@ -61,12 +61,12 @@ class LampTrial : public testing::Test {
         }
     }
     /// One byte of a good file replaced at a time.
-    void must_survive_changed_bytes(const std::string& name, const std::string& good, unsigned seed) const {
+    void must_survive_changed_bytes(const std::string& name, const std::string& good, unsigned seed, int times = 150) const {
         std::mt19937 random(seed);
         std::uniform_int_distribution<std::size_t> place(0, good.size() - 1);
         const std::string bytes("0\0 -9e.,;\n\r\xff[]#", 15);
         std::uniform_int_distribution<std::size_t> which(0, bytes.size() - 1);
-        for (int i = 0; i < 250; ++i) {
+        for (int i = 0; i < times; ++i) {
             std::string content = good;
             content[place(random)] = bytes[which(random)];
             must_not_fall_over(name, content);
