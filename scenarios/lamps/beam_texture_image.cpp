@@ -22,6 +22,22 @@ Channels channels_of(const OIIO::ImageSpec& spec) {
     return {0, spec.nchannels >= 3 ? 3 : 1};
 }
 
+/// Whether the chunks follow one another up to IEND. OpenImageIO 2.4 leaks when libpng runs out of bytes.
+bool whole_png(const std::string& bytes) {
+    constexpr std::size_t frame = 12; // length, type, check sum
+    for (std::size_t at = 8; at + frame <= bytes.size();) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            length = length << 8 | static_cast<unsigned char>(bytes[at + i]);
+        if (length > bytes.size() - at - frame)
+            return false;
+        if (bytes.compare(at + 4, 4, "IEND") == 0)
+            return true;
+        at += frame + length;
+    }
+    return false;
+}
+
 } // namespace
 
 TextureImage decode_texture(const std::filesystem::path& path, const std::string& bytes, std::size_t max_pixels) {
@@ -30,11 +46,11 @@ TextureImage decode_texture(const std::filesystem::path& path, const std::string
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size()); // only read from; the type wants it so
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    const std::string name = png ? "texture.png" : "texture.exr";
-    const auto in = OIIO::ImageInput::create(name, false, &config, &memory);
+    if (png && !whole_png(bytes))
+        fail("ends early or is damaged");
+    const auto in = OIIO::ImageInput::create(png ? "png" : "openexr");
     OIIO::ImageSpec spec;
-    if (!in || !in->set_ioproxy(&memory) || !in->open(name, spec, config)) {
-        // Named: g++ 12 leaks a conditional temporary when the exception passes it.
+    if (!in || !in->set_ioproxy(&memory) || !in->open(png ? "texture.png" : "texture.exr", spec, config)) {
         const std::string reason = in ? in->geterror() : OIIO::geterror();
         fail("cannot be decoded: " + printable(reason, 200));
     }
