@@ -12,10 +12,6 @@ namespace {
 
 constexpr double angle_error_rad = 6e-6, position_error = 1e-6, operations = 24.0, half_ulp = 6e-8;
 
-bool is_ground(SurfaceKind kind) {
-    return kind == SurfaceKind::road || kind == SurfaceKind::marking || kind == SurfaceKind::verge || kind == SurfaceKind::terrain;
-}
-
 bool stands_on_ground(const Scene& scene, const Mesh& mesh) {
     for (const Batch& batch : mesh.batches)
         if (!is_ground(scene.materials[batch.material].kind))

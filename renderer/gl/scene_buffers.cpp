@@ -25,10 +25,6 @@ GpuMaterial packed(const Material& m) {
     return {{m.albedo, m.retro_rl}, {m.emission_cdm2, 0.0F}, {m.retro_reference_rad, m.retro_falloff_rad, 0.0F, 0.0F}};
 }
 
-bool is_ground(SurfaceKind kind) {
-    return kind == SurfaceKind::road || kind == SurfaceKind::marking || kind == SurfaceKind::verge || kind == SurfaceKind::terrain;
-}
-
 /// Row i of a matrix that GLM stores by columns.
 glm::dvec4 row(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
 

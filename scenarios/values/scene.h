@@ -11,6 +11,11 @@ namespace fernlicht {
 
 enum class SurfaceKind : std::uint8_t { road, marking, verge, terrain, board, object, vehicle, target };
 
+/// What maps show: the ground, and not what stands on it.
+inline bool is_ground(SurfaceKind kind) {
+    return kind == SurfaceKind::road || kind == SurfaceKind::marking || kind == SurfaceKind::verge || kind == SurfaceKind::terrain;
+}
+
 /// How a surface returns light. Diffuse: L = albedo E / pi. Retroreflecting: L = retro_rl * E_perp * falloff(observation angle), with
 /// E_perp on a plane perpendicular to the light (EN 1436's R_L, CIE 54.2's R_A / cos(view angle)).
 struct Material {
