@@ -25,8 +25,8 @@ LampFile modelled(const std::string& name) {
 }
 
 void scale(LampFile& lamp, double factor) {
-    if (!(factor >= 0.0) || !std::isfinite(factor))
-        throw InputError({{}, 0, 0, "--scale"}, fmt::format("found {}", factor), "a number of 0 or more");
+    if (!(factor >= 0.0) || !(factor <= 1e6))
+        throw InputError({{}, 0, 0, "--scale"}, fmt::format("found {}", factor), "a number from 0 to 1000000");
     lamp.table = scaled(std::move(lamp.table), factor);
     if (lamp.declared_flux_lm)
         *lamp.declared_flux_lm *= factor;

@@ -87,6 +87,7 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
                    Writers& writers) {
     PlayedVariant played;
     played.drive = drive.name;
+    played.title = drive.title;
     played.variant = variant.name;
     played.technique = drive.technique;
     for (const MountedLamp& lamp : variant.lamps)

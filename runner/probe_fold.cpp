@@ -37,6 +37,9 @@ void ProbeFold::add(const Moment& moment, const Draw& draw) {
         const bool on_surface = probe.above_m == 0.0;
         for (const LitLamp& lamp : moment.lamps)
             found_[i].near_field = found_[i].near_field || glm::length(point - lamp.pose.position_m) < lamp.photometric_distance_m;
+        const CrossSection across = route_.cross_section(moment.distance_m + probe.ahead_m);
+        found_[i].beside_road =
+            found_[i].beside_road || (on_surface && (probe.left_m > across.paved_left_m || probe.left_m < across.paved_right_m));
         found_[i].twin.push_back(on_surface ? surface_illuminance_lx(moment, point, surface.up()) : target_illuminance_lx(moment, point));
         if (on_surface)
             found_[i].drawn.push_back(
@@ -58,7 +61,9 @@ Readings ProbeFold::finish() const {
         say("", drawn ? std::optional(drawn->median) : std::nullopt, unseen);
         say("_min", drawn ? std::optional(drawn->minimum) : std::nullopt, unseen);
         say("_max", drawn ? std::optional(drawn->maximum) : std::nullopt, unseen);
-        say("_twin", twin ? std::optional(twin->median) : std::nullopt, "no moment was played");
+        const bool known = twin && !found_[i].beside_road;
+        say("_twin", known ? std::optional(twin->median) : std::nullopt,
+            twin ? "the point lies beside the pavement: the twin knows the road's surface, not the verge" : "no moment was played");
     }
     return readings;
 }

@@ -33,6 +33,7 @@ struct Stage {
         : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via),
           scene(build_scene(network)) {
         fit_to_route(drive, route);
+        check_limit_names(drive);
         if (drive.technique != "photometric")
             throw InputError({drive.file, 0, 0, "technique"}, "found '" + printable(drive.technique) + "'", "photometric");
     }
@@ -127,6 +128,10 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     std::deque<Stage> stages; // everything is read and checked before the first frame; a route points into its own network
     for (const Drive& drive : drives)
         stages.emplace_back(drive);
+    for (const Stage& stage : stages)
+        if (ticks_to_play(stage.drive, options.ticks) == 0)
+            throw InputError({stage.drive.file, 0, 0, "--frames"}, fmt::format("found a range from {} on", options.ticks.first),
+                             fmt::format("moments of the drive, which has 0 to {}", tick_count(stage.drive) - 1));
     Device device = open_device(options.backend);
     check_sanity(device);
     const RendererSettings settings = settings_for(device, options.profile);

@@ -66,6 +66,7 @@ struct PassTime {
 /// One drive played with one lamp set.
 struct PlayedVariant {
     std::string drive, variant, technique;
+    std::string title;                                      ///< of the drive, for people
     std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
     int ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;

@@ -17,10 +17,16 @@ using List = data::type;
 /// Of pictures as they lie on disk; base64 makes a third more of it. Larger pages open slowly.
 constexpr std::size_t embedded_bytes = std::size_t{48} << 20;
 
+/// What people call the drive; its name where it has no title.
+const std::string& shown_name(const ComparedDrive& drive) {
+    const std::string& title = drive.variants.front()->title;
+    return title.empty() ? drive.name : title;
+}
+
 std::string title_of(const std::vector<ComparedDrive>& drives) {
     std::string title;
     for (const ComparedDrive& drive : drives)
-        title += (title.empty() ? "" : ", ") + short_text(drive.name, 60);
+        title += (title.empty() ? "" : ", ") + short_text(shown_name(drive), 90);
     return title.empty() ? "Nothing was played" : short_text(title, 160);
 }
 

@@ -75,9 +75,9 @@ double YamlEntry::number(double least, double greatest) const {
 }
 
 double YamlEntry::number_above(double bound, double greatest) const {
-    const double result = number(-HUGE_VAL, greatest);
-    if (!(result > bound))
-        refuse(fmt::format("a number above {}", bound));
+    const double result = number(-HUGE_VAL, HUGE_VAL);
+    if (!(result > bound) || result > greatest)
+        refuse(fmt::format("a number above {}{}", bound, std::isfinite(greatest) ? fmt::format(", at most {}", greatest) : ""));
     return result;
 }
 
