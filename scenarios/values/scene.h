@@ -4,6 +4,7 @@
 #include "scenarios/values/pose.h"
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,17 @@ inline bool is_ground(SurfaceKind kind) {
     return kind == SurfaceKind::road || kind == SurfaceKind::marking || kind == SurfaceKind::verge || kind == SurfaceKind::terrain;
 }
 
+/// How a texture's colour Ct and opacity At meet the material's own colour Cf, as OpenGL 1.x's texture environments name them (OpenGL 1.5,
+/// table 3.22). modulate: Cf Ct. replace: Ct. decal: Cf (1 - At) + Ct At. blend: Cf (1 - Ct) + Cc Ct. What comes out is the reflectance.
+enum class TextureMode : std::uint8_t { modulate, replace, decal, blend };
+
+/// A picture of reflectances that repeats in both directions. Rows from v = 0 up.
+struct SurfaceTexture {
+    std::string name;
+    int width = 0, height = 0;      ///< powers of two; all textures of a scene have the same size
+    std::vector<std::uint8_t> rgba; ///< 4 bytes a texel, 0..255 for 0..1, linear (no gamma); alpha is opacity
+};
+
 /// How a surface returns light. Diffuse: L = albedo E / pi. Retroreflecting: L = retro_rl * E_perp * falloff(observation angle), with
 /// E_perp on a plane perpendicular to the light (EN 1436's R_L, CIE 54.2's R_A / cos(view angle)).
 struct Material {
@@ -26,6 +38,9 @@ struct Material {
     float retro_reference_rad = 0.0183F; ///< observation angle (between light and eye, seen from the surface) at which retro_rl holds
     float retro_falloff_rad = 0.1F;      ///< retro part goes as exp(-(angle - reference) / falloff)
     glm::vec3 emission_cdm2{0.0F};       ///< luminance by its own light, linear sRGB with Y in cd/m2
+    int texture = -1;                    ///< into Scene::textures; -1: none, the surface has its own colour everywhere
+    TextureMode texture_mode = TextureMode::modulate;
+    glm::vec3 blend_colour{0.0F}; ///< Cc, for blend only
 
     bool operator==(const Material&) const = default;
 };
@@ -33,6 +48,7 @@ struct Material {
 struct Vertex {
     glm::vec3 position_m; ///< relative to the mesh's origin
     glm::vec3 normal;     ///< unit, on the lit side
+    glm::vec2 uv{0.0F};   ///< texture coordinates; 1 is one repetition
 };
 
 /// A run of triangles of one material: `indices[first .. first + count)`.
@@ -55,6 +71,7 @@ struct Mesh {
 struct Scene {
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
+    std::vector<SurfaceTexture> textures;
 };
 
 } // namespace fernlicht
