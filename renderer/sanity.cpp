@@ -20,7 +20,7 @@ Scene wall() {
                      {{0.0F, 20.0F, 20.0F}, to_lamp},
                      {{0.0F, -20.0F, 20.0F}, to_lamp},
                      {{0.0F, -20.0F, -20.0F}, to_lamp}};
-    return {{Material{}}, {mesh}};
+    return {{Material{}}, {mesh}, {}};
 }
 
 Moment lit_by_one_lamp() {
