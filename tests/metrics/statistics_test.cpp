@@ -55,5 +55,44 @@ TEST(Spread, RefusesWhatIsNoNumber) {
     EXPECT_THROW(spread_of({std::numeric_limits<double>::infinity()}), std::invalid_argument);
 }
 
+// 1, 1, 2, 4, 9: median 2, distances 1 1 0 2 7.
+TEST(MedianAbsoluteDeviation, OfAHandful) {
+    EXPECT_FALSE(median_absolute_deviation({}));
+    EXPECT_EQ(median_absolute_deviation({4.0, 1.0, 9.0, 2.0, 1.0}), 1.0);
+    EXPECT_EQ(median_absolute_deviation({4.0, 1.0, 1e9, 2.0, 1.0}), 1.0);
+    EXPECT_EQ(median_absolute_deviation({1.0, 2.0, 4.0, 8.0}), 1.5); // median 3, distances 2 1 1 5
+}
+
+// Binomial(n, 1/2): 1 - 2 / 32 = 0.9375 with five, 1 - 2 / 64 = 0.96875 with six; with ten the second from each end holds
+// 1 - 2 (1 + 10) / 1024 = 0.978515625, with twenty the sixth 1 - 2 (1 + 20 + 190 + 1140 + 4845 + 15504) / 2^20 = 1 - 43400 / 1048576.
+TEST(MedianInterval, AsInTheTablesOfTheSignTest) {
+    EXPECT_FALSE(median_interval({}));
+    EXPECT_FALSE(median_interval({1.0, 2.0, 3.0, 4.0, 5.0}));
+    std::vector<double> samples(20);
+    std::iota(samples.rbegin(), samples.rend(), 1.0);
+    const auto of_first = [&](std::ptrdiff_t n) { return median_interval({samples.end() - n, samples.end()}).value(); };
+    const auto expect = [](const MedianInterval& interval, double low, double high, double confidence) {
+        EXPECT_EQ(interval.low, low);
+        EXPECT_EQ(interval.high, high);
+        EXPECT_NEAR(interval.confidence, confidence, 1e-14);
+    };
+    expect(of_first(6), 1.0, 6.0, 0.96875);
+    expect(of_first(10), 2.0, 9.0, 0.978515625);
+    expect(of_first(20), 6.0, 15.0, 1.0 - 43400.0 / 1048576.0);
+    expect(median_interval({7.0, 3.0}, 0.5).value(), 3.0, 7.0, 0.5);
+}
+
+// The normal approximation gives the k-th from each end with k = n / 2 - 1.96 sqrt(n) / 2 = 956.2.
+TEST(MedianInterval, HoldsForMoreSamplesThanTheSmallestDoubleHasHalvings) {
+    std::vector<double> samples(2000);
+    std::iota(samples.begin(), samples.end(), 1.0);
+    const auto interval = median_interval(samples);
+    ASSERT_TRUE(interval);
+    EXPECT_EQ(interval->low, 956.0);
+    EXPECT_EQ(interval->high, 2001.0 - interval->low);
+    EXPECT_NEAR(interval->confidence, 0.9534471795082162, 1e-9); // by whole numbers
+    EXPECT_THROW(median_interval({1.0, std::nan("")}), std::invalid_argument);
+}
+
 } // namespace
 } // namespace fernlicht
