@@ -56,6 +56,32 @@ FN real diffuse_luminance(real albedo, real illuminance_lx) {
     return l;
 }
 
+// Reflectance where a texel meets the material's own colour. mode: 0 modulate, 1 replace, 2 decal, 3 blend, as OpenGL 1.5 names its
+// texture environments (table 3.22). All inputs 0..1, and so is the result.
+FN vec3 combined_reflectance(int mode, vec3 own, vec4 texel, vec3 blend_colour) {
+    vec3 colour = vec3(texel.x, texel.y, texel.z);
+    if (mode == 1)
+        return colour;
+    if (mode == 2) {
+        PRECISE vec3 decal = own * (1.0 - texel.w) + colour * texel.w;
+        return decal;
+    }
+    if (mode == 3) {
+        PRECISE vec3 blend = own * (1.0 - colour) + blend_colour * colour;
+        return blend;
+    }
+    return own * colour;
+}
+
+// R_L of a textured surface: retroreflection goes with reflectance. The lighter grain returns more, paint that is worn off returns less,
+// each by the ratio of luminances (Y of linear sRGB). A black own colour has no ratio; its R_L stays.
+FN real textured_rl(real rl, vec3 own, vec3 combined) {
+    vec3 weights = vec3(0.2126, 0.7152, 0.0722);
+    real own_y = dot(own, weights);
+    PRECISE real textured = rl * dot(combined, weights) / own_y;
+    return own_y > 0.0 ? textured : rl;
+}
+
 // Angle at the surface between light and eye; both vectors from the point, not normalised. Well-conditioned near 0, where
 // retroreflection happens and acos is not.
 FN real observation_angle(vec3 to_lamp, vec3 to_eye) {

@@ -19,6 +19,7 @@ inline bool is_ground(SurfaceKind kind) {
 
 /// How a texture's colour Ct and opacity At meet the material's own colour Cf, as OpenGL 1.x's texture environments name them (OpenGL 1.5,
 /// table 3.22). modulate: Cf Ct. replace: Ct. decal: Cf (1 - At) + Ct At. blend: Cf (1 - Ct) + Cc Ct. What comes out is the reflectance.
+/// Retroreflection goes with it: retro_rl is multiplied by the ratio of its luminance to the own colour's (photometry.glsl: textured_rl).
 enum class TextureMode : std::uint8_t { modulate, replace, decal, blend };
 
 /// A picture of reflectances that repeats in both directions. Rows from v = 0 up.

@@ -1,0 +1,63 @@
+// Textures and own colours combined: against values worked out by hand from table 3.22 of OpenGL 1.5.
+#include "scenarios/photometry.h"
+#include "scenarios/values/scene.h"
+
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+using photometry::combined_reflectance;
+using photometry::textured_rl;
+
+constexpr glm::dvec3 own(0.5, 0.25, 0.125), blend_colour(1.0, 0.5, 0.0);
+constexpr glm::dvec4 texel(0.75, 0.5, 0.25, 0.25);
+
+void expect_colour(const glm::dvec3& found, double r, double g, double b) {
+    EXPECT_EQ(found.r, r);
+    EXPECT_EQ(found.g, g);
+    EXPECT_EQ(found.b, b);
+}
+
+glm::dvec3 combined(TextureMode mode, const glm::dvec4& t = texel) {
+    return combined_reflectance(static_cast<int>(mode), own, t, blend_colour);
+}
+
+// All numbers are sums of powers of two, so that equality is exact.
+TEST(CombinedReflectance, ModulateMultiplies) { expect_colour(combined(TextureMode::modulate), 0.375, 0.125, 0.03125); }
+
+TEST(CombinedReflectance, ReplaceForgetsTheOwnColour) { expect_colour(combined(TextureMode::replace), 0.75, 0.5, 0.25); }
+
+TEST(CombinedReflectance, DecalCoversByItsOpacity) {
+    // 0.75 Cf + 0.25 Ct: 0.375 + 0.1875, 0.1875 + 0.125, 0.09375 + 0.0625.
+    expect_colour(combined(TextureMode::decal), 0.5625, 0.3125, 0.15625);
+    expect_colour(combined(TextureMode::decal, {0.75, 0.5, 0.25, 0.0}), 0.5, 0.25, 0.125);
+    expect_colour(combined(TextureMode::decal, {0.75, 0.5, 0.25, 1.0}), 0.75, 0.5, 0.25);
+}
+
+TEST(CombinedReflectance, BlendGoesToItsColourChannelByChannel) {
+    // Cf (1 - Ct) + Cc Ct: 0.5 0.25 + 1 0.75, 0.25 0.5 + 0.5 0.5, 0.125 0.75 + 0.
+    expect_colour(combined(TextureMode::blend), 0.875, 0.375, 0.09375);
+}
+
+TEST(CombinedReflectance, OpacityCountsForDecalOnly) {
+    const glm::dvec4 clear(0.75, 0.5, 0.25, 0.0);
+    for (const TextureMode mode : {TextureMode::modulate, TextureMode::replace, TextureMode::blend})
+        EXPECT_EQ(combined(mode, clear), combined(mode));
+}
+
+TEST(CombinedReflectance, AWhiteTexelModulatesNothing) {
+    expect_colour(combined(TextureMode::modulate, glm::dvec4(1.0)), 0.5, 0.25, 0.125);
+}
+
+TEST(TexturedRl, GoesWithTheLuminanceOfTheReflectance) {
+    EXPECT_DOUBLE_EQ(textured_rl(0.015, glm::dvec3(0.2), glm::dvec3(0.1)), 0.0075);
+    EXPECT_DOUBLE_EQ(textured_rl(0.1, {0.5, 0.5, 0.5}, {0.5, 0.0, 0.0}), 0.1 * 0.2126);
+    EXPECT_DOUBLE_EQ(textured_rl(0.1, {0.25, 0.5, 0.0}, {0.25, 0.5, 0.0}), 0.1);
+    EXPECT_EQ(textured_rl(0.1, glm::dvec3(0.2), glm::dvec3(0.0)), 0.0);
+}
+
+TEST(TexturedRl, ABlackOwnColourKeepsIt) { EXPECT_EQ(textured_rl(0.1, glm::dvec3(0.0), glm::dvec3(0.3)), 0.1); }
+
+} // namespace
+} // namespace fernlicht
