@@ -1,0 +1,191 @@
+#include "renderer/projected_beam.h"
+
+#include "scenarios/photometry.h"
+#include "scenarios/values/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+constexpr TangentWindow widest;
+constexpr double narrowest_tangent = 1e-3;
+constexpr double cd_per_lx = 625.0; // E_m at 25 m
+constexpr double near_m = 0.1;
+constexpr int most_texels = 16384;
+constexpr std::size_t most_error_samples = 4'000'000;
+
+double tangent(double angle_deg) { return std::tan(radians(std::clamp(angle_deg, -89.9, 89.9))); }
+
+/// y / z at an angle V seen under H.
+double height_tangent(double h_deg, double v_deg) { return tangent(v_deg) / std::cos(radians(h_deg)); }
+
+bool is_lit(const CandelaTable& table, std::size_t v, std::size_t h) {
+    const bool gap = !table.gaps.empty() && table.gaps[v * (table.h_deg.size() - 1) + h] != 0;
+    return !gap && (table.at(v, h) > 0.0 || table.at(v, h + 1) > 0.0 || table.at(v + 1, h) > 0.0 || table.at(v + 1, h + 1) > 0.0);
+}
+
+bool inside(const TangentWindow& window, double h_deg, double v_deg) {
+    if (std::abs(h_deg) >= 90.0)
+        return false;
+    const double x = tangent(h_deg), y = height_tangent(h_deg, v_deg);
+    constexpr double rounding = 1e-12; // the window's own corners come by the same tangents
+    return x >= window.left - rounding && x <= window.right + rounding && y >= window.bottom - rounding && y <= window.top + rounding;
+}
+
+double most_outside_cd(const CandelaTable& table, const TangentWindow& window) {
+    double most = 0.0;
+    for (std::size_t v = 0; v < table.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
+            if (table.at(v, h) > most && !inside(window, table.h_deg[h], table.v_deg[v]))
+                most = intensity_cd(table, table.h_deg[h], table.v_deg[v]);
+    return most;
+}
+
+double texel_lx(const ProjectedBeam& beam, std::size_t index) {
+    return beam.steps.empty() ? static_cast<double>(beam.lx[index]) : beam.steps[index] / 255.0 * beam.scale_lx;
+}
+
+void quantise(ProjectedBeam& beam) {
+    beam.steps.reserve(beam.lx.size());
+    for (const float lx : beam.lx)
+        beam.steps.push_back(beam.scale_lx > 0.0 ? static_cast<std::uint8_t>(std::lround(static_cast<double>(lx) / beam.scale_lx * 255.0))
+                                                 : std::uint8_t{0});
+}
+
+struct WorstErrors {
+    double resolution_lx = 0.0, quantisation_lx = 0.0, total_lx = 0.0, largest_lx = 0.0;
+};
+
+WorstErrors worse_of(const WorstErrors& a, const WorstErrors& b) {
+    return {std::max(a.resolution_lx, b.resolution_lx), std::max(a.quantisation_lx, b.quantisation_lx), std::max(a.total_lx, b.total_lx),
+            std::max(a.largest_lx, b.largest_lx)};
+}
+
+/// Over the window in quarters of a texel; large textures in halves, and with rows left out.
+WorstErrors errors_of(const ProjectedBeam& fine, const ProjectedBeam& given, const std::function<double(double, double)>& illuminance_lx) {
+    const auto width = static_cast<std::size_t>(fine.width), height = static_cast<std::size_t>(fine.height);
+    const std::size_t parts = width * height * 16 <= most_error_samples ? 4 : 2;
+    const std::size_t row_step = 1 + width * height * parts * parts / (most_error_samples + 1);
+    std::vector<WorstErrors> of_row((height * parts + row_step - 1) / row_step);
+    oneapi::tbb::parallel_for(std::size_t{0}, of_row.size(), [&](std::size_t row) {
+        const double t = static_cast<double>(row * row_step) / static_cast<double>(height * parts);
+        const double y = fine.window.bottom + (fine.window.top - fine.window.bottom) * t;
+        for (std::size_t column = 0; column < width * parts; ++column) {
+            const double s = static_cast<double>(column) / static_cast<double>(width * parts);
+            const double truth = illuminance_lx(fine.window.left + (fine.window.right - fine.window.left) * s, y);
+            const double by_fine = projected_lx(fine, s, t), by_given = projected_lx(given, s, t);
+            of_row[row] =
+                worse_of(of_row[row], {std::abs(by_fine - truth), std::abs(by_given - by_fine), std::abs(by_given - truth), truth});
+        }
+    });
+    WorstErrors worst;
+    for (const WorstErrors& row : of_row)
+        worst = worse_of(worst, row);
+    return worst;
+}
+
+/// P of an infinite frustum in OpenGL's convention, -1..1; its last row is q in terms of x, y, z and 1.
+glm::dmat4 biased(const TangentWindow& w, const glm::dvec4& last_row) {
+    glm::dmat4 projection(0.0);
+    projection[0][0] = 2.0 / (w.right - w.left);
+    projection[2][0] = -(w.right + w.left) / (w.right - w.left);
+    projection[1][1] = 2.0 / (w.top - w.bottom);
+    projection[2][1] = -(w.top + w.bottom) / (w.top - w.bottom);
+    projection[2][2] = 1.0;
+    projection[3][2] = -2.0 * near_m;
+    for (int column = 0; column < 4; ++column)
+        projection[column][3] = last_row[column];
+    glm::dmat4 bias(0.5); // [-1, 1] to [0, 1]
+    bias[3] = {0.5, 0.5, 0.5, 1.0};
+    return bias * projection;
+}
+
+} // namespace
+
+TangentWindow lit_window(const CandelaTable& table) {
+    TangentWindow w{widest.right, widest.left, widest.top, widest.bottom}; // nothing yet
+    for (std::size_t v = 0; v + 1 < table.v_deg.size(); ++v)
+        for (std::size_t h = 0; h + 1 < table.h_deg.size(); ++h) {
+            const double from = std::max(table.h_deg[h], degrees(std::atan(widest.left)));
+            const double to = std::min(table.h_deg[h + 1], degrees(std::atan(widest.right)));
+            if (from >= to || !is_lit(table, v, h))
+                continue;
+            w.left = std::min(w.left, tangent(from));
+            w.right = std::max(w.right, tangent(to));
+            for (const double at : {from, to, std::clamp(0.0, from, to)}) { // y / z of one V is extreme at these
+                w.bottom = std::min(w.bottom, height_tangent(at, table.v_deg[v]));
+                w.top = std::max(w.top, height_tangent(at, table.v_deg[v + 1]));
+            }
+        }
+    w = {std::max(w.left, widest.left), std::min(w.right, widest.right), std::max(w.bottom, widest.bottom), std::min(w.top, widest.top)};
+    if (w.left >= w.right || w.bottom >= w.top)
+        return widest;
+    w.right = std::max(w.right, w.left + narrowest_tangent);
+    w.top = std::max(w.top, w.bottom + narrowest_tangent);
+    return w;
+}
+
+ProjectedBeam sampled_beam(const TangentWindow& window, int width, int height, bool eight_bit,
+                           const std::function<double(double, double)>& illuminance_lx) {
+    if (width < 1 || height < 1 || width > most_texels || height > most_texels)
+        throw std::invalid_argument(fmt::format("projected beam: {} x {} texels, expected 1 to {} each way", width, height, most_texels));
+    ProjectedBeam beam;
+    beam.width = width;
+    beam.height = height;
+    beam.window = window;
+    beam.lx.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    oneapi::tbb::parallel_for(0, height, [&](int row) {
+        const double y = window.bottom + (window.top - window.bottom) * (row + 0.5) / height;
+        for (int column = 0; column < width; ++column) {
+            const double x = window.left + (window.right - window.left) * (column + 0.5) / width;
+            beam.lx[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)] =
+                static_cast<float>(illuminance_lx(x, y));
+        }
+    });
+    beam.scale_lx = static_cast<double>(*std::ranges::max_element(beam.lx));
+    ProjectedBeam given = beam;
+    if (eight_bit) {
+        quantise(given);
+        given.lx.clear();
+    }
+    const WorstErrors worst = errors_of(beam, given, illuminance_lx);
+    if (worst.largest_lx > 0.0) {
+        given.resolution_error_of_peak = worst.resolution_lx / worst.largest_lx;
+        given.quantisation_error_of_peak = worst.quantisation_lx / worst.largest_lx;
+        given.worst_error_of_peak = worst.total_lx / worst.largest_lx;
+    }
+    return given;
+}
+
+ProjectedBeam make_projected_beam(const CandelaTable& table, int width, int height, bool eight_bit) {
+    const auto illuminance_lx = [&](double x, double y) {
+        const glm::dvec2 angles = photometry::goniometer_angles({x, y, 1.0});
+        return intensity_cd(table, degrees(angles.x), degrees(angles.y)) / cd_per_lx;
+    };
+    ProjectedBeam beam = sampled_beam(lit_window(table), width, height, eight_bit, illuminance_lx);
+    if (const double peak_cd = peak_of(table).cd; peak_cd > 0.0)
+        beam.beyond_window_of_peak = most_outside_cd(table, beam.window) / peak_cd;
+    return beam;
+}
+
+double projected_lx(const ProjectedBeam& beam, double s, double t) {
+    if (!(s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0))
+        return 0.0;
+    const double x = std::clamp(s * beam.width - 0.5, 0.0, beam.width - 1.0), y = std::clamp(t * beam.height - 0.5, 0.0, beam.height - 1.0);
+    const auto left = static_cast<std::size_t>(x), lower = static_cast<std::size_t>(y), width = static_cast<std::size_t>(beam.width);
+    const std::size_t right = std::min(left + 1, width - 1), upper = std::min(lower + 1, static_cast<std::size_t>(beam.height) - 1);
+    return photometry::bilinear(texel_lx(beam, lower * width + left), texel_lx(beam, lower * width + right),
+                                texel_lx(beam, upper * width + left), texel_lx(beam, upper * width + right),
+                                {x - static_cast<double>(left), y - static_cast<double>(lower)});
+}
+
+glm::dmat4 texture_from_lamp(const TangentWindow& window) { return biased(window, {0.0, 0.0, 1.0, 0.0}); }
+
+glm::dmat4 texture_from_lamp_as_printed(const TangentWindow& window) { return biased(window, {0.0, 0.0, 1.0, 1.0}); }
+
+} // namespace fernlicht

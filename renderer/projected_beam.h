@@ -1,0 +1,61 @@
+// A beam as a texture that is projected into the scene from the lamp, as the founding thesis lit its roads: illuminance in lux on a
+// grid in the lamp's tangent plane, and the matrices that put a point on it. It is the approximation, not the reference: how far it
+// lies from the candela table is part of it.
+#pragma once
+
+#include "scenarios/lamps/candela_table.h"
+
+#include <cstdint>
+#include <functional>
+#include <glm/mat4x4.hpp>
+
+namespace fernlicht {
+
+/// A frustum by its tangents in lamp space (x right, y up, z forward): left and right of x / z, bottom and top of y / z.
+struct TangentWindow {
+    double left = -1.4, right = 1.4, bottom = -0.45, top = 0.36;
+};
+
+/// Texel (i, k) stands at ((i + 0.5) / width, (k + 0.5) / height) of the window, as in an ordinary texture; rows from bottom to top.
+/// Outside the window there is no light; in the half texel along its edges the outermost texel holds (clamp to edge).
+struct ProjectedBeam {
+    int width = 0, height = 0;
+    TangentWindow window;
+    double distance_m = 25.0;        ///< at which the lux hold, facing the lamp
+    double scale_lx = 0.0;           ///< the largest value; of step 255 when 8-bit
+    std::vector<float> lx;           ///< empty when 8-bit
+    std::vector<std::uint8_t> steps; ///< lx = step / 255 * scale_lx; empty when float
+
+    // Against what the texture was made from, in shares of the largest illuminance met there, sampled on and between the texels of the
+    // window.
+    double resolution_error_of_peak = 0.0;   ///< worst of the bilinear texture in float
+    double quantisation_error_of_peak = 0.0; ///< worst of what rounding to 255 steps changes; 0 when float
+    double worst_error_of_peak = 0.0;        ///< worst of the texture as it is
+    double beyond_window_of_peak = 0.0;      ///< most intense light outside the window, which the projection loses
+
+    std::size_t bytes() const { return lx.size() * sizeof(float) + steps.size(); }
+};
+
+/// The smallest window that holds all cells of the table with light in them, within 54 degrees left and right, 24 down and 20 up: what a
+/// wider window gains at the sides it loses in texels on the road. A table without light there gives the whole of it.
+TangentWindow lit_window(const CandelaTable& table);
+
+/// E_m = I / 625 in lux at 25 m over lit_window(). The thesis had 512 x 128 in 8 bits. width and height from 1 to 16384.
+ProjectedBeam make_projected_beam(const CandelaTable& table, int width, int height, bool eight_bit);
+
+/// Bilinear by hand at s, t in 0..1 across and up the window; 0 outside.
+double projected_lx(const ProjectedBeam& beam, double s, double t);
+
+/// Lamp space to texture: (s, t, r, q) = B P (x, y, z, 1), s/q and t/q in 0..1 inside the window, q = z, r/q = 1 - near / z the depth with
+/// near = 0.1 m. Only q > 0 is in front of the lamp.
+glm::dmat4 texture_from_lamp(const TangentWindow& window);
+/// The same as the thesis prints it, with q = 1 + z: too wide near the lamp (twice at 1 m, 4 % at 25 m), and points up to 1 m behind it
+/// pass q > 0.
+glm::dmat4 texture_from_lamp_as_printed(const TangentWindow& window);
+
+/// A texture of any illuminance over a window, with its errors except beyond_window_of_peak; for beams that are not one table.
+/// `illuminance_lx` gets the tangents x / z and y / z, is called from several threads, and its result is >= 0.
+ProjectedBeam sampled_beam(const TangentWindow& window, int width, int height, bool eight_bit,
+                           const std::function<double(double, double)>& illuminance_lx);
+
+} // namespace fernlicht
