@@ -1,0 +1,167 @@
+#include "renderer/light_map.h"
+
+#include "scenarios/lamps/lamp_model.h"
+#include "scenarios/light.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+Moment two_lamps() {
+    static const auto file = std::make_shared<LampFile>(lamp_of_model(lamp_models()[0]));
+    Moment moment;
+    for (const double side : {0.6, -0.6})
+        moment.lamps.push_back({"lamp", file, Pose{{3.5, side, 0.65}, axes_from_angles(0.01 * side, 0.0, 0.0)}, 1.0, {}, 0.0});
+    return moment;
+}
+
+Moment moved(Moment moment, const Pose& car) {
+    moment.ego = compose(car, moment.ego);
+    for (LitLamp& lamp : moment.lamps)
+        lamp.pose = compose(car, lamp.pose);
+    return moment;
+}
+
+/// 625 cd in every direction, 1 m above the road over the car's origin.
+Moment even_lamp() {
+    auto file = std::make_shared<LampFile>();
+    file->table = {{-180, 180}, {-90, 90}, std::vector<double>(4, 625.0), {}, BetweenSamples::linear_cd};
+    Moment moment;
+    moment.lamps.push_back({"even", file, Pose{{0.0, 0.0, 1.0}, glm::dmat3(1.0)}, 1.0, {}, 0.0});
+    return moment;
+}
+
+TEST(LightMapAxis, IsEvenOrGrowsAndComesBack) {
+    EXPECT_DOUBLE_EQ(position_m({-2.0, 6.0, 32, 1.0}, 0.25), 0.0);
+    const LightMapAxis growing{10.0, 40.0, 2, 4.0}; // (4^u - 1) / 3: half way at u = 0.5 is a third of the length
+    EXPECT_NEAR(position_m(growing, 0.5), 20.0, 1e-12);
+    EXPECT_NEAR(position_m(growing, 1.0), 40.0, 1e-12);
+    for (const double u : {0.0, 0.1, 0.77, 1.0})
+        EXPECT_NEAR(texture_coordinate(growing, position_m(growing, u)), u, 1e-12);
+    const LightMapAxis ahead = GroundMapExtent{}.ahead;
+    EXPECT_NEAR(position_m(ahead, 1.0 / 512) - ahead.from_m, 0.036, 0.001);
+    EXPECT_NEAR(ahead.to_m - position_m(ahead, 511.0 / 512), 0.576, 0.003);
+}
+
+TEST(LightMap, GroundIsTheLampsLightAtItsNodes) {
+    Moment moment = two_lamps();
+    const LightMap2d map = bake_ground(moment);
+    ASSERT_EQ(map.lx.size(), 512u * 256u);
+    EXPECT_EQ(map.bytes(), 524'288u);
+    moment.daylight.horizontal_illuminance_lx = 0.0;
+    double most = 0.0;
+    for (std::size_t row = 0; row < 256; row += 3)
+        for (std::size_t i = 0; i < 512; i += 5) {
+            const double x = 100.0 * (std::pow(16.0, (static_cast<double>(i) + 0.5) / 512.0) - 1.0) / 15.0;
+            const double y = -25.0 + 50.0 * (static_cast<double>(row) + 0.5) / 256.0;
+            const double truth = surface_illuminance_lx(moment, {x, y, 0.0}, {0.0, 0.0, 1.0});
+            ASSERT_NEAR(static_cast<double>(map.lx[row * 512 + i]), truth, 1e-6 * truth + 1e-9) << x << ' ' << y;
+            ASSERT_NEAR(mapped_lx(map, x, y), truth, 1e-6 * truth + 1e-6);
+            most = std::max(most, truth);
+        }
+    EXPECT_GT(most, 10.0);
+}
+
+TEST(LightMap, GroundUnderAnEvenLampIsInClosedForm) {
+    const LightMap2d map = bake_ground(even_lamp(), {{0.0, 8.0, 2, 1.0}, {-3.0, 3.0, 3, 1.0}});
+    const auto lx = [](double x, double y) { return 625.0 / std::pow(1.0 + x * x + y * y, 1.5); };
+    const std::vector<double> expected{lx(2, -2), lx(6, -2), lx(2, 0), lx(6, 0), lx(2, 2), lx(6, 2)};
+    ASSERT_EQ(map.lx.size(), 6u);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_NEAR(static_cast<double>(map.lx[i]), expected[i], 1e-5 * expected[i]) << i;
+    EXPECT_NEAR(mapped_lx(map, 4.0, 0.0), 0.5 * (expected[2] + expected[3]), 1e-4);
+    EXPECT_NEAR(mapped_lx(map, 2.0, 1.0), 0.5 * (expected[2] + expected[4]), 1e-4);
+    EXPECT_EQ(mapped_lx(map, 8.1, 0.0), 0.0);
+    EXPECT_EQ(mapped_lx(map, -0.1, 0.0), 0.0);
+    // Midway: the mean of four texels against the light there.
+    const double wrong = std::abs((expected[0] + expected[1] + expected[2] + expected[3]) / 4.0 - lx(4, -1));
+    EXPECT_NEAR(map.error.worst_lx, wrong, 1e-4);
+    ASSERT_TRUE(map.error.p95_relative);
+    EXPECT_NEAR(*map.error.p95_relative, wrong / lx(4, -1), 1e-5);
+}
+
+TEST(LightMap, VolumeIsTheFacingIlluminanceAtItsNodes) {
+    const Moment moment = two_lamps();
+    const VolumeMapExtent extent{{0.0, 100.0, 64, 8.0}, {-25.0, 25.0, 32, 1.0}, {-2.0, 6.0, 16, 1.0}};
+    const LightMap3d map = bake_volume(moment, extent);
+    ASSERT_EQ(map.bytes(), 64u * 32u * 16u * 4u);
+    double most = 0.0;
+    for (std::size_t k = 0; k < 16; ++k)
+        for (std::size_t row = 0; row < 32; ++row)
+            for (std::size_t i = 0; i < 64; ++i) {
+                const glm::dvec3 p{position_m(extent.ahead, (static_cast<double>(i) + 0.5) / 64.0),
+                                   -25.0 + 50.0 * (static_cast<double>(row) + 0.5) / 32.0,
+                                   -2.0 + 8.0 * (static_cast<double>(k) + 0.5) / 16.0};
+                if (glm::distance(p, moment.lamps[0].pose.position_m) < 0.5 || glm::distance(p, moment.lamps[1].pose.position_m) < 0.5)
+                    continue;
+                const double truth = target_illuminance_lx(moment, p);
+                ASSERT_NEAR(static_cast<double>(map.lx[(k * 32 + row) * 64 + i]), truth, 1e-6 * truth + 1e-9);
+                ASSERT_NEAR(mapped_lx(map, p), truth, 1e-6 * most + 1e-6 * truth + 1e-4);
+                most = std::max(most, truth);
+            }
+    EXPECT_GT(most, 100.0);
+}
+
+TEST(LightMap, VolumeHasNoPoleInALamp) {
+    // One cell's centre is the lamp itself, where the direction is none; the next ones are 0.2 and 1 m away.
+    const LightMap3d map = bake_volume(even_lamp(), {{-0.1, 0.5, 3, 1.0}, {-1.5, 1.5, 3, 1.0}, {0.5, 1.5, 1, 1.0}});
+    ASSERT_EQ(map.lx.size(), 9u);
+    for (const float lx : map.lx)
+        EXPECT_TRUE(std::isfinite(lx));
+    EXPECT_EQ(map.lx[4], 2500.0F);                // 625 / 0.5^2
+    EXPECT_NEAR(map.lx[1], 625.0F / 1.04F, 1e-2); // 0.2 m ahead, 1 m to the right
+}
+
+TEST(LightMap, MovingCarAndLampsTogetherChangesNothing) {
+    const GroundMapExtent ground{{0.0, 100.0, 64, 16.0}, {-25.0, 25.0, 32, 1.0}};
+    const VolumeMapExtent volume{{0.0, 100.0, 32, 8.0}, {-25.0, 25.0, 16, 1.0}, {-2.0, 6.0, 8, 1.0}};
+    const Moment here = two_lamps(), there = moved(here, {{4.2e6, -1.7e6, 310.0}, axes_from_angles(2.0, 0.08, -0.03)});
+    const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) // 1e-9 m of a map's coordinates, at a cut-off of some 500 per radian
+            ASSERT_NEAR(a[i], b[i], 1e-5F * a[i] + 1e-6F) << i;
+    };
+    same(bake_ground(here, ground).lx, bake_ground(there, ground).lx);
+    same(bake_volume(here, volume).lx, bake_volume(there, volume).lx);
+}
+
+TEST(LightMap, LampsThatAreOffAndTheSkyAddNothing) {
+    Moment moment = two_lamps();
+    const LightMap2d lit = bake_ground(moment, {{0.0, 50.0, 16, 1.0}, {-5.0, 5.0, 8, 1.0}});
+    moment.daylight.horizontal_illuminance_lx = 100.0;
+    EXPECT_EQ(bake_ground(moment, {lit.ahead, lit.left}).lx, lit.lx);
+    for (LitLamp& lamp : moment.lamps)
+        lamp.intensity_factor = 0.0;
+    const LightMap2d dark = bake_ground(moment, {lit.ahead, lit.left});
+    EXPECT_EQ(dark.lx, std::vector<float>(dark.lx.size(), 0.0F));
+    EXPECT_EQ(dark.error.worst_lx, 0.0);
+    EXPECT_FALSE(dark.error.p95_relative);
+}
+
+TEST(LightMap, FinerMapsErrLess) {
+    const Moment moment = two_lamps();
+    const LightMap2d coarse = bake_ground(moment, {{0.0, 100.0, 128, 16.0}, {-25.0, 25.0, 64, 1.0}}), fine = bake_ground(moment);
+    ASSERT_TRUE(coarse.error.p95_relative && fine.error.p95_relative);
+    EXPECT_LT(*fine.error.p95_relative, 0.5 * *coarse.error.p95_relative);
+    EXPECT_LT(*fine.error.p95_relative, 0.02);
+    const LightMap3d volume = bake_volume(moment);
+    EXPECT_EQ(volume.bytes(), std::size_t{4} << 20);
+    ASSERT_TRUE(volume.error.p95_relative);
+    EXPECT_GT(*volume.error.p95_relative, *fine.error.p95_relative);
+    RecordProperty("ground_p95", std::to_string(*fine.error.p95_relative));
+    RecordProperty("volume_p95", std::to_string(*volume.error.p95_relative));
+}
+
+TEST(LightMap, AxesWithoutCellsOrLengthAreRefused) {
+    const Moment moment = two_lamps();
+    EXPECT_THROW(bake_ground(moment, {{0.0, 1.0, 0, 1.0}, {0.0, 1.0, 1, 1.0}}), std::invalid_argument);
+    EXPECT_THROW(bake_ground(moment, {{0.0, 0.0, 4, 1.0}, {0.0, 1.0, 4, 1.0}}), std::invalid_argument);
+    EXPECT_THROW(bake_ground(moment, {{0.0, 1.0, 4, 0.0}, {0.0, 1.0, 4, 1.0}}), std::invalid_argument);
+    EXPECT_THROW(bake_volume(moment, {{0, 1, 60000, 1}, {0, 1, 60000, 1}, {0, 1, 60000, 1}}), std::invalid_argument);
+}
+
+} // namespace
+} // namespace fernlicht
