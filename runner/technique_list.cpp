@@ -1,0 +1,92 @@
+#include "runner/technique_list.h"
+
+#include "runner/report/json_text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string lux_text(const Technique& row) {
+    if (!row.illuminance)
+        return "no lux image";
+    return row.target ? "lux image of surfaces and of a target" : "lux image of surfaces";
+}
+
+/// For a cell of a Markdown table.
+std::string cell(std::string_view text) {
+    std::string out;
+    for (const char c : text)
+        out += c == '|' ? std::string("\\|") : std::string(1, c);
+    return out;
+}
+
+} // namespace
+
+const char* kind_name(TechniqueKind kind) {
+    switch (kind) {
+    case TechniqueKind::as_published:
+        return "as published";
+    case TechniqueKind::as_printed:
+        return "as printed";
+    case TechniqueKind::known:
+        return "known";
+    case TechniqueKind::ours:
+        break;
+    }
+    return "ours";
+}
+
+std::string techniques_text(std::span<const Technique> rows) {
+    std::string text;
+    for (const Technique& row : rows) {
+        text += text.empty() ? "" : "\n";
+        text += fmt::format("{}  ({}; {} pass{}; {}{})\n", row.name, kind_name(row.kind), row.passes, row.passes == 1 ? "" : "es",
+                            lux_text(row),
+                            row.thesis_row > 0 ? fmt::format("; Table 6.1 row {}: {} frames/s", row.thesis_row, row.thesis_fps) : "");
+        for (const auto& [what, words] :
+             {std::pair("origin", row.origin), std::pair("computes", row.computes), std::pair("ignores", row.ignores)})
+            if (!words.empty())
+                text += fmt::format("    {:<8}  {}\n", what, words);
+    }
+    return text;
+}
+
+std::string techniques_json(std::span<const Technique> rows) {
+    Json list = Json::array();
+    for (const Technique& row : rows)
+        list.push_back({{"name", row.name},
+                        {"kind", kind_name(row.kind)},
+                        {"thesis_row", row.thesis_row > 0 ? Json(row.thesis_row) : Json(nullptr)},
+                        {"thesis_fps", row.thesis_fps.empty() ? Json(nullptr) : Json(row.thesis_fps)},
+                        {"origin", row.origin},
+                        {"computes", row.computes},
+                        {"ignores", row.ignores},
+                        {"passes", row.passes},
+                        {"illuminance", row.illuminance},
+                        {"target", row.target}});
+    return json_text(Json{{"schema", "fernlicht techniques"}, {"schema_version", 1}, {"techniques", list}});
+}
+
+std::string techniques_markdown(std::span<const Technique> rows) {
+    std::string text =
+        "# Techniques\n\n"
+        "The ways to light a scene that `--technique NAME` chooses from. This page is what `fernlicht techniques --markdown` prints; a "
+        "test holds it to that.\n\n"
+        "*As published*: a configuration of the founding thesis with its misprints repaired. *As printed*: misprints and all. *Known*: "
+        "another way from the literature. *Ours*: this program's own. #: the row of the thesis's Table 6.1. Passes: how often the scene is "
+        "drawn for a view, shadow maps apart. Lux: whether the technique believes in an illuminance, which it can draw as a lux image, on "
+        "surfaces or also on a target.\n\n"
+        "| # | name | kind | computes | ignores | passes | lux | origin |\n"
+        "|---|---|---|---|---|---|---|---|\n";
+    for (const Technique& row : rows)
+        text += fmt::format("| {} | `{}` | {} | {} | {} | {} | {} | {} |\n", row.thesis_row > 0 ? fmt::format("{}", row.thesis_row) : "",
+                            row.name, kind_name(row.kind), cell(row.computes), cell(row.ignores), row.passes,
+                            !row.illuminance ? "no" : (row.target ? "surfaces, target" : "surfaces"), cell(row.origin));
+    return text;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,46 @@
+#include "runner/technique_list.h"
+
+#include <array>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+
+const std::array<Technique, 2> two{
+    Technique{"full", TechniqueKind::as_published, 4, "~22", "thesis, section 6", "a | b", "shadows", 1, true, false},
+    Technique{"light-map", TechniqueKind::known, 0, "", "", "a map", "", 2, false, false}};
+
+TEST(TechniqueList, TextSaysEachOnce) {
+    EXPECT_EQ(techniques_text(two), "full  (as published; 1 pass; lux image of surfaces; Table 6.1 row 4: ~22 frames/s)\n"
+                                    "    origin    thesis, section 6\n"
+                                    "    computes  a | b\n"
+                                    "    ignores   shadows\n"
+                                    "\n"
+                                    "light-map  (known; 2 passes; no lux image)\n"
+                                    "    computes  a map\n");
+}
+
+TEST(TechniqueList, JsonHoldsWhatTheRowHolds) {
+    const auto json = nlohmann::json::parse(techniques_json(two));
+    EXPECT_EQ(json.at("schema_version"), 1);
+    const auto& list = json.at("techniques");
+    ASSERT_EQ(list.size(), 2U);
+    EXPECT_EQ(list[0].at("thesis_row"), 4);
+    EXPECT_EQ(list[0].at("kind"), "as published");
+    EXPECT_EQ(list[0].at("illuminance"), true);
+    EXPECT_TRUE(list[1].at("thesis_row").is_null());
+    EXPECT_TRUE(list[1].at("thesis_fps").is_null());
+    EXPECT_EQ(list[1].at("passes"), 2);
+}
+
+TEST(TechniqueList, MarkdownEscapesItsOwnSigns) {
+    const std::string text = techniques_markdown(two);
+    EXPECT_THAT(text, HasSubstr("\n| 4 | `full` | as published | a \\| b | shadows | 1 | surfaces | thesis, section 6 |\n"));
+    EXPECT_THAT(text, HasSubstr("\n|  | `light-map` | known | a map |  | 2 | no |  |\n"));
+}
+
+} // namespace
+} // namespace fernlicht
