@@ -33,6 +33,10 @@ class Renderer {
     Frame draw(const Moment& moment, const View& view, const Wanted& wanted) { return submit(moment, view, wanted)(); }
     /// The same in two steps, so that the caller can work meanwhile. Several frames may be on their way.
     Pending submit(const Moment& moment, const View& view, const Wanted& wanted);
+    /// Draws, and hands the frame to the device as for a display: no pixels are read back, nobody waits.
+    void draw_only(const Moment& moment, const View& view, const Wanted& wanted);
+    /// Waits until all that was submitted is drawn. Throws DeviceError.
+    void finish();
 
     /// What the scene and this moment did not need, one sentence each.
     std::vector<std::string> left_out(const Moment& moment) const;

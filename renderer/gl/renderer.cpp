@@ -54,6 +54,8 @@ struct Renderer::State {
 
     const Variant& variant(const Features& features, const Wanted& wanted);
     void draw_scene(const Moment& moment, const View& view, const Wanted& wanted, const Camera& camera, bool shadows);
+    /// All passes of a frame, timed by `passes`.
+    void draw_frame(const Moment& moment, const View& view, const Wanted& wanted, PassClock& passes);
     gl::Targets& targets_for(const View& view, const Wanted& wanted);
 
     gl::Context& context;
@@ -115,6 +117,20 @@ void Renderer::State::draw_scene(const Moment& moment, const View& view, const W
     buffers.draw(camera.clip_from_ego, camera.is_map, farthest_drawn_m);
 }
 
+void Renderer::State::draw_frame(const Moment& moment, const View& view, const Wanted& wanted, PassClock& passes) {
+    const bool shadows = settings.shadows && !buffers.flat();
+    buffers.place(moment.ego.position_m);
+    lights.set(moment, shadows);
+    if (shadows && lights.count() > 0) {
+        passes.begin("shadow maps");
+        lights.draw_shadow_maps(buffers, moment.ego.position_m);
+        passes.end();
+    }
+    passes.begin("scene");
+    draw_scene(moment, view, wanted, camera_of(moment, view), shadows && lights.count() > 0);
+    passes.end();
+}
+
 Renderer::Renderer(Device& device, const Scene& scene, const RendererSettings& settings)
     : state_(std::make_unique<State>(device, scene, settings)) {
     const GladGLContext& gl = state_->context.gl;
@@ -134,17 +150,7 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& w
     State& s = *state_;
     const Clock::time_point start = Clock::now();
     PassClock passes(s.context, s.settings.profile, s.settings.gpu_clock);
-    const bool shadows = s.settings.shadows && !s.buffers.flat();
-    s.buffers.place(moment.ego.position_m);
-    s.lights.set(moment, shadows);
-    if (shadows && s.lights.count() > 0) {
-        passes.begin("shadow maps");
-        s.lights.draw_shadow_maps(s.buffers, moment.ego.position_m);
-        passes.end();
-    }
-    passes.begin("scene");
-    s.draw_scene(moment, view, wanted, camera_of(moment, view), shadows && s.lights.count() > 0);
-    passes.end();
+    s.draw_frame(moment, view, wanted, passes);
     gl::Targets& targets = s.targets_for(view, wanted);
     if (s.settings.read_back == ReadBack::overlapped) {
         const auto reading = std::make_shared<gl::Targets::Reading>(targets.start_read());
@@ -162,6 +168,17 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& w
     frame->cpu_s = seconds_since(start);
     frame->pass_s = passes.seconds();
     return [frame] { return std::move(*frame); };
+}
+
+void Renderer::draw_only(const Moment& moment, const View& view, const Wanted& wanted) {
+    PassClock untimed(state_->context, false, false);
+    state_->draw_frame(moment, view, wanted, untimed);
+    state_->context.gl.Flush();
+}
+
+void Renderer::finish() {
+    state_->context.gl.Finish();
+    state_->context.check("finishing");
 }
 
 double Renderer::beam_error(const LampFile& lamp) const { return state_->lights.beam_error(lamp); }

@@ -21,7 +21,7 @@ plots::Colour colour_of(const BenchRow& row) {
 
 std::string label_of(const BenchRow& row) {
     const Technique& technique = row.benched->row;
-    return technique.thesis_row > 0 ? fmt::format("{}  {}", technique.name, technique.thesis_row) : std::string(technique.name);
+    return technique.thesis_row > 0 ? fmt::format("{}. {}", technique.thesis_row, technique.name) : std::string(technique.name);
 }
 
 std::string value_of(const BenchRow& row) {

@@ -117,9 +117,9 @@ TEST(BenchCsv, HasALinePerTechniqueAndRound) {
 
 TEST(BenchPlot, ShowsEachWithItsTimeAndRatio) {
     const std::string svg = bench_svg(sample_bench());
-    for (const char* text : {">full  4<", ">20.00 ms, x 2.00<", ">light-map<", ">1.00 ms, x 0.10<", "[ms]", "llvmpipe &lt;&amp;&gt;"})
+    for (const char* text : {">4. full<", ">20.00 ms, x 2.00<", ">light-map<", ">1.00 ms, x 0.10<", "[ms]", "llvmpipe &lt;&amp;&gt;"})
         EXPECT_THAT(svg, HasSubstr(text));
-    EXPECT_LT(svg.find(">full  4<"), svg.find(">light-map<"));
+    EXPECT_LT(svg.find(">4. full<"), svg.find(">light-map<"));
     EXPECT_EQ(plots::png_of_svg(svg).substr(1, 3), "PNG");
     EXPECT_EQ(svg, bench_svg(sample_bench()));
     EXPECT_THAT(bench_svg({}), HasSubstr("</svg>"));

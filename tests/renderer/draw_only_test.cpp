@@ -1,0 +1,69 @@
+#include "renderer/gpu_timer.h"
+#include "renderer/renderer.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+/// A wall of two by two metres, ten metres ahead, under an even sky.
+Scene wall() {
+    Scene scene;
+    scene.materials.push_back({});
+    Mesh mesh;
+    const glm::vec3 towards_us(-1.0F, 0.0F, 0.0F);
+    for (const auto& [y, z] : {std::pair(1.0F, -1.0F), std::pair(-1.0F, -1.0F), std::pair(-1.0F, 1.0F), std::pair(1.0F, 1.0F)})
+        mesh.vertices.push_back({{10.0F, y, z}, towards_us, {}});
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    mesh.batches.push_back({0, 0, 6});
+    scene.meshes.push_back(mesh);
+    return scene;
+}
+
+class DrawOnlyTest : public testing::Test {
+  protected:
+    DrawOnlyTest() {
+        moment_.daylight.horizontal_illuminance_lx = 10.0;
+        view_.width_px = 64;
+        view_.height_px = 48;
+    }
+    Device device_ = open_device("auto");
+    Scene scene_ = wall();
+    Moment moment_;
+    View view_;
+};
+
+TEST_F(DrawOnlyTest, DrawsWithTheProgramOfAFrameAndLeavesNothingBehind) {
+    constexpr Wanted wanted{.colour = true, .illuminance = true};
+    Renderer fresh(device_, scene_, {}), used(device_, scene_, {});
+    const Frame expected = fresh.draw(moment_, view_, wanted);
+    ASSERT_GT(expected.illuminance_lx.at(32, 24), 0.0F);
+    const int before = used.compiled_programs();
+    for (int i = 0; i < 3; ++i)
+        used.draw_only(moment_, view_, wanted);
+    used.finish();
+    EXPECT_EQ(used.compiled_programs(), fresh.compiled_programs());
+    EXPECT_GT(used.compiled_programs(), before);
+    const Frame frame = used.draw(moment_, view_, wanted);
+    EXPECT_EQ(frame.colour, expected.colour);
+    EXPECT_EQ(frame.illuminance_lx, expected.illuminance_lx);
+}
+
+TEST_F(DrawOnlyTest, TheGpusClockSumsPiecesAndStartsAgain) {
+    Renderer renderer(device_, scene_, {});
+    GpuTimer timer(device_);
+    EXPECT_EQ(timer.seconds(), 0.0);
+    for (int i = 0; i < 2; ++i) {
+        timer.begin();
+        renderer.draw_only(moment_, view_, {.colour = true});
+        timer.end();
+    }
+    const double sum = timer.seconds();
+    EXPECT_TRUE(std::isfinite(sum));
+    EXPECT_GT(sum, 0.0);
+    EXPECT_EQ(timer.seconds(), 0.0);
+}
+
+} // namespace
+} // namespace fernlicht
