@@ -1,12 +1,12 @@
 #include "runner/run_command.h"
 
+#include "runner/flag_values.h"
 #include "runner/output_folder.h"
 #include "runner/run_context.h"
 #include "runner/run_drives.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <fmt/format.h>
 #include <memory>
 
@@ -21,28 +21,6 @@ struct Flags {
     bool quiet = false, profile = false;
 };
 
-[[noreturn]] void refuse(const char* flag, const std::string& found, const char* expected) {
-    throw InputError({{}, 0, 0, flag}, "found '" + printable(found) + "'", expected);
-}
-
-/// Two whole numbers with a separator: "1024x768", "0:59". Either may be missing where `open` says so (-1).
-std::pair<int, int> two_numbers(const char* flag, const std::string& text, char separator, bool open, const char* expected) {
-    const std::size_t at = text.find(separator);
-    if (at == std::string::npos)
-        refuse(flag, text, expected);
-    const auto number = [&](std::string_view part) {
-        if (part.empty() && open)
-            return -1;
-        int value = 0;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (error != std::errc{} || end != part.data() + part.size() || value < 0)
-            refuse(flag, text, expected);
-        return value;
-    };
-    const std::string_view all = text;
-    return {number(all.substr(0, at)), number(all.substr(at + 1))};
-}
-
 DriveEdits edits_of(const Flags& flags) {
     DriveEdits edits;
     for (const std::string& lamp : flags.lamps) {
@@ -54,10 +32,10 @@ DriveEdits edits_of(const Flags& flags) {
     if (!flags.technique.empty())
         edits.technique = flags.technique;
     if (!flags.resolution.empty())
-        edits.resolution = two_numbers("--resolution", flags.resolution, 'x', false, "WIDTHxHEIGHT, e.g. 1024x768");
+        edits.resolution = resolution_of(flags.resolution);
     if (!flags.capture.empty()) {
         if (flags.capture != "all")
-            refuse("--capture", flags.capture, "all");
+            refuse_flag("--capture", flags.capture, "all");
         edits.capture_all = true;
     }
     return edits;
@@ -71,7 +49,7 @@ TickRange ticks_of(const Flags& flags) {
     range.first = first < 0 ? 0 : first;
     range.last = last < 0 ? range.last : last;
     if (range.first > range.last)
-        refuse("--frames", flags.frames, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
+        refuse_flag("--frames", flags.frames, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
     return range;
 }
 

@@ -9,9 +9,9 @@
 #include "runner/progress.h"
 #include "runner/references.h"
 #include "runner/run_context.h"
+#include "runner/stage.h"
 #include "runner/summary.h"
 #include "scenarios/drives/advance.h"
-#include "scenarios/roads/road_mesh.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -20,24 +20,6 @@
 
 namespace fernlicht {
 namespace {
-
-/// Everything of a drive that does not change over its lamp sets.
-struct Stage {
-    Drive drive;
-    RoadNetwork network;
-    Route route;
-    Scene scene;
-
-    /// Throws InputError for what the drive's road, route or technique lacks.
-    explicit Stage(Drive d)
-        : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via),
-          scene(build_scene(network)) {
-        fit_to_route(drive, route);
-        check_limit_names(drive);
-        if (drive.technique != "photometric")
-            throw InputError({drive.file, 0, 0, "technique"}, "found '" + printable(drive.technique) + "'", "photometric");
-    }
-};
 
 /// What suits the device, found out by trying it.
 RendererSettings settings_for(Device& device, bool profile) {
@@ -56,12 +38,6 @@ RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
     if (drive.extent)
         settings.target_height_m = drive.extent->target_height_m;
     return settings;
-}
-
-void add_inputs(FilesRead& all, const FilesRead& more) {
-    for (const FileRead& file : more)
-        if (std::none_of(all.begin(), all.end(), [&](const FileRead& known) { return known.path == file.path; }))
-            all.push_back(file);
 }
 
 std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, const Renderer& renderer) {

@@ -1,0 +1,34 @@
+#include "runner/flag_values.h"
+
+#include "scenarios/values/errors.h"
+
+#include <charconv>
+
+namespace fernlicht {
+
+void refuse_flag(const char* flag, const std::string& found, const char* expected) {
+    throw InputError({{}, 0, 0, flag}, "found '" + printable(found) + "'", expected);
+}
+
+std::pair<int, int> two_numbers(const char* flag, const std::string& text, char separator, bool open, const char* expected) {
+    const std::size_t at = text.find(separator);
+    if (at == std::string::npos)
+        refuse_flag(flag, text, expected);
+    const auto number = [&](std::string_view part) {
+        if (part.empty() && open)
+            return -1;
+        int value = 0;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (error != std::errc{} || end != part.data() + part.size() || value < 0)
+            refuse_flag(flag, text, expected);
+        return value;
+    };
+    const std::string_view all = text;
+    return {number(all.substr(0, at)), number(all.substr(at + 1))};
+}
+
+std::pair<int, int> resolution_of(const std::string& text) {
+    return two_numbers("--resolution", text, 'x', false, "WIDTHxHEIGHT, e.g. 1024x768");
+}
+
+} // namespace fernlicht

@@ -1,0 +1,19 @@
+// Values of command-line flags that are more than a word.
+#pragma once
+
+#include <string>
+#include <utility>
+
+namespace fernlicht {
+
+/// Throws InputError naming the flag.
+[[noreturn]] void refuse_flag(const char* flag, const std::string& found, const char* expected);
+
+/// Two whole numbers from 0 up with a separator: "1024x768", "0:59". Either may be missing where `open` says so (-1).
+/// Throws InputError naming the flag.
+std::pair<int, int> two_numbers(const char* flag, const std::string& text, char separator, bool open, const char* expected);
+
+/// "1024x768". Throws InputError naming --resolution.
+std::pair<int, int> resolution_of(const std::string& text);
+
+} // namespace fernlicht

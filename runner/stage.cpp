@@ -1,0 +1,26 @@
+#include "runner/stage.h"
+
+#include "runner/limits.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/roads/road_mesh.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+
+Stage::Stage(Drive d)
+    : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via), scene(build_scene(network)) {
+    fit_to_route(drive, route);
+    check_limit_names(drive);
+    if (drive.technique != "photometric")
+        throw InputError({drive.file, 0, 0, "technique"}, "found '" + printable(drive.technique) + "'", "photometric");
+}
+
+void add_inputs(FilesRead& all, const FilesRead& more) {
+    for (const FileRead& file : more)
+        if (std::none_of(all.begin(), all.end(), [&](const FileRead& known) { return known.path == file.path; }))
+            all.push_back(file);
+}
+
+} // namespace fernlicht

@@ -1,0 +1,24 @@
+// Everything of a drive that does not change over its lamp sets: read and checked before the first frame.
+#pragma once
+
+#include "scenarios/drives/drive.h"
+#include "scenarios/values/scene.h"
+
+namespace fernlicht {
+
+struct Stage {
+    Drive drive;
+    RoadNetwork network;
+    Route route; ///< points into `network`: a stage stays where it was made
+    Scene scene;
+
+    /// Throws InputError for what the drive's road, route or technique lacks.
+    explicit Stage(Drive drive);
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+};
+
+/// Adds what is not there yet, by path.
+void add_inputs(FilesRead& all, const FilesRead& more);
+
+} // namespace fernlicht
