@@ -10,7 +10,8 @@
 namespace fernlicht {
 
 Stage::Stage(Drive d)
-    : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via), scene(build_scene(network)) {
+    : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via),
+      scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     fit_to_route(drive, route);
     check_limit_names(drive);
     if (drive.technique != "photometric")

@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <bit>
 
 namespace fernlicht {
@@ -12,6 +13,15 @@ constexpr double lattice_per_m = 32768.0; // 2^15
 }
 
 glm::dvec3 on_lattice(const glm::dvec3& point_m) { return glm::round(point_m * lattice_per_m) / lattice_per_m; }
+
+glm::vec2 texture_position(const glm::dvec3& mesh_origin_m, const Vertex& vertex) {
+    const glm::dvec3 p = mesh_origin_m - texture_repeat_m * glm::floor(mesh_origin_m / texture_repeat_m) + glm::dvec3(vertex.position_m);
+    const glm::vec3 n = vertex.normal, along = glm::abs(n);
+    glm::dvec2 at(p.x, p.y);
+    if (along.z < std::max(along.x, along.y))
+        at = along.x >= along.y ? glm::dvec2(n.x > 0.0F ? p.y : -p.y, p.z) : glm::dvec2(n.y > 0.0F ? -p.x : p.x, p.z);
+    return glm::vec2(at / texture_repeat_m);
+}
 
 MeshBuilder::MeshBuilder(std::string name, const glm::dvec3& near_m) {
     mesh_.name = std::move(name);
@@ -33,8 +43,11 @@ std::uint32_t MeshBuilder::vertex(const glm::dvec3& position_m, const glm::dvec3
                    std::bit_cast<std::uint32_t>(position.z), std::bit_cast<std::uint32_t>(n.x), std::bit_cast<std::uint32_t>(n.y),
                    std::bit_cast<std::uint32_t>(n.z)}};
     const auto [found, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
-    if (is_new)
-        mesh_.vertices.push_back({position, n});
+    if (is_new) {
+        Vertex vertex{position, n};
+        vertex.uv = texture_position(mesh_.origin_m, vertex);
+        mesh_.vertices.push_back(vertex);
+    }
     return found->second;
 }
 

@@ -20,12 +20,21 @@ namespace fernlicht {
 /// (road, s, t) has the same world position in every mesh, and no crack can open between chunks.
 glm::dvec3 on_lattice(const glm::dvec3& point_m);
 
+/// One repetition of every texture on a road scene, in both directions. A power of two, so that whole repetitions can be taken off a
+/// mesh's origin exactly.
+constexpr double texture_repeat_m = 8.0;
+
+/// Where in a texture a vertex lies; 1 is one repetition. From above on what lies, u east and v north; from the side on what stands (by
+/// the normal's greatest component), u to the right as seen from outside and v up. Counted from the world's origin, apart from whole
+/// repetitions between it and the mesh's: vertices of two meshes at one place with one normal differ by whole numbers, exactly.
+glm::vec2 texture_position(const glm::dvec3& mesh_origin_m, const Vertex& vertex);
+
 class MeshBuilder {
   public:
     /// The origin is `near_m` rounded to whole metres.
     MeshBuilder(std::string name, const glm::dvec3& near_m);
 
-    /// Index of the vertex at this place with this normal; equal ones are shared.
+    /// Index of the vertex at this place with this normal; equal ones are shared. It has its place in a texture, used or not.
     std::uint32_t vertex(const glm::dvec3& position_m, const glm::dvec3& normal);
     /// Counter-clockwise seen from the lit side. Triangles that name a vertex twice are left out.
     void triangle(std::uint32_t material, std::uint32_t a, std::uint32_t b, std::uint32_t c);

@@ -3,6 +3,7 @@
 #include "scenarios/roads/mesh_materials.h"
 #include "scenarios/roads/mesh_objects.h"
 #include "scenarios/roads/mesh_terrain.h"
+#include "scenarios/roads/surface_textures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,8 @@ class JunctionPaint {
 Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options) {
     Scene scene;
     scene.materials = road_materials();
+    if (options.textures)
+        add_road_textures(scene, options.seed);
     std::vector<SurfacePlan> plans;
     plans.reserve(network.roads.size());
     for (const Road& road : network.roads)

@@ -4,12 +4,16 @@
 #include "scenarios/roads/road_network.h"
 #include "scenarios/values/scene.h"
 
+#include <cstdint>
+
 namespace fernlicht {
 
 struct RoadMeshOptions {
     double chord_error_m = 0.005; ///< greatest distance between the surface and its triangles
     double chunk_length_m = 60.0; ///< a mesh's extent along the road
     double verge_width_m = 30.0;  ///< terrain beside the outermost lane on each side
+    bool textures = false;        ///< pictures of asphalt, concrete, grass and worn paint (surface_textures.h); mean reflectances stay
+    std::uint64_t seed = 1;       ///< of the textures
 };
 
 /// Surface with marks as materials of their own strips (no overlapping geometry), verge and terrain, objects, signal boards with posts.
@@ -18,10 +22,11 @@ struct RoadMeshOptions {
 /// surface itself jumps (a ramp of 2 cm then). Lane heights rise from record to record; kerbs are vertical faces.
 /// In junctions roads lie over one another at one height: what is level with another road's paved surface is asphalt, so that it does
 /// not matter which of the two is seen; marks of connecting roads are lost there. Nothing is thrown; the reader has judged the network.
+/// Every vertex has its place in a texture (mesh_builder.h: texture_position).
 Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options = {});
 
-/// The materials that build_scene uses, by name: asphalt, concrete, kerb, marking-white, marking-yellow, verge, terrain, board, board-back,
-/// post, delineator, object, trunk, leaves.
+/// The materials that build_scene uses, untextured, by name: asphalt, concrete, kerb, marking-white, marking-yellow, verge, terrain, board,
+/// board-back, post, delineator, object, trunk, leaves.
 std::vector<Material> road_materials();
 
 } // namespace fernlicht

@@ -75,6 +75,8 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
                             "seed: -1",
                             "seed: 18446744073709551616",
                             "shadows: yes",
+                            "textures: true",
+                            "textures: mine.png",
                             "tone_mapper: {s: 0.5}",
                             "tone_mapper: {l_max_cdm2: 0}",
                             "capture: {per_second: -1}",
