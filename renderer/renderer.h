@@ -33,9 +33,8 @@ class Renderer {
     Frame draw(const Moment& moment, const View& view, const Wanted& wanted) { return submit(moment, view, wanted)(); }
     /// The same in two steps, so that the caller can work meanwhile. Several frames may be on their way.
     Pending submit(const Moment& moment, const View& view, const Wanted& wanted);
-    /// Draws, and hands the frame to the device as for a display: no pixels are read back, nobody waits.
-    void draw_only(const Moment& moment, const View& view, const Wanted& wanted);
-    /// Waits until all that was submitted is drawn. Throws DeviceError.
+    /// Only draws, flushed as for a display: nothing is read back, nothing waited for. finish() waits.
+    void render(const Moment& moment, const View& view, const Wanted& wanted);
     void finish();
 
     /// What the scene and this moment did not need, one sentence each.

@@ -170,7 +170,7 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& w
     return [frame] { return std::move(*frame); };
 }
 
-void Renderer::draw_only(const Moment& moment, const View& view, const Wanted& wanted) {
+void Renderer::render(const Moment& moment, const View& view, const Wanted& wanted) {
     PassClock untimed(state_->context, false, false);
     state_->draw_frame(moment, view, wanted, untimed);
     state_->context.gl.Flush();
