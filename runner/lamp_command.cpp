@@ -160,12 +160,16 @@ LampFile lamp_of(const LampRequest& request) {
 
 int lamp_command(const LampRequest& request) {
     check_picture_name(request.picture);
+    if (request.spots && (*request.spots < 1 || *request.spots > most_spots))
+        throw InputError({{}, 0, 0, "--spots"}, fmt::format("found {}", *request.spots), fmt::format("1 to {}", most_spots));
     if (!request.convert.empty())
         refuse_to_overwrite_input(request, request.convert, "--convert");
     if (!request.picture.empty())
         refuse_to_overwrite_input(request, request.picture, "--picture");
     const LampFile lamp = lamp_of(request);
-    const LampDescription description = describe(lamp);
+    LampDescription description = describe(lamp);
+    if (request.spots)
+        description.spots = fit_spots(lamp.table, *request.spots);
     if (!request.convert.empty())
         write_lamp(lamp, request.convert);
     if (!request.picture.empty())
@@ -183,6 +187,7 @@ void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
     command->add_flag("--json", request->json, "prints JSON");
     command->add_option("--picture", request->picture, "writes the isocandela diagram: .svg or .png");
     command->add_option("--window", request->window, "of the picture: left, right, bottom and top in degrees")->expected(4);
+    command->add_option("--spots", request->spots, "fits this many spot lights of OpenGL 1.x (1 to 8) and tells what they leave over");
     command->add_option("--convert", request->convert,
                         "writes the lamp: .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");
     command->add_option("--scale", request->scale, "multiplies the intensities")->capture_default_str();

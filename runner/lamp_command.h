@@ -4,6 +4,7 @@
 #include "scenarios/lamps/lamp_file.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct LampRequest {
     std::vector<std::filesystem::path> add, subtract;
     std::filesystem::path convert, picture; ///< empty: none
     std::vector<double> window;             ///< of the picture: left, right, bottom, top in degrees; empty: chosen
+    std::optional<int> spots;               ///< spot lights to fit, 1 to 8
     bool json = false;
 };
 

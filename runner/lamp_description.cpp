@@ -95,6 +95,34 @@ std::string interpolation_text(const InterpolationError& e) {
                        e.samples);
 }
 
+void add_spots(std::string& out, const SpotFit& fit, double peak_cd) {
+    if (fit.spots.empty()) {
+        add_line(out, "spot lights", "none: no light to the front");
+        return;
+    }
+    add_line(out, "spot lights",
+             fmt::format("{} fitted; they leave over {:.1f} % (L2), {:.2g} % of the peak (rms where lit)", fit.spots.size(),
+                         100.0 * fit.relative_l2, 100.0 * fit.rms_of_peak));
+    add_line(out, "",
+             fmt::format("worst {:.3g} % of the peak at H {:.4g}, V {:.4g}; {:.1f} lm for {:.1f} lm", 100.0 * fit.worst_of_peak,
+                         fit.worst_h_deg, fit.worst_v_deg, fit.flux_lm, fit.table_flux_lm));
+    for (const Spot& spot : fit.spots)
+        add_line(out, "",
+                 fmt::format("H {:6.2f}, V {:6.2f}: {:.5g} cd ({:.3g} % of the peak), exponent {:.4g}, cut-off {:.4g} degrees", spot.h_deg,
+                             spot.v_deg, spot.cd, 100.0 * spot.cd / peak_cd, spot.exponent, spot.cutoff_deg));
+}
+
+nlohmann::ordered_json spots_json(const SpotFit& fit) {
+    nlohmann::ordered_json spots = nlohmann::ordered_json::array();
+    for (const Spot& spot : fit.spots)
+        spots.push_back(
+            {{"h_deg", spot.h_deg}, {"v_deg", spot.v_deg}, {"cd", spot.cd}, {"exponent", spot.exponent}, {"cutoff_deg", spot.cutoff_deg}});
+    return {{"relative_l2", fit.relative_l2},     {"rms_of_peak", fit.rms_of_peak},
+            {"worst_of_peak", fit.worst_of_peak}, {"worst_h_deg", fit.worst_h_deg},
+            {"worst_v_deg", fit.worst_v_deg},     {"flux_lm", fit.flux_lm},
+            {"table_flux_lm", fit.table_flux_lm}, {"spots", spots}};
+}
+
 nlohmann::ordered_json coverage_json(const LampDescription& d) {
     return {{"h_from_deg", d.h_from_deg},
             {"h_to_deg", d.h_to_deg},
@@ -166,6 +194,8 @@ std::string text_of(const LampDescription& d) {
              fmt::format("{} x {}; steps of {:.3g} to {:.3g} in H, {:.3g} to {:.3g} in V", d.h_samples, d.v_samples, d.h_finest_deg,
                          d.h_coarsest_deg, d.v_finest_deg, d.v_coarsest_deg));
     add_line(out, "between them", std::string(rule_name(d.rule)) + "; error " + interpolation_text(d.interpolation));
+    if (d.spots)
+        add_spots(out, *d.spots, d.peak.cd);
     for (const auto& [key, value] : d.labels)
         add_line(out, "label", printable(key, 30) + ": " + printable(value, 90));
     for (const std::string& note : d.notes)
@@ -189,6 +219,8 @@ std::string json_of(const LampDescription& d) {
         {"notes", d.notes}};
     if (d.declared_flux_lm)
         j["declared_flux_lm"] = *d.declared_flux_lm;
+    if (d.spots)
+        j["spot_fit"] = spots_json(*d.spots);
     for (const auto& [key, value] : d.labels)
         j["labels"].push_back({{"key", key}, {"text", value}});
     return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/lamps/lamp_file.h"
+#include "scenarios/lamps/spot_fit.h"
 
 #include <string>
 
@@ -21,6 +22,7 @@ struct LampDescription {
     double flux_lm = 0.0; ///< by integration
     std::optional<double> declared_flux_lm;
     InterpolationError interpolation;
+    std::optional<SpotFit> spots; ///< where asked for; describe() fits none
     std::vector<std::pair<std::string, std::string>> labels;
     std::vector<std::string> notes;
 };

@@ -1,6 +1,7 @@
 #include "runner/lamp_command.h"
 
 #include "scenarios/lamps/lamp_model.h"
+#include "scenarios/lamps/spot_fit.h"
 #include "scenarios/values/errors.h"
 
 #include <filesystem>
@@ -55,6 +56,26 @@ TEST_F(LampCommand, TellsAShippedLamp) {
     EXPECT_THAT(text, HasSubstr("halogen low beam (model)"));
     EXPECT_THAT(text, HasSubstr("lx at 25 m, at H 1.5"));
     EXPECT_THAT(text, HasSubstr("a model, not a measurement"));
+}
+
+TEST_F(LampCommand, FitsSpotLightsWhereAsked) {
+    LampRequest request = shipped("xenon-low");
+    request.spots = 2;
+    const std::string text = printed(request);
+    EXPECT_THAT(text, HasSubstr("2 fitted; they leave over "));
+    EXPECT_THAT(text, HasSubstr("exponent 128, cut-off "));
+    request.json = true;
+    const auto json = nlohmann::json::parse(printed(request));
+    const SpotFit fit = fit_spots(lamp_of(request).table, 2);
+    ASSERT_EQ(json["spot_fit"]["spots"].size(), 2u);
+    EXPECT_EQ(json["spot_fit"]["relative_l2"], fit.relative_l2);
+    EXPECT_EQ(json["spot_fit"]["spots"][1]["cutoff_deg"], fit.spots[1].cutoff_deg);
+    request.spots.reset();
+    EXPECT_FALSE(nlohmann::json::parse(printed(request)).contains("spot_fit"));
+    for (const int count : {-1, 0, 9}) {
+        request.spots = count;
+        EXPECT_THAT(refusal(request), HasSubstr("--spots"));
+    }
 }
 
 TEST_F(LampCommand, JsonHasTheFiguresOfTheTable) {
