@@ -9,22 +9,35 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::array<Technique, 2> two{
-    Technique{"full", TechniqueKind::as_published, 4, "~22", "thesis, section 6", "a | b", "shadows", 1, true, false},
-    Technique{"light-map", TechniqueKind::known, 0, "", "", "a map", "", 2, false, false}};
+std::array<Technique, 2> rows() {
+    Technique full, light_map;
+    full.name = "full";
+    full.kind = TechniqueKind::as_published;
+    full.thesis_row = 4;
+    full.thesis_fps = "~22";
+    full.origin = "thesis, section 6";
+    full.computes = "a | b";
+    full.ignores = "shadows";
+    full.illuminance = true;
+    light_map.name = "light-map";
+    light_map.kind = TechniqueKind::known;
+    light_map.computes = "a map";
+    light_map.passes = 2;
+    return {full, light_map};
+}
 
 TEST(TechniqueList, TextSaysEachOnce) {
-    EXPECT_EQ(techniques_text(two), "full  (as published; 1 pass; lux image of surfaces; Table 6.1 row 4: ~22 frames/s)\n"
-                                    "    origin    thesis, section 6\n"
-                                    "    computes  a | b\n"
-                                    "    ignores   shadows\n"
-                                    "\n"
-                                    "light-map  (known; 2 passes; no lux image)\n"
-                                    "    computes  a map\n");
+    EXPECT_EQ(techniques_text(rows()), "full  (as published; 1 pass; lux image of surfaces; Table 6.1 row 4: ~22 frames/s)\n"
+                                       "    origin    thesis, section 6\n"
+                                       "    computes  a | b\n"
+                                       "    ignores   shadows\n"
+                                       "\n"
+                                       "light-map  (known; 2 passes; no lux image)\n"
+                                       "    computes  a map\n");
 }
 
 TEST(TechniqueList, JsonHoldsWhatTheRowHolds) {
-    const auto json = nlohmann::json::parse(techniques_json(two));
+    const auto json = nlohmann::json::parse(techniques_json(rows()));
     EXPECT_EQ(json.at("schema_version"), 1);
     const auto& list = json.at("techniques");
     ASSERT_EQ(list.size(), 2U);
@@ -37,7 +50,7 @@ TEST(TechniqueList, JsonHoldsWhatTheRowHolds) {
 }
 
 TEST(TechniqueList, MarkdownEscapesItsOwnSigns) {
-    const std::string text = techniques_markdown(two);
+    const std::string text = techniques_markdown(rows());
     EXPECT_THAT(text, HasSubstr("\n| 4 | `full` | as published | a \\| b | shadows | 1 | surfaces | thesis, section 6 |\n"));
     EXPECT_THAT(text, HasSubstr("\n|  | `light-map` | known | a map |  | 2 | no |  |\n"));
 }
