@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/device.h"
+#include "renderer/technique.h"
 #include "scenarios/drives/frame.h"
 #include "scenarios/values/scene.h"
 
@@ -11,23 +12,50 @@ namespace fernlicht {
 enum class ReadBack { plain, overlapped };
 
 struct RendererSettings {
+    std::string technique = "photometric";
     ToneMapper tone_mapper;
+    bool eight_bit_beams = false; ///< projected beams in 8 bits, 512 x 128, as the thesis had them; else float
     bool shadows = true;
     int shadow_width = 1024, shadow_height = 512;
-    double shadow_tolerance_m = 0.03; ///< an occluder counts when it stands this far above the receiver's tangent plane
+    double shadow_tolerance_m = 0.03; ///< shadows are looked up from points at least this far above a surface
     double target_height_m = 0.25;
     ReadBack read_back = ReadBack::plain;
     bool profile = false;   ///< finish after each pass and time it; slower, so never together with frame times
     bool gpu_clock = false; ///< time passes by GL_TIME_ELAPSED; only where check_timer() has found it right
 };
 
+/// What drawing took, counted.
+struct Work {
+    int passes = 0;                             ///< times geometry was drawn: shadow maps and views
+    int draws = 0;                              ///< pieces drawn, over all passes
+    int calls = 0;                              ///< draw calls, each of one shader variant
+    int samplers = 0;                           ///< most textures that one variant reads
+    int shadow_maps = 0;                        ///< in use
+    int lamps = 0;                              ///< computed
+    std::uint64_t triangles = 0, fragments = 0; ///< over all passes; fragments: those shaded, where count() asked for them
+    std::uint64_t texture_bytes = 0;            ///< beams, shadow and light maps, surface textures
+
+    bool operator==(const Work&) const = default;
+};
+
+/// Something a technique can do that a moment did not need.
+struct LeftOut {
+    std::string what, why; ///< "shadow maps", "nothing stands in a beam"
+
+    bool operator==(const LeftOut&) const = default;
+};
+
 class Renderer {
   public:
-    /// Uploads the scene. Device and scene must outlive the renderer. Throws DeviceError.
+    /// Uploads the scene. Device and scene must outlive the renderer. Throws DeviceError; InputError for an unknown technique.
     Renderer(Device& device, const Scene& scene, const RendererSettings& settings);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
+
+    const Technique& technique() const;
+    /// What of `wanted` this technique has; the rest comes back empty.
+    Wanted available(Wanted wanted) const;
 
     /// Draws and reads back what is wanted. Maps draw ground surfaces only. At most 8 lamps. Throws DeviceError.
     Frame draw(const Moment& moment, const View& view, const Wanted& wanted) { return submit(moment, view, wanted)(); }
@@ -37,8 +65,12 @@ class Renderer {
     void render(const Moment& moment, const View& view, const Wanted& wanted);
     void finish();
 
-    /// What the scene and this moment did not need, one sentence each.
-    std::vector<std::string> left_out(const Moment& moment) const;
+    /// Compiles all that drawing these moments so can need; nothing compiles afterwards.
+    void prepare(const std::vector<Moment>& moments, const View& view, const Wanted& wanted);
+    /// Draws once more and counts, fragments too.
+    Work count(const Moment& moment, const View& view, const Wanted& wanted);
+    /// What the moment drawn last did not need.
+    std::vector<LeftOut> left_out() const;
     /// Worst error of a lamp's texture against its table, relative to the peak.
     double beam_error(const LampFile& lamp) const;
     int compiled_programs() const;

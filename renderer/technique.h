@@ -19,9 +19,11 @@ struct Technique {
     std::string_view origin;     ///< where it comes from
     std::string_view computes;
     std::string_view ignores;
-    int passes = 1;           ///< times the scene is drawn for one view, shadow maps apart
-    bool illuminance = false; ///< believes in an illuminance, which it can draw as a lux image
-    bool target = false;      ///< and in that of a target standing in the scene
+    int passes = 1;            ///< times the scene is drawn for one view, shadow maps apart
+    bool illuminance = false;  ///< believes in an illuminance, which it can draw as a lux image
+    bool target = false;       ///< and in that of a target standing in the scene
+    bool luminance = false;    ///< and in a luminance towards the eye
+    std::string_view features; ///< what the published techniques' shader is compiled with, "NAME=VALUE ..."; "" for ours
 };
 
 /// All of them, in the order of the thesis's table and then of the list in the documents.

@@ -117,7 +117,7 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
             light += lamp.colour.linear_srgb * photometry::retro_luminance(static_cast<double>(material.retro_rl), e_perp, cosine,
                                                                            photometry::observation_angle(to_lamp, to_eye),
                                                                            static_cast<double>(material.retro_reference_rad),
-                                                                           static_cast<double>(material.retro_falloff_rad));
+                                                                           1.0 / static_cast<double>(material.retro_falloff_rad));
     }
     const double e_sky = sky_lx * 0.5 * (1.0 + pixel.normal.z);
     pixel.illuminance_lx += e_sky;

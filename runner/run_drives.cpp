@@ -33,6 +33,7 @@ RendererSettings settings_for(Device& device, bool profile) {
 }
 
 RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
+    settings.technique = drive.technique;
     settings.tone_mapper = drive.tone_mapper;
     settings.shadows = drive.shadows;
     if (drive.extent)
@@ -70,7 +71,8 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) { return renderer.submit(moment, view, wanted); };
     PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
     writers.finish();
-    played.left_out = renderer.left_out(moment_at(start(stage.drive), stage.drive, stage.route, variant));
+    for (const LeftOut& left : renderer.left_out())
+        played.left_out.push_back(left.what + ": " + left.why);
     played.notes = notes_for(stage, variant, renderer);
     std::ranges::copy(summarise(played, stage.drive), std::back_inserter(played.readings));
     Readings judged = played.readings;

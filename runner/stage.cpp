@@ -1,5 +1,6 @@
 #include "runner/stage.h"
 
+#include "renderer/technique.h"
 #include "runner/limits.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/roads/road_mesh.h"
@@ -14,8 +15,7 @@ Stage::Stage(Drive d)
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     fit_to_route(drive, route);
     check_limit_names(drive);
-    if (drive.technique != "photometric")
-        throw InputError({drive.file, 0, 0, "technique"}, "found '" + printable(drive.technique) + "'", "photometric");
+    technique_named(drive.technique);
 }
 
 void add_inputs(FilesRead& all, const FilesRead& more) {

@@ -18,6 +18,37 @@ FN vec2 goniometer_angles(vec3 w) {
     return vec2(atan(w.x, w.z), atan(w.y, length(vec2(w.x, w.z))));
 }
 
+// atan(t) for 0 <= t <= 1 within 4e-8 rad: the minimax polynomial of degree 15, odd terms (Lawson's iteration, 8001 Chebyshev nodes).
+FN real quick_atan_unit(real t) {
+    real s = t * t;
+    return t * (0.999999336 + s * (-0.333298608 + s * (0.199465656 + s * (-0.139086292 + s * (0.096421961 + s * (-0.0559123078 +
+           s * (0.0218629435 - s * 0.00405456293)))))));
+}
+
+// atan(y, x) within 1e-7 rad, for GPUs whose own atan is slower or coarser. (0, 0) gives 0.
+FN real quick_atan(real y, real x) {
+    real ay = abs(y);
+    real ax = abs(x);
+    real a = quick_atan_unit(min(ay, ax) / max(max(ay, ax), 1e-30));
+    a = ay > ax ? 0.5 * photometry_pi - a : a;
+    a = x < 0.0 ? photometry_pi - a : a;
+    return y < 0.0 ? -a : a;
+}
+
+// asin(s) for |s| <= 0.5 within 3e-8; beyond it stays monotone and above asin(0.5), so that a table ending below 30 degrees
+// still has no light there. Odd minimax polynomial of degree 9.
+FN real quick_asin_half(real s) {
+    real t = s * s;
+    return s * (1.00000046 + t * (0.166631011 + t * (0.0757618196 + t * (0.0381369786 + t * 0.053321681))));
+}
+
+// goniometer_angles() for w.z > 0 within 1e-7 rad. inverse_d = 1 / |w|. `steep` 0.0: V is right up to 30 degrees only (asin is
+// well-conditioned there, and 1 / |w| is known); beyond, it is above 30 degrees, which is all that a flat table asks.
+FN vec2 quick_goniometer_angles(vec3 w, real inverse_d, bool steep) {
+    real v = steep ? quick_atan(w.y, length(vec2(w.x, w.z))) : quick_asin_half(w.y * inverse_d);
+    return vec2(quick_atan(w.x, w.z), v);
+}
+
 // Where in a beam texture an angle falls. grid = (first H, first V, 1 / step H, 1 / step V); texel centres stand on the samples,
 // so the result 0 is the first sample and count - 1 the last.
 FN vec2 beam_position(vec2 angles, vec4 grid) {
@@ -41,6 +72,12 @@ FN real bilinear(real a, real b, real c, real d, vec2 f) {
 // E = I / d^2 on a surface that faces the lamp. `to_lamp` from the point to the lamp, not normalised. Pole at d = 0.
 FN real facing_illuminance(real intensity_cd, vec3 to_lamp) {
     PRECISE real e = intensity_cd / dot(to_lamp, to_lamp);
+    return e;
+}
+
+// The same with inverse_d = 1 / d known.
+FN real facing_illuminance_at(real intensity_cd, real inverse_d) {
+    PRECISE real e = intensity_cd * inverse_d * inverse_d;
     return e;
 }
 
@@ -88,10 +125,15 @@ FN real observation_angle(vec3 to_lamp, vec3 to_eye) {
     return atan(length(cross(to_lamp, to_eye)), dot(to_lamp, to_eye));
 }
 
+// The same within 1e-7 rad.
+FN real quick_observation_angle(vec3 to_lamp, vec3 to_eye) {
+    return quick_atan(length(cross(to_lamp, to_eye)), dot(to_lamp, to_eye));
+}
+
 // Retroreflection: L = R_L E_perp, R_L in cd/(m2 lx) at the reference observation angle, falling off exponentially with the angle.
 // E_perp is on a plane perpendicular to the light (EN 1436). Nothing from behind (cosine 0).
-FN real retro_luminance(real rl, real e_perp_lx, real cosine, real angle, real reference, real falloff) {
-    PRECISE real l = rl * e_perp_lx * exp((reference - angle) / falloff);
+FN real retro_luminance(real rl, real e_perp_lx, real cosine, real angle, real reference, real inverse_falloff) {
+    PRECISE real l = rl * e_perp_lx * exp((reference - angle) * inverse_falloff);
     return cosine > 0.0 ? l : 0.0;
 }
 
@@ -121,4 +163,12 @@ FN real tone_logarithmic(real l, real l_max, real s) {
 // IEC 61966-2-1, linear 0..1 -> encoded 0..1.
 FN real srgb_encoded(real c) {
     return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055;
+}
+
+// The same within 0.01 of an 8-bit step: minimax over 1, c, c^(1/2), c^(1/4), c^(3/4), two square roots in place of a power.
+FN real quick_srgb_encoded(real c) {
+    real s = sqrt(c);
+    real q = sqrt(s);
+    real curve = 1.12269338 * s + 0.19613123 * q - 0.335514046 * s * q + 0.0813347105 * c - 0.0646108987;
+    return c <= 0.0031308 ? 12.92 * c : curve;
 }

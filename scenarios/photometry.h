@@ -1,6 +1,7 @@
 // The light equations of photometry.glsl as C++ in double precision: the twin of everything that the GPU computes.
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -14,6 +15,7 @@ using real = double;
 using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
+using glm::abs;
 using glm::atan;
 using glm::clamp;
 using glm::cross;
@@ -25,6 +27,7 @@ using glm::log;
 using glm::max;
 using glm::min;
 using glm::pow;
+using glm::sqrt;
 
 #define FN inline
 #define OUT(type) type&

@@ -16,7 +16,8 @@ class Context {
 
     GladGLContext gl{};
     DeviceInfo info;
-    std::string last_error; ///< of high severity, from the debug callback; "" if none
+    int compiled_programs = 0; ///< so far
+    std::string last_error;    ///< of high severity, from the debug callback; "" if none
 
     /// Throws DeviceError if the driver reported an error of high severity or glGetError says so. `doing` names what was done.
     void check(const char* doing);

@@ -86,8 +86,10 @@ Program::Program(Context& context, const std::string& vertex_file, const std::st
                            "#define real float\n#define FN\n#define OUT(type) out type\n#define PRECISE precise\n";
     for (const Define& define : defines)
         prologue += "#define " + define.name + " " + define.value + "\n";
-    const GLuint vertex = compile(context, GL_VERTEX_SHADER, vertex_file, prologue);
-    const GLuint fragment = fragment_file.empty() ? 0 : compile(context, GL_FRAGMENT_SHADER, fragment_file, prologue);
+    const GLuint vertex = compile(context, GL_VERTEX_SHADER, vertex_file, prologue + "#define STAGE_IO out\n");
+    const GLuint fragment =
+        fragment_file.empty() ? 0 : compile(context, GL_FRAGMENT_SHADER, fragment_file, prologue + "#define STAGE_IO in\n");
+    ++context.compiled_programs;
     program_ = context.gl.CreateProgram();
     context.gl.AttachShader(program_, vertex);
     if (fragment != 0)

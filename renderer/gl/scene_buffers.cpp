@@ -1,138 +1,184 @@
 #include "renderer/gl/scene_buffers.h"
 
+#include "renderer/gl/surface_textures.h"
+#include "scenarios/photometry.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
+#include <map>
 #include <unordered_map>
 
 namespace fernlicht::gl {
 namespace {
 
 constexpr double flat_within_m = 1e-3;
+constexpr double bridge_height_m = 3.0, bridge_beside_m = 60.0;
 
 struct GpuVertex {
     glm::vec3 position_m, normal;
     std::uint32_t material;
+    glm::vec2 uv;
 };
 
-struct GpuMaterial { // std430, as in photometric.frag.glsl
-    glm::vec4 albedo, emission, retro;
+struct GpuMaterial { // std430, as in scene.vert.glsl
+    glm::vec4 albedo, emission, retro, blend;
 };
 
-GpuMaterial packed(const Material& m) {
-    return {{m.albedo, m.retro_rl}, {m.emission_cdm2, 0.0F}, {m.retro_reference_rad, m.retro_falloff_rad, 0.0F, 0.0F}};
+glm::vec3 shown(const glm::vec3& c, bool encoded) {
+    const auto curve = [&](float v) { return encoded ? static_cast<float>(photometry::srgb_encoded(static_cast<double>(v))) : v; };
+    return {curve(c.r), curve(c.g), curve(c.b)};
 }
 
-/// Row i of a matrix that GLM stores by columns.
-glm::dvec4 row(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
-
-/// Signed distance test of a sphere against the plane dot(plane, (x, y, z, 1)) >= 0.
-bool outside(const glm::dvec4& plane, const glm::dvec3& centre, double radius) {
-    const glm::dvec3 normal(plane);
-    return glm::dot(normal, centre) + plane.w < -radius * glm::length(normal);
+GpuMaterial packed(const Material& m, bool encoded) {
+    return {{shown(m.albedo, encoded), m.retro_rl},
+            {m.emission_cdm2, static_cast<float>(std::max(m.texture, 0))},
+            {m.retro_reference_rad, 1.0F / m.retro_falloff_rad, m.texture < 0 ? 0.0F : 1.0F + static_cast<float>(m.texture_mode), 0.0F},
+            {shown(m.blend_colour, encoded), 0.0F}};
 }
+
+SurfaceClass class_of(const Material& m) {
+    return {m.texture < 0 ? 0 : 1 + static_cast<int>(m.texture_mode), m.retro_rl > 0.0F, m.emission_cdm2 != glm::vec3(0.0F)};
+}
+
+/// The triangles of one class of a mesh, gathered over its batches.
+struct Gathered {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> corners; ///< vertex of the mesh, material
+};
 
 } // namespace
 
-SceneBuffers::SceneBuffers(Context& context, const Scene& scene) : context_(context) {
+SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) : context_(context) {
     std::vector<GpuVertex> vertices;
     std::vector<GLuint> indices;
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (const Mesh& mesh : scene.meshes) {
-        Piece piece;
-        piece.origin_m = mesh.origin_m;
-        piece.first_index = static_cast<GLuint>(indices.size());
-        piece.base_vertex = static_cast<GLint>(vertices.size());
-        glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+        std::map<SurfaceClass, Gathered> by_class;
+        bool ground = true;
         for (const Batch& batch : mesh.batches) {
-            // Each batch gets vertices of its own, so that the material can travel with them.
-            std::unordered_map<std::uint32_t, GLuint> copied;
             const Material& material = scene.materials.at(batch.material);
-            piece.ground = piece.ground && is_ground(material.kind);
-            retroreflecting_ = retroreflecting_ || material.retro_rl > 0.0F;
-            for (std::uint32_t k = batch.first; k < batch.first + batch.count; ++k) {
-                const std::uint32_t index = mesh.indices.at(k);
-                const auto [it, fresh] =
-                    copied.try_emplace(index, static_cast<GLuint>(vertices.size() - static_cast<std::size_t>(piece.base_vertex)));
+            ground = ground && is_ground(material.kind);
+            Gathered& gathered = by_class[class_of(material)];
+            for (std::uint32_t k = batch.first; k < batch.first + batch.count; ++k)
+                gathered.corners.emplace_back(mesh.indices.at(k), batch.material);
+        }
+        for (const auto& [surface, gathered] : by_class) {
+            if (gathered.corners.empty())
+                continue;
+            Piece piece;
+            piece.origin_m = mesh.origin_m;
+            piece.surface = surface;
+            piece.ground = ground;
+            piece.mesh = static_cast<std::uint32_t>(&mesh - scene.meshes.data());
+            piece.first_index = static_cast<GLuint>(indices.size());
+            piece.index_count = static_cast<GLuint>(gathered.corners.size());
+            piece.base_vertex = static_cast<GLint>(vertices.size());
+            // A vertex is copied for each material that uses it, so that the material can travel with it.
+            std::map<std::pair<std::uint32_t, std::uint32_t>, GLuint> copied;
+            glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+            for (const auto& corner : gathered.corners) {
+                const auto [it, fresh] = copied.try_emplace(corner, static_cast<GLuint>(copied.size()));
                 if (fresh) {
-                    const Vertex& vertex = mesh.vertices.at(index);
-                    vertices.push_back({vertex.position_m, vertex.normal, batch.material});
+                    const Vertex& vertex = mesh.vertices.at(corner.first);
+                    vertices.push_back({vertex.position_m, vertex.normal, corner.second, vertex.uv});
                     low = glm::min(low, glm::dvec3(vertex.position_m));
                     high = glm::max(high, glm::dvec3(vertex.position_m));
                 }
                 indices.push_back(it->second);
             }
+            piece.centre_m = 0.5 * (low + high);
+            piece.radius_m = 0.5 * glm::length(high - low);
+            piece.lowest_m = mesh.origin_m.z + low.z;
+            piece.highest_m = mesh.origin_m.z + high.z;
+            lowest = std::min(lowest, piece.lowest_m);
+            highest = std::max(highest, piece.highest_m);
+            piece.first_plane = planes_.size();
+            for (std::size_t k = 0; ground && k + 2 < gathered.corners.size(); k += 3) {
+                const auto at = [&](std::size_t i) { return mesh.vertices[gathered.corners[k + i].first].position_m; };
+                const glm::vec3 n = glm::cross(at(1) - at(0), at(2) - at(0));
+                if (const float length = glm::length(n); length > 0.0F)
+                    planes_.emplace_back(n / length, -glm::dot(n / length, at(0)));
+            }
+            piece.planes = planes_.size() - piece.first_plane;
+            if (std::find(classes_.begin(), classes_.end(), surface) == classes_.end())
+                classes_.push_back(surface);
+            pieces_.push_back(piece);
         }
-        piece.index_count = static_cast<GLuint>(indices.size()) - piece.first_index;
-        if (piece.index_count == 0)
-            continue;
-        piece.centre_m = 0.5 * (low + high);
-        piece.radius_m = 0.5 * glm::length(high - low);
-        lowest = std::min(lowest, mesh.origin_m.z + low.z);
-        highest = std::max(highest, mesh.origin_m.z + high.z);
-        pieces_.push_back(piece);
-        // The id that a pixel shows is the mesh's place in the scene + 1, exact in a float up to 16 million meshes.
-        places_.emplace_back(0.0F, 0.0F, 0.0F, static_cast<float>(&mesh - scene.meshes.data() + 1));
     }
     flat_ = pieces_.empty() || highest - lowest < flat_within_m;
     triangles_ = indices.size() / 3;
+    find_bridges();
     std::vector<GpuMaterial> materials;
     for (const Material& material : scene.materials)
-        materials.push_back(packed(material));
+        materials.push_back(packed(material, encoded));
 
     vertices_ = make_buffer(context, vertices);
     indices_ = make_buffer(context, indices);
     materials_ = make_buffer(context, materials);
-    place_buffer_ = make_buffer(context, places_, GL_DYNAMIC_STORAGE_BIT);
-    command_buffer_ = make_buffer(context, std::vector<Command>(pieces_.size()), GL_DYNAMIC_STORAGE_BIT);
     layout_ = make_vertex_array(context);
     const GladGLContext& gl = context.gl;
     gl.VertexArrayVertexBuffer(layout_, 0, vertices_, 0, sizeof(GpuVertex));
-    gl.VertexArrayVertexBuffer(layout_, 1, place_buffer_, 0, sizeof(glm::vec4));
     gl.VertexArrayElementBuffer(layout_, indices_);
     gl.VertexArrayBindingDivisor(layout_, 1, 1);
-    const auto attribute = [&](GLuint location, GLint size, GLuint offset, GLuint binding) {
+    const auto attribute = [&](GLuint location, GLint size, std::size_t offset, GLuint binding) {
         gl.EnableVertexArrayAttrib(layout_, location);
-        gl.VertexArrayAttribFormat(layout_, location, size, GL_FLOAT, GL_FALSE, offset);
+        gl.VertexArrayAttribFormat(layout_, location, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
         gl.VertexArrayAttribBinding(layout_, location, binding);
     };
     attribute(0, 3, offsetof(GpuVertex, position_m), 0);
     attribute(1, 3, offsetof(GpuVertex, normal), 0);
     attribute(3, 4, 0, 1);
+    attribute(4, 2, offsetof(GpuVertex, uv), 0);
     gl.EnableVertexArrayAttrib(layout_, 2);
     gl.VertexArrayAttribIFormat(layout_, 2, 1, GL_UNSIGNED_INT, offsetof(GpuVertex, material));
     gl.VertexArrayAttribBinding(layout_, 2, 0);
+    textures_ = upload_surface_textures(context, scene.textures, encoded, texture_bytes_);
     context.check("uploading the scene");
 }
 
-void SceneBuffers::place(const glm::dvec3& ego_m) {
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-        const glm::vec3 offset(pieces_[i].origin_m - ego_m);
-        places_[i] = {offset, places_[i].w};
-    }
-    update_buffer(context_, place_buffer_, places_);
+bool SceneBuffers::has(bool (*property)(const SurfaceClass&)) const { return std::any_of(classes_.begin(), classes_.end(), property); }
+
+void SceneBuffers::bind(GLuint places) const {
+    const GladGLContext& gl = context_.gl;
+    gl.VertexArrayVertexBuffer(layout_, 1, places, 0, sizeof(glm::vec4));
+    gl.BindVertexArray(layout_);
+    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, materials_);
+    if (textures_ != 0)
+        gl.BindTextureUnit(surface_texture_unit, textures_);
 }
 
-int SceneBuffers::draw(const glm::dmat4& clip_from_ego, bool ground_only, double farthest_m) {
-    const glm::dvec4 x = row(clip_from_ego, 0), y = row(clip_from_ego, 1), w = row(clip_from_ego, 3);
-    commands_.clear();
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-        const Piece& piece = pieces_[i];
-        const glm::dvec3 centre = glm::dvec3(places_[i]) + piece.centre_m;
-        if ((ground_only && !piece.ground) || glm::length(centre) - piece.radius_m > farthest_m || outside(w + x, centre, piece.radius_m) ||
-            outside(w - x, centre, piece.radius_m) || outside(w + y, centre, piece.radius_m) || outside(w - y, centre, piece.radius_m))
+/// Ground that lies above other ground within 60 m: there, light that passes through the upper sheet from its lit side would reach the
+/// lower one. Everywhere else a sheet that faces the lamp shades nothing (see shadow_maps.h).
+void SceneBuffers::find_bridges() {
+    std::map<std::pair<int, int>, std::vector<std::size_t>> cells; // 128 m
+    const auto cell = [](double x) { return static_cast<int>(std::floor(x / 128.0)); };
+    const auto around = [&](const Piece& p, double margin, auto visit) {
+        const glm::dvec3 c = p.origin_m + p.centre_m;
+        const double r = p.radius_m + margin;
+        for (int x = cell(c.x - r); x <= cell(c.x + r); ++x)
+            for (int y = cell(c.y - r); y <= cell(c.y + r); ++y)
+                visit(std::pair(x, y));
+    };
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+        if (pieces_[i].ground)
+            around(pieces_[i], 0.0, [&](const auto& key) { cells[key].push_back(i); });
+    for (Piece& upper : pieces_) {
+        if (!upper.ground)
             continue;
-        commands_.push_back({piece.index_count, 1, piece.first_index, piece.base_vertex, static_cast<GLuint>(i)});
+        const glm::dvec3 c = upper.origin_m + upper.centre_m;
+        around(upper, bridge_beside_m, [&](const auto& key) {
+            const auto known = cells.find(key);
+            if (known == cells.end())
+                return;
+            for (const std::size_t i : known->second) {
+                const Piece& lower = pieces_[i];
+                const glm::dvec3 d = lower.origin_m + lower.centre_m - c;
+                const bool near = std::hypot(d.x, d.y) < upper.radius_m + lower.radius_m + bridge_beside_m;
+                upper.above_ground = upper.above_ground || (near && lower.lowest_m < upper.lowest_m - bridge_height_m);
+            }
+        });
     }
-    if (commands_.empty())
-        return 0;
-    update_buffer(context_, command_buffer_, commands_);
-    context_.gl.BindVertexArray(layout_);
-    context_.gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_);
-    context_.gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(commands_.size()), 0);
-    return static_cast<int>(commands_.size());
 }
 
 } // namespace fernlicht::gl

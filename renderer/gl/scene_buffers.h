@@ -1,4 +1,4 @@
-// A scene on the GPU: all meshes in one vertex and one index buffer, drawn with one indirect call for those that are visible.
+// A scene on the GPU: all vertices in one buffer, all triangles in another, cut into pieces that are culled, sorted and lit as a whole.
 #pragma once
 
 #include "renderer/gl/objects.h"
@@ -9,44 +9,59 @@
 
 namespace fernlicht::gl {
 
+/// What shading a surface takes: pieces of one class can share a shader variant.
+struct SurfaceClass {
+    int texture = 0; ///< 0: none, else 1 + TextureMode
+    bool retroreflecting = false, emissive = false;
+
+    auto operator<=>(const SurfaceClass&) const = default;
+};
+
+/// Triangles of one mesh and one surface class.
+struct Piece {
+    glm::dvec3 origin_m{0.0}, centre_m{0.0}; ///< centre of the bounding sphere, relative to the origin
+    double radius_m = 0.0;
+    double lowest_m = 0.0, highest_m = 0.0; ///< z in the world
+    bool ground = true;                     ///< of a mesh of which nothing stands on the ground
+    bool above_ground = false;              ///< ground that has other ground below it, as a bridge has
+    SurfaceClass surface;
+    std::uint32_t mesh = 0; ///< index in the scene
+    GLuint first_index = 0, index_count = 0;
+    GLint base_vertex = 0;
+    std::size_t first_plane = 0, planes = 0; ///< ground only: of its triangles, in SceneBuffers::planes()
+};
+
 class SceneBuffers {
   public:
-    SceneBuffers(Context& context, const Scene& scene);
+    /// `encoded`: colours and textures are put through the sRGB curve, for techniques that light pictures instead of reflectances.
+    SceneBuffers(Context& context, const Scene& scene, bool encoded);
 
-    /// Sets every mesh's place relative to the car. Once per moment.
-    void place(const glm::dvec3& ego_m);
-    /// Draws the meshes whose bounding sphere meets the clip volume; `ground_only` leaves out everything that stands on the ground.
-    /// Returns how many were drawn. Positions must have been placed.
-    int draw(const glm::dmat4& clip_from_ego, bool ground_only, double farthest_m);
+    const std::vector<Piece>& pieces() const { return pieces_; }
+    /// (unit normal, -normal . vertex) of ground triangles, relative to their piece's origin.
+    const std::vector<glm::vec4>& planes() const { return planes_; }
+    /// Each class of the scene once.
+    const std::vector<SurfaceClass>& classes() const { return classes_; }
+    /// Binds vertices, materials (storage block 1) and textures (unit 15), with the places of the pieces to be drawn.
+    void bind(GLuint places) const;
+    bool has(bool (*property)(const SurfaceClass&)) const;
 
-    GLuint materials() const { return materials_; }
-    bool retroreflecting() const { return retroreflecting_; }
     /// All vertices lie in one horizontal plane, so that nothing can stand in a beam.
     bool flat() const { return flat_; }
     std::size_t triangles() const { return triangles_; }
+    std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
-    struct Piece {
-        glm::dvec3 origin_m, centre_m; ///< centre relative to the origin
-        double radius_m = 0.0;
-        bool ground = true;
-        GLuint first_index = 0, index_count = 0;
-        GLint base_vertex = 0;
-    };
-    struct Command {
-        GLuint count, instances, first_index;
-        GLint base_vertex;
-        GLuint base_instance;
-    };
+    void find_bridges();
 
     Context& context_;
     std::vector<Piece> pieces_;
-    std::vector<glm::vec4> places_;
-    std::vector<Command> commands_;
-    Buffer vertices_, indices_, materials_, place_buffer_, command_buffer_;
+    std::vector<glm::vec4> planes_;
+    std::vector<SurfaceClass> classes_;
+    Buffer vertices_, indices_, materials_;
     VertexArray layout_;
-    bool retroreflecting_ = false, flat_ = true;
-    std::size_t triangles_ = 0;
+    Texture textures_;
+    bool flat_ = true;
+    std::size_t triangles_ = 0, texture_bytes_ = 0;
 };
 
 } // namespace fernlicht::gl

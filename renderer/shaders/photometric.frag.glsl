@@ -1,28 +1,10 @@
 // Technique `photometric`: exact distance and cosine per fragment, intensity from the candela table, one shadow map per lamp,
-// diffuse and retroreflecting surfaces, uniform sky.
+// diffuse and retroreflecting surfaces with their textures, uniform sky.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, RETRO, and which results are wanted (WANT_*). What is left out adds exactly +0.
-#include "lamps.glsl"
-
-struct Material {
-    vec4 albedo;   // w: retro_rl
-    vec4 emission; // cd/m2
-    vec4 retro;    // reference angle, fall-off
-};
-
-layout(std430, binding = 1) readonly buffer Materials { Material materials[]; };
-
-uniform vec3 eye_m;            // relative to the car
-uniform vec3 eye_direction;    // map views: the same for every point; 0 0 0: perspective
-uniform vec4 eye_axis;         // xyz: viewing direction, depth along it
-uniform float sky_lx;          // horizontal illuminance
-uniform float target_height_m;
-uniform vec4 tone;             // kind, s, l_max
-
-in vec3 v_position_m;
-in vec3 v_normal;
-flat in uint v_material;
-flat in uint v_mesh;
+// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, RETRO, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
+// results are wanted (WANT_*). What is left out adds exactly +0 or multiplies by exactly 1.
+#include "photometric_lamps.glsl"
+#include "photometric_varyings.glsl"
 
 #if WANT_COLOUR
 layout(location = OUT_COLOUR) out vec4 out_colour;
@@ -45,71 +27,170 @@ layout(location = OUT_IDS) out uint out_id;
 
 const vec3 luminance_weights = vec3(0.2126, 0.7152, 0.0722);
 
-float toned(float l) {
-    if (tone.x == 0.0)
-        return tone_linear(l, tone.z);
-    return tone.x == 1.0 ? tone_rational(l, tone.z, tone.y) : tone_logarithmic(l, tone.z, tone.y);
-}
-
-void main() {
-    vec3 n = normalize(v_normal);
-    vec3 p = v_position_m;
-    PRECISE float illuminance = 0.0;
-    PRECISE float target = 0.0;
-    PRECISE vec3 light = vec3(0.0);
-#if WANT_COLOUR || WANT_LUMINANCE
-    Material material = materials[v_material];
-    vec3 to_eye = eye_direction == vec3(0.0) ? eye_m - p : eye_direction;
+#if TEXTURED
+layout(binding = 15) uniform sampler2DArray surface_textures;
 #endif
 
 #if LAMP_COUNT > 0
-    for (int i = 0; i < LAMP_COUNT; ++i) {
-        vec3 to_lamp = lamps[i].position_m.xyz - p;
-        float cosine = incidence(n, to_lamp);
-        vec3 w = lamp_space(-to_lamp, lamps[i].right.xyz, lamps[i].up.xyz, lamps[i].forward.xyz);
-        float e_perp = cosine > 0.0 ? facing_illuminance(intensity_towards(lamps[i], beams[i], w), to_lamp) : 0.0;
+layout(binding = 0) uniform sampler2D beams[LAMP_COUNT]; // candela of four neighbours a texel: below left, below right, above left, above right
+const vec4 beam_grid[LAMP_COUNT] = vec4[LAMP_COUNT](BEAM_GRIDS);   // first H, first V, 1 / step H, 1 / step V
+const vec2 beam_count[LAMP_COUNT] = vec2[LAMP_COUNT](BEAM_COUNTS); // samples across, up
+const bool beam_steep[LAMP_COUNT] = bool[LAMP_COUNT](BEAM_STEEP);  // reaches beyond 30 degrees up or down
+
+// Candela towards w (lamp space, 1 / |w| known); 0 behind the lamp and outside its table.
+float intensity_towards(vec3 w, float inverse_d, float factor, sampler2D beam, vec4 grid, vec2 count, bool steep) {
+    vec2 at = beam_position(quick_goniometer_angles(w, inverse_d, steep), grid);
+    float known = w.z > 0.0 ? beam_known(at, count) : 0.0;
+    ivec2 base = clamp(ivec2(at), ivec2(0), ivec2(count) - 2);
+    vec4 cd = texelFetch(beam, base, 0);
+    float i = factor * bilinear(cd.x, cd.y, cd.z, cd.w, at - vec2(base));
+    return known > 0.0 ? i : 0.0;
+}
+
 #if SHADOWS
-        if (e_perp > 0.0 && lamps[i].count.w > 0.0)
-            e_perp *= visibility(lamps[i], shadow_maps[i], w, p, n);
+layout(binding = 8) uniform sampler2DShadow shadow_maps[LAMP_COUNT]; // shadow_near_m / distance along the axis; 0: nothing
+const vec4 shadow_window[LAMP_COUNT] = vec4[LAMP_COUNT](SHADOW_WINDOWS); // tangents -> texture: scale x, y, offset x, y
+
+// Share of the lamp seen from a point in lamp space: four texels, weighted. Outside the map nothing is known to stand in the way.
+float visibility(vec3 w, sampler2DShadow map, vec4 window) {
+    float inverse_z = 1.0 / w.z;
+    return textureLod(map, vec3(w.xy * inverse_z * window.xy + window.zw, SHADOW_NEAR * inverse_z), 0.0);
+}
 #endif
-        float e = e_perp * cosine;
-        illuminance += e;
+
+#endif
+
+float toned(float l) {
+    if (TONE_KIND == 0)
+        return tone_linear(l, TONE_L_MAX);
+    return TONE_KIND == 1 ? tone_rational(l, TONE_L_MAX, TONE_S) : tone_logarithmic(l, TONE_L_MAX, TONE_S);
+}
+
+PRECISE float illuminance = 0.0;
+PRECISE float target = 0.0;
+PRECISE vec3 light = vec3(0.0);
+
+#if LAMPS_BY_VERTEX
+#define COLOUR(i) v_colour[i]
+#define EYE(i) v_eye[i]
+#define RAISE(i) v_raise[i]
+#else
+#define COLOUR(i) lamps[i].colour
+#define EYE(i) lamps[i].eye
+#define RAISE(i) lamps[i].raise.xyz
+#endif
+
+// One lamp; a macro, since samplers and constants must be picked by constants.
+#if SHADOWS
+// Looked up from a point raised above the surface by what a texel spans there: see docs/decisions/0004.
+#define SEEN(i) visibility(v_w[i] + v_n[i] * (inverse_n * max(SHADOW_TOLERANCE, SHADOW_SPREAD * v_w[i].z)), shadow_maps[i], shadow_window[i])
+#define SEEN_TARGET(i, w) visibility(w, shadow_maps[i], shadow_window[i])
+#else
+#define SEEN(i) 1.0
+#define SEEN_TARGET(i, w) 1.0
+#endif
+
 #if WANT_COLOUR || WANT_LUMINANCE
-        light += lamps[i].colour.rgb * vec3(diffuse_luminance(material.albedo.r, e), diffuse_luminance(material.albedo.g, e), diffuse_luminance(material.albedo.b, e));
+#define REFLECT_DIFFUSE(i, e) light += COLOUR(i).rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e));
 #if RETRO
-        if (material.albedo.w > 0.0)
-            light += lamps[i].colour.rgb * retro_luminance(material.albedo.w, e_perp, cosine, observation_angle(to_lamp, to_eye), material.retro.x, material.retro.y);
+#define REFLECT_RETRO(i, e_perp, cosine) \
+    light += COLOUR(i).rgb * retro_luminance(rl, e_perp, cosine, quick_observation_angle(-v_w[i], EYE(i).xyz - EYE(i).w * v_w[i]), v_retro.x, v_retro.y);
+#else
+#define REFLECT_RETRO(i, e_perp, cosine)
 #endif
+#else
+#define REFLECT_DIFFUSE(i, e)
+#define REFLECT_RETRO(i, e_perp, cosine)
 #endif
+
 #if WANT_TARGET
-        vec3 raised = p + vec3(0.0, 0.0, target_height_m);
-        vec3 raised_to_lamp = lamps[i].position_m.xyz - raised;
-        vec3 raised_w = lamp_space(-raised_to_lamp, lamps[i].right.xyz, lamps[i].up.xyz, lamps[i].forward.xyz);
-        float e_target = facing_illuminance(intensity_towards(lamps[i], beams[i], raised_w), raised_to_lamp);
-#if SHADOWS
-        if (e_target > 0.0 && lamps[i].count.w > 0.0)
-            e_target *= visibility(lamps[i], shadow_maps[i], raised_w, raised, normalize(raised_to_lamp));
-#endif
-        target += e_target;
-#endif
+#define LIGHT_TARGET(i) \
+    { \
+        vec3 w = v_w[i] + RAISE(i); \
+        float inverse_d = inversesqrt(dot(w, w)); \
+        float cd = intensity_towards(w, inverse_d, COLOUR(i).w, beams[i], beam_grid[i], beam_count[i], beam_steep[i]); \
+        float e = facing_illuminance_at(cd, inverse_d); \
+        target += e > 0.0 ? e * SEEN_TARGET(i, w) : 0.0; \
     }
+#else
+#define LIGHT_TARGET(i)
+#endif
+
+#define LIGHT(i) \
+    { \
+        float inverse_d = inversesqrt(dot(v_w[i], v_w[i])); \
+        float cosine = max(-dot(v_n[i], v_w[i]) * (inverse_d * inverse_n), 0.0); \
+        float cd = intensity_towards(v_w[i], inverse_d, COLOUR(i).w, beams[i], beam_grid[i], beam_count[i], beam_steep[i]); \
+        float e_perp = facing_illuminance_at(cd, inverse_d); \
+        e_perp = cosine > 0.0 && e_perp > 0.0 ? e_perp * SEEN(i) : 0.0; \
+        float e = e_perp * cosine; \
+        illuminance += e; \
+        REFLECT_DIFFUSE(i, e) \
+        REFLECT_RETRO(i, e_perp, cosine) \
+        LIGHT_TARGET(i) \
+    }
+
+void main() {
+#if WANT_COLOUR || WANT_LUMINANCE
+    vec3 albedo = v_albedo.rgb;
+    float rl = v_albedo.w;
+#if TEXTURED
+    // Fetched first, outside every branch: the level of detail comes from neighbouring fragments.
+    vec4 texel = texture(surface_textures, vec3(v_uv, v_blend.w));
+#if TEXTURED == 1
+    albedo = combined_reflectance(TEXTURE_MODE, v_albedo.rgb, texel, v_blend.rgb);
+    rl = textured_rl(v_albedo.w, v_albedo.rgb, albedo);
+#else
+    vec3 textured = combined_reflectance(v_texture_mode, v_albedo.rgb, texel, v_blend.rgb);
+    albedo = v_texture_mode >= 0 ? textured : v_albedo.rgb;
+    rl = v_texture_mode >= 0 ? textured_rl(v_albedo.w, v_albedo.rgb, textured) : v_albedo.w;
+#endif
+#endif
+#endif
+
+#if LAMP_COUNT > 0
+    float inverse_n = inversesqrt(dot(v_n[0], v_n[0]));
+    LIGHT(0)
+#if LAMP_COUNT > 1
+    LIGHT(1)
+#endif
+#if LAMP_COUNT > 2
+    LIGHT(2)
+#endif
+#if LAMP_COUNT > 3
+    LIGHT(3)
+#endif
+#if LAMP_COUNT > 4
+    LIGHT(4)
+#endif
+#if LAMP_COUNT > 5
+    LIGHT(5)
+#endif
+#if LAMP_COUNT > 6
+    LIGHT(6)
+#endif
+#if LAMP_COUNT > 7
+    LIGHT(7)
+#endif
 #endif
 
 #if SKY
-    float e_sky = sky_lx * 0.5 * (1.0 + n.z);
+    float e_sky = v_sky_lx * 0.5 * (1.0 + normalize(v_normal).z);
     illuminance += e_sky;
 #if WANT_COLOUR || WANT_LUMINANCE
-    light += vec3(diffuse_luminance(material.albedo.r, e_sky), diffuse_luminance(material.albedo.g, e_sky), diffuse_luminance(material.albedo.b, e_sky));
+    light += vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky));
 #endif
 #endif
 
 #if WANT_COLOUR || WANT_LUMINANCE
-    light += material.emission.rgb;
+#if EMISSIVE
+    light += v_emission;
+#endif
     float luminance = dot(luminance_weights, light);
 #endif
 #if WANT_COLOUR
     vec3 shown = luminance > 0.0 ? clamp(light * (toned(luminance) / luminance), 0.0, 1.0) : vec3(0.0);
-    out_colour = vec4(srgb_encoded(shown.r), srgb_encoded(shown.g), srgb_encoded(shown.b), 1.0);
+    out_colour = vec4(quick_srgb_encoded(shown.r), quick_srgb_encoded(shown.g), quick_srgb_encoded(shown.b), 1.0);
 #endif
 #if WANT_ILLUMINANCE
     out_illuminance_lx = illuminance;
@@ -121,7 +202,7 @@ void main() {
     out_luminance_cdm2 = luminance;
 #endif
 #if WANT_DEPTH
-    out_depth_m = dot(p - eye_m, eye_axis.xyz);
+    out_depth_m = v_depth_m;
 #endif
 #if WANT_IDS
     out_id = v_mesh;

@@ -1,0 +1,87 @@
+#include "renderer/gl/beams.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+namespace fernlicht::gl {
+namespace {
+
+// A window of tangents beyond about 55 degrees would spend its texels at the sides: what lies outside it is lit without question.
+constexpr double widest_tangent = 1.4, highest_tangent = 0.36, lowest_tangent = -0.45;
+
+ShadowWindow window_of(const BeamTexture& g) {
+    const auto tangent = [](double angle) { return std::tan(std::clamp(angle, -1.5, 1.5)); };
+    const double top_angle = g.v_first_rad + (g.height - 1) * g.v_step_rad;
+    ShadowWindow w{std::max(-widest_tangent, tangent(g.h_first_rad)),
+                   std::min(widest_tangent, tangent(g.h_first_rad + (g.width - 1) * g.h_step_rad)),
+                   std::max(lowest_tangent, 1.75 * std::min(tangent(g.v_first_rad), 0.0)),
+                   std::min(highest_tangent, 1.75 * std::max(tangent(top_angle), 0.0))};
+    // 1.75: at the window's side the tangent of a given V is larger by 1 / cos(H).
+    if (w.right - w.left < 1e-3)
+        w.right = w.left + 1e-3;
+    if (w.top - w.bottom < 1e-3)
+        w.top = w.bottom + 1e-3;
+    return w;
+}
+
+/// The cell (x, y) .. (x + 1, y + 1) in one texel; the last row and column repeat.
+std::vector<glm::vec4> neighbours(const BeamTexture& g) {
+    std::vector<glm::vec4> cells;
+    cells.reserve(g.cd.size());
+    const auto at = [&](int x, int y) {
+        return g.cd[static_cast<std::size_t>(std::min(y, g.height - 1)) * static_cast<std::size_t>(g.width) +
+                    static_cast<std::size_t>(std::min(x, g.width - 1))];
+    };
+    for (int y = 0; y < g.height; ++y)
+        for (int x = 0; x < g.width; ++x)
+            cells.emplace_back(at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
+    return cells;
+}
+
+} // namespace
+
+const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
+    if (const auto known = known_.find(file.get()); known != known_.end())
+        return known->second.second;
+    Beam beam;
+    beam.id = static_cast<int>(known_.size());
+    beam.grid = make_beam_texture(file->table);
+    const BeamTexture& g = beam.grid;
+    beam.bounds = BeamBounds(g);
+    beam.window = window_of(g);
+    constexpr double asin_reaches_rad = 0.5235; // 30 degrees
+    beam.steep = g.v_first_rad < -asin_reaches_rad || g.v_first_rad + (g.height - 1) * g.v_step_rad > asin_reaches_rad;
+    beam.texture = make_texture(context_, packed_ ? GL_RGBA32F : GL_R32F, g.width, g.height);
+    context_.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (packed_) {
+        const std::vector<glm::vec4> cells = neighbours(g);
+        context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RGBA, GL_FLOAT, cells.data());
+    } else {
+        context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RED, GL_FLOAT, g.cd.data());
+    }
+    texture_bytes_ += (packed_ ? 16U : 4U) * g.cd.size();
+    context_.check("uploading a beam texture");
+    return known_.emplace(file.get(), std::pair(file, std::move(beam))).first->second.second;
+}
+
+std::vector<LitLamp> shining(const Moment& moment, bool all) {
+    std::vector<LitLamp> lamps;
+    for (const LitLamp& lamp : moment.lamps)
+        if (all || lamp.intensity_factor > 0.0)
+            lamps.push_back(lamp);
+    if (lamps.size() > most_lamps)
+        throw InputError({{}, 0, 0, "lamps"}, fmt::format("{} lamps are on at {} s", lamps.size(), moment.time_s),
+                         fmt::format("at most {}", most_lamps));
+    return lamps;
+}
+
+glm::dvec3 to_lamp_space(const LitLamp& lamp, const glm::dvec3& direction) {
+    return {-glm::dot(lamp.pose.left(), direction), glm::dot(lamp.pose.up(), direction), glm::dot(lamp.pose.forward(), direction)};
+}
+
+} // namespace fernlicht::gl

@@ -1,0 +1,135 @@
+#include "renderer/gl/naive_lighting.h"
+
+#include "renderer/gl/shadow_maps.h"
+
+#include <glm/geometric.hpp>
+
+namespace fernlicht::gl {
+namespace {
+
+glm::vec4 four(const glm::dvec3& v) { return {glm::vec3(v), 0.0F}; }
+
+} // namespace
+
+NaiveLighting::NaiveLighting(Context& context, const Scene& scene, const RendererSettings& settings)
+    : context_(context), settings_(settings), scene_(context, scene, false), beams_(context, false), list_(context, scene_),
+      depth_(context, "depth.vert.glsl", "", {}), block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
+      shadow_target_(make_framebuffer(context)) {}
+
+const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
+    std::vector<Program::Define> d = Targets::defines(shot.wanted);
+    const auto flag = [](bool on) { return on ? "1" : "0"; };
+    d.push_back({"LAMP_COUNT", std::to_string(lamps)});
+    d.push_back({"SHADOWS", flag(settings_.shadows)});
+    d.push_back({"SKY", "1"});
+    d.push_back({"RETRO", "1"});
+    d.push_back({"TEXTURED", flag(scene_.texture_bytes() > 0)});
+    std::string key;
+    for (const Program::Define& define : d)
+        key += define.name + "=" + define.value + " ";
+    if (const auto known = variants_.find(key); known != variants_.end())
+        return known->second;
+    return variants_.emplace(key, Program(context_, "naive.vert.glsl", "naive.frag.glsl", d)).first->second;
+}
+
+void NaiveLighting::set_lamps(const Moment& moment) {
+    lamps_ = shining(moment, false);
+    packed_.clear();
+    for (const LitLamp& lamp : lamps_) {
+        const Beam& beam = beams_.of(lamp.file);
+        const BeamTexture& g = beam.grid;
+        const ShadowWindow& w = beam.window;
+        packed_.push_back(
+            {four(lamp.pose.position_m - moment.ego.position_m), four(-lamp.pose.left()), four(lamp.pose.up()), four(lamp.pose.forward()),
+             glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
+             glm::vec4(g.width, g.height, lamp.intensity_factor, settings_.shadows ? 1.0 : 0.0), four(lamp.colour.linear_srgb),
+             glm::vec4(w.left, w.bottom, settings_.shadow_width / (w.right - w.left), settings_.shadow_height / (w.top - w.bottom))});
+    }
+    update_buffer(context_, block_, packed_);
+}
+
+void NaiveLighting::draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m, bool ground_only, double farthest_m, Work& work) {
+    const Frustum frustum(clip);
+    std::vector<std::uint32_t> seen;
+    for (std::uint32_t i = 0; i < scene_.pieces().size(); ++i) {
+        const Piece& piece = scene_.pieces()[i];
+        const glm::dvec3 centre = centre_of(piece, ego_m);
+        if ((piece.ground || !ground_only) && glm::length(centre) - piece.radius_m <= farthest_m &&
+            !frustum.outside(centre, piece.radius_m))
+            seen.push_back(i);
+    }
+    list_.start(ego_m);
+    list_.add(seen);
+    list_.upload();
+    list_.draw(0);
+    ++work.passes;
+    ++work.calls;
+    work.draws += static_cast<int>(seen.size());
+    work.triangles += list_.triangles();
+}
+
+void NaiveLighting::draw_shadow_maps(const Shot& shot) {
+    const GladGLContext& gl = context_.gl;
+    while (shadow_maps_.size() < lamps_.size())
+        shadow_maps_.push_back(make_texture(context_, GL_DEPTH_COMPONENT32F, settings_.shadow_width, settings_.shadow_height));
+    depth_.use();
+    gl.Viewport(0, 0, settings_.shadow_width, settings_.shadow_height);
+    gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); // row 0 is the lowest tangent, as texel_lit() takes it
+    for (std::size_t i = 0; i < lamps_.size(); ++i) {
+        gl.NamedFramebufferTexture(shadow_target_, GL_DEPTH_ATTACHMENT, shadow_maps_[i], 0);
+        gl.NamedFramebufferDrawBuffer(shadow_target_, GL_NONE);
+        gl.BindFramebuffer(GL_FRAMEBUFFER, shadow_target_);
+        const float far_away = 0.0F;
+        gl.ClearNamedFramebufferfv(shadow_target_, GL_DEPTH, 0, &far_away);
+        const glm::dmat4 clip = lamp_clip(lamps_[i], beams_.of(lamps_[i].file).window, shot.moment.ego.position_m);
+        const glm::mat4 clip_float(clip);
+        gl.UniformMatrix4fv(depth_.uniform("clip_from_ego"), 1, GL_FALSE, &clip_float[0][0]);
+        draw_pieces(clip, shot.moment.ego.position_m, false, shadow_farthest_m, shot.work);
+        ++shot.work.shadow_maps;
+    }
+    gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+}
+
+void NaiveLighting::draw(const Shot& shot) {
+    const GladGLContext& gl = context_.gl;
+    set_lamps(shot.moment);
+    if (settings_.shadows && !lamps_.empty()) {
+        shot.clock.begin("shadow maps");
+        draw_shadow_maps(shot);
+        shot.clock.end();
+    }
+    shot.clock.begin("scene");
+    shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
+    const Program& program = variant(lamps_.size(), shot);
+    program.use();
+    const glm::mat4 clip(shot.camera.clip_from_ego);
+    const glm::vec3 eye(shot.camera.eye_m), direction(shot.camera.is_map ? -shot.camera.axis : glm::dvec3(0.0)), axis(shot.camera.axis);
+    gl.UniformMatrix4fv(program.uniform("clip_from_ego"), 1, GL_FALSE, &clip[0][0]);
+    gl.Uniform3fv(program.uniform("eye_m"), 1, &eye[0]);
+    gl.Uniform3fv(program.uniform("eye_direction"), 1, &direction[0]);
+    gl.Uniform4f(program.uniform("eye_axis"), axis.x, axis.y, axis.z, 0.0F);
+    gl.Uniform1f(program.uniform("sky_lx"), static_cast<float>(shot.moment.daylight.horizontal_illuminance_lx));
+    gl.Uniform1f(program.uniform("target_height_m"), static_cast<float>(settings_.target_height_m));
+    gl.Uniform1f(program.uniform("shadow_tolerance_m"), static_cast<float>(settings_.shadow_tolerance_m));
+    const ToneMapper& tone = settings_.tone_mapper;
+    gl.Uniform4f(program.uniform("tone"), static_cast<float>(tone.kind), static_cast<float>(tone.s), static_cast<float>(tone.l_max_cdm2),
+                 0.0F);
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
+    for (std::size_t i = 0; i < lamps_.size(); ++i) {
+        gl.BindTextureUnit(static_cast<GLuint>(i), beams_.of(lamps_[i].file).texture);
+        if (i < shadow_maps_.size())
+            gl.BindTextureUnit(first_shadow_unit + static_cast<GLuint>(i), shadow_maps_[i]);
+    }
+    draw_pieces(shot.camera.clip_from_ego, shot.moment.ego.position_m, shot.camera.is_map, farthest_drawn_m, shot.work);
+    shot.clock.end();
+    context_.check("drawing the scene");
+    shot.work.lamps = static_cast<int>(lamps_.size());
+    shot.work.samplers = static_cast<int>(lamps_.size()) * (settings_.shadows ? 2 : 1) + (scene_.texture_bytes() > 0 ? 1 : 0);
+    shot.work.texture_bytes =
+        beams_.texture_bytes() + scene_.texture_bytes() +
+        shadow_maps_.size() * 4 * static_cast<std::size_t>(settings_.shadow_width) * static_cast<std::size_t>(settings_.shadow_height);
+}
+
+void NaiveLighting::prepare(const Shot& shot) { draw(shot); }
+
+} // namespace fernlicht::gl

@@ -1,0 +1,265 @@
+#include "renderer/gl/photometric_lighting.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <iterator>
+
+namespace fernlicht::gl {
+namespace {
+
+/// More lamps than this have their constants in the uniform block instead of in the limited number of a vertex's outputs.
+constexpr std::size_t most_lamps_by_vertex = 4;
+
+int bits(const Wanted& w) {
+    return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) |
+           (w.ids ? 32 : 0);
+}
+
+std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
+const char* flag(bool on) { return on ? "1" : "0"; }
+
+/// "vec4(...), vec4(...)": constants of a variant, one a lamp.
+template <class One> std::string list(const std::vector<const Beam*>& beams, One one) {
+    std::string text;
+    for (const Beam* beam : beams)
+        text += (text.empty() ? "" : ", ") + one(*beam);
+    return text;
+}
+
+glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), static_cast<float>(w)}; }
+
+} // namespace
+
+PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
+    : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, true),
+      shadows_(context, scene_, {settings.shadow_width, settings.shadow_height}), list_(context, scene_),
+      block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
+
+void PhotometricLighting::set_lamps(const Shot& shot) {
+    lamps_ = shining(shot.moment, !pruned_);
+    // By what is mounted, not by what is on: pruning must not change how a pixel is computed.
+    by_vertex_ = shot.moment.lamps.size() <= most_lamps_by_vertex;
+    lamp_beams_.clear();
+    packed_.clear();
+    for (const LitLamp& lamp : lamps_) {
+        lamp_beams_.push_back(&beams_.of(lamp.file));
+        const glm::dvec3 at = lamp.pose.position_m - shot.moment.ego.position_m;
+        const glm::dvec3 eye = to_lamp_space(lamp, shot.camera.is_map ? -shot.camera.axis : shot.camera.eye_m - at);
+        const glm::dvec3 raise = to_lamp_space(lamp, {0.0, 0.0, settings_.target_height_m});
+        packed_.push_back({four(at), four(-lamp.pose.left()), four(lamp.pose.up()), four(lamp.pose.forward()),
+                           four(lamp.colour.linear_srgb, lamp.intensity_factor), four(eye, shot.camera.is_map ? 0.0 : 1.0), four(raise)});
+    }
+    update_buffer(context_, block_, packed_);
+}
+
+PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot, const SurfaceClass& surface, bool lit,
+                                                               bool shadowed) const {
+    Features f;
+    f.everything = !pruned_;
+    f.by_vertex = by_vertex_;
+    f.sky = !pruned_ || shot.moment.daylight.horizontal_illuminance_lx > 0.0;
+    f.wanted = bits(shot.wanted);
+    if (lit || !pruned_)
+        for (const Beam* beam : lamp_beams_)
+            f.beams.push_back(beam->id);
+    f.shadows = !f.beams.empty() && (shadowed || !pruned_) && settings_.shadows;
+    const bool reflects = shot.wanted.colour || shot.wanted.luminance;
+    if (pruned_ && reflects)
+        f.surface = {surface.texture, surface.retroreflecting && !f.beams.empty(), surface.emissive};
+    else if (!pruned_)
+        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0, true, true};
+    return f;
+}
+
+const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features& f, const Wanted& wanted) {
+    if (const auto known = variants_.find(f); known != variants_.end())
+        return known->second;
+    std::vector<const Beam*> beams = f.beams.empty() ? std::vector<const Beam*>{} : lamp_beams_;
+    const ShadowSize size{settings_.shadow_width, settings_.shadow_height};
+    double spread = 0.0;
+    for (const Beam* beam : beams)
+        spread = std::max(spread, 1.5 * texel_tangent(beam->window, size));
+    std::vector<Program::Define> d = Targets::defines(wanted);
+    const auto define = [&](const char* name, std::string value) { d.push_back({name, std::move(value)}); };
+    define("LAMP_COUNT", std::to_string(beams.size()));
+    define("LAMPS_BY_VERTEX", flag(f.by_vertex));
+    define("SHADOWS", flag(f.shadows));
+    define("SKY", flag(f.sky));
+    define("RETRO", flag(f.surface.retroreflecting));
+    define("EMISSIVE", flag(f.surface.emissive));
+    define("TEXTURED", f.surface.texture == 0 ? "0" : (f.everything ? "2" : "1"));
+    define("TEXTURE_MODE", std::to_string(f.surface.texture - 1));
+    define("TARGET_HEIGHT", literal(settings_.target_height_m));
+    define("TONE_KIND", std::to_string(static_cast<int>(settings_.tone_mapper.kind)));
+    define("TONE_S", literal(settings_.tone_mapper.s));
+    define("TONE_L_MAX", literal(settings_.tone_mapper.l_max_cdm2));
+    define("BEAM_GRIDS", list(beams, [](const Beam& b) {
+               return fmt::format("vec4({}, {}, {}, {})", literal(b.grid.h_first_rad), literal(b.grid.v_first_rad),
+                                  literal(1.0 / b.grid.h_step_rad), literal(1.0 / b.grid.v_step_rad));
+           }));
+    define("BEAM_COUNTS", list(beams, [](const Beam& b) { return fmt::format("vec2({}.0, {}.0)", b.grid.width, b.grid.height); }));
+    define("BEAM_STEEP", list(beams, [](const Beam& b) { return std::string(b.steep ? "true" : "false"); }));
+    define("SHADOW_NEAR", literal(shadow_near_m));
+    define("SHADOW_TOLERANCE", literal(settings_.shadow_tolerance_m));
+    define("SHADOW_SPREAD", literal(spread));
+    define("SHADOW_WINDOWS", list(beams, [&](const Beam& b) {
+               // The window lies within the empty outermost texels.
+               const double across = (size.width - 2.0) / size.width / (b.window.right - b.window.left),
+                            up = (size.height - 2.0) / size.height / (b.window.top - b.window.bottom);
+               return fmt::format("vec4({}, {}, {}, {})", literal(across), literal(up), literal(1.0 / size.width - b.window.left * across),
+                                  literal(1.0 / size.height - b.window.bottom * up));
+           }));
+    Program program(context_, "photometric.vert.glsl", "photometric.frag.glsl", d);
+    const GLint clip = program.uniform("clip_from_ego"), eye = program.uniform("eye_m"), axis = program.uniform("eye_axis"),
+                sky = program.uniform("sky_lx");
+    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky}).first->second;
+}
+
+void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
+    const GladGLContext& gl = context_.gl;
+    v.program.use();
+    const glm::mat4 clip(shot.camera.clip_from_ego);
+    const glm::vec3 eye(shot.camera.eye_m), axis(shot.camera.axis);
+    gl.UniformMatrix4fv(v.clip, 1, GL_FALSE, &clip[0][0]);
+    gl.Uniform3fv(v.eye, 1, &eye[0]);
+    gl.Uniform4f(v.axis, axis.x, axis.y, axis.z, shot.camera.is_map ? 0.0F : 1.0F);
+    gl.Uniform1f(v.sky, static_cast<float>(shot.moment.daylight.horizontal_illuminance_lx));
+}
+
+/// The pieces in view by what lighting them takes, near ones first, in an order that pruning does not change.
+std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Shot& shot) {
+    const glm::dvec3 ego_m = shot.moment.ego.position_m;
+    const Frustum frustum(shot.camera.clip_from_ego);
+    std::map<std::tuple<SurfaceClass, bool, bool>, std::vector<std::pair<double, std::uint32_t>>> sorted;
+    std::vector<std::uint32_t> unseen;
+    for (std::uint32_t i = 0; i < scene_.pieces().size(); ++i) {
+        const Piece& piece = scene_.pieces()[i];
+        const glm::dvec3 centre = centre_of(piece, ego_m);
+        if (shot.camera.is_map && !piece.ground)
+            continue;
+        const double distance = glm::length(centre) - piece.radius_m;
+        if (distance > farthest_drawn_m)
+            continue;
+        if (frustum.outside(centre, piece.radius_m)) {
+            unseen.push_back(i);
+            continue;
+        }
+        bool lit = false;
+        for (std::size_t k = 0; k < lamps_.size() && !lit; ++k)
+            lit = lamps_[k].intensity_factor > 0.0 &&
+                  lamp_beams_[k]->bounds.most_towards(to_lamp_space(lamps_[k], centre - (lamps_[k].pose.position_m - ego_m)),
+                                                      piece.radius_m + (shot.wanted.target ? settings_.target_height_m : 0.0)) > 0.0;
+        const bool shadowed = lit && settings_.shadows && shadows_.reach(centre, piece.radius_m);
+        sorted[{piece.surface, lit, shadowed}].emplace_back(distance, i);
+    }
+    std::vector<Group> groups;
+    for (auto& [key, pieces] : sorted) {
+        std::ranges::sort(pieces);
+        Group group{std::get<0>(key), std::get<1>(key), std::get<2>(key), {}};
+        std::ranges::transform(pieces, std::back_inserter(group.pieces), [](const auto& p) { return p.second; });
+        groups.push_back(std::move(group));
+    }
+    if (!pruned_ && !unseen.empty())
+        groups.push_back({{}, true, true, std::move(unseen)}); // culled by nothing but the rasteriser
+    return groups;
+}
+
+void PhotometricLighting::draw(const Shot& shot) {
+    const GladGLContext& gl = context_.gl;
+    set_lamps(shot);
+    const bool shadows = settings_.shadows && !lamps_.empty();
+    if (shadows) {
+        shadows_.set(lamps_, lamp_beams_, shot.moment.ego.position_m, false);
+        if (!pruned_ || shadows_.needed()) {
+            shot.clock.begin("shadow maps");
+            shadows_.draw(shot.work);
+            shot.clock.end();
+        }
+    } else {
+        shadows_.set({}, {}, shot.moment.ego.position_m, false);
+    }
+    shot.clock.begin("scene");
+    shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
+    const std::vector<Group> groups = groups_for(shot);
+    list_.start(shot.moment.ego.position_m);
+    for (const Group& group : groups)
+        list_.add(group.pieces);
+    list_.upload();
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
+    for (std::size_t i = 0; i < lamp_beams_.size(); ++i)
+        gl.BindTextureUnit(static_cast<GLuint>(i), lamp_beams_[i]->texture);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const Features f = features_of(shot, groups[g].surface, groups[g].lit, groups[g].shadowed);
+        use(variant(f, shot.wanted), shot);
+        list_.draw(static_cast<int>(g));
+        shot.work.draws += static_cast<int>(groups[g].pieces.size());
+        shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
+        const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0);
+        shot.work.samplers = std::max(shot.work.samplers, textures);
+    }
+    context_.check("drawing the scene");
+    shot.clock.end();
+    ++shot.work.passes;
+    shot.work.calls += static_cast<int>(groups.size());
+    shot.work.triangles += list_.triangles();
+    shot.work.texture_bytes = beams_.texture_bytes() + shadows_.texture_bytes() + scene_.texture_bytes();
+    note_what_is_left_out(shot, groups);
+}
+
+void PhotometricLighting::prepare(const Shot& shot) {
+    set_lamps(shot);
+    const GladGLContext& gl = context_.gl;
+    if (scene_.pieces().empty())
+        return;
+    shadows_.compile();
+    shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
+    for (const SurfaceClass& surface : scene_.classes())
+        for (const auto& [lit, shadowed] : {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
+            const Features f = features_of(shot, surface, lit, shadowed);
+            if (variants_.contains(f))
+                continue;
+            use(variant(f, shot.wanted), shot);
+            list_.start(shot.moment.ego.position_m);
+            const int call = list_.add_nothing();
+            list_.upload();
+            list_.draw(call);
+        }
+    context_.check("compiling variants");
+}
+
+void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vector<Group>& groups) {
+    left_out_.clear();
+    if (!pruned_)
+        return;
+    const auto say = [&](std::string what, std::string why) { left_out_.push_back({std::move(what), std::move(why)}); };
+    if (const std::size_t off = shot.moment.lamps.size() - lamps_.size(); off > 0)
+        say(fmt::format("{} of {} lamps", off, shot.moment.lamps.size()), "switched off");
+    if (!settings_.shadows)
+        say("shadow maps", "the drive switches them off");
+    else if (!shadows_.needed())
+        say("shadow maps", scene_.flat() ? "the scene is flat, nothing stands in a beam" : "nothing stands in a beam");
+    if (shot.moment.daylight.horizontal_illuminance_lx == 0.0)
+        say("sky light", "it is night");
+    std::size_t drawn = 0, dark = 0, unshaded = 0;
+    for (const Group& group : groups) {
+        drawn += group.pieces.size();
+        dark += group.lit ? 0 : group.pieces.size();
+        unshaded += group.lit && !group.shadowed ? group.pieces.size() : 0;
+    }
+    if (drawn < scene_.pieces().size())
+        say(fmt::format("{} of {} pieces of the scene", scene_.pieces().size() - drawn, scene_.pieces().size()), "out of view");
+    if (dark > 0)
+        say(fmt::format("lamps on {} of {} pieces in view", dark, drawn), "outside every beam");
+    if (unshaded > 0 && shadows_.needed())
+        say(fmt::format("shadow look-ups on {} of {} pieces in view", unshaded, drawn), "no caster stands between them and a lamp");
+    if (!scene_.has([](const SurfaceClass& c) { return c.retroreflecting; }))
+        say("retroreflection", "no material of the scene retroreflects");
+    if (!scene_.has([](const SurfaceClass& c) { return c.texture > 0; }))
+        say("surface textures", "no material of the scene has one");
+    if (!scene_.has([](const SurfaceClass& c) { return c.emissive; }))
+        say("emission", "nothing in the scene shines by itself");
+}
+
+} // namespace fernlicht::gl

@@ -1,0 +1,67 @@
+// The technique `photometric`: variants compiled for what a moment needs, and drawn group by group.
+#pragma once
+
+#include "renderer/gl/lighting.h"
+#include "renderer/gl/shadow_maps.h"
+
+#include <memory>
+#include <tuple>
+
+namespace fernlicht::gl {
+
+class PhotometricLighting : public Lighting {
+  public:
+    /// `pruned`: leave out what a moment does not need; else everything is compiled in and drawn, which gives the same pixels.
+    PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned);
+
+    void draw(const Shot& shot) override;
+    void prepare(const Shot& shot) override;
+    std::vector<LeftOut> left_out() const override { return left_out_; }
+
+  private:
+    /// A set of features is a shader variant.
+    struct Features {
+        std::vector<int> beams; ///< one a lamp
+        SurfaceClass surface;
+        bool shadows = false, sky = false, everything = false, by_vertex = true;
+        int wanted = 0;
+        auto operator<=>(const Features&) const = default;
+    };
+    struct Compiled {
+        Program program;
+        GLint clip, eye, axis, sky;
+    };
+    /// Pieces that one variant draws.
+    struct Group {
+        SurfaceClass surface;
+        bool lit = true, shadowed = true;
+        std::vector<std::uint32_t> pieces;
+    };
+    struct Packed { // std140, as in photometric_lamps.glsl
+        glm::vec4 position_m, right, up, forward, colour, eye, raise;
+    };
+
+    void set_lamps(const Shot& shot);
+    std::vector<Group> groups_for(const Shot& shot);
+    Features features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed) const;
+    const Compiled& variant(const Features& features, const Wanted& wanted);
+    void use(const Compiled& v, const Shot& shot) const;
+    void note_what_is_left_out(const Shot& shot, const std::vector<Group>& groups);
+
+    Context& context_;
+    RendererSettings settings_;
+    bool pruned_;
+    SceneBuffers scene_;
+    Beams beams_;
+    ShadowMaps shadows_;
+    DrawList list_;
+    std::map<Features, Compiled> variants_;
+    std::vector<LitLamp> lamps_;
+    std::vector<const Beam*> lamp_beams_;
+    std::vector<Packed> packed_;
+    Buffer block_;
+    bool by_vertex_ = true;
+    std::vector<LeftOut> left_out_;
+};
+
+} // namespace fernlicht::gl

@@ -1,0 +1,142 @@
+// Technique `photometric-naive`: the equations of `photometric` written down as they stand, for its speed to be measured against.
+//
+// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, RETRO, and which results are wanted (WANT_*). What is left out adds exactly +0.
+#include "naive_lamps.glsl"
+
+struct Material { // as in surface.vert.glsl
+    vec4 albedo;
+    vec4 emission;
+    vec4 retro;
+    vec4 blend;
+};
+
+layout(std430, binding = 1) readonly buffer Materials { Material materials[]; };
+
+uniform vec3 eye_m;            // relative to the car
+uniform vec3 eye_direction;    // map views: the same for every point; 0 0 0: perspective
+uniform vec4 eye_axis;         // xyz: viewing direction, depth along it
+uniform float sky_lx;          // horizontal illuminance
+uniform float target_height_m;
+uniform vec4 tone;             // kind, s, l_max
+
+in vec3 v_position_m;
+in vec3 v_normal;
+in vec2 v_uv;
+#if TEXTURED
+layout(binding = 15) uniform sampler2DArray surface_textures;
+#endif
+flat in uint v_material;
+flat in uint v_mesh;
+
+#if WANT_COLOUR
+layout(location = OUT_COLOUR) out vec4 out_colour;
+#endif
+#if WANT_ILLUMINANCE
+layout(location = OUT_ILLUMINANCE) out float out_illuminance_lx;
+#endif
+#if WANT_TARGET
+layout(location = OUT_TARGET) out float out_target_lx;
+#endif
+#if WANT_LUMINANCE
+layout(location = OUT_LUMINANCE) out float out_luminance_cdm2;
+#endif
+#if WANT_DEPTH
+layout(location = OUT_DEPTH) out float out_depth_m;
+#endif
+#if WANT_IDS
+layout(location = OUT_IDS) out uint out_id;
+#endif
+
+const vec3 luminance_weights = vec3(0.2126, 0.7152, 0.0722);
+
+float toned(float l) {
+    if (tone.x == 0.0)
+        return tone_linear(l, tone.z);
+    return tone.x == 1.0 ? tone_rational(l, tone.z, tone.y) : tone_logarithmic(l, tone.z, tone.y);
+}
+
+void main() {
+    vec3 n = normalize(v_normal);
+    vec3 p = v_position_m;
+    PRECISE float illuminance = 0.0;
+    PRECISE float target = 0.0;
+    PRECISE vec3 light = vec3(0.0);
+#if WANT_COLOUR || WANT_LUMINANCE
+    Material material = materials[v_material];
+    vec3 albedo = material.albedo.rgb;
+    float rl = material.albedo.w;
+#if TEXTURED
+    vec4 texel = texture(surface_textures, vec3(v_uv, material.emission.w));
+    if (material.retro.z > 0.0) {
+        albedo = combined_reflectance(int(material.retro.z) - 1, material.albedo.rgb, texel, material.blend.rgb);
+        rl = textured_rl(material.albedo.w, material.albedo.rgb, albedo);
+    }
+#endif
+    vec3 to_eye = eye_direction == vec3(0.0) ? eye_m - p : eye_direction;
+#endif
+
+#if LAMP_COUNT > 0
+    for (int i = 0; i < LAMP_COUNT; ++i) {
+        vec3 to_lamp = lamps[i].position_m.xyz - p;
+        float cosine = incidence(n, to_lamp);
+        vec3 w = lamp_space(-to_lamp, lamps[i].right.xyz, lamps[i].up.xyz, lamps[i].forward.xyz);
+        float e_perp = cosine > 0.0 ? facing_illuminance(intensity_towards(lamps[i], beams[i], w), to_lamp) : 0.0;
+#if SHADOWS
+        if (e_perp > 0.0 && lamps[i].count.w > 0.0)
+            e_perp *= visibility(lamps[i], shadow_maps[i], w, p, n);
+#endif
+        float e = e_perp * cosine;
+        illuminance += e;
+#if WANT_COLOUR || WANT_LUMINANCE
+        light += lamps[i].colour.rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e));
+#if RETRO
+        if (rl > 0.0)
+            light += lamps[i].colour.rgb * retro_luminance(rl, e_perp, cosine, observation_angle(to_lamp, to_eye), material.retro.x, material.retro.y);
+#endif
+#endif
+#if WANT_TARGET
+        vec3 raised = p + vec3(0.0, 0.0, target_height_m);
+        vec3 raised_to_lamp = lamps[i].position_m.xyz - raised;
+        vec3 raised_w = lamp_space(-raised_to_lamp, lamps[i].right.xyz, lamps[i].up.xyz, lamps[i].forward.xyz);
+        float e_target = facing_illuminance(intensity_towards(lamps[i], beams[i], raised_w), raised_to_lamp);
+#if SHADOWS
+        if (e_target > 0.0 && lamps[i].count.w > 0.0)
+            e_target *= visibility(lamps[i], shadow_maps[i], raised_w, raised, normalize(raised_to_lamp));
+#endif
+        target += e_target;
+#endif
+    }
+#endif
+
+#if SKY
+    float e_sky = sky_lx * 0.5 * (1.0 + n.z);
+    illuminance += e_sky;
+#if WANT_COLOUR || WANT_LUMINANCE
+    light += vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky));
+#endif
+#endif
+
+#if WANT_COLOUR || WANT_LUMINANCE
+    light += material.emission.rgb;
+    float luminance = dot(luminance_weights, light);
+#endif
+#if WANT_COLOUR
+    vec3 shown = luminance > 0.0 ? clamp(light * (toned(luminance) / luminance), 0.0, 1.0) : vec3(0.0);
+    out_colour = vec4(srgb_encoded(shown.r), srgb_encoded(shown.g), srgb_encoded(shown.b), 1.0);
+#endif
+#if WANT_ILLUMINANCE
+    out_illuminance_lx = illuminance;
+#endif
+#if WANT_TARGET
+    out_target_lx = target;
+#endif
+#if WANT_LUMINANCE
+    out_luminance_cdm2 = luminance;
+#endif
+#if WANT_DEPTH
+    out_depth_m = dot(p - eye_m, eye_axis.xyz);
+#endif
+#if WANT_IDS
+    out_id = v_mesh;
+#endif
+}

@@ -1,0 +1,59 @@
+// Technique `photometric`. On software rasterisers an interpolated or flat input costs next to nothing in the fragment stage while a
+// uniform costs as much as a dozen operations, so that everything that is linear over a triangle, or constant, is put out here.
+#include "surface.vert.glsl"
+#include "photometric_lamps.glsl"
+
+uniform mat4 clip_from_ego;
+uniform vec3 eye_m;
+uniform vec4 eye_axis; // xyz: viewing direction; w: 1 perspective, 0 map
+uniform float sky_lx;
+
+invariant gl_Position;
+
+#include "photometric_varyings.glsl"
+
+void main() {
+    vec3 p = mesh_offset_m.xyz + position_m;
+    Material m = materials[material];
+#if WANT_COLOUR || WANT_LUMINANCE
+    v_albedo = m.albedo;
+#if TEXTURED
+    v_uv = uv;
+    v_blend = vec4(m.blend.rgb, m.emission.w);
+    v_texture_mode = int(m.retro.z) - 1;
+#endif
+#if EMISSIVE
+    v_emission = m.emission.rgb;
+#endif
+#if RETRO
+    v_retro = m.retro.xy;
+#endif
+#endif
+#if SKY
+    v_normal = normal;
+    v_sky_lx = sky_lx;
+#endif
+#if WANT_DEPTH
+    v_depth_m = dot(p - eye_m, eye_axis.xyz);
+#endif
+#if WANT_IDS
+    v_mesh = uint(mesh_offset_m.w);
+#endif
+#if LAMP_COUNT > 0
+    for (int i = 0; i < LAMP_COUNT; ++i) {
+        Lamp lamp = lamps[i];
+        v_w[i] = lamp_space(p - lamp.position_m.xyz, lamp.right.xyz, lamp.up.xyz, lamp.forward.xyz);
+        v_n[i] = lamp_space(normal, lamp.right.xyz, lamp.up.xyz, lamp.forward.xyz);
+#if LAMPS_BY_VERTEX
+        v_colour[i] = lamp.colour;
+#if WANT_TARGET
+        v_raise[i] = lamp.raise.xyz;
+#endif
+#if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
+        v_eye[i] = lamp.eye;
+#endif
+#endif
+    }
+#endif
+    gl_Position = clip_from_ego * vec4(p, 1.0);
+}

@@ -1,0 +1,38 @@
+// What the vertex stage of `photometric` hands to the fragment stage. STAGE_IO is `out` or `in`.
+#if WANT_COLOUR || WANT_LUMINANCE
+flat STAGE_IO vec4 v_albedo; // w: retro_rl
+#if TEXTURED
+STAGE_IO vec2 v_uv;
+flat STAGE_IO vec4 v_blend; // w: texture layer
+flat STAGE_IO int v_texture_mode;
+#endif
+#if EMISSIVE
+flat STAGE_IO vec3 v_emission;
+#endif
+#if RETRO
+flat STAGE_IO vec2 v_retro; // reference angle, 1 / fall-off
+#endif
+#endif
+#if SKY
+STAGE_IO vec3 v_normal;
+flat STAGE_IO float v_sky_lx;
+#endif
+#if WANT_DEPTH
+STAGE_IO float v_depth_m;
+#endif
+#if WANT_IDS
+flat STAGE_IO uint v_mesh;
+#endif
+#if LAMP_COUNT > 0
+STAGE_IO vec3 v_w[LAMP_COUNT];      // the point in lamp space
+STAGE_IO vec3 v_n[LAMP_COUNT];      // its normal in lamp space, not yet of unit length
+#if LAMPS_BY_VERTEX // not where many lamps would need more of these than there are
+flat STAGE_IO vec4 v_colour[LAMP_COUNT]; // linear sRGB of luminance 1; w: intensity factor
+#if WANT_TARGET
+flat STAGE_IO vec3 v_raise[LAMP_COUNT]; // from the point to the target above it
+#endif
+#if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
+flat STAGE_IO vec4 v_eye[LAMP_COUNT]; // in lamp space; w: 1 a place, 0 a direction
+#endif
+#endif
+#endif
