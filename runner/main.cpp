@@ -1,8 +1,10 @@
 // fernlicht: night drives played headless, headlamps measured. Options end here; below are plain values.
 #include "runner/accept_command.h"
+#include "runner/bench_command.h"
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
 #include "runner/run_command.h"
+#include "runner/techniques_command.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -26,6 +28,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     std::function<int()> chosen;
     fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_techniques_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_doctor_command(app, chosen);
     fernlicht::add_accept_command(app, chosen);

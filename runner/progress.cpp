@@ -15,8 +15,8 @@ std::string clock_text(double s) { return fmt::format("{}:{:02}", static_cast<in
 
 } // namespace
 
-Progress::Progress(std::string label, int total, bool quiet)
-    : label_(std::move(label)), total_(total), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1),
+Progress::Progress(std::string label, int total, bool quiet, std::string counted)
+    : label_(std::move(label)), counted_(std::move(counted)), total_(total), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()), shown_(start_) {}
 
 Progress::~Progress() { show(true); }
@@ -46,7 +46,7 @@ void Progress::show(bool last) {
     if (last ? tenth_shown_ == 10 : tenth == tenth_shown_)
         return;
     tenth_shown_ = last ? 10 : tenth;
-    fmt::print(stderr, "{}: {}/{} moments, {:.1f}/s, {} left\n", label_, count_, total_, rate, clock_text(left));
+    fmt::print(stderr, "{}: {}/{} {}, {:.1f}/s, {} left\n", label_, count_, total_, counted_, rate, clock_text(left));
 }
 
 } // namespace fernlicht

@@ -8,14 +8,14 @@ namespace fernlicht {
 
 class Progress {
   public:
-    Progress(std::string label, int total, bool quiet);
+    Progress(std::string label, int total, bool quiet, std::string counted = "moments");
     ~Progress();
     void done(int count);
 
   private:
     void show(bool last);
 
-    std::string label_;
+    std::string label_, counted_;
     int total_, count_ = 0, tenth_shown_ = 0;
     bool quiet_, terminal_;
     std::chrono::steady_clock::time_point start_, shown_;

@@ -67,7 +67,8 @@ std::string techniques_json(std::span<const Technique> rows) {
                         {"ignores", row.ignores},
                         {"passes", row.passes},
                         {"illuminance", row.illuminance},
-                        {"target", row.target}});
+                        {"target", row.target},
+                        {"luminance", row.luminance}});
     return json_text(Json{{"schema", "fernlicht techniques"}, {"schema_version", 1}, {"techniques", list}});
 }
 

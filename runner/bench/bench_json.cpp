@@ -66,11 +66,16 @@ Json ratio_json(const PairedRatio& ratio) {
             {"text", verdict_text(ratio)}};
 }
 
-Json work_json(const FrameWork& work) {
-    return {{"passes", work.passes},           {"draws", work.draws},
-            {"shadow_maps", work.shadow_maps}, {"lamps", work.lamps},
-            {"programs", work.programs},       {"triangles", work.triangles},
-            {"fragments", work.fragments},     {"texture_bytes", work.texture_bytes}};
+Json work_json(const Work& work) {
+    return {{"passes", work.passes},
+            {"draws", work.draws},
+            {"calls", work.calls},
+            {"samplers", work.samplers},
+            {"shadow_maps", work.shadow_maps},
+            {"lamps", work.lamps},
+            {"triangles", work.triangles},
+            {"fragments", work.fragments},
+            {"texture_bytes", work.texture_bytes}};
 }
 
 Json technique_json(const BenchRow& row, const BenchResult& result) {

@@ -3,6 +3,7 @@
 
 #include "metrics/paired_ratio.h"
 #include "metrics/statistics.h"
+#include "renderer/renderer.h"
 #include "renderer/technique.h"
 #include "runner/bench/contest.h"
 #include "runner/bench/machine_load.h"
@@ -12,16 +13,10 @@
 
 namespace fernlicht {
 
-/// What drawing one moment takes, counted and not timed.
-struct FrameWork {
-    int passes = 0, draws = 0, shadow_maps = 0, lamps = 0, programs = 0;
-    std::uint64_t triangles = 0, fragments = 0, texture_bytes = 0;
-};
-
 struct BenchedTechnique {
     Technique row;
     ContestSamples samples;
-    std::vector<FrameWork> work; ///< by moment
+    std::vector<Work> work; ///< by moment
 };
 
 struct BenchResult {
@@ -51,7 +46,7 @@ struct BenchRow {
     double frame_deviation_s = 0.0;             ///< median absolute deviation
     std::optional<MedianInterval> frame_median; ///< 95 %
     std::optional<PairedRatio> ratio;           ///< to the reference; nullopt where that did not take part
-    std::optional<FrameWork> work;              ///< of each count the median over the moments, the lower of two
+    std::optional<Work> work;                   ///< of each count the median over the moments, the lower of two
     double frames_per_s() const { return 1.0 / frame.median; }
 };
 /// In the result's order. Techniques without a sample are left out.

@@ -6,20 +6,20 @@
 namespace fernlicht {
 namespace {
 
-template <class Count> Count typical(const std::vector<FrameWork>& work, Count FrameWork::*count) {
+template <class Count> Count typical(const std::vector<Work>& work, Count Work::*count) {
     std::vector<Count> values;
-    for (const FrameWork& moment : work)
+    for (const Work& moment : work)
         values.push_back(moment.*count);
     std::ranges::sort(values);
     return values[(values.size() - 1) / 2];
 }
 
-std::optional<FrameWork> typical(const std::vector<FrameWork>& work) {
+std::optional<Work> typical(const std::vector<Work>& work) {
     if (work.empty())
         return std::nullopt;
-    return FrameWork{typical(work, &FrameWork::passes),    typical(work, &FrameWork::draws),        typical(work, &FrameWork::shadow_maps),
-                     typical(work, &FrameWork::lamps),     typical(work, &FrameWork::programs),     typical(work, &FrameWork::triangles),
-                     typical(work, &FrameWork::fragments), typical(work, &FrameWork::texture_bytes)};
+    return Work{typical(work, &Work::passes),    typical(work, &Work::draws),       typical(work, &Work::calls),
+                typical(work, &Work::samplers),  typical(work, &Work::shadow_maps), typical(work, &Work::lamps),
+                typical(work, &Work::triangles), typical(work, &Work::fragments),   typical(work, &Work::texture_bytes)};
 }
 
 } // namespace
@@ -68,12 +68,13 @@ std::vector<std::string> bench_warnings(const BenchResult& result) {
     if (!result.others.cores)
         warnings.emplace_back("whether others used the machine could not be seen: /proc/stat does not tell");
     else if (*result.others.cores > disturbing_cores)
-        warnings.push_back(fmt::format(
-            "others used {:.2f} of the machine's {} cores meanwhile{}: times are longer than on a quiet machine, and "
-            "their spread is wider",
-            *result.others.cores, result.cores,
-            result.others.busiest.empty() ? ""
-                                          : fmt::format(" (most of it '{}', {:.2f})", result.others.busiest, result.others.busiest_cores)));
+        warnings.push_back(
+            fmt::format("others used {:.2f} of the machine's {} cores meanwhile{}: times are longer than on a quiet machine, and "
+                        "their spread is wider",
+                        *result.others.cores, result.cores,
+                        result.others.busiest.empty()
+                            ? ""
+                            : fmt::format(" (busiest seen: '{}' with {:.2f})", result.others.busiest, result.others.busiest_cores)));
     if (result.orders.size() < fewest_rounds)
         warnings.push_back(fmt::format("{} rounds are too few to tell techniques apart; it takes {}", result.orders.size(), fewest_rounds));
     if (!result.interrupted.empty())

@@ -50,14 +50,14 @@ std::string other_table(const std::vector<BenchRow>& rows) {
 }
 
 std::string cost_table(const std::vector<BenchRow>& rows) {
-    const auto count = [](const BenchRow& row, auto FrameWork::*member) {
+    const auto count = [](const BenchRow& row, auto Work::*member) {
         return row.work ? fmt::format("{}", (*row.work).*member) : std::string("-");
     };
     std::vector<Cells> lines;
     for (const BenchRow& row : rows)
         lines.push_back({std::string(row.benched->row.name), ms(row.frame.median), ms(row.frame.p95), ms(row.latency.median),
-                         ms(row.latency.p95), ms(row.cpu.median), row.gpu ? ms(row.gpu->median) : "-", count(row, &FrameWork::passes),
-                         count(row, &FrameWork::draws), count(row, &FrameWork::triangles), count(row, &FrameWork::fragments),
+                         ms(row.latency.p95), ms(row.cpu.median), row.gpu ? ms(row.gpu->median) : "-", count(row, &Work::passes),
+                         count(row, &Work::draws), count(row, &Work::triangles), count(row, &Work::fragments),
                          row.work ? fmt::format("{:.1f}", static_cast<double>(row.work->texture_bytes) / (1 << 20)) : "-"});
     return "What a frame costs, in ms\n" + aligned_table("<>>>>>>>>>>>",
                                                          {"technique", "median", "p95", "latency", "p95", "CPU", "GPU", "passes", "draws",

@@ -47,7 +47,7 @@ TEST(BenchRows, WarnOfWhatMakesTimesDoubtful) {
     EXPECT_THAT(bench_warnings(result), IsEmpty());
     result.others = {1.25, "cc1plus", 0.9};
     EXPECT_THAT(bench_warnings(result),
-                ElementsAre(HasSubstr("others used 1.25 of the machine's 2 cores meanwhile (most of it 'cc1plus', 0.90)")));
+                ElementsAre(HasSubstr("others used 1.25 of the machine's 2 cores meanwhile (busiest seen: 'cc1plus' with 0.90)")));
     result.others.cores.reset();
     result.orders.resize(3);
     result.interrupted = "interrupted by the user";
@@ -69,8 +69,7 @@ TEST(BenchText, TablesStandBesideTheThesis) {
     EXPECT_THAT(text, HasSubstr("technique  frames/s  ratio      spread  verdict\n"
                                 "light-map    1000.0   0.10  0.10..0.10  faster\n"));
     EXPECT_THAT(
-        text,
-        HasSubstr("full             20.00  34.00    50.00  74.00  40.00    -       1     20       4000     300000            3.0\n"));
+        text, HasSubstr("full             20.00  34.00    50.00  74.00  40.00    -       1     20       4000     300000            3.0\n"));
     EXPECT_THAT(bench_heading(sample_bench()), HasSubstr("load average 0.25 before, 1.50 after"));
 }
 

@@ -1,0 +1,66 @@
+#include "runner/bench_command.h"
+
+#include "runner/bench/bench_run.h"
+#include "runner/flag_values.h"
+#include "runner/output_folder.h"
+#include "runner/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct Flags {
+    std::filesystem::path drive = "scenarios/library/drives/first-light.yaml";
+    std::string variant, resolution, backend = "auto", out;
+    std::vector<std::string> techniques;
+    int frames = 8, rounds = 21;
+    std::uint64_t seed = 1;
+    bool quiet = false;
+};
+
+int bench(const Flags& flags, const std::vector<std::string>& command) {
+    if (flags.rounds < 1 || flags.rounds > 100000)
+        refuse_flag("--rounds", fmt::format("{}", flags.rounds), "1 to 100000");
+    DriveEdits edits;
+    if (!flags.resolution.empty())
+        edits.resolution = resolution_of(flags.resolution);
+    BenchRequest request;
+    request.drive = read_drive(flags.drive, edits);
+    request.variant = flags.variant;
+    request.techniques = flags.techniques;
+    request.moments = flags.frames;
+    request.rounds = flags.rounds;
+    request.seed = flags.seed;
+    request.backend = flags.backend;
+    request.folder = flags.out.empty() ? default_output_folder("bench", utc_now()) : std::filesystem::path(flags.out);
+    request.command = command;
+    request.quiet = flags.quiet;
+    const BenchResult result = run_bench(request);
+    fmt::print("{}\n{}\n{}\n", bench_heading(result), bench_tables(result), (request.folder / "bench.json").string());
+    return result.interrupted.empty() ? 0 : 1;
+}
+
+} // namespace
+
+void add_bench_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand("bench", "time the techniques against one another");
+    sub->add_option("--drive", flags->drive, "drive file (YAML) whose moments are drawn")->capture_default_str();
+    sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
+    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->delimiter(',')->allow_extra_args(false);
+    sub->add_option("--frames", flags->frames, "moments, spread evenly over the drive")->capture_default_str();
+    sub->add_option("--rounds", flags->rounds, "in each, every technique draws the moments once")->capture_default_str();
+    sub->add_option("--seed", flags->seed, "of the order in each round")->capture_default_str();
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT; else the drive's");
+    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return bench(*flags, command); }; });
+}
+
+} // namespace fernlicht
