@@ -9,8 +9,11 @@
 
 namespace fernlicht {
 
-/// Channels of the frame that are there, as 32-bit float: illuminance.lx, target.lx, luminance.cdm2, depth.m. Metadata carry the
-/// moment (fernlicht:time_s ...), the car's pose and the view. Throws DeviceError with the path and the reason.
+/// Whether write_exr has anything to write.
+bool has_linear_picture(const Frame& frame);
+
+/// Channels of the frame that are there, at least one, as 32-bit float: illuminance.lx, target.lx, luminance.cdm2, depth.m. Metadata carry
+/// the moment (fernlicht:time_s ...), the car's pose and the view. Throws DeviceError with the path and the reason.
 void write_exr(const Frame& frame, const Moment& moment, const View& view, const std::filesystem::path& path);
 
 /// 8-bit sRGB. Throws DeviceError.
