@@ -98,7 +98,7 @@ StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, c
         stored.png = (place / (stem + ".png")).generic_string();
         writers.submit([shared, path = folder / stored.png] { write_png(shared->colour, path); });
     }
-    if (capture.exr) {
+    if (capture.exr && has_linear_picture(*shared)) {
         stored.exr = (place / (stem + ".exr")).generic_string();
         writers.submit([shared, moment, view, path = folder / stored.exr] { write_exr(*shared, moment, view, path); });
     }

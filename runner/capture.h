@@ -39,7 +39,8 @@ class Writers {
 /// True for the ticks that are stored: the first at or after each multiple of 1 / per_second.
 bool is_captured(const Capture& capture, int tick, double step_s);
 
-/// Queues the files of one captured frame under `folder`/frames/`set`/ and returns their paths relative to `folder`.
+/// Queues the files of one captured frame under `folder`/frames/`set`/ and returns their paths relative to `folder`; "" for a file that
+/// the frame has no picture for.
 StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,
                         const Moment& moment, const View& view);
 

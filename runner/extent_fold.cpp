@@ -66,25 +66,27 @@ View map_over(const ExtentGrid& grid, const Moment& moment) {
     return view;
 }
 
-ExtentRow ExtentFold::add(const Moment& moment, const Draw& draw) {
+ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
+    ExtentDrawing drawing{moment, make_extent_grid(route_, moment, drive_.bumper_m, *drive_.extent), {}, {}};
+    drawing.view = map_over(drawing.grid, moment);
+    drawing.frame = draw(moment, drawing.view, {.illuminance = true, .target = true})();
+    return drawing;
+}
+
+ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
+    const auto& [moment, grid, view, frame] = drawing;
     const ExtentParameters& p = *drive_.extent;
-    const ExtentGrid grid = make_extent_grid(route_, moment, drive_.bumper_m, p);
-    const View view = map_over(grid, moment);
-    Pending drawing = draw(moment, view, {.illuminance = true, .target = true});
-    std::vector<double> twin[2]; // computed while the GPU draws
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
-        twin[static_cast<int>(plane)] = twin_illuminance_lx(grid, moment, plane);
-    const Frame frame = drawing();
     const Camera camera = camera_of(moment, view);
     ExtentRow row;
     row.tick = moment.tick;
     row.time_s = moment.time_s;
     row.distance_m = moment.distance_m;
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        const std::vector<double> drawn =
-            sampled(plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx, grid, camera, view, moment);
-        const std::vector<double>& truth = twin[static_cast<int>(plane)];
-        std::ranges::copy(measure_extent(grid, drawn, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.rendered));
+        const Image<float>& picture = plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx;
+        const std::vector<double> truth = twin_illuminance_lx(grid, moment, plane);
+        if (!picture.empty())
+            std::ranges::copy(measure_extent(grid, sampled(picture, grid, camera, view, moment), plane, p.limits_lx, p.width_at_m),
+                              std::back_inserter(row.rendered));
         std::ranges::copy(measure_extent(grid, truth, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.twin));
         std::ranges::copy(grid_error(grid, truth, plane, p.limits_lx), std::back_inserter(row.grid_errors));
     }

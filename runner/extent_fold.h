@@ -5,12 +5,23 @@
 
 namespace fernlicht {
 
+/// What the extents of one moment are measured in.
+struct ExtentDrawing {
+    Moment moment;
+    ExtentGrid grid;
+    View view;
+    Frame frame; ///< its lux images are empty where the technique computes none
+};
+
 class ExtentFold {
   public:
     /// The drive must ask for an extent. Drive and route must outlive the fold.
     ExtentFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {}
 
-    ExtentRow add(const Moment& moment, const Draw& draw);
+    /// By the thread that draws.
+    ExtentDrawing draw(const Moment& moment, const Draw& draw) const;
+    /// By any thread. No rendered extents of a plane whose lux image is empty.
+    ExtentRow measure(const ExtentDrawing& drawing) const;
 
   private:
     const Drive& drive_;

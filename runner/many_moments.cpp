@@ -23,7 +23,7 @@ std::optional<double> ManyMoments::quantile(double share) const {
 std::string ManyMoments::why_not() const {
     if (count() > 0)
         return fmt::format("in {} of {} moments the light goes on beyond the {} m that were looked at", beyond_, count(), looked_ahead_m_);
-    return left_out_ > 0 ? "cut off by the end of the road or lane in every moment" : "not there in any moment";
+    return left_out_ > 0 ? "cut off by the end of the road or lane in every moment" : why_none_;
 }
 
 std::string ManyMoments::account() const {

@@ -12,7 +12,9 @@ namespace fernlicht {
 /// every other one, which leaves quantiles exact as long as they fall among the measured ones.
 class ManyMoments {
   public:
-    explicit ManyMoments(double looked_ahead_m = 0.0) : looked_ahead_m_(looked_ahead_m) {}
+    /// `why_none`: the reason when no moment adds anything.
+    explicit ManyMoments(double looked_ahead_m = 0.0, std::string why_none = "not there in any moment")
+        : looked_ahead_m_(looked_ahead_m), why_none_(std::move(why_none)) {}
 
     void add(double value) { measured_.push_back(value); }
     void add_beyond() { ++beyond_; }  ///< lit as far as the grid goes
@@ -28,6 +30,7 @@ class ManyMoments {
 
   private:
     double looked_ahead_m_ = 0.0;
+    std::string why_none_;
     std::vector<double> measured_;
     std::size_t beyond_ = 0, left_out_ = 0;
 };

@@ -1,11 +1,14 @@
 #include "runner/play.h"
 
 #include "runner/extent_fold.h"
+#include "runner/frame_times.h"
 #include "runner/lux_map.h"
 #include "runner/probe_fold.h"
 #include "scenarios/drives/advance.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <future>
 
 namespace fernlicht {
 namespace {
@@ -22,51 +25,58 @@ Wanted stored_results(const View& view, const Capture& capture) {
     return wanted;
 }
 
-/// Draws and stores what is captured of this moment, and times the driver's view of every moment.
+/// Draws the views of a moment: all of them where it is captured, else the driver's; then hands to the writers what is stored.
 class Pictures {
   public:
-    Pictures(const Drive& drive, const Route& route, const PlayOptions& options, PlayedVariant& played, Writers& writers)
-        : drive_(drive), route_(route), options_(options), played_(played), writers_(writers) {}
-
-    void add(const Moment& moment, const Draw& draw) {
-        const bool captured = is_captured(drive_.capture, moment.tick, drive_.step_s);
-        for (std::size_t i = 0; i < drive_.views.size(); ++i) {
-            const View& view = drive_.views[i];
-            if (captured)
-                store(moment, view, draw, i == 0);
-            else if (i == 0)
-                time(draw(moment, view, {.colour = true})(), "frame");
-        }
-    }
-
-  private:
-    void store(const Moment& moment, const View& view, const Draw& draw, bool timed) {
-        Frame frame = draw(moment, view, stored_results(view, drive_.capture))();
-        if (timed)
-            time(frame, drive_.capture.exr && !drive_.capture.all ? "frame, stored" : "frame");
-        if (view.projection == Projection::map)
-            played_.maps.push_back(lux_map_of(frame, moment, view, route_));
-        played_.frames.push_back(
-            store_frame(writers_, options_.folder, drive_.name + "-" + played_.variant, drive_.capture, std::move(frame), moment, view));
-    }
+    Pictures(const Drive& drive, const Route& route, const PlayOptions& options, PlayedVariant& played, Writers& writers, FrameTimes& times)
+        : drive_(drive), route_(route), options_(options), played_(played), writers_(writers), times_(times),
+          maps_(captured_moments(drive, options.ticks)) {}
 
     /// "frame" is what a simulator would draw each time: the driver's view in colour; where every frame is stored, with its linear results.
-    void time(const Frame& frame, const std::string& name) {
-        if (drawn_++ < options_.warm_up) {
-            ++played_.warm_up_dropped;
-            return;
-        }
-        add_time(name, frame.cpu_s);
-        for (const auto& [pass, seconds] : frame.pass_s)
-            add_time(name + ": " + pass, seconds);
+    std::string kind(const Moment& moment) const {
+        return is_captured(drive_.capture, moment.tick, drive_.step_s) && drive_.capture.exr && !drive_.capture.all ? "frame, stored"
+                                                                                                                    : "frame";
     }
 
-    void add_time(const std::string& pass, double seconds) {
-        const auto known = std::find_if(played_.passes.begin(), played_.passes.end(), [&](const PassTime& p) { return p.name == pass; });
-        if (known == played_.passes.end())
-            played_.passes.push_back({pass, {seconds}});
-        else
-            known->seconds.push_back(seconds);
+    void draw(const Moment& moment, const Draw& draw) {
+        const bool captured = is_captured(drive_.capture, moment.tick, drive_.step_s);
+        for (std::size_t i = 0; i < (captured ? drive_.views.size() : std::min<std::size_t>(1, drive_.views.size())); ++i) {
+            const View& view = drive_.views[i];
+            Frame frame = draw(moment, view, captured ? stored_results(view, drive_.capture) : Wanted{.colour = true})();
+            i == 0 ? times_.add(kind(moment), frame) : times_.add(frame);
+            if (captured)
+                drawn_.emplace_back(&view, std::move(frame));
+        }
+    }
+
+    void store(const Moment& moment) {
+        for (auto& [view, frame] : drawn_) {
+            if (view->projection == Projection::map)
+                keep_map(frame, moment, *view);
+            StoredFrame stored = store_frame(writers_, options_.folder, drive_.name + "-" + played_.variant, drive_.capture,
+                                             std::move(frame), moment, *view);
+            played_.frames.push_back(std::move(stored));
+        }
+        captured_ += drawn_.empty() ? 0U : 1U;
+        drawn_.clear();
+    }
+
+    void finish(bool all_played) { played_.maps = maps_.finish(all_played); }
+
+  private:
+    static std::size_t captured_moments(const Drive& drive, TickRange range) {
+        std::size_t captured = 0;
+        for (int k = 0, tick = std::max(0, range.first); k < ticks_to_play(drive, range); ++k, ++tick)
+            captured += is_captured(drive.capture, tick, drive.step_s) ? 1U : 0U;
+        return captured;
+    }
+
+    void keep_map(const Frame& frame, const Moment& moment, const View& view) {
+        if (!frame.illuminance_lx.empty())
+            maps_.add(captured_, [&] { return lux_map_of(frame, moment, view, route_); });
+        else if (const std::string note = "lux maps are not measured: " + no_illuminance(drive_.technique);
+                 std::ranges::find(played_.notes, note) == played_.notes.end())
+            played_.notes.push_back(note);
     }
 
     const Drive& drive_;
@@ -74,10 +84,45 @@ class Pictures {
     const PlayOptions& options_;
     PlayedVariant& played_;
     Writers& writers_;
-    int drawn_ = 0;
+    FrameTimes& times_;
+    LuxMaps maps_;
+    std::vector<std::pair<const View*, Frame>> drawn_; ///< of this moment, to be stored
+    std::size_t captured_ = 0;                         ///< moments until now
+};
+
+/// Measures moments by other threads while the next ones are drawn. Rows stand in the order of the moments, and an error comes out of the
+/// add() or finish() that meets it. Memory stays constant: add() waits while too many moments are waiting.
+class Measuring {
+  public:
+    Measuring(const ExtentFold& fold, std::vector<ExtentRow>& rows)
+        : fold_(fold), rows_(rows), most_waiting_(std::clamp(std::thread::hardware_concurrency(), 2U, 8U)) {}
+
+    void add(ExtentDrawing drawing) {
+        if (waiting_.size() == most_waiting_)
+            join_first();
+        waiting_.push_back(std::async(std::launch::async, [this, drawing = std::move(drawing)] { return fold_.measure(drawing); }));
+    }
+    void finish() {
+        while (!waiting_.empty())
+            join_first();
+    }
+
+  private:
+    void join_first() {
+        std::future<ExtentRow> first = std::move(waiting_.front());
+        waiting_.pop_front();
+        rows_.push_back(first.get());
+    }
+
+    const ExtentFold& fold_;
+    std::vector<ExtentRow>& rows_;
+    std::size_t most_waiting_;
+    std::deque<std::future<ExtentRow>> waiting_; ///< each waits for its thread when it is destroyed
 };
 
 } // namespace
+
+std::string no_illuminance(const std::string& technique) { return fmt::format("technique {} does not compute an illuminance", technique); }
 
 int ticks_to_play(const Drive& drive, TickRange range) {
     return std::max(0, std::min(tick_count(drive) - 1, range.last) - std::max(0, range.first) + 1);
@@ -93,10 +138,10 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
     for (const MountedLamp& lamp : variant.lamps)
         played.lamps.emplace_back(lamp.name, lamp.file->name);
     played.ticks_planned = ticks_to_play(drive, options.ticks);
-    Pictures pictures(drive, route, options, played, writers);
-    std::optional<ExtentFold> extent;
-    if (drive.extent)
-        extent.emplace(drive, route);
+    FrameTimes times(options.warm_up, options.profile);
+    Pictures pictures(drive, route, options, played, writers, times);
+    const ExtentFold extent(drive, route);
+    Measuring measuring(extent, played.extents);
     ProbeFold probes(drive, route);
 
     State state = start(drive);
@@ -104,15 +149,35 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
         state = advance(state, drive);
     for (int k = 0; k < played.ticks_planned; ++k, state = advance(state, drive)) {
         const Moment moment = moment_at(state, drive, route, variant);
-        pictures.add(moment, draw);
-        if (extent)
-            played.extents.push_back(extent->add(moment, draw));
+        if (times.begin_moment(pictures.kind(moment))) {
+            measuring.finish();
+            writers.finish();
+        }
+        // All drawing comes first, so that what it leaves to others does not slow it down where its time is taken.
+        pictures.draw(moment, draw);
+        std::optional<ExtentDrawing> drawn;
+        if (drive.extent) {
+            drawn = extent.draw(moment, draw);
+            times.add("extent map", drawn->frame);
+            for (const auto& [picture, why_not] :
+                 {std::pair(&drawn->frame.illuminance_lx, &played.no_road_lx), std::pair(&drawn->frame.target_lx, &played.no_target_lx)})
+                if (picture->empty())
+                    *why_not = no_illuminance(drive.technique);
+        }
         probes.add(moment, draw);
+        times.end_moment();
+        pictures.store(moment);
+        if (drawn)
+            measuring.add(std::move(*drawn));
         played.speed_mps.emplace_back(moment.time_s, moment.speed_mps);
         ++played.ticks_done;
         if (!options.go_on(played.ticks_done))
             break;
     }
+    measuring.finish();
+    writers.finish();
+    times.finish(played);
+    pictures.finish(played.ticks_done == played.ticks_planned);
     played.readings = probes.finish();
     return played;
 }

@@ -18,15 +18,22 @@ struct TickRange {
 struct PlayOptions {
     TickRange ticks;
     std::filesystem::path folder;                                   ///< of the report; frames go below it
-    int warm_up = 3;                                                ///< frames whose times are dropped
+    int warm_up = 3;                                                ///< moments whose times are dropped
+    bool profile = false;                                           ///< nothing goes on beside the drawing, so that every time is its own
     std::function<bool(int done)> go_on = [](int) { return true; }; ///< called after each moment; false stops with what was done
 };
 
 /// Number of ticks of the drive that lie in the range.
 int ticks_to_play(const Drive& drive, TickRange range);
 
-/// Plays one lamp set of a drive. Readings and verdicts are left to the caller.
+/// Plays one lamp set of a drive. Draws by the calling thread; measures and writes by others meanwhile, and waits for them in the end.
+/// Holds as many pictures at a time for a long drive as for a short one. Where a frame comes without an illuminance that was asked for, the
+/// technique computes none: there are no extents, lux maps and probes from it, and the reason stands in the result.
+/// Of readings only the probes' are made here; verdicts are left to the caller. Throws what drawing, measuring or writing threw.
 PlayedVariant play(const Drive& drive, const Route& route, const Variant& variant, const PlayOptions& options, const Draw& draw,
                    Writers& writers);
+
+/// Why a reading of a technique without lux images is not measured.
+std::string no_illuminance(const std::string& technique);
 
 } // namespace fernlicht

@@ -41,9 +41,12 @@ void ProbeFold::add(const Moment& moment, const Draw& draw) {
         found_[i].beside_road =
             found_[i].beside_road || (on_surface && (probe.left_m > across.paved_left_m || probe.left_m < across.paved_right_m));
         found_[i].twin.push_back(on_surface ? surface_illuminance_lx(moment, point, surface.up()) : target_illuminance_lx(moment, point));
-        if (on_surface)
-            found_[i].drawn.push_back(
-                static_cast<double>(draw(moment, map_around(surface.position_m, moment), {.illuminance = true})().illuminance_lx.at(1, 1)));
+        if (!on_surface)
+            continue;
+        const Frame frame = draw(moment, map_around(surface.position_m, moment), {.illuminance = true})();
+        found_[i].not_drawn = frame.illuminance_lx.empty();
+        if (!found_[i].not_drawn)
+            found_[i].drawn.push_back(static_cast<double>(frame.illuminance_lx.at(1, 1)));
     }
 }
 
@@ -53,11 +56,13 @@ Readings ProbeFold::finish() const {
         const Probe& probe = drive_.probes[i];
         const std::string where = fmt::format("{} m ahead, {} m left, {} m above the road{}", probe.ahead_m, probe.left_m, probe.above_m,
                                               found_[i].near_field ? ", near-field: nearer than a lamp's photometric distance" : "");
-        const auto say = [&](const char* suffix, std::optional<double> value, const char* why_not) {
+        const auto say = [&](const char* suffix, std::optional<double> value, const std::string& why_not) {
             readings.push_back({fmt::format("probe_{}{}_lx", probe.name, suffix), value, "lx", where, -1, value ? "" : why_not});
         };
         const std::optional<Spread> drawn = spread_of(found_[i].drawn), twin = spread_of(found_[i].twin);
-        const char* unseen = probe.above_m != 0.0 ? "the point is not on a surface that is drawn" : "no moment was played";
+        const std::string unseen = probe.above_m != 0.0  ? "the point is not on a surface that is drawn"
+                                   : found_[i].not_drawn ? no_illuminance(drive_.technique)
+                                                         : "no moment was played";
         say("", drawn ? std::optional(drawn->median) : std::nullopt, unseen);
         say("_min", drawn ? std::optional(drawn->minimum) : std::nullopt, unseen);
         say("_max", drawn ? std::optional(drawn->maximum) : std::nullopt, unseen);

@@ -11,13 +11,14 @@ class ProbeFold {
 
     void add(const Moment& moment, const Draw& draw);
     /// For each probe NAME: probe_NAME_lx (drawn) and probe_NAME_twin_lx, medians over the drive; probe_NAME_min_lx and _max_lx (drawn).
-    /// Probes above the surface have no drawn value; probes beside the pavement have no twin.
+    /// Not drawn: probes above the surface, and all by a technique without illuminance. Probes beside the pavement have no twin.
     Readings finish() const;
 
   private:
     struct Series {
         std::vector<double> drawn, twin;
         bool beside_road = false; ///< beyond the pavement at some moment: what is drawn there is the verge, which the twin does not know
+        bool not_drawn = false;   ///< the technique computes no illuminance
         bool near_field = false;  ///< nearer to a lamp than its photometric distance at some moment
     };
     const Drive& drive_;

@@ -64,16 +64,16 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     PlayOptions play_options;
     play_options.ticks = options.ticks;
     play_options.folder = options.folder;
+    play_options.profile = options.profile;
     play_options.go_on = [&](int done) {
         progress.done(done);
         return !Interruption::asked();
     };
     const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) { return renderer.submit(moment, view, wanted); };
     PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
-    writers.finish();
     for (const LeftOut& left : renderer.left_out())
         played.left_out.push_back(left.what + ": " + left.why);
-    played.notes = notes_for(stage, variant, renderer);
+    std::ranges::copy(notes_for(stage, variant, renderer), std::back_inserter(played.notes));
     std::ranges::copy(summarise(played, stage.drive), std::back_inserter(played.readings));
     Readings judged = played.readings;
     std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not

@@ -16,14 +16,16 @@ constexpr double median = 0.5;
 /// What all readings of one plane, lane and limit share.
 struct Subject {
     ExtentKey key;
-    std::string stem;  ///< "5lx_road_own"
-    std::string where; ///< "own lane on the road"
+    std::string stem;      ///< "5lx_road_own"
+    std::string where;     ///< "own lane on the road"
+    std::string not_drawn; ///< why nothing of this plane was drawn, if so
 };
 
-Subject subject_of(const ExtentKey& key) {
+Subject subject_of(const ExtentKey& key, const PlayedVariant& played) {
     const std::string place = key.lane == "all" ? "whole width" : key.lane + " lane";
     return {key, fmt::format("{}lx_{}_{}", key.limit_lx, plane_name(key.plane), name_part(key.lane)),
-            place + (key.plane == ExtentPlane::road ? ", on the road" : ", on a target")};
+            place + (key.plane == ExtentPlane::road ? ", on the road" : ", on a target"),
+            key.plane == ExtentPlane::road ? played.no_road_lx : played.no_target_lx};
 }
 
 void add_quantile(Readings& readings, const std::string& name, const ManyMoments& moments, double share, const std::string& unit,
@@ -48,12 +50,15 @@ struct ExtentFold {
 
 class Folding {
   public:
-    explicit Folding(const ExtentParameters& parameters)
+    Folding(const ExtentParameters& parameters, const std::string& not_drawn)
         : ahead_m_(parameters.ahead_m), last_row_m_(parameters.ahead_m - parameters.cell_m) {
-        const ManyMoments reach(ahead_m_);
-        fold_ = {reach, reach, reach, ManyMoments(), ManyMoments(), ManyMoments(), {}};
+        const auto moments = [&](double looked_ahead_m) {
+            return not_drawn.empty() ? ManyMoments(looked_ahead_m) : ManyMoments(looked_ahead_m, not_drawn);
+        };
+        const ManyMoments reach = moments(ahead_m_), other = moments(0.0);
+        fold_ = {reach, reach, reach, other, other, other, {}};
         for (const double at_m : parameters.width_at_m)
-            fold_.widths[at_m];
+            fold_.widths.emplace(at_m, other);
     }
 
     void add(const LaneExtent& extent) {
@@ -90,8 +95,9 @@ class Folding {
     ExtentFold fold_;
 };
 
-ExtentFold fold_of(const PlayedVariant& played, const ExtentKey& key, const ExtentParameters& parameters) {
-    Folding folding(parameters);
+ExtentFold fold_of(const PlayedVariant& played, const Subject& subject, const ExtentParameters& parameters) {
+    const ExtentKey& key = subject.key;
+    Folding folding(parameters, subject.not_drawn);
     for (const ExtentRow& row : played.extents) {
         const LaneExtent* rendered = find_extent(row.rendered, key);
         const LaneExtent* twin = find_extent(row.twin, key);
@@ -168,8 +174,8 @@ Readings summarise(const PlayedVariant& played, const Drive& drive) {
     Readings readings;
     if (drive.extent)
         for (const ExtentKey& key : extent_keys(played)) {
-            const Subject subject = subject_of(key);
-            add_extent(readings, subject, fold_of(played, key, *drive.extent));
+            const Subject subject = subject_of(key, played);
+            add_extent(readings, subject, fold_of(played, subject, *drive.extent));
             if (key.lane == "own")
                 add_trust(readings, played, subject);
             if (key.lane == "all")

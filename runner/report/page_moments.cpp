@@ -15,7 +15,6 @@ namespace {
 using kainjow::mustache::data;
 using List = data::type;
 
-constexpr std::size_t most_moments = 12;
 constexpr std::size_t largest_picture_bytes = std::size_t{16} << 20;
 
 struct PicturedMoment {
@@ -40,18 +39,6 @@ std::vector<PicturedMoment> pictured(const ComparedDrive& drive) {
     std::vector<PicturedMoment> out;
     for (const auto& [tick, moment] : moments)
         out.push_back(moment);
-    return out;
-}
-
-/// At most `most` of `count` indices, evenly spread, first and last among them.
-std::vector<std::size_t> spread_over(std::size_t count, std::size_t most) {
-    std::vector<std::size_t> out;
-    if (count <= most)
-        for (std::size_t i = 0; i < count; ++i)
-            out.push_back(i);
-    else
-        for (std::size_t i = 0; i < most; ++i)
-            out.push_back((i * (count - 1) + (most - 1) / 2) / (most - 1));
     return out;
 }
 
@@ -142,15 +129,40 @@ data links_of(const ComparedDrive& drive, const std::set<int>& shown) {
     return links;
 }
 
+/// Those with lux maps, where there are any: of the others maps were not kept.
+std::vector<PicturedMoment> shown_moments(const ComparedDrive& drive, const std::vector<PicturedMoment>& all) {
+    std::set<int> mapped;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const LuxMap& map : played->maps)
+            mapped.insert(map.tick);
+    std::vector<PicturedMoment> candidates, out;
+    for (const PicturedMoment& moment : all)
+        if (mapped.empty() || mapped.contains(moment.tick))
+            candidates.push_back(moment);
+    for (const std::size_t index : spread_over(candidates.size(), most_pictured_moments))
+        out.push_back(candidates[index]);
+    return out;
+}
+
 } // namespace
+
+std::vector<std::size_t> spread_over(std::size_t count, std::size_t most) {
+    std::vector<std::size_t> out;
+    if (count <= most)
+        for (std::size_t i = 0; i < count; ++i)
+            out.push_back(i);
+    else
+        for (std::size_t i = 0; i < most; ++i)
+            out.push_back((i * (count - 1) + (most - 1) / 2) / (most - 1));
+    return out;
+}
 
 data moments_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
     const std::vector<PicturedMoment> all = pictured(drive);
     const std::vector<std::string> views = views_of(drive);
     data moments{List::list};
     std::set<int> shown;
-    for (const std::size_t index : spread_over(all.size(), most_moments)) {
-        const PicturedMoment& moment = all[index];
+    for (const PicturedMoment& moment : shown_moments(drive, all)) {
         shown.insert(moment.tick);
         data part;
         part.set("tick", fmt::format("{}", moment.tick));

@@ -119,6 +119,29 @@ data timing_table(const ComparedDrive& drive) {
     return rows;
 }
 
+data throughput_table(const ComparedDrive& drive) {
+    data rows{List::list};
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const Throughput& t = drive.variants[i]->throughput;
+        if (!t.moments_per_s())
+            continue;
+        data row;
+        const auto rate = [&](const char* name, const std::optional<double>& alone_s) {
+            row.set(name, alone_s ? figure(1.0 / *alone_s, 1) : "not measured");
+            row.set(std::string(name) + "_share", alone_s ? figure(100.0 * *t.share_of(alone_s), 0) + " %" : "not measured");
+        };
+        row.set("lamp", short_text(drive.variants[i]->variant, 40));
+        row.set("colour", variant_colour(i));
+        row.set("moments", fmt::format("{}", t.moments));
+        row.set("per_s", figure(*t.moments_per_s(), 1));
+        rate("drawing", t.drawing_s);
+        rate("view", t.view_s);
+        row.set("memory", figure(t.peak_memory_mib, 0));
+        rows.push_back(row);
+    }
+    return rows;
+}
+
 data context_part(const RunContext& context) {
     data part;
     part.set("command", clean_text(context.command));

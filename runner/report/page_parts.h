@@ -40,6 +40,9 @@ kainjow::mustache::data details_part(const ComparedDrive& drive);
 /// Spread of each pass of each lamp set.
 kainjow::mustache::data timing_table(const ComparedDrive& drive);
 
+/// How fast each lamp set was played beside what drawing alone takes.
+kainjow::mustache::data throughput_table(const ComparedDrive& drive);
+
 /// Commands, versions, machine, input files.
 kainjow::mustache::data context_part(const RunContext& context);
 

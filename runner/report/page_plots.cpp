@@ -163,8 +163,7 @@ std::string timing_svg(const ComparedDrive& drive) {
                 continue;
             plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.3, "", pass.seconds.size() == 1};
             for (std::size_t k = 0; k < pass.seconds.size(); ++k)
-                series.points.push_back(
-                    {static_cast<double>(k + static_cast<std::size_t>(drive.variants[i]->warm_up_dropped)), 1e3 * pass.seconds[k]});
+                series.points.push_back({static_cast<double>(k + 1), 1e3 * pass.seconds[k]});
             figure.series.push_back(std::move(series));
             plots::Mark median;
             median.value = 1e3 * spread_of(pass.seconds)->median;
@@ -174,10 +173,10 @@ std::string timing_svg(const ComparedDrive& drive) {
     if (figure.series.empty())
         return {};
     figure.title = "Time per frame";
-    figure.subtitle = "broken lines: medians";
+    figure.subtitle = "frames drawn with nothing beside them; broken lines: medians";
     figure.width_px = 640.0;
     figure.height_px = 340.0;
-    set_axes(figure, "frame", "", "time", "ms");
+    set_axes(figure, "sample", "", "time", "ms");
     return plots::svg_of(figure);
 }
 

@@ -63,6 +63,21 @@ struct PassTime {
     std::vector<double> seconds;
 };
 
+/// How fast a drive was played, beside what its drawing alone takes. Without the warm-up.
+struct Throughput {
+    int moments = 0;
+    double wall_s = 0.0;             ///< until the last of them was measured and its last file written
+    std::optional<double> view_s;    ///< mean, the driver's view drawn and read back with nothing beside it
+    std::optional<double> drawing_s; ///< mean a moment, all that is drawn and read back, likewise: with extent map, probes, stored views
+    double peak_memory_mib = 0.0;    ///< resident, of the whole process until the drive's end
+
+    std::optional<double> moments_per_s() const { return wall_s > 0.0 ? std::optional(moments / wall_s) : std::nullopt; }
+    /// Of the rate that would be reached if a moment took only `alone_s`.
+    std::optional<double> share_of(const std::optional<double>& alone_s) const {
+        return alone_s && wall_s > 0.0 ? std::optional(*alone_s * moments / wall_s) : std::nullopt;
+    }
+};
+
 /// One drive played with one lamp set.
 struct PlayedVariant {
     std::string drive, variant, technique;
@@ -70,10 +85,12 @@ struct PlayedVariant {
     std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
     int ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;
-    std::vector<LuxMap> maps;                         ///< at captured moments
+    std::vector<LuxMap> maps;                         ///< at captured moments, at most as many as the page shows
     std::vector<ExtentRow> extents;                   ///< every moment
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed
-    std::vector<PassTime> passes;                     ///< raw samples, warm-up dropped: "frame", "shadow", ...
+    std::string no_road_lx, no_target_lx;             ///< why there are no rendered extents of that plane; "" where there are
+    std::vector<PassTime> passes;                     ///< raw samples of frames drawn alone, warm-up dropped: "frame", "shadow", ...
+    Throughput throughput;
     int warm_up_dropped = 0;
     Readings readings; ///< summary of the drive and probes
     std::vector<Verdict> verdicts;
@@ -88,7 +105,12 @@ struct Report {
     std::string interrupted; ///< why not complete
 };
 
-/// Writes report.json, junit.xml, readings.csv and report.html into `folder` (frames are there already). Each file atomically.
+/// The page shows this many moments of a drive: of all that are pictured, evenly spread, first and last among them.
+inline constexpr std::size_t most_pictured_moments = 12;
+/// At most `most` of `count` indices, evenly spread, first and last among them.
+std::vector<std::size_t> spread_over(std::size_t count, std::size_t most);
+
+/// Writes report.json, junit.xml, readings.csv, times.csv and report.html into `folder` (frames are there already). Each file atomically.
 void write_report(const Report& report, const std::filesystem::path& folder);
 
 /// The report's verdict: fail if anything failed, else not_measured if anything asked for was not measured, else pass.

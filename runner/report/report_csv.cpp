@@ -25,4 +25,29 @@ std::string report_csv(const Report& report) {
     return out;
 }
 
+std::string times_csv(const Report& report) {
+    std::string out = "drive,variant,name,value,unit\r\n";
+    for (const PlayedVariant& played : report.played) {
+        const auto add = [&](const std::string& name, std::optional<double> value, const char* unit) {
+            out += fmt::format("{},{},{},{},{}\r\n", csv_text(played.drive), csv_text(played.variant), csv_text(name),
+                               value ? fmt::format("{}", *value) : "", unit);
+        };
+        for (const PassTime& pass : played.passes)
+            if (const std::optional<Spread> spread = spread_of(pass.seconds)) {
+                add(pass.name + ", median", 1e3 * spread->median, "ms");
+                add(pass.name + ", 5th percentile", 1e3 * spread->p05, "ms");
+                add(pass.name + ", 95th percentile", 1e3 * spread->p95, "ms");
+            }
+        const Throughput& t = played.throughput;
+        const auto per_s = [](const std::optional<double>& seconds) { return seconds ? std::optional(1.0 / *seconds) : std::nullopt; };
+        add("moments per second", t.moments_per_s(), "1/s");
+        add("driver's view alone per second", per_s(t.view_s), "1/s");
+        add("all drawing alone per second", per_s(t.drawing_s), "1/s");
+        add("share of driver's view alone", t.share_of(t.view_s), "1");
+        add("share of all drawing alone", t.share_of(t.drawing_s), "1");
+        add("peak memory", t.peak_memory_mib, "MiB");
+    }
+    return out;
+}
+
 } // namespace fernlicht

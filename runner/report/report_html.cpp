@@ -50,6 +50,7 @@ data plots_part(const ComparedDrive& drive) {
     part.set("has_timing", add(timings, timing_svg(drive)));
     part.set("timings", timings);
     part.set("passes", timing_table(drive));
+    part.set("throughput", throughput_table(drive));
     return part;
 }
 

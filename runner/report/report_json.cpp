@@ -255,6 +255,26 @@ Json timing_json(const Report& report) {
     return out;
 }
 
+/// Rates per second, shares of what drawing alone would reach.
+Json throughput_json(const Report& report) {
+    Json out = Json::array();
+    for (const PlayedVariant& played : report.played) {
+        const Throughput& t = played.throughput;
+        const auto per_s = [](const std::optional<double>& seconds) { return seconds ? std::optional(1.0 / *seconds) : std::nullopt; };
+        out.push_back({{"drive", played.drive},
+                       {"variant", played.variant},
+                       {"moments", t.moments},
+                       {"wall_s", finite(t.wall_s, "wall time")},
+                       {"moments_per_s", optional_number(t.moments_per_s(), "moments per second")},
+                       {"driver_view_alone_per_s", optional_number(per_s(t.view_s), "driver's views per second")},
+                       {"all_drawing_alone_per_s", optional_number(per_s(t.drawing_s), "drawn moments per second")},
+                       {"share_of_driver_view_alone", optional_number(t.share_of(t.view_s), "share of the driver's view")},
+                       {"share_of_all_drawing_alone", optional_number(t.share_of(t.drawing_s), "share of all drawing")},
+                       {"peak_memory_mib", finite(t.peak_memory_mib, "peak memory")}});
+    }
+    return out;
+}
+
 } // namespace
 
 std::string report_json(const Report& report) {
@@ -269,7 +289,8 @@ std::string report_json(const Report& report) {
                      {"rows", rows_json(report)},
                      {"drives", drives},
                      {"context", context_json(report.context)},
-                     {"timing", timing_json(report)}};
+                     {"timing", timing_json(report)},
+                     {"throughput", throughput_json(report)}};
     return json_text(whole);
 }
 

@@ -1,4 +1,4 @@
-// The four forms of a report as text. Pure functions of the report, except that the page reads the frames that it embeds.
+// The five forms of a report as text. Pure functions of the report, except that the page reads the frames that it embeds.
 #pragma once
 
 #include "runner/report/report.h"
@@ -16,6 +16,9 @@ std::string report_junit(const Report& report);
 
 /// RFC 4180, one line per reading.
 std::string report_csv(const Report& report);
+
+/// RFC 4180: times of passes and the run's throughput. What differs from run to run is here and not in report_csv.
+std::string times_csv(const Report& report);
 
 /// One self-contained page. Frames are read from `folder`; one that is missing or unreadable is linked and said to be missing.
 std::string report_html(const Report& report, const std::filesystem::path& folder);

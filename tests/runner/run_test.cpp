@@ -26,6 +26,7 @@ json report_of(const std::string& folder) { return json::parse(content_of(folder
 json timeless(json report) {
     report.erase("context");
     report.erase("timing");
+    report.erase("throughput");
     return report;
 }
 
