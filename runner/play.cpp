@@ -159,10 +159,12 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
         if (drive.extent) {
             drawn = extent.draw(moment, draw);
             times.add("extent map", drawn->frame);
-            for (const auto& [picture, why_not] :
-                 {std::pair(&drawn->frame.illuminance_lx, &played.no_road_lx), std::pair(&drawn->frame.target_lx, &played.no_target_lx)})
-                if (picture->empty())
-                    *why_not = no_illuminance(drive.technique);
+            if (drawn->frame.illuminance_lx.empty())
+                played.no_road_lx = no_illuminance(drive.technique);
+            if (drawn->frame.target_lx.empty())
+                played.no_target_lx = played.no_road_lx.empty()
+                                          ? fmt::format("technique {} does not compute the illuminance of targets", drive.technique)
+                                          : played.no_road_lx;
         }
         probes.add(moment, draw);
         times.end_moment();

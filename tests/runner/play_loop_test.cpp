@@ -268,7 +268,7 @@ TEST(TechniqueWithoutIlluminance, MayKnowTheSurfaceAndNotTargets) {
     const Readings readings = summarise(played, stage.drive);
     EXPECT_TRUE(named(readings, "area_1lx_road_own_m2").value ||
                 named(readings, "area_1lx_road_own_m2").why_not.find("technique") == std::string::npos);
-    EXPECT_NE(named(readings, "area_1lx_target_own_m2").why_not.find("does not compute an illuminance"), std::string::npos);
+    EXPECT_NE(named(readings, "area_1lx_target_own_m2").why_not.find("does not compute the illuminance of targets"), std::string::npos);
     for (const LaneExtent& extent : played.extents[0].rendered)
         EXPECT_EQ(extent.plane, ExtentPlane::road);
 }

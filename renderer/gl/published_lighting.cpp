@@ -1,0 +1,285 @@
+#include "renderer/gl/published_lighting.h"
+
+#include "renderer/gl/beams.h"
+#include "renderer/merged_beam.h"
+#include "renderer/published_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+namespace fernlicht::gl {
+namespace {
+
+constexpr double cd_per_lx = 625.0; // at 25 m
+
+/// The row's words over what is so unless a row says otherwise. The last three are for C++, the others for the shaders.
+std::map<std::string, std::string> features_of(const Technique& technique) {
+    std::map<std::string, std::string> features{
+        {"LIGHT", "NONE"}, {"DISTANCE", "NONE"}, {"ONE_DISTANCE", "0"}, {"BEHIND", "NONE"}, {"TONE", "NONE"},
+        {"SUN", "0"},      {"AMBIENT", "0"},     {"EMISSIVE", "NONE"},  {"CONSTANTS", "0"}, {"FRAGMENT_TEXTURES_ONLY", "0"},
+        {"MERGED", "0"},   {"LOWERED", "0"},     {"MATRIX", "RIGHT"}};
+    std::istringstream words{std::string(technique.features)};
+    for (std::string word; words >> word;) {
+        const std::size_t equals = word.find('=');
+        features.at(word.substr(0, equals)) = word.substr(equals + 1);
+    }
+    return features;
+}
+
+int bits(const Wanted& w) { return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.depth ? 4 : 0) | (w.ids ? 8 : 0); }
+
+std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
+
+glm::vec4 four(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
+
+/// From left to right, as the car sees it.
+std::vector<LitLamp> from_left(const Moment& moment) {
+    std::vector<LitLamp> lamps = shining(moment, false);
+    std::ranges::stable_sort(lamps, std::ranges::greater{},
+                             [&](const LitLamp& lamp) { return to_local(moment.ego, lamp.pose.position_m).y; });
+    return lamps;
+}
+
+glm::dmat4 lamp_from_ego(const Pose& pose, const glm::dvec3& ego_m) {
+    const glm::dvec3 right = -pose.left(), up = pose.up(), forward = pose.forward(), at = pose.position_m - ego_m;
+    glm::dmat4 m(1.0);
+    for (int column = 0; column < 3; ++column)
+        m[column] = {right[column], up[column], forward[column], 0.0};
+    m[3] = {-glm::dot(right, at), -glm::dot(up, at), -glm::dot(forward, at), 1.0};
+    return m;
+}
+
+} // namespace
+
+PublishedLighting::PublishedLighting(Context& context, const Scene& scene, const RendererSettings& settings)
+    : context_(context), settings_(settings), technique_(technique_named(settings.technique)), features_(features_of(technique_)),
+      scene_(context, scene, true), beams_(context, settings.eight_bit_beams), list_(context, scene_),
+      lamp_block_(make_buffer(context, std::vector<PackedLamp>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
+      spot_block_(make_buffer(context, std::vector<PackedSpot>(most_lamps * most_spots), GL_DYNAMIC_STORAGE_BIT)) {}
+
+void PublishedLighting::set_projected_lamp(const LitLamp& lamp, const UploadedBeam& beam, const glm::dvec3& ego_m) {
+    Pose pose = lamp.pose;
+    if (is("LOWERED", "1"))
+        pose.axes = pose.axes * axes_from_angles(0.0, -lowered_rad, 0.0);
+    const glm::dmat4 texture = is("MATRIX", "PRINTED") ? texture_from_lamp_as_printed(beam.window) : texture_from_lamp(beam.window);
+    double gain = lamp.intensity_factor * beam.lx_a_unit;
+    if (is("TONE", "SHARE"))
+        gain *= beam.peak_lx > 0.0 ? 1.0 / beam.peak_lx : 0.0;
+    else if (!is("DISTANCE", "NONE"))
+        gain *= cd_per_lx;
+    packed_.push_back({glm::mat4(texture * lamp_from_ego(pose, ego_m)), four(pose.position_m - ego_m, gain)});
+    textures_.push_back(beam.texture);
+}
+
+void PublishedLighting::set_spots(const LitLamp& lamp, const glm::dvec3& ego_m) {
+    packed_.push_back({glm::mat4(1.0F), four(lamp.pose.position_m - ego_m, lamp.intensity_factor)});
+    std::vector<Spot> spots = beams_.spots_of(lamp.file);
+    spots.resize(most_spots, Spot{0.0, 0.0, 0.0, 0.0, 0.0}); // dark ones
+    for (const Spot& spot : spots) {
+        const double h = radians(spot.h_deg), v = radians(spot.v_deg);
+        const glm::dvec3 axis = -lamp.pose.left() * (std::sin(h) * std::cos(v)) + lamp.pose.up() * std::sin(v) +
+                                lamp.pose.forward() * (std::cos(h) * std::cos(v));
+        spots_.push_back({four(axis, spot.exponent), glm::vec4(spot.cd, std::cos(radians(spot.cutoff_deg)), 0.0, 0.0)});
+    }
+}
+
+void PublishedLighting::set_lamps(const Shot& shot) {
+    const Moment& moment = shot.moment;
+    const glm::dvec3& ego_m = moment.ego.position_m;
+    packed_.clear();
+    spots_.clear();
+    textures_.clear();
+    map_ = nullptr;
+    lamps_ = computed_lamps_ = 0;
+    const std::vector<LitLamp> lamps = from_left(moment);
+    if (is("LIGHT", "NONE") || lamps.empty())
+        return;
+    if (is("LIGHT", "GROUND_MAP") || is("LIGHT", "VOLUME_MAP")) {
+        map_ = is("LIGHT", "GROUND_MAP") ? &beams_.ground_map(moment) : &beams_.volume_map(moment);
+        textures_.push_back(map_->texture);
+        lamps_ = 1;
+        return;
+    }
+    if (is("MERGED", "1")) {
+        LitLamp all;
+        all.pose = merged_pose(moment.lamps);
+        set_projected_lamp(all, beams_.merged(moment), ego_m);
+    } else {
+        for (const LitLamp& lamp : lamps)
+            if (is("LIGHT", "SPOTS"))
+                set_spots(lamp, ego_m);
+            else
+                set_projected_lamp(lamp, beams_.of(lamp.file), ego_m);
+    }
+    lamps_ = computed_lamps_ = static_cast<int>(packed_.size());
+    update_buffer(context_, lamp_block_, packed_);
+    update_buffer(context_, spot_block_, spots_);
+}
+
+const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wish, const Wanted& wanted) {
+    if (const auto known = variants_.find(wish); known != variants_.end())
+        return known->second;
+    std::vector<Program::Define> d = Targets::defines(wanted);
+    const auto define = [&](const char* name, std::string value) { d.push_back({name, std::move(value)}); };
+    for (const auto& [name, value] : features_)
+        d.push_back({name, name == "EMISSIVE" && wish.pass == 2 ? "NONE" : value}); // once is enough
+    define("LAMP_COUNT", std::to_string(wish.lamps));
+    define("SPOT_COUNT", std::to_string(most_spots));
+    define("PASS", std::to_string(wish.pass));
+    define("TEXTURED", wish.texture > 0 ? "1" : "0");
+    define("TEXTURE_MODE", std::to_string(wish.texture - 1));
+    const RationalMapper mapper = published_mapper(settings_.tone_mapper, is("SUN", "1"));
+    define("L_MAX", literal(mapper.l_max_lx));
+    define("RATIONAL_S", literal(mapper.s));
+    define("REFERENCE_LIGHT", literal(reference_light_lx));
+    define("SHEETING_RL", literal(sheeting_rl));
+    define("EMISSIVE_REACH", literal(emissive_reach_m));
+    define("PROJECTION_NEAR", literal(projection_near_m));
+    if (map_ != nullptr) {
+        const auto vector = [](auto of, const UploadedMap& m) {
+            return fmt::format("vec3({}, {}, {})", literal(of(m.ahead)), literal(of(m.left)), literal(of(m.up)));
+        };
+        define("MAP_FROM", vector([](const LightMapAxis& a) { return a.from_m; }, *map_));
+        define("MAP_INVERSE_SPAN", vector([](const LightMapAxis& a) { return 1.0 / (a.to_m - a.from_m); }, *map_));
+        define("MAP_GROWTH", literal(map_->ahead.growth));
+    }
+    Program program(context_, "published.vert.glsl", "published.frag.glsl", d);
+    const auto at = [&](const char* name) { return program.uniform(name); };
+    const GLint clip = at("clip_from_ego"), car = at("car_axes"), eye = at("eye_m"), axis = at("eye_axis"), sun = at("sun_lx"),
+                ambient = at("ambient");
+    return variants_.emplace(wish, Compiled{std::move(program), clip, car, eye, axis, sun, ambient}).first->second;
+}
+
+void PublishedLighting::use(const Compiled& v, const Shot& shot) const {
+    const GladGLContext& gl = context_.gl;
+    v.program.use();
+    const glm::mat4 clip(shot.camera.clip_from_ego);
+    const glm::mat3 car(shot.moment.ego.axes);
+    const glm::vec3 eye(shot.camera.eye_m), axis(shot.camera.axis);
+    const double tod = time_of_day(shot.moment.daylight);
+    gl.UniformMatrix4fv(v.clip, 1, GL_FALSE, &clip[0][0]);
+    gl.UniformMatrix3fv(v.car, 1, GL_FALSE, &car[0][0]);
+    gl.Uniform3fv(v.eye, 1, &eye[0]);
+    gl.Uniform3fv(v.axis, 1, &axis[0]);
+    gl.Uniform1f(v.sun, is("SUN", "1") ? static_cast<float>(tod * sun_max_lx) : 0.0F);
+    gl.Uniform1f(v.ambient, static_cast<float>(std::min(global_ambient + tod, 1.0)));
+}
+
+void PublishedLighting::bind() const {
+    const GladGLContext& gl = context_.gl;
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, lamp_block_);
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, 1, spot_block_);
+    for (std::size_t i = 0; i < textures_.size(); ++i)
+        gl.BindTextureUnit(static_cast<GLuint>(i), textures_[i]);
+}
+
+/// The second pass adds colours and lux where the first one has drawn; depth and ids it writes again.
+void PublishedLighting::start_pass(int pass, const Shot& shot) const {
+    if (pass < 2)
+        return;
+    const GladGLContext& gl = context_.gl;
+    gl.DepthFunc(GL_EQUAL);
+    gl.DepthMask(GL_FALSE);
+    gl.BlendFunc(GL_ONE, GL_ONE);
+    const GLuint adding = (shot.wanted.colour ? 1U : 0U) + (shot.wanted.illuminance ? 1U : 0U); // they come first (Targets)
+    for (GLuint slot = 0; slot < adding; ++slot)
+        gl.Enablei(GL_BLEND, slot);
+}
+
+void PublishedLighting::end_passes() const {
+    context_.gl.DepthFunc(GL_GREATER);
+    context_.gl.DepthMask(GL_TRUE);
+    context_.gl.Disable(GL_BLEND);
+}
+
+/// The pieces in view by what their textures take, near ones first.
+std::vector<PublishedLighting::Group> PublishedLighting::groups_for(const Shot& shot, std::size_t& pieces) const {
+    const glm::dvec3 ego_m = shot.moment.ego.position_m;
+    const Frustum frustum(shot.camera.clip_from_ego);
+    std::map<int, std::vector<std::pair<double, std::uint32_t>>> sorted;
+    for (std::uint32_t i = 0; i < scene_.pieces().size(); ++i) {
+        const Piece& piece = scene_.pieces()[i];
+        const glm::dvec3 centre = centre_of(piece, ego_m);
+        const double distance = glm::length(centre) - piece.radius_m;
+        if ((piece.ground || !shot.camera.is_map) && distance <= farthest_drawn_m && !frustum.outside(centre, piece.radius_m))
+            sorted[shot.wanted.colour ? piece.surface.texture : 0].emplace_back(distance, i);
+    }
+    std::vector<Group> groups;
+    pieces = 0;
+    for (auto& [texture, near] : sorted) {
+        std::ranges::sort(near);
+        groups.push_back({texture, {}});
+        for (const auto& [distance, index] : near)
+            groups.back().pieces.push_back(index);
+        pieces += near.size();
+    }
+    return groups;
+}
+
+void PublishedLighting::draw(const Shot& shot) {
+    set_lamps(shot);
+    shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
+    std::size_t pieces = 0;
+    const std::vector<Group> groups = groups_for(shot, pieces);
+    list_.start(shot.moment.ego.position_m);
+    for (const Group& group : groups)
+        list_.add(group.pieces);
+    list_.upload();
+    bind();
+    for (int k = 0; k < technique_.passes; ++k) {
+        const int pass = first_pass() + k;
+        shot.clock.begin(pass == 2 ? "lamps" : "scene");
+        start_pass(pass, shot);
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            use(variant({lamps_, groups[g].texture, pass, bits(shot.wanted)}, shot.wanted), shot);
+            list_.draw(static_cast<int>(g));
+            const int samplers = (pass == 1 ? 0 : static_cast<int>(textures_.size())) + (groups[g].texture > 0 ? 1 : 0);
+            shot.work.samplers = std::max(shot.work.samplers, samplers);
+        }
+        shot.clock.end();
+        ++shot.work.passes;
+        shot.work.draws += static_cast<int>(pieces);
+        shot.work.calls += static_cast<int>(groups.size());
+        shot.work.triangles += list_.triangles();
+    }
+    end_passes();
+    context_.check("drawing the scene");
+    shot.work.lamps = computed_lamps_;
+    shot.work.texture_bytes = beams_.texture_bytes() + scene_.texture_bytes();
+    left_out_.clear();
+    const auto off = std::ranges::count(shot.moment.lamps, 0.0, &LitLamp::intensity_factor);
+    if (off > 0)
+        left_out_.push_back({fmt::format("{} of {} lamps", off, shot.moment.lamps.size()), "switched off"});
+    if (pieces < scene_.pieces().size())
+        left_out_.push_back(
+            {fmt::format("{} of {} pieces of the scene", scene_.pieces().size() - pieces, scene_.pieces().size()), "out of view"});
+}
+
+void PublishedLighting::prepare(const Shot& shot) {
+    set_lamps(shot);
+    if (scene_.pieces().empty())
+        return;
+    shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
+    bind();
+    for (int k = 0; k < technique_.passes; ++k) {
+        const int pass = first_pass() + k;
+        start_pass(pass, shot);
+        for (const SurfaceClass& surface : scene_.classes()) {
+            const Variant wish{lamps_, shot.wanted.colour ? surface.texture : 0, pass, bits(shot.wanted)};
+            if (variants_.contains(wish))
+                continue;
+            use(variant(wish, shot.wanted), shot);
+            list_.start(shot.moment.ego.position_m);
+            const int call = list_.add_nothing();
+            list_.upload();
+            list_.draw(call);
+        }
+    }
+    end_passes();
+    context_.check("compiling variants");
+}
+
+} // namespace fernlicht::gl
