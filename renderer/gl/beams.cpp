@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 
 namespace fernlicht::gl {
 namespace {
@@ -29,20 +28,6 @@ ShadowWindow window_of(const BeamTexture& g) {
     return w;
 }
 
-/// The cell (x, y) .. (x + 1, y + 1) in one texel; the last row and column repeat.
-std::vector<glm::vec4> neighbours(const BeamTexture& g) {
-    std::vector<glm::vec4> cells;
-    cells.reserve(g.cd.size());
-    const auto at = [&](int x, int y) {
-        return g.cd[static_cast<std::size_t>(std::min(y, g.height - 1)) * static_cast<std::size_t>(g.width) +
-                    static_cast<std::size_t>(std::min(x, g.width - 1))];
-    };
-    for (int y = 0; y < g.height; ++y)
-        for (int x = 0; x < g.width; ++x)
-            cells.emplace_back(at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
-    return cells;
-}
-
 } // namespace
 
 const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
@@ -56,15 +41,10 @@ const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     beam.window = window_of(g);
     constexpr double asin_reaches_rad = 0.5235; // 30 degrees
     beam.steep = g.v_first_rad < -asin_reaches_rad || g.v_first_rad + (g.height - 1) * g.v_step_rad > asin_reaches_rad;
-    beam.texture = make_texture(context_, packed_ ? GL_RGBA32F : GL_R32F, g.width, g.height);
+    beam.texture = make_texture(context_, GL_R32F, g.width, g.height);
     context_.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    if (packed_) {
-        const std::vector<glm::vec4> cells = neighbours(g);
-        context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RGBA, GL_FLOAT, cells.data());
-    } else {
-        context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RED, GL_FLOAT, g.cd.data());
-    }
-    texture_bytes_ += (packed_ ? 16U : 4U) * g.cd.size();
+    context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RED, GL_FLOAT, g.cd.data());
+    texture_bytes_ += 4U * g.cd.size();
     context_.check("uploading a beam texture");
     return known_.emplace(file.get(), std::pair(file, std::move(beam))).first->second.second;
 }

@@ -21,19 +21,18 @@ struct Beam {
     BeamBounds bounds;
     ShadowWindow window;
     bool steep = false; ///< reaches beyond 30 degrees up or down
-    Texture texture;    ///< `packed`: the four neighbours of each cell in one texel; else one sample a texel
+    Texture texture;
 };
 
 class Beams {
   public:
-    Beams(Context& context, bool packed) : context_(context), packed_(packed) {}
+    explicit Beams(Context& context) : context_(context) {}
 
     const Beam& of(const std::shared_ptr<const LampFile>& file);
     std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
     Context& context_;
-    bool packed_;
     std::map<const LampFile*, std::pair<std::shared_ptr<const LampFile>, Beam>> known_;
     std::size_t texture_bytes_ = 0;
 };

@@ -12,7 +12,7 @@ glm::vec4 four(const glm::dvec3& v) { return {glm::vec3(v), 0.0F}; }
 } // namespace
 
 NaiveLighting::NaiveLighting(Context& context, const Scene& scene, const RendererSettings& settings)
-    : context_(context), settings_(settings), scene_(context, scene, false), beams_(context, false), list_(context, scene_),
+    : context_(context), settings_(settings), scene_(context, scene, false), beams_(context), list_(context, scene_),
       depth_(context, "depth.vert.glsl", "", {}), block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
       shadow_target_(make_framebuffer(context)) {}
 

@@ -32,7 +32,7 @@ glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), stat
 } // namespace
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
-    : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, true),
+    : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context),
       shadows_(context, scene_, {settings.shadow_width, settings.shadow_height}), list_(context, scene_),
       block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
 

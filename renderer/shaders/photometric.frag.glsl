@@ -32,7 +32,7 @@ layout(binding = 15) uniform sampler2DArray surface_textures;
 #endif
 
 #if LAMP_COUNT > 0
-layout(binding = 0) uniform sampler2D beams[LAMP_COUNT]; // candela of four neighbours a texel: below left, below right, above left, above right
+layout(binding = 0) uniform sampler2D beams[LAMP_COUNT]; // candela
 const vec4 beam_grid[LAMP_COUNT] = vec4[LAMP_COUNT](BEAM_GRIDS);   // first H, first V, 1 / step H, 1 / step V
 const vec2 beam_count[LAMP_COUNT] = vec2[LAMP_COUNT](BEAM_COUNTS); // samples across, up
 const bool beam_steep[LAMP_COUNT] = bool[LAMP_COUNT](BEAM_STEEP);  // reaches beyond 30 degrees up or down
@@ -41,9 +41,9 @@ const bool beam_steep[LAMP_COUNT] = bool[LAMP_COUNT](BEAM_STEEP);  // reaches be
 float intensity_towards(vec3 w, float inverse_d, float factor, sampler2D beam, vec4 grid, vec2 count, bool steep) {
     vec2 at = beam_position(quick_goniometer_angles(w, inverse_d, steep), grid);
     float known = w.z > 0.0 ? beam_known(at, count) : 0.0;
-    ivec2 base = clamp(ivec2(at), ivec2(0), ivec2(count) - 2);
-    vec4 cd = texelFetch(beam, base, 0);
-    float i = factor * bilinear(cd.x, cd.y, cd.z, cd.w, at - vec2(base));
+    vec2 base = clamp(floor(at), vec2(0.0), count - 2.0);
+    vec4 cd = textureGather(beam, (base + 1.0) / count); // asked for midway between four texels, so that no rounding picks others
+    float i = factor * bilinear(cd.w, cd.z, cd.x, cd.y, at - base);
     return known > 0.0 ? i : 0.0;
 }
 

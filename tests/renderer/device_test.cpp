@@ -41,11 +41,11 @@ TEST(Program, AnErrorNamesFileAndLine) {
     Device device = open_device("auto");
     try {
         // Without its defines the fragment shader cannot compile.
-        gl::Program(device.context(), "naive.vert.glsl", "photometric.frag.glsl", {{"LAMP_COUNT", "1"}, {"WANT_COLOUR", "nonsense("}});
+        gl::Program(device.context(), "naive.vert.glsl", "naive.frag.glsl", {{"LAMP_COUNT", "1"}, {"WANT_COLOUR", "nonsense("}});
         FAIL();
     } catch (const DeviceError& error) {
         const std::string text = error.what();
-        EXPECT_NE(text.find("photometric.frag.glsl:"), std::string::npos) << text;
+        EXPECT_NE(text.find("naive.frag.glsl:"), std::string::npos) << text;
     }
 }
 
