@@ -26,12 +26,13 @@ struct RendererSettings {
 
 /// What drawing took, counted.
 struct Work {
-    int passes = 0;                             ///< times geometry was drawn: shadow maps and views
-    int draws = 0;                              ///< pieces drawn, over all passes
-    int calls = 0;                              ///< draw calls, each of one shader variant
-    int samplers = 0;                           ///< most textures that one variant reads
-    int shadow_maps = 0;                        ///< in use
-    int lamps = 0;                              ///< computed
+    int passes = 0;      ///< times geometry was drawn: shadow maps and views
+    int draws = 0;       ///< pieces drawn, over all passes
+    int calls = 0;       ///< draw calls, each of one shader variant
+    int samplers = 0;    ///< most textures that one variant reads
+    int shadow_maps = 0; ///< in use
+    int lamps = 0;       ///< computed
+    int features = 0;    ///< compiled into the variants used, summed: lamps, their shadows, sky, retroreflection, emission, textures
     std::uint64_t triangles = 0, fragments = 0; ///< over all passes; fragments: those shaded, where count() asked for them
     std::uint64_t texture_bytes = 0;            ///< beams, shadow and light maps, surface textures
 

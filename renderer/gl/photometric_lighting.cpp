@@ -195,6 +195,8 @@ void PhotometricLighting::draw(const Shot& shot) {
         list_.draw(static_cast<int>(g));
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
+        shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) +
+                              (f.surface.retroreflecting ? 1 : 0) + (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
         const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0);
         shot.work.samplers = std::max(shot.work.samplers, textures);
     }

@@ -32,7 +32,15 @@ layout(binding = 15) uniform sampler2DArray surface_textures;
 #endif
 
 #if LAMP_COUNT > 0
-layout(binding = 0) uniform sampler2D beams[LAMP_COUNT]; // candela
+// One sampler a lamp and no array of them: llvmpipe picks an array's element anew for every look-up, at four times the cost.
+layout(binding = 0) uniform sampler2D beam_0; // candela
+layout(binding = 1) uniform sampler2D beam_1;
+layout(binding = 2) uniform sampler2D beam_2;
+layout(binding = 3) uniform sampler2D beam_3;
+layout(binding = 4) uniform sampler2D beam_4;
+layout(binding = 5) uniform sampler2D beam_5;
+layout(binding = 6) uniform sampler2D beam_6;
+layout(binding = 7) uniform sampler2D beam_7;
 const vec4 beam_grid[LAMP_COUNT] = vec4[LAMP_COUNT](BEAM_GRIDS);   // first H, first V, 1 / step H, 1 / step V
 const vec2 beam_count[LAMP_COUNT] = vec2[LAMP_COUNT](BEAM_COUNTS); // samples across, up
 const bool beam_steep[LAMP_COUNT] = bool[LAMP_COUNT](BEAM_STEEP);  // reaches beyond 30 degrees up or down
@@ -48,7 +56,14 @@ float intensity_towards(vec3 w, float inverse_d, float factor, sampler2D beam, v
 }
 
 #if SHADOWS
-layout(binding = 8) uniform sampler2DShadow shadow_maps[LAMP_COUNT]; // shadow_near_m / distance along the axis; 0: nothing
+layout(binding = 8) uniform sampler2DShadow shadow_0; // shadow_near_m / distance along the axis; 0: nothing
+layout(binding = 9) uniform sampler2DShadow shadow_1;
+layout(binding = 10) uniform sampler2DShadow shadow_2;
+layout(binding = 11) uniform sampler2DShadow shadow_3;
+layout(binding = 12) uniform sampler2DShadow shadow_4;
+layout(binding = 13) uniform sampler2DShadow shadow_5;
+layout(binding = 14) uniform sampler2DShadow shadow_6;
+layout(binding = 16) uniform sampler2DShadow shadow_7;
 const vec4 shadow_window[LAMP_COUNT] = vec4[LAMP_COUNT](SHADOW_WINDOWS); // tangents -> texture: scale x, y, offset x, y
 
 // Share of the lamp seen from a point in lamp space: four texels, weighted. Outside the map nothing is known to stand in the way.
@@ -80,14 +95,14 @@ PRECISE vec3 light = vec3(0.0);
 #define RAISE(i) lamps[i].raise.xyz
 #endif
 
-// One lamp; a macro, since samplers and constants must be picked by constants.
+// One lamp; a macro, since constants must be picked by constants.
 #if SHADOWS
 // Looked up from a point raised above the surface by what a texel spans there: see docs/decisions/0004.
-#define SEEN(i) visibility(v_w[i] + v_n[i] * (inverse_n * max(SHADOW_TOLERANCE, SHADOW_SPREAD * v_w[i].z)), shadow_maps[i], shadow_window[i])
-#define SEEN_TARGET(i, w) visibility(w, shadow_maps[i], shadow_window[i])
+#define SEEN(i, map) visibility(v_w[i] + v_n[i] * (inverse_n * max(SHADOW_TOLERANCE, SHADOW_SPREAD * v_w[i].z)), map, shadow_window[i])
+#define SEEN_TARGET(i, map, w) visibility(w, map, shadow_window[i])
 #else
-#define SEEN(i) 1.0
-#define SEEN_TARGET(i, w) 1.0
+#define SEEN(i, map) 1.0
+#define SEEN_TARGET(i, map, w) 1.0
 #endif
 
 #if WANT_COLOUR || WANT_LUMINANCE
@@ -104,30 +119,30 @@ PRECISE vec3 light = vec3(0.0);
 #endif
 
 #if WANT_TARGET
-#define LIGHT_TARGET(i) \
+#define LIGHT_TARGET(i, beam, map) \
     { \
         vec3 w = v_w[i] + RAISE(i); \
         float inverse_d = inversesqrt(dot(w, w)); \
-        float cd = intensity_towards(w, inverse_d, COLOUR(i).w, beams[i], beam_grid[i], beam_count[i], beam_steep[i]); \
+        float cd = intensity_towards(w, inverse_d, COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_steep[i]); \
         float e = facing_illuminance_at(cd, inverse_d); \
-        target += e > 0.0 ? e * SEEN_TARGET(i, w) : 0.0; \
+        target += e > 0.0 ? e * SEEN_TARGET(i, map, w) : 0.0; \
     }
 #else
-#define LIGHT_TARGET(i)
+#define LIGHT_TARGET(i, beam, map)
 #endif
 
-#define LIGHT(i) \
+#define LIGHT(i, beam, map) \
     { \
         float inverse_d = inversesqrt(dot(v_w[i], v_w[i])); \
         float cosine = max(-dot(v_n[i], v_w[i]) * (inverse_d * inverse_n), 0.0); \
-        float cd = intensity_towards(v_w[i], inverse_d, COLOUR(i).w, beams[i], beam_grid[i], beam_count[i], beam_steep[i]); \
+        float cd = intensity_towards(v_w[i], inverse_d, COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_steep[i]); \
         float e_perp = facing_illuminance_at(cd, inverse_d); \
-        e_perp = cosine > 0.0 && e_perp > 0.0 ? e_perp * SEEN(i) : 0.0; \
+        e_perp = cosine > 0.0 && e_perp > 0.0 ? e_perp * SEEN(i, map) : 0.0; \
         float e = e_perp * cosine; \
         illuminance += e; \
         REFLECT_DIFFUSE(i, e) \
         REFLECT_RETRO(i, e_perp, cosine) \
-        LIGHT_TARGET(i) \
+        LIGHT_TARGET(i, beam, map) \
     }
 
 void main() {
@@ -150,27 +165,27 @@ void main() {
 
 #if LAMP_COUNT > 0
     float inverse_n = inversesqrt(dot(v_n[0], v_n[0]));
-    LIGHT(0)
+    LIGHT(0, beam_0, shadow_0)
 #if LAMP_COUNT > 1
-    LIGHT(1)
+    LIGHT(1, beam_1, shadow_1)
 #endif
 #if LAMP_COUNT > 2
-    LIGHT(2)
+    LIGHT(2, beam_2, shadow_2)
 #endif
 #if LAMP_COUNT > 3
-    LIGHT(3)
+    LIGHT(3, beam_3, shadow_3)
 #endif
 #if LAMP_COUNT > 4
-    LIGHT(4)
+    LIGHT(4, beam_4, shadow_4)
 #endif
 #if LAMP_COUNT > 5
-    LIGHT(5)
+    LIGHT(5, beam_5, shadow_5)
 #endif
 #if LAMP_COUNT > 6
-    LIGHT(6)
+    LIGHT(6, beam_6, shadow_6)
 #endif
 #if LAMP_COUNT > 7
-    LIGHT(7)
+    LIGHT(7, beam_7, shadow_7)
 #endif
 #endif
 

@@ -1,0 +1,241 @@
+// Leaving out what a moment does not need must not change a bit; switching it on must change a pixel, and off must save work.
+#include "renderer/renderer.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/roads/road_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace fernlicht {
+namespace {
+
+constexpr Wanted everything{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+
+void expect_same_bytes(const Frame& a, const Frame& b, const std::string& what) {
+    EXPECT_EQ(a.colour, b.colour) << what;
+    EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << what;
+    EXPECT_EQ(a.target_lx, b.target_lx) << what;
+    EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << what;
+    EXPECT_EQ(a.depth_m, b.depth_m) << what;
+    EXPECT_EQ(a.ids, b.ids) << what;
+}
+
+std::shared_ptr<LampFile> round_beam(double peak_cd, double half_deg) {
+    auto file = std::make_shared<LampFile>();
+    for (int i = -20; i <= 20; ++i)
+        file->table.h_deg.push_back(half_deg * i / 20.0);
+    for (int i = -20; i <= 20; ++i)
+        file->table.v_deg.push_back(half_deg * i / 20.0);
+    for (const double v : file->table.v_deg)
+        for (const double h : file->table.h_deg)
+            file->table.cd.push_back(peak_cd * std::exp(-4.0 * (h * h + v * v) / (half_deg * half_deg)));
+    return file;
+}
+
+/// What a random scene may hold; each can be switched by itself.
+struct Features {
+    bool lamp = true, second_lamp = true, caster = true, sky = true, retro = true, emissive = true, texture = true;
+};
+
+void add_quad(Mesh& mesh, std::uint32_t material, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const glm::vec3 normal = glm::normalize(glm::cross(b - a, d - a));
+    for (const glm::vec3& p : {a, b, c, d})
+        mesh.vertices.push_back({p, normal, {0.25F * p.x + 0.1F * p.z, 0.25F * p.y}});
+    const auto begin = static_cast<std::uint32_t>(mesh.indices.size());
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+    mesh.batches.push_back({material, begin, 6});
+}
+
+struct RandomScene {
+    Scene scene;
+    Moment moment;
+};
+
+/// A road, some boards before and beside the car, all drawn from `seed`; what is switched off leaves the rest as it is.
+RandomScene random_scene(std::uint64_t seed, const Features& on) {
+    std::mt19937_64 random(seed);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() >> 11) / 9007199254740992.0;
+    };
+    RandomScene out;
+    Material road{"road", SurfaceKind::road, glm::vec3(0.1F)};
+    Material board{"board", SurfaceKind::board, glm::vec3(0.4F, 0.3F, 0.2F)};
+    Material lantern{"lantern", SurfaceKind::object, glm::vec3(0.2F)};
+    const float rl = static_cast<float>(between(50.0, 200.0));
+    const glm::vec3 shine(static_cast<float>(between(1.0, 20.0)));
+    board.retro_rl = on.retro ? rl : 0.0F;
+    lantern.emission_cdm2 = on.emissive ? shine : glm::vec3(0.0F);
+    const auto mode = static_cast<TextureMode>(random() % 4);
+    SurfaceTexture picture{"noise", 16, 16, {}};
+    for (int i = 0; i < 16 * 16 * 4; ++i)
+        picture.rgba.push_back(static_cast<std::uint8_t>(random() % 256));
+    if (on.texture) {
+        road.texture = 0;
+        road.texture_mode = mode;
+        road.blend_colour = {0.3F, 0.2F, 0.1F};
+        out.scene.textures.push_back(picture);
+    }
+    out.scene.materials = {road, board, lantern};
+    Mesh ground{"ground", {30.0, 0.0, 0.0}, {}, {}, {}};
+    add_quad(ground, 0, {-40, -30, 0}, {80, -30, 0}, {80, 30, 0}, {-40, 30, 0});
+    out.scene.meshes.push_back(ground);
+    const auto upright = [&](std::uint32_t material, double x, double y, double size) {
+        Mesh mesh{"upright", {x, y, 0.0}, {}, {}, {}};
+        const auto s = static_cast<float>(size);
+        add_quad(mesh, material, {0, -s, 0}, {0, -s, 2 * s}, {0, s, 2 * s}, {0, s, 0}); // faces the car
+        out.scene.meshes.push_back(mesh);
+    };
+    const double x = between(9.0, 13.0), y = between(-1.0, 1.0);
+    if (on.caster)
+        upright(0, x, y, 0.4);
+    upright(1, between(35.0, 45.0), between(2.5, 4.0), 0.8);
+    upright(2, between(30.0, 40.0), between(-4.0, -2.5), 0.8);
+    out.moment.daylight.horizontal_illuminance_lx = on.sky ? between(0.5, 5.0) : 0.0;
+    const auto file = round_beam(between(5000.0, 20000.0), between(15.0, 40.0));
+    LampColour colour;
+    for (const double side : {0.6, -0.6}) {
+        const bool shines = side > 0.0 ? on.lamp : on.second_lamp;
+        out.moment.lamps.push_back({side > 0.0 ? "left" : "right",
+                                    file,
+                                    {glm::dvec3(3.5, side, between(0.5, 0.9)), axes_from_angles(0.0, -0.02, 0.0)},
+                                    shines ? 1.0 : 0.0,
+                                    colour,
+                                    0.0});
+    }
+    return out;
+}
+
+View driver() {
+    View view;
+    view.position_m = {1.5, 0.35, 1.2};
+    view.pitch_rad = radians(-3.0);
+    view.vertical_fov_rad = radians(40.0);
+    view.width_px = 160;
+    view.height_px = 120;
+    return view;
+}
+
+class PruningTest : public testing::Test {
+  protected:
+    Frame draw(const RandomScene& s, const char* technique, Work* work = nullptr) {
+        RendererSettings settings;
+        settings.technique = technique;
+        settings.tone_mapper.l_max_cdm2 = 20.0;
+        Renderer renderer(device_, s.scene, settings);
+        if (work != nullptr)
+            *work = renderer.count(s.moment, driver(), everything);
+        return renderer.draw(s.moment, driver(), everything);
+    }
+    Device device_ = open_device("auto");
+};
+
+TEST_F(PruningTest, PrunedAndUnprunedGiveTheSameBytesOverRandomScenes) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        std::mt19937_64 random(seed);
+        const auto toss = [&] { return random() % 2 == 0; };
+        const Features on{toss(), toss(), toss(), toss(), toss(), toss(), toss()};
+        const RandomScene s = random_scene(seed, on);
+        expect_same_bytes(draw(s, "photometric"), draw(s, "photometric-unpruned"), "seed " + std::to_string(seed));
+    }
+}
+
+TEST_F(PruningTest, EachFeatureChangesAPixelAndSavesWorkWhenItIsOff) {
+    struct Switch {
+        const char* name;
+        bool Features::*feature;
+    };
+    const Switch switches[] = {
+        {"second lamp", &Features::second_lamp}, {"caster", &Features::caster},  {"sky", &Features::sky}, {"retro", &Features::retro},
+        {"emissive", &Features::emissive},       {"texture", &Features::texture}};
+    for (std::uint64_t seed = 101; seed <= 102; ++seed)
+        for (const Switch& s : switches) {
+            Features on, off;
+            off.*s.feature = false;
+            Work with, without;
+            const Frame a = draw(random_scene(seed, on), "photometric", &with), b = draw(random_scene(seed, off), "photometric", &without);
+            EXPECT_NE(a.luminance_cdm2, b.luminance_cdm2) << s.name << ", seed " << seed;
+            const bool saves = without.passes < with.passes || without.samplers < with.samplers || without.draws < with.draws ||
+                               without.calls < with.calls || without.features < with.features;
+            EXPECT_TRUE(saves) << s.name << ", seed " << seed;
+            EXPECT_LE(without.passes, with.passes) << s.name;
+            EXPECT_LE(without.samplers, with.samplers) << s.name;
+        }
+}
+
+TEST_F(PruningTest, UnprunedDoesMore) {
+    const RandomScene s =
+        random_scene(7, {.second_lamp = false, .caster = false, .sky = false, .retro = false, .emissive = false, .texture = false});
+    Work pruned, all;
+    draw(s, "photometric", &pruned);
+    draw(s, "photometric-unpruned", &all);
+    EXPECT_LT(pruned.samplers, all.samplers);
+    EXPECT_LT(pruned.passes, all.passes);
+    EXPECT_LT(pruned.features, all.features);
+    EXPECT_LT(pruned.lamps, all.lamps);
+}
+
+/// Every shipped drive: moments at its start, after each change of lamps, and at its end; the driver's view and the map.
+class ShippedDrives : public testing::TestWithParam<std::filesystem::path> {};
+
+std::vector<std::filesystem::path> shipped_drives() {
+    std::vector<std::filesystem::path> drives;
+    for (const auto& entry : std::filesystem::directory_iterator(FERNLICHT_SOURCE_DIR "/scenarios/library/drives"))
+        drives.push_back(entry.path());
+    std::ranges::sort(drives);
+    return drives;
+}
+
+TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
+    DriveEdits smaller;
+    smaller.resolution = std::pair(320, 240);
+    Drive drive = read_drive(GetParam(), smaller);
+    const RoadNetwork network = read_opendrive(drive.road_file);
+    const Route route(network, drive.start, drive.via);
+    const Scene scene = build_scene(network);
+    fit_to_route(drive, route);
+    Device device = open_device("auto");
+    RendererSettings settings;
+    settings.tone_mapper = drive.tone_mapper;
+    settings.shadows = drive.shadows;
+    Renderer pruned(device, scene, settings);
+    settings.technique = "photometric-unpruned";
+    Renderer unpruned(device, scene, settings);
+    const int last = tick_count(drive) - 1;
+    for (const Variant& variant : drive.variants) {
+        std::vector<Moment> moments;
+        State state = start(drive);
+        for (int tick = 0; tick <= last; ++tick, state = advance(state, drive)) {
+            const Moment moment = moment_at(state, drive, route, variant);
+            bool changed = moments.empty() || tick == last || tick == last / 2;
+            for (std::size_t i = 0; !changed && i < moment.lamps.size(); ++i)
+                changed = (moment.lamps[i].intensity_factor > 0.0) != (moments.back().lamps[i].intensity_factor > 0.0);
+            if (changed)
+                moments.push_back(moment);
+        }
+        for (const View& view : drive.views) {
+            pruned.prepare(moments, view, everything);
+            unpruned.prepare(moments, view, everything);
+        }
+        const int compiled = pruned.compiled_programs();
+        for (const Moment& moment : moments)
+            for (const View& view : drive.views)
+                expect_same_bytes(pruned.draw(moment, view, everything), unpruned.draw(moment, view, everything),
+                                  variant.name + ", " + view.name + ", " + std::to_string(moment.time_s) + " s");
+        EXPECT_EQ(pruned.compiled_programs(), compiled) << "nothing compiles once a drive is prepared";
+        EXPECT_GT(compiled, 1);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedDrives, testing::ValuesIn(shipped_drives()), [](const auto& one) {
+    std::string name = one.param.stem().string();
+    std::ranges::replace(name, '-', '_');
+    return name;
+});
+
+} // namespace
+} // namespace fernlicht
