@@ -15,7 +15,7 @@ namespace {
 
 /// The flags as typed.
 struct Flags {
-    std::filesystem::path drive = "scenarios/library/drives/first-light.yaml";
+    std::filesystem::path drive = "scenarios/library/drives/bench.yaml";
     std::string variant, resolution, backend = "auto", out;
     std::vector<std::string> techniques;
     int frames = 8, rounds = 21;

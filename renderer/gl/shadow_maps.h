@@ -2,7 +2,7 @@
 //
 // Ground that faces the lamp casts no shadow: light that passes through such a sheet comes out of it again only through a part that
 // faces away, which is drawn, or at a bridge, which is drawn too. Receivers are looked up from a point raised above their surface by
-// what a texel spans there (docs/decisions/0004), so that nothing shades itself.
+// what a texel spans there (docs/decisions/0005), so that nothing shades itself.
 #pragma once
 
 #include "renderer/gl/beams.h"

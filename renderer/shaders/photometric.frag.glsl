@@ -97,7 +97,7 @@ PRECISE vec3 light = vec3(0.0);
 
 // One lamp; a macro, since constants must be picked by constants.
 #if SHADOWS
-// Looked up from a point raised above the surface by what a texel spans there: see docs/decisions/0004.
+// Looked up from a point raised above the surface by what a texel spans there: see docs/decisions/0005.
 #define SEEN(i, map) visibility(v_w[i] + v_n[i] * (inverse_n * max(SHADOW_TOLERANCE, SHADOW_SPREAD * v_w[i].z)), map, shadow_window[i])
 #define SEEN_TARGET(i, map, w) visibility(w, map, shadow_window[i])
 #else

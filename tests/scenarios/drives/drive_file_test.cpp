@@ -115,7 +115,7 @@ TEST_F(DriveFile, DaylightStepSpeedAndTheRest) {
     EXPECT_EQ(read(minimal + "daylight: {name: moon, horizontal_illuminance_lx: 0.2}").daylight, (Daylight{"moon", 0.2}));
     EXPECT_EQ(read(minimal + "rate_hz: 60").step_s, 1.0 / 60.0);
     EXPECT_EQ(read(minimal + "step_s: 0.25").step_s, 0.25);
-    EXPECT_FALSE(read(minimal).textured);
+    EXPECT_TRUE(read(minimal).textured);
     EXPECT_TRUE(read(minimal + "textures: shipped").textured);
     EXPECT_FALSE(read(minimal + "textures: none").textured);
     const Drive drive =
