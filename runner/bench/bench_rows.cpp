@@ -17,9 +17,10 @@ template <class Count> Count typical(const std::vector<Work>& work, Count Work::
 std::optional<Work> typical(const std::vector<Work>& work) {
     if (work.empty())
         return std::nullopt;
-    return Work{typical(work, &Work::passes),    typical(work, &Work::draws),       typical(work, &Work::calls),
-                typical(work, &Work::samplers),  typical(work, &Work::shadow_maps), typical(work, &Work::lamps),
-                typical(work, &Work::triangles), typical(work, &Work::fragments),   typical(work, &Work::texture_bytes)};
+    return Work{typical(work, &Work::passes),       typical(work, &Work::draws),       typical(work, &Work::calls),
+                typical(work, &Work::samplers),     typical(work, &Work::shadow_maps), typical(work, &Work::lamps),
+                typical(work, &Work::features),     typical(work, &Work::triangles),   typical(work, &Work::fragments),
+                typical(work, &Work::texture_bytes)};
 }
 
 } // namespace

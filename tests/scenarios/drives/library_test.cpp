@@ -34,7 +34,7 @@ TEST_P(Shipped, ReadsAndFitsItsRoad) {
     EXPECT_GT(moment.lamps[0].intensity_factor, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Drives, Shipped, testing::Values("straight", "s-bend", "country", "motorway", "village", "first-light"),
+INSTANTIATE_TEST_SUITE_P(Drives, Shipped, testing::Values("bench", "straight", "s-bend", "country", "motorway", "village", "first-light"),
                          [](const auto& test) {
                              std::string name = test.param;
                              std::erase(name, '-');
@@ -46,7 +46,8 @@ TEST(ShippedDrives, AreAllTested) {
     for (const auto& entry : std::filesystem::directory_iterator(library))
         names.insert(entry.path().stem().string());
     // The worked example is not a route: the runner's tests play it and hold it to its own limits.
-    EXPECT_THAT(names, testing::ElementsAre("country", "first-light", "motorway", "s-bend", "straight", "village", "worked-example"));
+    EXPECT_THAT(names,
+                testing::ElementsAre("bench", "country", "first-light", "motorway", "s-bend", "straight", "village", "worked-example"));
 }
 
 TEST(ShippedDrives, FirstLightDipsAfterThreeSecondsOfHighBeam) {

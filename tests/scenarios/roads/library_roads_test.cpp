@@ -43,8 +43,8 @@ TEST_P(LibraryRoads, ContinueFromRecordToRecord) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LibraryRoads,
-                         testing::Values(std::pair("straight.xodr", "fernlicht straight"), std::pair("s-bend.xodr", "fernlicht s-bend"),
-                                         std::pair("country.xodr", "fernlicht country road"),
+                         testing::Values(std::pair("bench.xodr", "fernlicht bench"), std::pair("straight.xodr", "fernlicht straight"),
+                                         std::pair("s-bend.xodr", "fernlicht s-bend"), std::pair("country.xodr", "fernlicht country road"),
                                          std::pair("motorway.xodr", "fernlicht motorway"), std::pair("village.xodr", "fernlicht village")));
 
 /// Signed radius of the reference line, left positive, from three of its points.
