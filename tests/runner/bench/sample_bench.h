@@ -40,7 +40,7 @@ inline BenchResult sample_bench() {
             benched.samples.cpu_s.push_back(2.0 * frame_s);
             benched.samples.latency_s.insert(benched.samples.latency_s.end(), {1.5 * frame_s, 2.5 * frame_s});
         }
-        benched.work = {{1, 20, 3, 5, 2, 4, 4000, 300000, 3 << 20}, {1, 30, 3, 5, 2, 4, 5000, 310000, 3 << 20}};
+        benched.work = {{1, 20, 3, 5, 2, 4, 7, 4000, 300000, 3 << 20}, {1, 30, 3, 5, 2, 4, 7, 5000, 310000, 3 << 20}};
         result.techniques.push_back(std::move(benched));
     };
     add("texturing-only", 3, ">= 60", 1.0, 0.0);
