@@ -150,7 +150,7 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
             lit = lamps_[k].intensity_factor > 0.0 &&
                   lamp_beams_[k]->bounds.most_towards(to_lamp_space(lamps_[k], centre - (lamps_[k].pose.position_m - ego_m)),
                                                       piece.radius_m + (shot.wanted.target ? settings_.target_height_m : 0.0)) > 0.0;
-        const bool shadowed = lit && settings_.shadows && shadows_.reach(centre, piece.radius_m);
+        const bool shadowed = lit && settings_.shadows && shadows_.reach(piece, shot.wanted.target ? settings_.target_height_m : 0.0);
         sorted[{piece.surface, lit, shadowed}].emplace_back(distance, i);
     }
     std::vector<Group> groups;

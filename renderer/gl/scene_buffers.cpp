@@ -1,5 +1,6 @@
 #include "renderer/gl/scene_buffers.h"
 
+#include "renderer/gl/piece_bounds.h"
 #include "renderer/gl/surface_textures.h"
 #include "scenarios/photometry.h"
 
@@ -101,6 +102,11 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
                     planes_.emplace_back(n / length, -glm::dot(n / length, at(0)));
             }
             piece.planes = planes_.size() - piece.first_plane;
+            std::vector<glm::dvec3> places;
+            for (const auto& corner : gathered.corners)
+                places.emplace_back(mesh.vertices[corner.first].position_m);
+            piece.corners_m = box_round(places);
+            piece.bodies_m = ground ? std::vector{piece.corners_m} : boxes_round_bodies(places);
             if (std::find(classes_.begin(), classes_.end(), surface) == classes_.end())
                 classes_.push_back(surface);
             pieces_.push_back(piece);

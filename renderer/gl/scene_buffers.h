@@ -4,6 +4,7 @@
 #include "renderer/gl/objects.h"
 #include "scenarios/values/scene.h"
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
@@ -17,6 +18,9 @@ struct SurfaceClass {
     auto operator<=>(const SurfaceClass&) const = default;
 };
 
+/// Corners of a box, relative to the mesh's origin.
+using Corners = std::array<glm::dvec3, 8>;
+
 /// Triangles of one mesh and one surface class.
 struct Piece {
     glm::dvec3 origin_m{0.0}, centre_m{0.0}; ///< centre of the bounding sphere, relative to the origin
@@ -29,6 +33,8 @@ struct Piece {
     GLuint first_index = 0, index_count = 0;
     GLint base_vertex = 0;
     std::size_t first_plane = 0, planes = 0; ///< ground only: of its triangles, in SceneBuffers::planes()
+    Corners corners_m;                       ///< of a box round it that lies along its longest extent; relative to the origin
+    std::vector<Corners> bodies_m;           ///< what stands on the ground: a box round each body; else the one round all
 };
 
 class SceneBuffers {

@@ -5,12 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace fernlicht::gl {
 namespace {
 
-constexpr double margin_rad = 0.01; // the look-up's four texels and its raised point
-constexpr double raised_m = 0.6;    // targets stand this high at most above the surface whose sphere is asked for
+constexpr double margin_texels = 2.6; // a look-up takes texels up to 1 away, from a point raised by 1.5 (see SHADOW_SPREAD)
+constexpr double margin_m = 0.05;     // or raised by the tolerance
+constexpr double tangents_from_m = 0.1;
+
+Corners in_lamp_space(const LitLamp& lamp, const glm::dvec3& offset_from_lamp, const Corners& corners) {
+    Corners out{};
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = to_lamp_space(lamp, offset_from_lamp + corners[i]);
+    return out;
+}
 
 } // namespace
 
@@ -43,6 +52,7 @@ void ShadowMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const 
     maps_.clear();
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         Map map;
+        map.lamp = lamps[i];
         map.lamp_m = lamps[i].pose.position_m - ego_m;
         map.clip = lamp_clip(lamps[i], beams[i]->window, ego_m);
         const Frustum frustum(map.clip);
@@ -58,14 +68,9 @@ void ShadowMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const 
             if (!all && (most_cd == 0.0 || (nearest > 0.0 && most_cd < last_contour_lx * nearest * nearest)))
                 continue;
             map.pieces.push_back(k);
-            Caster caster;
-            caster.around = distance <= piece.radius_m;
-            caster.direction = distance > 0.0 ? from_lamp / distance : glm::dvec3(1.0, 0.0, 0.0);
-            const double angle = caster.around ? pi : std::asin(piece.radius_m / distance) + margin_rad;
-            caster.cosine = std::cos(angle);
-            caster.sine = std::sin(angle);
-            caster.nearest_m = nearest;
-            map.casters.push_back(caster);
+            for (const Corners& body : piece.bodies_m)
+                map.casters.push_back(caster_of(in_lamp_space(map.lamp, piece.origin_m - ego_m - map.lamp_m, body),
+                                                margin_texels * texel_tangent(beams[i]->window, size_)));
         }
         maps_.push_back(std::move(map));
     }
@@ -82,25 +87,57 @@ int ShadowMaps::casters() const {
     return static_cast<int>(count);
 }
 
-bool ShadowMaps::reach(const glm::dvec3& centre_m, double radius_m) const {
+ShadowMaps::Caster ShadowMaps::caster_of(const Corners& box, double margin) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Caster caster{infinity, -infinity, infinity, -infinity, infinity, false};
+    for (const glm::dvec3& corner : box) {
+        caster.around = caster.around || corner.z < tangents_from_m;
+        caster.left = std::min(caster.left, corner.x / corner.z - margin);
+        caster.right = std::max(caster.right, corner.x / corner.z + margin);
+        caster.bottom = std::min(caster.bottom, corner.y / corner.z - margin);
+        caster.top = std::max(caster.top, corner.y / corner.z + margin);
+        caster.nearest_m = std::min(caster.nearest_m, corner.z - margin_m);
+    }
+    return caster;
+}
+
+/// The part of the box that lies beyond the caster's front against the frustum behind the caster: apart, where all of it is on the
+/// far side of one of the frustum's planes.
+bool ShadowMaps::shades(const Caster& caster, const Corners& box) {
+    if (caster.around)
+        return true;
+    std::array<glm::dvec3, 20> points; // corners beyond the front, and where edges cross it
+    std::size_t count = 0;
+    const double front = std::max(caster.nearest_m, tangents_from_m);
+    for (std::size_t i = 0; i < box.size(); ++i) {
+        if (box[i].z >= front)
+            points[count++] = box[i];
+        for (const std::size_t axis : {1U, 2U, 4U})
+            if (const std::size_t k = i | axis; k != i && (box[i].z < front) != (box[k].z < front))
+                points[count++] = box[i] + (box[k] - box[i]) * ((front - box[i].z) / (box[k].z - box[i].z));
+    }
+    const auto all = [&](auto outside) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (!outside(points[i]))
+                return false;
+        return true;
+    };
+    return !(all([&](const glm::dvec3& p) { return p.x < caster.left * p.z - margin_m; }) ||
+             all([&](const glm::dvec3& p) { return p.x > caster.right * p.z + margin_m; }) ||
+             all([&](const glm::dvec3& p) { return p.y < caster.bottom * p.z - margin_m; }) ||
+             all([&](const glm::dvec3& p) { return p.y > caster.top * p.z + margin_m; }));
+}
+
+bool ShadowMaps::reach(const Piece& piece, double raised_m) const {
+    Corners raised = piece.corners_m; // bits 0 to 3: the box's bottom, 4 to 7: its top
+    for (std::size_t i = 4; i < raised.size(); ++i)
+        raised[i].z += raised_m;
     for (const Map& map : maps_) {
-        const glm::dvec3 from_lamp = centre_m - map.lamp_m;
-        const double distance = glm::length(from_lamp), radius = radius_m + raised_m;
         if (map.casters.empty())
             continue;
-        if (distance <= radius)
+        const Corners box = in_lamp_space(map.lamp, piece.origin_m - ego_m_ - map.lamp_m, raised);
+        if (std::ranges::any_of(map.casters, [&](const Caster& caster) { return shades(caster, box); }))
             return true;
-        const double sine = radius / distance, cosine = std::sqrt(1.0 - sine * sine);
-        for (const Caster& caster : map.casters) {
-            if (caster.around)
-                return true;
-            if (distance + radius < caster.nearest_m)
-                continue;
-            // The cones meet where the angle between their axes is at most the sum of their half angles.
-            const double sum = caster.cosine * cosine - caster.sine * sine;
-            if (glm::dot(caster.direction, from_lamp) >= sum * distance)
-                return true;
-        }
     }
     return false;
 }

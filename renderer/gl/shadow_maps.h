@@ -37,8 +37,8 @@ class ShadowMaps {
     void set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m, bool all);
     /// Whether anything casts a shadow.
     bool needed() const;
-    /// Whether a shadow of any lamp may fall into the sphere; `centre_m` relative to the car. Errs towards yes.
-    bool reach(const glm::dvec3& centre_m, double radius_m) const;
+    /// Whether a shadow of any lamp may fall on the piece, or on targets so high above it. Errs towards yes.
+    bool reach(const Piece& piece, double raised_m) const;
     /// Draws the maps unless they stand already as they would be drawn, and binds them.
     void draw(Work& work);
     void compile();
@@ -47,18 +47,20 @@ class ShadowMaps {
     int casters() const;
 
   private:
-    struct Caster { ///< as a lamp sees it
-        glm::dvec3 direction{0.0};
-        double cosine = 1.0, sine = 0.0; ///< of its half angle, with a margin
-        double nearest_m = 0.0;
-        bool around = false; ///< holds the lamp
+    struct Caster { ///< a body as a lamp sees it: tangents in lamp space, with a margin, and where it begins
+        double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
+        double nearest_m = 0.0; ///< along the lamp's axis
+        bool around = false;    ///< some of it lies beside or behind the lamp: no tangents
     };
     struct Map {
+        LitLamp lamp;
         glm::dvec3 lamp_m{0.0}; ///< relative to the car
         glm::dmat4 clip{1.0};
         std::vector<std::uint32_t> pieces;
         std::vector<Caster> casters;
     };
+    static Caster caster_of(const Corners& in_lamp_space, double margin);
+    static bool shades(const Caster& caster, const Corners& in_lamp_space);
     bool faces_lamp(const Piece& piece, const glm::dvec3& lamp_m) const;
 
     Context& context_;
