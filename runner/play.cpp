@@ -13,18 +13,6 @@
 namespace fernlicht {
 namespace {
 
-/// What a stored frame of a view holds.
-Wanted stored_results(const View& view, const Capture& capture) {
-    Wanted wanted;
-    wanted.colour = view.projection == Projection::perspective; // a map is shown by its lux, in false colour
-    wanted.illuminance = wanted.luminance = capture.exr;
-    wanted.depth = capture.exr && view.projection == Projection::perspective;
-    wanted.target = capture.exr && view.projection == Projection::map;
-    if (view.projection == Projection::map)
-        wanted.illuminance = true; // the bird's-eye lux map of the report
-    return wanted;
-}
-
 /// Draws the views of a moment: all of them where it is captured, else the driver's; then hands to the writers what is stored.
 class Pictures {
   public:
@@ -123,6 +111,17 @@ class Measuring {
 } // namespace
 
 std::string no_illuminance(const std::string& technique) { return fmt::format("technique {} does not compute an illuminance", technique); }
+
+Wanted stored_results(const View& view, const Capture& capture) {
+    Wanted wanted;
+    wanted.colour = view.projection == Projection::perspective; // a map is shown by its lux, in false colour
+    wanted.illuminance = wanted.luminance = capture.exr;
+    wanted.depth = capture.exr && view.projection == Projection::perspective;
+    wanted.target = capture.exr && view.projection == Projection::map;
+    if (view.projection == Projection::map)
+        wanted.illuminance = true; // the bird's-eye lux map of the report
+    return wanted;
+}
 
 int ticks_to_play(const Drive& drive, TickRange range) {
     return std::max(0, std::min(tick_count(drive) - 1, range.last) - std::max(0, range.first) + 1);

@@ -23,6 +23,9 @@ struct PlayOptions {
     std::function<bool(int done)> go_on = [](int) { return true; }; ///< called after each moment; false stops with what was done
 };
 
+/// What a stored frame of a view holds.
+Wanted stored_results(const View& view, const Capture& capture);
+
 /// Number of ticks of the drive that lie in the range.
 int ticks_to_play(const Drive& drive, TickRange range);
 

@@ -6,6 +6,7 @@
 #include "runner/interruption.h"
 #include "runner/limits.h"
 #include "runner/output_folder.h"
+#include "runner/preparation.h"
 #include "runner/progress.h"
 #include "runner/references.h"
 #include "runner/run_context.h"
@@ -59,6 +60,8 @@ std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, c
 /// Plays one lamp set and completes it with readings and verdicts.
 PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options,
                            const RunContext& context, Writers& writers) {
+    prepare(renderer, stage.drive, stage.route, variant, options.ticks);
+    const int compiled = renderer.compiled_programs();
     const std::string label = stage.drive.name + ", " + variant.name;
     Progress progress(label, ticks_to_play(stage.drive, options.ticks), options.quiet);
     PlayOptions play_options;
@@ -71,6 +74,9 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     };
     const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) { return renderer.submit(moment, view, wanted); };
     PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
+    if (const int late = renderer.compiled_programs() - compiled; late > 0)
+        played.notes.push_back(
+            fmt::format("{} shader variants were compiled during the drive: times of their first frames include that", late));
     for (const LeftOut& left : renderer.left_out())
         played.left_out.push_back(left.what + ": " + left.why);
     std::ranges::copy(notes_for(stage, variant, renderer), std::back_inserter(played.notes));

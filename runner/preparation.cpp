@@ -1,0 +1,50 @@
+#include "runner/preparation.h"
+
+#include "scenarios/drives/advance.h"
+
+#include <algorithm>
+#include <set>
+
+namespace fernlicht {
+
+std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive) {
+    std::vector<std::pair<View, Wanted>> pictures;
+    for (const View& view : drive.views)
+        pictures.emplace_back(view, stored_results(view, drive.capture));
+    if (!drive.views.empty())
+        pictures.emplace_back(drive.views.front(), Wanted{.colour = true});
+    View map;
+    map.projection = Projection::map;
+    map.map_ahead_m = map.map_left_m = map.map_right_m = 1.0;
+    map.width_px = map.height_px = 4; // variants do not depend on the size
+    if (drive.extent)
+        pictures.emplace_back(map, Wanted{.illuminance = true, .target = true});
+    if (!drive.probes.empty())
+        pictures.emplace_back(map, Wanted{.illuminance = true});
+    return pictures;
+}
+
+std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const Variant& variant, TickRange ticks) {
+    std::set<std::pair<bool, std::vector<std::pair<const LampFile*, bool>>>> seen; // sky, lamps with whether they shine
+    std::vector<Moment> moments;
+    State state = start(drive);
+    for (int tick = 0; tick <= std::min(ticks.last, tick_count(drive) - 1); ++tick, state = advance(state, drive)) {
+        if (tick < ticks.first)
+            continue;
+        Moment moment = moment_at(state, drive, route, variant);
+        std::vector<std::pair<const LampFile*, bool>> lamps;
+        for (const LitLamp& lamp : moment.lamps)
+            lamps.emplace_back(lamp.file.get(), lamp.intensity_factor > 0.0);
+        if (seen.emplace(moment.daylight.horizontal_illuminance_lx > 0.0, std::move(lamps)).second)
+            moments.push_back(std::move(moment));
+    }
+    return moments;
+}
+
+void prepare(Renderer& renderer, const Drive& drive, const Route& route, const Variant& variant, TickRange ticks) {
+    const std::vector<Moment> moments = distinct_moments(drive, route, variant, ticks);
+    for (const auto& [view, wanted] : pictures_of(drive))
+        renderer.prepare(moments, view, wanted);
+}
+
+} // namespace fernlicht
