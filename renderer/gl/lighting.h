@@ -36,7 +36,4 @@ class Lighting {
 /// The lighting of a technique by its name. Throws InputError.
 std::unique_ptr<Lighting> make_lighting(Context& context, const Scene& scene, const RendererSettings& settings);
 
-/// Pieces farther than this from the car are not drawn.
-inline constexpr double farthest_drawn_m = 2000.0;
-
 } // namespace fernlicht::gl

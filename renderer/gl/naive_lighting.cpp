@@ -51,7 +51,7 @@ void NaiveLighting::set_lamps(const Moment& moment) {
 void NaiveLighting::draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m, bool ground_only, double farthest_m, Work& work) {
     const Frustum frustum(clip);
     std::vector<std::uint32_t> seen;
-    for (std::uint32_t i = 0; i < scene_.pieces().size(); ++i) {
+    for (const std::uint32_t i : scene_.near(ego_m)) {
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m);
         if ((piece.ground || !ground_only) && glm::length(centre) - piece.radius_m <= farthest_m &&

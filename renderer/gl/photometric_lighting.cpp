@@ -133,7 +133,7 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
     const Frustum frustum(shot.camera.clip_from_ego);
     std::map<std::tuple<SurfaceClass, bool, bool>, std::vector<std::pair<double, std::uint32_t>>> sorted;
     std::vector<std::uint32_t> unseen;
-    for (std::uint32_t i = 0; i < scene_.pieces().size(); ++i) {
+    for (const std::uint32_t i : scene_.near(ego_m)) {
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m);
         if (shot.camera.is_map && !piece.ground)

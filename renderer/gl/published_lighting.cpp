@@ -200,7 +200,7 @@ std::vector<PublishedLighting::Group> PublishedLighting::groups_for(const Shot& 
     const glm::dvec3 ego_m = shot.moment.ego.position_m;
     const Frustum frustum(shot.camera.clip_from_ego);
     std::map<int, std::vector<std::pair<double, std::uint32_t>>> sorted;
-    for (std::uint32_t i = 0; i < scene_.pieces().size(); ++i) {
+    for (const std::uint32_t i : scene_.near(ego_m)) {
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m);
         const double distance = glm::length(centre) - piece.radius_m;

@@ -14,6 +14,7 @@
 namespace fernlicht::gl {
 namespace {
 
+constexpr double cell_m = 256.0;
 constexpr double flat_within_m = 1e-3;
 constexpr double bridge_height_m = 3.0, bridge_beside_m = 60.0;
 
@@ -42,6 +43,8 @@ GpuMaterial packed(const Material& m, bool encoded) {
 SurfaceClass class_of(const Material& m) {
     return {m.texture < 0 ? 0 : 1 + static_cast<int>(m.texture_mode), m.retro_rl > 0.0F, m.emission_cdm2 != glm::vec3(0.0F)};
 }
+
+std::int64_t cell_of(double m) { return static_cast<std::int64_t>(std::floor(m / cell_m)); }
 
 /// The triangles of one class of a mesh, gathered over its batches.
 struct Gathered {
@@ -109,6 +112,9 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             piece.bodies_m = ground ? std::vector{piece.corners_m} : boxes_round_bodies(places);
             if (std::find(classes_.begin(), classes_.end(), surface) == classes_.end())
                 classes_.push_back(surface);
+            const glm::dvec3 centre = piece.origin_m + piece.centre_m;
+            cells_[{cell_of(centre.x), cell_of(centre.y)}].push_back(static_cast<std::uint32_t>(pieces_.size()));
+            largest_radius_m_ = std::max(largest_radius_m_, piece.radius_m);
             pieces_.push_back(piece);
         }
     }
@@ -144,6 +150,21 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
 }
 
 bool SceneBuffers::has(bool (*property)(const SurfaceClass&)) const { return std::any_of(classes_.begin(), classes_.end(), property); }
+
+const std::vector<std::uint32_t>& SceneBuffers::near(const glm::dvec3& ego_m) const {
+    const Cell here{cell_of(ego_m.x), cell_of(ego_m.y)};
+    if (near_cell_ == here)
+        return near_;
+    near_cell_ = here;
+    near_.clear();
+    const auto cells = static_cast<std::int64_t>(std::ceil((farthest_drawn_m + largest_radius_m_) / cell_m)) + 1;
+    for (auto column = cells_.lower_bound({here.first - cells, std::numeric_limits<std::int64_t>::min()});
+         column != cells_.end() && column->first.first <= here.first + cells; ++column)
+        if (std::abs(column->first.second - here.second) <= cells)
+            near_.insert(near_.end(), column->second.begin(), column->second.end());
+    std::ranges::sort(near_);
+    return near_;
+}
 
 void SceneBuffers::bind(GLuint places) const {
     const GladGLContext& gl = context_.gl;

@@ -7,6 +7,8 @@
 #include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
+#include <map>
+#include <optional>
 
 namespace fernlicht::gl {
 
@@ -37,12 +39,17 @@ struct Piece {
     std::vector<Corners> bodies_m;           ///< what stands on the ground: a box round each body; else the one round all
 };
 
+/// Pieces farther than this from the car are not drawn.
+inline constexpr double farthest_drawn_m = 2000.0;
+
 class SceneBuffers {
   public:
     /// `encoded`: colours and textures are put through the sRGB curve, for techniques that light pictures instead of reflectances.
     SceneBuffers(Context& context, const Scene& scene, bool encoded);
 
     const std::vector<Piece>& pieces() const { return pieces_; }
+    /// Indices of all pieces that may lie within farthest_drawn_m of the car, ascending: what a frame looks through, however long the road.
+    const std::vector<std::uint32_t>& near(const glm::dvec3& ego_m) const;
     /// (unit normal, -normal . vertex) of ground triangles, relative to their piece's origin.
     const std::vector<glm::vec4>& planes() const { return planes_; }
     /// Each class of the scene once.
@@ -58,11 +65,16 @@ class SceneBuffers {
 
   private:
     void find_bridges();
+    using Cell = std::pair<std::int64_t, std::int64_t>;
 
     Context& context_;
     std::vector<Piece> pieces_;
     std::vector<glm::vec4> planes_;
     std::vector<SurfaceClass> classes_;
+    std::map<Cell, std::vector<std::uint32_t>> cells_; ///< pieces by where their centre is
+    double largest_radius_m_ = 0.0;
+    mutable std::optional<Cell> near_cell_;
+    mutable std::vector<std::uint32_t> near_;
     Buffer vertices_, indices_, materials_;
     VertexArray layout_;
     Texture textures_;

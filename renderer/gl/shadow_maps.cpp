@@ -56,7 +56,7 @@ void ShadowMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const 
         map.lamp_m = lamps[i].pose.position_m - ego_m;
         map.clip = lamp_clip(lamps[i], beams[i]->window, ego_m);
         const Frustum frustum(map.clip);
-        for (std::uint32_t k = 0; k < scene_.pieces().size(); ++k) {
+        for (const std::uint32_t k : scene_.near(ego_m)) {
             const Piece& piece = scene_.pieces()[k];
             const glm::dvec3 from_lamp = centre_of(piece, ego_m) - map.lamp_m;
             const double distance = glm::length(from_lamp), nearest = distance - piece.radius_m;
