@@ -6,6 +6,7 @@
 // cannot change the rounding of what stays. Angles in radians, lengths in metres, photometric units in the names.
 
 const real photometry_pi = 3.14159265358979323846;
+const real photometry_inverse_pi = 0.31830988618379067154;
 
 // World direction -> lamp space (x right, y up, z forward) by the lamp's own axes, each of unit length.
 FN vec3 lamp_space(vec3 v, vec3 right, vec3 up, vec3 forward) {
@@ -89,7 +90,7 @@ FN real incidence(vec3 normal, vec3 to_lamp) {
 
 // Diffuse (Lambert): L = rho E / pi.
 FN real diffuse_luminance(real albedo, real illuminance_lx) {
-    PRECISE real l = albedo * illuminance_lx / photometry_pi;
+    PRECISE real l = albedo * (illuminance_lx * photometry_inverse_pi);
     return l;
 }
 
@@ -117,6 +118,11 @@ FN real textured_rl(real rl, vec3 own, vec3 combined) {
     real own_y = dot(own, weights);
     PRECISE real textured = rl * dot(combined, weights) / own_y;
     return own_y > 0.0 ? textured : rl;
+}
+
+// The same with rl / Y(own) known; 0 for a black own colour.
+FN real textured_rl_at(real rl_per_y, vec3 combined) {
+    return rl_per_y * dot(combined, vec3(0.2126, 0.7152, 0.0722));
 }
 
 // Angle at the surface between light and eye; both vectors from the point, not normalised. Well-conditioned near 0, where

@@ -99,6 +99,9 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
                                   literal(1.0 / b.grid.h_step_rad), literal(1.0 / b.grid.v_step_rad));
            }));
     define("BEAM_COUNTS", list(beams, [](const Beam& b) { return fmt::format("vec2({}.0, {}.0)", b.grid.width, b.grid.height); }));
+    define("BEAM_PER_COUNTS", list(beams, [](const Beam& b) {
+               return fmt::format("vec2({}, {})", literal(1.0 / b.grid.width), literal(1.0 / b.grid.height));
+           }));
     define("BEAM_STEEP", list(beams, [](const Beam& b) { return std::string(b.steep ? "true" : "false"); }));
     define("SHADOW_NEAR", literal(shadow_near_m));
     define("SHADOW_TOLERANCE", literal(settings_.shadow_tolerance_m));

@@ -43,14 +43,15 @@ layout(binding = 6) uniform sampler2D beam_6;
 layout(binding = 7) uniform sampler2D beam_7;
 const vec4 beam_grid[LAMP_COUNT] = vec4[LAMP_COUNT](BEAM_GRIDS);   // first H, first V, 1 / step H, 1 / step V
 const vec2 beam_count[LAMP_COUNT] = vec2[LAMP_COUNT](BEAM_COUNTS); // samples across, up
+const vec2 beam_per_count[LAMP_COUNT] = vec2[LAMP_COUNT](BEAM_PER_COUNTS);
 const bool beam_steep[LAMP_COUNT] = bool[LAMP_COUNT](BEAM_STEEP);  // reaches beyond 30 degrees up or down
 
 // Candela towards w (lamp space, 1 / |w| known); 0 behind the lamp and outside its table.
-float intensity_towards(vec3 w, float inverse_d, float factor, sampler2D beam, vec4 grid, vec2 count, bool steep) {
+float intensity_towards(vec3 w, float inverse_d, float factor, sampler2D beam, vec4 grid, vec2 count, vec2 per_count, bool steep) {
     vec2 at = beam_position(quick_goniometer_angles(w, inverse_d, steep), grid);
     float known = w.z > 0.0 ? beam_known(at, count) : 0.0;
-    vec2 base = clamp(floor(at), vec2(0.0), count - 2.0);
-    vec4 cd = textureGather(beam, (base + 1.0) / count); // asked for midway between four texels, so that no rounding picks others
+    vec2 base = floor(at);
+    vec4 cd = textureGather(beam, (base + 1.0) * per_count); // asked for midway between four texels, so that no rounding picks others
     float i = factor * bilinear(cd.w, cd.z, cd.x, cd.y, at - base);
     return known > 0.0 ? i : 0.0;
 }
@@ -123,7 +124,7 @@ PRECISE vec3 light = vec3(0.0);
     { \
         vec3 w = v_w[i] + RAISE(i); \
         float inverse_d = inversesqrt(dot(w, w)); \
-        float cd = intensity_towards(w, inverse_d, COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_steep[i]); \
+        float cd = intensity_towards(w, inverse_d, COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_per_count[i], beam_steep[i]); \
         float e = facing_illuminance_at(cd, inverse_d); \
         target += e > 0.0 ? e * SEEN_TARGET(i, map, w) : 0.0; \
     }
@@ -135,7 +136,7 @@ PRECISE vec3 light = vec3(0.0);
     { \
         float inverse_d = inversesqrt(dot(v_w[i], v_w[i])); \
         float cosine = max(-dot(v_n[i], v_w[i]) * (inverse_d * inverse_n), 0.0); \
-        float cd = intensity_towards(v_w[i], inverse_d, COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_steep[i]); \
+        float cd = intensity_towards(v_w[i], inverse_d, COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_per_count[i], beam_steep[i]); \
         float e_perp = facing_illuminance_at(cd, inverse_d); \
         e_perp = cosine > 0.0 && e_perp > 0.0 ? e_perp * SEEN(i, map) : 0.0; \
         float e = e_perp * cosine; \
@@ -154,11 +155,11 @@ void main() {
     vec4 texel = texture(surface_textures, vec3(v_uv, v_blend.w));
 #if TEXTURED == 1
     albedo = combined_reflectance(TEXTURE_MODE, v_albedo.rgb, texel, v_blend.rgb);
-    rl = textured_rl(v_albedo.w, v_albedo.rgb, albedo);
+    rl = textured_rl_at(v_rl_per_y, albedo);
 #else
     vec3 textured = combined_reflectance(v_texture_mode, v_albedo.rgb, texel, v_blend.rgb);
     albedo = v_texture_mode >= 0 ? textured : v_albedo.rgb;
-    rl = v_texture_mode >= 0 ? textured_rl(v_albedo.w, v_albedo.rgb, textured) : v_albedo.w;
+    rl = v_texture_mode >= 0 ? textured_rl_at(v_rl_per_y, textured) : v_albedo.w;
 #endif
 #endif
 #endif

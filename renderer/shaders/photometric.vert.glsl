@@ -21,6 +21,8 @@ void main() {
     v_uv = uv;
     v_blend = vec4(m.blend.rgb, m.emission.w);
     v_texture_mode = int(m.retro.z) - 1;
+    float own_y = dot(m.albedo.rgb, vec3(0.2126, 0.7152, 0.0722));
+    v_rl_per_y = own_y > 0.0 ? m.albedo.w / own_y : 0.0;
 #endif
 #if EMISSIVE
     v_emission = m.emission.rgb;

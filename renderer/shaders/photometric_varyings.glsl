@@ -5,6 +5,7 @@ flat STAGE_IO vec4 v_albedo; // w: retro_rl
 STAGE_IO vec2 v_uv;
 flat STAGE_IO vec4 v_blend; // w: texture layer
 flat STAGE_IO int v_texture_mode;
+flat STAGE_IO float v_rl_per_y; // retro_rl over the own colour's luminance
 #endif
 #if EMISSIVE
 flat STAGE_IO vec3 v_emission;
