@@ -59,5 +59,51 @@ TEST(TexturedRl, GoesWithTheLuminanceOfTheReflectance) {
 
 TEST(TexturedRl, ABlackOwnColourKeepsIt) { EXPECT_EQ(textured_rl(0.1, glm::dvec3(0.0), glm::dvec3(0.3)), 0.1); }
 
+/// Worst difference over a fine sweep.
+template <class Error> double worst(double from, double to, Error error) {
+    double most = 0.0;
+    constexpr int steps = 200'000;
+    for (int i = 0; i <= steps; ++i)
+        most = std::max(most, std::abs(error(from + (to - from) * i / steps)));
+    return most;
+}
+
+TEST(QuickFunctions, StayWithinWhatTheySay) {
+    EXPECT_LT(worst(0.0, 1.0, [](double t) { return photometry::quick_atan_unit(t) - std::atan(t); }), 4e-8);
+    EXPECT_LT(
+        worst(-pi, pi,
+              [](double a) { return photometry::quick_atan(std::sin(a) * 3.0, std::cos(a) * 3.0) - std::atan2(std::sin(a), std::cos(a)); }),
+        1e-7);
+    EXPECT_LT(worst(-0.5, 0.5, [](double s) { return photometry::quick_asin_half(s) - std::asin(s); }), 3e-8);
+    EXPECT_LT(worst(0.0, 1.0, [](double c) { return 255.0 * (photometry::quick_srgb_encoded(c) - photometry::srgb_encoded(c)); }), 0.01);
+}
+
+TEST(QuickFunctions, AsinBeyondThirtyDegreesStaysBeyond) {
+    double last = photometry::quick_asin_half(0.5);
+    EXPECT_NEAR(last, pi / 6.0, 3e-8);
+    for (int i = 1; i <= 1000; ++i) {
+        const double next = photometry::quick_asin_half(0.5 + 0.0005 * i);
+        EXPECT_GT(next, last);
+        last = next;
+    }
+}
+
+TEST(QuickFunctions, AnglesAreThoseOfTheGoniometer) {
+    for (const bool steep : {false, true})
+        for (int h = -89; h <= 89; ++h)
+            for (int v = -29; v <= 29; ++v) {
+                const double a = h * pi / 180.0, b = v * pi / 180.0;
+                const glm::dvec3 w = 7.0 * glm::dvec3(std::sin(a) * std::cos(b), std::sin(b), std::cos(a) * std::cos(b));
+                const glm::dvec2 quick = photometry::quick_goniometer_angles(w, 1.0 / 7.0, steep);
+                EXPECT_NEAR(quick.x, a, 1e-7);
+                EXPECT_NEAR(quick.y, b, 1e-7);
+            }
+}
+
+TEST(QuickFunctions, AtTheOriginNothingIsNaN) {
+    EXPECT_EQ(photometry::quick_atan(0.0, 0.0), 0.0);
+    EXPECT_FALSE(std::isnan(photometry::quick_srgb_encoded(0.0)));
+}
+
 } // namespace
 } // namespace fernlicht
