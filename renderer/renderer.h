@@ -6,6 +6,8 @@
 #include "scenarios/drives/frame.h"
 #include "scenarios/values/scene.h"
 
+#include <optional>
+
 namespace fernlicht {
 
 /// plain: the pixels are fetched at once. overlapped: they travel while the GPU and the caller go on.
@@ -72,8 +74,9 @@ class Renderer {
     Work count(const Moment& moment, const View& view, const Wanted& wanted);
     /// What the moment drawn last did not need.
     std::vector<LeftOut> left_out() const;
-    /// Worst error of a lamp's texture against its table, relative to the peak.
-    double beam_error(const LampFile& lamp) const;
+    /// Worst error of a lamp's beam as it is drawn with against its table, relative to the peak; nullopt where no beam of one lamp is drawn
+    /// with.
+    std::optional<double> beam_error(const LampFile& lamp) const;
     int compiled_programs() const;
 
   private:

@@ -36,6 +36,7 @@ RendererSettings settings_for(Device& device, bool profile) {
 RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
     settings.technique = drive.technique;
     settings.tone_mapper = drive.tone_mapper;
+    settings.eight_bit_beams = drive.eight_bit_beams;
     settings.shadows = drive.shadows;
     if (drive.extent)
         settings.target_height_m = drive.extent->target_height_m;
@@ -51,8 +52,9 @@ std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, c
                                         lamp.photometric_distance_m));
         for (const std::string& note : lamp.file->notes)
             notes.push_back(lamp.name + ": " + note);
-        notes.push_back(fmt::format("{}: the beam texture differs from the candela table by at most {:.2g} % of the peak", lamp.name,
-                                    100.0 * renderer.beam_error(*lamp.file)));
+        if (const std::optional<double> error = renderer.beam_error(*lamp.file))
+            notes.push_back(fmt::format("{}: as drawn, the beam differs from the candela table by at most {:.2g} % of the peak", lamp.name,
+                                        100.0 * *error));
     }
     return notes;
 }

@@ -24,6 +24,10 @@ template <class T> std::vector<T> framed(std::vector<T> texels, int width, int h
     return texels;
 }
 
+ProjectedBeam projected(const CandelaTable& table, bool eight_bit) {
+    return make_projected_beam(table, eight_bit ? eight_bit_width : beam_width, eight_bit ? eight_bit_height : beam_height, eight_bit);
+}
+
 void set_linear(const GladGLContext& gl, GLuint texture) {
     gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -51,7 +55,7 @@ bool LampArrangement::same_as(const LampArrangement& other) const {
 
 UploadedBeam PublishedBeams::upload(const ProjectedBeam& beam) {
     const GladGLContext& gl = context_.gl;
-    UploadedBeam uploaded{beam.window, beam.steps.empty() ? 1.0 : beam.scale_lx, beam.scale_lx,
+    UploadedBeam uploaded{beam.window, beam.steps.empty() ? 1.0 : beam.scale_lx, beam.scale_lx, beam.worst_error_of_peak,
                           make_texture(context_, beam.steps.empty() ? GL_R32F : GL_R8, beam.width, beam.height)};
     set_linear(gl, uploaded.texture);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -71,10 +75,12 @@ const UploadedBeam& PublishedBeams::of(const std::shared_ptr<const LampFile>& fi
     const auto known = beams_.find(file);
     if (known != beams_.end())
         return known->second;
-    return beams_
-        .emplace(file, upload(make_projected_beam(file->table, eight_bit_ ? eight_bit_width : beam_width,
-                                                  eight_bit_ ? eight_bit_height : beam_height, eight_bit_)))
-        .first->second;
+    return beams_.emplace(file, upload(projected(file->table, eight_bit_))).first->second;
+}
+
+double PublishedBeams::error_of_peak(const LampFile& file) const {
+    const auto known = std::ranges::find_if(beams_, [&](const auto& entry) { return entry.first.get() == &file; });
+    return known != beams_.end() ? known->second.worst_error_of_peak : projected(file.table, eight_bit_).worst_error_of_peak;
 }
 
 const std::vector<Spot>& PublishedBeams::spots_of(const std::shared_ptr<const LampFile>& file) {

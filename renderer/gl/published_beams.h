@@ -15,7 +15,7 @@ namespace fernlicht::gl {
 /// E_m at 25 m in lux = texel * lx_a_unit. The outermost texels are black, so that clamping to the edge gives no light outside the window.
 struct UploadedBeam {
     TangentWindow window;
-    double lx_a_unit = 1.0, peak_lx = 0.0;
+    double lx_a_unit = 1.0, peak_lx = 0.0, worst_error_of_peak = 0.0;
     Texture texture;
 };
 
@@ -40,6 +40,7 @@ class PublishedBeams {
     PublishedBeams(Context& context, bool eight_bit) : context_(context), eight_bit_(eight_bit) {}
 
     const UploadedBeam& of(const std::shared_ptr<const LampFile>& file);
+    double error_of_peak(const LampFile& file) const;
     const std::vector<Spot>& spots_of(const std::shared_ptr<const LampFile>& file);
     /// Made anew when a lamp moves on its car or changes its level; the last few arrangements are kept.
     const UploadedBeam& merged(const Moment& moment);

@@ -258,6 +258,14 @@ void PublishedLighting::draw(const Shot& shot) {
             {fmt::format("{} of {} pieces of the scene", scene_.pieces().size() - pieces, scene_.pieces().size()), "out of view"});
 }
 
+std::optional<double> PublishedLighting::beam_error(const LampFile& lamp) const {
+    if (is("LIGHT", "SPOTS"))
+        return fit_spots(lamp.table, most_spots).worst_of_peak;
+    if ((is("LIGHT", "PROJECTED") || is("LIGHT", "VERTEX_PROJECTED")) && is("MERGED", "0"))
+        return beams_.error_of_peak(lamp);
+    return std::nullopt;
+}
+
 void PublishedLighting::prepare(const Shot& shot) {
     set_lamps(shot);
     if (scene_.pieces().empty())

@@ -17,6 +17,7 @@ class PublishedLighting : public Lighting {
     void draw(const Shot& shot) override;
     void prepare(const Shot& shot) override;
     std::vector<LeftOut> left_out() const override { return left_out_; }
+    std::optional<double> beam_error(const LampFile& lamp) const override;
 
   private:
     /// Decides over a shader variant, beside the row.

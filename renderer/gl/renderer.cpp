@@ -1,6 +1,5 @@
 #include "renderer/renderer.h"
 
-#include "renderer/beam_texture.h"
 #include "renderer/gl/fragment_count.h"
 #include "renderer/gl/lighting.h"
 #include "scenarios/photometry.h"
@@ -160,7 +159,7 @@ Work Renderer::count(const Moment& moment, const View& view, const Wanted& wante
 }
 
 std::vector<LeftOut> Renderer::left_out() const { return state_->lighting->left_out(); }
-double Renderer::beam_error(const LampFile& lamp) const { return make_beam_texture(lamp.table).worst_error_of_peak; }
+std::optional<double> Renderer::beam_error(const LampFile& lamp) const { return state_->lighting->beam_error(lamp); }
 int Renderer::compiled_programs() const { return state_->context.compiled_programs - state_->programs_before; }
 
 } // namespace fernlicht

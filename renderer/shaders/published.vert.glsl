@@ -68,7 +68,7 @@ void main() {
     v_emissive = emissive;
     v_fade = 1.0 - length(p - eye_m) * (1.0 / EMISSIVE_REACH);
 #else
-    v_emissive = emissive.g;
+    v_emissive = max(emissive.r, max(emissive.g, emissive.b));
 #endif
 #endif
 #if AMBIENT

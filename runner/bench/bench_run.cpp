@@ -54,6 +54,7 @@ std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage
 RendererSettings settings_for(const Drive& drive, const Technique& technique) {
     RendererSettings settings;
     settings.tone_mapper = drive.tone_mapper;
+    settings.eight_bit_beams = drive.eight_bit_beams;
     settings.shadows = drive.shadows;
     settings.technique = technique.name;
     return settings;

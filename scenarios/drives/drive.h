@@ -123,7 +123,8 @@ struct Drive {
     std::vector<Probe> probes;
     std::vector<Limit> limits;
     bool shadows = true;
-    bool textured = true; ///< surfaces have pictures
+    bool eight_bit_beams = false; ///< techniques that project beam textures do so with the founding thesis's 8 bits, 512 x 128
+    bool textured = true;         ///< surfaces have pictures
     std::uint64_t seed = 1;
     std::vector<LampSource> lamp_sources; ///< where the lamps' files came from
     std::vector<std::string> notes;       ///< what was decided for the user ("the route ends after 8.2 s"), one sentence each

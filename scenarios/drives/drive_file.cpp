@@ -62,6 +62,8 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     read_measure(keys, drive.extent, drive.probes);
     drive.limits = read_limits(keys);
     drive.shadows = keys.flag_or("shadows", drive.shadows);
+    if (const auto beams = keys.find("beams"))
+        drive.eight_bit_beams = beams->choice({"float", "eight-bit"}) == 1;
     if (const auto textures = keys.find("textures"))
         drive.textured = textures->choice({"none", "shipped"}) == 1;
     if (const auto seed = keys.find("seed"))
@@ -75,9 +77,9 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht", "name",        "title",      "road",     "route",  "speed_kmh", "speed_mps", "speed",
-                        "step_s",    "rate_hz",     "duration_s", "daylight", "car",    "variants",  "changes",   "views",
-                        "capture",   "tone_mapper", "technique",  "measure",  "limits", "shadows",   "textures",  "seed"});
+                       {"fernlicht", "name",       "title",    "road",    "route",    "speed_kmh", "speed_mps", "speed",   "step_s",
+                        "rate_hz",   "duration_s", "daylight", "car",     "variants", "changes",   "views",     "capture", "tone_mapper",
+                        "technique", "measure",    "limits",   "shadows", "textures", "beams",     "seed"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;

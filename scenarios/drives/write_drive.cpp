@@ -220,6 +220,7 @@ std::string write_drive(const Drive& drive) {
     write_measure(out, drive);
     write_limits(out, drive);
     out.add(0, "shadows: {}", drive.shadows);
+    out.add(0, "beams: {}", drive.eight_bit_beams ? "eight-bit" : "float");
     out.add(0, "textures: {}", drive.textured ? "shipped" : "none");
     out.add(0, "seed: {}", drive.seed);
     return out.take();

@@ -118,6 +118,9 @@ TEST_F(DriveFile, DaylightStepSpeedAndTheRest) {
     EXPECT_TRUE(read(minimal).textured);
     EXPECT_TRUE(read(minimal + "textures: shipped").textured);
     EXPECT_FALSE(read(minimal + "textures: none").textured);
+    EXPECT_FALSE(read(minimal).eight_bit_beams);
+    EXPECT_TRUE(read(minimal + "beams: eight-bit").eight_bit_beams);
+    EXPECT_FALSE(read(minimal + "beams: float").eight_bit_beams);
     const Drive drive =
         read(minimal + "route: {road: 17, lane: -2, s_m: 5.5, via: [3, x]}\ncapture: {all: true, exr: false, per_second: 4}\n"
                        "tone_mapper: {kind: logarithmic, s: 10, l_max_cdm2: 100}\ntechnique: as-published\nshadows: false\n"

@@ -75,6 +75,7 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
                             "seed: -1",
                             "seed: 18446744073709551616",
                             "shadows: yes",
+                            "beams: 8",
                             "textures: true",
                             "textures: mine.png",
                             "tone_mapper: {s: 0.5}",

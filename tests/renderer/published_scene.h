@@ -1,0 +1,110 @@
+// What the tests of the published techniques light: a car far from the map's origin, turned, with two lamps that differ; ground and a
+// board.
+#pragma once
+
+#include "renderer/renderer.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace fernlicht::tests {
+
+/// A cut-off that is soft enough for a texture of 1024 x 512 to hold it.
+inline CandelaTable soft_beam(double peak_cd, double turn_deg) {
+    CandelaTable table;
+    for (int i = -60; i <= 60; ++i)
+        table.h_deg.push_back(i * 0.5);
+    for (int i = -40; i <= 20; ++i)
+        table.v_deg.push_back(i * 0.5);
+    for (const double v : table.v_deg)
+        for (const double h : table.h_deg)
+            table.cd.push_back(100.0 + peak_cd / (1.0 + std::exp((v + 1.0) / 0.8)) * std::exp(-(h - turn_deg) * (h - turn_deg) / 150.0) *
+                                           std::exp(-v * v / 60.0));
+    return table;
+}
+
+inline std::shared_ptr<const LampFile> file_of(CandelaTable table) {
+    auto file = std::make_shared<LampFile>();
+    file->table = std::move(table);
+    return file;
+}
+
+/// `at` in the car's frame.
+inline LitLamp mounted(const Pose& ego, const char* name, std::shared_ptr<const LampFile> file, const glm::dvec3& at, double factor) {
+    LitLamp lamp;
+    lamp.name = name;
+    lamp.file = std::move(file);
+    lamp.pose = {ego.position_m + ego.axes * at, ego.axes * axes_from_angles(0.02 * at.y, -0.01, 0.0)};
+    lamp.intensity_factor = factor;
+    return lamp;
+}
+
+/// The right one stands first, so that a technique cannot take the first one for the left.
+inline Moment two_lamps(double sky_lx) {
+    Moment moment;
+    moment.ego = {{4.4e6, -5.2e5, 312.0}, axes_from_angles(0.7, 0.0, 0.0)};
+    moment.daylight.horizontal_illuminance_lx = sky_lx;
+    moment.lamps = {mounted(moment.ego, "right", file_of(soft_beam(9000.0, 3.0)), {3.4, -0.6, 0.65}, 0.8),
+                    mounted(moment.ego, "left", file_of(soft_beam(14000.0, -2.0)), {3.4, 0.6, 0.7}, 1.0)};
+    return moment;
+}
+
+/// A grid of quads over corner + i a + k b, facing `normal`; all in the frame of `ego`, whose axes the vertices are turned by.
+inline Mesh grid(const Pose& ego, const char* name, std::uint32_t material, glm::dvec3 corner, glm::dvec3 a, glm::dvec3 b,
+                 glm::dvec3 normal, int columns, int rows) {
+    Mesh mesh{name, ego.position_m, {}, {}, {}};
+    for (int k = 0; k <= rows; ++k)
+        for (int i = 0; i <= columns; ++i)
+            mesh.vertices.push_back({glm::vec3(ego.axes * (corner + a * (1.0 * i / columns) + b * (1.0 * k / rows))),
+                                     glm::vec3(ego.axes * normal),
+                                     {i % 2, k % 2}});
+    for (int k = 0; k < rows; ++k)
+        for (int i = 0; i < columns; ++i) {
+            const auto at = [&](int x, int y) { return static_cast<std::uint32_t>((k + y) * (columns + 1) + i + x); };
+            mesh.indices.insert(mesh.indices.end(), {at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1)});
+        }
+    mesh.batches = {{material, 0, static_cast<std::uint32_t>(mesh.indices.size())}};
+    return mesh;
+}
+
+/// Ground of `cells` quads along and across, 60 m behind the car to 100 m ahead, and a board of sheeting 30 m ahead.
+inline Scene ground_and_board(const Pose& ego, int cells) {
+    Scene scene;
+    Material road{"road", SurfaceKind::road, {0.2F, 0.25F, 0.3F}};
+    Material board{"board", SurfaceKind::board, {0.5F, 0.1F, 0.1F}};
+    board.retro_rl = 180.0F;
+    scene.materials = {road, board};
+    scene.meshes = {grid(ego, "ground", 0, {-60, -30, 0}, {160, 0, 0}, {0, 60, 0}, {0, 0, 1}, cells, cells),
+                    grid(ego, "board", 1, {30, -1, 0.5}, {0, -2, 0}, {0, 0, 2}, {-1, 0, 0}, 2, 2)};
+    return scene;
+}
+
+inline View view_towards(double yaw_deg, double pitch_deg) {
+    View view;
+    view.position_m = {1.5, 0.35, 1.2};
+    view.yaw_rad = radians(yaw_deg);
+    view.pitch_rad = radians(pitch_deg);
+    view.vertical_fov_rad = radians(30.0);
+    view.width_px = 96;
+    view.height_px = 64;
+    return view;
+}
+
+class PublishedTest : public testing::Test {
+  protected:
+    Device device_ = open_device("auto");
+    Frame drawn(const std::string& technique, const Scene& scene, const Moment& moment, const View& view,
+                const Wanted& wanted = {.illuminance = true, .ids = true}) {
+        return renderer(technique, scene).draw(moment, view, wanted);
+    }
+    Renderer renderer(const std::string& technique, const Scene& scene, bool eight_bit = false) {
+        RendererSettings settings;
+        settings.technique = technique;
+        settings.eight_bit_beams = eight_bit;
+        return Renderer(device_, scene, settings);
+    }
+};
+
+} // namespace fernlicht::tests
