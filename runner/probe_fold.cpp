@@ -11,7 +11,8 @@ namespace {
 
 constexpr double patch_m = 0.03; // three pixels of a centimetre, the probe in the middle one
 
-/// A map of 3 x 3 pixels about a point.
+} // namespace
+
 View map_around(const glm::dvec3& point_m, const Moment& moment) {
     View view;
     view.name = "probe";
@@ -26,8 +27,6 @@ View map_around(const glm::dvec3& point_m, const Moment& moment) {
     view.map_left_m = 0.5 * patch_m - right;
     return view;
 }
-
-} // namespace
 
 void ProbeFold::add(const Moment& moment, const Draw& draw) {
     for (std::size_t i = 0; i < found_.size(); ++i) {

@@ -5,6 +5,9 @@
 
 namespace fernlicht {
 
+/// A map of 3 x 3 pixels of a centimetre each, the point in the middle one.
+View map_around(const glm::dvec3& point_m, const Moment& moment);
+
 class ProbeFold {
   public:
     ProbeFold(const Drive& drive, const Route& route) : drive_(drive), route_(route), found_(drive.probes.size()) {}

@@ -3,13 +3,16 @@
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "renderer/timer_check.h"
+#include "runner/contact_sheet.h"
 #include "runner/interruption.h"
 #include "runner/limits.h"
 #include "runner/output_folder.h"
+#include "runner/plots/png.h"
 #include "runner/preparation.h"
 #include "runner/progress.h"
 #include "runner/references.h"
 #include "runner/run_context.h"
+#include "runner/savings.h"
 #include "runner/stage.h"
 #include "runner/summary.h"
 #include "scenarios/drives/advance.h"
@@ -18,6 +21,8 @@
 #include <algorithm>
 #include <deque>
 #include <fmt/format.h>
+#include <optional>
+#include <span>
 
 namespace fernlicht {
 namespace {
@@ -92,12 +97,59 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     return played;
 }
 
+/// After all is played: the renderer that leaves nothing out takes memory of its own.
+void add_savings(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Renderer& renderer,
+                 std::span<PlayedVariant> played) {
+    std::optional<Renderer> unpruned;
+    for (std::size_t i = 0; i < played.size() && !Interruption::asked(); ++i) {
+        Savings& savings = played[i].savings;
+        savings.not_measured = options.profile ? "the run timed each pass" : no_savings(stage.drive, played[i]);
+        if (!savings.not_measured.empty())
+            continue;
+        if (!unpruned) {
+            RendererSettings all_in = settings_for(stage.drive, settings);
+            all_in.technique = unpruned_technique;
+            unpruned.emplace(device, stage.scene, all_in);
+        }
+        savings = measure_savings(stage, stage.drive.variants[i], played[i], std::max(0, options.ticks.first), renderer, *unpruned);
+    }
+}
+
+/// The middle one of the captured moments, else of those played.
+int middle_tick(const PlayedVariant& played, int first_tick) {
+    std::vector<int> captured;
+    for (const StoredFrame& frame : played.frames)
+        if (captured.empty() || captured.back() != frame.tick)
+            captured.push_back(frame.tick);
+    return captured.empty() ? first_tick + played.ticks_done / 2 : captured[captured.size() / 2];
+}
+
+void add_contact_sheets(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options,
+                        std::span<PlayedVariant> played) {
+    std::vector<ContactSheet> sheets;
+    for (std::size_t i = 0; i < played.size(); ++i) {
+        const Variant& variant = stage.drive.variants[i];
+        const int tick = middle_tick(played[i], std::max(0, options.ticks.first));
+        sheets.push_back(new_sheet(stage, variant, moments_at({tick}, stage, variant).front()));
+    }
+    RendererSettings plain = settings_for(stage.drive, settings);
+    plain.profile = false;
+    add_all_techniques(sheets, stage, device, plain);
+    for (std::size_t i = 0; i < played.size(); ++i) {
+        const ContactSheet& sheet = sheets[i];
+        const std::string name = "contact-sheet-" + file_name_of(sheet.drive + "-" + sheet.variant) + ".png";
+        write_file(options.folder / name, plots::png_of_svg(contact_sheet_svg(sheet)));
+        played[i].contact_sheet = {sheet.moment.tick, sheet.moment.time_s, "driver", name, ""};
+    }
+}
+
 void run_drive(Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
     write_file(options.folder / (file_name_of(stage.drive.name) + ".yaml"), write_drive(stage.drive));
     add_inputs(report.context.inputs, stage.drive.opened);
     add_inputs(report.context.inputs, stage.network.opened);
     Renderer renderer(device, stage.scene, settings_for(stage.drive, settings));
     Writers writers;
+    const std::size_t before = report.played.size();
     for (const Variant& variant : stage.drive.variants) {
         report.played.push_back(play_variant(stage, variant, renderer, options, report.context, writers));
         if (Interruption::asked()) {
@@ -106,6 +158,10 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
             return;
         }
     }
+    const auto played = std::span(report.played).subspan(before);
+    add_savings(stage, device, settings, options, renderer, played);
+    if (options.contact_sheet && !Interruption::asked())
+        add_contact_sheets(stage, device, settings, options, played);
 }
 
 } // namespace
@@ -118,6 +174,9 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
         if (ticks_to_play(stage.drive, options.ticks) == 0)
             throw InputError({stage.drive.file, 0, 0, "--frames"}, fmt::format("found a range from {} on", options.ticks.first),
                              fmt::format("moments of the drive, which has 0 to {}", tick_count(stage.drive) - 1));
+    for (const Stage& stage : stages)
+        if (options.contact_sheet && !driver_view(stage.drive))
+            throw InputError({stage.drive.file, 0, 0, "views"}, "found only maps", "a perspective view for --contact-sheet");
     Device device = open_device(options.backend);
     check_sanity(device);
     const RendererSettings settings = settings_for(device, options.profile);

@@ -18,6 +18,22 @@ Stage::Stage(Drive d)
     technique_named(drive.technique);
 }
 
+std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant) {
+    std::vector<Moment> moments;
+    State state = start(stage.drive);
+    for (const int tick : ticks) {
+        while (state.tick < tick)
+            state = advance(state, stage.drive);
+        moments.push_back(moment_at(state, stage.drive, stage.route, variant));
+    }
+    return moments;
+}
+
+const View* driver_view(const Drive& drive) {
+    const auto view = std::ranges::find(drive.views, Projection::perspective, &View::projection);
+    return view == drive.views.end() ? nullptr : &*view;
+}
+
 void add_inputs(FilesRead& all, const FilesRead& more) {
     for (const FileRead& file : more)
         if (std::none_of(all.begin(), all.end(), [&](const FileRead& known) { return known.path == file.path; }))

@@ -1,7 +1,7 @@
 // Everything of a drive that does not change over its lamp sets: read and checked before the first frame.
 #pragma once
 
-#include "scenarios/drives/drive.h"
+#include "scenarios/drives/moment.h"
 #include "scenarios/values/scene.h"
 
 namespace fernlicht {
@@ -17,6 +17,12 @@ struct Stage {
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 };
+
+/// The moments at these ticks, which rise.
+std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant);
+
+/// The driver's view: the first that is no map. nullptr where there are only maps.
+const View* driver_view(const Drive& drive);
 
 /// Adds what is not there yet, by path.
 void add_inputs(FilesRead& all, const FilesRead& more);

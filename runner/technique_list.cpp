@@ -81,6 +81,9 @@ std::string techniques_markdown(std::span<const Technique> rows) {
         "another way from the literature. *Ours*: this program's own. #: the row of the thesis's Table 6.1. Passes: how often the scene is "
         "drawn for a view, shadow maps apart. Lux: whether the technique believes in an illuminance, which it can draw as a lux image, on "
         "surfaces or also on a target.\n\n"
+        "![One moment in every technique, and the lux images of those that have one](images/techniques.png)\n\n"
+        "`fernlicht bench --rounds 1` writes this picture as `contact-sheet.png`; `fernlicht run DRIVE --contact-sheet` adds it to a "
+        "report.\n\n"
         "| # | name | kind | computes | ignores | passes | lux | origin |\n"
         "|---|---|---|---|---|---|---|---|\n";
     for (const Technique& row : rows)

@@ -49,6 +49,9 @@ struct BenchRow {
     std::optional<Work> work;                   ///< of each count the median over the moments, the lower of two
     double frames_per_s() const { return 1.0 / frame.median; }
 };
+/// Of each count the median over the moments, the lower of two; nullopt for no moments.
+std::optional<Work> typical_work(const std::vector<Work>& work);
+
 /// In the result's order. Techniques without a sample are left out.
 std::vector<BenchRow> summarise(const BenchResult& result);
 

@@ -14,7 +14,9 @@ template <class Count> Count typical(const std::vector<Work>& work, Count Work::
     return values[(values.size() - 1) / 2];
 }
 
-std::optional<Work> typical(const std::vector<Work>& work) {
+} // namespace
+
+std::optional<Work> typical_work(const std::vector<Work>& work) {
     if (work.empty())
         return std::nullopt;
     return Work{typical(work, &Work::passes),       typical(work, &Work::draws),       typical(work, &Work::calls),
@@ -22,8 +24,6 @@ std::optional<Work> typical(const std::vector<Work>& work) {
                 typical(work, &Work::features),     typical(work, &Work::triangles),   typical(work, &Work::fragments),
                 typical(work, &Work::texture_bytes)};
 }
-
-} // namespace
 
 std::vector<BenchRow> summarise(const BenchResult& result) {
     const auto reference = std::ranges::find(result.techniques, reference_technique, [](const BenchedTechnique& t) { return t.row.name; });
@@ -42,7 +42,7 @@ std::vector<BenchRow> summarise(const BenchResult& result) {
         row.frame_median = median_interval(samples.frame_s);
         if (reference != result.techniques.end())
             row.ratio = paired_ratio(samples.frame_s, reference->samples.frame_s);
-        row.work = typical(benched.work);
+        row.work = typical_work(benched.work);
         rows.push_back(row);
     }
     return rows;

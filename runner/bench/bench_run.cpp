@@ -4,13 +4,16 @@
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "renderer/timer_check.h"
+#include "runner/contact_sheet.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
+#include "runner/plots/png.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
 #include "runner/stage.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <algorithm>
 #include <deque>
@@ -33,22 +36,10 @@ const Variant& variant_named(const Drive& drive, const std::string& name) {
     throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
-const View& driver_view(const Drive& drive) {
-    const auto view = std::ranges::find(drive.views, Projection::perspective, &View::projection);
-    if (view == drive.views.end())
-        throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a perspective view to time");
-    return *view;
-}
-
-std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant) {
-    std::vector<Moment> moments;
-    State state = start(stage.drive);
-    for (const int tick : ticks) {
-        while (state.tick < tick)
-            state = advance(state, stage.drive);
-        moments.push_back(moment_at(state, stage.drive, stage.route, variant));
-    }
-    return moments;
+const View& view_to_time(const Drive& drive) {
+    if (const View* const view = driver_view(drive))
+        return *view;
+    throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a perspective view to time");
 }
 
 RendererSettings settings_for(const Drive& drive, const Technique& technique) {
@@ -170,7 +161,7 @@ BenchResult run_bench(const BenchRequest& request) {
     const std::vector<Technique> rows = chosen_techniques(request.techniques);
     const Stage stage(request.drive);
     const Variant& variant = variant_named(stage.drive, request.variant);
-    const View& view = driver_view(stage.drive);
+    const View& view = view_to_time(stage.drive);
     const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
     Device device = open_device(request.backend);
     check_sanity(device);
@@ -184,6 +175,12 @@ BenchResult run_bench(const BenchRequest& request) {
     const std::vector<Contestant> contestants = take_part(rows, device, stage, view, moments, renderers, result);
     time_rounds(contestants, request, device, result);
     write_bench(result, request.folder);
+    if (result.interrupted.empty()) {
+        ContactSheet sheet = new_sheet(stage, variant, moments[moments.size() / 2]);
+        for (Renderer& renderer : renderers)
+            add_tile(sheet, renderer);
+        write_file(request.folder / "contact-sheet.png", plots::png_of_svg(contact_sheet_svg(sheet)));
+    }
     if (result.interrupted.empty())
         folder.finish();
     return result;

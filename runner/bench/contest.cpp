@@ -60,7 +60,8 @@ Contest hold_contest(const std::vector<Contestant>& contestants, const ContestOp
         contest.orders.push_back(random_order(contestants.size(), chance));
         for (const std::size_t i : contest.orders.back()) {
             play_back_to_back(contestants[i], options, clocks, contest.samples[i]);
-            play_frame_by_frame(contestants[i], options, clocks, contest.samples[i]);
+            if (options.frame_by_frame)
+                play_frame_by_frame(contestants[i], options, clocks, contest.samples[i]);
         }
     }
     return contest;

@@ -28,6 +28,7 @@ ContestClocks real_clocks();
 struct ContestOptions {
     std::size_t moments = 8, rounds = 21;
     std::size_t warm_up_plays = 2; ///< before the first round each contestant draws all moments so often, untimed: programs are compiled
+    bool frame_by_frame = true;    ///< else a round is drawn back to back only, and there are no latencies
     std::uint64_t seed = 1;        ///< of the orders
     std::function<bool(std::size_t rounds_done)> go_on = [](std::size_t) { return true; }; ///< asked before each round
 };

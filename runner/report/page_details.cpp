@@ -71,6 +71,15 @@ void set_list(data& part, const std::string& name, const std::vector<std::string
     part.set(name, list);
 }
 
+/// "shadow maps: nothing stands in a beam" in two.
+data what_and_why(const std::string& sentence) {
+    const std::size_t colon = sentence.rfind(": ");
+    data row;
+    row.set("what", sentence.substr(0, colon));
+    row.set("why", colon == std::string::npos ? "" : sentence.substr(colon + 2));
+    return row;
+}
+
 data lamp_set(const PlayedVariant& played, std::size_t index) {
     data row, files{List::list};
     for (const auto& [place, file] : played.lamps) {
@@ -108,7 +117,12 @@ data details_part(const ComparedDrive& drive) {
     part.set("sets", sets);
     part.set("has_readings", !distinct.empty());
     part.set("readings", readings);
-    set_list(part, "left_out", merged(drive, &PlayedVariant::left_out));
+    data left_out{List::list};
+    for (const std::string& sentence : merged(drive, &PlayedVariant::left_out))
+        left_out.push_back(what_and_why(sentence));
+    part.set("has_left_out", left_out.is_non_empty_list());
+    part.set("left_out", left_out);
+    part.set("savings", savings_part(drive));
     set_list(part, "notes", merged(drive, &PlayedVariant::notes));
     return part;
 }

@@ -114,6 +114,21 @@ data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
     return maps;
 }
 
+data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    data sheets{List::list};
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const StoredFrame& sheet = drive.variants[i]->contact_sheet;
+        if (sheet.png.empty())
+            continue;
+        data part = picture(&sheet, folder, budget_bytes);
+        part.set("lamp", short_text(drive.variants[i]->variant, 40));
+        part.set("colour", variant_colour(i));
+        part.set("time", figure(sheet.time_s, 2));
+        sheets.push_back(part);
+    }
+    return sheets;
+}
+
 /// Links to the stored pictures of moments that the page does not show.
 data links_of(const ComparedDrive& drive, const std::set<int>& shown) {
     data links{List::list};
@@ -174,6 +189,9 @@ data moments_part(const ComparedDrive& drive, const std::filesystem::path& folde
         moments.push_back(part);
     }
     data part;
+    const data sheets = contact_sheets(drive, folder, budget_bytes);
+    part.set("has_sheets", sheets.is_non_empty_list());
+    part.set("sheets", sheets);
     part.set("has_moments", !all.empty());
     part.set("moments", moments);
     part.set("last_moment", fmt::format("{}", shown.empty() ? 0 : shown.size() - 1));

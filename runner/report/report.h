@@ -2,7 +2,9 @@
 #pragma once
 
 #include "metrics/extent.h"
+#include "metrics/paired_ratio.h"
 #include "metrics/statistics.h"
+#include "renderer/renderer.h"
 #include "scenarios/drives/frame.h"
 
 #include <string>
@@ -78,6 +80,17 @@ struct Throughput {
     }
 };
 
+/// What leaving out saves: frames of the driver's view drawn in turns, as the run draws them and with nothing left out.
+struct Savings {
+    std::vector<int> ticks;                   ///< the moments drawn
+    std::vector<double> pruned_s, unpruned_s; ///< by round: a frame, back to back
+    Work pruned, unpruned;                    ///< of each count the median over the moments
+    std::string not_measured;                 ///< why there are no times; "" where there are
+
+    /// pruned against unpruned; below 1: faster. nullopt without times.
+    std::optional<PairedRatio> ratio() const { return paired_ratio(pruned_s, unpruned_s); }
+};
+
 /// One drive played with one lamp set.
 struct PlayedVariant {
     std::string drive, variant, technique;
@@ -85,6 +98,7 @@ struct PlayedVariant {
     std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
     int ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;
+    StoredFrame contact_sheet;                        ///< one moment drawn in every technique; without a PNG where none was asked for
     std::vector<LuxMap> maps;                         ///< at captured moments, at most as many as the page shows
     std::vector<ExtentRow> extents;                   ///< every moment
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed
@@ -92,6 +106,7 @@ struct PlayedVariant {
     std::vector<PassTime> passes;                     ///< raw samples of frames drawn alone, warm-up dropped: "frame", "shadow", ...
     Throughput throughput;
     int warm_up_dropped = 0;
+    Savings savings;
     Readings readings; ///< summary of the drive and probes
     std::vector<Verdict> verdicts;
     std::vector<std::string> left_out; ///< what the scene did not need, one sentence each

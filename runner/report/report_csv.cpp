@@ -46,6 +46,13 @@ std::string times_csv(const Report& report) {
         add("share of driver's view alone", t.share_of(t.view_s), "1");
         add("share of all drawing alone", t.share_of(t.drawing_s), "1");
         add("peak memory", t.peak_memory_mib, "MiB");
+        if (const std::optional<PairedRatio> ratio = played.savings.ratio()) {
+            add("frame back to back, median", 1e3 * spread_of(played.savings.pruned_s).value().median, "ms");
+            add("frame back to back with nothing left out, median", 1e3 * spread_of(played.savings.unpruned_s).value().median, "ms");
+            add("ratio to nothing left out, median", ratio->median, "1");
+            add("ratio to nothing left out, 5th percentile", ratio->p05, "1");
+            add("ratio to nothing left out, 95th percentile", ratio->p95, "1");
+        }
     }
     return out;
 }

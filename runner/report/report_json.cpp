@@ -1,3 +1,4 @@
+#include "runner/bench/bench_result.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
@@ -213,6 +214,12 @@ Json extents_json(const PlayedVariant& played) {
     return out;
 }
 
+Json contact_sheet_json(const StoredFrame& sheet) {
+    if (sheet.png.empty())
+        return nullptr;
+    return {{"frame", sheet.tick}, {"time_s", finite(sheet.time_s, "time")}, {"png", sheet.png}};
+}
+
 Json drive_json(const PlayedVariant& played) {
     Json frames = Json::array(), speed = Json::array();
     for (const StoredFrame& frame : played.frames)
@@ -234,6 +241,7 @@ Json drive_json(const PlayedVariant& played) {
             {"notes", played.notes},
             {"summary", summary_json(played)},
             {"frames", frames},
+            {"contact_sheet", contact_sheet_json(played.contact_sheet)},
             {"speed_mps", speed},
             {"extents", extents_json(played)}};
 }
@@ -275,6 +283,36 @@ Json throughput_json(const Report& report) {
     return out;
 }
 
+Json work_json(const Work& work) {
+    return {
+        {"passes", work.passes},     {"draws", work.draws},         {"calls", work.calls},         {"samplers", work.samplers},
+        {"features", work.features}, {"triangles", work.triangles}, {"fragments", work.fragments}, {"texture_bytes", work.texture_bytes}};
+}
+
+/// Where nothing was measured, times and counts are null.
+Json savings_json(const Report& report) {
+    Json out = Json::array();
+    for (const PlayedVariant& played : report.played) {
+        const Savings& s = played.savings;
+        const std::optional<PairedRatio> ratio = s.ratio();
+        Json entry{{"drive", played.drive}, {"variant", played.variant}, {"frames", s.ticks}};
+        for (const auto& [name, samples, work] :
+             {std::tuple("pruned", &s.pruned_s, &s.pruned), std::tuple("unpruned", &s.unpruned_s, &s.unpruned)})
+            entry[name] = ratio ? Json{{"spread_s", spread_json(spread_of(*samples))}, {"samples_s", *samples}, {"work", work_json(*work)}}
+                                : Json(nullptr);
+        entry["ratio"] = ratio ? Json{{"rounds", ratio->rounds},
+                                      {"median", ratio->median},
+                                      {"p05", ratio->p05},
+                                      {"p95", ratio->p95},
+                                      {"verdict", difference_name(ratio->difference)}}
+                               : Json(nullptr);
+        if (!ratio)
+            entry["not_measured"] = s.not_measured;
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
 } // namespace
 
 std::string report_json(const Report& report) {
@@ -290,7 +328,8 @@ std::string report_json(const Report& report) {
                      {"drives", drives},
                      {"context", context_json(report.context)},
                      {"timing", timing_json(report)},
-                     {"throughput", throughput_json(report)}};
+                     {"throughput", throughput_json(report)},
+                     {"savings", savings_json(report)}};
     return json_text(whole);
 }
 
