@@ -57,8 +57,7 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
     const std::size_t columns = grid.offset_m.size();
     grid.surface.resize(grid.ahead_m.size() * columns);
     oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
-        for (std::size_t column = 0; column < columns; ++column)
-            grid.surface[row * columns + column] = route.pose(bumper_at_m + grid.ahead_m[row], grid.offset_m[column]);
+        route.poses(bumper_at_m + grid.ahead_m[row], grid.offset_m, {&grid.surface[row * columns], columns});
     });
     return grid;
 }

@@ -154,10 +154,20 @@ Route::Route(const RoadNetwork& network, Start start, const std::vector<std::str
 }
 
 Pose Route::pose(double distance_m, double offset_left_m) const {
+    Pose pose;
+    poses(distance_m, {&offset_left_m, 1}, {&pose, 1});
+    return pose;
+}
+
+void Route::poses(double distance_m, std::span<const double> offsets_left_m, std::span<Pose> poses) const {
     const Cell& cell = cell_at(distance_m);
     const double s = s_at(cell, distance_m), side = cell.to_s_m >= cell.from_s_m ? 1.0 : -1.0;
-    const SurfacePoint point = surface_point(cell.strip, s, cell.centre.at(s) + side * offset_left_m);
-    return pose_along(point, side * (point.by_s + cell.centre.slope(s) * point.by_t));
+    const double centre = cell.centre.at(s), slope = cell.centre.slope(s);
+    const SurfaceCut cut = cut_at(cell.strip, s);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const SurfacePoint point = surface_point(cut, centre + side * offsets_left_m[i]);
+        poses[i] = pose_along(point, side * (point.by_s + slope * point.by_t));
+    }
 }
 
 std::pair<std::string, double> Route::place(double distance_m) const {

@@ -3,6 +3,8 @@
 
 #include "scenarios/roads/surface.h"
 
+#include <span>
+
 namespace fernlicht {
 
 struct RouteLane {
@@ -37,6 +39,8 @@ class Route {
     /// On the surface: x along travel, y left, z up (normal). `offset_left_m` from the own lane's centre. Distances are clamped to the
     /// route.
     Pose pose(double distance_m, double offset_left_m = 0.0) const;
+    /// The same for many offsets at one distance; as many poses as offsets.
+    void poses(double distance_m, std::span<const double> offsets_left_m, std::span<Pose> poses) const;
     CrossSection cross_section(double distance_m) const;
     /// Road id and s, for reports.
     std::pair<std::string, double> place(double distance_m) const;

@@ -55,35 +55,40 @@ SurfaceStrip strip_at(const Road& road, double s_m) {
             road.shapes.empty() ? nullptr : &road.shapes};
 }
 
-SurfacePoint surface_point(const SurfaceStrip& strip, double s_m, double t_m) {
+SurfaceCut cut_at(const SurfaceStrip& strip, double s_m) {
     const PlanPoint plan = plan_point(*strip.element, s_m - strip.element->s_m);
     const Jet elevation = jet_at(strip.elevation, s_m), roll = jet_at(strip.superelevation, s_m);
-    const Height height = strip.shapes ? shape_height(*strip.shapes, s_m, t_m) : Height{};
     const double speed = std::max(plan.speed, 1e-9); // elevation is given over s, the plane is walked at `speed` per s
     const double gradient = elevation.slope / speed, steepness = std::sqrt(1.0 + gradient * gradient);
     const double c = std::cos(plan.heading_rad), s = std::sin(plan.heading_rad);
 
     // The frame of axes_from_angles(heading, atan(gradient), roll), without its inverse functions.
-    const glm::dvec3 forward = glm::dvec3(c, s, gradient) / steepness, across{-s, c, 0.0};
-    glm::dvec3 left = across, up = glm::dvec3(-gradient * c, -gradient * s, 1.0) / steepness;
+    const glm::dvec3 across{-s, c, 0.0};
+    SurfaceCut cut{s_m, strip.shapes, {plan.x_m, plan.y_m, elevation.value}, glm::dvec3(c, s, gradient) / steepness, across, {}, {}, {}};
+    cut.up = glm::dvec3(-gradient * c, -gradient * s, 1.0) / steepness;
     if (roll.value != 0.0) {
         const double cr = std::cos(roll.value), sr = std::sin(roll.value);
-        left = cr * across + sr * up;
-        up = cr * up - sr * across;
+        cut.left = cr * across + sr * cut.up;
+        cut.up = cr * cut.up - sr * across;
     }
-    SurfacePoint point;
-    const glm::dvec3 arm = t_m * left + height.h * up;
-    point.position_m = glm::dvec3(plan.x_m, plan.y_m, elevation.value) + arm;
-
+    cut.advance = speed * steepness * cut.forward;
     // The cross-section turns with heading about the vertical, with pitch about the horizontal across, with roll about the tangent.
-    const glm::dvec3 turning =
-        glm::dvec3(0.0, 0.0, plan.heading_rate_per_m) - elevation.curve / speed / (steepness * steepness) * across + roll.slope * forward;
-    point.by_s = speed * steepness * forward + glm::cross(turning, arm) + height.by_s * up;
-    point.by_t = left + height.by_t * up;
+    cut.turning = glm::dvec3(0.0, 0.0, plan.heading_rate_per_m) - elevation.curve / speed / (steepness * steepness) * across +
+                  roll.slope * cut.forward;
+    return cut;
+}
+
+SurfacePoint surface_point(const SurfaceCut& cut, double t_m) {
+    const Height height = cut.shapes ? shape_height(*cut.shapes, cut.s_m, t_m) : Height{};
+    SurfacePoint point;
+    const glm::dvec3 arm = t_m * cut.left + height.h * cut.up;
+    point.position_m = cut.reference_m + arm;
+    point.by_s = cut.advance + glm::cross(cut.turning, arm) + height.by_s * cut.up;
+    point.by_t = cut.left + height.by_t * cut.up;
     // Beyond the centre of a bend lines of constant t run backwards; the surface is still the road's upper side.
-    if (glm::dot(point.by_s, forward) <= 1e-9 || glm::cross(point.by_s, point.by_t).z <= 0.0) {
-        point.by_s = forward;
-        point.by_t = left;
+    if (glm::dot(point.by_s, cut.forward) <= 1e-9 || glm::cross(point.by_s, point.by_t).z <= 0.0) {
+        point.by_s = cut.forward;
+        point.by_t = cut.left;
     }
     return point;
 }
