@@ -64,7 +64,7 @@ void set_reach(LaneExtent& extent, const LitLine& centre) {
 }
 
 LaneExtent extent_of_lane(const LitRoad& road, const LaneStrip& strip, const LaneLines& lines, const std::vector<AcrossCut>& cuts,
-                          double limit_lx) {
+                          double limit_lx, const LitArea& area) {
     LaneExtent extent;
     extent.limit_lx = limit_lx;
     extent.lane = strip.name;
@@ -75,11 +75,11 @@ LaneExtent extent_of_lane(const LitRoad& road, const LaneStrip& strip, const Lan
     for (const AcrossCut& cut : cuts)
         if (const std::optional<LaneSpan> span = span_at(road, strip.spans, cut.at_m))
             extent.widths.push_back(width_of(cut, road.grid().offset_m, *span, limit_lx));
-    extent.area_m2 = road.area_m2(limit_lx, strip.spans);
+    extent.area_m2 = area.lane_m2(strip.spans);
     return extent;
 }
 
-LaneExtent extent_of_all(const LitRoad& road, const std::vector<AcrossCut>& cuts, double limit_lx) {
+LaneExtent extent_of_all(const LitRoad& road, const std::vector<AcrossCut>& cuts, double limit_lx, const LitArea& area) {
     const std::vector<double>& offsets = road.grid().offset_m;
     LaneExtent extent;
     extent.limit_lx = limit_lx;
@@ -89,7 +89,7 @@ LaneExtent extent_of_all(const LitRoad& road, const std::vector<AcrossCut>& cuts
     extent.reach_right_edge_m = road.column(0, limit_lx).last_m;
     for (const AcrossCut& cut : cuts)
         extent.widths.push_back(width_of(cut, offsets, {offsets.back(), offsets.front()}, limit_lx));
-    extent.area_m2 = road.area_m2(limit_lx);
+    extent.area_m2 = area.all_m2();
     return extent;
 }
 
@@ -106,13 +106,16 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
     for (const double at_m : width_at_m)
         if (road.looked_at(at_m))
             cuts.push_back({at_m, road.across(at_m)});
+    std::vector<LitArea> areas;
+    for (const double limit : limits_lx)
+        areas.push_back(road.lit_area(limit));
     for (const LaneStrip& strip : lane_strips(grid)) {
         const LaneLines lines = lines_of(road, strip.spans);
-        for (const double limit : limits_lx)
-            extents.push_back(extent_of_lane(road, strip, lines, cuts, limit));
+        for (std::size_t i = 0; i < limits_lx.size(); ++i)
+            extents.push_back(extent_of_lane(road, strip, lines, cuts, limits_lx[i], areas[i]));
     }
-    for (const double limit : limits_lx)
-        extents.push_back(extent_of_all(road, cuts, limit));
+    for (std::size_t i = 0; i < limits_lx.size(); ++i)
+        extents.push_back(extent_of_all(road, cuts, limits_lx[i], areas[i]));
     for (LaneExtent& extent : extents)
         extent.plane = plane;
     return extents;

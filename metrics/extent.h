@@ -4,6 +4,8 @@
 #include "metrics/readings.h"
 #include "scenarios/drives/moment.h"
 
+#include <array>
+
 namespace fernlicht {
 
 /// Sample points on the road ahead in route coordinates, with their places in the world.
@@ -13,6 +15,8 @@ struct ExtentGrid {
     std::vector<Pose> surface;          ///< row-major [ahead][offset]: point on the road and its normal (z axis)
     std::vector<CrossSection> sections; ///< one per `ahead_m`
     double target_height_m = 0.0;
+    /// Road surface of each cell's two triangles (lit_area.h), row-major; empty: not known yet, taken from `surface` by each measurement.
+    std::vector<std::array<double, 2>> cell_m2;
 };
 
 /// Which illuminance: on the road's surface, or on a target facing the lamps at target height.
@@ -31,9 +35,11 @@ struct LaneExtent {
     /// Outermost left and right edge of the lit part across, offsets left positive; width_m counts what is lit between them, gaps not.
     struct Width {
         double at_m, left_m, right_m, width_m;
+        bool operator==(const Width&) const = default;
     };
     std::vector<Width> widths; ///< all 0 where unlit; no entry where the lane is not or the grid does not reach
     double area_m2 = 0.0;      ///< of road surface inside the isolux line
+    bool operator==(const LaneExtent&) const = default;
 };
 
 /// Rows every cell_m from the bumper to ahead_m or the route's end. Columns out to beside_m, one of them on the own lane's centre: every
@@ -43,6 +49,10 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
 /// Illuminance at every grid point from the candela tables in double (scenarios/light.h); row-major like `surface`. No shadows.
 /// The same bytes for any number of threads.
 std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane);
+
+/// The same in less than half the time for measure_extent and grid_error, which find the same in it as long as they are asked for these
+/// limits or some of them: exact where they decide (deciding_lx.h), elsewhere a value that reaches the same limits.
+std::vector<double> deciding_twin_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane, const std::vector<double>& limits_lx);
 
 /// Extents at every limit of every lane that lies wholly within the width that was looked at, then of "all". `lx` row-major like
 /// `grid.surface`, from any source. Between samples illuminance runs as in crossing.h. Empty for a grid of less than two rows or
@@ -66,6 +76,7 @@ struct GridError {
     double limit_lx;
     ExtentPlane plane;
     double reach_m, area_m2;
+    bool operator==(const GridError&) const = default;
 };
 std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
                                   const std::vector<double>& limits_lx);

@@ -1,5 +1,7 @@
 #include "metrics/extent.h"
 
+#include "metrics/lit_area.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -59,6 +61,7 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
     oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
         route.poses(bumper_at_m + grid.ahead_m[row], grid.offset_m, {&grid.surface[row * columns], columns});
     });
+    grid.cell_m2 = cell_areas_m2(grid);
     return grid;
 }
 

@@ -10,18 +10,17 @@ struct Measured {
     std::vector<double> lx;
 };
 
-/// Every `step`th of the first `rows` and `columns`.
+/// Every `step`th of the first `rows` and `columns`: all that reach_and_area asks for.
 Measured picked(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t step, std::size_t rows, std::size_t columns) {
     Measured result;
     for (std::size_t column = 0; column < columns; column += step)
         result.grid.offset_m.push_back(grid.offset_m[column]);
     for (std::size_t row = 0; row < rows; row += step) {
         result.grid.ahead_m.push_back(grid.ahead_m[row]);
-        for (std::size_t column = 0; column < columns; column += step) {
-            result.grid.surface.push_back(grid.surface[row * grid.offset_m.size() + column]);
+        for (std::size_t column = 0; column < columns; column += step)
             result.lx.push_back(lx[row * grid.offset_m.size() + column]);
-        }
     }
+    result.grid.cell_m2 = cell_areas_m2(grid, step, rows, columns);
     return result;
 }
 
@@ -36,7 +35,7 @@ std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vect
     const std::vector<LineSample> centre = road.along(std::vector(grid.ahead_m.size(), centre_m));
     std::vector<ReachAndArea> results;
     for (const double limit : limits_lx)
-        results.push_back({lit_line(centre, limit).last_m, road.area_m2(limit)});
+        results.push_back({lit_line(centre, limit).last_m, road.lit_area(limit).all_m2()});
     return results;
 }
 

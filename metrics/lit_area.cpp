@@ -65,80 +65,96 @@ Polygon beside(const Polygon& polygon, double from_ahead_m, double from_offset_m
 struct Cell {
     Corner near_right, near_left, far_right, far_left;
 
-    bool lit(double limit_lx) const {
-        return near_right.lx >= limit_lx && near_left.lx >= limit_lx && far_right.lx >= limit_lx && far_left.lx >= limit_lx;
-    }
-    bool dark(double limit_lx) const {
-        return near_right.lx < limit_lx && near_left.lx < limit_lx && far_right.lx < limit_lx && far_left.lx < limit_lx;
-    }
     std::array<Polygon, 2> triangles() const {
         return {Polygon{{near_right, far_right, far_left}, 3}, Polygon{{near_right, far_left, near_left}, 3}};
     }
 };
 
+Cell cell_of(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t row, std::size_t column) {
+    const auto corner = [&](std::size_t r, std::size_t c) {
+        return Corner{grid.ahead_m[r], grid.offset_m[c], lx[r * grid.offset_m.size() + c]};
+    };
+    return {corner(row, column), corner(row, column + 1), corner(row + 1, column), corner(row + 1, column + 1)};
+}
+
 double triangle_area_m2(const Pose& a, const Pose& b, const Pose& c) {
     return 0.5 * glm::length(glm::cross(b.position_m - a.position_m, c.position_m - a.position_m));
 }
 
-/// The grid's numbers as the functions below walk over them.
-struct Field {
-    const ExtentGrid& grid;
-    const std::vector<double>& lx;
-    const std::vector<double>& brightest_lx;
-    double limit_lx;
-
-    std::size_t columns() const { return grid.offset_m.size(); }
-    std::size_t strips() const { return grid.ahead_m.empty() || columns() < 2 ? 0 : grid.ahead_m.size() - 1; }
-    bool strip_is_dark(std::size_t row) const { return brightest_lx[row] < limit_lx && brightest_lx[row + 1] < limit_lx; }
-    Cell cell(std::size_t row, std::size_t column) const {
-        const auto corner = [this](std::size_t r, std::size_t c) {
-            return Corner{grid.ahead_m[r], grid.offset_m[c], lx[r * columns() + c]};
-        };
-        return {corner(row, column), corner(row, column + 1), corner(row + 1, column), corner(row + 1, column + 1)};
-    }
-    /// Road surface in m2 of the cell's two triangles, in the order of Cell::triangles.
-    std::array<double, 2> areas_m2(std::size_t row, std::size_t column) const {
-        const Pose* near = &grid.surface[row * columns() + column];
-        const Pose* far = near + columns();
-        return {triangle_area_m2(near[0], far[0], far[1]), triangle_area_m2(near[0], far[1], near[1])};
-    }
-};
-
 /// Area of the part that `cut` leaves of the lit part of each of the cell's triangles.
-template <class Cut> double lit_part_m2(const Field& field, std::size_t row, std::size_t column, const Cell& cell, Cut cut) {
-    const std::array<double, 2> areas_m2 = field.areas_m2(row, column);
+template <class Cut> double lit_part_m2(const Cell& cell, const CellArea& areas_m2, double limit_lx, Cut cut) {
     const std::array<Polygon, 2> triangles = cell.triangles();
     double lit_m2 = 0.0;
     for (std::size_t i = 0; i < triangles.size(); ++i)
-        lit_m2 += areas_m2[i] * (signed_area(cut(lit_part(triangles[i], field.limit_lx))) / signed_area(triangles[i]));
+        lit_m2 += areas_m2[i] * (signed_area(cut(lit_part(triangles[i], limit_lx))) / signed_area(triangles[i]));
     return lit_m2;
 }
 
-double lit_in_cell_m2(const Field& field, std::size_t row, std::size_t column) {
-    const Cell cell = field.cell(row, column);
-    if (cell.dark(field.limit_lx))
-        return 0.0;
-    if (!cell.lit(field.limit_lx))
-        return lit_part_m2(field, row, column, cell, [](const Polygon& part) { return part; });
-    const std::array<double, 2> areas_m2 = field.areas_m2(row, column);
-    return areas_m2[0] + areas_m2[1];
+} // namespace
+
+std::vector<CellArea> cell_areas_m2(const ExtentGrid& grid, std::size_t step, std::size_t rows, std::size_t columns) {
+    std::vector<CellArea> areas_m2;
+    const std::size_t stride = grid.offset_m.size();
+    areas_m2.reserve(rows * columns / step / step);
+    for (std::size_t row = 0; row + step < rows; row += step)
+        for (std::size_t column = 0; column + step < columns; column += step) {
+            const Pose* near = &grid.surface[row * stride + column];
+            const Pose* far = near + step * stride;
+            areas_m2.push_back({triangle_area_m2(near[0], far[0], far[step]), triangle_area_m2(near[0], far[step], near[step])});
+        }
+    return areas_m2;
 }
 
-double lit_in_cut_cell_m2(const Field& field, std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) {
-    const Cell cell = field.cell(row, column);
-    if (cell.dark(field.limit_lx))
+LitArea::LitArea(const ExtentGrid& grid, const std::vector<CellArea>& cell_m2, const std::vector<double>& lx,
+                 const std::vector<double>& brightest_lx, double limit_lx)
+    : grid_(&grid), cell_m2_(&cell_m2), lx_(&lx), brightest_lx_(&brightest_lx), limit_lx_(limit_lx), lit_m2_(cell_m2.size()) {
+    const std::size_t cells = columns() - 1;
+    for (std::size_t row = 0; row + 1 < grid.ahead_m.size(); ++row) {
+        if (strip_is_dark(row))
+            continue;
+        const double* near = &lx[row * columns()];
+        const double* far = near + columns();
+        int lit_right = (near[0] >= limit_lx ? 1 : 0) + (far[0] >= limit_lx ? 1 : 0);
+        for (std::size_t column = 0; column < cells; ++column) {
+            const int lit_left = (near[column + 1] >= limit_lx ? 1 : 0) + (far[column + 1] >= limit_lx ? 1 : 0);
+            const int lit_corners = lit_right + lit_left;
+            lit_right = lit_left;
+            const CellArea& areas_m2 = cell_m2[row * cells + column];
+            if (lit_corners == 4)
+                lit_m2_[row * cells + column] = areas_m2[0] + areas_m2[1];
+            else if (lit_corners > 0)
+                lit_m2_[row * cells + column] =
+                    lit_part_m2(cell_of(grid, lx, row, column), areas_m2, limit_lx, [](const Polygon& part) { return part; });
+        }
+    }
+}
+
+double LitArea::all_m2() const {
+    const std::size_t cells = columns() - 1;
+    double lit_m2 = 0.0;
+    for (std::size_t row = 0; row + 1 < grid_->ahead_m.size(); ++row)
+        for (std::size_t column = 0; !strip_is_dark(row) && column < cells; ++column)
+            lit_m2 += lit_m2_[row * cells + column];
+    return lit_m2;
+}
+
+double LitArea::in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const {
+    const std::size_t cell = row * (columns() - 1) + column;
+    const double* nearer = &(*lx_)[row * columns() + column];
+    const double* farther = nearer + columns();
+    if (nearer[0] < limit_lx_ && nearer[1] < limit_lx_ && farther[0] < limit_lx_ && farther[1] < limit_lx_)
         return 0.0;
-    const double ahead_m = field.grid.ahead_m[row];
-    const double length_m = field.grid.ahead_m[row + 1] - ahead_m;
-    return lit_part_m2(field, row, column, cell, [&](const Polygon& part) {
+    const double ahead_m = grid_->ahead_m[row];
+    const double length_m = grid_->ahead_m[row + 1] - ahead_m;
+    return lit_part_m2(cell_of(*grid_, *lx_, row, column), (*cell_m2_)[cell], limit_lx_, [&](const Polygon& part) {
         const Polygon right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
         return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
     });
 }
 
 /// Between two rows: cells wholly inside the lane count as they are, those that an edge cuts are clipped.
-double lit_in_strip_m2(const Field& field, std::size_t row, const LaneSpan& near, const LaneSpan& far) {
-    const std::vector<double>& offsets = field.grid.offset_m;
+double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far) const {
+    const std::vector<double>& offsets = grid_->offset_m;
     const auto column_at = [&offsets](double offset_m) {
         const auto above = std::ranges::upper_bound(offsets, offset_m);
         return std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - offsets.begin() - 1, 0)), offsets.size() - 2);
@@ -150,29 +166,16 @@ double lit_in_strip_m2(const Field& field, std::size_t row, const LaneSpan& near
     double lit_m2 = 0.0;
     for (std::size_t column = first; column <= last; ++column) {
         const bool inside = offsets[column] >= inner_right_m && offsets[column + 1] <= inner_left_m;
-        lit_m2 += inside ? lit_in_cell_m2(field, row, column) : lit_in_cut_cell_m2(field, row, column, near, far);
+        lit_m2 += inside ? lit_m2_[row * (columns() - 1) + column] : in_cut_cell_m2(row, column, near, far);
     }
     return lit_m2;
 }
 
-} // namespace
-
-double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& brightest_lx, double limit_lx) {
-    const Field field{grid, lx, brightest_lx, limit_lx};
+double LitArea::lane_m2(const LaneSpans& lane) const {
     double lit_m2 = 0.0;
-    for (std::size_t row = 0; row < field.strips(); ++row)
-        for (std::size_t column = 0; !field.strip_is_dark(row) && column + 1 < field.columns(); ++column)
-            lit_m2 += lit_in_cell_m2(field, row, column);
-    return lit_m2;
-}
-
-double lit_area_m2(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& brightest_lx, double limit_lx,
-                   const LaneSpans& lane) {
-    const Field field{grid, lx, brightest_lx, limit_lx};
-    double lit_m2 = 0.0;
-    for (std::size_t row = 0; row < field.strips(); ++row)
-        if (lane[row] && lane[row + 1] && !field.strip_is_dark(row))
-            lit_m2 += lit_in_strip_m2(field, row, *lane[row], *lane[row + 1]);
+    for (std::size_t row = 0; row + 1 < grid_->ahead_m.size(); ++row)
+        if (lane[row] && lane[row + 1] && !strip_is_dark(row))
+            lit_m2 += in_strip_m2(row, *lane[row], *lane[row + 1]);
     return lit_m2;
 }
 

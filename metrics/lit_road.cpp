@@ -37,14 +37,20 @@ std::vector<LaneStrip> lane_strips(const ExtentGrid& grid) {
     return strips;
 }
 
-double lx_across(const std::vector<double>& offsets_m, const double* row, double offset_m) {
+std::size_t column_left_of(const std::vector<double>& offsets_m, double offset_m) {
     const auto above = std::ranges::upper_bound(offsets_m, offset_m) - offsets_m.begin();
-    const auto left = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, std::ssize(offsets_m) - 1));
+    return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, std::ssize(offsets_m) - 1));
+}
+
+double lx_across(const std::vector<double>& offsets_m, const double* row, double offset_m) {
+    const std::size_t left = column_left_of(offsets_m, offset_m);
     const double share = (offset_m - offsets_m[left - 1]) / (offsets_m[left] - offsets_m[left - 1]);
     return share == 0.0 ? row[left - 1] : between_samples(row[left - 1], row[left], share);
 }
 
-LitRoad::LitRoad(const ExtentGrid& grid, const std::vector<double>& lx) : grid_(grid), lx_(lx) {
+LitRoad::LitRoad(const ExtentGrid& grid, const std::vector<double>& lx)
+    : grid_(grid), lx_(lx), own_cell_m2_(grid.cell_m2.empty() ? cell_areas_m2(grid) : std::vector<CellArea>{}),
+      cell_m2_(grid.cell_m2.empty() ? own_cell_m2_ : grid.cell_m2) {
     for (std::size_t i = 0; i < grid.ahead_m.size(); ++i)
         brightest_lx_.push_back(*std::max_element(row(i), row(i) + grid.offset_m.size()));
 }

@@ -23,6 +23,9 @@ struct LaneStrip {
 /// width that was looked at, the lane is taken as absent.
 std::vector<LaneStrip> lane_strips(const ExtentGrid& grid);
 
+/// The column to the left of an offset within the grid; its right neighbour lies at or to the right of the offset. At least two columns.
+std::size_t column_left_of(const std::vector<double>& offsets_m, double offset_m);
+
 /// Illuminance between the grid's columns. `row` points to its first column's value; the offset lies within the grid.
 double lx_across(const std::vector<double>& offsets_m, const double* row, double offset_m);
 
@@ -30,6 +33,8 @@ double lx_across(const std::vector<double>& offsets_m, const double* row, double
 class LitRoad {
   public:
     LitRoad(const ExtentGrid& grid, const std::vector<double>& lx);
+    LitRoad(const LitRoad&) = delete;
+    LitRoad& operator=(const LitRoad&) = delete;
 
     const ExtentGrid& grid() const { return grid_; }
 
@@ -45,14 +50,15 @@ class LitRoad {
     /// Values of all columns at a distance that was looked at.
     std::vector<double> across(double ahead_m) const;
 
-    double area_m2(double limit_lx) const { return lit_area_m2(grid_, lx_, brightest_lx_, limit_lx); }
-    double area_m2(double limit_lx, const LaneSpans& lane) const { return lit_area_m2(grid_, lx_, brightest_lx_, limit_lx, lane); }
+    LitArea lit_area(double limit_lx) const { return {grid_, cell_m2_, lx_, brightest_lx_, limit_lx}; }
 
   private:
     const double* row(std::size_t index) const { return &lx_[index * grid_.offset_m.size()]; }
 
     const ExtentGrid& grid_;
     const std::vector<double>& lx_;
+    std::vector<CellArea> own_cell_m2_; ///< where the grid does not know them
+    const std::vector<CellArea>& cell_m2_;
     std::vector<double> brightest_lx_; ///< of each row
 };
 

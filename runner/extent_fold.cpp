@@ -1,5 +1,6 @@
 #include "runner/extent_fold.h"
 
+#include "metrics/deciding_lx.h"
 #include "renderer/camera.h"
 
 #include <algorithm>
@@ -25,20 +26,43 @@ double between(double a, double b, double c, double d, double fx, double fy) {
     return mixed(a, b, c, d);
 }
 
-/// The picture at grid points, interpolated between pixel centres.
-std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const Camera& camera, const View& view,
-                            const Moment& moment) {
-    std::vector<double> values;
-    values.reserve(grid.surface.size());
+/// Where a grid point lies between pixel centres: right of and below this pixel by these shares.
+struct PixelPlace {
+    int x = 0, y = 0;
+    double fx = 0.0, fy = 0.0;
+};
+
+std::vector<PixelPlace> places_of(const ExtentGrid& grid, const View& view, const Moment& moment) {
+    const Camera camera = camera_of(moment, view);
+    std::vector<PixelPlace> places;
+    places.reserve(grid.surface.size());
     for (const Pose& pose : grid.surface) {
         const glm::dvec2 at = map_pixel(camera, view, moment, pose.position_m) - 0.5;
-        const double x = std::clamp(at.x, 0.0, picture.width() - 1.0), y = std::clamp(at.y, 0.0, picture.height() - 1.0);
-        const int x0 = std::min(static_cast<int>(x), picture.width() - 2), y0 = std::min(static_cast<int>(y), picture.height() - 2);
-        const double fx = x - x0, fy = y - y0;
-        const auto e = [&](int dx, int dy) { return static_cast<double>(picture.at(x0 + dx, y0 + dy)); };
-        values.push_back(between(e(0, 0), e(1, 0), e(0, 1), e(1, 1), fx, fy));
+        const double x = std::clamp(at.x, 0.0, view.width_px - 1.0), y = std::clamp(at.y, 0.0, view.height_px - 1.0);
+        const int x0 = std::min(static_cast<int>(x), view.width_px - 2), y0 = std::min(static_cast<int>(y), view.height_px - 2);
+        places.push_back({x0, y0, x - x0, y - y0});
     }
-    return values;
+    return places;
+}
+
+/// The picture at grid points as measure_extent needs it for these limits.
+std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const std::vector<PixelPlace>& places,
+                            const std::vector<double>& limits_lx) {
+    const auto bounds = [&](std::size_t i) {
+        const float* above = &picture.at(places[i].x, places[i].y);
+        const float* below = above + picture.width();
+        if (!std::isfinite(above[0] + above[1] + below[0] + below[1]))
+            return LuxBounds{};
+        constexpr double rounding = 1e-12; // of a logarithm of at most 89 and back again
+        return LuxBounds{(1.0 - rounding) * static_cast<double>(std::min(std::min(above[0], above[1]), std::min(below[0], below[1]))),
+                         (1.0 + rounding) * static_cast<double>(std::max(std::max(above[0], above[1]), std::max(below[0], below[1])))};
+    };
+    const auto exact = [&](std::size_t i) {
+        const PixelPlace& p = places[i];
+        const auto e = [&](int dx, int dy) { return static_cast<double>(picture.at(p.x + dx, p.y + dy)); };
+        return between(e(0, 0), e(1, 0), e(0, 1), e(1, 1), p.fx, p.fy);
+    };
+    return deciding_lx(grid, limits_lx, bounds, exact);
 }
 
 } // namespace
@@ -76,16 +100,16 @@ ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
 ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
     const auto& [moment, grid, view, frame] = drawing;
     const ExtentParameters& p = *drive_.extent;
-    const Camera camera = camera_of(moment, view);
+    const std::vector<PixelPlace> places = places_of(grid, view, moment);
     ExtentRow row;
     row.tick = moment.tick;
     row.time_s = moment.time_s;
     row.distance_m = moment.distance_m;
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
         const Image<float>& picture = plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx;
-        const std::vector<double> truth = twin_illuminance_lx(grid, moment, plane);
+        const std::vector<double> truth = deciding_twin_lx(grid, moment, plane, p.limits_lx);
         if (!picture.empty())
-            std::ranges::copy(measure_extent(grid, sampled(picture, grid, camera, view, moment), plane, p.limits_lx, p.width_at_m),
+            std::ranges::copy(measure_extent(grid, sampled(picture, grid, places, p.limits_lx), plane, p.limits_lx, p.width_at_m),
                               std::back_inserter(row.rendered));
         std::ranges::copy(measure_extent(grid, truth, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.twin));
         std::ranges::copy(grid_error(grid, truth, plane, p.limits_lx), std::back_inserter(row.grid_errors));
