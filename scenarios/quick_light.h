@@ -1,5 +1,5 @@
-// Illuminance within bounds, in a third of the time of light.h: for callers that ask at many points whether there is enough, and only at
-// few of them how much.
+// Illuminance within bounds, in two thirds of the time of light.h, or a sixth where it is surely too little: for callers that ask at many
+// points whether there is enough, and only at few of them how much.
 #pragma once
 
 #include "scenarios/drives/moment.h"

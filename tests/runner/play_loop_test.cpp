@@ -20,15 +20,20 @@ namespace {
 std::atomic<std::size_t> large_bytes{0}, most_large_bytes{0};
 constexpr std::size_t large = std::size_t{64} << 10;
 
-void* counted(std::size_t bytes) {
+void* counted(std::size_t bytes, const std::nothrow_t&) noexcept {
     void* const block = std::malloc(bytes > 0 ? bytes : 1);
-    if (!block)
-        throw std::bad_alloc();
-    if (const std::size_t size = malloc_usable_size(block); size >= large) {
+    if (const std::size_t size = block ? malloc_usable_size(block) : 0; size >= large) {
         const std::size_t now = large_bytes += size;
         for (std::size_t most = most_large_bytes; now > most && !most_large_bytes.compare_exchange_weak(most, now);) {
         }
     }
+    return block;
+}
+
+void* counted(std::size_t bytes) {
+    void* const block = counted(bytes, std::nothrow);
+    if (!block)
+        throw std::bad_alloc();
     return block;
 }
 
@@ -42,6 +47,9 @@ void freed(void* block) {
 
 void* operator new(std::size_t bytes) { return counted(bytes); }
 void* operator new[](std::size_t bytes) { return counted(bytes); }
+// Also those that do not throw, which std::stable_sort asks: under AddressSanitizer they are its own, and their blocks are not malloc's.
+void* operator new(std::size_t bytes, const std::nothrow_t& quiet) noexcept { return counted(bytes, quiet); }
+void* operator new[](std::size_t bytes, const std::nothrow_t& quiet) noexcept { return counted(bytes, quiet); }
 void operator delete(void* block) noexcept { freed(block); }
 void operator delete[](void* block) noexcept { freed(block); }
 void operator delete(void* block, std::size_t) noexcept { freed(block); }
