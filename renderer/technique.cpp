@@ -49,8 +49,8 @@ constexpr std::array rows{
         "full without sun, neither as light nor in the tone mapper's range; only the lamp farthest left is kept from shining backwards",
         "sky; as full", 1, true, false, false, "LIGHT=PROJECTED DISTANCE=SQUARED BEHIND=FIRST TONE=RATIONAL EMISSIVE=FADING"},
     Technique{"full-clamped", TechniqueKind::as_published, 8, "~30", thesis_table,
-              "full with its lux clamped at 100 in place of the tone mapper", no_shadows, 1, true, false, false,
-              "LIGHT=PROJECTED DISTANCE=SQUARED BEHIND=EACH TONE=CLAMPED SUN=1 EMISSIVE=FADING"},
+              "full, shown by clamping its lux at 100 in place of the tone mapper (the lux image is not clamped)", no_shadows, 1, true,
+              false, false, "LIGHT=PROJECTED DISTANCE=SQUARED BEHIND=EACH TONE=CLAMPED SUN=1 EMISSIVE=FADING"},
     Technique{"full-unsquared", TechniqueKind::as_published, 9, "~25", thesis_table, "full with I / (1 + d), which it takes for lux",
               no_shadows, 1, true, false, false, "LIGHT=PROJECTED DISTANCE=UNSQUARED BEHIND=EACH TONE=RATIONAL SUN=1 EMISSIVE=FADING"},
     Technique{"full-one-distance", TechniqueKind::as_published, 10, "~30", thesis_table,
@@ -116,7 +116,7 @@ constexpr std::array rows{
 
 std::span<const Technique> techniques() { return rows; }
 
-const Technique& technique_named(std::string_view name) {
+const Technique& technique_named(std::string_view name, const std::filesystem::path& asked_in) {
     const auto found = std::ranges::find(rows, name, &Technique::name);
     if (found != rows.end())
         return *found;
@@ -124,7 +124,7 @@ const Technique& technique_named(std::string_view name) {
     for (const Technique& row : rows)
         names.emplace_back(row.name);
     const std::string wanted(name), nearest = nearest_name(wanted, names);
-    throw InputError({{}, 0, 0, "technique"}, "found '" + printable(wanted) + "'",
+    throw InputError({asked_in, 0, 0, "technique"}, "found '" + printable(wanted) + "'",
                      nearest.empty() ? "a name that `fernlicht techniques` lists"
                                      : "'" + nearest + "', or another name that `fernlicht techniques` lists");
 }

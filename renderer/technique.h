@@ -1,6 +1,7 @@
 // The ways to light a scene, as rows of one table. A row says what is computed; the shaders follow from it and from what the scene needs.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,6 @@ struct Technique {
 /// All of them, in the order of the thesis's table and then of the list in the documents.
 std::span<const Technique> techniques();
 /// Throws InputError naming the nearest name.
-const Technique& technique_named(std::string_view name);
+const Technique& technique_named(std::string_view name, const std::filesystem::path& asked_in = {});
 
 } // namespace fernlicht

@@ -13,9 +13,11 @@
 namespace fernlicht {
 namespace {
 
+constexpr const char* default_drive = "scenarios/library/drives/bench.yaml";
+
 /// The flags as typed.
 struct Flags {
-    std::filesystem::path drive = "scenarios/library/drives/bench.yaml";
+    std::filesystem::path drive = default_drive;
     std::string variant, resolution, backend = "auto", out;
     std::vector<std::string> techniques;
     int frames = 8, rounds = 21;
@@ -30,6 +32,9 @@ int bench(const Flags& flags, const std::vector<std::string>& command) {
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
     BenchRequest request;
+    if (flags.drive == default_drive && !std::filesystem::exists(flags.drive))
+        throw InputError({{}, 0, 0, "--drive"}, "found no " + flags.drive.string() + " from here",
+                         "to be run from the repository's root, or a drive file");
     request.drive = read_drive(flags.drive, edits);
     request.variant = flags.variant;
     request.techniques = flags.techniques;
@@ -55,7 +60,7 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->delimiter(',')->allow_extra_args(false);
     sub->add_option("--frames", flags->frames, "moments, spread evenly over the drive")->capture_default_str();
     sub->add_option("--rounds", flags->rounds, "in each, every technique draws the moments once")->capture_default_str();
-    sub->add_option("--seed", flags->seed, "of the order in each round")->capture_default_str();
+    sub->add_option("--seed", flags->seed, "of the order in each round")->check(CLI::NonNegativeNumber)->capture_default_str();
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT; else the drive's");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");

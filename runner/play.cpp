@@ -131,7 +131,8 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
                    Writers& writers) {
     PlayedVariant played;
     played.drive = drive.name;
-    played.title = drive.title;
+    const bool ours = drive.technique.starts_with("photometric");
+    played.title = drive.title + (ours ? "" : ", lit by technique " + drive.technique);
     played.variant = variant.name;
     played.technique = drive.technique;
     for (const MountedLamp& lamp : variant.lamps)

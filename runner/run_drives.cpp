@@ -91,6 +91,14 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     Readings judged = played.readings;
     std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not
     played.verdicts = judge_limits(stage.drive, judged);
+    if (const Technique& technique = renderer.technique(); technique.kind != TechniqueKind::ours) {
+        for (Verdict& verdict : played.verdicts)
+            verdict.text += fmt::format(" (as technique {} lights it)", technique.name);
+        played.notes.push_back(
+            fmt::format("lit by technique {}, which ignores: {}. Rendered figures are that technique's; those of the twin, their "
+                        "sensitivity to aim and flux, and the grid's error are calculated from the lamps' tables",
+                        technique.name, technique.ignores));
+    }
     if (!options.references.empty())
         std::ranges::copy(judge_against_references(played, context, options.folder, options.references, stage.drive.technique),
                           std::back_inserter(played.verdicts));

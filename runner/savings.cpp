@@ -34,7 +34,7 @@ int affordable_moments(double frame_s) {
 
 std::string no_savings(const Drive& drive, const PlayedVariant& played) {
     if (drive.technique != pruned_technique)
-        return fmt::format("technique {} is not the one that leaves out", drive.technique);
+        return fmt::format("it is measured for the technique photometric only, this is {}", drive.technique);
     if (!driver_view(drive))
         return "the drive has only maps";
     if (!played.throughput.view_s)

@@ -15,7 +15,7 @@ Stage::Stage(Drive d)
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     fit_to_route(drive, route);
     check_limit_names(drive);
-    technique_named(drive.technique);
+    technique_named(drive.technique, drive.file);
 }
 
 std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant) {

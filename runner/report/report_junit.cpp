@@ -53,7 +53,8 @@ std::string report_junit(const Report& report) {
         suites += "  </testsuite>\n";
     };
     for (const PlayedVariant& played : report.played)
-        add(played.drive + ", " + played.variant, played.verdicts);
+        add(played.drive + ", " + played.variant + (played.technique == "photometric" ? "" : ", technique " + played.technique),
+            played.verdicts);
     if (!report.complete)
         add("run", {{VerdictKind::not_measured, "complete", "interrupted: " + report.interrupted, report.context.command}});
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" +

@@ -38,7 +38,7 @@ TEST(Savings, SayWhyTheyAreNotMeasured) {
     drive.views.front().projection = Projection::map;
     EXPECT_EQ(no_savings(drive, played), "the drive has only maps");
     drive.technique = "full";
-    EXPECT_EQ(no_savings(drive, played), "technique full is not the one that leaves out");
+    EXPECT_EQ(no_savings(drive, played), "it is measured for the technique photometric only, this is full");
 }
 
 /// Seven rounds that take `factor` of the time of the unpruned ones, up to the given share of it more or less.
