@@ -60,7 +60,9 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->delimiter(',')->allow_extra_args(false);
     sub->add_option("--frames", flags->frames, "moments, spread evenly over the drive")->capture_default_str();
     sub->add_option("--rounds", flags->rounds, "in each, every technique draws the moments once")->capture_default_str();
-    sub->add_option("--seed", flags->seed, "of the order in each round")->check(CLI::NonNegativeNumber)->capture_default_str();
+    sub->add_option("--seed", flags->seed, "of the order in each round")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+        ->capture_default_str();
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT; else the drive's");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
