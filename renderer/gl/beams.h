@@ -41,7 +41,7 @@ class Beams {
 std::vector<LitLamp> shining(const Moment& moment, bool all);
 inline constexpr std::size_t most_lamps = 8;
 
-/// Columns: world directions to lamp space (x right, y up, z forward).
+/// A world direction in lamp space (x right, y up, z forward).
 glm::dvec3 to_lamp_space(const LitLamp& lamp, const glm::dvec3& direction);
 
 } // namespace fernlicht::gl

@@ -7,7 +7,7 @@
 
 namespace fernlicht::gl {
 
-/// The five planes that matter of a clip volume (the far one lies at infinity, the near one culls next to nothing).
+/// The four sides of a clip volume (the far plane lies at infinity, the near one culls next to nothing); unit normals point inside.
 struct Frustum {
     glm::dvec4 planes[4];
     explicit Frustum(const glm::dmat4& clip_from_ego);
@@ -22,7 +22,8 @@ class DrawList {
     void start(const glm::dvec3& ego_m);
     /// Appends one call that draws these pieces (indices in SceneBuffers::pieces()); returns its number.
     int add(std::span<const std::uint32_t> pieces);
-    /// Appends a call that draws one triangle without extent: it compiles what the driver compiles late.
+    /// Appends a call that draws the scene's first triangle into targets that nobody reads: it makes the driver compile what it compiles late.
+    /// The scene must have one.
     int add_nothing();
     void upload();
     void draw(int call) const;

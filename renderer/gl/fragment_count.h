@@ -1,4 +1,4 @@
-// How many fragments pass the depth test between construction and result(): those that are shaded, with early depth.
+// How many fragments pass the depth test between construction and result(). A driver may shade more: llvmpipe shades whole blocks.
 #pragma once
 
 #include "renderer/gl/context.h"

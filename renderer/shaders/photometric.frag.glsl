@@ -32,7 +32,7 @@ layout(binding = 15) uniform sampler2DArray surface_textures;
 #endif
 
 #if LAMP_COUNT > 0
-// One sampler a lamp and no array of them: llvmpipe picks an array's element anew for every look-up, at four times the cost.
+// One sampler a lamp, so that each look-up names its own.
 layout(binding = 0) uniform sampler2D beam_0; // candela
 layout(binding = 1) uniform sampler2D beam_1;
 layout(binding = 2) uniform sampler2D beam_2;
