@@ -131,8 +131,7 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
                    Writers& writers) {
     PlayedVariant played;
     played.drive = drive.name;
-    const bool ours = drive.technique.starts_with("photometric");
-    played.title = drive.title + (ours ? "" : ", lit by technique " + drive.technique);
+    played.title = drive.title;
     played.variant = variant.name;
     played.technique = drive.technique;
     for (const MountedLamp& lamp : variant.lamps)

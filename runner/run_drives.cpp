@@ -92,6 +92,7 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not
     played.verdicts = judge_limits(stage.drive, judged);
     if (const Technique& technique = renderer.technique(); technique.kind != TechniqueKind::ours) {
+        played.title += fmt::format(", lit by technique {}", technique.name);
         for (Verdict& verdict : played.verdicts)
             verdict.text += fmt::format(" (as technique {} lights it)", technique.name);
         played.notes.push_back(

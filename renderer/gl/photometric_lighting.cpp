@@ -173,14 +173,14 @@ void PhotometricLighting::draw(const Shot& shot) {
     set_lamps(shot);
     const bool shadows = settings_.shadows && !lamps_.empty();
     if (shadows) {
-        shadows_.set(lamps_, lamp_beams_, shot.moment.ego.position_m, false);
+        shadows_.set(lamps_, lamp_beams_, shot.moment.ego.position_m);
         if (!pruned_ || shadows_.needed()) {
             shot.clock.begin("shadow maps");
             shadows_.draw(shot.work);
             shot.clock.end();
         }
     } else {
-        shadows_.set({}, {}, shot.moment.ego.position_m, false);
+        shadows_.set({}, {}, shot.moment.ego.position_m);
     }
     shot.clock.begin("scene");
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);

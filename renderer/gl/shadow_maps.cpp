@@ -47,7 +47,7 @@ bool ShadowMaps::faces_lamp(const Piece& piece, const glm::dvec3& lamp_m) const 
                        [&](const glm::vec4& plane) { return glm::dot(glm::vec3(plane), lamp) + plane.w > 0.0F; });
 }
 
-void ShadowMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m, bool all) {
+void ShadowMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
     ego_m_ = ego_m;
     maps_.clear();
     for (std::size_t i = 0; i < lamps.size(); ++i) {
@@ -65,7 +65,7 @@ void ShadowMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const 
             if (piece.ground && !piece.above_ground && faces_lamp(piece, map.lamp_m))
                 continue;
             const double most_cd = beams[i]->bounds.most_towards(to_lamp_space(lamps[i], from_lamp), piece.radius_m);
-            if (!all && (most_cd == 0.0 || (nearest > 0.0 && most_cd < last_contour_lx * nearest * nearest)))
+            if (most_cd == 0.0 || (nearest > 0.0 && most_cd < last_contour_lx * nearest * nearest))
                 continue;
             map.pieces.push_back(k);
             for (const Corners& body : piece.bodies_m)
@@ -78,13 +78,6 @@ void ShadowMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const 
 
 bool ShadowMaps::needed() const {
     return std::any_of(maps_.begin(), maps_.end(), [](const Map& map) { return !map.pieces.empty(); });
-}
-
-int ShadowMaps::casters() const {
-    std::size_t count = 0;
-    for (const Map& map : maps_)
-        count += map.pieces.size();
-    return static_cast<int>(count);
 }
 
 ShadowMaps::Caster ShadowMaps::caster_of(const Corners& box, double margin) {

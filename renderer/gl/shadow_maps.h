@@ -33,8 +33,8 @@ class ShadowMaps {
   public:
     ShadowMaps(Context& context, const SceneBuffers& scene, ShadowSize size);
 
-    /// Chooses the casters of each lamp (`all`: every piece in its window).
-    void set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m, bool all);
+    /// Chooses the casters of each lamp.
+    void set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m);
     /// Whether anything casts a shadow.
     bool needed() const;
     /// Whether a shadow of any lamp may fall on the piece, or on targets so high above it. Errs towards yes.
@@ -44,7 +44,6 @@ class ShadowMaps {
     void compile();
 
     std::size_t texture_bytes() const;
-    int casters() const;
 
   private:
     struct Caster { ///< a body as a lamp sees it: tangents in lamp space, with a margin, and where it begins

@@ -6,24 +6,7 @@
 #include "photometric_lamps.glsl"
 #include "photometric_varyings.glsl"
 
-#if WANT_COLOUR
-layout(location = OUT_COLOUR) out vec4 out_colour;
-#endif
-#if WANT_ILLUMINANCE
-layout(location = OUT_ILLUMINANCE) out float out_illuminance_lx;
-#endif
-#if WANT_TARGET
-layout(location = OUT_TARGET) out float out_target_lx;
-#endif
-#if WANT_LUMINANCE
-layout(location = OUT_LUMINANCE) out float out_luminance_cdm2;
-#endif
-#if WANT_DEPTH
-layout(location = OUT_DEPTH) out float out_depth_m;
-#endif
-#if WANT_IDS
-layout(location = OUT_IDS) out uint out_id;
-#endif
+#include "outputs.glsl"
 
 const vec3 luminance_weights = vec3(0.2126, 0.7152, 0.0722);
 
