@@ -22,8 +22,8 @@ class DrawList {
     void start(const glm::dvec3& ego_m);
     /// Appends one call that draws these pieces (indices in SceneBuffers::pieces()); returns its number.
     int add(std::span<const std::uint32_t> pieces);
-    /// Appends a call that draws the scene's first triangle into targets that nobody reads: it makes the driver compile what it compiles late.
-    /// The scene must have one.
+    /// Appends a call that draws the scene's first triangle into targets that nobody reads: it makes the driver compile what it compiles
+    /// late. The scene must have one.
     int add_nothing();
     void upload();
     void draw(int call) const;
