@@ -1,0 +1,219 @@
+#include "renderer/reference/embree_scene.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <embree3/rtcore.h>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace fernlicht::reference {
+namespace {
+
+constexpr unsigned ground_mask = 1, stands_mask = 2, all_mask = 3;
+
+constexpr double raise_share = 8.0 / 16777216.0; // eight units of 2^-24
+constexpr double least_extent_m = 100.0;         // triangles of ours are up to so long, and rounding follows the larger of both
+
+/// Segments end this share before the point that they look at: a lamp's own glass, if it were there, casts no shadow on the light.
+constexpr float segment_end = 1.0F - 1e-6F;
+
+bool stands_on_ground(const Scene& scene, const Mesh& mesh) {
+    return std::ranges::any_of(mesh.batches, [&](const Batch& batch) { return !is_ground(scene.materials[batch.material].kind); });
+}
+
+std::size_t triangle_count(const Mesh& mesh) {
+    std::size_t count = 0;
+    for (const Batch& batch : mesh.batches)
+        count += batch.count / 3;
+    return count;
+}
+
+/// The batch that holds a mesh's triangle, and the triangle's first index.
+std::pair<const Batch*, std::uint32_t> batch_of(const Mesh& mesh, std::uint32_t triangle) {
+    for (const Batch& batch : mesh.batches) {
+        if (triangle < batch.count / 3)
+            return {&batch, batch.first + 3 * triangle};
+        triangle -= batch.count / 3;
+    }
+    return {nullptr, 0};
+}
+
+} // namespace
+
+struct EmbreeScene::Embree {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    void check(const char* doing) const {
+        if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+            throw DeviceError(std::string("Embree: ") + doing + ": error " + std::to_string(static_cast<int>(error)));
+    }
+    Embree() = default;
+    Embree(const Embree&) = delete;
+    Embree& operator=(const Embree&) = delete;
+    ~Embree() {
+        if (scene)
+            rtcReleaseScene(scene);
+        if (device)
+            rtcReleaseDevice(device);
+    }
+};
+
+EmbreeScene::EmbreeScene(const Scene& scene, const glm::dvec3& origin_m)
+    : scene_(scene), origin_m_(origin_m), embree_(std::make_unique<Embree>()) {
+    embree_->device = rtcNewDevice(nullptr);
+    if (!embree_->device)
+        throw DeviceError("Embree cannot start on this machine");
+    if (rtcGetDeviceProperty(embree_->device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0)
+        throw DeviceError("this Embree was built without ray masks (EMBREE_RAY_MASK), which maps need");
+    embree_->scene = rtcNewScene(embree_->device);
+    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST); // no leaks along the edges between triangles
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const Mesh& mesh = scene.meshes[m];
+        const std::size_t count = triangle_count(mesh);
+        if (count == 0)
+            continue;
+        const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<float*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
+        auto* indices = static_cast<std::uint32_t*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+        embree_->check("memory for a mesh");
+        for (const Vertex& vertex : mesh.vertices) {
+            const glm::vec3 p(mesh.origin_m - origin_m + glm::dvec3(vertex.position_m));
+            vertices = std::copy_n(&p.x, 3, vertices);
+        }
+        for (const Batch& batch : mesh.batches)
+            indices = std::copy_n(mesh.indices.begin() + batch.first, batch.count / 3 * 3, indices);
+        rtcSetGeometryMask(geometry, stands_on_ground(scene, mesh) ? stands_mask : ground_mask);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(embree_->scene, geometry, static_cast<unsigned>(m));
+        rtcReleaseGeometry(geometry);
+        triangles_ += count;
+    }
+    rtcCommitScene(embree_->scene);
+    embree_->check("building the scene");
+}
+
+EmbreeScene::~EmbreeScene() = default;
+
+glm::dvec3 EmbreeScene::raised(const SurfaceHit& hit) {
+    const glm::dvec3 extent = glm::abs(hit.point_m);
+    return hit.point_m + hit.facet_normal * (raise_share * std::max({extent.x, extent.y, extent.z, least_extent_m}));
+}
+
+SurfaceHit EmbreeScene::hit_on(const Ray& ray, std::uint32_t mesh_index, std::uint32_t triangle) const {
+    const Mesh& mesh = scene_.meshes[mesh_index];
+    const auto [batch, first] = batch_of(mesh, triangle);
+    const Vertex &a = mesh.vertices[mesh.indices[first]], &b = mesh.vertices[mesh.indices[first + 1]],
+                 &c = mesh.vertices[mesh.indices[first + 2]];
+    // Moeller and Trumbore 1997, without the test for inside, which Embree has made.
+    const glm::dvec3 ab = glm::dvec3(b.position_m) - glm::dvec3(a.position_m), ac = glm::dvec3(c.position_m) - glm::dvec3(a.position_m);
+    const glm::dvec3 p = glm::cross(ray.direction, ac), s = ray.origin_m - (mesh.origin_m - origin_m_ + glm::dvec3(a.position_m)),
+                     q = glm::cross(s, ab);
+    const double determinant = glm::dot(ab, p), u = glm::dot(s, p) / determinant, v = glm::dot(ray.direction, q) / determinant,
+                 w = 1.0 - u - v;
+    SurfaceHit hit;
+    hit.distance_m = glm::dot(ac, q) / determinant;
+    hit.mesh = mesh_index;
+    hit.material = batch->material;
+    hit.triangle = triangle;
+    hit.point_m = ray.origin_m + ray.direction * hit.distance_m;
+    hit.normal = glm::normalize(glm::dvec3(a.normal) * w + glm::dvec3(b.normal) * u + glm::dvec3(c.normal) * v);
+    hit.facet_normal = glm::normalize(glm::cross(ab, ac));
+    if (glm::dot(hit.facet_normal, hit.normal) < 0.0)
+        hit.facet_normal = -hit.facet_normal;
+    hit.uv = glm::dvec2(a.uv) * w + glm::dvec2(b.uv) * u + glm::dvec2(c.uv) * v;
+    hit.from_behind = glm::dot(ray.direction, hit.facet_normal) > 0.0;
+    return hit;
+}
+
+std::optional<SurfaceHit> EmbreeScene::cast(const Ray& ray, bool ground_only) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit found{};
+    const glm::vec3 origin(ray.origin_m), direction(ray.direction);
+    found.ray = {origin.x,
+                 origin.y,
+                 origin.z,
+                 0.0F,
+                 direction.x,
+                 direction.y,
+                 direction.z,
+                 0.0F,
+                 std::numeric_limits<float>::infinity(),
+                 ground_only ? ground_mask : all_mask,
+                 0,
+                 0};
+    found.hit.geomID = found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(embree_->scene, &context, &found);
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return std::nullopt;
+    return hit_on(ray, found.hit.geomID, found.hit.primID);
+}
+
+LaneMask EmbreeScene::cast(const std::array<Ray, packet_size>& rays, LaneMask lanes, bool ground_only,
+                           std::array<SurfaceHit, packet_size>& hits) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(64) RTCRayHit16 found;
+    alignas(64) std::array<int, packet_size> valid;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        const glm::vec3 origin(rays[i].origin_m), direction(rays[i].direction);
+        valid[i] = in_mask(lanes, i) ? -1 : 0;
+        found.ray.org_x[i] = origin.x, found.ray.org_y[i] = origin.y, found.ray.org_z[i] = origin.z;
+        found.ray.dir_x[i] = direction.x, found.ray.dir_y[i] = direction.y, found.ray.dir_z[i] = direction.z;
+        found.ray.tnear[i] = 0.0F, found.ray.tfar[i] = std::numeric_limits<float>::infinity(), found.ray.time[i] = 0.0F;
+        found.ray.mask[i] = ground_only ? ground_mask : all_mask, found.ray.id[i] = 0, found.ray.flags[i] = 0;
+        found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid.data(), embree_->scene, &context, &found);
+    LaneMask hit_lanes = 0;
+    for (std::size_t i = 0; i < packet_size; ++i)
+        if (valid[i] != 0 && found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+            hits[i] = hit_on(rays[i], found.hit.geomID[i], found.hit.primID[i]);
+            hit_lanes |= 1U << i;
+        }
+    return hit_lanes;
+}
+
+bool EmbreeScene::visible(const SurfaceHit& from, const glm::dvec3& to_m) const {
+    return glm::dot(to_m - from.point_m, from.facet_normal) > 0.0 && visible(raised(from), to_m);
+}
+
+bool EmbreeScene::visible(const glm::dvec3& from_m, const glm::dvec3& to_m) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    const glm::vec3 origin(from_m), direction(to_m - from_m);
+    RTCRay ray{origin.x, origin.y, origin.z, 0.0F, direction.x, direction.y, direction.z, 0.0F, segment_end, all_mask, 0, 0};
+    rtcOccluded1(embree_->scene, &context, &ray);
+    return ray.tfar >= 0.0F; // Embree makes it negative where something was met
+}
+
+LaneMask EmbreeScene::visible(const std::array<glm::dvec3, packet_size>& from_m, const std::array<glm::dvec3, packet_size>& to_m,
+                              LaneMask lanes) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(64) RTCRay16 ray;
+    alignas(64) std::array<int, packet_size> valid;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        const glm::vec3 origin(from_m[i]), direction(to_m[i] - from_m[i]);
+        valid[i] = in_mask(lanes, i) ? -1 : 0;
+        ray.org_x[i] = origin.x, ray.org_y[i] = origin.y, ray.org_z[i] = origin.z;
+        ray.dir_x[i] = direction.x, ray.dir_y[i] = direction.y, ray.dir_z[i] = direction.z;
+        ray.tnear[i] = 0.0F, ray.tfar[i] = segment_end, ray.time[i] = 0.0F;
+        ray.mask[i] = all_mask, ray.id[i] = 0, ray.flags[i] = 0;
+    }
+    rtcOccluded16(valid.data(), embree_->scene, &context, &ray);
+    LaneMask seen = 0;
+    for (std::size_t i = 0; i < packet_size; ++i)
+        if (valid[i] != 0 && ray.tfar[i] >= 0.0F)
+            seen |= 1U << i;
+    return seen;
+}
+
+} // namespace fernlicht::reference

@@ -1,0 +1,23 @@
+// Light that comes over other surfaces, and from the sky that is not hidden: path tracing, unbiased.
+//
+// From a surface a path goes on in a direction drawn from the Lambert lobe (density cos / pi) or from the retroreflecting one
+// (retro_lobe.h), each with the probability of its share of the reflectance, or ends: the path's weight stays at most about 1, and no bound
+// on its length is needed. At each surface that it meets, every lamp is asked directly (next-event estimation); lamps are points or discs
+// that no path meets by itself. The sky, L = E_h / pi from every direction above the horizon, and surfaces' own light count where a path
+// meets them, and are never asked directly. So each way that light can take is counted once. A surface met from behind, on the side that is
+// not lit, is black.
+#pragma once
+
+#include "renderer/reference/shot.h"
+
+namespace fernlicht::reference {
+
+/// Adds to a packet that light_packet has lit without the sky's share what arrives over at least one other surface, and the sky as things
+/// let it through. One path a lane, and a second one where the surface retroreflects and luminance is wanted.
+void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, PacketLight& light);
+
+/// Radiance in linear sRGB with Y in cd/m2 that arrives along a ray from where it points: the whole of it, over any number of surfaces.
+/// Draws from the point's pairs from `pair` on. Adds the rays it cast to `rays`.
+glm::dvec3 arriving(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays);
+
+} // namespace fernlicht::reference

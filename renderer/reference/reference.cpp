@@ -1,0 +1,134 @@
+#include "renderer/reference/reference.h"
+
+#include "renderer/reference/tile.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <glm/common.hpp>
+#include <mutex>
+#include <stdexcept>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace fernlicht {
+namespace {
+
+/// Origins of rays' geometry stand on a grid of this width, so that they do not depend on what was drawn before.
+constexpr double origin_grid_m = 128.0;
+/// Between calls of go_on.
+constexpr double batch_s = 0.5;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void check(const ReferenceSettings& s) {
+    const auto fail = [](const char* what) { throw std::invalid_argument(std::string("reference: ") + what); };
+    if (!(s.target_error > 0.0) || !(s.floor_lx > 0.0) || !(s.floor_cdm2 > 0.0))
+        fail("target error and floors must be above 0");
+    if (s.least_samples < 1 || s.most_samples < s.least_samples || s.most_samples > (1 << 24))
+        fail("samples must be 1 <= least <= most <= 2^24");
+    if (s.most_bounces < 1 || !(s.lamp_radius_m >= 0.0) || !std::isfinite(s.target_height_m))
+        fail("bounces must be at least 1, a lamp's radius at least 0, a target's height finite");
+}
+
+Estimate empty_estimate(const View& view, bool wanted) {
+    if (!wanted)
+        return {};
+    return {Image<float>(view.width_px, view.height_px), Image<float>(view.width_px, view.height_px)};
+}
+
+ReferenceImage empty_image(const View& view, const Wanted& wanted) {
+    ReferenceImage image;
+    image.illuminance_lx = empty_estimate(view, wanted.illuminance);
+    image.target_lx = empty_estimate(view, wanted.target);
+    image.luminance_cdm2 = empty_estimate(view, wanted.luminance);
+    image.ids = Image<std::uint32_t>(view.width_px, view.height_px);
+    image.samples = Image<std::uint32_t>(view.width_px, view.height_px);
+    image.mixed = Image<std::uint8_t>(view.width_px, view.height_px);
+    return image;
+}
+
+void check_from(const ReferenceImage& from, const ReferenceImage& empty) {
+    const auto same = [](const auto& a, const auto& b) { return a.width() == b.width() && a.height() == b.height(); };
+    if (!same(from.samples, empty.samples) || !same(from.ids, empty.ids) || !same(from.mixed, empty.mixed) ||
+        !same(from.illuminance_lx.mean, empty.illuminance_lx.mean) || !same(from.target_lx.mean, empty.target_lx.mean) ||
+        !same(from.luminance_cdm2.mean, empty.luminance_cdm2.mean))
+        throw std::invalid_argument("reference: the picture to go on with is of another size or has other results");
+}
+
+struct Corner {
+    int x, y;
+};
+
+/// Tiles of which no pixel is drawn yet.
+std::vector<Corner> open_tiles(const ReferenceImage& image) {
+    std::vector<Corner> tiles;
+    for (int y = 0; y < image.samples.height(); y += reference::tile_px)
+        for (int x = 0; x < image.samples.width(); x += reference::tile_px)
+            if (image.samples.at(x, y) == 0)
+                tiles.push_back({x, y});
+    return tiles;
+}
+
+std::size_t pixels_done(const ReferenceImage& image) {
+    return image.samples.size() - static_cast<std::size_t>(std::ranges::count(image.samples.pixels(), 0U));
+}
+
+} // namespace
+
+struct Reference::State {
+    std::mutex mutex;
+    std::shared_ptr<const reference::EmbreeScene> geometry;
+};
+
+Reference::Reference(const Scene& scene) : scene_(scene), state_(std::make_unique<State>()) {}
+Reference::~Reference() = default;
+
+std::shared_ptr<const reference::EmbreeScene> Reference::geometry(const Moment& moment) const {
+    const glm::dvec3 origin_m = glm::round(moment.ego.position_m / origin_grid_m) * origin_grid_m;
+    const std::lock_guard lock(state_->mutex);
+    if (!state_->geometry || state_->geometry->origin_m() != origin_m)
+        state_->geometry = std::make_shared<const reference::EmbreeScene>(scene_, origin_m);
+    return state_->geometry;
+}
+
+ReferenceImage Reference::render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
+                                 const GoOn& go_on, ReferenceImage from) const {
+    check(settings);
+    const auto start = std::chrono::steady_clock::now();
+    const auto embree = geometry(moment);
+    const reference::Shot shot(*embree, moment, view, wanted, settings);
+    ReferenceImage image = empty_image(view, wanted);
+    if (!from.samples.empty()) {
+        check_from(from, image);
+        image = std::move(from);
+    }
+    const double seconds_before = image.seconds;
+    std::atomic<std::uint64_t> rays = image.rays;
+    const std::vector<Corner> tiles = open_tiles(image);
+    image.complete = true;
+    std::size_t batch = go_on ? 16 : tiles.size();
+    for (std::size_t first = 0; first < tiles.size();) {
+        const auto batch_start = std::chrono::steady_clock::now();
+        const std::size_t last = std::min(tiles.size(), first + batch);
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, 1), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                rays += reference::draw_tile(shot, tiles[i].x, tiles[i].y, image);
+        });
+        batch = std::clamp(static_cast<std::size_t>(static_cast<double>(batch) * batch_s / std::max(seconds_since(batch_start), 1e-3)),
+                           batch / 4 + 1, 4 * batch);
+        first = last;
+        image.seconds = seconds_before + seconds_since(start);
+        image.rays = rays;
+        if (go_on && !go_on(image, pixels_done(image)) && first < tiles.size()) {
+            image.complete = false;
+            break;
+        }
+    }
+    return image;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,101 @@
+// The reference: what a scene's light is, by rays, each number with its standard error. For measuring every other way to light a scene.
+//
+// A pixel's value is a mean over the pixel's area (Footprint::pixel), estimated from 16 independently scrambled nets of points
+// (sampling.h). Their means m_r are independent and have the same distribution, however well each net is stratified, so that
+//     mean = sum m_r / 16,   error^2 = sum (m_r - mean)^2 / (16 * 15) * (15 / 13).
+// The last factor makes (mean - truth) / error, which follows Student's t with 15 degrees of freedom, have variance 1, so that error bars
+// are as wide on average as the errors are. A standard error of the naive kind, over all samples, would be too wide: stratified samples are
+// not independent.
+//
+// How many samples: a pilot of 16 points that is thrown away decides it. A pixel whose error came out above the target is drawn again, from
+// the start, with more points of other nets; only the last drawing counts. The pilot aims below the target, so that in the first drawing an
+// error bar decides by itself in some per cent of pixels only; the tests' z-scores hold what bias that leaves. Things that cover less than
+// about one sixteenth of a pixel can be missed by all samples of both drawings; then the bar does not know of them.
+//
+// Direct: Lambert and retroreflecting surfaces, lamps as points or discs, visibility by a ray, the intensity from the candela table in
+// double, the sky as a share (1 + n_z) / 2 that nothing hides: the same light as the technique `photometric` and its twin.
+#pragma once
+
+#include "scenarios/drives/frame.h"
+#include "scenarios/values/scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace fernlicht {
+
+namespace reference {
+class EmbreeScene;
+}
+
+enum class Integrator { direct, path };
+
+enum class Footprint {
+    pixel, ///< mean over the pixel's area
+    centre ///< the one ray through the centre that a rasteriser takes; no noise but area lamps'. With Integrator::direct the double twin
+};
+
+struct ReferenceSettings {
+    Integrator integrator = Integrator::direct;
+    Footprint footprint = Footprint::pixel;
+    double target_error = 0.005; ///< wanted standard error of a pixel's mean, relative to max(mean, floor)
+    double floor_lx = 0.05, floor_cdm2 = 0.001;
+    int least_samples = 16, most_samples = 4096; ///< in a pixel's mean; both become powers of two from 16 up
+    int most_bounces = 1000;                     ///< path: a bound that Russian roulette, which is unbiased, never meets in practice
+    double lamp_radius_m = 0.0;                  ///< > 0: lamps are discs of this radius that face along their axis; 0: points
+    double target_height_m = 0.25;               ///< of target_lx, above the surface
+    bool shadows = true;
+    std::uint64_t seed = 1;
+
+    bool operator==(const ReferenceSettings&) const = default;
+};
+
+/// Both empty where the result was not wanted.
+struct Estimate {
+    Image<float> mean, standard_error; ///< of the mean
+};
+
+/// Bits of ReferenceImage::mixed.
+inline constexpr std::uint8_t several_surfaces = 1, shadow_edge = 2;
+
+struct ReferenceImage {
+    Estimate illuminance_lx;  ///< on the surface seen in the pixel, all lamps and sky; 0 where nothing is seen
+    Estimate target_lx;       ///< of a target above the pixel's place that faces each lamp: sum of I / d^2, direct light with its shadows
+    Estimate luminance_cdm2;  ///< towards the camera
+    Image<std::uint32_t> ids; ///< mesh index + 1 seen by the ray through the centre, as Frame::ids
+    Image<std::uint32_t> samples; ///< in the pixel's mean; 0: not drawn yet
+    Image<std::uint8_t> mixed; ///< several_surfaces: samples met more than one mesh or material, or also nothing; shadow_edge: of some lamp
+                               ///< some samples were lit and some not
+    double seconds = 0.0;
+    std::uint64_t rays = 0;
+    bool complete = true;
+};
+
+/// Called from the drawing thread every half second or so, and never at the same time as pixels change. False: stop.
+using GoOn = std::function<bool(const ReferenceImage& so_far, std::size_t pixels_done)>;
+
+class Reference {
+  public:
+    /// The scene must outlive the reference.
+    explicit Reference(const Scene& scene);
+    ~Reference();
+    Reference(const Reference&) = delete;
+    Reference& operator=(const Reference&) = delete;
+
+    /// Draws illuminance, target and luminance as wanted. Maps see ground surfaces only; everything casts shadows. The same bytes for any
+    /// number of threads, and for a picture drawn in one go or gone on with from `from`, an incomplete picture of the same call.
+    /// Throws DeviceError (Embree, memory), std::invalid_argument for settings that make no sense or a `from` of another size.
+    ReferenceImage render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
+                          const GoOn& go_on = {}, ReferenceImage from = {}) const;
+
+    /// Rays' geometry about a point near the car; built when first asked for, kept until another is needed.
+    std::shared_ptr<const reference::EmbreeScene> geometry(const Moment& moment) const;
+
+  private:
+    struct State;
+    const Scene& scene_;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace fernlicht

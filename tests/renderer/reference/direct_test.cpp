@@ -1,0 +1,239 @@
+// Direct light of the reference against closed forms and against the double-precision twin.
+#include "tests/renderer/reference/rooms.h"
+
+#include "renderer/reference/embree_scene.h"
+#include "renderer/twin.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+/// Floats store the results: half a unit in the last place.
+constexpr double stored = 6e-8;
+
+ReferenceSettings centre_rays() {
+    ReferenceSettings settings;
+    settings.footprint = Footprint::centre;
+    return settings;
+}
+
+TEST(ReferenceDirect, LightsAWallAt25MetresAsTheInverseSquareAndTheCubeOfTheCosineSay) {
+    Mesh wall{"wall", {25.0, 0.0, 0.0}, {}, {}, {}};
+    add_quad(wall, {0, 20, -20}, {0, -20, -20}, {0, -20, 20}, {0, 20, 20});
+    Scene scene;
+    scene.materials = {lambert(0.5, SurfaceKind::object)};
+    scene.meshes = {finished(wall, 0)};
+    Moment moment;
+    moment.lamps = {even_lamp(10000.0, looking({0, 0, 0}, 0, 0))};
+    const View view = camera({0, 0, 0}, 0, 0, 60, 33); // an odd number: one pixel on the axis
+    const ReferenceImage image = Reference(scene).render(moment, view, everything, centre_rays());
+    for (int y = 0; y < 33; ++y)
+        for (int x = 0; x < 33; ++x) {
+            const double t = std::tan(radians(30)), u = ((x + 0.5) / 16.5 - 1.0) * t, v = ((y + 0.5) / 16.5 - 1.0) * t;
+            const double cosine = 1.0 / std::sqrt(1.0 + u * u + v * v), e = 10000.0 / 625.0 * std::pow(cosine, 3);
+            EXPECT_NEAR(image.illuminance_lx.mean.at(x, y), e, 1e-6 * e) << x << " " << y;
+            EXPECT_NEAR(image.luminance_cdm2.mean.at(x, y), 0.5 * e / pi, 1e-6 * e);
+            EXPECT_EQ(image.ids.at(x, y), 1U);
+        }
+    EXPECT_NEAR(image.illuminance_lx.mean.at(16, 16), 16.0, 16.0 * stored);
+}
+
+TEST(ReferenceDirect, AveragesAPixelOfThePlaneUnderALampAsTheIntegralDoes) {
+    // E = I h / (h^2 + x^2 + y^2)^(3/2), whose integral over a rectangle is I sum of +- atan(x y / (h r)) over its corners.
+    const Scene scene = level_ground(50.0, lambert(0.2));
+    Moment moment;
+    const double h = 0.65, cd = 1000.0;
+    moment.lamps = {even_lamp(cd, looking({0, 0, h}, 0, -90))};
+    const View view = map_about({1.0, 0.5}, 2.0, 4);
+    ReferenceSettings settings;
+    settings.target_error = 0.001;
+    const ReferenceImage image = Reference(scene).render(moment, view, lux, settings);
+    ASSERT_TRUE(image.complete);
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) {
+            const double x1 = 1.0 + 2.0 - row, x0 = x1 - 1.0, y1 = 0.5 + 2.0 - column, y0 = y1 - 1.0;
+            const auto corner = [&](double x, double y) { return std::atan2(x * y, h * std::sqrt(h * h + x * x + y * y)); };
+            const double truth = cd * (corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0));
+            const double error = image.illuminance_lx.standard_error.at(column, row);
+            // Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom, for one of 16 fixed pixels.
+            EXPECT_NEAR(image.illuminance_lx.mean.at(column, row), truth, 5.0 * error + stored * truth) << column << " " << row;
+            EXPECT_LE(error, 0.001 * truth * 1.05);
+            EXPECT_EQ(image.mixed.at(column, row), 0);
+        }
+}
+
+/// A lamp 2 m up at x = 0, a thin wall 1 m high at x = 4 across: its shadow ends at x = 8.
+struct Wall {
+    Scene scene = level_ground(30.0, lambert(0.2));
+    Moment moment;
+
+    Wall() {
+        scene.materials.push_back(lambert(0.2, SurfaceKind::object));
+        Mesh wall{"wall", {4.0, 0.0, 0.0}, {}, {}, {}};
+        add_quad(wall, {0, 20, 0}, {0, -20, 0}, {0, -20, 1}, {0, 20, 1});
+        scene.meshes.push_back(finished(wall, 1));
+        moment.lamps = {even_lamp(1000.0, looking({0, 0, 2}, 0, 0))};
+    }
+};
+
+TEST(ReferenceDirect, EndsTheShadowWhereTheStraightLineOverTheEdgeMeetsTheGround) {
+    const Wall wall;
+    const View view = map_about({6.0, 0.0}, 4.0, 800); // 1 cm a pixel; x = 10 at the top
+    const ReferenceImage image = Reference(wall.scene).render(wall.moment, view, lux, centre_rays());
+    int last_dark = -1;
+    for (int row = 799; row >= 0; --row) // from x = 2 ahead
+        if (image.illuminance_lx.mean.at(400, row) == 0.0F)
+            last_dark = row;
+    EXPECT_NEAR(10.0 - (last_dark + 0.5) * 0.01, 8.0, 0.0051); // half a pixel
+    EXPECT_GT(image.illuminance_lx.mean.at(400, 790), 0.0F);
+    EXPECT_GT(image.illuminance_lx.mean.at(400, 650), 0.0F); // 3.5 m: before the wall
+}
+
+TEST(ReferenceDirect, WeighsAPixelThatAShadowsEdgeCrossesByItsLitPart) {
+    const Wall wall;
+    // One pixel from x = 7 to 8.5, y = -0.75 to 0.75: lit beyond 8. The same integral as under the lamp, over the lit rectangle.
+    const View view = map_about({7.75, 0.0}, 0.75, 1);
+    const auto corner = [](double x, double y) { return std::atan2(x * y, 2.0 * std::sqrt(4.0 + x * x + y * y)); };
+    const double truth = 1000.0 * 2.0 * (corner(8.5, 0.75) - corner(8.0, 0.75)) / 2.25;
+    const ReferenceImage image = Reference(wall.scene).render(wall.moment, view, lux, ReferenceSettings{});
+    const double error = image.illuminance_lx.standard_error.at(0, 0);
+    EXPECT_NEAR(image.illuminance_lx.mean.at(0, 0), truth, 5.0 * error);
+    EXPECT_LE(error, 0.0051 * truth);
+    EXPECT_GT(image.samples.at(0, 0), 16U);
+    EXPECT_EQ(image.mixed.at(0, 0), shadow_edge);
+}
+
+TEST(ReferenceDirect, SpreadsTheShadowOfADiscLampOverItsPenumbra) {
+    // From x on the ground the wall's upper edge cuts the disc (which stands upright, facing ahead) at the height 1 + (1/(x-4)) 4 above the
+    // ground. A disc of radius 0.1 about 2 m: fully lit where the line is below 1.9, dark where above 2.1.
+    const Wall wall;
+    ReferenceSettings settings;
+    settings.lamp_radius_m = 0.1;
+    settings.footprint = Footprint::centre;
+    View view = map_about({8.0, 0.0}, 1.0, 200);
+    view.width_px = 1;
+    view.map_left_m = view.map_right_m = 0.005;
+    const ReferenceImage image = Reference(wall.scene).render(wall.moment, view, lux, settings);
+    for (const double x : {7.55, 7.8, 8.0, 8.2, 8.6}) {
+        const int row = static_cast<int>((9.0 - x) / 0.01 - 0.5);
+        const double place = 9.0 - (row + 0.5) * 0.01, cut = std::clamp((1.0 + 4.0 / (place - 4.0) - 2.0) / 0.1, -1.0, 1.0);
+        const double lit = (std::acos(cut) - cut * std::sqrt(1.0 - cut * cut)) / pi; // part of the disc above the cut
+        const double e = 1000.0 * 2.0 / std::pow(4.0 + place * place, 1.5);
+        // A disc of 0.1 m at 8 m: its points' distances and heights vary E by (0.1/2)^2 about the mean of what is seen, and linearly by up
+        // to 5 %.
+        EXPECT_NEAR(image.illuminance_lx.mean.at(0, row), lit * e, 0.055 * e) << place;
+        if (lit > 0.0 && lit < 1.0) {
+            EXPECT_GT(image.illuminance_lx.standard_error.at(0, row), 0.0F);
+        }
+    }
+}
+
+/// A rough road with a crest, a board, a box; textured, retroreflecting; two lamps and a sky.
+Scene mixed_scene(glm::dvec3 origin) {
+    Scene scene;
+    Material road = lambert(0.08);
+    road.retro_rl = 0.0145F;
+    Material board = lambert(0.5, SurfaceKind::board);
+    board.albedo = {0.6F, 0.1F, 0.1F};
+    board.retro_rl = 180.0F;
+    board.retro_reference_rad = 0.00576F;
+    board.retro_falloff_rad = 0.0079F;
+    board.emission_cdm2 = glm::vec3(0.5F);
+    scene.materials = {road, board};
+    Mesh ground{"ground", origin + glm::dvec3(40.0, 0.0, 0.0), {}, {}, {}};
+    for (int i = -60; i < 110; i += 10) {
+        const auto z = [](double x) { return 0.5 * std::sin(x / 20.0); };
+        const double a = i, b = i + 10.0;
+        add_quad(ground, {a, -30, z(a)}, {b, -30, z(b)}, {b, 30, z(b)}, {a, 30, z(a)});
+    }
+    Mesh sign{"board", origin + glm::dvec3(35.0, -4.0, 2.0), {}, {}, {}};
+    add_quad(sign, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
+    Mesh box{"box", origin + glm::dvec3(22.0, 1.5, -1.0), {}, {}, {}};
+    add_quad(box, {0, 0.5, 0}, {0, -0.5, 0}, {0, -0.5, 2.2}, {0, 0.5, 2.2});
+    add_quad(box, {1, 0.5, 0}, {0, 0.5, 0}, {0, 0.5, 2.2}, {1, 0.5, 2.2});
+    scene.meshes = {finished(ground, 0), finished(sign, 1), finished(box, 1)};
+    return scene;
+}
+
+class ReferenceAndTwin : public testing::TestWithParam<double> {};
+
+TEST_P(ReferenceAndTwin, AgreeWhereNoLightBounces) {
+    const glm::dvec3 origin(GetParam(), -GetParam() / 3.0, 300.0);
+    const Scene scene = mixed_scene(origin);
+    Moment moment;
+    moment.ego.position_m = origin;
+    moment.daylight.horizontal_illuminance_lx = 0.3;
+    for (const double side : {0.6, -0.6})
+        moment.lamps.push_back(even_lamp(8000.0, looking(origin + glm::dvec3(3.5, side, 0.65), side, 0.5)));
+    moment.lamps[0].colour.linear_srgb = {1.2, 0.95, 0.5};
+    View view = camera({1.5, 0.35, 1.2}, 0, -3, 30, 96);
+    view.height_px = 64;
+    const ReferenceImage image = Reference(scene).render(moment, view, everything, centre_rays());
+    const Twin twin(scene, true);
+    int shadow_differs = 0, ids_differ = 0, dark = 0, lit = 0;
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x) {
+            const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+            if (truth.id != image.ids.at(x, y)) { // a float's rounding at the outline of a body
+                ++ids_differ;
+                continue;
+            }
+            // The twin's rays start 1 mm above the surface, these 0.1 mm: at a shadow's edge either may be right.
+            const double e = image.illuminance_lx.mean.at(x, y), difference = std::abs(e - truth.illuminance_lx);
+            if (difference > 1e-6 * truth.illuminance_lx) {
+                ++shadow_differs;
+                continue;
+            }
+            truth.illuminance_lx > 1.0 ? ++lit : ++dark;
+            EXPECT_NEAR(image.luminance_cdm2.mean.at(x, y), truth.luminance_cdm2, 1e-6 * truth.luminance_cdm2) << x << " " << y;
+        }
+    EXPECT_LE(ids_differ, 3);
+    EXPECT_LE(shadow_differs, 12); // 0.2 % of the picture
+    EXPECT_GT(lit, 1000);
+    EXPECT_GT(dark, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(FromTheMapsOrigin, ReferenceAndTwin, testing::Values(0.0, 4.5e6, 3e7));
+
+TEST(ReferenceDirect, DoesNotLeakThroughTheSeamsOfAFineMesh) {
+    // A ceiling of 200 x 200 slanted cells between a lamp and the ground: no sample may be lit.
+    Scene scene = level_ground(20.0, lambert(0.2));
+    scene.materials.push_back(lambert(0.2, SurfaceKind::object));
+    Mesh ceiling{"ceiling", {0.013, 0.007, 2.0}, {}, {}, {}};
+    const auto corner = [](int i, int k) { return glm::vec3(0.1 * i, 0.1 * k, 0.03 * std::sin(1.7 * i) * std::cos(2.3 * k)); };
+    for (int k = -100; k <= 100; ++k)
+        for (int i = -100; i <= 100; ++i)
+            ceiling.vertices.push_back({corner(i, k), {0, 0, 1}, {0, 0}});
+    for (std::uint32_t k = 0; k < 200; ++k)
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const std::uint32_t a = k * 201 + i, b = a + 1, c = a + 201, d = c + 1;
+            for (const std::uint32_t v : {a, b, d, a, d, c})
+                ceiling.indices.push_back(v);
+        }
+    scene.meshes.push_back(finished(ceiling, 1));
+    Moment moment;
+    moment.lamps = {even_lamp(1e6, looking({0, 0, 4}, 0, -90))};
+    ReferenceSettings settings;
+    settings.least_samples = 64;
+    const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 8.0, 100), lux, settings);
+    for (const float e : image.illuminance_lx.mean.pixels())
+        ASSERT_EQ(e, 0.0F);
+}
+
+TEST(ReferenceDirect, LeavesOutWhatIsNotWantedAndRefusesNonsense) {
+    const Wall wall;
+    const Reference reference(wall.scene);
+    const ReferenceImage image = reference.render(wall.moment, map_about({2, 0}, 1.0, 4), {.target = true}, centre_rays());
+    EXPECT_TRUE(image.illuminance_lx.mean.empty() && image.luminance_cdm2.standard_error.empty());
+    ASSERT_FALSE(image.target_lx.mean.empty());
+    const double x = 2.25, y = 0.25, d2 = x * x + y * y + 1.75 * 1.75; // pixel (1, 1): lamp at 2 m, target at 0.25 m
+    EXPECT_NEAR(image.target_lx.mean.at(1, 1), 1000.0 / d2, 1e-6 * 1000.0 / d2);
+    ReferenceSettings settings;
+    settings.target_error = 0.0;
+    EXPECT_THROW(reference.render(wall.moment, map_about({2, 0}, 1.0, 4), lux, settings), std::invalid_argument);
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,102 @@
+// Small scenes whose light is known in closed form.
+#pragma once
+
+#include "renderer/reference/reference.h"
+
+#include <glm/geometric.hpp>
+#include <initializer_list>
+
+namespace fernlicht {
+
+/// A quadrilateral a b c d, counter-clockwise as seen from its lit side.
+inline void add_quad(Mesh& mesh, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const glm::vec3 normal(glm::normalize(glm::cross(b - a, d - a)));
+    const glm::vec2 uv[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    int k = 0;
+    for (const glm::dvec3& p : {a, b, c, d})
+        mesh.vertices.push_back({glm::vec3(p), normal, uv[k++]});
+    for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U})
+        mesh.indices.push_back(first + i);
+}
+
+/// All of a mesh of one material.
+inline Mesh finished(Mesh mesh, std::uint32_t material) {
+    mesh.batches = {{material, 0, static_cast<std::uint32_t>(mesh.indices.size())}};
+    return mesh;
+}
+
+/// The same candela in every direction of the forward half-space.
+inline LitLamp even_lamp(double cd, const Pose& pose) {
+    auto file = std::make_shared<LampFile>();
+    file->table.h_deg = {-180.0, 180.0};
+    file->table.v_deg = {-90.0, 90.0};
+    file->table.cd = {cd, cd, cd, cd};
+    return {"lamp", file, pose, 1.0, LampColour{}, 0.0};
+}
+
+/// A lamp that looks along a direction of the world.
+inline Pose looking(glm::dvec3 position_m, double yaw_deg, double pitch_deg) {
+    return {position_m, axes_from_angles(radians(yaw_deg), radians(pitch_deg), 0.0)};
+}
+
+/// A camera with a narrow, square view.
+inline View camera(glm::dvec3 position_m, double yaw_deg, double pitch_deg, double fov_deg, int px) {
+    View view;
+    view.position_m = position_m;
+    view.yaw_rad = radians(yaw_deg);
+    view.pitch_rad = radians(pitch_deg);
+    view.vertical_fov_rad = radians(fov_deg);
+    view.width_px = view.height_px = px;
+    return view;
+}
+
+/// A map of px x px pixels over 2 half x 2 half metres about a place.
+inline View map_about(glm::dvec2 centre_m, double half_m, int px) {
+    View view;
+    view.projection = Projection::map;
+    view.map_ahead_m = centre_m.x + half_m;
+    view.map_behind_m = half_m - centre_m.x;
+    view.map_left_m = half_m + centre_m.y;
+    view.map_right_m = half_m - centre_m.y;
+    view.width_px = view.height_px = px;
+    return view;
+}
+
+/// A closed cube of 2 m about (0, 0, 0), seen from within, of one material.
+inline Scene closed_room(const Material& material) {
+    Mesh room{"room", {}, {}, {}, {}};
+    add_quad(room, {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1});
+    add_quad(room, {-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1});
+    add_quad(room, {-1, -1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1});
+    add_quad(room, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});
+    add_quad(room, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1});
+    add_quad(room, {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1});
+    Scene scene;
+    scene.materials = {material};
+    scene.meshes = {finished(room, 0)};
+    return scene;
+}
+
+/// A level square of ground about (0, 0, 0), `half_m` to each side.
+inline Scene level_ground(double half_m, const Material& material) {
+    Mesh ground{"ground", {}, {}, {}, {}};
+    add_quad(ground, {-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0});
+    Scene scene;
+    scene.materials = {material};
+    scene.meshes = {finished(ground, 0)};
+    return scene;
+}
+
+inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road) {
+    Material material;
+    material.name = "lambert";
+    material.kind = kind;
+    material.albedo = glm::vec3(static_cast<float>(albedo));
+    return material;
+}
+
+inline constexpr Wanted everything{.illuminance = true, .target = true, .luminance = true};
+inline constexpr Wanted lux{.illuminance = true};
+
+} // namespace fernlicht
