@@ -54,19 +54,27 @@ glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint&
 
 /// Draws where the path goes on from the surface and multiplies its weight; false where it ends.
 bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pair, Ray& ray, glm::dvec3& weight) {
+    const double reflected = surface.albedo + surface.lobe.returned;
+    if (reflected <= 0.0)
+        return false;
     const glm::dvec2 choice = point.pair(pair), square = point.pair(pair + 1);
-    if (choice.x < surface.albedo) {
+    double lobe_choice = choice.x;
+    if (lobe_choice * reflected < surface.albedo) {
+        lobe_choice *= reflected / surface.albedo;
         ray.direction = sample_cosine(surface.hit.normal, square);
-        weight *= surface.response.albedo / surface.albedo;
-    } else if (choice.x < surface.albedo + surface.lobe.returned) {
+        weight *= surface.response.albedo * (reflected / surface.albedo);
+    } else {
+        lobe_choice = (lobe_choice * reflected - surface.albedo) / surface.lobe.returned;
         const RetroSample sample = sample_retro(surface.lobe, surface.out, surface.hit.normal, square, choice.y);
         ray.direction = sample.direction;
-        weight *= sample.weight / surface.lobe.returned;
-    } else {
-        return false;
+        weight *= sample.weight * (reflected / surface.lobe.returned);
     }
+    const double stay = std::min(1.0, 2.0 * greatest(weight)); // Russian roulette: the choice's rest is uniform again
+    if (lobe_choice >= stay)
+        return false;
+    weight /= stay;
     ray.origin_m = EmbreeScene::raised(surface.hit);
-    return greatest(weight) > 0.0 && glm::dot(ray.direction, surface.hit.facet_normal) > 0.0;
+    return glm::dot(ray.direction, surface.hit.facet_normal) > 0.0;
 }
 
 } // namespace

@@ -7,10 +7,10 @@
 // are as wide on average as the errors are. A standard error of the naive kind, over all samples, would be too wide: stratified samples are
 // not independent.
 //
-// How many samples: a pilot of 16 points that is thrown away decides it. A pixel whose error came out above the target is drawn again, from
-// the start, with more points of other nets; only the last drawing counts. The pilot aims below the target, so that in the first drawing an
-// error bar decides by itself in some per cent of pixels only; the tests' z-scores hold what bias that leaves. Things that cover less than
-// about one sixteenth of a pixel can be missed by all samples of both drawings; then the bar does not know of them.
+// How many samples: a pilot of 16 points (64 paths) that is thrown away decides it. A pixel whose error came out above the target is drawn
+// again, from the start, with more points of other nets; only the last drawing counts. The pilot aims below the target, so that in the
+// first drawing an error bar decides by itself in some per cent of pixels only; the tests' z-scores hold what bias that leaves. Things that
+// cover less than about one sixteenth of a pixel can be missed by all samples of both drawings; then the bar does not know of them.
 //
 // Direct: Lambert and retroreflecting surfaces, lamps as points or discs, visibility by a ray, the intensity from the candela table in
 // double, the sky as a share (1 + n_z) / 2 that nothing hides: the same light as the technique `photometric` and its twin.

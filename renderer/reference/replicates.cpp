@@ -26,10 +26,6 @@ MeanAndError mean_of(const std::array<double, replicate_count>& sums, int each) 
     return {mean / each, error / each};
 }
 
-double error_of_single(const std::array<double, replicate_count>& samples) {
-    return std::sqrt(squares_about(samples, mean_value(samples)) / (n * (n - 1.0)));
-}
-
 int samples_for(double error, double target, double power, int now, int most) {
     int count = now;
     for (double reached = error; count < most && reached > 0.75 * target; count *= 2)

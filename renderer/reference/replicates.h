@@ -18,9 +18,6 @@ struct MeanAndError {
 /// freedom.
 MeanAndError mean_of(const std::array<double, replicate_count>& sums, int each);
 
-/// The standard deviation of single samples over sqrt(n).
-double error_of_single(const std::array<double, replicate_count>& samples);
-
 /// How the error of stratified samples falls: error^2 goes with the number of samples to the power -power. 1: as for independent samples
 /// (many dimensions); 1.5: an edge in two dimensions; 2: smooth in two dimensions (nets reach 3, which is not counted on).
 /// The least power of two times `now` that brings `error` below 3/4 of `target`, at most `most`. now >= 1.

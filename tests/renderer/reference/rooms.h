@@ -3,6 +3,7 @@
 
 #include "renderer/reference/reference.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <initializer_list>
 
@@ -94,6 +95,18 @@ inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road) {
     material.kind = kind;
     material.albedo = glm::vec3(static_cast<float>(albedo));
     return material;
+}
+
+/// Solid angle of a polygon seen from a point, sr: a fan of triangles by van Oosterom and Strackee 1983. Even light of I candela that falls
+/// on a polygon is I times that, in lumen.
+inline double solid_angle(const glm::dvec3& eye, const std::vector<glm::dvec3>& polygon) {
+    double sum = 0.0;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        const glm::dvec3 a = glm::normalize(polygon[0] - eye), b = glm::normalize(polygon[i - 1] - eye),
+                         c = glm::normalize(polygon[i] - eye);
+        sum += 2.0 * std::atan2(std::abs(glm::dot(a, glm::cross(b, c))), 1.0 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
+    }
+    return sum;
 }
 
 inline constexpr Wanted everything{.illuminance = true, .target = true, .luminance = true};

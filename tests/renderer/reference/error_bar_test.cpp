@@ -1,0 +1,224 @@
+// Error bars are as wide as the errors: a bar too wide is as wrong as one too narrow.
+#include "tests/renderer/reference/rooms.h"
+
+#include "renderer/reference/replicates.h"
+#include "renderer/reference/sampling.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <set>
+#include <tbb/global_control.h>
+
+namespace fernlicht {
+namespace {
+
+/// (mean - truth) / error for seeds 1 to 1000, of a picture of one pixel.
+std::vector<double> scores(const Scene& scene, const Moment& moment, const View& view, ReferenceSettings settings, double truth) {
+    const Reference reference(scene);
+    std::vector<double> z;
+    for (settings.seed = 1; settings.seed <= 1000; ++settings.seed) {
+        const Estimate e = reference.render(moment, view, lux, settings).illuminance_lx;
+        z.push_back((static_cast<double>(e.mean.at(0, 0)) - truth) / static_cast<double>(e.standard_error.at(0, 0)));
+    }
+    return z;
+}
+
+/// Chi-square over 20 bins that are equally probable for a standard normal variable; 19 degrees of freedom.
+double chi_square_of_bins(const std::vector<double>& z) {
+    std::array<double, 20> count{};
+    for (const double score : z)
+        count[std::min<std::size_t>(19, static_cast<std::size_t>(20.0 * 0.5 * std::erfc(-score / std::sqrt(2.0))))] += 1.0;
+    const double expected = static_cast<double>(z.size()) / 20.0;
+    double sum = 0.0;
+    for (const double c : count)
+        sum += (c - expected) * (c - expected) / expected;
+    return sum;
+}
+
+double sum_of_squares(const std::vector<double>& z) {
+    double sum = 0.0;
+    for (const double score : z)
+        sum += score * score;
+    return sum;
+}
+
+/// Both at 0.1 %: shape by bins (quantile 0.999 of chi-square with 19 degrees of freedom), width by the sum of squares (quantiles 0.0005
+/// and 0.9995 with 1000 degrees of freedom).
+bool pass(const std::vector<double>& z) {
+    const double squares = sum_of_squares(z);
+    return chi_square_of_bins(z) < 43.82 && squares > 859.4 && squares < 1153.7;
+}
+
+std::vector<double> times(std::vector<double> z, double factor) {
+    for (double& score : z)
+        score *= factor;
+    return z;
+}
+
+void expect_right_width(const std::vector<double>& z) {
+    EXPECT_TRUE(pass(z)) << "bins " << chi_square_of_bins(z) << ", sum of squares " << sum_of_squares(z);
+    EXPECT_FALSE(pass(times(z, 1.2))) << "the test would not see bars that are too narrow";
+    EXPECT_FALSE(pass(times(z, 1.0 / 1.2))) << "the test would not see bars that are too wide";
+}
+
+TEST(ReferenceErrorBars, HoldUnderALamp) {
+    Moment moment;
+    moment.lamps = {even_lamp(1000.0, looking({0, 0, 0.65}, 0, -90))};
+    const double lumen = 1000.0 * solid_angle({0, 0, 0.65}, {{1, 0.25, 0}, {1.5, 0.25, 0}, {1.5, 0.75, 0}, {1, 0.75, 0}});
+    expect_right_width(
+        scores(level_ground(20.0, lambert(0.2)), moment, map_about({1.25, 0.5}, 0.25, 1), ReferenceSettings{}, lumen / 0.25));
+}
+
+TEST(ReferenceErrorBars, HoldAcrossAShadowsEdge) {
+    // A wall across at a slant, half as high as the lamp: the edge of its shadow is the wall's line, twice as far.
+    Scene scene = level_ground(30.0, lambert(0.2));
+    scene.materials.push_back(lambert(0.2, SurfaceKind::object));
+    Mesh wall{"wall", {}, {}, {}, {}};
+    const glm::dvec3 a{3.5, -2.0, 0.0}, b{4.5, 2.0, 0.0}, up{0.0, 0.0, 1.0};
+    add_quad(wall, b, a, a + up, b + up);
+    scene.meshes.push_back(finished(wall, 1));
+    Moment moment;
+    moment.lamps = {even_lamp(1000.0, looking({0, 0, 2}, 0, 0))};
+    // The pixel is x = 7 to 8.5, y = -0.75 to 0.75; on the edge x = 8 + y / 4.
+    const double lumen =
+        1000.0 * solid_angle({0, 0, 2}, {{8.0 - 0.1875, -0.75, 0}, {8.5, -0.75, 0}, {8.5, 0.75, 0}, {8.0 + 0.1875, 0.75, 0}});
+    expect_right_width(scores(scene, moment, map_about({7.75, 0.0}, 0.75, 1), ReferenceSettings{}, lumen / 2.25));
+}
+
+TEST(ReferenceErrorBars, HoldWhereLightBounces) {
+    Scene scene = level_ground(0.5, lambert(0.0));
+    Material shining = lambert(0.0, SurfaceKind::object);
+    shining.emission_cdm2 = glm::vec3(100.0F);
+    scene.materials.push_back(shining);
+    Mesh plate{"plate", {0.0, 0.0, 1.0}, {}, {}, {}};
+    add_quad(plate, {-0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, -0.5, 0});
+    scene.meshes.push_back(finished(plate, 1));
+    const double f12 =
+        2.0 / pi * (0.5 * std::log(4.0 / 3.0) + 2.0 * std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0)) - 2.0 * std::atan(1.0));
+    ReferenceSettings settings;
+    settings.integrator = Integrator::path;
+    settings.target_error = 0.02;
+    expect_right_width(scores(scene, {}, map_about({0, 0}, 0.5, 1), settings, pi * 100.0 * f12));
+}
+
+TEST(ReferenceErrorBars, HoldInARoomWhereLightGoesOnAndOn) {
+    Material wall = lambert(0.6);
+    wall.emission_cdm2 = glm::vec3(1.0F);
+    ReferenceSettings settings;
+    settings.integrator = Integrator::path;
+    settings.target_error = 0.02;
+    expect_right_width(
+        scores(closed_room(wall), {}, camera({0.2, 0.1, -0.3}, 20, 10, 60, 1), settings, pi / (1.0 - static_cast<double>(wall.albedo.x))));
+}
+
+TEST(ReferenceErrorBars, AreStudentsWithVarianceOne) {
+    std::array<double, 16> sums{};
+    for (std::size_t i = 0; i < 16; ++i)
+        sums[i] = i % 2 == 0 ? 40.0 : 60.0; // of 10 samples each: means 4 and 6
+    const auto [mean, error] = reference::mean_of(sums, 10);
+    EXPECT_DOUBLE_EQ(mean, 5.0);
+    EXPECT_NEAR(error, std::sqrt(16.0 / (16.0 * 15.0) * 15.0 / 13.0), 1e-12); // each differs by 1 from the mean
+    EXPECT_EQ(reference::samples_for(0.01, 0.005, 1.0, 1, 256), 8);           // 0.01 / sqrt(8) = 0.0035 < 0.00375
+    EXPECT_EQ(reference::samples_for(0.01, 0.005, 2.0, 1, 256), 4);
+    EXPECT_EQ(reference::samples_for(1.0, 0.005, 1.0, 1, 256), 256);
+    EXPECT_EQ(reference::samples_for(0.0, 0.005, 1.0, 4, 256), 4);
+}
+
+TEST(ReferencePoints, AreNetsWithOnePointInEachElementaryInterval) {
+    for (const std::uint64_t key : {1ULL, 99ULL, 123456789ULL})
+        for (std::uint32_t pair = 0; pair < 3; ++pair)
+            for (int across = 0; across <= 6; ++across) {
+                std::set<std::pair<int, int>> taken;
+                for (std::uint32_t i = 0; i < 64; ++i) {
+                    const glm::dvec2 p = reference::PointNet(key).point(i, pair);
+                    ASSERT_TRUE(p.x > 0.0 && p.x < 1.0 && p.y > 0.0 && p.y < 1.0);
+                    taken.insert({static_cast<int>(p.x * (1 << across)), static_cast<int>(p.y * (64 >> across))});
+                }
+                EXPECT_EQ(taken.size(), 64U) << key << " " << pair << " " << across;
+            }
+}
+
+TEST(ReferencePoints, OfDifferentKeysAreUniformAndIndependent) {
+    // The first point of 6400 nets in 8 x 8 cells: chi-square with 63 degrees of freedom, quantile 0.999. So for pairs of neighbouring
+    // keys.
+    std::array<double, 64> alone{}, pairs{};
+    for (std::uint64_t key = 0; key < 6400; ++key) {
+        const glm::dvec2 p = reference::PointNet(reference::mixed(5, key)).point(0, 0),
+                         q = reference::PointNet(reference::mixed(5, key + 1)).point(0, 0);
+        alone[static_cast<std::size_t>(p.x * 8) * 8 + static_cast<std::size_t>(p.y * 8)] += 1.0;
+        pairs[static_cast<std::size_t>(p.x * 8) * 8 + static_cast<std::size_t>(q.x * 8)] += 1.0;
+    }
+    for (const auto& counts : {alone, pairs}) {
+        double sum = 0.0;
+        for (const double c : counts)
+            sum += (c - 100.0) * (c - 100.0) / 100.0;
+        EXPECT_LT(sum, 103.4);
+    }
+}
+
+/// All but the times.
+void expect_same_bytes(const ReferenceImage& a, const ReferenceImage& b) {
+    EXPECT_EQ(a.illuminance_lx.mean, b.illuminance_lx.mean);
+    EXPECT_EQ(a.illuminance_lx.standard_error, b.illuminance_lx.standard_error);
+    EXPECT_EQ(a.luminance_cdm2.mean, b.luminance_cdm2.mean);
+    EXPECT_EQ(a.target_lx.mean, b.target_lx.mean);
+    EXPECT_EQ(a.ids, b.ids);
+    EXPECT_EQ(a.samples, b.samples);
+    EXPECT_EQ(a.mixed, b.mixed);
+    EXPECT_EQ(a.rays, b.rays);
+}
+
+struct Room {
+    Scene scene = closed_room(lambert(0.5));
+    Moment moment;
+    View view = camera({0, 0, 0}, 30, 10, 70, 34);
+    ReferenceSettings settings;
+
+    Room() {
+        moment.lamps = {even_lamp(10.0, looking({0.3, -0.2, 0.1}, 40, 30))};
+        settings.integrator = Integrator::path;
+        settings.target_error = 0.1;
+    }
+};
+
+TEST(ReferenceBytes, AreTheSameForAnyNumberOfThreads) {
+    const Room room;
+    const auto drawn = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return Reference(room.scene).render(room.moment, room.view, everything, room.settings);
+    };
+    const ReferenceImage one = drawn(1);
+    expect_same_bytes(one, drawn(2));
+    expect_same_bytes(one, drawn(7));
+    ReferenceSettings other = room.settings;
+    other.seed = 2;
+    EXPECT_NE(Reference(room.scene).render(room.moment, room.view, everything, other).illuminance_lx.mean, one.illuminance_lx.mean);
+}
+
+TEST(ReferenceBytes, AreTheSameWhenAPictureIsGoneOnWith) {
+    const Room room;
+    const Reference reference(room.scene);
+    const ReferenceImage whole = reference.render(room.moment, room.view, everything, room.settings);
+    EXPECT_TRUE(whole.complete);
+    ReferenceImage part;
+    int calls = 0;
+    while (part.samples.empty() || !part.complete) {
+        const std::size_t before = part.samples.size() - static_cast<std::size_t>(std::ranges::count(part.samples.pixels(), 0U));
+        part = reference.render(
+            room.moment, room.view, everything, room.settings,
+            [&](const ReferenceImage&, std::size_t done) {
+                EXPECT_GT(done, before);
+                ++calls;
+                return false;
+            },
+            std::move(part));
+    }
+    EXPECT_GE(calls, 1);
+    expect_same_bytes(whole, part);
+    EXPECT_THROW(reference.render(room.moment, camera({0, 0, 0}, 0, 0, 60, 5), everything, room.settings, {}, part), std::invalid_argument);
+}
+
+} // namespace
+} // namespace fernlicht
