@@ -98,7 +98,7 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
     for (const LitLamp& lamp : moment.lamps) {
         const glm::dvec3 lamp_m = lamp.pose.position_m - moment.ego.position_m, to_lamp = lamp_m - pixel.point_m;
         const double cosine = photometry::incidence(pixel.normal, to_lamp);
-        if (cosine <= 0.0)
+        if (!(cosine > 0.0)) // NaN at the lamp itself
             continue;
         double e_perp = photometry::facing_illuminance(intensity_towards_cd(lamp, moment.ego.position_m + pixel.point_m), to_lamp);
         if (shadows_ && e_perp > 0.0) {

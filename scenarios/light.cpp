@@ -34,7 +34,8 @@ double surface_illuminance_lx(const Moment& moment, const glm::dvec3& point_m, c
 double target_illuminance_lx(const Moment& moment, const glm::dvec3& point_m) {
     double e = 0.0;
     for (const LitLamp& lamp : moment.lamps)
-        e += photometry::facing_illuminance(intensity_towards_cd(lamp, point_m), lamp.pose.position_m - point_m);
+        if (const double cd = intensity_towards_cd(lamp, point_m); cd > 0.0) // in the lamp itself: no light, not 0 / 0
+            e += photometry::facing_illuminance(cd, lamp.pose.position_m - point_m);
     return e;
 }
 

@@ -12,7 +12,7 @@ double intensity_towards_cd(const LitLamp& lamp, const glm::dvec3& point_m);
 /// E = I cos(alpha) / d^2 on a surface of unit `normal`, sky included. lx.
 double surface_illuminance_lx(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal);
 
-/// Sum over the lamps of I / d^2: a target that faces each lamp. lx. No sky.
+/// Sum over the lamps of I / d^2: a target that faces each lamp. lx. No sky. A lamp gives nothing at its own place.
 double target_illuminance_lx(const Moment& moment, const glm::dvec3& point_m);
 
 } // namespace fernlicht

@@ -94,5 +94,14 @@ TEST(QuickLight, KnowsTheDarkAndWhatItDoesNotKnow) {
         EXPECT_FALSE(std::isfinite(QuickLight(two_lamps(table)).target_lx({23.0, 0.0, 0.5}).high_lx));
 }
 
+// At the lamp's own place there is no direction and no distance: 0 / 0 in every term, and no light in the end.
+TEST(Light, IsANumberInTheLampItself) {
+    const Moment moment = two_lamps(steep_table());
+    for (const LitLamp& lamp : moment.lamps) {
+        EXPECT_TRUE(std::isfinite(target_illuminance_lx(moment, lamp.pose.position_m)));
+        EXPECT_TRUE(std::isfinite(surface_illuminance_lx(moment, lamp.pose.position_m, {-1.0, 0.0, 0.0})));
+    }
+}
+
 } // namespace
 } // namespace fernlicht
