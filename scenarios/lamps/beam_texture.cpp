@@ -157,7 +157,7 @@ Image<float> rendered(const CandelaTable& table, const EvenAxis& h, const EvenAx
 bool looks_like_beam_texture(const std::string& bytes) { return bytes.starts_with("\x89PNG") || bytes.starts_with("\x76\x2f\x31\x01"); }
 
 LampFile read_beam_texture(const std::filesystem::path& path, const std::string& bytes, const LampReadOptions& options, FilesRead opened) {
-    const TextureImage image = decode_texture(path, bytes, max_lamp_samples);
+    const TextureImage image = decode_texture(path, bytes, max_made_samples);
     const Metadata metadata(path, image.attributes);
     LampFile lamp;
     lamp.opened = std::move(opened);
@@ -191,7 +191,7 @@ LampFile read_beam_texture(const std::filesystem::path& path, const std::string&
 
 std::string beam_texture_bytes(const LampFile& lamp) {
     EvenAxis h = even_axis(lamp.table.h_deg), v = even_axis(lamp.table.v_deg);
-    while (h.count * v.count > max_lamp_samples) {
+    while (h.count * v.count > max_made_samples) {
         EvenAxis& longer = h.count > v.count ? h : v;
         const double range = longer.at(longer.count - 1) - longer.first_deg;
         longer.count = (longer.count + 1) / 2;

@@ -183,7 +183,7 @@ Axes first_axes(const Native& native) {
     };
     widen(axes.h, border.h, 180.0);
     widen(axes.v, border.v, 90.0);
-    if (axes.h.size() * axes.v.size() > max_lamp_samples)
+    if (axes.h.size() * axes.v.size() > max_made_samples)
         axes = {thinned(axes.h), thinned(axes.v)};
     // The peak keeps its place to the last digit: a neighbour that is all but the same angle gives way.
     const Peak peak = peak_of(t);

@@ -12,7 +12,8 @@
 namespace fernlicht {
 
 inline constexpr std::size_t max_lamp_text_bytes = std::size_t{128} << 20;
-inline constexpr std::size_t max_lamp_samples = 4'000'000;
+inline constexpr std::size_t max_lamp_samples = std::size_t{4096} * 4096; ///< in a file
+inline constexpr std::size_t max_made_samples = 4'000'000;                ///< of what is sampled anew, and of pictures
 inline constexpr std::size_t max_lamp_labels = 10'000;
 /// Brighter than any lamp by far; keeps products of header factors finite.
 inline constexpr double max_intensity_cd = 1e12;

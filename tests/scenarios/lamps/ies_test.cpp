@@ -276,7 +276,7 @@ TEST_F(IesFile, MessagesNameLineAndPlace) {
     EXPECT_THAT(with("22", "0x16"), HasSubstr("found '0x16'"));
     EXPECT_THAT(with("1 -1 1 3 3 3 2", "1 -1 1 1000000000 3 3 2"), HasSubstr("x.ies:5:8: number of vertical angles: found '1000000000'"));
     EXPECT_THAT(with("1 -1 1 3 3 3 2", "1 -1 1 -3 3 3 2"), HasSubstr("number of vertical angles: found '-3'"));
-    EXPECT_THAT(with("1 -1 1 3 3 3 2", "1 -1 1 4000 4000 3 2"), HasSubstr("found 4000 x 4000, expected at most 4000000 intensities"));
+    EXPECT_THAT(with("1 -1 1 3 3 3 2", "1 -1 1 5000 4000 3 2"), HasSubstr("found 5000 x 4000, expected at most 16777216 intensities"));
     EXPECT_THAT(with("1 -1 1 3 3 3 2", "1 -1 1 2.5 3 3 2"), HasSubstr("found '2.5', expected a whole number"));
     EXPECT_THAT(with("1 -1 1 3 3 3 2", "1 -1 0 3 3 3 2"), HasSubstr("candela multiplier: found 0, expected a number above 0"));
     EXPECT_THAT(with("1 -1 1 3 3 3 2", "1 -1 1 3 3 4 2"), HasSubstr("photometric type: found '4'"));
