@@ -140,7 +140,7 @@ ToneMapper read_tone_mapper(const YamlMap& drive) {
         mapper.kind = kinds[kind->choice({"linear", "rational", "logarithmic"})];
     mapper.s = keys.number_or("s", mapper.s, 1.0, 1.0e6);
     if (const auto l_max = keys.find("l_max_cdm2"))
-        mapper.l_max_cdm2 = l_max->number_above(0.0, 1.0e9);
+        mapper.l_max_cdm2 = l_max->number(1.0e-6, 1.0e9); // the GPU divides by it in float
     return mapper;
 }
 

@@ -80,6 +80,7 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
                             "textures: mine.png",
                             "tone_mapper: {s: 0.5}",
                             "tone_mapper: {l_max_cdm2: 0}",
+                            "tone_mapper: {l_max_cdm2: 1.0e-42}",
                             "capture: {per_second: -1}",
                             "measure: {extent: {limits_lx: []}}",
                             "measure: {extent: {limits_lx: [0]}}",

@@ -212,6 +212,7 @@ TEST_F(Schema, AgreesWithTheReader) {
                                               "tone_mapper: {kind: urqv}",
                                               "tone_mapper: {s: 0.9}",
                                               "tone_mapper: {l_max_cdm2: 0}",
+                                              "tone_mapper: {l_max_cdm2: 1.0e-42}",
                                               "technique: a/b",
                                               "technique: photometric",
                                               "measure: {extent: true}",
