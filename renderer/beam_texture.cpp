@@ -73,8 +73,46 @@ Axis choose_axis(const std::vector<double>& samples, Range range, double lowest,
     return {from, step, intervals + 1};
 }
 
-double worst_error(const CandelaTable& table, const BeamTexture& texture, const Axis& h, const Axis& v) {
+/// Where on an axis the table's own samples fall between texels, in texels.
+std::vector<double> between_texels(const std::vector<double>& samples, const Axis& axis) {
+    std::vector<double> places;
+    for (const double angle : samples) {
+        const double place = (angle - axis.first_deg) / axis.step_deg;
+        if (place > 0.0 && place < static_cast<double>(axis.count - 1) && std::abs(place - std::round(place)) > 1e-6)
+            places.push_back(place);
+    }
+    return places;
+}
+
+/// Texture and table both run bilinearly between their own samples, so that they differ most where samples of the one or the other
+/// meet: at texels they agree, so that at least one axis is at a sample of the table.
+double worst_at_samples(const CandelaTable& table, const BeamTexture& texture, const Axis& h, const Axis& v) {
+    std::vector<double> across = between_texels(table.h_deg, h), up = between_texels(table.v_deg, v);
+    const std::size_t own_across = across.size(), own_up = up.size();
+    if (own_up > 0)
+        for (std::size_t x = 0; x < h.count; ++x)
+            across.push_back(static_cast<double>(x));
+    if (own_across > 0)
+        for (std::size_t y = 0; y < v.count; ++y)
+            up.push_back(static_cast<double>(y));
     double worst = 0.0;
+    for (std::size_t j = 0; j < up.size(); ++j) {
+        const std::size_t y = std::min(static_cast<std::size_t>(up[j]), v.count - 2), columns = j < own_up ? across.size() : own_across;
+        const double fy = up[j] - static_cast<double>(y);
+        for (std::size_t i = 0; i < columns; ++i) {
+            const std::size_t x = std::min(static_cast<std::size_t>(across[i]), h.count - 2);
+            const double fx = across[i] - static_cast<double>(x);
+            const auto texel = [&](std::size_t row, std::size_t column) { return static_cast<double>(texture.cd[row * h.count + column]); };
+            const double drawn = (texel(y, x) * (1.0 - fx) + texel(y, x + 1) * fx) * (1.0 - fy) +
+                                 (texel(y + 1, x) * (1.0 - fx) + texel(y + 1, x + 1) * fx) * fy;
+            worst = std::max(worst, std::abs(drawn - intensity_cd(table, h.at(across[i]), v.at(up[j]))));
+        }
+    }
+    return worst;
+}
+
+double worst_error(const CandelaTable& table, const BeamTexture& texture, const Axis& h, const Axis& v) {
+    double worst = worst_at_samples(table, texture, h, v); // exact for linear_cd; the middles of texels are for log_cd
     const std::size_t skip_v = std::max<std::size_t>(1, h.count * v.count / 400'000);
     for (std::size_t y = 0; y + 1 < v.count; y += skip_v)
         for (std::size_t x = 0; x + 1 < h.count; ++x) {

@@ -9,7 +9,7 @@ struct BeamTexture {
     int width = 0, height = 0;
     std::vector<float> cd; ///< rows from low V to high V
     double h_first_rad = 0.0, v_first_rad = 0.0, h_step_rad = 0.0, v_step_rad = 0.0;
-    double worst_error_of_peak = 0.0; ///< largest |texture - table| over peak, sampled between the texels
+    double worst_error_of_peak = 0.0; ///< largest |texture - table| over peak; exact for linear_cd, for log_cd sampled
 };
 
 /// Resamples the lit part of a table (H within +-90 degrees). Steps are at most 0.05 degrees and such that the table's own samples fall on

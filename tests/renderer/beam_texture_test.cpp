@@ -46,6 +46,19 @@ TEST(BeamTexture, SaysWhatItCostsWhereNoStepIsCommon) {
     EXPECT_LT(texture.worst_error_of_peak, 0.05);
 }
 
+// A cut-off far narrower than a texel: between the two texels around it the drawn beam runs evenly while the table jumps. With the cut-off
+// at a share f of the texel the difference is f of the step just above it and 1 - f just below: the larger one counts, wherever it lies.
+TEST(BeamTexture, SaysWhatACutOffWithinATexelCosts) {
+    for (const double at : {0.01, 0.5, 0.99}) {
+        const double cut = 1.0 + 0.05 * at;
+        CandelaTable table{{-1.0, 1.0}, {0.0, cut, cut + 1e-5, 2.0}, {}, {}, BetweenSamples::linear_cd};
+        for (const double cd : {1000.0, 1000.0, 1.0, 1.0})
+            table.cd.insert(table.cd.end(), {cd, cd});
+        const BeamTexture texture = make_beam_texture(table);
+        EXPECT_NEAR(texture.worst_error_of_peak, std::max(at, 1.0 - at), 2e-3) << at;
+    }
+}
+
 TEST(BeamTexture, KeepsWithinItsSizeAndReportsTheLoss) {
     const CandelaTable table = table_on({-90, -45, 0, 45, 90}, {-90, -30, 0, 30, 90}, 3);
     const BeamTexture texture = make_beam_texture(table, 100'000);
