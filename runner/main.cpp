@@ -4,6 +4,7 @@
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
 #include "runner/run_command.h"
+#include "runner/stability_command.h"
 #include "runner/techniques_command.h"
 #include "scenarios/values/errors.h"
 
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
     fernlicht::add_techniques_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_doctor_command(app, chosen);
+    fernlicht::add_stability_command(app, chosen);
     fernlicht::add_accept_command(app, chosen);
     try {
         app.parse(argc, argv);

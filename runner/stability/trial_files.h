@@ -1,0 +1,23 @@
+// Files of a user, as the cases write them: lamps, a road, drives.
+#pragma once
+
+#include "runner/stability/stability_case.h"
+#include "scenarios/drives/drive.h"
+
+namespace fernlicht::stability {
+
+/// A beam matrix in cd over goniometer angles.
+std::string matrix_text(const CandelaTable& table);
+
+/// A straight two-lane road of 600 m.
+std::string straight_road_text();
+
+/// A drive of one lamp on the straight road, at 60 km/h for 8 s in steps of 0.1 s, with `more` keys of YAML, one a line. `time` replaces
+/// the three of speed, step and duration.
+std::filesystem::path write_drive_file(StabilityBench& bench, const std::string& name, const std::string& more,
+                                       const std::string& time = {});
+
+/// What the readers say to an input that they refuse; "" when they take it. Anything but InputError is thrown on.
+std::string refusal(const std::function<void()>& read);
+
+} // namespace fernlicht::stability

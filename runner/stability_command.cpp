@@ -1,0 +1,103 @@
+#include "runner/stability_command.h"
+
+#include "runner/stability/stability_text.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+struct Flags {
+    std::string only = "*", backend = "auto", out;
+    bool json = false, markdown = false, list = false, thorough = false;
+};
+
+/// Where the cases write their files: kept where the user names a folder, else gone with this value.
+class TrialFolder {
+  public:
+    explicit TrialFolder(const std::string& asked) : path_(asked), kept_(!asked.empty()) {
+        if (kept_)
+            return;
+        std::string name = (std::filesystem::temp_directory_path() / "fernlicht-stability-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw DeviceError("no folder can be made in " + std::filesystem::temp_directory_path().string());
+        path_ = name;
+    }
+    ~TrialFolder() {
+        std::error_code ignored;
+        if (!kept_)
+            std::filesystem::remove_all(path_, ignored);
+    }
+    TrialFolder(const TrialFolder&) = delete;
+    TrialFolder& operator=(const TrialFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    bool kept_;
+};
+
+std::vector<const StabilityCase*> chosen_cases(const std::string& glob) {
+    std::vector<const StabilityCase*> chosen;
+    std::vector<std::string> names;
+    for (const StabilityCase& one : stability_cases()) {
+        names.push_back(one.full_name());
+        if (::fnmatch(glob.c_str(), one.full_name().c_str(), 0) == 0)
+            chosen.push_back(&one);
+    }
+    if (chosen.empty()) {
+        const std::string nearest = nearest_name(glob, names);
+        throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}', which fits no case", printable(glob)),
+                         nearest.empty() ? "a pattern like 'lamp/*'; --list names the cases" : nearest);
+    }
+    return chosen;
+}
+
+int stability(const Flags& flags) {
+    const std::vector<const StabilityCase*> cases = chosen_cases(flags.only);
+    if (flags.list) {
+        for (const StabilityCase* one : cases)
+            fmt::print("{:<32} {}\n", one->full_name(), one->could_break);
+        return 0;
+    }
+    const TrialFolder folder(flags.out);
+    StabilityBench bench(flags.backend, folder.path(), flags.thorough);
+    std::vector<StabilityRow> rows;
+    for (const StabilityCase* one : cases) {
+        rows.push_back(judge(*one, bench));
+        if (!flags.json && !flags.markdown) {
+            fmt::print("{}", stability_text(rows.back()));
+            std::fflush(stdout);
+        }
+    }
+    if (flags.json)
+        fmt::print("{}", stability_json(rows, bench.drew() ? bench.device().info().gl_renderer : ""));
+    else if (flags.markdown)
+        fmt::print("{}", stability_markdown(rows));
+    else
+        fmt::print("\n{}", stability_summary(rows));
+    return std::ranges::any_of(rows, [](const StabilityRow& row) { return row.verdict == Judgement::fail; }) ? 1 : 0;
+}
+
+} // namespace
+
+void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub =
+        app.add_subcommand("stability", "try extreme and degenerate inputs, each held against a bound; exit code 1 when one fails");
+    sub->add_option("--only", flags->only, "names of cases, with * and ?: 'lamp/*'");
+    CLI::Option* json = sub->add_flag("--json", flags->json, "prints JSON");
+    sub->add_flag("--markdown", flags->markdown, "prints the table of docs/accuracy.md")->excludes(json);
+    sub->add_flag("--list", flags->list, "names the cases and tries none");
+    sub->add_flag("--thorough", flags->thorough, "searches ten times as long");
+    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--out", flags->out, "folder in which the files that the cases write are kept");
+    sub->callback([flags, &chosen] { chosen = [flags] { return stability(*flags); }; });
+}
+
+} // namespace fernlicht
