@@ -97,20 +97,30 @@ ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
     return drawing;
 }
 
-ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
+std::vector<LaneExtent> ExtentFold::rendered(const ExtentDrawing& drawing) const {
     const auto& [moment, grid, view, frame] = drawing;
     const ExtentParameters& p = *drive_.extent;
     const std::vector<PixelPlace> places = places_of(grid, view, moment);
+    std::vector<LaneExtent> extents;
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
+        const Image<float>& picture = plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx;
+        if (!picture.empty())
+            std::ranges::copy(measure_extent(grid, sampled(picture, grid, places, p.limits_lx), plane, p.limits_lx, p.width_at_m),
+                              std::back_inserter(extents));
+    }
+    return extents;
+}
+
+ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
+    const auto& [moment, grid, view, frame] = drawing;
+    const ExtentParameters& p = *drive_.extent;
     ExtentRow row;
     row.tick = moment.tick;
     row.time_s = moment.time_s;
     row.distance_m = moment.distance_m;
+    row.rendered = rendered(drawing);
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        const Image<float>& picture = plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx;
         const std::vector<double> truth = deciding_twin_lx(grid, moment, plane, p.limits_lx);
-        if (!picture.empty())
-            std::ranges::copy(measure_extent(grid, sampled(picture, grid, places, p.limits_lx), plane, p.limits_lx, p.width_at_m),
-                              std::back_inserter(row.rendered));
         std::ranges::copy(measure_extent(grid, truth, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.twin));
         std::ranges::copy(grid_error(grid, truth, plane, p.limits_lx), std::back_inserter(row.grid_errors));
     }

@@ -22,6 +22,8 @@ class ExtentFold {
     ExtentDrawing draw(const Moment& moment, const Draw& draw) const;
     /// By any thread. No rendered extents of a plane whose lux image is empty.
     ExtentRow measure(const ExtentDrawing& drawing) const;
+    /// Only what is measured in the frame's pictures.
+    std::vector<LaneExtent> rendered(const ExtentDrawing& drawing) const;
 
   private:
     const Drive& drive_;

@@ -1,5 +1,6 @@
 // fernlicht: night drives played headless, headlamps measured. Options end here; below are plain values.
 #include "runner/accept_command.h"
+#include "runner/accuracy_command.h"
 #include "runner/bench_command.h"
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
     std::function<int()> chosen;
     fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_doctor_command(app, chosen);

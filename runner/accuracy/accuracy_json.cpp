@@ -1,0 +1,166 @@
+#include "runner/accuracy/accuracy_result.h"
+#include "runner/report/extent_summary.h"
+#include "runner/report/json_text.h"
+
+#include <cmath>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json quantiles_json(const ErrorQuantiles& q) { return {{"median", q.median}, {"p95", q.p95}, {"p99", q.p99}}; }
+
+Json worst_json(const WorstPixel& worst, const DriveAccuracy& drive) {
+    return {{"error", worst.error},
+            {"tested", worst.tested},
+            {"reference", worst.reference},
+            {"frame", drive.moments.at(static_cast<std::size_t>(worst.picture)).first},
+            {"x_px", worst.x},
+            {"y_px", worst.y}};
+}
+
+Json errors_json(const std::optional<PixelErrors>& errors, const std::string& why_not, const DriveAccuracy& drive) {
+    if (!errors)
+        return {{"not_measured", why_not.empty() ? "no pixel was compared" : why_not}};
+    Json out{{"pixels", errors->pixels}, {"dark_pixels", errors->dark_pixels}};
+    if (errors->pixels > 0) {
+        out["relative"] = quantiles_json(errors->error);
+        out["relative_floor"] = quantiles_json(errors->floor);
+        out["mean"] = errors->mean;
+        out["worst"] = worst_json(errors->worst, drive);
+        out["area_m2"] = errors->area_m2;
+        out["percent_of_area_beyond"] = {
+            {"1", errors->percent_beyond[0]}, {"5", errors->percent_beyond[1]}, {"20", errors->percent_beyond[2]}};
+    }
+    if (errors->dark_pixels > 0) {
+        out["dark"] = quantiles_json(errors->dark_error);
+        out["dark_floor"] = quantiles_json(errors->dark_floor);
+        out["dark_worst"] = worst_json(errors->dark_worst, drive);
+    }
+    return out;
+}
+
+Json reach_json(const std::vector<ReachError>& reach) {
+    Json out = Json::array();
+    for (const ReachError& error : reach) {
+        Json entry{{"plane", plane_name(error.plane)}, {"limit_lx", error.limit_lx}, {"moments", error.moments}};
+        if (error.why_not.empty())
+            entry.update({{"median_m", error.median_m}, {"worst_m", error.worst_m}});
+        else
+            entry["not_measured"] = error.why_not;
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& drive) {
+    const Configuration& c = found.configuration;
+    const auto work = typical_work(found.work);
+    return {{"label", name_of(c)},
+            {"technique", c.technique},
+            {"width_px", c.width_px},
+            {"height_px", c.height_px},
+            {"shadow_map", {{"width", c.shadow_width}, {"height", c.shadow_height}}},
+            {"varied", text_or_null(c.varied)},
+            {"road", errors_json(found.road, found.no_illuminance, drive)},
+            {"road_p95_by_moment", found.road_p95},
+            {"whole_view", errors_json(found.whole, found.no_illuminance, drive)},
+            {"target", errors_json(found.target, found.no_target, drive)},
+            {"luminance", errors_json(found.luminance, found.no_luminance, drive)},
+            {"reach", reach_json(found.reach)},
+            {"frame_s", found.samples.frame_s},
+            {"cpu_s", found.samples.cpu_s},
+            {"texture_bytes", work ? Json(work->texture_bytes) : Json(nullptr)}};
+}
+
+Json drive_json(const DriveAccuracy& drive) {
+    Json moments = Json::array(), configurations = Json::array();
+    for (const auto& [tick, time_s] : drive.moments)
+        moments.push_back({{"frame", tick}, {"time_s", time_s}});
+    for (const ConfigurationResult& found : drive.configurations)
+        configurations.push_back(configuration_json(found, drive));
+    const ReferenceCost& cost = drive.reference;
+    return {
+        {"drive", drive.drive},
+        {"title", drive.title},
+        {"variant", drive.variant},
+        {"moments", moments},
+        {"reference",
+         {{"seconds", cost.seconds}, {"rays", cost.rays}, {"median_samples", cost.median_samples}, {"most_samples", cost.most_samples}}},
+        {"configurations", configurations}};
+}
+
+Json interval_json(const std::optional<Interval>& interval) {
+    return interval ? Json{{"value", interval->value}, {"low", interval->low}, {"high", interval->high}} : Json(nullptr);
+}
+
+Json diagram_json(const WorkPrecision& diagram) {
+    const std::vector<Standing> standing = standings(diagram.rows);
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < diagram.rows.size(); ++i) {
+        const WorkPrecisionRow& row = diagram.rows[i];
+        Json parameters = Json::object();
+        for (const auto& [name, value] : row.parameters)
+            parameters[name] = value;
+        rows.push_back({{"label", row.label},
+                        {"parameters", parameters},
+                        {"error", interval_json(row.error)},
+                        {"seconds", interval_json(row.seconds)},
+                        {"floor", row.floor},
+                        {"below_floor", row.below_floor()},
+                        {"bytes", row.bytes ? Json(*row.bytes) : Json(nullptr)},
+                        {"on_front", standing[i].on_front},
+                        {"beaten_by", standing[i].dominated_by ? Json(diagram.rows[*standing[i].dominated_by].label) : Json(nullptr)},
+                        {"beaten_surely", standing[i].surely},
+                        {"not_measured", text_or_null(row.why_not)},
+                        {"note", text_or_null(row.note)}});
+    }
+    return {{"name", diagram.name},        {"title", diagram.title},
+            {"error", diagram.error_name}, {"error_unit", diagram.error_unit},
+            {"time", diagram.time_name},   {"floor", text_or_null(diagram.floor_name)},
+            {"notes", diagram.notes},      {"rows", rows}};
+}
+
+Json context_json(const AccuracyResult& result) {
+    const RunContext& context = result.context;
+    Json versions = Json::object(), inputs = Json::array();
+    for (const auto& [name, version] : context.versions)
+        versions[name] = version;
+    for (const FileRead& file : context.inputs)
+        inputs.push_back({{"path", file.path.string()}, {"bytes", file.bytes}, {"xxh128", file.xxh128}});
+    return {{"command", context.command},
+            {"started_utc", context.started_utc},
+            {"seed", context.seed},
+            {"backend", context.backend},
+            {"gl_renderer", context.gl_renderer},
+            {"gl_version", context.gl_version},
+            {"cpu", context.cpu},
+            {"cores", result.cores},
+            {"os", context.os},
+            {"other_cores", result.others.cores ? Json(*result.others.cores) : Json(nullptr)},
+            {"versions", versions},
+            {"inputs", inputs}};
+}
+
+} // namespace
+
+std::string accuracy_json(const AccuracyResult& result) {
+    Json drives = Json::array(), diagrams = Json::array();
+    for (const DriveAccuracy& drive : result.drives)
+        drives.push_back(drive_json(drive));
+    for (const WorkPrecision& diagram : result.diagrams)
+        diagrams.push_back(diagram_json(diagram));
+    return json_text(
+        Json{{"schema", "fernlicht accuracy"},
+             {"schema_version", 1},
+             {"context", context_json(result)},
+             {"interrupted", text_or_null(result.interrupted)},
+             {"settings", {{"rounds", result.rounds}, {"target_error", result.target_error}, {"most_samples", result.most_samples}}},
+             {"drives", drives},
+             {"diagrams", diagrams}});
+}
+
+} // namespace fernlicht

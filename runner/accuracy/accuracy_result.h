@@ -1,0 +1,87 @@
+// What `fernlicht accuracy` found: errors against the reference beside times, ready to be written. The writers only format it.
+#pragma once
+
+#include "metrics/pixel_errors.h"
+#include "metrics/work_precision.h"
+#include "runner/bench/bench_result.h"
+
+namespace fernlicht {
+
+/// One way to draw a drive's moments.
+struct Configuration {
+    std::string technique;
+    int width_px = 0, height_px = 0;
+    int shadow_width = 1024, shadow_height = 512;
+    std::string varied; ///< what differs from the drive's own way beside the technique: "resolution", "shadow maps"; "" for nothing
+};
+std::string name_of(const Configuration& configuration); ///< "photometric", "photometric, 512x384"
+
+/// Reach on the own lane's centre against the reference's, over the moments in which both have one.
+struct ReachError {
+    ExtentPlane plane = ExtentPlane::road;
+    double limit_lx = 0.0;
+    std::size_t moments = 0;
+    double median_m = 0.0, worst_m = 0.0; ///< signed: above 0 the picture is lit farther; `worst` by its size
+    std::string why_not;                  ///< why there is none; "" where there is
+};
+
+struct ConfigurationResult {
+    Configuration configuration;
+    std::string no_illuminance, no_target, no_luminance; ///< why there are no errors; "" where there are
+    std::optional<PixelErrors> road, whole, target, luminance;
+    std::vector<double> road_p95; ///< of each moment with lit road
+    std::vector<ReachError> reach;
+    ContestSamples samples;
+    std::vector<Work> work; ///< by moment
+};
+
+/// What the references of a drive's moments took.
+struct ReferenceCost {
+    double seconds = 0.0;
+    std::uint64_t rays = 0;
+    double median_samples = 0.0, most_samples = 0.0; ///< a pixel, over all pictures
+};
+
+struct DriveAccuracy {
+    std::string drive, title, variant;
+    std::vector<std::pair<int, double>> moments; ///< tick and time in seconds
+    ReferenceCost reference;
+    std::vector<ConfigurationResult> configurations;
+};
+
+struct AccuracyResult {
+    RunContext context;
+    std::size_t cores = 0, rounds = 0;
+    double target_error = 0.0;
+    int most_samples = 0;
+    OtherUse others; ///< while times were taken
+    std::string interrupted;
+    std::vector<DriveAccuracy> drives;
+    std::vector<WorkPrecision> diagrams;
+};
+
+/// Median of samples with its 95 % interval; of fewer than six samples from the least to the most. nullopt for none.
+std::optional<Interval> time_of(const std::vector<double>& seconds);
+
+/// At one resolution: error of illuminance on the road (95 % of the pixels) over time a frame; bars: the moments' least and most, the
+/// median's 95 % interval.
+WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px);
+/// The same ways at more than one resolution: worst error of reach over time a frame.
+WorkPrecision resolutions_diagram(const DriveAccuracy& drive);
+/// The first for the drive's own resolution and each other at which more than two ways were measured, then the second where there is more
+/// than one resolution.
+std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
+
+/// Tables for a terminal. Lines end with a newline.
+std::string accuracy_text(const AccuracyResult& result);
+/// docs/accuracy.md and accuracy.schema.json describe it.
+std::string accuracy_json(const AccuracyResult& result);
+/// RFC 4180: a line for each row of each diagram.
+std::string accuracy_csv(const AccuracyResult& result);
+/// Error over time, both logarithmic: rows with their bars, the front as a line, the floor shaded, dominated rows hollow.
+std::string work_precision_svg(const WorkPrecision& diagram);
+std::string accuracy_html(const AccuracyResult& result);
+/// accuracy.json, .csv, .html and a picture of each diagram, each as a whole or not at all.
+void write_accuracy(const AccuracyResult& result, const std::filesystem::path& folder);
+
+} // namespace fernlicht

@@ -1,0 +1,20 @@
+// Accuracy on a real device: drives held against the reference, and the result written.
+#pragma once
+
+#include "runner/accuracy/technique_sweep.h"
+
+namespace fernlicht {
+
+struct AccuracyRequest {
+    std::vector<Drive> drives;
+    SweepRequest sweep;
+    std::string backend = "auto";
+    std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
+    std::vector<std::string> command;
+    bool quiet = false;
+};
+
+/// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.
+AccuracyResult run_accuracy(const AccuracyRequest& request);
+
+} // namespace fernlicht

@@ -1,0 +1,143 @@
+#include "runner/accuracy/picture_errors.h"
+
+#include "metrics/statistics.h"
+#include "runner/report/extent_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+/// Adds the pixels that `area` knows (the road's), or all without areas.
+void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* area, int picture) {
+    for (int y = 0; y < tested.height(); ++y)
+        for (int x = 0; x < tested.width(); ++x) {
+            const double m2 = area ? static_cast<double>(area->at(x, y)) : 1.0;
+            if (m2 >= 0.0)
+                fold.add({static_cast<double>(tested.at(x, y)), static_cast<double>(reference.mean.at(x, y)),
+                          static_cast<double>(reference.standard_error.at(x, y)), m2, picture, x, y});
+        }
+}
+
+std::string reason(const Technique& technique, const char* what) {
+    return fmt::format("technique {} does not compute {}", technique.name, what);
+}
+
+std::vector<ReachError> reach_errors(const References& references, const std::vector<std::vector<LaneExtent>>& rendered,
+                                     const std::string& no_road, const std::string& no_target) {
+    std::vector<ReachError> errors;
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
+        for (const double limit_lx : {1.0, 5.0}) {
+            ReachError error{plane, limit_lx, 0, 0.0, 0.0, plane == ExtentPlane::road ? no_road : no_target};
+            std::vector<double> differences;
+            for (std::size_t m = 0; m < rendered.size(); ++m) {
+                const ExtentKey key{plane, "own", limit_lx};
+                const LaneExtent *const ours = find_extent(rendered[m], key), *const truth = find_extent(references.extents(m), key);
+                if (ours && truth && !ours->reach_is_cut_off && !truth->reach_is_cut_off)
+                    differences.push_back(ours->reach_centre_m - truth->reach_centre_m);
+            }
+            error.moments = differences.size();
+            if (const auto spread = spread_of(differences)) {
+                error.median_m = spread->median;
+                error.worst_m = *std::ranges::max_element(differences, {}, [](double d) { return std::abs(d); });
+            } else if (error.why_not.empty()) {
+                error.why_not = "no moment has a reach that ends on the road";
+            }
+            errors.push_back(error);
+        }
+    return errors;
+}
+
+} // namespace
+
+References::References(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
+                       const ReferenceSettings& settings)
+    : stage_(stage), moments_(moments), settings_(settings), reference_(stage.scene), geometry_(device, stage.scene, {}),
+      fold_(drive, stage.route) {}
+
+void References::count(const ReferenceImage& image) {
+    cost_.seconds += image.seconds;
+    cost_.rays += image.rays;
+    std::vector<double> samples(image.samples.pixels().begin(), image.samples.pixels().end());
+    if (const auto spread = spread_of(std::move(samples))) {
+        samples_.push_back(spread->median);
+        cost_.most_samples = std::max(cost_.most_samples, spread->maximum);
+    }
+}
+
+ReferenceCost References::cost() const {
+    ReferenceCost cost = cost_;
+    if (const auto spread = spread_of(samples_))
+        cost.median_samples = spread->median;
+    return cost;
+}
+
+void References::add_driver(std::size_t moment, const View& view) {
+    ReferenceShot shot{view, {}, {}, {}};
+    shot.reference = reference_.render(moments_[moment], view, {.illuminance = true, .target = true, .luminance = true}, settings_);
+    shot.geometry = geometry_.draw(moments_[moment], view, {.depth = true, .ids = true});
+    shot.road_m2 = road_areas_m2(stage_.scene, moments_[moment], view, shot.geometry);
+    count(shot.reference);
+    shots_.emplace(std::tuple(moment, view.width_px, view.height_px), std::move(shot));
+}
+
+void References::add_map(std::size_t moment) {
+    const Draw draw = [&](const Moment& at, const View& view, const Wanted& wanted) {
+        ReferenceImage image = reference_.render(at, view, wanted, settings_);
+        count(image);
+        Frame frame;
+        frame.illuminance_lx = std::move(image.illuminance_lx.mean);
+        frame.target_lx = std::move(image.target_lx.mean);
+        return [frame] { return frame; };
+    };
+    ExtentDrawing drawing = fold_.draw(moments_[moment], draw);
+    std::vector<LaneExtent> extents = fold_.rendered(drawing);
+    maps_.emplace(moment, std::pair(std::move(drawing), std::move(extents)));
+}
+
+const ReferenceShot& References::driver(std::size_t moment, const View& view) const {
+    return shots_.at({moment, view.width_px, view.height_px});
+}
+
+ConfigurationResult errors_of(const References& references, Renderer& renderer, const Configuration& configuration, const View& view,
+                              double map_scale) {
+    ConfigurationResult result;
+    result.configuration = configuration;
+    const Technique& technique = renderer.technique();
+    result.no_illuminance = technique.illuminance ? "" : reason(technique, "an illuminance");
+    result.no_target = technique.target ? "" : reason(technique, "the illuminance of targets");
+    result.no_luminance = technique.luminance ? "" : reason(technique, "a luminance");
+    const ErrorRule lux{references.settings().floor_lx}, luminance{references.settings().floor_cdm2};
+    PixelErrorFold road(lux), whole(lux), target(lux), bright(luminance);
+    std::vector<std::vector<LaneExtent>> rendered;
+    for (std::size_t m = 0; m < references.moments().size() && technique.illuminance; ++m) {
+        const ReferenceShot& shot = references.driver(m, view);
+        const Frame frame = renderer.draw(references.moments()[m], view, {.illuminance = true, .target = true, .luminance = true});
+        const auto picture = static_cast<int>(m);
+        PixelErrorFold here(lux);
+        add_pixels(here, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
+        add_pixels(road, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
+        add_pixels(whole, frame.illuminance_lx, shot.reference.illuminance_lx, nullptr, picture);
+        if (technique.target)
+            add_pixels(target, frame.target_lx, shot.reference.target_lx, &shot.road_m2, picture);
+        if (technique.luminance)
+            add_pixels(bright, frame.luminance_cdm2, shot.reference.luminance_cdm2, nullptr, picture);
+        if (const auto errors = here.finish(); errors && errors->pixels > 0)
+            result.road_p95.push_back(errors->error.p95);
+        ExtentDrawing map = references.map(m);
+        map.view.width_px = std::max(2, static_cast<int>(std::lround(map.view.width_px * map_scale)));
+        map.view.height_px = std::max(2, static_cast<int>(std::lround(map.view.height_px * map_scale)));
+        map.frame = renderer.draw(references.moments()[m], map.view, {.illuminance = true, .target = true});
+        rendered.push_back(references.fold().rendered(map));
+    }
+    result.road = road.finish();
+    result.whole = whole.finish();
+    result.target = target.finish();
+    result.luminance = bright.finish();
+    result.reach = reach_errors(references, rendered, result.no_illuminance, result.no_target);
+    return result;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,51 @@
+// Pictures of a renderer against those of the reference: what a drive's moments are compared in.
+#pragma once
+
+#include "runner/accuracy/reference_shots.h"
+
+#include <deque>
+#include <map>
+#include <set>
+
+namespace fernlicht {
+
+/// The reference's pictures of a drive's moments: from the driver's seat at each size that is compared, and from above for reach.
+class References {
+  public:
+    /// `drive` is the stage's with the extent that is measured. All but `settings` must outlive it.
+    References(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
+               const ReferenceSettings& settings);
+
+    void add_driver(std::size_t moment, const View& view);
+    void add_map(std::size_t moment);
+
+    const std::vector<Moment>& moments() const { return moments_; }
+    const ReferenceShot& driver(std::size_t moment, const View& view) const;
+    /// The grid with its map view and the reference's lux as its frame; what is measured in it.
+    const ExtentDrawing& map(std::size_t moment) const { return maps_.at(moment).first; }
+    const std::vector<LaneExtent>& extents(std::size_t moment) const { return maps_.at(moment).second; }
+    const ExtentFold& fold() const { return fold_; }
+    const ReferenceSettings& settings() const { return settings_; }
+    ReferenceCost cost() const;
+
+  private:
+    void count(const ReferenceImage& image);
+
+    const Stage& stage_;
+    const std::vector<Moment>& moments_;
+    ReferenceSettings settings_;
+    Reference reference_;
+    Renderer geometry_;
+    ExtentFold fold_;
+    std::map<std::tuple<std::size_t, int, int>, ReferenceShot> shots_;
+    std::map<std::size_t, std::pair<ExtentDrawing, std::vector<LaneExtent>>> maps_;
+    ReferenceCost cost_;
+    std::vector<double> samples_; ///< medians a picture
+};
+
+/// Errors of all moments together, without times; maps for reach are drawn with `map_scale` times the reference's pixels each way. What the
+/// technique does not compute has no errors but a reason.
+ConfigurationResult errors_of(const References& references, Renderer& renderer, const Configuration& configuration, const View& view,
+                              double map_scale);
+
+} // namespace fernlicht

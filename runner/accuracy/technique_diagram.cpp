@@ -1,0 +1,114 @@
+#include "metrics/statistics.h"
+#include "runner/accuracy/accuracy_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+WorkPrecisionRow row_of(const ConfigurationResult& found) {
+    const Configuration& c = found.configuration;
+    WorkPrecisionRow row;
+    row.label = name_of(c);
+    row.parameters = {{"technique", c.technique},
+                      {"resolution", fmt::format("{}x{}", c.width_px, c.height_px)},
+                      {"shadow maps", fmt::format("{}x{}", c.shadow_width, c.shadow_height)}};
+    row.why_not = found.no_illuminance;
+    if (found.road && found.road->pixels > 0) {
+        const auto [least, most] = std::ranges::minmax(found.road_p95);
+        const double p95 = found.road->error.p95;
+        row.error = {100.0 * p95, 100.0 * std::min(p95, least), 100.0 * std::max(p95, most)};
+        row.floor = 100.0 * found.road->floor.p95;
+    } else if (row.why_not.empty()) {
+        row.why_not = "no road in view has 0.05 lx";
+    }
+    row.seconds = time_of(found.samples.frame_s);
+    if (!row.seconds && row.why_not.empty())
+        row.why_not = "the sweep ended before times were taken";
+    if (const auto work = typical_work(found.work))
+        row.bytes = work->texture_bytes;
+    return row;
+}
+
+} // namespace
+
+std::optional<Interval> time_of(const std::vector<double>& seconds) {
+    const std::optional<Spread> spread = spread_of(seconds);
+    if (!spread)
+        return std::nullopt;
+    if (const auto interval = median_interval(seconds))
+        return Interval{spread->median, interval->low, interval->high};
+    return Interval{spread->median, spread->minimum, spread->maximum};
+}
+
+WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px) {
+    WorkPrecision diagram;
+    diagram.name = fmt::format("techniques-{}-{}x{}", drive.drive, width_px, height_px);
+    diagram.title = fmt::format("Techniques: {}, {}, {} x {} pixels", drive.drive, drive.variant, width_px, height_px);
+    diagram.error_name = "lux error on the road, 95 % of the pixels";
+    diagram.error_unit = "%";
+    diagram.time_name = "time a frame";
+    diagram.floor_name = "noise of the reference";
+    diagram.notes.push_back(
+        fmt::format("{} moments; errors of illuminance in the driver's view where the reference has at least 0.05 lx, bars "
+                    "from the least to the most of the moments; times with the 95 % interval of their median",
+                    drive.moments.size()));
+    for (const ConfigurationResult& found : drive.configurations)
+        if (found.configuration.width_px == width_px && found.configuration.height_px == height_px)
+            diagram.rows.push_back(row_of(found));
+    return diagram;
+}
+
+WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
+    WorkPrecision diagram;
+    diagram.name = "resolutions-" + drive.drive;
+    diagram.title = fmt::format("Resolutions: {}, {}", drive.drive, drive.variant);
+    diagram.error_name = "worst error of reach, 1 and 5 lx";
+    diagram.error_unit = "m";
+    diagram.time_name = "time a frame";
+    diagram.notes.emplace_back("reach on the own lane's centre, on the road and, where the technique has it, on targets, against the "
+                               "reference's finest map; maps for reach have as many pixels each way as the view has, in the same ratio");
+    for (const ConfigurationResult& found : drive.configurations) {
+        const auto others = std::ranges::count_if(drive.configurations, [&](const ConfigurationResult& other) {
+            return other.configuration.technique == found.configuration.technique && other.configuration.varied != "shadow maps" &&
+                   other.configuration.varied != "beams";
+        });
+        if (others < 2 || (!found.configuration.varied.empty() && found.configuration.varied != "resolution"))
+            continue;
+        WorkPrecisionRow row = row_of(found);
+        row.label = fmt::format("{}, {}x{}", found.configuration.technique, found.configuration.width_px, found.configuration.height_px);
+        row.floor = 0.0;
+        row.error.reset();
+        std::vector<double> sizes;
+        for (const ReachError& error : found.reach)
+            if (error.why_not.empty())
+                sizes.push_back(std::abs(error.worst_m));
+        if (const auto spread = spread_of(sizes))
+            row.error = {spread->maximum, spread->minimum, spread->maximum};
+        else if (row.why_not.empty())
+            row.why_not = "no moment has a reach that ends on the road";
+        diagram.rows.push_back(std::move(row));
+    }
+    return diagram;
+}
+
+std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive) {
+    std::vector<std::pair<int, int>> sizes;
+    for (const ConfigurationResult& found : drive.configurations)
+        if (const std::pair size(found.configuration.width_px, found.configuration.height_px);
+            std::ranges::find(sizes, size) == sizes.end())
+            sizes.push_back(size);
+    std::vector<WorkPrecision> diagrams;
+    for (const auto& [width_px, height_px] : sizes) {
+        WorkPrecision diagram = techniques_diagram(drive, width_px, height_px);
+        if (diagrams.empty() || diagram.rows.size() > 2) // two that only show what resolution costs are in the other diagram
+            diagrams.push_back(std::move(diagram));
+    }
+    if (WorkPrecision diagram = resolutions_diagram(drive); sizes.size() > 1 && !diagram.rows.empty())
+        diagrams.push_back(std::move(diagram));
+    return diagrams;
+}
+
+} // namespace fernlicht

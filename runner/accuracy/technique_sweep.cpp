@@ -1,0 +1,187 @@
+#include "runner/accuracy/technique_sweep.h"
+
+#include "runner/accuracy/picture_errors.h"
+#include "runner/bench/bench_run.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <deque>
+#include <fmt/format.h>
+#include <map>
+
+namespace fernlicht {
+namespace {
+
+using Size = std::pair<int, int>;
+
+std::vector<Size> sizes_of(const std::vector<Size>& asked, Size own, std::initializer_list<double> factors) {
+    std::vector<Size> sizes{own};
+    for (const double factor : factors)
+        if (asked.empty())
+            sizes.emplace_back(std::max(1, static_cast<int>(own.first * factor)), std::max(1, static_cast<int>(own.second * factor)));
+    sizes.insert(sizes.end(), asked.begin(), asked.end());
+    std::vector<Size> distinct;
+    for (const Size& size : sizes)
+        if (std::ranges::find(distinct, size) == distinct.end())
+            distinct.push_back(size);
+    return distinct;
+}
+
+const View& view_to_compare(const Drive& drive) {
+    if (const View* const view = driver_view(drive))
+        return *view;
+    throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a perspective view whose pictures are compared");
+}
+
+/// The drive with the reaches that are compared: at 1 and 5 lx.
+Drive measured_drive(const Drive& drive) {
+    Drive measured = drive;
+    ExtentParameters extent = drive.extent.value_or(ExtentParameters{});
+    extent.limits_lx = {1.0, 5.0};
+    measured.extent = extent;
+    return measured;
+}
+
+struct Contestants {
+    std::deque<Renderer> renderers;
+    std::deque<View> views;
+    std::vector<Contestant> all;
+};
+
+void add_contestant(Contestants& contestants, Renderer& renderer, const View& view, const std::vector<Moment>& moments) {
+    static constexpr Wanted wanted{.colour = true};
+    const View* const kept = &contestants.views.emplace_back(view);
+    Renderer* const drawing = &renderer;
+    drawing->prepare(moments, *kept, wanted);
+    contestants.all.push_back(
+        {[=, &moments](std::size_t moment) { drawing->render(moments[moment], *kept, wanted); }, [=] { drawing->finish(); }});
+}
+
+} // namespace
+
+std::string name_of(const Configuration& c) {
+    if (c.varied == "resolution")
+        return fmt::format("{}, {}x{}", c.technique, c.width_px, c.height_px);
+    if (c.varied == "shadow maps")
+        return fmt::format("{}, shadow maps {}x{}", c.technique, c.shadow_width, c.shadow_height);
+    return c.technique + (c.varied.empty() ? "" : fmt::format(", {}", c.varied));
+}
+
+RendererSettings settings_of(const Drive& drive, const Configuration& configuration) {
+    RendererSettings settings;
+    settings.technique = configuration.technique;
+    settings.tone_mapper = drive.tone_mapper;
+    settings.eight_bit_beams = drive.eight_bit_beams;
+    settings.shadows = drive.shadows;
+    settings.shadow_width = configuration.shadow_width;
+    settings.shadow_height = configuration.shadow_height;
+    if (drive.extent)
+        settings.target_height_m = drive.extent->target_height_m;
+    return settings;
+}
+
+const Variant& variant_of(const Drive& drive, const std::string& name) {
+    if (name.empty())
+        return drive.variants.front();
+    std::vector<std::string> names;
+    for (const Variant& variant : drive.variants) {
+        if (variant.name == name)
+            return variant;
+        names.push_back(variant.name);
+    }
+    throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+std::vector<Configuration> configurations_of(const SweepRequest& request, const View& driver) {
+    const std::vector<Size> resolutions = sizes_of(request.resolutions, {driver.width_px, driver.height_px}, {0.5, 0.25});
+    const Configuration own{"", driver.width_px, driver.height_px, 1024, 512, ""};
+    const std::vector<Size> maps = sizes_of(request.shadow_maps, {own.shadow_width, own.shadow_height}, {2.0, 0.5, 0.25});
+    std::vector<Configuration> all;
+    const auto add = [&](const Technique& row, Size resolution, Size map, const std::string& varied) {
+        all.push_back({std::string(row.name), resolution.first, resolution.second, map.first, map.second, varied});
+    };
+    std::vector<Technique> rows;
+    for (const Technique& row : chosen_techniques(request.techniques))
+        if (request.techniques.empty() || std::ranges::find(request.techniques, row.name) != request.techniques.end())
+            rows.push_back(row);
+    for (const Technique& row : rows)
+        add(row, resolutions.front(), maps.front(), "");
+    for (const Technique& row : rows) {
+        const bool ours = row.kind == TechniqueKind::ours;
+        for (std::size_t r = 0; r < resolutions.size(); ++r)
+            for (std::size_t m = 0; m < maps.size(); ++m) {
+                const bool star = (r > 0) != (m > 0);
+                if (r + m == 0 || (m > 0 && !ours) || (!request.full && !star))
+                    continue;
+                if (!request.full && row.name != "photometric" && !(row.name == "full" && r > 0))
+                    continue;
+                add(row, resolutions[r], maps[m],
+                    star ? (r > 0 ? "resolution" : "shadow maps")
+                         : fmt::format("{}x{}, shadow maps {}x{}", resolutions[r].first, resolutions[r].second, maps[m].first,
+                                       maps[m].second));
+            }
+    }
+    return all;
+}
+
+DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on) {
+    const Drive drive = measured_drive(stage.drive);
+    const Variant& variant = variant_of(stage.drive, request.variant);
+    const View& driver = view_to_compare(stage.drive);
+    const std::vector<Configuration> configurations = configurations_of(request, driver);
+    const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
+    DriveAccuracy result{stage.drive.name, stage.drive.title, variant.name, {}, {}, {}};
+    for (const Moment& moment : moments)
+        result.moments.emplace_back(moment.tick, moment.time_s);
+
+    ReferenceSettings wanted;
+    wanted.target_error = request.target_error;
+    wanted.most_samples = request.most_samples;
+    wanted.shadows = drive.shadows;
+    wanted.seed = request.seed;
+    wanted.target_height_m = drive.extent->target_height_m;
+    References references(stage, drive, device, moments, wanted);
+    std::set<Size> sizes;
+    for (const Configuration& c : configurations)
+        sizes.emplace(c.width_px, c.height_px);
+    const std::size_t steps = moments.size() * (sizes.size() + 1) + configurations.size() + static_cast<std::size_t>(request.rounds);
+    std::size_t done = 0;
+    const auto step = [&](const std::string& at) { return go_on(done++, steps, at); };
+    for (std::size_t m = 0; m < moments.size(); ++m) {
+        if (!step("reference from above"))
+            return result;
+        references.add_map(m);
+        for (const Size& size : sizes) {
+            if (!step(fmt::format("reference {}x{}", size.first, size.second)))
+                return result;
+            references.add_driver(m, resized(driver, size.first, size.second));
+        }
+    }
+    result.reference = references.cost();
+
+    Contestants contestants;
+    for (const Configuration& configuration : configurations) {
+        if (!step(name_of(configuration)))
+            break;
+        Renderer& renderer = contestants.renderers.emplace_back(device, stage.scene, settings_of(drive, configuration));
+        const View view = resized(driver, configuration.width_px, configuration.height_px);
+        result.configurations.push_back(
+            errors_of(references, renderer, configuration, view, static_cast<double>(configuration.width_px) / driver.width_px));
+        add_contestant(contestants, renderer, view, moments);
+        for (const Moment& moment : moments)
+            result.configurations.back().work.push_back(renderer.count(moment, view, {.colour = true}));
+    }
+    ContestOptions options;
+    options.moments = moments.size();
+    options.rounds = static_cast<std::size_t>(request.rounds);
+    options.frame_by_frame = false;
+    options.seed = request.seed;
+    options.go_on = [&](std::size_t) { return step("times"); };
+    Contest contest = hold_contest(contestants.all, options, real_clocks());
+    for (std::size_t i = 0; i < result.configurations.size(); ++i)
+        result.configurations[i].samples = std::move(contest.samples[i]);
+    return result;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,41 @@
+// Techniques, resolutions and shadow maps of one drive held against the reference and timed in turns.
+#pragma once
+
+#include "renderer/device.h"
+#include "runner/accuracy/reference_shots.h"
+
+#include <functional>
+
+namespace fernlicht {
+
+struct SweepRequest {
+    std::string variant;                          ///< "": the drive's first
+    std::vector<std::string> techniques;          ///< empty: all
+    std::vector<std::pair<int, int>> resolutions; ///< pixels; empty: the drive's and 1/2 and 1/4 of it
+    std::vector<std::pair<int, int>> shadow_maps; ///< texels; empty: 1024 x 512, half and a quarter of it, and twice
+    bool full = false;                            ///< every technique with every resolution and shadow map; else one varied at a time
+    int moments = 3, rounds = 7;
+    double target_error = 0.005; ///< wanted standard error of the reference, in shares
+    int most_samples = 256;      ///< of the reference, a pixel
+    std::uint64_t seed = 1;
+};
+
+/// What is drawn, in order: each technique the drive's own way, then, one at a time, the other resolutions (of `photometric` and `full`)
+/// and shadow maps (of `photometric`), as far as these techniques take part. Throws InputError for a technique that is unknown or comes
+/// twice.
+std::vector<Configuration> configurations_of(const SweepRequest& request, const View& driver);
+
+/// Called with the number of steps done of how many; false ends the sweep.
+using StepsDone = std::function<bool(std::size_t done, std::size_t all, const std::string& at)>;
+
+/// Errors first, then times in seeded random order. Ends early when `go_on` says so, with what was done; a configuration that was not
+/// measured is not in the result. Throws InputError and DeviceError.
+DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on);
+
+/// How a drive is drawn in a configuration.
+RendererSettings settings_of(const Drive& drive, const Configuration& configuration);
+
+/// The drive's lamp set of that name, the first for "". Throws InputError.
+const Variant& variant_of(const Drive& drive, const std::string& name);
+
+} // namespace fernlicht

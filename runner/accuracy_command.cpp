@@ -1,0 +1,89 @@
+#include "runner/accuracy_command.h"
+
+#include "runner/accuracy/accuracy_run.h"
+#include "runner/flag_values.h"
+#include "runner/output_folder.h"
+#include "runner/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct Flags {
+    std::vector<std::filesystem::path> drives;
+    std::vector<std::string> techniques, resolutions, shadow_maps;
+    std::string variant, backend = "auto", out;
+    SweepRequest sweep;
+    bool quiet = false;
+};
+
+std::vector<std::pair<int, int>> sizes_of(const char* flag, const std::vector<std::string>& texts, int most) {
+    std::vector<std::pair<int, int>> sizes;
+    for (const std::string& text : texts) {
+        sizes.push_back(two_numbers(flag, text, 'x', false, "WIDTHxHEIGHT, e.g. 512x384"));
+        if (std::min(sizes.back().first, sizes.back().second) < 16 || std::max(sizes.back().first, sizes.back().second) > most)
+            refuse_flag(flag, text, "16 to 8192 each way");
+    }
+    return sizes;
+}
+
+int accuracy(const Flags& flags, const std::vector<std::string>& command) {
+    AccuracyRequest request;
+    request.sweep = flags.sweep;
+    request.sweep.variant = flags.variant;
+    request.sweep.techniques = flags.techniques;
+    request.sweep.resolutions = sizes_of("--resolutions", flags.resolutions, 8192);
+    request.sweep.shadow_maps = sizes_of("--shadow-maps", flags.shadow_maps, 8192);
+    for (const std::filesystem::path& file : flags.drives)
+        request.drives.push_back(read_drive(file));
+    request.backend = flags.backend;
+    request.folder = flags.out.empty() ? default_output_folder("accuracy", utc_now()) : std::filesystem::path(flags.out);
+    request.command = command;
+    request.quiet = flags.quiet;
+    const AccuracyResult result = run_accuracy(request);
+    fmt::print("{}\n{}\n", accuracy_text(result), (request.folder / "accuracy.html").string());
+    if (!result.interrupted.empty())
+        fmt::print("incomplete: {}\n", result.interrupted);
+    return result.interrupted.empty() ? 0 : 1;
+}
+
+} // namespace
+
+void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand("accuracy", "hold the techniques against the reference: error beside run time");
+    sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
+    sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
+    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->delimiter(',')->allow_extra_args(false);
+    sub->add_option("--resolutions", flags->resolutions, "WIDTHxHEIGHT,... beside the drive's own; else a half and a quarter of it")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    sub->add_option("--shadow-maps", flags->shadow_maps, "WIDTHxHEIGHT,... beside 1024x512; else twice, a half and a quarter of it")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    sub->add_flag("--full", flags->sweep.full, "every technique with every resolution and shadow map; else one varied at a time");
+    sub->add_option("--moments", flags->sweep.moments, "spread evenly over the drive")->check(CLI::Range(1, 1000))->capture_default_str();
+    sub->add_option("--rounds", flags->sweep.rounds, "of times; in each, every configuration draws the moments once")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    sub->add_option("--target-error", flags->sweep.target_error, "wanted standard error of the reference, in shares")
+        ->check(CLI::Range(1e-6, 1.0))
+        ->capture_default_str();
+    sub->add_option("--samples", flags->sweep.most_samples, "most samples a pixel of the reference")
+        ->check(CLI::Range(16, 1 << 20))
+        ->capture_default_str();
+    sub->add_option("--seed", flags->sweep.seed, "of the reference and of the order in each round")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+        ->capture_default_str();
+    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return accuracy(*flags, command); }; });
+}
+
+} // namespace fernlicht
