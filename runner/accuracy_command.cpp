@@ -60,10 +60,12 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
     sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
     sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->delimiter(',')->allow_extra_args(false);
-    sub->add_option("--resolutions", flags->resolutions, "WIDTHxHEIGHT,... beside the drive's own; else a half and a quarter of it")
+    sub->add_option("--resolutions", flags->resolutions,
+                    "WIDTHxHEIGHT,...: the first for all, the others beside it; else the drive's, a half and a quarter of it")
         ->delimiter(',')
         ->allow_extra_args(false);
-    sub->add_option("--shadow-maps", flags->shadow_maps, "WIDTHxHEIGHT,... beside 1024x512; else twice, a half and a quarter of it")
+    sub->add_option("--shadow-maps", flags->shadow_maps,
+                    "WIDTHxHEIGHT,...: the first for all, the others beside it; else 1024x512, twice, a half and a quarter of it")
         ->delimiter(',')
         ->allow_extra_args(false);
     sub->add_flag("--full", flags->sweep.full, "every technique with every resolution and shadow map; else one varied at a time");

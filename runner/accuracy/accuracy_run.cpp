@@ -5,7 +5,6 @@
 #include "runner/output_folder.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
-#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <deque>
@@ -20,9 +19,7 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     std::deque<Stage> stages; // everything is read and checked before the first frame
     for (const Drive& drive : request.drives) {
         const Stage& stage = stages.emplace_back(drive);
-        variant_of(stage.drive, request.sweep.variant);
-        if (!driver_view(stage.drive))
-            throw InputError({stage.drive.file, 0, 0, "views"}, "found only maps", "a perspective view whose pictures are compared");
+        check_sweep(request.sweep, stage);
     }
     Device device = open_device(request.backend);
     check_sanity(device);

@@ -101,11 +101,10 @@ const ReferenceShot& References::driver(std::size_t moment, const View& view) co
     return shots_.at({moment, view.width_px, view.height_px});
 }
 
-ConfigurationResult errors_of(const References& references, Renderer& renderer, const Configuration& configuration, const View& view,
-                              double map_scale) {
+ConfigurationResult errors_of(const References& references, const Draw& draw, const Technique& technique,
+                              const Configuration& configuration, const View& view, double map_scale) {
     ConfigurationResult result;
     result.configuration = configuration;
-    const Technique& technique = renderer.technique();
     result.no_illuminance = technique.illuminance ? "" : reason(technique, "an illuminance");
     result.no_target = technique.target ? "" : reason(technique, "the illuminance of targets");
     result.no_luminance = technique.luminance ? "" : reason(technique, "a luminance");
@@ -114,7 +113,7 @@ ConfigurationResult errors_of(const References& references, Renderer& renderer, 
     std::vector<std::vector<LaneExtent>> rendered;
     for (std::size_t m = 0; m < references.moments().size() && technique.illuminance; ++m) {
         const ReferenceShot& shot = references.driver(m, view);
-        const Frame frame = renderer.draw(references.moments()[m], view, {.illuminance = true, .target = true, .luminance = true});
+        const Frame frame = draw(references.moments()[m], view, {.illuminance = true, .target = true, .luminance = true})();
         const auto picture = static_cast<int>(m);
         PixelErrorFold here(lux);
         add_pixels(here, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
@@ -129,7 +128,7 @@ ConfigurationResult errors_of(const References& references, Renderer& renderer, 
         ExtentDrawing map = references.map(m);
         map.view.width_px = std::max(2, static_cast<int>(std::lround(map.view.width_px * map_scale)));
         map.view.height_px = std::max(2, static_cast<int>(std::lround(map.view.height_px * map_scale)));
-        map.frame = renderer.draw(references.moments()[m], map.view, {.illuminance = true, .target = true});
+        map.frame = draw(references.moments()[m], map.view, {.illuminance = true, .target = true})();
         rendered.push_back(references.fold().rendered(map));
     }
     result.road = road.finish();

@@ -43,9 +43,9 @@ class References {
     std::vector<double> samples_; ///< medians a picture
 };
 
-/// Errors of all moments together, without times; maps for reach are drawn with `map_scale` times the reference's pixels each way. What the
-/// technique does not compute has no errors but a reason.
-ConfigurationResult errors_of(const References& references, Renderer& renderer, const Configuration& configuration, const View& view,
-                              double map_scale);
+/// Errors of all moments together as `draw` draws them, without times; maps for reach are drawn with `map_scale` times the reference's
+/// pixels each way. What the technique does not compute has no errors but a reason.
+ConfigurationResult errors_of(const References& references, const Draw& draw, const Technique& technique,
+                              const Configuration& configuration, const View& view, double map_scale);
 
 } // namespace fernlicht

@@ -15,17 +15,21 @@ namespace {
 
 using Size = std::pair<int, int>;
 
-std::vector<Size> sizes_of(const std::vector<Size>& asked, Size own, std::initializer_list<double> factors) {
-    std::vector<Size> sizes{own};
-    for (const double factor : factors)
-        if (asked.empty())
-            sizes.emplace_back(std::max(1, static_cast<int>(own.first * factor)), std::max(1, static_cast<int>(own.second * factor)));
-    sizes.insert(sizes.end(), asked.begin(), asked.end());
-    std::vector<Size> distinct;
-    for (const Size& size : sizes)
-        if (std::ranges::find(distinct, size) == distinct.end())
-            distinct.push_back(size);
-    return distinct;
+/// Those asked for, the first of them for everything; else the usual one and parts or multiples of it.
+std::vector<Size> sizes_of(const std::vector<Size>& asked, Size usual, std::initializer_list<double> factors) {
+    std::vector<Size> sizes;
+    const auto add = [&](Size size) {
+        if (std::ranges::find(sizes, size) == sizes.end())
+            sizes.push_back(size);
+    };
+    for (const Size& size : asked)
+        add(size);
+    if (asked.empty()) {
+        add(usual);
+        for (const double factor : factors)
+            add({std::max(1, static_cast<int>(usual.first * factor)), std::max(1, static_cast<int>(usual.second * factor))});
+    }
+    return sizes;
 }
 
 const View& view_to_compare(const Drive& drive) {
@@ -95,8 +99,8 @@ const Variant& variant_of(const Drive& drive, const std::string& name) {
 
 std::vector<Configuration> configurations_of(const SweepRequest& request, const View& driver) {
     const std::vector<Size> resolutions = sizes_of(request.resolutions, {driver.width_px, driver.height_px}, {0.5, 0.25});
-    const Configuration own{"", driver.width_px, driver.height_px, 1024, 512, ""};
-    const std::vector<Size> maps = sizes_of(request.shadow_maps, {own.shadow_width, own.shadow_height}, {2.0, 0.5, 0.25});
+    const RendererSettings usual;
+    const std::vector<Size> maps = sizes_of(request.shadow_maps, {usual.shadow_width, usual.shadow_height}, {2.0, 0.5, 0.25});
     std::vector<Configuration> all;
     const auto add = [&](const Technique& row, Size resolution, Size map, const std::string& varied) {
         all.push_back({std::string(row.name), resolution.first, resolution.second, map.first, map.second, varied});
@@ -125,6 +129,15 @@ std::vector<Configuration> configurations_of(const SweepRequest& request, const 
     return all;
 }
 
+void check_sweep(const SweepRequest& request, const Stage& stage) {
+    variant_of(stage.drive, request.variant);
+    configurations_of(request, view_to_compare(stage.drive));
+    const int moments = tick_count(stage.drive);
+    if (request.moments < 1 || request.moments > moments)
+        throw InputError({stage.drive.file, 0, 0, "--moments"}, fmt::format("found {}", request.moments),
+                         fmt::format("1 to {}, the drive's moments", moments));
+}
+
 DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on) {
     const Drive drive = measured_drive(stage.drive);
     const Variant& variant = variant_of(stage.drive, request.variant);
@@ -142,6 +155,7 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
     wanted.seed = request.seed;
     wanted.target_height_m = drive.extent->target_height_m;
     References references(stage, drive, device, moments, wanted);
+    const int finest_px = std::ranges::max(configurations, {}, &Configuration::width_px).width_px;
     std::set<Size> sizes;
     for (const Configuration& c : configurations)
         sizes.emplace(c.width_px, c.height_px);
@@ -166,8 +180,11 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
             break;
         Renderer& renderer = contestants.renderers.emplace_back(device, stage.scene, settings_of(drive, configuration));
         const View view = resized(driver, configuration.width_px, configuration.height_px);
-        result.configurations.push_back(
-            errors_of(references, renderer, configuration, view, static_cast<double>(configuration.width_px) / driver.width_px));
+        const Draw draw = [&](const Moment& moment, const View& at, const Wanted& pictures) {
+            return renderer.submit(moment, at, pictures);
+        };
+        result.configurations.push_back(errors_of(references, draw, renderer.technique(), configuration, view,
+                                                  static_cast<double>(configuration.width_px) / finest_px));
         add_contestant(contestants, renderer, view, moments);
         for (const Moment& moment : moments)
             result.configurations.back().work.push_back(renderer.count(moment, view, {.colour = true}));

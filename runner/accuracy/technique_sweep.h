@@ -11,8 +11,8 @@ namespace fernlicht {
 struct SweepRequest {
     std::string variant;                          ///< "": the drive's first
     std::vector<std::string> techniques;          ///< empty: all
-    std::vector<std::pair<int, int>> resolutions; ///< pixels; empty: the drive's and 1/2 and 1/4 of it
-    std::vector<std::pair<int, int>> shadow_maps; ///< texels; empty: 1024 x 512, half and a quarter of it, and twice
+    std::vector<std::pair<int, int>> resolutions; ///< pixels, the first for all; empty: the drive's, and 1/2 and 1/4 of it
+    std::vector<std::pair<int, int>> shadow_maps; ///< texels, the first for all; empty: 1024 x 512, twice, 1/2 and 1/4 of it
     bool full = false;                            ///< every technique with every resolution and shadow map; else one varied at a time
     int moments = 3, rounds = 7;
     double target_error = 0.005; ///< wanted standard error of the reference, in shares
@@ -24,6 +24,9 @@ struct SweepRequest {
 /// and shadow maps (of `photometric`), as far as these techniques take part. Throws InputError for a technique that is unknown or comes
 /// twice.
 std::vector<Configuration> configurations_of(const SweepRequest& request, const View& driver);
+
+/// Throws InputError for what sweep_techniques would.
+void check_sweep(const SweepRequest& request, const Stage& stage);
 
 /// Called with the number of steps done of how many; false ends the sweep.
 using StepsDone = std::function<bool(std::size_t done, std::size_t all, const std::string& at)>;

@@ -1,0 +1,69 @@
+#include "metrics/work_precision.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+/// Bars of a tenth each way.
+WorkPrecisionRow row(const char* label, double error, double seconds, double floor = 0.0) {
+    WorkPrecisionRow r;
+    r.label = label;
+    r.error = {error, 0.9 * error, 1.1 * error};
+    r.seconds = {seconds, 0.9 * seconds, 1.1 * seconds};
+    r.floor = floor;
+    return r;
+}
+
+TEST(WorkPrecision, FrontIsWhatNobodyBeatsInBoth) {
+    const std::vector<Standing> s = standings({row("quick", 10.0, 1.0), row("middle", 3.0, 2.0), row("exact", 1.0, 4.0),
+                                               row("slow", 3.0, 3.0), row("bad", 20.0, 5.0), row("near", 3.05, 2.02)});
+    EXPECT_TRUE(s[0].on_front && s[1].on_front && s[2].on_front);
+    EXPECT_FALSE(s[3].on_front);
+    EXPECT_EQ(s[3].dominated_by, 1U); // as exact, and faster
+    EXPECT_TRUE(s[3].surely);
+    EXPECT_EQ(s[4].dominated_by, 2U); // by all of them; the one with the least error is named
+    EXPECT_EQ(s[5].dominated_by, 1U);
+    EXPECT_FALSE(s[5].surely); // bars overlap in both
+    EXPECT_FALSE(s[0].dominated_by);
+}
+
+TEST(WorkPrecision, EqualsDoNotBeatOneAnother) {
+    const std::vector<Standing> s = standings({row("a", 1.0, 1.0), row("b", 1.0, 1.0)});
+    EXPECT_TRUE(s[0].on_front && s[1].on_front);
+}
+
+TEST(WorkPrecision, BelowTheFloorNobodyIsBetter) {
+    const WorkPrecisionRow a = row("a", 0.2, 1.0, 0.5), b = row("b", 0.01, 2.0, 0.5);
+    EXPECT_TRUE(a.below_floor());
+    EXPECT_EQ(b.claimed_error(), 0.5);
+    const std::vector<Standing> s = standings({a, b});
+    EXPECT_TRUE(s[0].on_front);
+    EXPECT_EQ(s[1].dominated_by, 0U); // no more exact as far as can be known, and slower
+    EXPECT_EQ(row("c", 0.6, 1.0, 0.5).claimed_error(), 0.6);
+}
+
+TEST(WorkPrecision, WhatIsNotMeasuredHasNoStanding) {
+    WorkPrecisionRow none = row("none", 0.0, 0.1);
+    none.error.reset();
+    const std::vector<Standing> s = standings({none, row("a", 1.0, 1.0)});
+    EXPECT_FALSE(s[0].on_front);
+    EXPECT_FALSE(s[0].dominated_by);
+    EXPECT_TRUE(s[1].on_front);
+    EXPECT_TRUE(standings({}).empty());
+}
+
+TEST(WorkPrecision, SlopeOfAPowerIsItsExponent) {
+    std::vector<std::pair<double, double>> points;
+    for (const double work : {1.0, 4.0, 16.0, 100.0})
+        points.emplace_back(work, 7.0 * std::pow(work, -0.5));
+    EXPECT_NEAR(logarithmic_slope(points).value(), -0.5, 1e-12);
+    points.emplace_back(1000.0, 0.0); // no logarithm: left out
+    EXPECT_NEAR(logarithmic_slope(points).value(), -0.5, 1e-12);
+    EXPECT_FALSE(logarithmic_slope({{2.0, 1.0}, {2.0, 3.0}}));
+    EXPECT_FALSE(logarithmic_slope({}));
+}
+
+} // namespace
+} // namespace fernlicht

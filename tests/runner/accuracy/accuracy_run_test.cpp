@@ -1,0 +1,152 @@
+// Accuracy through the program: a real drive in, files out; and what it says of pictures that are wrong by a known amount.
+#include "runner/accuracy/picture_errors.h"
+#include "runner/accuracy/technique_sweep.h"
+#include "scenarios/values/errors.h"
+#include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const json& row_of(const json& rows, const std::string& label) {
+    for (const json& row : rows)
+        if (row.at("label") == label)
+            return row;
+    throw std::out_of_range(label);
+}
+
+TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program("accuracy --quiet --moments 1 --rounds 6 --samples 32 --resolutions 128x96,64x48 --shadow-maps 256x128 "
+                                    "--techniques plain,full,light-map-2d,photometric --out " +
+                                    (folder / "out ") + library_file("drives/straight.yaml"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/accuracy/accuracy.schema.json")));
+    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    const json& all = accuracy.at("drives").at(0).at("configurations");
+    ASSERT_EQ(all.size(), 6U); // four techniques, two of them at another resolution
+    const json &ours = row_of(all, "photometric"), &full = row_of(all, "full");
+    EXPECT_LT(ours.at("road").at("relative").at("median"),
+              0.005);                                            // what 32 samples leave
+    EXPECT_GT(full.at("road").at("relative").at("median"), 0.5); // the cosine is missing
+    EXPECT_GT(full.at("road").at("mean"), 0.5);
+    for (const json& reach : ours.at("reach"))
+        EXPECT_LT(std::abs(reach.at("worst_m").get<double>()), 1.0);
+    EXPECT_GT(row_of(all, "full").at("reach").at(0).at("worst_m"), 10.0);
+    EXPECT_EQ(full.at("target").at("not_measured"), "technique full does not compute the illuminance of targets");
+    EXPECT_EQ(row_of(all, "plain").at("road").at("not_measured"), "technique plain does not compute an illuminance");
+    EXPECT_EQ(ours.at("frame_s").size(), 6U);
+    const json& techniques = accuracy.at("diagrams").at(0);
+    for (const json& row : techniques.at("rows"))
+        EXPECT_EQ(row.at("error").is_null() ? 0 : 1, (row.at("on_front").get<bool>() ? 1 : 0) + (row.at("beaten_by").is_null() ? 0 : 1));
+    EXPECT_GT(row_of(techniques.at("rows"), "full").at("error").at("value"), 50.0);
+    EXPECT_FALSE(row_of(techniques.at("rows"), "plain").at("on_front"));
+    EXPECT_EQ(accuracy.at("diagrams").at(1).at("rows").size(), 4U);
+    for (const char* name : {"accuracy.csv", "accuracy.html", "techniques-straight-1-128x96.svg", "techniques-straight-1-128x96.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
+    EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr("not measured"));
+}
+
+TEST(AccuracyRun, RefusesWhatItCannotUse) {
+    const std::string drive = library_file("drives/straight.yaml");
+    for (const char* flags : {"--techniques no-such", "--techniques full,full", "--resolutions 8x8", "--resolutions 64", "--variant neon",
+                              "--moments 100000", "--moments 0", "--target-error 0"}) {
+        const TemporaryFolder folder;
+        const Outcome run = run_program("accuracy --quiet " + std::string(flags) + " --out " + (folder / "out ") + drive);
+        EXPECT_EQ(run.exit_code, 2) << flags << "\n" << run.output;
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << flags;
+    }
+}
+
+class PictureErrors : public testing::Test {
+  protected:
+    /// Drawn by photometric, then made `factor` times as bright.
+    ConfigurationResult drawn(float factor) {
+        ReferenceSettings settings;
+        settings.footprint = Footprint::centre; // no noise: what is found was planted
+        Drive measured = stage.drive;
+        measured.extent->limits_lx = {1.0, 5.0};
+        const std::vector<Moment> moments = moments_at({5}, stage, stage.drive.variants.front());
+        References references(stage, measured, device, moments, settings);
+        const View view = resized(*driver_view(stage.drive), 128, 96);
+        references.add_driver(0, view);
+        references.add_map(0);
+        Renderer renderer(device, stage.scene, {});
+        const Draw draw = [&](const Moment& moment, const View& at, const Wanted& wanted) {
+            Frame frame = renderer.draw(moment, at, wanted);
+            for (Image<float>* picture : {&frame.illuminance_lx, &frame.target_lx, &frame.luminance_cdm2})
+                for (float& value : picture->pixels())
+                    value *= factor;
+            return [frame] { return frame; };
+        };
+        return errors_of(references, draw, renderer.technique(), {"photometric", 128, 96, 1024, 512, ""}, view, 1.0);
+    }
+
+    Stage stage{read_drive(library_file("drives/straight.yaml"))};
+    Device device = open_device("auto");
+};
+
+TEST_F(PictureErrors, AFrameTwoPerCentTooBrightShowsAsTwoPerCent) {
+    const ConfigurationResult right = drawn(1.0F), bright = drawn(1.02F);
+    ASSERT_TRUE(right.road && bright.road && bright.target && bright.whole);
+    EXPECT_GT(right.road->pixels, 1000U);
+    EXPECT_LT(right.road->error.p95, 1e-4);
+    EXPECT_NEAR(bright.road->error.median, 0.02, 1e-4);
+    EXPECT_NEAR(bright.road->error.p95, 0.02, 1e-3);
+    EXPECT_NEAR(bright.target->error.median, 0.02, 1e-3);
+    EXPECT_GT(bright.road->percent_beyond[0], 99.0);
+    EXPECT_LT(bright.road->percent_beyond[1], 1.0);
+    for (std::size_t i = 0; i < right.reach.size(); ++i) {
+        EXPECT_LT(std::abs(right.reach[i].worst_m), 0.01);
+        EXPECT_GT(bright.reach[i].worst_m, 0.0); // more light reaches farther
+    }
+}
+
+TEST(RoadAreas, AddUpToTheRoadInView) {
+    // A camera 10 m above a straight road, looking straight down: every pixel shows the same area.
+    const Stage stage(read_drive(library_file("drives/straight.yaml")));
+    Device device = open_device("auto");
+    Renderer renderer(device, stage.scene, {});
+    const Moment moment = moments_at({0}, stage, stage.drive.variants.front()).front();
+    View view;
+    view.position_m = {5.0, 0.0, 10.0};
+    view.pitch_rad = -radians(90.0);
+    view.vertical_fov_rad = 2.0 * std::atan(0.1); // 2 m high on the road
+    view.width_px = view.height_px = 40;
+    Image<float> areas = road_areas_m2(stage.scene, moment, view, renderer.draw(moment, view, {.depth = true, .ids = true}));
+    double sum = 0.0;
+    for (const float area : areas.pixels())
+        sum += static_cast<double>(area);
+    EXPECT_NEAR(sum, 4.0, 0.01); // a road of 2.5 % crossfall is 0.03 % larger
+    view.pitch_rad = radians(30.0);
+    areas = road_areas_m2(stage.scene, moment, view, renderer.draw(moment, view, {.depth = true, .ids = true}));
+    for (const float area : areas.pixels())
+        EXPECT_EQ(area, -1.0F); // the sky is no road
+}
+
+TEST(AccuracySweep, VariesOneAtATime) {
+    View driver;
+    driver.width_px = 1024;
+    driver.height_px = 768;
+    SweepRequest request;
+    std::vector<std::string> names;
+    for (const Configuration& c : configurations_of(request, driver))
+        names.push_back(name_of(c));
+    EXPECT_EQ(names.size(), techniques().size() + 4 + 3);
+    EXPECT_THAT(names, testing::IsSupersetOf({"plain", "photometric, 512x384", "full, 256x192", "photometric, shadow maps 2048x1024"}));
+    request.techniques = {"full", "photometric"};
+    request.full = true;
+    EXPECT_EQ(configurations_of(request, driver).size(), 3U * 4U + 3U); // shadow maps mean nothing to full
+}
+
+} // namespace
+} // namespace fernlicht
