@@ -4,6 +4,7 @@
 #include "runner/bench_command.h"
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
+#include "runner/reference_command.h"
 #include "runner/run_command.h"
 #include "runner/stability_command.h"
 #include "runner/techniques_command.h"
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
     fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_doctor_command(app, chosen);

@@ -86,6 +86,14 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
     put_mark(folder_);
 }
 
+OutputFolder OutputFolder::left_incomplete(const fs::path& folder) {
+    if (!is_marked_incomplete(folder))
+        throw InputError({folder, 0, 0, "--out"}, "holds nothing that was interrupted", "the folder of a run that did not end");
+    OutputFolder out;
+    out.folder_ = folder;
+    return out;
+}
+
 void OutputFolder::finish() {
     std::error_code error;
     fs::remove(folder_ / mark_name, error);

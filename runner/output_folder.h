@@ -19,12 +19,16 @@ class OutputFolder {
     /// or written to (read-only, full disk, no right).
     explicit OutputFolder(std::filesystem::path folder);
 
+    /// A folder whose run did not end, to be gone on with. Throws InputError for any other.
+    static OutputFolder left_incomplete(const std::filesystem::path& folder);
+
     const std::filesystem::path& path() const { return folder_; }
 
     /// Removes the mark: everything is there. Throws DeviceError.
     void finish();
 
   private:
+    OutputFolder() = default;
     std::filesystem::path folder_;
 };
 

@@ -51,6 +51,22 @@ void add_context(OIIO::ImageSpec& spec, const Moment& moment, const View& view) 
         number("fernlicht:vertical_fov_deg", degrees(view.vertical_fov_rad));
 }
 
+void write_images(const std::vector<std::string>& names, const std::vector<const Image<float>*>& images, const Moment& moment,
+                  const View& view, const std::vector<std::pair<std::string, std::string>>& texts, const std::filesystem::path& path) {
+    OIIO::ImageSpec spec(view.width_px, view.height_px, static_cast<int>(images.size()), OIIO::TypeDesc::FLOAT);
+    spec.channelnames = names;
+    spec.attribute("compression", "zip:1"); // docs/decisions/0004: the other levels take up to half as long again for 2 % fewer bytes
+    spec.attribute("DateTime", "1970:01:01 00:00:00"); // else OpenImageIO writes the time of day, and no two runs are alike
+    add_context(spec, moment, view);
+    for (const auto& [name, text] : texts)
+        spec.attribute(name, text);
+    std::vector<float> pixels(images.size() * static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
+    for (std::size_t c = 0; c < images.size(); ++c)
+        for (std::size_t i = 0; i < images[c]->size(); ++i)
+            pixels[i * images.size() + c] = images[c]->pixels()[i];
+    write_whole(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
 } // namespace
 
 bool has_linear_picture(const Frame& frame) {
@@ -69,16 +85,18 @@ void write_exr(const Frame& frame, const Moment& moment, const View& view, const
             names.emplace_back(name);
             images.push_back(image);
         }
-    OIIO::ImageSpec spec(view.width_px, view.height_px, static_cast<int>(images.size()), OIIO::TypeDesc::FLOAT);
-    spec.channelnames = names;
-    spec.attribute("compression", "zip:1"); // docs/decisions/0004: the other levels take up to half as long again for 2 % fewer bytes
-    spec.attribute("DateTime", "1970:01:01 00:00:00"); // else OpenImageIO writes the time of day, and no two runs are alike
-    add_context(spec, moment, view);
-    std::vector<float> pixels(images.size() * static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
-    for (std::size_t c = 0; c < images.size(); ++c)
-        for (std::size_t i = 0; i < images[c]->size(); ++i)
-            pixels[i * images.size() + c] = images[c]->pixels()[i];
-    write_whole(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+    write_images(names, images, moment, view, {}, path);
+}
+
+void write_channels(const std::vector<PictureChannel>& channels, const Moment& moment, const View& view,
+                    const std::vector<std::pair<std::string, std::string>>& texts, const std::filesystem::path& path) {
+    std::vector<const Image<float>*> images;
+    std::vector<std::string> names;
+    for (const PictureChannel& channel : channels) {
+        names.push_back(channel.name);
+        images.push_back(&channel.values);
+    }
+    write_images(names, images, moment, view, texts, path);
 }
 
 void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path) {

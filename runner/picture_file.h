@@ -16,13 +16,17 @@ bool has_linear_picture(const Frame& frame);
 /// the moment (fernlicht:time_s ...), the car's pose and the view. Throws DeviceError with the path and the reason.
 void write_exr(const Frame& frame, const Moment& moment, const View& view, const std::filesystem::path& path);
 
-/// 8-bit sRGB. Throws DeviceError.
-void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path);
-
 struct PictureChannel {
     std::string name;
     Image<float> values;
 };
+/// The same for any channels, at least one and all of the view's size, with lines of text for the metadata. Throws DeviceError.
+void write_channels(const std::vector<PictureChannel>& channels, const Moment& moment, const View& view,
+                    const std::vector<std::pair<std::string, std::string>>& texts, const std::filesystem::path& path);
+
+/// 8-bit sRGB. Throws DeviceError.
+void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path);
+
 /// All channels of an EXR file. Throws InputError: missing, no EXR, cut short, more than 2^28 values.
 std::vector<PictureChannel> read_exr(const std::filesystem::path& path);
 

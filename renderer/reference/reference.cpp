@@ -110,7 +110,7 @@ ReferenceImage Reference::render(const Moment& moment, const View& view, const W
     std::atomic<std::uint64_t> rays = image.rays;
     const std::vector<Corner> tiles = open_tiles(image);
     image.complete = true;
-    std::size_t batch = go_on ? 16 : tiles.size();
+    std::size_t batch = go_on ? 4 : tiles.size();
     for (std::size_t first = 0; first < tiles.size();) {
         const auto batch_start = std::chrono::steady_clock::now();
         const std::size_t last = std::min(tiles.size(), first + batch);
@@ -119,7 +119,7 @@ ReferenceImage Reference::render(const Moment& moment, const View& view, const W
                 rays += reference::draw_tile(shot, tiles[i].x, tiles[i].y, image);
         });
         batch = std::clamp(static_cast<std::size_t>(static_cast<double>(batch) * batch_s / std::max(seconds_since(batch_start), 1e-3)),
-                           batch / 4 + 1, 4 * batch);
+                           batch / 4 + 1, 2 * batch);
         first = last;
         image.seconds = seconds_before + seconds_since(start);
         image.rays = rays;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -33,6 +35,24 @@ inline Outcome run_shell(const std::string& command) {
 /// `before` is put before the program: variables, timeout.
 inline Outcome run_program(const std::string& arguments, const std::string& before = {}) {
     return run_shell(before + " '" FERNLICHT_BINARY "' " + arguments);
+}
+
+/// The program, interrupted as by Ctrl-C when it first writes `sign`, which tells how far it is.
+inline Outcome run_interrupted(const std::string& arguments, const std::string& sign) {
+    const std::string line = "echo $$; exec '" FERNLICHT_BINARY "' " + arguments + " 2>&1";
+    std::FILE* pipe = ::popen(line.c_str(), "r");
+    Outcome outcome;
+    std::array<char, 4096> text{};
+    const ::pid_t program = std::fgets(text.data(), text.size(), pipe) ? std::atoi(text.data()) : 0; // the shell's own, by exec
+    bool asked = false;
+    while (std::fgets(text.data(), text.size(), pipe)) {
+        outcome.output += text.data();
+        if (!asked && program > 0 && outcome.output.find(sign) != std::string::npos)
+            asked = ::kill(program, SIGINT) == 0;
+    }
+    const int status = ::pclose(pipe);
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return outcome;
 }
 
 inline std::string library_file(const std::string& below) { return std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/") + below; }

@@ -113,27 +113,10 @@ TEST(Run, AnotherLampGivesAnotherReach) {
     EXPECT_NEAR(reading(report_of(folder / "out"), "reach_1lx_target_own_m"), 20.3, 0.5);
 }
 
-/// The program, interrupted as by Ctrl-C when it first says how far it is.
-Outcome run_interrupted(const std::string& arguments) {
-    const std::string line = "echo $$; exec '" FERNLICHT_BINARY "' " + arguments + " 2>&1";
-    std::FILE* pipe = ::popen(line.c_str(), "r");
-    Outcome outcome;
-    std::array<char, 4096> text{};
-    const ::pid_t program = std::fgets(text.data(), text.size(), pipe) ? std::atoi(text.data()) : 0; // the shell's own, by exec
-    bool asked = false;
-    while (std::fgets(text.data(), text.size(), pipe)) {
-        outcome.output += text.data();
-        if (!asked && program > 0 && outcome.output.find(" moments, ") != std::string::npos)
-            asked = ::kill(program, SIGINT) == 0;
-    }
-    const int status = ::pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return outcome;
-}
-
 TEST(Run, AnInterruptedRunLeavesAValidReportThatSaysSo) {
     const TemporaryFolder folder;
-    const Outcome run = run_interrupted("run " + library_file("drives/straight.yaml") + " --resolution 64x48 --out " + (folder / "out"));
+    const Outcome run =
+        run_interrupted("run " + library_file("drives/straight.yaml") + " --resolution 64x48 --out " + (folder / "out"), " moments, ");
     EXPECT_EQ(run.exit_code, 1) << run.output;
     const json report = report_of(folder / "out");
     EXPECT_FALSE(report.at("complete").get<bool>());

@@ -1,0 +1,71 @@
+#include "runner/reference/reference_result.h"
+
+#include "metrics/statistics.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+
+std::optional<ErrorReached> error_reached(const Estimate& estimate, const Image<std::uint32_t>& samples, double target_error,
+                                          double floor) {
+    if (estimate.mean.empty())
+        return std::nullopt;
+    std::vector<double> relative;
+    std::size_t reached = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (samples.pixels()[i] == 0)
+            continue;
+        const double error =
+            static_cast<double>(estimate.standard_error.pixels()[i]) / std::max(static_cast<double>(estimate.mean.pixels()[i]), floor);
+        relative.push_back(error);
+        reached += error <= target_error ? 1 : 0;
+    }
+    const auto count = static_cast<double>(relative.size());
+    const std::optional<Spread> spread = spread_of(std::move(relative));
+    if (!spread)
+        return std::nullopt;
+    return ErrorReached{spread->median, spread->p95, spread->maximum, static_cast<double>(reached) / count};
+}
+
+std::optional<ErrorReached> ReferenceResult::illuminance() const {
+    return error_reached(image.illuminance_lx, image.samples, settings.target_error, settings.floor_lx);
+}
+std::optional<ErrorReached> ReferenceResult::target() const {
+    return error_reached(image.target_lx, image.samples, settings.target_error, settings.floor_lx);
+}
+std::optional<ErrorReached> ReferenceResult::luminance() const {
+    return error_reached(image.luminance_cdm2, image.samples, settings.target_error, settings.floor_cdm2);
+}
+
+std::string integrator_name(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::direct:
+        return "direct";
+    case Integrator::path:
+        return "path";
+    }
+    return "unknown";
+}
+
+std::string reference_text(const ReferenceResult& r) {
+    std::string text = fmt::format("{}, {}, after {:.3f} s, {} {} x {}, {}, standard error wanted {:.3g} %\n",
+                                   r.title.empty() ? r.drive : r.title, r.variant, r.moment.time_s, r.view.name, r.view.width_px,
+                                   r.view.height_px, integrator_name(r.settings.integrator), 100.0 * r.settings.target_error);
+    const auto line = [&](const char* name, const std::optional<ErrorReached>& e) {
+        if (e)
+            text += fmt::format(
+                "{:<12} error of the pixels: half below {:.3g} %, 95 % below {:.3g} %, worst {:.3g} %; {:.2f} % of them reached it\n", name,
+                100.0 * e->median, 100.0 * e->p95, 100.0 * e->worst, 100.0 * e->share_reached);
+    };
+    line("illuminance", r.illuminance());
+    line("target", r.target());
+    line("luminance", r.luminance());
+    const double samples = spread_of({r.image.samples.pixels().begin(), r.image.samples.pixels().end()}).value_or(Spread{}).mean;
+    text += fmt::format("{:.1f} samples a pixel, {:.1f} million rays in {:.2f} s, {:.2f} million rays a second, {} triangles\n", samples,
+                        1e-6 * static_cast<double>(r.image.rays), r.image.seconds,
+                        1e-6 * static_cast<double>(r.image.rays) / std::max(r.image.seconds, 1e-9), r.triangles);
+    return text;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,45 @@
+// What `fernlicht reference` made, as plain values.
+#pragma once
+
+#include "renderer/reference/reference.h"
+#include "runner/report/report.h"
+
+#include <optional>
+
+namespace fernlicht {
+
+/// How near a result came to the error that was wanted: relative standard errors, of max(mean, floor), over all pixels drawn.
+struct ErrorReached {
+    double median = 0.0, p95 = 0.0, worst = 0.0;
+    double share_reached = 0.0; ///< of pixels whose error is at most the target
+};
+/// nullopt where the result was not wanted or no pixel is drawn.
+std::optional<ErrorReached> error_reached(const Estimate& estimate, const Image<std::uint32_t>& samples, double target_error, double floor);
+
+struct ReferenceResult {
+    RunContext context; ///< without a device: no backend
+    std::string drive, title, variant;
+    Moment moment;
+    View view;
+    Wanted wanted;
+    ReferenceSettings settings;
+    ReferenceImage image;
+    std::size_t triangles = 0;
+    std::string inputs_hash; ///< of everything that decides the picture (checkpoint.h)
+    std::string interrupted; ///< "" where all is drawn
+
+    std::optional<ErrorReached> illuminance() const;
+    std::optional<ErrorReached> target() const;
+    std::optional<ErrorReached> luminance() const;
+};
+
+std::string integrator_name(Integrator integrator);
+
+/// reference.exr (mean and variance), reference.json, and for eyes reference.png (perspective views), illuminance.png and error.png.
+/// Throws DeviceError.
+void write_reference(const ReferenceResult& result, const ToneMapper& tone_mapper, const std::filesystem::path& folder);
+
+/// Some lines for the terminal.
+std::string reference_text(const ReferenceResult& result);
+
+} // namespace fernlicht

@@ -1,0 +1,119 @@
+#include "runner/reference_command.h"
+
+#include "runner/flag_values.h"
+#include "runner/output_folder.h"
+#include "runner/reference/reference_run.h"
+#include "runner/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct Flags {
+    std::filesystem::path drive;
+    std::vector<std::string> lamps;
+    std::string variant, view, road, resolution, out, target_error = "0.5%", integrator = "direct";
+    double moment_s = 0.0, lamp_radius_m = 0.0;
+    int most_samples = ReferenceSettings{}.most_samples;
+    std::uint64_t seed = 1;
+    bool resume = false, quiet = false;
+};
+
+/// "0.5%" and "0.005" are the same.
+double share_of(const std::string& text) {
+    const bool percent = text.ends_with('%');
+    const char *const begin = text.data(), *const end = begin + text.size() - (percent ? 1 : 0);
+    double value = 0.0;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    value *= percent ? 0.01 : 1.0;
+    if (error != std::errc{} || stop != end || !(value > 0.0 && value <= 1.0))
+        refuse_flag("--target-error", text, "a share above 0 and up to 1, or per cent, e.g. 0.005 or 0.5%");
+    return value;
+}
+
+DriveEdits edits_of(const Flags& flags) {
+    DriveEdits edits;
+    for (const std::string& lamp : flags.lamps) {
+        const std::size_t at = lamp.find('=');
+        edits.lamps.emplace_back(at == std::string::npos ? "" : lamp.substr(0, at), at == std::string::npos ? lamp : lamp.substr(at + 1));
+    }
+    if (!flags.road.empty())
+        edits.road = flags.road;
+    if (!flags.resolution.empty())
+        edits.resolution = resolution_of(flags.resolution);
+    return edits;
+}
+
+ReferenceSettings settings_of(const Flags& flags) {
+    ReferenceSettings settings;
+    settings.integrator = flags.integrator == "path" ? Integrator::path : Integrator::direct;
+    settings.target_error = share_of(flags.target_error);
+    settings.lamp_radius_m = flags.lamp_radius_m;
+    settings.most_samples = flags.most_samples;
+    settings.seed = flags.seed;
+    return settings;
+}
+
+int draw_reference(const Flags& flags, const std::vector<std::string>& command) {
+    if (flags.resume && flags.out.empty())
+        throw InputError({{}, 0, 0, "--resume"}, "found no --out", "the folder of the reference that was interrupted");
+    ReferenceRequest request;
+    request.settings = settings_of(flags);
+    request.drive = read_drive(flags.drive, edits_of(flags));
+    request.variant = flags.variant;
+    request.view = flags.view;
+    request.moment_s = flags.moment_s;
+    request.folder =
+        flags.out.empty() ? default_output_folder(request.drive.name + "-reference", utc_now()) : std::filesystem::path(flags.out);
+    request.resume = flags.resume;
+    request.quiet = flags.quiet;
+    request.command = command;
+    const ReferenceResult result = run_reference(request);
+    fmt::print("{}", reference_text(result));
+    if (!result.interrupted.empty())
+        fmt::print("incomplete: {}; the same command with --resume --out {} goes on\n", result.interrupted,
+                   shell_quoted({request.folder.string()}));
+    fmt::print("{}\n", (request.folder / "reference.exr").string());
+    return result.interrupted.empty() ? 0 : 1;
+}
+
+} // namespace
+
+void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand("reference", "draw one moment by rays, each pixel with its standard error");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
+    sub->add_option("--moment", flags->moment_s, "seconds into the drive; the nearest moment is drawn")->capture_default_str();
+    sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
+    sub->add_option("--view", flags->view, "view of the drive; else the driver's");
+    sub->add_option("--integrator", flags->integrator, "direct: lamps and sky once; path: light that bounces, too")
+        ->check(CLI::IsMember({"direct", "path"}))
+        ->capture_default_str();
+    sub->add_option("--target-error", flags->target_error, "standard error wanted of each pixel, e.g. 0.5% or 0.005")
+        ->capture_default_str();
+    sub->add_option("--most-samples", flags->most_samples, "in a pixel's mean, whatever its error")
+        ->check(CLI::Range(16, 1 << 24))
+        ->capture_default_str();
+    sub->add_option("--lamp-radius", flags->lamp_radius_m, "metres; lamps are discs of this radius. 0: points")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
+        ->allow_extra_args(false);
+    sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
+    sub->add_option("--seed", flags->seed, "of the samples")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+        ->capture_default_str();
+    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
+    sub->add_flag("--resume", flags->resume, "go on with what was interrupted in the folder --out");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return draw_reference(*flags, command); }; });
+}
+
+} // namespace fernlicht

@@ -1,0 +1,17 @@
+// `fernlicht reference`: one moment by rays, each pixel with its standard error.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace fernlicht {
+
+/// `command` is the whole command line as typed, for the result.
+void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
+
+} // namespace fernlicht
