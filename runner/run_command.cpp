@@ -18,7 +18,7 @@ struct Flags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> lamps;
     std::string road, technique, resolution, frames, capture, backend = "auto", out, references;
-    bool quiet = false, profile = false, contact_sheet = false;
+    bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
 };
 
 DriveEdits edits_of(const Flags& flags) {
@@ -69,6 +69,7 @@ int run(const Flags& flags, const std::vector<std::string>& command) {
     options.quiet = flags.quiet;
     options.profile = flags.profile;
     options.contact_sheet = flags.contact_sheet;
+    options.accuracy = !flags.no_accuracy;
     options.references = flags.references;
     options.command = command;
     const DriveEdits edits = edits_of(flags);
@@ -108,6 +109,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
     sub->add_flag("--profile", flags->profile, "time each pass (slows the frames down)");
     sub->add_flag("--contact-sheet", flags->contact_sheet, "add one moment drawn in every technique");
+    sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments lie from the reference");
     sub->add_flag("--quiet", flags->quiet, "no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });
 }

@@ -3,6 +3,7 @@
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "renderer/timer_check.h"
+#include "runner/accuracy/drive_error.h"
 #include "runner/contact_sheet.h"
 #include "runner/interruption.h"
 #include "runner/limits.h"
@@ -124,6 +125,16 @@ void add_savings(const Stage& stage, Device& device, const RendererSettings& set
     }
 }
 
+/// By the renderer that played: what it drew is what is measured.
+void add_errors(const Stage& stage, const RunOptions& options, Renderer& renderer, std::span<PlayedVariant> played) {
+    for (std::size_t i = 0; i < played.size() && !Interruption::asked(); ++i) {
+        DriveError& error = played[i].error;
+        error.not_measured = no_drive_error(stage.drive, played[i]);
+        if (error.not_measured.empty())
+            error = measure_drive_error(stage, stage.drive.variants[i], played[i], std::max(0, options.ticks.first), renderer);
+    }
+}
+
 /// The middle one of the captured moments, else of those played.
 int middle_tick(const PlayedVariant& played, int first_tick) {
     std::vector<int> captured;
@@ -169,6 +180,8 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
     }
     const auto played = std::span(report.played).subspan(before);
     add_savings(stage, device, settings, options, renderer, played);
+    if (options.accuracy)
+        add_errors(stage, options, renderer, played);
     if (options.contact_sheet && !Interruption::asked())
         add_contact_sheets(stage, device, settings, options, played);
 }

@@ -12,6 +12,7 @@ struct RunOptions {
     bool quiet = false;
     bool profile = false;             ///< time each pass by finishing after it; frame times are then not representative
     std::filesystem::path references; ///< accepted results to judge against; "" for none
+    bool accuracy = true;             ///< hold a few moments of each lamp set against the reference
     bool contact_sheet = false;       ///< add one moment of each lamp set, drawn in every technique
     std::vector<std::string> command;
 };

@@ -1,4 +1,5 @@
 #include "runner/accuracy/accuracy_result.h"
+#include "runner/accuracy/errors_json.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
 
@@ -10,38 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
-Json quantiles_json(const ErrorQuantiles& q) { return {{"median", q.median}, {"p95", q.p95}, {"p99", q.p99}}; }
-
-Json worst_json(const WorstPixel& worst, const DriveAccuracy& drive) {
-    return {{"error", worst.error},
-            {"tested", worst.tested},
-            {"reference", worst.reference},
-            {"frame", drive.moments.at(static_cast<std::size_t>(worst.picture)).first},
-            {"x_px", worst.x},
-            {"y_px", worst.y}};
-}
-
-Json errors_json(const std::optional<PixelErrors>& errors, const std::string& why_not, const DriveAccuracy& drive) {
-    if (!errors)
-        return {{"not_measured", why_not.empty() ? "no pixel was compared" : why_not}};
-    Json out{{"pixels", errors->pixels}, {"dark_pixels", errors->dark_pixels}};
-    if (errors->pixels > 0) {
-        out["relative"] = quantiles_json(errors->error);
-        out["relative_floor"] = quantiles_json(errors->floor);
-        out["mean"] = errors->mean;
-        out["worst"] = worst_json(errors->worst, drive);
-        out["area_m2"] = errors->area_m2;
-        out["percent_of_area_beyond"] = {
-            {"1", errors->percent_beyond[0]}, {"5", errors->percent_beyond[1]}, {"20", errors->percent_beyond[2]}};
-    }
-    if (errors->dark_pixels > 0) {
-        out["dark"] = quantiles_json(errors->dark_error);
-        out["dark_floor"] = quantiles_json(errors->dark_floor);
-        out["dark_worst"] = worst_json(errors->dark_worst, drive);
-    }
-    return out;
-}
 
 Json reach_json(const std::vector<ReachError>& reach) {
     Json out = Json::array();
@@ -57,6 +26,9 @@ Json reach_json(const std::vector<ReachError>& reach) {
 }
 
 Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& drive) {
+    std::vector<int> frames;
+    for (const auto& [tick, time_s] : drive.moments)
+        frames.push_back(tick);
     const Configuration& c = found.configuration;
     const auto work = typical_work(found.work);
     return {{"label", name_of(c)},
@@ -65,11 +37,11 @@ Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& d
             {"height_px", c.height_px},
             {"shadow_map", {{"width", c.shadow_width}, {"height", c.shadow_height}}},
             {"varied", text_or_null(c.varied)},
-            {"road", errors_json(found.road, found.no_illuminance, drive)},
+            {"road", errors_json(found.road, found.no_illuminance, frames)},
             {"road_p95_by_moment", found.road_p95},
-            {"whole_view", errors_json(found.whole, found.no_illuminance, drive)},
-            {"target", errors_json(found.target, found.no_target, drive)},
-            {"luminance", errors_json(found.luminance, found.no_luminance, drive)},
+            {"whole_view", errors_json(found.whole, found.no_illuminance, frames)},
+            {"target", errors_json(found.target, found.no_target, frames)},
+            {"luminance", errors_json(found.luminance, found.no_luminance, frames)},
             {"reach", reach_json(found.reach)},
             {"frame_s", found.samples.frame_s},
             {"cpu_s", found.samples.cpu_s},

@@ -10,17 +10,6 @@
 namespace fernlicht {
 namespace {
 
-/// Adds the pixels that `area` knows (the road's), or all without areas.
-void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* area, int picture) {
-    for (int y = 0; y < tested.height(); ++y)
-        for (int x = 0; x < tested.width(); ++x) {
-            const double m2 = area ? static_cast<double>(area->at(x, y)) : 1.0;
-            if (m2 >= 0.0)
-                fold.add({static_cast<double>(tested.at(x, y)), static_cast<double>(reference.mean.at(x, y)),
-                          static_cast<double>(reference.standard_error.at(x, y)), m2, picture, x, y});
-        }
-}
-
 std::string reason(const Technique& technique, const char* what) {
     return fmt::format("technique {} does not compute {}", technique.name, what);
 }
@@ -51,6 +40,16 @@ std::vector<ReachError> reach_errors(const References& references, const std::ve
 }
 
 } // namespace
+
+void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture) {
+    for (int y = 0; y < tested.height(); ++y)
+        for (int x = 0; x < tested.width(); ++x) {
+            const double m2 = road_m2 ? static_cast<double>(road_m2->at(x, y)) : 1.0;
+            if (m2 >= 0.0)
+                fold.add({static_cast<double>(tested.at(x, y)), static_cast<double>(reference.mean.at(x, y)),
+                          static_cast<double>(reference.standard_error.at(x, y)), m2, picture, x, y});
+        }
+}
 
 References::References(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
                        const ReferenceSettings& settings)

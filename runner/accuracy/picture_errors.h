@@ -43,6 +43,9 @@ class References {
     std::vector<double> samples_; ///< medians a picture
 };
 
+/// Adds the pixels that `road_m2` knows with their areas (road_areas_m2), or all pixels without it.
+void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture);
+
 /// Errors of all moments together as `draw` draws them, without times; maps for reach are drawn with `map_scale` times the reference's
 /// pixels each way. What the technique does not compute has no errors but a reason.
 ConfigurationResult errors_of(const References& references, const Draw& draw, const Technique& technique,

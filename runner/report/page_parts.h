@@ -40,6 +40,9 @@ kainjow::mustache::data details_part(const ComparedDrive& drive);
 /// What leaving out saved each lamp set, in a sentence and in counts.
 kainjow::mustache::data savings_part(const ComparedDrive& drive);
 
+/// How far each lamp set's lux images lie from the reference, and what that cost.
+kainjow::mustache::data error_part(const ComparedDrive& drive);
+
 /// Spread of each pass of each lamp set.
 kainjow::mustache::data timing_table(const ComparedDrive& drive);
 

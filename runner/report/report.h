@@ -3,6 +3,7 @@
 
 #include "metrics/extent.h"
 #include "metrics/paired_ratio.h"
+#include "metrics/pixel_errors.h"
 #include "metrics/statistics.h"
 #include "renderer/renderer.h"
 #include "scenarios/drives/frame.h"
@@ -91,6 +92,18 @@ struct Savings {
     std::optional<PairedRatio> ratio() const { return paired_ratio(pruned_s, unpruned_s); }
 };
 
+/// How far the lux images of what was played lie from the reference: the drive's own point of error against run time.
+struct DriveError {
+    std::vector<int> ticks; ///< the moments compared
+    int width_px = 0, height_px = 0;
+    std::optional<PixelErrors> road, whole; ///< of illuminance, in the driver's view; road: by area
+    std::uint64_t rays = 0;                 ///< of the reference
+    double seconds = 0.0;                   ///< what comparing took
+    std::string not_measured;               ///< why there are none; "" where there are, and where the run was told to leave it out
+
+    bool measured() const { return !ticks.empty(); }
+};
+
 /// One drive played with one lamp set.
 struct PlayedVariant {
     std::string drive, variant, technique;
@@ -107,6 +120,7 @@ struct PlayedVariant {
     Throughput throughput;
     int warm_up_dropped = 0;
     Savings savings;
+    DriveError error;
     Readings readings; ///< summary of the drive and probes
     std::vector<Verdict> verdicts;
     std::vector<std::string> left_out; ///< what the scene did not need, one sentence each

@@ -76,6 +76,7 @@ data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder,
     part.set("plots", plots_part(drive));
     part.set("columns", fmt::format("{}", drive.variants.size()));
     part.set("details", details_part(drive));
+    part.set("error", error_part(drive));
     return part;
 }
 

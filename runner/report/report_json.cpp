@@ -1,3 +1,4 @@
+#include "runner/accuracy/errors_json.h"
 #include "runner/bench/bench_result.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
@@ -220,6 +221,18 @@ Json contact_sheet_json(const StoredFrame& sheet) {
     return {{"frame", sheet.tick}, {"time_s", finite(sheet.time_s, "time")}, {"png", sheet.png}};
 }
 
+/// Null where the run was told to leave it out.
+Json accuracy_json(const DriveError& error) {
+    if (!error.measured())
+        return error.not_measured.empty() ? Json(nullptr) : Json{{"not_measured", error.not_measured}};
+    return {{"frames", error.ticks},
+            {"width_px", error.width_px},
+            {"height_px", error.height_px},
+            {"rays", error.rays},
+            {"road", errors_json(error.road, "", error.ticks)},
+            {"whole_view", errors_json(error.whole, "", error.ticks)}};
+}
+
 Json drive_json(const PlayedVariant& played) {
     Json frames = Json::array(), speed = Json::array();
     for (const StoredFrame& frame : played.frames)
@@ -243,7 +256,20 @@ Json drive_json(const PlayedVariant& played) {
             {"frames", frames},
             {"contact_sheet", contact_sheet_json(played.contact_sheet)},
             {"speed_mps", speed},
+            {"accuracy", accuracy_json(played.error)},
             {"extents", extents_json(played)}};
+}
+
+/// What comparing took, and what a frame takes.
+Json accuracy_times_json(const Report& report) {
+    Json out = Json::array();
+    for (const PlayedVariant& played : report.played)
+        if (played.error.measured())
+            out.push_back({{"drive", played.drive},
+                           {"variant", played.variant},
+                           {"frame_s", optional_number(played.throughput.view_s, "time a frame")},
+                           {"comparing_s", finite(played.error.seconds, "time of comparing")}});
+    return out;
 }
 
 Json timing_json(const Report& report) {
@@ -329,6 +355,7 @@ std::string report_json(const Report& report) {
                      {"context", context_json(report.context)},
                      {"timing", timing_json(report)},
                      {"throughput", throughput_json(report)},
+                     {"accuracy_times", accuracy_times_json(report)},
                      {"savings", savings_json(report)}};
     return json_text(whole);
 }

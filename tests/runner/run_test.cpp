@@ -28,6 +28,7 @@ json timeless(json report) {
     report.erase("context");
     report.erase("timing");
     report.erase("throughput");
+    report.erase("accuracy_times");
     report.erase("savings");
     return report;
 }

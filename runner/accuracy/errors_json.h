@@ -1,0 +1,13 @@
+// Errors of pixels as JSON, the same in every file that holds them.
+#pragma once
+
+#include "metrics/pixel_errors.h"
+
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+
+/// `frames`: the tick of each picture. Without pixels: why not.
+nlohmann::ordered_json errors_json(const std::optional<PixelErrors>& errors, const std::string& why_not, const std::vector<int>& frames);
+
+} // namespace fernlicht
