@@ -3,6 +3,7 @@
 #include "renderer/technique.h"
 #include "runner/limits.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/motion.h"
 #include "scenarios/roads/road_mesh.h"
 #include "scenarios/values/errors.h"
 
@@ -14,6 +15,7 @@ Stage::Stage(Drive d)
     : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via),
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     fit_to_route(drive, route);
+    simulate(drive, route);
     check_limit_names(drive);
     technique_named(drive.technique, drive.file);
 }

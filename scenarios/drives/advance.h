@@ -33,9 +33,11 @@ void fit_to_route(Drive& drive, const Route& route);
 
 /// The car's frame on the route: origin on the surface under the rear axle, which follows the lane's centre; heading along the lane
 /// there; pitch from the contact points of both axles, roll from the mean of the surface under them. No suspension.
-Pose ego_pose(const Route& route, double distance_m, double wheelbase_m);
+/// `offset_left_m`: the rear axle's from the lane's centre.
+Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double offset_left_m = 0.0);
 
-/// Everything that the renderer and the metrics need at one state, with the variant's changes up to then applied.
+/// Everything that the renderer and the metrics need at one state, with the variant's changes up to then applied. With a vehicle, place and
+/// speed are those of the variant's motion: simulate() comes first, else std::logic_error.
 Moment moment_at(const State& state, const Drive& drive, const Route& route, const Variant& variant);
 
 } // namespace fernlicht

@@ -3,6 +3,7 @@
 
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/roads/route.h"
+#include "scenarios/vehicle/vehicle_parameters.h"
 
 #include <map>
 
@@ -56,11 +57,16 @@ struct LampChange {
     std::optional<SourceKind> source;
 };
 
+struct Motion;
+
 /// One lamp set under comparison: the whole drive is played once with each.
 struct Variant {
     std::string name; ///< "halogen", "xenon"
     std::vector<MountedLamp> lamps;
     std::vector<LampChange> changes;
+    std::optional<LevellingParameters> levelling = std::nullopt; ///< only in a drive with a vehicle, as the next
+    std::optional<SwivelParameters> swivel = std::nullopt;
+    std::shared_ptr<const Motion> motion = nullptr; ///< what simulate() made of them (motion.h); not part of the file
 };
 
 struct Probe {
@@ -112,10 +118,11 @@ struct Drive {
     std::vector<SpeedPoint> speed;
     double duration_s = 0.0, step_s = 0.0;
     Daylight daylight;
-    double bumper_m = 0.0;         ///< x of the front bumper in the car's frame; reach is measured from it
-    double wheelbase_m = 2.7;      ///< from the rear axle to the front axle
-    std::vector<Variant> variants; ///< at least one
-    std::vector<View> views;       ///< first is the driver's
+    double bumper_m = 0.0;                    ///< x of the front bumper in the car's frame; reach is measured from it
+    double wheelbase_m = 2.7;                 ///< from the rear axle to the front axle
+    std::optional<VehicleParameters> vehicle; ///< none: the car follows its lane as on rails
+    std::vector<Variant> variants;            ///< at least one
+    std::vector<View> views;                  ///< first is the driver's
     Capture capture;
     ToneMapper tone_mapper;
     std::string technique = "photometric";

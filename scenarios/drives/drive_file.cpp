@@ -2,6 +2,7 @@
 
 #include "scenarios/drives/drive_edits.h"
 #include "scenarios/drives/drive_keys.h"
+#include "scenarios/drives/vehicle_keys.h"
 #include "scenarios/values/errors.h"
 
 #include <fmt/format.h>
@@ -53,6 +54,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     const Car car = read_car(keys);
     drive.bumper_m = car.bumper_m;
     drive.wheelbase_m = car.wheelbase_m;
+    drive.vehicle = read_vehicle(keys);
     drive.variants = read_variants(keys, car, shelf);
     drive.views = read_views(keys);
     drive.capture = read_capture(keys);
@@ -77,9 +79,9 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht", "name",       "title",    "road",    "route",    "speed_kmh", "speed_mps", "speed",   "step_s",
-                        "rate_hz",   "duration_s", "daylight", "car",     "variants", "changes",   "views",     "capture", "tone_mapper",
-                        "technique", "measure",    "limits",   "shadows", "textures", "beams",     "seed"});
+                       {"fernlicht", "name",        "title",     "road",    "route",   "speed_kmh", "speed_mps", "speed",   "step_s",
+                        "rate_hz",   "duration_s",  "daylight",  "car",     "vehicle", "actuators", "variants",  "changes", "views",
+                        "capture",   "tone_mapper", "technique", "measure", "limits",  "shadows",   "textures",  "beams",   "seed"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;

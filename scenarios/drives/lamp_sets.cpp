@@ -2,6 +2,7 @@
 
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/drives/lamp_keys.h"
+#include "scenarios/drives/vehicle_keys.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -188,6 +189,7 @@ std::vector<Variant> read_variants(const YamlMap& drive, const Car& car, LampShe
     if (car.lamps) {
         Variant variant{"lamps", read_lamps(*car.lamps, {}, car, shelf), {}};
         read_all_changes(drive, nullptr, variant, shelf);
+        read_actuators(drive, nullptr, variant);
         return {variant};
     }
     if (!named)
@@ -195,10 +197,11 @@ std::vector<Variant> read_variants(const YamlMap& drive, const Car& car, LampShe
     std::vector<Variant> variants;
     for (const auto& [name, entry] : named->named(most_variants)) {
         const YamlMap keys =
-            entry.map({"lamps", "changes", "file", "aim", "level", "voltage_v", "reference_voltage_v", "source", "temperature_k",
-                       "spectrum", "colour", "photometric_distance_m", "between_samples", "type_c_axis", "texture"});
+            entry.map({"lamps", "changes", "actuators", "file", "aim", "level", "voltage_v", "reference_voltage_v", "source",
+                       "temperature_k", "spectrum", "colour", "photometric_distance_m", "between_samples", "type_c_axis", "texture"});
         variants.push_back(read_variant(name, keys, car, shelf));
         read_all_changes(drive, &keys, variants.back(), shelf);
+        read_actuators(drive, &keys, variants.back());
     }
     return variants;
 }

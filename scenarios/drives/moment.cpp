@@ -1,7 +1,9 @@
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/motion.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
@@ -23,14 +25,21 @@ void apply(const LampChange& change, MountedLamp& lamp) {
     lamp.source = change.source.value_or(lamp.source);
 }
 
+/// The body on its springs and beside its lane: over the rear axle lifted, turned about it.
+Pose moved(Pose ego, const CarPlace& place) {
+    ego.position_m += place.rear_lift_m * ego.up();
+    ego.axes = ego.axes * axes_from_angles(place.heading_rad, place.pitch_rad, 0.0);
+    return ego;
+}
+
 LitLamp lit(const MountedLamp& lamp, const Pose& ego) {
     return {lamp.name, lamp.file, compose(ego, lamp.pose()), lamp.intensity_factor(), lamp.colour, lamp.photometric_distance_m};
 }
 
 } // namespace
 
-Pose ego_pose(const Route& route, double distance_m, double wheelbase_m) {
-    const Pose rear = contact(route, distance_m, 0.0);
+Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double offset_left_m) {
+    const Pose rear = contact(route, distance_m, offset_left_m);
     // The front axle's place seen from the lane there: the lane may bend away from under it.
     const glm::dvec3 straight_ahead = to_parent(rear, {wheelbase_m, 0.0, 0.0});
     const glm::dvec3 beside = to_local(contact(route, distance_m + wheelbase_m, 0.0), straight_ahead);
@@ -55,8 +64,19 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     moment.time_s = state.time_s;
     moment.distance_m = state.distance_m;
     moment.speed_mps = state.speed_mps;
-    moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
     moment.daylight = drive.daylight;
+    if (!drive.vehicle) {
+        moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
+    } else {
+        if (!variant.motion)
+            throw std::logic_error("moment_at: a drive with a vehicle that was not simulated");
+        const CarPlace place = variant.motion->car->at(state.time_s);
+        moment.distance_m = std::max(place.distance_m, 0.0);
+        moment.speed_mps = place.speed_mps;
+        moment.ego = moved(ego_pose(route, moment.distance_m, drive.wheelbase_m, place.offset_left_m), place);
+        for (MountedLamp& lamp : lamps)
+            turn(lamp, *variant.motion, state.time_s);
+    }
     for (const MountedLamp& lamp : lamps)
         moment.lamps.push_back(lit(lamp, moment.ego));
     return moment;

@@ -119,6 +119,55 @@ void write_change(Lines& out, const Drive& drive, const LampChange& change) {
         write_colour(out, 4, *change.colour);
 }
 
+void write_axle(Lines& out, std::string_view name, const AxleParameters& axle) {
+    out.add(1,
+            "{}: {{unsprung_mass_kg: {}, spring_n_per_m: {}, damper_ns_per_m: {}, tyre_spring_n_per_m: {}, "
+            "cornering_stiffness_n_per_rad: {}, slip_stiffness_n: {}, wheel_inertia_kgm2: {}}}",
+            name, axle.unsprung_mass_kg, axle.spring_n_per_m, axle.damper_ns_per_m, axle.tyre_spring_n_per_m,
+            axle.cornering_stiffness_n_per_rad, axle.slip_stiffness_n, axle.wheel_inertia_kgm2);
+}
+
+void write_vehicle(Lines& out, const VehicleParameters& car) {
+    out.add(0, "vehicle:");
+    out.add(1, "model: single-track");
+    out.add(1, "mass_kg: {}", car.mass_kg);
+    out.add(1, "front_load: {}", car.front_load);
+    out.add(1, "centre_of_gravity_height_m: {}", car.centre_of_gravity_height_m);
+    out.add(1, "yaw_inertia_kgm2: {}", car.yaw_inertia_kgm2);
+    out.add(1, "pitch_inertia_kgm2: {}", car.pitch_inertia_kgm2);
+    write_axle(out, "front", car.front);
+    write_axle(out, "rear", car.rear);
+    out.add(1, "relaxation_length_m: {}", car.relaxation_length_m);
+    out.add(1, "friction: {}", car.friction);
+    out.add(1, "wheel_radius_m: {}", car.wheel_radius_m);
+    out.add(1, "brake_balance: {}", car.brake_balance);
+    out.add(1, "anti_pitch: {}", car.anti_pitch);
+    out.add(1, "drag_area_m2: {}", car.drag_area_m2);
+    out.add(1, "rolling_resistance: {}", car.rolling_resistance);
+    out.add(1, "road_steps:{}", car.road_steps.empty() ? " []" : "");
+    for (const RoadStep& step : car.road_steps)
+        out.add(2, "- {{at_m: {}, height_m: {}}}", step.at_m, step.height_m);
+    out.add(1, "solver: {}", name(car.solver));
+    out.add(1, "tolerance: {}", car.tolerance);
+}
+
+std::string actuator_keys(const ActuatorParameters& actuator) {
+    return fmt::format("natural_frequency_hz: {}, damping: {}, rate_limit_rad_s: {}, {}, {}, control_period_s: {}, dead_time_s: {}",
+                       actuator.natural_frequency_hz, actuator.damping, actuator.rate_limit_rad_s, angle("least", actuator.least_rad),
+                       angle("greatest", actuator.greatest_rad), actuator.control_period_s, actuator.dead_time_s);
+}
+
+void write_actuators(Lines& out, const Variant& variant) {
+    if (!variant.levelling && !variant.swivel)
+        return;
+    out.add(2, "actuators:");
+    if (const auto& levelling = variant.levelling)
+        out.add(3, "levelling: {{control: {}, {}}}", levelling->control == LevellingControl::slow ? "static" : "dynamic",
+                actuator_keys(levelling->actuator));
+    if (const auto& swivel = variant.swivel)
+        out.add(3, "swivel: {{preview_s: {}, {}}}", swivel->preview_s, actuator_keys(swivel->actuator));
+}
+
 void write_variants(Lines& out, const Drive& drive) {
     out.add(0, "variants:");
     for (const Variant& variant : drive.variants) {
@@ -129,6 +178,7 @@ void write_variants(Lines& out, const Drive& drive) {
         out.add(2, "changes:{}", variant.changes.empty() ? " []" : "");
         for (const LampChange& change : variant.changes)
             write_change(out, drive, change);
+        write_actuators(out, variant);
     }
 }
 
@@ -210,6 +260,8 @@ std::string write_drive(const Drive& drive) {
     out.add(0, "daylight: {{name: {}, horizontal_illuminance_lx: {}}}", quoted(drive.daylight.name),
             drive.daylight.horizontal_illuminance_lx);
     out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}}}", drive.bumper_m, drive.wheelbase_m);
+    if (drive.vehicle)
+        write_vehicle(out, *drive.vehicle);
     write_variants(out, drive);
     write_views(out, drive);
     out.add(0, "capture: {{per_second: {}, all: {}, exr: {}, png: {}}}", drive.capture.per_second, drive.capture.all, drive.capture.exr,

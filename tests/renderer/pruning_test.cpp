@@ -1,6 +1,7 @@
 // Leaving out what a moment does not need must not change a bit; switching it on must change a pixel, and off must save work.
 #include "renderer/renderer.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/motion.h"
 #include "scenarios/roads/road_mesh.h"
 
 #include <algorithm>
@@ -198,6 +199,7 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
     const Route route(network, drive.start, drive.via);
     const Scene scene = build_scene(network);
     fit_to_route(drive, route);
+    simulate(drive, route);
     Device device = open_device("auto");
     RendererSettings settings;
     settings.tone_mapper = drive.tone_mapper;

@@ -55,6 +55,8 @@ void expect_same_variant(const Variant& a, const Variant& b) {
     ASSERT_EQ(a.lamps.size(), b.lamps.size());
     for (std::size_t i = 0; i < a.lamps.size(); ++i)
         expect_same_lamp(a.lamps[i], b.lamps[i]);
+    EXPECT_EQ(a.levelling, b.levelling);
+    EXPECT_EQ(a.swivel, b.swivel);
     ASSERT_EQ(a.changes.size(), b.changes.size());
     for (std::size_t i = 0; i < a.changes.size(); ++i)
         expect_same_change(a.changes[i], b.changes[i]);
@@ -74,6 +76,7 @@ void expect_same(const Drive& a, const Drive& b) {
     EXPECT_EQ(a.daylight, b.daylight);
     EXPECT_EQ(a.bumper_m, b.bumper_m);
     EXPECT_EQ(a.wheelbase_m, b.wheelbase_m);
+    EXPECT_EQ(a.vehicle, b.vehicle);
     ASSERT_EQ(a.variants.size(), b.variants.size());
     for (std::size_t i = 0; i < a.variants.size(); ++i)
         expect_same_variant(a.variants[i], b.variants[i]);
@@ -112,6 +115,8 @@ class AnyDrive {
         drive.wheelbase_m = number(2.0, 4.0);
         for (int i = 0; i <= whole(0, 2); ++i)
             drive.variants.push_back(variant("v" + std::to_string(i)));
+        if (coin())
+            add_vehicle(drive);
         drive.lamp_sources = sources_;
         for (int i = 0; i <= whole(0, 6); ++i)
             drive.views.push_back(coin() ? camera(i) : map(i));
@@ -164,6 +169,47 @@ class AnyDrive {
     LampColour colour() { return {{number(-0.1, 2.0), number(0.0, 2.0), number(0.0, 2.0)}, number(0.5, 3.0), number(1000.0, 9000.0)}; }
     SourceKind kind() { return std::vector{SourceKind::filament, SourceKind::arc, SourceKind::led}[static_cast<std::size_t>(whole(0, 2))]; }
 
+    AxleParameters axle() {
+        return {number(1.0, 100.0), number(1e3, 1e5), number(0.0, 1e4), number(1e3, 1e6),
+                number(1e3, 1e6),   number(1e3, 1e6), number(0.01, 9.0)};
+    }
+    ActuatorParameters actuator() {
+        return {number(0.1, 50.0),
+                number(0.0, 2.0),
+                number(0.01, 9.0),
+                coin() ? 0.0 : -number(0.01, 0.5),
+                number(0.01, 0.5),
+                number(0.001, 0.1),
+                coin() ? 0.0 : number(0.0, 0.1)};
+    }
+    void add_vehicle(Drive& drive) {
+        VehicleParameters car{number(500.0, 5000.0),
+                              number(0.3, 0.7),
+                              number(0.0, 2.0),
+                              number(1e3, 1e4),
+                              number(1e3, 1e4),
+                              axle(),
+                              axle(),
+                              number(0.1, 1.0),
+                              number(0.1, 1.5),
+                              number(0.2, 0.5),
+                              number(0.0, 1.0),
+                              number(0.0, 1.0),
+                              number(0.0, 3.0),
+                              number(0.0, 0.1),
+                              {},
+                              coin() ? Solver::rosenbrock : Solver::dormand_prince,
+                              number(1e-12, 1e-2)};
+        for (int i = 0; i < whole(0, 3); ++i)
+            car.road_steps.push_back({10.0 * i + number(0.0, 9.0), number(-0.1, 0.1)});
+        drive.vehicle = car;
+        for (Variant& variant : drive.variants) {
+            if (coin())
+                variant.levelling = LevellingParameters{coin() ? LevellingControl::slow : LevellingControl::dynamic, actuator()};
+            if (coin())
+                variant.swivel = SwivelParameters{number(0.0, 5.0), actuator()};
+        }
+    }
     Variant variant(const std::string& named) {
         Variant result{named, {}, {}};
         for (const char* lamp : {"left", "right", "null"}) {

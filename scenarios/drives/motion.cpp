@@ -1,0 +1,140 @@
+#include "scenarios/drives/motion.h"
+
+#include "scenarios/drives/advance.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr double slow_filter_s = 10.0; ///< static levelling: slower than any swing of the body, quicker than loading
+
+std::vector<SpeedSegment> wishes(const std::vector<SpeedPoint>& profile) {
+    std::vector<SpeedSegment> segments;
+    if (profile.front().time_s > 0.0)
+        segments.push_back({0.0, profile.front().speed_mps, 0.0});
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+        segments.push_back({profile[i].time_s, profile[i].speed_mps,
+                            (profile[i + 1].speed_mps - profile[i].speed_mps) / (profile[i + 1].time_s - profile[i].time_s)});
+    segments.push_back({profile.back().time_s, profile.back().speed_mps, 0.0});
+    return segments;
+}
+
+std::string solved(const SolverWork& work) {
+    const auto part = [](const char* method, const MethodWork& did) {
+        return did.steps == 0 ? std::string() : fmt::format("{} for {:.3g} s ({} steps), ", method, did.simulated_s, did.steps);
+    };
+    return fmt::format("{}{}{} steps rejected, {} evaluations", part("dormand-prince", work.dormand_prince),
+                       part("rosenbrock", work.rosenbrock), work.dormand_prince.rejected + work.rosenbrock.rejected, work.derivatives);
+}
+
+/// The largest differences between plan and motion, looked at where steps end.
+std::string strayed(const CarRun& car, const std::vector<SpeedPoint>& profile) {
+    double speed = 0.0, place = 0.0, offset = 0.0;
+    for (std::size_t step = 0; step < car.path().steps(); ++step) {
+        const double t_s = car.path().step_end_s(step);
+        const CarPlace at = car.at(t_s);
+        speed = std::max(speed, std::abs(at.speed_mps - speed_mps(profile, t_s)));
+        place = std::max(place, std::abs(at.distance_m - distance_m(profile, t_s)));
+        offset = std::max(offset, std::abs(at.offset_left_m));
+    }
+    return fmt::format("at most {:.2g} m/s from the speed that the drive asks for, {:.2g} m from that place, {:.2g} m beside the lane's "
+                       "centre",
+                       speed, place, offset);
+}
+
+/// Whether any lamp shines at `time_s`, changes at that very time included.
+bool shines(const Variant& variant, double time_s) {
+    return std::ranges::any_of(variant.lamps, [&](const MountedLamp& lamp) {
+        double level = lamp.level;
+        for (const LampChange& change : variant.changes)
+            if (change.time_s <= time_s && change.lamp == lamp.name)
+                level = change.level.value_or(level);
+        return level > 0.0;
+    });
+}
+
+/// When lamps may go on or off.
+std::vector<double> switches_s(const Variant& variant, double end_s) {
+    std::vector<double> times_s;
+    for (const LampChange& change : variant.changes)
+        if (change.level && change.time_s < end_s)
+            times_s.push_back(change.time_s);
+    return times_s;
+}
+
+SolverOptions solver_options(const VehicleParameters& car) { return {.solver = car.solver, .tolerance = car.tolerance}; }
+
+ActuatorRun run_levelling(const Drive& drive, const Variant& variant, const CarRun& car) {
+    double mean_rad = car.at(0.0).spring_pitch_rad, last_s = 0.0;
+    const auto command = [&](double tick_s) {
+        const double pitch_rad = car.at(tick_s).spring_pitch_rad;
+        mean_rad += (1.0 - std::exp((last_s - tick_s) / slow_filter_s)) * (pitch_rad - mean_rad);
+        last_s = tick_s;
+        if (!shines(variant, tick_s))
+            return 0.0;
+        return variant.levelling->control == LevellingControl::dynamic ? -pitch_rad : -mean_rad;
+    };
+    return run_actuator(variant.levelling->actuator, command, switches_s(variant, drive.duration_s), drive.duration_s,
+                        solver_options(*drive.vehicle));
+}
+
+/// The circle of curvature k that the steering drives lies at an angle of k d / 2 to the left after a way of d.
+ActuatorRun run_swivel(const Drive& drive, const Variant& variant, const CarRun& car, const CarModel& model) {
+    const auto command = [&](double tick_s) {
+        const CarPlace place = car.at(tick_s);
+        const double v = place.speed_mps;
+        const double bend_per_m = place.steering_rad / (model.wheelbase_m + model.self_steering_gradient() * v * v);
+        return shines(variant, tick_s) ? 0.5 * bend_per_m * v * variant.swivel->preview_s : 0.0;
+    };
+    return run_actuator(variant.swivel->actuator, command, switches_s(variant, drive.duration_s), drive.duration_s,
+                        solver_options(*drive.vehicle));
+}
+
+std::string actuator_note(const Variant& variant, const char* which, const ActuatorRun& run) {
+    return fmt::format("{}: {}: {}; {} times at its rate limit, {} times at a stop", variant.name, which, solved(run.work),
+                       run.rate_limited, run.at_stop);
+}
+
+} // namespace
+
+void simulate(Drive& drive, const Route& route) {
+    if (!drive.vehicle)
+        return;
+    CarModel model;
+    model.car = *drive.vehicle;
+    model.wheelbase_m = drive.wheelbase_m;
+    // As far as it may come; it lags behind its plan rather than running ahead, by metres at most.
+    model.road = road_course(route, distance_m(drive.speed, drive.duration_s) + 200.0);
+    std::shared_ptr<const CarRun> car;
+    try {
+        car = std::make_shared<const CarRun>(run_car(model, wishes(drive.speed), drive.duration_s));
+    } catch (const InputError& error) {
+        throw InputError({drive.file, 0, 0, "vehicle"}, error.what());
+    }
+    drive.notes.push_back(fmt::format("vehicle: {}; {}", solved(car->work()), strayed(*car, drive.speed)));
+    for (Variant& variant : drive.variants) {
+        auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt});
+        if (variant.levelling) {
+            motion->levelling = run_levelling(drive, variant, *car);
+            drive.notes.push_back(actuator_note(variant, "levelling", *motion->levelling));
+        }
+        if (variant.swivel) {
+            motion->swivel = run_swivel(drive, variant, *car, model);
+            drive.notes.push_back(actuator_note(variant, "swivel", *motion->swivel));
+        }
+        variant.motion = std::move(motion);
+    }
+}
+
+void turn(MountedLamp& lamp, const Motion& motion, double time_s) {
+    if (motion.levelling)
+        lamp.pitch_rad += motion.levelling->angle_rad(time_s);
+    if (motion.swivel)
+        lamp.yaw_rad += motion.swivel->angle_rad(time_s);
+}
+
+} // namespace fernlicht

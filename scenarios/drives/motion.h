@@ -1,0 +1,22 @@
+// How car and lamps move in a drive with a vehicle: simulated once, before the first frame, by steps that know nothing of frames.
+#pragma once
+
+#include "scenarios/drives/drive.h"
+#include "scenarios/vehicle/actuator.h"
+#include "scenarios/vehicle/car_run.h"
+
+namespace fernlicht {
+
+struct Motion {
+    std::shared_ptr<const CarRun> car; ///< the same for all variants: lamps do not act on it
+    std::optional<ActuatorRun> levelling, swivel;
+};
+
+/// Gives each variant its motion and the drive notes on how it was solved and how far the car strayed from its plan. Nothing for a drive
+/// without a vehicle. Throws InputError when the equations cannot be solved as the drive asks.
+void simulate(Drive& drive, const Route& route);
+
+/// Adds the actuators' angles at that time to a lamp's aim.
+void turn(MountedLamp& lamp, const Motion& motion, double time_s);
+
+} // namespace fernlicht

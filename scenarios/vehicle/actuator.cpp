@@ -1,0 +1,113 @@
+#include "scenarios/vehicle/actuator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace fernlicht {
+namespace {
+
+enum class Mode { free, slewing_up, slewing_down, at_stop };
+
+/// The equation in each mode, for the command that holds now.
+struct Law {
+    double w = 0.0, z = 0.0, rate = 0.0, command = 0.0;
+    Mode mode = Mode::free;
+
+    double pull(double x, double v) const { return w * w * (command - x) - 2.0 * z * w * v; }
+    void rates(const double* x, double* dxdt) const {
+        dxdt[0] = mode == Mode::free ? x[1] : mode == Mode::slewing_up ? rate : mode == Mode::slewing_down ? -rate : 0.0;
+        dxdt[1] = mode == Mode::free ? pull(x[0], x[1]) : 0.0;
+    }
+    void jacobian(double* rows, double* dfdt) const {
+        const bool free = mode == Mode::free;
+        rows[0] = rows[2] = rows[3] = dfdt[0] = dfdt[1] = 0.0;
+        rows[1] = free ? 1.0 : 0.0;
+        if (free) {
+            rows[2] = -w * w;
+            rows[3] = -2.0 * z * w;
+        }
+    }
+};
+
+/// Time and value of each change of the command, dead time included.
+std::vector<std::pair<double, double>> commands(const ActuatorParameters& actuator, const std::function<double(double)>& command,
+                                                const std::vector<double>& switches_s, double end_s) {
+    std::vector<double> ticks_s = switches_s;
+    const auto last = static_cast<std::uint64_t>(end_s / actuator.control_period_s);
+    for (std::uint64_t k = 0; k <= last; ++k)
+        ticks_s.push_back(static_cast<double>(k) * actuator.control_period_s);
+    std::ranges::sort(ticks_s);
+    std::vector<std::pair<double, double>> changes;
+    for (const double tick_s : ticks_s) {
+        if (tick_s + actuator.dead_time_s >= end_s)
+            break;
+        const double angle_rad = std::clamp(command(tick_s), actuator.least_rad, actuator.greatest_rad);
+        const double from_s = changes.empty() ? 0.0 : tick_s + actuator.dead_time_s;
+        if (!changes.empty() && changes.back().first == from_s)
+            changes.back().second = angle_rad;
+        else if (changes.empty() || changes.back().second != angle_rad)
+            changes.emplace_back(from_s, angle_rad);
+    }
+    return changes;
+}
+
+Mode mode_at(const Law& law, const ActuatorParameters& limits, std::vector<double>& x) {
+    const auto outwards = [&](double side) { return side * x[1] > 0.0 || (x[1] == 0.0 && side * (law.command - x[0]) >= 0.0); };
+    if ((x[0] >= limits.greatest_rad && outwards(1.0)) || (x[0] <= limits.least_rad && outwards(-1.0))) {
+        x[0] = std::clamp(x[0], limits.least_rad, limits.greatest_rad);
+        x[1] = 0.0;
+        const double inwards = x[0] >= limits.greatest_rad ? -1.0 : 1.0;
+        return inwards * (law.command - x[0]) > 0.0 ? Mode::free : Mode::at_stop;
+    }
+    if (std::abs(x[1]) >= law.rate) {
+        x[1] = std::copysign(law.rate, x[1]);
+        if (std::copysign(1.0, x[1]) * law.pull(x[0], x[1]) > 0.0)
+            return x[1] > 0.0 ? Mode::slewing_up : Mode::slewing_down;
+    }
+    return Mode::free;
+}
+
+std::vector<Watch> watches_for(const Law& law, const ActuatorParameters& limits) {
+    std::vector<Watch> watches{{[&](double, const double* x) { return x[0] - limits.greatest_rad; }, true, false},
+                               {[&](double, const double* x) { return x[0] - limits.least_rad; }, false, true}};
+    if (law.mode == Mode::free) {
+        watches.push_back({[&](double, const double* x) { return x[1] - law.rate; }, true, false});
+        watches.push_back({[&](double, const double* x) { return x[1] + law.rate; }, false, true});
+    } else if (law.mode != Mode::at_stop) {
+        const double side = law.mode == Mode::slewing_up ? 1.0 : -1.0;
+        watches.push_back({[&law, side](double, const double* x) { return side * law.pull(x[0], x[1]); }, false, true});
+    }
+    return watches;
+}
+
+} // namespace
+
+ActuatorRun run_actuator(const ActuatorParameters& actuator, const std::function<double(double tick_s)>& command,
+                         const std::vector<double>& switches_s, double end_s, const SolverOptions& options) {
+    ActuatorRun run;
+    Law law{actuator.frequency_rad_s(), actuator.damping, actuator.rate_limit_rad_s};
+    OdeProblem problem;
+    problem.derivative = [&](double, const double* x, double* dxdt) { law.rates(x, dxdt); };
+    problem.jacobian = [&](double, const double*, double* rows, double* dfdt) { law.jacobian(rows, dfdt); };
+    problem.scale = {1.0e-3, 1.0e-3 * std::max(1.0, law.w)}; // a milliradian, and as fast as it swings
+    Integrator integrator(problem, options);
+
+    const auto changes = commands(actuator, command, switches_s, end_s);
+    std::vector<double> x{changes.empty() ? 0.0 : changes.front().second, 0.0};
+    double t_s = 0.0;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        law.command = changes[i].second;
+        const double until_s = i + 1 < changes.size() ? changes[i + 1].first : end_s;
+        while (t_s < until_s) {
+            law.mode = mode_at(law, actuator, x);
+            run.rate_limited += law.mode == Mode::slewing_up || law.mode == Mode::slewing_down ? 1U : 0U;
+            run.at_stop += law.mode == Mode::at_stop ? 1U : 0U;
+            t_s = integrator.integrate(t_s, until_s, x, watches_for(law, actuator), &run.path).time_s;
+        }
+    }
+    run.work = integrator.work();
+    return run;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,25 @@
+// A lamp's actuator over time: second order with limits on rate and angle, commanded every control period after a dead time.
+#pragma once
+
+#include "scenarios/vehicle/integrator.h"
+#include "scenarios/vehicle/vehicle_parameters.h"
+
+namespace fernlicht {
+
+struct ActuatorRun {
+    DensePath path{{0, 1}}; ///< angle, rad; rate, rad/s
+    SolverWork work;
+    std::uint64_t rate_limited = 0, at_stop = 0; ///< how often a limit was met
+
+    double angle_rad(double time_s) const { return path.at(time_s, 0); }
+};
+
+/// Starts at rest at the command of time 0. `command`: what the control law asks for at a control tick, rad; it is asked once a tick, in
+/// order. `switches_s`: further times at which the law is asked anew at once (a lamp switched on or off); they start the dead time like a
+/// tick. Limits: x'' = w^2 (c - x) - 2 z w x' holds inside them. At the rate limit x' stays there until x'' points inwards; at a stop x
+/// stays and x' = 0 (what is left of it is lost) until the command leads inwards. Both are events, located within the solver's event
+/// tolerance. A command that does not change costs nothing. Throws InputError when the solver gives up.
+ActuatorRun run_actuator(const ActuatorParameters& actuator, const std::function<double(double tick_s)>& command,
+                         const std::vector<double>& switches_s, double end_s, const SolverOptions& options = {});
+
+} // namespace fernlicht

@@ -1,0 +1,76 @@
+// The car as a system of 23 ordinary differential equations: single track with relaxing tyres, turning wheels, half a car on springs, a
+// driver. docs/vehicle.md derives them and names the sources. Angles are small where they are pitch, slope or heading beside the lane.
+#pragma once
+
+#include "scenarios/vehicle/road_course.h"
+#include "scenarios/vehicle/vehicle_parameters.h"
+
+#include <memory>
+
+namespace fernlicht {
+
+/// Places in the state vector. "By the road": above the place that the road gives it, from the rest on a level road.
+namespace car_state {
+enum : std::size_t {
+    distance,      ///< of the rear axle along the lane's centre, m
+    offset,        ///< of the rear axle from the lane's centre, left positive, m
+    heading,       ///< beside the lane's, left positive, rad
+    forward_speed, ///< along the car, m/s
+    side_speed,    ///< of the centre of gravity, left positive, m/s
+    yaw_rate,      ///< rad/s
+    front_stretch, ///< of the tyres' contact, along the wheel, m
+    rear_stretch,
+    front_sway, ///< of the tyres' contact, across the wheel, m
+    rear_sway,
+    front_spin, ///< of the wheels, rad/s
+    rear_spin,
+    front_body, ///< the body over the axle, by the road, m
+    rear_body,
+    front_wheel, ///< the wheels, by the road, m
+    rear_wheel,
+    heave_rate,       ///< of the centre of gravity, upwards, m/s
+    pitch_rate,       ///< nose up positive, rad/s
+    front_wheel_rate, ///< upwards, m/s
+    rear_wheel_rate,
+    force,       ///< of engine (positive) or brakes (negative), N
+    persistence, ///< of the driver: the integral part of the force, N
+    steering,    ///< angle of the front wheels, left positive, rad
+    count
+};
+}
+
+/// What the driver wants on a stretch of time without kinks.
+struct SpeedSegment {
+    double start_s = 0.0, speed_mps = 0.0, acceleration_mps2 = 0.0;
+
+    bool holds() const { return speed_mps == 0.0 && acceleration_mps2 == 0.0; } ///< stands, with the foot on the brake
+};
+
+/// `driven` false: nobody touches pedals or steering, for checks against closed forms.
+struct CarModel {
+    VehicleParameters car;
+    double wheelbase_m = 2.7;
+    RoadCourse road;
+    SpeedSegment wish;
+    bool driven = true;
+    double held_steering_rad = 0.0; ///< where it is not driven
+    double held_force_n = 0.0;
+
+    double front_m() const { return wheelbase_m * (1.0 - car.front_load); } ///< centre of gravity to front axle
+    double rear_m() const { return wheelbase_m * car.front_load; }
+    double sprung_kg() const { return car.mass_kg - car.front.unsprung_mass_kg - car.rear.unsprung_mass_kg; }
+    /// Steering for a bend of curvature k: (l + gradient v^2) k. rad s2/m
+    double self_steering_gradient() const;
+};
+
+/// x' by the model; both evaluate the same text.
+void car_rates(const CarModel& model, double t_s, const double* x, double* dxdt);
+void car_jacobian(const CarModel& model, double t_s, const double* x, double* jacobian, double* dfdt);
+
+/// The car at `distance_m`, rolling steadily as wished: forces in balance, so that nothing swings that the drive does not excite.
+std::vector<double> steady_car(const CarModel& model, double distance_m);
+
+/// The problem for an integrator. Holds on to `model`, whose wish may be exchanged between two calls of the integrator.
+OdeProblem car_problem(std::shared_ptr<const CarModel> model);
+
+} // namespace fernlicht

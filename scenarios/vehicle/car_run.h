@@ -1,0 +1,40 @@
+// A car driven along its lane once, before anything is drawn: its motion as a function of time.
+#pragma once
+
+#include "scenarios/vehicle/car_model.h"
+#include "scenarios/vehicle/integrator.h"
+
+namespace fernlicht {
+
+/// What a moment needs of the car.
+struct CarPlace {
+    double distance_m = 0.0;       ///< of the rear axle along the lane's centre
+    double offset_left_m = 0.0;    ///< of the rear axle from it
+    double heading_rad = 0.0;      ///< beside the lane's, left positive
+    double speed_mps = 0.0;        ///< along the car
+    double rear_lift_m = 0.0;      ///< of the body over the rear axle, from the rest on a level road
+    double pitch_rad = 0.0;        ///< of the body against the road under its axles, nose up positive
+    double spring_pitch_rad = 0.0; ///< what sensors at both axles' springs see of it: without the tyres
+    double steering_rad = 0.0;
+};
+
+class CarRun {
+  public:
+    /// Time is clamped to the run. The same for every frame rate: steps follow from the equations alone.
+    CarPlace at(double time_s) const;
+    double end_s() const { return path_.end_s(); }
+    const DensePath& path() const { return path_; } ///< components: car_run_kept
+    const SolverWork& work() const { return work_; }
+
+  private:
+    friend CarRun run_car(CarModel model, const std::vector<SpeedSegment>& wishes, double end_s);
+    DensePath path_;
+    SolverWork work_;
+    double wheelbase_m_ = 0.0;
+};
+
+/// Drives from time 0 and distance 0 to `end_s`. `wishes`: by time, the first at 0. Their kinks and the car's steps in the road are hit by
+/// the integrator: kinks exactly, steps within SolverOptions::event_tolerance_s. Throws InputError when the solver gives up.
+CarRun run_car(CarModel model, const std::vector<SpeedSegment>& wishes, double end_s);
+
+} // namespace fernlicht
