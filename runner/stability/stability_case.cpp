@@ -82,7 +82,7 @@ StabilityRow judge(const StabilityCase& one, StabilityBench& bench) {
 const std::vector<StabilityCase>& stability_cases() {
     static const std::vector<StabilityCase> all = [] {
         std::vector<StabilityCase> cases;
-        for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases})
+        for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases, motion_cases})
             for (StabilityCase& one : family())
                 cases.push_back(std::move(one));
         return cases;

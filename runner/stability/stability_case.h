@@ -81,5 +81,6 @@ std::vector<StabilityCase> lamp_cases();
 std::vector<StabilityCase> camera_cases();
 std::vector<StabilityCase> table_cases();
 std::vector<StabilityCase> tone_cases();
+std::vector<StabilityCase> motion_cases();
 
 } // namespace fernlicht

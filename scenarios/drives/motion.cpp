@@ -94,27 +94,33 @@ ActuatorRun run_swivel(const Drive& drive, const Variant& variant, const CarRun&
                         solver_options(*drive.vehicle));
 }
 
+/// fit_to_route held the plan to the route; a car that cannot brake as it was asked to comes further.
+void fit_to_route(Drive& drive, const Route& route, const CarRun& car) {
+    const int planned = tick_count(drive);
+    int ticks = planned;
+    while (ticks > 1 && car.at((ticks - 1) * drive.step_s).distance_m + drive.bumper_m > route.length_m())
+        --ticks;
+    if (ticks == planned)
+        return;
+    drive.notes.push_back(fmt::format("the car comes to the end of the route, {:.1f} m, sooner than planned: the drive ends after {:.3g} s "
+                                      "instead of {:.3g} s",
+                                      route.length_m(), ticks * drive.step_s, drive.duration_s));
+    drive.duration_s = ticks * drive.step_s;
+}
+
 std::string actuator_note(const Variant& variant, const char* which, const ActuatorRun& run) {
     return fmt::format("{}: {}: {}; {} times at its rate limit, {} times at a stop", variant.name, which, solved(run.work),
                        run.rate_limited, run.at_stop);
 }
 
-} // namespace
-
-void simulate(Drive& drive, const Route& route) {
-    if (!drive.vehicle)
-        return;
+void simulate_vehicle(Drive& drive, const Route& route) {
     CarModel model;
     model.car = *drive.vehicle;
     model.wheelbase_m = drive.wheelbase_m;
     // As far as it may come; it lags behind its plan rather than running ahead, by metres at most.
     model.road = road_course(route, distance_m(drive.speed, drive.duration_s) + 200.0);
-    std::shared_ptr<const CarRun> car;
-    try {
-        car = std::make_shared<const CarRun>(run_car(model, wishes(drive.speed), drive.duration_s));
-    } catch (const InputError& error) {
-        throw InputError({drive.file, 0, 0, "vehicle"}, error.what());
-    }
+    const auto car = std::make_shared<const CarRun>(run_car(model, wishes(drive.speed), drive.duration_s));
+    fit_to_route(drive, route, *car);
     drive.notes.push_back(fmt::format("vehicle: {}; {}", solved(car->work()), strayed(*car, drive.speed)));
     for (Variant& variant : drive.variants) {
         auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt});
@@ -127,6 +133,18 @@ void simulate(Drive& drive, const Route& route) {
             drive.notes.push_back(actuator_note(variant, "swivel", *motion->swivel));
         }
         variant.motion = std::move(motion);
+    }
+}
+
+} // namespace
+
+void simulate(Drive& drive, const Route& route) {
+    if (!drive.vehicle)
+        return;
+    try {
+        simulate_vehicle(drive, route);
+    } catch (const InputError& error) {
+        throw InputError({drive.file, 0, 0, "vehicle"}, error.what());
     }
 }
 

@@ -12,7 +12,7 @@ struct TriedStep {
     std::vector<double> end, error;
     std::vector<double> nodes; ///< DensePath::nodes x size; filled by SingleStep::extend
     /// Dormand-Prince: step length times an estimate of the largest eigenvalue's magnitude, |f(t+h, end) - f(t+h, g6)| / |end - g6| with g6
-    /// the sixth stage (Hairer & Wanner II, eq. IV.2.6); 0 where the two stages agree. Rosenbrock: the same product from the Jacobian.
+    /// the sixth stage (Hairer & Wanner II, IV.2); 0 where the two stages agree. Rosenbrock: the same product from the Jacobian.
     double stiffness = 0.0;
 };
 

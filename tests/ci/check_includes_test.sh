@@ -55,6 +55,7 @@ breach renderer/gl/context.cpp '#include <embree3/rtcore.h>' 'belongs in rendere
 breach scenarios/lamps/table.h '#include <OpenImageIO/imagebuf.h>' 'OpenImageIO in a header'
 breach scenarios/lamps/writer.cpp '#include <OpenImageIO/imageio.h>' 'OpenImageIO is already included by scenarios/lamps/texture.cpp'
 breach metrics/ssim.h '#include <opencv2/core.hpp>' 'OpenCV in a header'
+breach scenarios/vehicle/steps.h '#include <boost/numeric/odeint.hpp>' 'Boost in a header'
 breach runner/bus.h '#include <linux/can/raw.h>' 'SocketCAN in a header'
 breach metrics/extent.cpp '#include "shader_files.h"' 'belongs to renderer'
 breach metrics/extent.cpp '#include "extent.h"' 'path from the top'

@@ -61,9 +61,9 @@ TEST(Motion, BrakingDipsTheLampsAndLevellingLiftsThem) {
 TEST(Motion, DoesNotKnowTheFrameRate) {
     Drive drive = read_drive(library / "braking.yaml");
     const Simulated coarse(drive);
-    drive.step_s = 1.0e-3;
+    drive.step_s = 1.0e-6;
     const Simulated fine(drive);
-    drive.step_s = 5.0;
+    drive.step_s = 10.0;
     const Simulated very_coarse(drive);
     for (double time_s = 0.0; time_s < 12.0; time_s += 0.173)
         for (const std::size_t variant : {0U, 1U}) {
@@ -114,6 +114,35 @@ TEST(Motion, AStepInTheRoadIsFeltByEachAxleInTurn) {
     EXPECT_NEAR(car.at(rear_s + 1e-6).rear_lift_m - car.at(rear_s - 1e-6).rear_lift_m, -0.03, 1e-6);
     EXPECT_GT(car.at(front_s + 0.15).pitch_rad, car.at(front_s + 1e-6).pitch_rad + 0.005) << "and then the springs lift it";
     EXPECT_NEAR(car.at(time_at(115.0)).rear_lift_m, 0.0, 2e-3);
+}
+
+TEST(Motion, ACarThatCannotBrakeIsCutAtTheRoutesEnd) {
+    // To rest in 2 s from 50 m/s, 2.5 g: by plan it stops 10 m before the end.
+    Drive drive = read_drive(library / "straight.yaml");
+    drive.start.s_m = 930.0 - drive.bumper_m;
+    drive.speed = {{0.0, 50.0}, {0.2, 50.0}, {2.2, 0.0}};
+    drive.vehicle = VehicleParameters{};
+    const Simulated played(drive);
+    EXPECT_LT(played.drive.duration_s, 9.0);
+    const double last_m = played.at((tick_count(played.drive) - 1) * played.drive.step_s).distance_m;
+    EXPECT_LE(last_m + drive.bumper_m, played.route.length_m());
+    EXPECT_THAT(played.drive.notes, testing::Contains(HasSubstr("sooner than planned")));
+}
+
+TEST(Motion, ASolverThatGivesUpNamesTheDrive) {
+    Drive drive = read_drive(library / "straight.yaml");
+    drive.vehicle = VehicleParameters{};
+    drive.vehicle->solver = Solver::dormand_prince;
+    drive.vehicle->front.wheel_inertia_kgm2 = 0.01; // brakes that hold a wheel of no weight: a stiffness of 1e7 per second
+    drive.speed = {{0.0, 0.0}};
+    drive.duration_s = 60.0;
+    try {
+        const Simulated played(drive);
+        FAIL() << "went through";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("straight.yaml: vehicle: "));
+        EXPECT_THAT(error.what(), HasSubstr("solver: auto or rosenbrock"));
+    }
 }
 
 using VehicleKeys = DriveFixture;

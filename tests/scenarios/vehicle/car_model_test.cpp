@@ -85,7 +85,7 @@ TEST(CarModel, SteadyBrakingPitchesByTheLever) {
 }
 
 TEST(CarModel, SteadyCorneringTurnsByTheSelfSteeringGradient) {
-    // w = v delta / (l + EG v^2), Rill 2011, eq. 8.60; the linear tyre, so a gentle bend.
+    // w = v delta / (l + EG v^2), Rill 2011, ch. 8; the linear tyre, so a gentle bend.
     for (const double v : {5.0, 20.0, 40.0}) {
         auto model = standing();
         model->wish = {0.0, v, 0.0};

@@ -1,0 +1,36 @@
+// Error against run time of the solvers that move car and lamps. Takes seconds: for commands that report, not for a run.
+#pragma once
+
+#include "scenarios/vehicle/ode.h"
+
+#include <string>
+
+namespace fernlicht {
+
+/// One problem solved one way.
+struct SolverRow {
+    std::string problem; ///< "actuator of 5 Hz", ...
+    Solver solver = Solver::automatic;
+    double tolerance = 0.0, step_s = 0.0; ///< one of them is above 0: steps by the tolerance, or all of one length
+    double error = 0.0;                   ///< largest at 997 moments over the run, between steps too: what frames see
+    double floor = 0.0;                   ///< what the error was measured against is itself no better than this; 0: a closed form
+    std::string unit;                     ///< of error and floor
+    std::string against;                  ///< "closed form", "run at a tolerance of 1e-12"
+    std::uint64_t steps = 0, rejected = 0, derivatives = 0, jacobians = 0;
+    double seconds = 0.0, least_seconds = 0.0, most_seconds = 0.0; ///< median, least and most over the repetitions
+    std::string not_measured;                                      ///< why there is neither error nor time; "" where there are
+};
+
+struct SolverStudy {
+    int repetitions = 5; ///< odd
+    /// Run time is bounded by these: some 10 s with the defaults.
+    std::vector<double> tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+    std::vector<double> steps_s{0.032, 0.016, 0.008, 0.004, 0.002}; ///< of the one problem that is solved with fixed steps too
+};
+
+/// By problem, solver and tolerance, the coarsest first. Errors are the same on every call, times are the machine's.
+/// Problems: lamp actuators of 5 Hz and of 50 kHz that answer a step (closed form); a car at 20 m/s over an edge of 2 cm; a car that brakes
+/// to rest from 10 m/s.
+std::vector<SolverRow> study_solvers(const SolverStudy& study = {});
+
+} // namespace fernlicht
