@@ -129,22 +129,6 @@ TEST(Motion, ACarThatCannotBrakeIsCutAtTheRoutesEnd) {
     EXPECT_THAT(played.drive.notes, testing::Contains(HasSubstr("sooner than planned")));
 }
 
-TEST(Motion, ASolverThatGivesUpNamesTheDrive) {
-    Drive drive = read_drive(library / "straight.yaml");
-    drive.vehicle = VehicleParameters{};
-    drive.vehicle->solver = Solver::dormand_prince;
-    drive.vehicle->front.wheel_inertia_kgm2 = 0.01; // brakes that hold a wheel of no weight: a stiffness of 1e7 per second
-    drive.speed = {{0.0, 0.0}};
-    drive.duration_s = 60.0;
-    try {
-        const Simulated played(drive);
-        FAIL() << "went through";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("straight.yaml: vehicle: "));
-        EXPECT_THAT(error.what(), HasSubstr("solver: auto or rosenbrock"));
-    }
-}
-
 using VehicleKeys = DriveFixture;
 
 TEST_F(VehicleKeys, AreReadWithTheirDefaults) {
