@@ -13,7 +13,8 @@ struct Motion {
 };
 
 /// Gives each variant its motion and the drive notes on how it was solved and how far the car strayed from its plan. Nothing for a drive
-/// without a vehicle. A drive whose car comes to the route's end too soon is cut, with a note. Throws InputError when the equations cannot be solved as the drive asks.
+/// without a vehicle. A drive whose car comes to the route's end too soon is cut, with a note. Throws InputError when the equations cannot
+/// be solved as the drive asks.
 void simulate(Drive& drive, const Route& route);
 
 /// Adds the actuators' angles at that time to a lamp's aim.
