@@ -19,7 +19,7 @@ struct Flags {
     std::vector<std::string> techniques, resolutions, shadow_maps;
     std::string variant, backend = "auto", out;
     SweepRequest sweep;
-    bool quiet = false;
+    bool quiet = false, solvers = false;
 };
 
 std::vector<std::pair<int, int>> sizes_of(const char* flag, const std::vector<std::string>& texts, int most) {
@@ -45,6 +45,7 @@ int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     request.folder = flags.out.empty() ? default_output_folder("accuracy", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
     request.quiet = flags.quiet;
+    request.solvers = flags.solvers;
     const AccuracyResult result = run_accuracy(request);
     fmt::print("{}\n{}\n", accuracy_text(result), (request.folder / "accuracy.html").string());
     if (!result.interrupted.empty())
@@ -82,6 +83,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--seed", flags->sweep.seed, "of the reference and of the order in each round")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
+    sub->add_flag("--solvers", flags->solvers, "the solvers that move car and lamps too, a diagram for each problem");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
     sub->add_flag("--quiet", flags->quiet, "no progress");

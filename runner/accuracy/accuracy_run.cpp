@@ -1,6 +1,7 @@
 #include "runner/accuracy/accuracy_run.h"
 
 #include "renderer/sanity.h"
+#include "runner/accuracy/solver_diagrams.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
 #include "runner/progress.h"
@@ -46,6 +47,8 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
         }));
         std::ranges::move(sweep_diagrams(result.drives.back()), std::back_inserter(result.diagrams));
     }
+    if (request.solvers && !Interruption::asked())
+        std::ranges::move(solver_diagrams(study_solvers()), std::back_inserter(result.diagrams));
     result.others = other_use(before, cpu_use(), ::getpid());
     if (Interruption::asked())
         result.interrupted = "interrupted by the user";

@@ -12,6 +12,7 @@ struct AccuracyRequest {
     std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
     std::vector<std::string> command;
     bool quiet = false;
+    bool solvers = false; ///< the solvers that move car and lamps, too: some 10 s
 };
 
 /// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.

@@ -74,7 +74,7 @@ StudiedProblem actuator(double natural_frequency_hz, double end_s) {
 }
 
 StudiedProblem car(const std::string& name, const std::vector<SpeedSegment>& wishes, const std::vector<RoadStep>& steps, double end_s) {
-    StudiedProblem problem{name, "rad of pitch", fmt::format("rosenbrock at a tolerance of {:g}", tight), nullptr, {}, 0.0};
+    StudiedProblem problem{name, "rad", fmt::format("rosenbrock at a tolerance of {:g}", tight), nullptr, {}, 0.0};
     problem.solve = [=](const SolverOptions& options) {
         CarModel model;
         model.car.road_steps = steps;

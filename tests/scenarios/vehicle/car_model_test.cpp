@@ -180,6 +180,19 @@ TEST(CarModel, CoastsDownByTheClosedForm) {
     EXPECT_NEAR(x[front_spin] * car.wheel_radius_m, x[forward_speed], 0.05);
 }
 
+TEST(CarModel, StandsOnASlopeButForTheBrakesCreep) {
+    // Brakes of 2 m/s2 and rolling resistance hold m g s by turning at w, tanh(w / 0.02) = g s / (2 + f g): at 8 % that is 2.4 mm/s.
+    CarModel model;
+    model.road.slope.assign(400, 0.08);
+    const double creep_mps = -model.car.wheel_radius_m * 0.02 * std::atanh(9.81 * 0.08 / (2.0 + model.car.rolling_resistance * 9.81));
+    const CarRun standing = run_car(model, {{0.0, 0.0, 0.0}}, 60.0);
+    EXPECT_NEAR(standing.at(60.0).speed_mps, creep_mps, 0.02 * -creep_mps); // the tyres' leaving behind is some per cent of it
+    EXPECT_NEAR(standing.at(60.0).distance_m, 60.0 * creep_mps, 5e-3) << "and the tyres' stretch, 1.2 mm";
+    const CarRun stopping = run_car(model, {{0.0, 10.0, 0.0}, {1.0, 10.0, -2.0}, {6.0, 0.0, 0.0}}, 12.0);
+    EXPECT_NEAR(stopping.at(12.0).distance_m, 35.0, 1.0);
+    EXPECT_NEAR(stopping.at(12.0).speed_mps, creep_mps, 0.02 * -creep_mps);
+}
+
 TEST(CarModel, From60MetresASecondToRestAndBack) {
     CarModel model;
     const std::vector<SpeedSegment> wishes{{0.0, 60.0, 0.0}, {1.0, 60.0, -7.5}, {9.0, 0.0, 0.0}, {12.0, 0.0, 3.0}, {32.0, 60.0, 0.0}};
