@@ -20,6 +20,9 @@ struct Flags {
     std::vector<std::string> lamps;
     std::string variant, view, road, resolution, out, target_error = "0.5%", integrator = "direct";
     double moment_s = 0.0, lamp_radius_m = 0.0;
+    int most_smooth = ReferenceSettings{}.most_smooth;
+    SolverSettings solver;
+    bool no_gather = false;
     int most_samples = ReferenceSettings{}.most_samples;
     std::uint64_t seed = 1;
     bool resume = false, quiet = false;
@@ -52,7 +55,10 @@ DriveEdits edits_of(const Flags& flags) {
 
 ReferenceSettings settings_of(const Flags& flags) {
     ReferenceSettings settings;
-    settings.integrator = flags.integrator == "path" ? Integrator::path : Integrator::direct;
+    settings.integrator = *integrator_of(flags.integrator);
+    settings.most_smooth = flags.most_smooth;
+    settings.solver = flags.solver;
+    settings.solver.final_gather = !flags.no_gather;
     settings.target_error = share_of(flags.target_error);
     settings.lamp_radius_m = flags.lamp_radius_m;
     settings.most_samples = flags.most_samples;
@@ -83,6 +89,30 @@ int draw_reference(const Flags& flags, const std::vector<std::string>& command) 
     return result.interrupted.empty() ? 0 : 1;
 }
 
+void add_solver_options(CLI::App& sub, Flags& flags) {
+    SolverSettings& solver = flags.solver;
+    sub.add_option("--smooth-depth", flags.most_smooth, "whitted: mirrors and boundaries of glass in a row")
+        ->check(CLI::Range(0, 64))
+        ->capture_default_str();
+    sub.add_option("--reach", solver.reach_m, "radiosity, photon-map: metres about the car within which surfaces send light on")
+        ->check(CLI::Range(1.0, 2000.0))
+        ->capture_default_str();
+    sub.add_option("--patch", solver.patch_m, "radiosity: width of a patch, metres")->check(CLI::Range(0.01, 100.0))->capture_default_str();
+    sub.add_option("--form-factor-rays", solver.form_factor_rays, "radiosity: from each patch; becomes a multiple of 16")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    sub.add_option("--residual", solver.residual, "radiosity: share of the light left when the iteration ends")
+        ->check(CLI::Range(1e-14, 1.0))
+        ->capture_default_str();
+    sub.add_option("--photons", solver.photons, "photon-map: sent out; becomes a multiple of 16")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 30))
+        ->capture_default_str();
+    sub.add_option("--photon-radius", solver.radius_m, "photon-map: metres over which light is averaged")
+        ->check(CLI::Range(0.001, 100.0))
+        ->capture_default_str();
+    sub.add_flag("--no-gather", flags.no_gather, "radiosity, photon-map: as solved, without final gathering");
+}
+
 } // namespace
 
 void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
@@ -92,9 +122,11 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
     sub->add_option("--moment", flags->moment_s, "seconds into the drive; the nearest moment is drawn")->capture_default_str();
     sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
     sub->add_option("--view", flags->view, "view of the drive; else the driver's");
-    sub->add_option("--integrator", flags->integrator, "direct: lamps and sky once; path: light that bounces, too")
-        ->check(CLI::IsMember({"direct", "path"}))
+    sub->add_option("--integrator", flags->integrator,
+                    "direct: lamps and sky once; path: light that bounces, too; whitted, radiosity, photon-map: the classical methods")
+        ->check(CLI::IsMember({"direct", "path", "whitted", "radiosity", "photon-map"}))
         ->capture_default_str();
+    add_solver_options(*sub, *flags);
     sub->add_option("--target-error", flags->target_error, "standard error wanted of each pixel, e.g. 0.5% or 0.005")
         ->capture_default_str();
     sub->add_option("--most-samples", flags->most_samples, "in a pixel's mean, whatever its error")

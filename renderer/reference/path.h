@@ -10,14 +10,26 @@
 
 #include "renderer/reference/shot.h"
 
+#include <functional>
+
 namespace fernlicht::reference {
 
-/// Adds to a packet that light_packet has lit without the sky's share what arrives over at least one other surface, and the sky as things
-/// let it through. One path a lane, and a second one where the surface retroreflects and luminance is wanted.
-void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, PacketLight& light);
+/// Radiance in linear sRGB with Y in cd/m2 that arrives along a ray from where it points, drawn from the point's pairs from `pair` on. Adds
+/// the rays it cast to `rays`. `lane` is that of the packet, which is the replicate's number, too.
+using Arriving =
+    std::function<glm::dvec3(std::size_t lane, const SamplePoint& point, std::size_t pair, const Ray& ray, std::uint64_t& rays)>;
 
-/// Radiance in linear sRGB with Y in cd/m2 that arrives along a ray from where it points: the whole of it, over any number of surfaces.
-/// Draws from the point's pairs from `pair` on. Adds the rays it cast to `rays`.
-glm::dvec3 arriving(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays);
+/// Adds to a packet that light_packet has lit without the sky's share what arrives over at least one other surface, and the sky as things
+/// let it through. One path a lane, a second one where the surface retroreflects and luminance is wanted.
+void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light);
+
+/// What is seen in the packet's mirrors and through its glass, both ways that glass sends it. Luminance only.
+void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light);
+
+/// Both, by paths.
+void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, PacketLight& light);
+
+/// By paths: the whole of it, over any number of surfaces.
+glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays);
 
 } // namespace fernlicht::reference

@@ -1,5 +1,6 @@
 #include "renderer/reference/reference.h"
 
+#include "renderer/reference/solved_light.h"
 #include "renderer/reference/tile.h"
 
 #include <algorithm>
@@ -32,6 +33,26 @@ void check(const ReferenceSettings& s) {
         fail("samples must be 1 <= least <= most <= 2^24");
     if (s.most_bounces < 1 || !(s.lamp_radius_m >= 0.0) || !std::isfinite(s.target_height_m))
         fail("bounces must be at least 1, a lamp's radius at least 0, a target's height finite");
+    if (s.most_smooth < 0 || s.most_smooth > 64)
+        fail("smooth surfaces in a row must be 0 to 64");
+    if (!s.shadows && s.integrator != Integrator::direct && s.integrator != Integrator::whitted && s.integrator != Integrator::path)
+        fail("shadows cannot be left out of light that is solved");
+    const SolverSettings& solver = s.solver;
+    if (!(solver.reach_m > 0.0 && solver.reach_m <= 2000.0) || !(solver.patch_m >= 0.001) || !std::isfinite(solver.patch_m) ||
+        !(solver.radius_m >= 0.001 && solver.radius_m <= 100.0) || !(solver.residual > 0.0))
+        fail("a solver's reach must be above 0 and at most 2000 m, patches at least 1 mm, photons' radius 1 mm to 100 m, residual above 0");
+    if (solver.form_factor_rays < 1 || solver.form_factor_rays > (1 << 20) || solver.photons < 1 || solver.photons > (1 << 30))
+        fail("form factor rays must be 1 to 2^20, photons 1 to 2^30");
+}
+
+void check_materials(const Scene& scene) {
+    for (const Material& m : scene.materials) {
+        const float albedo = std::max({m.albedo.x, m.albedo.y, m.albedo.z});
+        if (!(m.mirror >= 0.0F) || m.mirror + albedo > 1.0F + 1e-6F) // rounding of two floats that add up to 1
+            throw std::invalid_argument("material " + m.name + ": mirror and albedo must be at least 0 and together at most 1");
+        if (m.glass_index != 0.0F && (!(m.glass_index >= 1.0F) || albedo > 0.0F || m.mirror > 0.0F))
+            throw std::invalid_argument("material " + m.name + ": glass has an index of at least 1, and neither albedo nor mirror");
+    }
 }
 
 Estimate empty_estimate(const View& view, bool wanted) {
@@ -98,16 +119,19 @@ std::shared_ptr<const reference::EmbreeScene> Reference::geometry(const Moment& 
 ReferenceImage Reference::render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
                                  const GoOn& go_on, ReferenceImage from) const {
     check(settings);
+    check_materials(scene_);
     const auto start = std::chrono::steady_clock::now();
     const auto embree = geometry(moment);
-    const reference::Shot shot(*embree, moment, view, wanted, settings);
+    reference::Shot shot(*embree, moment, view, wanted, settings);
     ReferenceImage image = empty_image(view, wanted);
     if (!from.samples.empty()) {
         check_from(from, image);
         image = std::move(from);
     }
     const double seconds_before = image.seconds;
-    std::atomic<std::uint64_t> rays = image.rays;
+    image.preparation = {};
+    shot.solved = reference::solve_light(shot, image.preparation);
+    std::atomic<std::uint64_t> rays = image.rays + image.preparation.rays;
     const std::vector<Corner> tiles = open_tiles(image);
     image.complete = true;
     std::size_t batch = go_on ? 4 : tiles.size();

@@ -29,7 +29,27 @@ namespace reference {
 class EmbreeScene;
 }
 
-enum class Integrator { direct, path };
+enum class Integrator {
+    direct,
+    path,
+    whitted,   ///< whitted.h: direct, and what mirrors and glass show
+    radiosity, ///< radiosity.h
+    photon_map ///< photon_map.h
+};
+
+/// For Integrator::radiosity and photon_map, which solve the light of a moment before they draw it.
+struct SolverSettings {
+    double reach_m = 60.0;          ///< about the car: surfaces farther away keep no light, so that none comes from them
+    double patch_m = 1.0;           ///< radiosity: the longest side of a patch, nearly; > 0
+    int form_factor_rays = 128;     ///< radiosity: from each patch; a multiple of 16
+    double residual = 1e-4;         ///< radiosity: left of the light when the iteration ends; > 0
+    std::int64_t photons = 1 << 20; ///< photon map: sent out; becomes a multiple of 16
+    double radius_m = 0.25;         ///< photon map: of the disc over which light is averaged; > 0
+    bool final_gather =
+        true; ///< a pixel's light is gathered by rays from what was solved; false: it is taken from there, lamps' direct light apart
+
+    bool operator==(const SolverSettings&) const = default;
+};
 
 enum class Footprint {
     pixel, ///< mean over the pixel's area
@@ -45,7 +65,9 @@ struct ReferenceSettings {
     int most_bounces = 1000;                     ///< path: a bound that Russian roulette, which is unbiased, never meets in practice
     double lamp_radius_m = 0.0;                  ///< > 0: lamps are discs of this radius that face along their axis; 0: points
     double target_height_m = 0.25;               ///< of target_lx, above the surface
-    bool shadows = true;
+    bool shadows = true;                         ///< direct and whitted alone can leave them out
+    int most_smooth = 8;                         ///< whitted: mirrors and boundaries of glass in a row
+    SolverSettings solver;
     std::uint64_t seed = 1;
 
     bool operator==(const ReferenceSettings&) const = default;
@@ -59,6 +81,16 @@ struct Estimate {
 /// Bits of ReferenceImage::mixed.
 inline constexpr std::uint8_t several_surfaces = 1, shadow_edge = 2;
 
+/// What was solved before the drawing.
+struct Preparation {
+    double seconds = 0.0;
+    std::uint64_t rays = 0;
+    std::size_t patches = 0;        ///< radiosity
+    int sweeps = 0;                 ///< radiosity: of the iteration, the most of 16 replicates
+    double residual = 0.0;          ///< radiosity: sum |b - A E| / sum E, the largest of 16 replicates
+    std::size_t photons_stored = 0; ///< photon map
+};
+
 struct ReferenceImage {
     Estimate illuminance_lx;  ///< on the surface seen in the pixel, all lamps and sky; 0 where nothing is seen
     Estimate target_lx;       ///< of a target above the pixel's place that faces each lamp: sum of I / d^2, direct light with its shadows
@@ -70,6 +102,7 @@ struct ReferenceImage {
     double seconds = 0.0;
     std::uint64_t rays = 0;
     bool complete = true;
+    Preparation preparation; ///< included in seconds and rays
 };
 
 /// Called from the drawing thread every half second or so, and never at the same time as pixels change. False: stop.

@@ -10,6 +10,8 @@
 
 namespace fernlicht::reference {
 
+class SolvedLight;
+
 /// What all rays of a picture share.
 struct Shot {
     Shot(const EmbreeScene& embree, const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings);
@@ -20,7 +22,8 @@ struct Shot {
     Wanted wanted;
     ReferenceSettings settings;
     Camera camera;
-    glm::dvec3 car_m{0.0}; ///< the car's origin, relative to the scene's
+    glm::dvec3 car_m{0.0};                     ///< the car's origin, relative to the scene's
+    std::shared_ptr<const SolvedLight> solved; ///< of integrators that solve before they draw
 
     /// Through a place in the picture, relative to the scene's origin.
     Ray ray_through(double x_px, double y_px) const;

@@ -2,6 +2,8 @@
 
 #include "renderer/reference/path.h"
 #include "renderer/reference/replicates.h"
+#include "renderer/reference/solved_light.h"
+#include "renderer/reference/whitted.h"
 
 #include <algorithm>
 #include <bit>
@@ -46,13 +48,30 @@ struct Drawing {
 
 ShadowTally empty_tally(const Shot& shot) { return {std::vector<std::uint8_t>(2 * shot.moment.lamps.size(), 0)}; }
 
-bool has_sky_share(const Shot& shot) { return shot.settings.integrator == Integrator::direct; }
+/// One ray a sample and feelers; the sky is a share.
+bool is_direct(const ReferenceSettings& s) { return s.integrator == Integrator::direct || s.integrator == Integrator::whitted; }
+/// As solved beforehand: more samples a pixel do not lessen the noise of that.
+bool as_solved(const ReferenceSettings& s) {
+    return (s.integrator == Integrator::radiosity || s.integrator == Integrator::photon_map) && !s.solver.final_gather;
+}
 
 void add_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const std::array<Ray, packet_size>& rays,
                 LaneMask lanes, PacketLight& light, Drawing& drawing) {
-    light_packet(shot, points, rays, lanes, has_sky_share(shot), light, drawing.shadows);
-    if (shot.settings.integrator == Integrator::path)
-        add_bounced_light(shot, points, light);
+    light_packet(shot, points, rays, lanes, is_direct(shot.settings), light, drawing.shadows);
+    switch (shot.settings.integrator) {
+    case Integrator::direct:
+        break;
+    case Integrator::path:
+        add_path_light(shot, points, light);
+        break;
+    case Integrator::whitted:
+        add_whitted_light(shot, points, light);
+        break;
+    case Integrator::radiosity:
+    case Integrator::photon_map:
+        add_solved_light(shot, points, light);
+        break;
+    }
     for (std::size_t i = 0; i < packet_size; ++i) {
         drawing.sums[0][i] += light.illuminance_lx[i];
         drawing.sums[1][i] += light.target_lx[i];
@@ -87,7 +106,7 @@ Drawing draw_pixel(const Shot& shot, int x, int y, std::uint64_t round, bool of_
 
 /// How the error is expected to fall with more samples (replicates.h).
 double falling_power(const Shot& shot, const Drawing& drawing) {
-    if (shot.settings.integrator == Integrator::path)
+    if (!is_direct(shot.settings))
         return 1.0;
     return drawing.mixed() != 0 || shot.settings.lamp_radius_m > 0.0 ? 1.5 : 2.0;
 }
@@ -101,9 +120,11 @@ constexpr int path_pilot_each = 4, path_least_each = 8;
 
 int least_each(const ReferenceSettings& s) {
     const int asked = static_cast<int>(std::bit_ceil((static_cast<unsigned>(s.least_samples) + 15) / 16));
-    return s.integrator == Integrator::path ? std::max(asked, path_least_each) : asked;
+    return !is_direct(s) ? std::max(asked, path_least_each) : asked;
 }
 int most_each(const ReferenceSettings& s) {
+    if (as_solved(s))
+        return least_each(s);
     return std::max(least_each(s), static_cast<int>(std::bit_floor(static_cast<unsigned>(s.most_samples) / 16)));
 }
 
@@ -116,7 +137,7 @@ struct PixelEstimate {
 
 PixelEstimate estimate_pixel(const Shot& shot, int x, int y) {
     const int most = most_each(shot.settings);
-    const bool is_path = shot.settings.integrator == Integrator::path;
+    const bool is_path = !is_direct(shot.settings);
     const int pilot_each = is_path ? path_pilot_each : 1;
     Drawing drawing = draw_pixel(shot, x, y, 0, !is_path, pilot_each);
     PixelEstimate estimate{{}, least_each(shot.settings), 0, drawing.rays};
@@ -171,7 +192,7 @@ CentreRow centre_row(const Shot& shot, int x0, int y, int width) {
 
 /// Nothing is left to chance: one ray a pixel, no noise.
 bool is_certain(const ReferenceSettings& settings) {
-    return settings.footprint == Footprint::centre && settings.integrator == Integrator::direct && settings.lamp_radius_m <= 0.0;
+    return settings.footprint == Footprint::centre && is_direct(settings) && settings.lamp_radius_m <= 0.0;
 }
 
 std::uint64_t draw_certain_row(const Shot& shot, const CentreRow& row, int x0, int y, ReferenceImage& image) {

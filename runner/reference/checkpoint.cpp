@@ -84,6 +84,8 @@ std::string hash_of_inputs(const ReferenceResult& result, const Drive& drive) {
     text += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n", static_cast<int>(s.integrator), static_cast<int>(s.footprint),
                         s.target_error, s.floor_lx, s.floor_cdm2, s.least_samples, s.most_samples, s.most_bounces, s.lamp_radius_m,
                         s.target_height_m, s.shadows, s.seed);
+    text += fmt::format("{} {} {} {} {} {} {} {}\n", s.most_smooth, s.solver.reach_m, s.solver.patch_m, s.solver.form_factor_rays,
+                        s.solver.residual, s.solver.photons, s.solver.radius_m, s.solver.final_gather);
     for (const FileRead& file : result.context.inputs)
         text += file.xxh128 + "\n";
     return content_hash(text.data(), text.size());

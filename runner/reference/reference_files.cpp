@@ -112,6 +112,29 @@ Json context_json(const RunContext& context) {
             {"versions", versions},       {"inputs", inputs}};
 }
 
+/// Of the method that was used alone.
+Json solver_json(const ReferenceSettings& s) {
+    const SolverSettings& v = s.solver;
+    if (s.integrator == Integrator::radiosity)
+        return {{"reach_m", v.reach_m},
+                {"patch_m", v.patch_m},
+                {"form_factor_rays", v.form_factor_rays},
+                {"residual", v.residual},
+                {"final_gather", v.final_gather}};
+    if (s.integrator == Integrator::photon_map)
+        return {{"reach_m", v.reach_m}, {"photons", v.photons}, {"radius_m", v.radius_m}, {"final_gather", v.final_gather}};
+    return nullptr;
+}
+
+Json preparation_json(const ReferenceResult& r) {
+    const Preparation& p = r.image.preparation;
+    if (r.settings.integrator == Integrator::radiosity)
+        return {{"seconds", p.seconds}, {"rays", p.rays}, {"patches", p.patches}, {"sweeps", p.sweeps}, {"residual", p.residual}};
+    if (r.settings.integrator == Integrator::photon_map)
+        return {{"seconds", p.seconds}, {"rays", p.rays}, {"photons_stored", p.photons_stored}};
+    return nullptr;
+}
+
 Json settings_json(const ReferenceResult& r) {
     const ReferenceSettings& s = r.settings;
     return {{"integrator", integrator_name(s.integrator)},
@@ -124,6 +147,8 @@ Json settings_json(const ReferenceResult& r) {
             {"lamp_radius_m", s.lamp_radius_m},
             {"target_height_m", s.target_height_m},
             {"shadows", s.shadows},
+            {"most_smooth", s.most_smooth},
+            {"solver", solver_json(s)},
             {"seed", s.seed}};
 }
 
@@ -146,6 +171,7 @@ Json reference_json(const ReferenceResult& r) {
             {"inputs_hash", r.inputs_hash},
             {"relative_standard_error",
              {{"illuminance", error_json(r.illuminance())}, {"target", error_json(r.target())}, {"luminance", error_json(r.luminance())}}},
+            {"preparation", preparation_json(r)},
             {"triangles", r.triangles},
             {"samples", samples},
             {"rays", r.image.rays},

@@ -44,9 +44,36 @@ std::string integrator_name(Integrator integrator) {
         return "direct";
     case Integrator::path:
         return "path";
+    case Integrator::whitted:
+        return "whitted";
+    case Integrator::radiosity:
+        return "radiosity";
+    case Integrator::photon_map:
+        return "photon-map";
     }
     return "unknown";
 }
+
+std::optional<Integrator> integrator_of(const std::string& name) {
+    for (const Integrator integrator :
+         {Integrator::direct, Integrator::path, Integrator::whitted, Integrator::radiosity, Integrator::photon_map})
+        if (integrator_name(integrator) == name)
+            return integrator;
+    return std::nullopt;
+}
+
+namespace {
+
+std::string preparation_text(const Preparation& p) {
+    if (p.patches > 0)
+        return fmt::format("solved before: {} patches in {:.2f} s, {} sweeps, residual {:.1e}\n", p.patches, p.seconds, p.sweeps,
+                           p.residual);
+    if (p.photons_stored > 0)
+        return fmt::format("solved before: {} photons left on surfaces in {:.2f} s\n", p.photons_stored, p.seconds);
+    return {};
+}
+
+} // namespace
 
 std::string reference_text(const ReferenceResult& r) {
     std::string text = fmt::format("{}, {}, after {:.3f} s, {} {} x {}, {}, standard error wanted {:.3g} %\n",
@@ -61,6 +88,7 @@ std::string reference_text(const ReferenceResult& r) {
     line("illuminance", r.illuminance());
     line("target", r.target());
     line("luminance", r.luminance());
+    text += preparation_text(r.image.preparation);
     const double samples = spread_of({r.image.samples.pixels().begin(), r.image.samples.pixels().end()}).value_or(Spread{}).mean;
     text += fmt::format("{:.1f} samples a pixel, {:.1f} million rays in {:.2f} s, {:.2f} million rays a second, {} triangles\n", samples,
                         1e-6 * static_cast<double>(r.image.rays), r.image.seconds,

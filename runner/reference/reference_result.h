@@ -34,6 +34,8 @@ struct ReferenceResult {
 };
 
 std::string integrator_name(Integrator integrator);
+/// nullopt for a name that no integrator has.
+std::optional<Integrator> integrator_of(const std::string& name);
 
 /// reference.exr (mean and variance), reference.json, and for eyes reference.png (perspective views), illuminance.png and error.png.
 /// Throws DeviceError.

@@ -42,6 +42,10 @@ struct Material {
     int texture = -1;                    ///< into Scene::textures; -1: none, the surface has its own colour everywhere
     TextureMode texture_mode = TextureMode::modulate;
     glm::vec3 blend_colour{0.0F}; ///< Cc, for blend only
+    /// Share of light that a smooth surface mirrors, 0..1, with the albedo at most 1. Followed by rays alone; rasterised pictures leave it
+    /// out.
+    float mirror = 0.0F;
+    float glass_index = 0.0F; ///< refractive index against air, >= 1, of a closed body without albedo; 0: opaque. By rays alone, too
 
     bool operator==(const Material&) const = default;
 };

@@ -1,0 +1,148 @@
+#include "renderer/reference/patches.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace fernlicht::reference {
+namespace {
+
+/// A facet smaller than this holds no light that could be told from rounding, m2.
+constexpr double least_area_m2 = 1e-12;
+
+Facet facet_of(const EmbreeScene& embree, std::uint32_t mesh_index, std::uint32_t triangle, const Batch& batch, std::uint32_t first) {
+    const Mesh& mesh = embree.scene().meshes[mesh_index];
+    Facet facet{mesh_index, triangle, batch.material, {}, {}, {}};
+    std::array<const Vertex*, 3> v{};
+    for (std::size_t k = 0; k < 3; ++k)
+        v[k] = &mesh.vertices[mesh.indices[first + k]];
+    const auto side = [&](std::size_t k) { // opposite to corner k
+        return glm::length(glm::dvec3(v[(k + 1) % 3]->position_m) - glm::dvec3(v[(k + 2) % 3]->position_m));
+    };
+    std::size_t apex = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (side(k) > side(apex))
+            apex = k;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vertex& vertex = *v[(apex + k) % 3];
+        facet.corner_m[k] = mesh.origin_m - embree.origin_m() + glm::dvec3(vertex.position_m);
+        facet.normal[k] = glm::dvec3(vertex.normal);
+        facet.uv[k] = glm::dvec2(vertex.uv);
+    }
+    const glm::dvec3 across = glm::cross(facet.corner_m[1] - facet.corner_m[0], facet.corner_m[2] - facet.corner_m[0]);
+    facet.area_m2 = 0.5 * glm::length(across);
+    if (facet.area_m2 > least_area_m2)
+        facet.facet_normal = across / (2.0 * facet.area_m2);
+    if (glm::dot(facet.facet_normal, facet.normal[0] + facet.normal[1] + facet.normal[2]) < 0.0)
+        facet.facet_normal = -facet.facet_normal;
+    return facet;
+}
+
+bool within(const Facet& facet, const glm::dvec3& centre_m, double reach_m) {
+    const glm::dvec3 middle = (facet.corner_m[0] + facet.corner_m[1] + facet.corner_m[2]) / 3.0;
+    double radius = 0.0;
+    for (const glm::dvec3& corner : facet.corner_m)
+        radius = std::max(radius, glm::length(corner - middle));
+    return glm::length(middle - centre_m) - radius < reach_m;
+}
+
+/// Weights of the three corners at a point of the facet's plane.
+glm::dvec3 weights_at(const Facet& facet, const glm::dvec3& point_m) {
+    const glm::dvec3 ab = facet.corner_m[1] - facet.corner_m[0], ac = facet.corner_m[2] - facet.corner_m[0],
+                     ap = point_m - facet.corner_m[0], n = glm::cross(ab, ac);
+    const double nn = glm::dot(n, n), b = glm::dot(glm::cross(ap, ac), n) / nn, c = glm::dot(glm::cross(ab, ap), n) / nn;
+    return {1.0 - b - c, b, c};
+}
+
+} // namespace
+
+SurfaceHit Facet::at(const glm::dvec3& w) const {
+    SurfaceHit hit;
+    hit.mesh = mesh, hit.triangle = triangle, hit.material = material;
+    hit.point_m = corner_m[0] * w.x + corner_m[1] * w.y + corner_m[2] * w.z;
+    hit.normal = glm::normalize(normal[0] * w.x + normal[1] * w.y + normal[2] * w.z);
+    hit.facet_normal = facet_normal;
+    hit.uv = uv[0] * w.x + uv[1] * w.y + uv[2] * w.z;
+    return hit;
+}
+
+SurfaceHit Facet::anywhere(const glm::dvec2& square) const {
+    const double root = std::sqrt(square.x);
+    return at({1.0 - root, root * (1.0 - square.y), root * square.y});
+}
+
+std::vector<Facet> facets_within(const EmbreeScene& embree, const glm::dvec3& centre_m, double reach_m) {
+    std::vector<Facet> facets;
+    for (std::uint32_t m = 0; m < embree.scene().meshes.size(); ++m) {
+        std::uint32_t triangle = 0;
+        for (const Batch& batch : embree.scene().meshes[m].batches)
+            for (std::uint32_t i = 0; i + 2 < batch.count; i += 3, ++triangle) {
+                Facet facet = facet_of(embree, m, triangle, batch, batch.first + i);
+                if (facet.area_m2 > least_area_m2 && within(facet, centre_m, reach_m))
+                    facets.push_back(std::move(facet));
+            }
+    }
+    return facets;
+}
+
+std::uint32_t Patches::Cut::columns(std::uint32_t row) const {
+    const double widest = 1.0 - static_cast<double>(row) / rows;
+    return std::max(1U, static_cast<std::uint32_t>(std::ceil(columns_at_base * widest)));
+}
+
+Patches::Patches(const EmbreeScene& embree, std::vector<Facet> facets, double patch_m, std::size_t most) : facets_(std::move(facets)) {
+    facet_of_.resize(embree.scene().meshes.size());
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+        const Facet& facet = facets_[f];
+        const double base = glm::length(facet.corner_m[2] - facet.corner_m[1]), height = 2.0 * facet.area_m2 / base;
+        if (base / patch_m > static_cast<double>(most))
+            throw InputError({{}, 0, 0, "patch"}, fmt::format("{} m would cut a side of {:.0f} m", patch_m, base),
+                             fmt::format("a size that makes at most {} patches", most));
+        cuts_.push_back({static_cast<std::uint32_t>(places_.size()), std::max(1U, static_cast<std::uint32_t>(std::ceil(height / patch_m))),
+                         base / patch_m});
+        for (std::uint32_t row = 0; row < cuts_.back().rows; ++row) {
+            const std::uint32_t columns = cuts_.back().columns(row);
+            if (places_.size() + columns > most)
+                throw InputError({{}, 0, 0, "patch"}, fmt::format("{} m makes more than {} patches", patch_m, most),
+                                 "a larger patch or a shorter reach");
+            for (std::uint32_t column = 0; column < columns; ++column)
+                places_.push_back({f, row, column});
+        }
+        std::vector<std::uint32_t>& of_mesh = facet_of_[facet.mesh];
+        if (of_mesh.size() <= facet.triangle)
+            of_mesh.resize(facet.triangle + 1, none);
+        of_mesh[facet.triangle] = f;
+    }
+}
+
+std::uint32_t Patches::at(const SurfaceHit& hit) const {
+    const std::vector<std::uint32_t>& of_mesh = facet_of_[hit.mesh];
+    if (hit.triangle >= of_mesh.size() || of_mesh[hit.triangle] == none)
+        return none;
+    const std::uint32_t f = of_mesh[hit.triangle];
+    const Cut& cut = cuts_[f];
+    const glm::dvec3 w = weights_at(facets_[f], hit.point_m);
+    const auto part = [](double share, std::uint32_t count) { // rounding may put a place just outside
+        return static_cast<std::uint32_t>(std::clamp(std::floor(share * count), 0.0, static_cast<double>(count - 1)));
+    };
+    const std::uint32_t row = part(w.x, cut.rows);
+    std::uint32_t patch = cut.first;
+    for (std::uint32_t r = 0; r < row; ++r)
+        patch += cut.columns(r);
+    return patch + part(w.x < 1.0 ? w.z / (1.0 - w.x) : 0.0, cut.columns(row));
+}
+
+SurfaceHit Patches::place(std::uint32_t patch, const glm::dvec2& square) const {
+    const Place& place = places_[patch];
+    const Cut& cut = cuts_[place.facet];
+    // Widths fall as 1 - t, so that (1 - t)^2 is uniform over the row's area.
+    const double below = 1.0 - static_cast<double>(place.row) / cut.rows, above = 1.0 - (place.row + 1.0) / cut.rows,
+                 wide = std::sqrt(below * below + (above * above - below * below) * square.x),
+                 along = (place.column + square.y) / cut.columns(place.row);
+    return facets_[place.facet].at({1.0 - wide, wide * (1.0 - along), wide * along});
+}
+
+} // namespace fernlicht::reference

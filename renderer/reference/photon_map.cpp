@@ -1,0 +1,122 @@
+#include "renderer/reference/photon_map.h"
+
+#include "renderer/reference/photon_emission.h"
+#include "renderer/reference/replicates.h"
+#include "renderer/reference/scattering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <tbb/parallel_for.h>
+
+namespace fernlicht::reference {
+namespace {
+
+constexpr std::uint64_t photon_seed = 0x9407035ULL; ///< apart from the pixels' nets
+constexpr double plane_share = 0.3, least_cosine = 0.7;
+
+/// Cells are two radii wide: a sphere meets at most two each way.
+glm::ivec3 cell_at(const glm::dvec3& point_m, double radius_m) { return glm::ivec3(glm::floor(point_m / (2.0 * radius_m))); }
+
+} // namespace
+
+/// Cells in a row along x have successive numbers. 21 bits each way.
+std::uint64_t PhotonMap::cell_of(const glm::ivec3& cell) const {
+    const auto bits = [](int i) { return static_cast<std::uint64_t>(i + (1 << 20)) & ((1U << 21) - 1); };
+    return bits(cell.z) << 42 | bits(cell.y) << 21 | bits(cell.x);
+}
+
+bool PhotonMap::counts(Way way, Part part) { return part == Part::all || (part == Part::caustic ? way == Way::caustic : way != Way::lamp); }
+
+PhotonMap::Map PhotonMap::sent_out(const Shot& shot, const PhotonEmission& emission, std::size_t replicate, std::uint32_t count) const {
+    Map map;
+    const PointNet net(mixed(mixed(shot.settings.seed, photon_seed), replicate));
+    std::vector<Photon> photons;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const SamplePoint point{net, i};
+        const PhotonStart start = emission.start(shot, point);
+        const glm::dvec3 flux = start.flux_lm / static_cast<double>(count);
+        if (flux == glm::dvec3(0.0))
+            continue;
+        Ray ray = start.ray;
+        glm::dvec3 weight(1.0);
+        bool specular = false, straight = start.from_lamp; // from a lamp over smooth surfaces alone
+        std::size_t pair = PhotonEmission::pairs;
+        for (int bounce = 0; bounce < shot.settings.most_bounces; ++bounce, pair += 2) {
+            ++map.rays;
+            const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
+            if (!hit)
+                break;
+            const Surface surface = surface_at(shot.embree.scene(), *hit, -ray.direction);
+            if (surface.is_dark())
+                break;
+            if (!surface.is_glass() && glm::length(hit->point_m - shot.car_m) < reach_m_)
+                photons.push_back({glm::vec3(hit->point_m), glm::vec3(hit->facet_normal), glm::vec3(flux * weight),
+                                   !straight     ? Way::other
+                                   : bounce == 0 ? Way::lamp
+                                                 : Way::caustic});
+            if (!go_on_from(surface, point, pair, ray, weight, specular))
+                break;
+            straight &= specular;
+        }
+    }
+    std::vector<std::uint64_t> cells(photons.size());
+    for (std::size_t i = 0; i < photons.size(); ++i)
+        cells[i] = cell_of(cell_at(glm::dvec3(photons[i].place_m), radius_m_));
+    std::vector<std::uint32_t> order(photons.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return cells[a] != cells[b] ? cells[a] < cells[b] : a < b; });
+    for (const std::uint32_t i : order) {
+        map.photons.push_back(photons[i]);
+        map.cells.push_back(cells[i]);
+    }
+    return map;
+}
+
+PhotonMap::PhotonMap(const Shot& shot, Preparation& preparation)
+    : radius_m_(shot.settings.solver.radius_m), reach_m_(shot.settings.solver.reach_m), maps_(replicate_count) {
+    const PhotonEmission emission(shot);
+    if (emission.is_dark())
+        return;
+    const auto each = static_cast<std::uint32_t>((shot.settings.solver.photons + static_cast<std::int64_t>(replicate_count) - 1) /
+                                                 static_cast<std::int64_t>(replicate_count));
+    tbb::parallel_for(std::size_t{0}, replicate_count, [&](std::size_t r) { maps_[r] = sent_out(shot, emission, r, each); });
+    for (const Map& map : maps_) {
+        preparation.rays += map.rays;
+        preparation.photons_stored += map.photons.size();
+    }
+}
+
+glm::dvec3 PhotonMap::irradiance(const SurfaceHit& hit, Part part, std::size_t replicate) const {
+    const Map& map = maps_[replicate];
+    const double r2 = radius_m_ * radius_m_;
+    const glm::ivec3 low = cell_at(hit.point_m - radius_m_, radius_m_), high = cell_at(hit.point_m + radius_m_, radius_m_);
+    glm::dvec3 sum(0.0);
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y) {
+            const auto begin = std::ranges::lower_bound(map.cells, cell_of({low.x, y, z}));
+            const std::uint64_t last = cell_of({high.x, y, z});
+            for (auto it = begin; it != map.cells.end() && *it <= last; ++it) {
+                const Photon& photon = map.photons[static_cast<std::size_t>(it - map.cells.begin())];
+                const glm::dvec3 away = glm::dvec3(photon.place_m) - hit.point_m;
+                const double d2 = glm::dot(away, away);
+                if (d2 >= r2 || !counts(photon.way, part) || std::abs(glm::dot(away, hit.facet_normal)) > plane_share * radius_m_ ||
+                    glm::dot(glm::dvec3(photon.normal), hit.facet_normal) < least_cosine)
+                    continue;
+                sum += glm::dvec3(photon.flux_lm) * (1.0 - d2 / r2);
+            }
+        }
+    return sum * (2.0 / (pi * r2));
+}
+
+glm::dvec3 PhotonMap::flux_lm(Part part) const {
+    glm::dvec3 sum(0.0);
+    for (const Map& map : maps_)
+        for (const Photon& photon : map.photons)
+            if (counts(photon.way, part))
+                sum += glm::dvec3(photon.flux_lm);
+    return sum / static_cast<double>(maps_.size());
+}
+
+} // namespace fernlicht::reference

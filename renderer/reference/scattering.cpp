@@ -1,0 +1,146 @@
+#include "renderer/reference/scattering.h"
+
+#include "scenarios/photometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fernlicht::reference {
+namespace {
+
+/// Smooth surfaces in a row that a ray follows; what is met after them is black.
+constexpr std::size_t most_smooth = 64;
+
+double greatest(const glm::dvec3& rgb) { return std::max({rgb.x, rgb.y, rgb.z}); }
+
+} // namespace
+
+Surface surface_at(const Scene& scene, const SurfaceHit& hit, const glm::dvec3& out) {
+    const Material& material = scene.materials[hit.material];
+    Surface surface{hit, response_at(scene, hit), {}, 0.0, 0.0, static_cast<double>(material.glass_index), out};
+    if (surface.is_glass()) {
+        surface.response = {};
+        return surface;
+    }
+    surface.mirror = static_cast<double>(material.mirror);
+    surface.albedo = greatest(surface.response.albedo);
+    surface.lobe = retro_lobe(surface.response, surface.albedo + surface.mirror);
+    return surface;
+}
+
+double fresnel_reflectance(double cosine, double ratio) {
+    const double c = std::clamp(cosine, 0.0, 1.0), g2 = ratio * ratio - 1.0 + c * c; // g = (n2 / n1) cos(refracted)
+    if (g2 <= 0.0)
+        return 1.0;
+    const double g = std::sqrt(g2), across = (c - g) / (c + g), along = (ratio * ratio * c - g) / (ratio * ratio * c + g);
+    return 0.5 * (across * across + along * along);
+}
+
+SpecularSplit specular_split(const Surface& surface) {
+    SpecularSplit split;
+    const glm::dvec3 n = surface.hit.from_behind ? -surface.hit.normal : surface.hit.normal;
+    const double cosine = std::clamp(glm::dot(n, surface.out), 0.0, 1.0);
+    split.mirrored = glm::normalize(n * (2.0 * cosine) - surface.out);
+    if (!surface.is_glass()) {
+        split.mirrored_share = surface.hit.from_behind ? 0.0 : surface.mirror;
+        return split;
+    }
+    const double ratio = surface.hit.from_behind ? 1.0 / surface.glass_index : surface.glass_index;
+    split.mirrored_share = fresnel_reflectance(cosine, ratio);
+    split.refracted_share = 1.0 - split.mirrored_share;
+    if (split.refracted_share > 0.0) {
+        const double beyond = std::sqrt(std::max(0.0, 1.0 - (1.0 - cosine * cosine) / (ratio * ratio)));
+        split.refracted = glm::normalize((n * cosine - surface.out) / ratio - n * beyond);
+    }
+    return split;
+}
+
+Ray leaving(const SurfaceHit& hit, const glm::dvec3& direction) {
+    const glm::dvec3 raised = EmbreeScene::raised(hit);
+    return {glm::dot(direction, hit.facet_normal) > 0.0 ? raised : 2.0 * hit.point_m - raised, direction};
+}
+
+glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint& point, std::size_t pair, std::uint64_t& rays) {
+    glm::dvec3 sum(0.0);
+    for (const LitLamp& lamp : shot.moment.lamps) {
+        const glm::dvec3 lamp_m = lamp_point_m(shot, lamp, point, pair++), to_lamp = lamp_m - surface.hit.point_m;
+        const double cosine = photometry::incidence(surface.hit.normal, to_lamp);
+        const double e_perp = cosine > 0.0 ? facing_lx(lamp, lamp_m, surface.hit.point_m) : 0.0;
+        if (e_perp <= 0.0)
+            continue;
+        if (shot.settings.shadows) {
+            ++rays;
+            if (!shot.embree.visible(surface.hit, lamp_m))
+                continue;
+        }
+        glm::dvec3 reflected = surface.response.albedo * (cosine / pi);
+        if (surface.lobe.is_there())
+            reflected += retro_times_cosine(surface.lobe, photometry::observation_angle(to_lamp, surface.out), cosine,
+                                            glm::dot(surface.hit.normal, surface.out));
+        sum += lamp.colour.linear_srgb * reflected * e_perp;
+    }
+    return sum;
+}
+
+bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pair, Ray& ray, glm::dvec3& weight, bool& specular) {
+    const SpecularSplit smooth = specular_split(surface);
+    const double rough = surface.albedo + surface.lobe.returned, reflected = rough + smooth.mirrored_share + smooth.refracted_share;
+    if (reflected <= 0.0)
+        return false;
+    const glm::dvec2 choice = point.pair(pair), square = point.pair(pair + 1);
+    double lobe_choice = choice.x * reflected; // within its part, over the part's width, uniform again
+    specular = lobe_choice >= rough;
+    if (lobe_choice < surface.albedo) {
+        lobe_choice = choice.x * (reflected / surface.albedo);
+        ray.direction = sample_cosine(surface.hit.normal, square);
+        weight *= surface.response.albedo * (reflected / surface.albedo);
+    } else if (!specular) {
+        lobe_choice = (lobe_choice - surface.albedo) / surface.lobe.returned;
+        const RetroSample sample = sample_retro(surface.lobe, surface.out, surface.hit.normal, square, choice.y);
+        ray.direction = sample.direction;
+        weight *= sample.weight * (reflected / surface.lobe.returned);
+    } else {
+        const bool mirrored = lobe_choice - rough < smooth.mirrored_share;
+        lobe_choice = mirrored ? (lobe_choice - rough) / smooth.mirrored_share
+                               : (lobe_choice - rough - smooth.mirrored_share) / smooth.refracted_share;
+        ray.direction = mirrored ? smooth.mirrored : smooth.refracted;
+        weight *= reflected;
+    }
+    const double stay = std::min(1.0, 2.0 * greatest(weight)); // Russian roulette
+    if (lobe_choice >= stay)
+        return false;
+    weight /= stay;
+    ray = leaving(surface.hit, ray.direction);
+    return surface.is_glass() || glm::dot(ray.direction, surface.hit.facet_normal) > 0.0;
+}
+
+std::optional<Surface> cast_past_smooth(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray& ray, std::uint64_t& rays) {
+    std::optional<Surface> surface;
+    for (std::size_t k = 0; k < most_smooth; ++k) {
+        ++rays;
+        const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
+        if (!hit)
+            return std::nullopt;
+        surface = surface_at(shot.embree.scene(), *hit, -ray.direction);
+        if (!surface->is_glass() && (surface->mirror <= 0.0 || hit->from_behind))
+            return surface;
+        const SpecularSplit split = specular_split(*surface);
+        const double choice = point.pair(pair + k).x;
+        if (choice < split.mirrored_share)
+            ray = leaving(*hit, split.mirrored);
+        else if (choice < split.mirrored_share + split.refracted_share)
+            ray = leaving(*hit, split.refracted);
+        else
+            return surface;
+    }
+    surface->hit.from_behind = true;
+    surface->glass_index = 0.0;
+    return surface;
+}
+
+glm::dvec3 sky_luminance(const Moment& moment, const glm::dvec3& direction) {
+    return glm::dvec3(direction.z > 0.0 ? moment.daylight.horizontal_illuminance_lx / pi : 0.0);
+}
+
+} // namespace fernlicht::reference

@@ -1,0 +1,60 @@
+// Where light goes from a surface: one place for all methods that follow it, from the eye or from the lamps.
+//
+// Diffuse light leaves by Lambert's law, retroreflected light by a lobe (retro_lobe.h). A smooth surface mirrors the share
+// Material::mirror; a surface of glass splits light by Fresnel's equations (Born and Wolf, Principles of Optics, 1.5.2) and Snell's law,
+// and takes nothing away. Every one of these is symmetric between the two directions, apart from the factor n^2 that radiance carries
+// within glass and loses where it leaves: eye, lamps and all other surfaces are in air, so that it always cancels and is left out.
+#pragma once
+
+#include "renderer/reference/retro_lobe.h"
+#include "renderer/reference/shot.h"
+
+namespace fernlicht::reference {
+
+struct Surface {
+    SurfaceHit hit;
+    SurfaceResponse response;
+    RetroLobe lobe;
+    double albedo = 0.0;      ///< the greatest of three
+    double mirror = 0.0;      ///< share that is mirrored
+    double glass_index = 0.0; ///< 0: opaque
+    glm::dvec3 out{0.0};      ///< unit, back along the path
+    bool is_glass() const { return glass_index > 0.0; }
+    /// Met from the side that is not lit, and nothing passes.
+    bool is_dark() const { return hit.from_behind && !is_glass(); }
+};
+
+inline bool is_smooth(const Material& material) { return material.mirror > 0.0F || material.glass_index > 0.0F; }
+
+Surface surface_at(const Scene& scene, const SurfaceHit& hit, const glm::dvec3& out);
+
+/// Share of unpolarised light that a smooth boundary reflects, 0..1. `cosine` against the normal on the side that light comes from, 0..1;
+/// `ratio` is the refractive index beyond over the one before. 1 for total reflection.
+double fresnel_reflectance(double cosine, double ratio);
+
+/// Where smooth surfaces send light; shares 0 where there is none.
+struct SpecularSplit {
+    glm::dvec3 mirrored{0.0}, refracted{0.0}; ///< unit
+    double mirrored_share = 0.0, refracted_share = 0.0;
+};
+SpecularSplit specular_split(const Surface& surface);
+
+/// A ray from a surface into a direction, to whichever side that is.
+Ray leaving(const SurfaceHit& hit, const glm::dvec3& direction);
+
+/// Luminance in linear sRGB that the lamps give the surface along the path, over this surface alone. Draws from the point's pairs from
+/// `pair` on, one a lamp.
+glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint& point, std::size_t pair, std::uint64_t& rays);
+
+/// Draws where the path goes on from the surface, from two pairs, and multiplies its weight; false where it ends. `specular`: by mirror or
+/// glass. Russian roulette keeps the weight at about 1/2 or above.
+bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pair, Ray& ray, glm::dvec3& weight, bool& specular);
+
+/// What a ray meets at last that is neither glass nor, by the throw of a die, mirror: so that light that comes from there is the surface's
+/// own, over 1 - mirror. nullopt: nothing, and `ray` is the one that goes there. Draws from the point's pairs from `pair` on.
+std::optional<Surface> cast_past_smooth(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray& ray, std::uint64_t& rays);
+
+/// Luminance of the sky from a direction, linear sRGB with Y in cd/m2.
+glm::dvec3 sky_luminance(const Moment& moment, const glm::dvec3& direction);
+
+} // namespace fernlicht::reference

@@ -1,0 +1,211 @@
+// Photons against closed forms and against paths; flux is kept.
+#include "tests/renderer/reference/rooms.h"
+
+#include "renderer/reference/photon_emission.h"
+#include "renderer/reference/photon_map.h"
+#include "renderer/reference/replicates.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+namespace fernlicht {
+namespace {
+
+ReferenceSettings photons(std::int64_t count, double radius_m, bool final_gather) {
+    ReferenceSettings settings;
+    settings.integrator = Integrator::photon_map;
+    settings.target_error = 0.005;
+    settings.solver.photons = count;
+    settings.solver.radius_m = radius_m;
+    settings.solver.final_gather = final_gather;
+    return settings;
+}
+
+/// Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom; seeds are fixed.
+void expect_estimate(const Estimate& estimate, double truth, double bias, int x = 0, int y = 0) {
+    EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + bias * truth);
+}
+
+struct Solved {
+    Solved(const Scene& scene, const Moment& moment, const ReferenceSettings& settings)
+        : embree(scene, {0, 0, 0}), shot(embree, moment, view, everything, settings), map(shot, preparation) {}
+    View view = camera({0, 0, 0}, 0, 0, 10, 1);
+    reference::EmbreeScene embree;
+    reference::Shot shot;
+    Preparation preparation;
+    reference::PhotonMap map;
+
+    /// Of all replicates where a ray from the origin meets a surface.
+    reference::MeanAndError irradiance(const glm::dvec3& direction, reference::Part part) const {
+        std::array<double, reference::replicate_count> values{};
+        for (std::size_t r = 0; r < values.size(); ++r)
+            values[r] = reference::luminance(map.irradiance(*embree.cast({glm::dvec3(0.0), direction}), part, r));
+        return reference::mean_of(values, 1);
+    }
+};
+
+Moment with(LitLamp lamp) {
+    Moment moment;
+    moment.lamps = {std::move(lamp)};
+    return moment;
+}
+
+LitLamp library_lamp(const char* name, const Pose& pose) {
+    return {name,         std::make_shared<LampFile>(read_lamp(std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/") + name)),
+            pose,         0.8,
+            LampColour{}, 0.0};
+}
+
+TEST(PhotonMap, FluxIsKept) {
+    // What arrives on the walls of a closed room is the lamp's flux, and with every bounce rho of it: flux / (1 - rho).
+    for (const double albedo : {0.0, 0.6})
+        for (const char* name : {"halogen-low.ies", "xenon-high.ies"}) {
+            const Scene scene = closed_room(lambert(albedo));
+            const Moment moment = with(library_lamp(name, looking({0.1, 0.2, -0.1}, 30, 5)));
+            const Solved solved(scene, moment, photons(1 << 16, 0.1, false));
+            const double flux = 0.8 * flux_lm(moment.lamps[0].file->table);
+            EXPECT_NEAR(reference::luminance(solved.map.flux_lm(reference::Part::all)), flux / (1.0 - albedo),
+                        0.005 * flux / (1.0 - albedo)) // 65536 photons; where nothing bounces they are stratified
+                << name << albedo;
+            EXPECT_NEAR(reference::luminance(solved.map.flux_lm(reference::Part::without_lamps)), flux * albedo / (1.0 - albedo),
+                        0.01 * flux);
+        }
+}
+
+TEST(PhotonMap, AWallAt25mHasItsIlluminance) {
+    // I / 625 on the axis, cos^3 beside it, by photons alone: a lamp of 10 000 cd within 6 degrees.
+    LitLamp lamp = even_lamp(10'000.0, looking({0, 0, 0}, 0, 0));
+    auto file = std::make_shared<LampFile>(*lamp.file);
+    file->table.h_deg = {-6.0, 1.0, 6.0}, file->table.v_deg = {-6.0, 6.0};
+    file->table.cd.assign(6, 10'000.0);
+    lamp.file = file;
+    Scene scene;
+    scene.materials = {lambert(0.5, SurfaceKind::object)};
+    Mesh wall{"wall", {25.0, 0.0, 0.0}, {}, {}, {}};
+    add_quad(wall, {0, 4, -4}, {0, -4, -4}, {0, -4, 4}, {0, 4, 4});
+    scene.meshes = {finished(wall, 0)};
+    const Solved solved(scene, with(lamp), photons(1 << 18, 0.3, false));
+    for (const double angle_deg : {0.0, 4.0}) {
+        const double c = std::cos(radians(angle_deg)), truth = 16.0 * c * c * c;
+        const auto [e, error] = solved.irradiance({c, std::sin(radians(angle_deg)), 0.0}, reference::Part::all);
+        EXPECT_NEAR(e, truth, 5.0 * error + 1e-4 * truth); // smoothing over 0.3 m at 25 m: (0.3 / 25)^2
+        EXPECT_LT(error, 0.02 * truth);                    // 2700 photons on the disc
+        EXPECT_EQ(solved.irradiance({c, std::sin(radians(angle_deg)), 0.0}, reference::Part::without_lamps).mean, 0.0);
+    }
+}
+
+TEST(PhotonMap, KeepsEnergyInAWhiteClosedRoom) {
+    Material wall = lambert(0.6);
+    wall.emission_cdm2 = glm::vec3(3.0F);
+    const Scene scene = closed_room(wall);
+    const double truth = 3.0 / (1.0 - static_cast<double>(wall.albedo.x));
+    const View view = camera({0, 0, 0}, 0, 0, 20, 2); // the middle of a wall, more than a radius away from its ends
+    for (const bool gather : {false, true}) {
+        const ReferenceImage image = Reference(scene).render({}, view, everything, photons(1 << 17, 0.1, gather));
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 2; ++x) // gathered from everywhere: a strip of 0.1 m along the walls' ends has less light
+                expect_estimate(image.luminance_cdm2, truth, gather ? 0.03 : 1e-6, x, y);
+    }
+}
+
+TEST(PhotonMap, AMirrorThrowsTheLampsLightOnTheWall) {
+    // The lamp looks away from the wall into a mirror at d1; it is as if it stood behind: E = R I / (d1 + d2)^2. Paths cannot find it.
+    Scene scene;
+    Material mirror = lambert(0.0, SurfaceKind::object);
+    mirror.mirror = 0.8F;
+    scene.materials = {lambert(0.0, SurfaceKind::object), mirror};
+    Mesh wall{"wall", {-3.0, 0.0, 0.0}, {}, {}, {}}, glass{"mirror", {2.0, 0.0, 0.0}, {}, {}, {}};
+    add_quad(wall, {0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1});
+    add_quad(glass, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
+    scene.meshes = {finished(wall, 0), finished(glass, 1)};
+    const double truth = static_cast<double>(0.8F) * 500.0 / 49.0; // 2 m there, 5 m back
+    const Moment moment = with(even_lamp(500.0, looking({0, 0, 0}, 0, 0)));
+    const Solved solved(scene, moment, photons(1 << 20, 0.2, true));
+    const auto [e, error] = solved.irradiance({-1, 0, 0}, reference::Part::caustic);
+    EXPECT_NEAR(e, truth, 5.0 * error + 2e-3 * truth); // (0.2 / 7)^2 of smoothing
+    EXPECT_LT(error, 0.03 * truth);
+    const View view = camera({-1, 0, 0}, 180, 0, 1, 1);
+    const ReferenceImage image = Reference(scene).render(moment, view, everything, photons(1 << 20, 0.2, true));
+    expect_estimate(image.illuminance_lx, truth, 2e-3);
+}
+
+TEST(PhotonMap, TheSkyLightsALevelSurface) {
+    const Scene scene = level_ground(50.0, lambert(0.0));
+    Moment moment;
+    moment.daylight.horizontal_illuminance_lx = 40.0;
+    ReferenceSettings settings = photons(1 << 18, 0.5, false);
+    settings.solver.reach_m = 4.0;
+    const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 0.5, 1), lux, settings);
+    expect_estimate(image.illuminance_lx, 40.0, 1e-4);
+    EXPECT_LT(image.illuminance_lx.standard_error.at(0, 0), 1.0F);
+}
+
+TEST(PhotonMap, MeetsPathsInARoomWithALamp) {
+    const Scene scene = closed_room(lambert(0.5));
+    const Moment moment = with(even_lamp(100.0, looking({-0.6, 0.1, 0.3}, 0, -10)));
+    const View view = camera({-0.8, 0.0, 0.0}, 0, 0, 60, 4);
+    const Reference reference(scene);
+    ReferenceSettings paths;
+    paths.integrator = Integrator::path;
+    paths.target_error = 0.005;
+    const ReferenceImage truth = reference.render(moment, view, everything, paths),
+                         gathered = reference.render(moment, view, everything, photons(1 << 18, 0.05, true)),
+                         seen = reference.render(moment, view, everything, photons(1 << 18, 0.1, false));
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) {
+            const double e = truth.illuminance_lx.mean.at(x, y);
+            const auto error = [&](const ReferenceImage& image) -> double {
+                return std::hypot(truth.illuminance_lx.standard_error.at(x, y), image.illuminance_lx.standard_error.at(x, y));
+            };
+            // Strips of 0.05 m along the walls' ends are a tenth of the room and lack a fifth of their light, which is a third of the
+            // whole.
+            EXPECT_NEAR(gathered.illuminance_lx.mean.at(x, y), e, 5.0 * error(gathered) + 0.01 * e) << x << " " << y;
+            EXPECT_NEAR(seen.illuminance_lx.mean.at(x, y), e, 5.0 * error(seen) + 0.01 * e) << x << " " << y;
+        }
+}
+
+TEST(SolvedLight, HasTheSameBytesForAnyNumberOfThreads) {
+    const Scene scene = closed_room(lambert(0.5));
+    const Moment moment = with(even_lamp(100.0, looking({-0.6, 0.1, 0.3}, 0, -10)));
+    for (const Integrator integrator : {Integrator::radiosity, Integrator::photon_map}) {
+        ReferenceSettings settings = photons(1 << 14, 0.2, true);
+        settings.integrator = integrator;
+        settings.target_error = 0.1;
+        settings.solver.patch_m = 0.25;
+        const auto drawn = [&](std::size_t threads) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            return Reference(scene).render(moment, camera({-0.8, 0, 0}, 0, 0, 60, 20), everything, settings);
+        };
+        const ReferenceImage one = drawn(1), five = drawn(5);
+        EXPECT_EQ(one.luminance_cdm2.mean, five.luminance_cdm2.mean);
+        EXPECT_EQ(one.illuminance_lx.standard_error, five.illuminance_lx.standard_error);
+        EXPECT_EQ(one.rays, five.rays);
+        settings.seed = 2;
+        EXPECT_NE(drawn(1).illuminance_lx.mean, one.illuminance_lx.mean);
+    }
+}
+
+TEST(SolvedLight, RefusesSettingsThatMakeNoSense) {
+    const Scene scene = level_ground(1.0, lambert(0.3));
+    const auto refused = [&](auto change) {
+        ReferenceSettings settings = photons(16, 0.1, true);
+        change(settings);
+        EXPECT_THROW(Reference(scene).render({}, map_about({0, 0}, 1.0, 1), lux, settings), std::invalid_argument);
+    };
+    refused([](ReferenceSettings& s) { s.shadows = false; });
+    refused([](ReferenceSettings& s) { s.solver.reach_m = 0.0; });
+    refused([](ReferenceSettings& s) { s.solver.patch_m = std::nan(""); });
+    refused([](ReferenceSettings& s) { s.solver.radius_m = 0.0; });
+    refused([](ReferenceSettings& s) { s.solver.photons = 0; });
+    refused([](ReferenceSettings& s) { s.solver.form_factor_rays = 0; });
+    refused([](ReferenceSettings& s) { s.most_smooth = -1; });
+    // In the dark, and with nothing in reach, there is no light and no failure.
+    ReferenceSettings settings = photons(16, 0.1, true);
+    EXPECT_EQ(Reference(scene).render({}, map_about({0, 0}, 1.0, 1), lux, settings).illuminance_lx.mean.at(0, 0), 0.0F);
+    settings.integrator = Integrator::radiosity;
+    EXPECT_EQ(Reference(scene).render({}, map_about({0, 0}, 1.0, 1), lux, settings).illuminance_lx.mean.at(0, 0), 0.0F);
+}
+
+} // namespace
+} // namespace fernlicht
