@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <tbb/parallel_for.h>
 
 namespace fernlicht::reference {
 namespace {
@@ -40,6 +41,12 @@ std::pair<const Batch*, std::uint32_t> batch_of(const Mesh& mesh, std::uint32_t 
     return {nullptr, 0};
 }
 
+/// oneTBB gives all loops to come the floating-point settings that it met first. Embree's builders, which are loops of oneTBB, flush
+/// denormals to zero while they run; were they the first, every loop after them would, the reference's own in double among them.
+void meet_tbb_first() {
+    tbb::parallel_for(0, 1, [](int) {});
+}
+
 } // namespace
 
 struct EmbreeScene::Embree {
@@ -63,6 +70,7 @@ struct EmbreeScene::Embree {
 
 EmbreeScene::EmbreeScene(const Scene& scene, const glm::dvec3& origin_m)
     : scene_(scene), origin_m_(origin_m), embree_(std::make_unique<Embree>()) {
+    meet_tbb_first();
     embree_->device = rtcNewDevice(nullptr);
     if (!embree_->device)
         throw DeviceError("Embree cannot start on this machine");
