@@ -1,12 +1,16 @@
 #include "renderer/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace fernlicht {
 namespace {
 
-constexpr double near_plane_m = 0.1;
+/// What is nearer is cut off: 0.1 m along the axis. Towards the corners of a view wider than 152 degrees that is far along the ray; there
+/// the plane moves closer, so that nothing farther than 0.4 m from the eye is lost.
+double near_plane_m(const glm::dvec2& half_extent) { return 0.1 * std::min(1.0, 4.0 / glm::length(glm::dvec3(half_extent, 1.0))); }
+
 constexpr double map_half_height_m = 500.0;
 
 /// View space (x right, y up, z forward) from ego-relative positions.
@@ -61,9 +65,9 @@ Camera camera_of(const Moment& moment, const View& view) {
     camera.eye_m = moment.ego.axes * view.position_m;
     const double tangent = std::tan(0.5 * view.vertical_fov_rad);
     camera.half_extent = {tangent * view.width_px / view.height_px, tangent};
-    camera.clip_from_ego =
-        tangent_projection(-camera.half_extent.x, camera.half_extent.x, -camera.half_extent.y, camera.half_extent.y, near_plane_m) *
-        view_matrix(camera.right, camera.up, camera.axis, camera.eye_m);
+    camera.clip_from_ego = tangent_projection(-camera.half_extent.x, camera.half_extent.x, -camera.half_extent.y, camera.half_extent.y,
+                                              near_plane_m(camera.half_extent)) *
+                           view_matrix(camera.right, camera.up, camera.axis, camera.eye_m);
     return camera;
 }
 
