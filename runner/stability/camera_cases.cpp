@@ -35,7 +35,7 @@ Found beside_the_lamp(StabilityBench& bench) {
                                    {"the lamp aimed at the camera", {12.0, 0.0, 1.2}, 180.0, 3.7},
                                    {"the lamp aimed at the camera behind it", {0.0, 0.0, 0.65}, 0.0, 180.0}};
     const Scene scene = street({});
-    Renderer renderer(bench.device(), scene, {});
+    Renderer renderer(bench.device(), scene, unshadowed());
     Found worst;
     for (const Place& place : places) {
         Moment moment;
@@ -52,7 +52,7 @@ Found far_from_the_origin(StabilityBench& bench) {
     for (const double far_m : {0.0, 1.0, 1e3, 1e5, 1e6, 1e7}) {
         const glm::dvec3 origin{far_m, -0.7 * far_m, 1e-3 * far_m};
         const Scene scene = street(origin);
-        Renderer renderer(bench.device(), scene, {});
+        Renderer renderer(bench.device(), scene, unshadowed());
         Moment moment;
         moment.ego.position_m = origin;
         moment.lamps = {lamp(cut_off_table(), origin + glm::dvec3(3.5, 0.6, 0.65))};

@@ -18,11 +18,12 @@ constexpr double least_distance_m = 1e-3, greatest_distance_m = 1e4;
 Found distance(StabilityBench& bench) {
     Scene scene = empty_scene();
     add_sheet(scene, "wall", 0, {0.0, 0.5, -0.5}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}); // faces -x
-    Renderer renderer(bench.device(), scene, {});
+    Renderer renderer(bench.device(), scene, unshadowed());
+    Moment moment;
+    moment.lamps = {lamp(constant_table(1000.0), {})};
     Found worst;
     for (double d = least_distance_m; d < 1.01 * greatest_distance_m; d *= std::pow(10.0, 0.25)) {
-        Moment moment;
-        moment.lamps = {lamp(constant_table(1000.0), {-d, 0.0, 0.0})};
+        moment.lamps[0].pose.position_m.x = -d;
         const AgainstTwin found = against_twin(renderer, scene, moment, camera({-1.0, 0.05, 0.05}, 0.0, 0.0, 30.0, 32, 24));
         worst.add(found.error(), fmt::format("{:.3g} m, {}: {:.1e} relative", d, found.where, found.worst_relative));
     }
@@ -32,9 +33,9 @@ Found distance(StabilityBench& bench) {
 /// The twin of the same against E = I / d^2.
 Found distance_in_double(StabilityBench&) {
     Found worst;
+    Moment moment;
+    moment.lamps = {lamp(constant_table(1000.0), {})};
     for (double d = least_distance_m; d < 1.01 * greatest_distance_m; d *= 1.1) {
-        Moment moment;
-        moment.lamps = {lamp(constant_table(1000.0), {0.0, 0.0, 0.0})};
         const double truth = 1000.0 / (d * d);
         worst.add(std::abs(target_illuminance_lx(moment, {d, 0.0, 0.0}) / truth - 1.0), fmt::format("target at {:.3g} m", d));
         worst.add(std::abs(surface_illuminance_lx(moment, {d, 0.0, 0.0}, {-1.0, 0.0, 0.0}) / truth - 1.0),
@@ -54,7 +55,7 @@ Found grazing(StabilityBench& bench) {
             const glm::dvec3 along = axes * glm::dvec3(std::cos(a), 0.0, std::sin(a)), across = axes * glm::dvec3(0.0, 1.0, 0.0);
             Scene scene = empty_scene();
             add_sheet(scene, "sheet", 0, glm::dvec3(20.0, 0.0, 0.0) - 0.5 * along - 0.05 * across, along, 0.1 * across);
-            Renderer renderer(bench.device(), scene, {});
+            Renderer renderer(bench.device(), scene, unshadowed());
             Moment moment;
             moment.lamps = {lamp(constant_table(1000.0), {0.0, 0.0, 0.0})};
             // Seen from above the sheet, so that pixels show its surface well.
@@ -72,7 +73,7 @@ Found lamp_on_a_surface(StabilityBench& bench) {
     Found worst;
     Scene scene = empty_scene();
     add_sheet(scene, "wall", 0, {2.0, 1.0, -1.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, 2.0});
-    Renderer renderer(bench.device(), scene, {});
+    Renderer renderer(bench.device(), scene, unshadowed());
     for (const double before_m : {0.0, 1e-300, 1e-45, 1e-30, 1e-12, 1e-7, 1e-6})
         for (const double yaw : {0.0, pi}) {
             Moment moment;
@@ -100,7 +101,7 @@ Found unequal_lamps(StabilityBench& bench) {
     left.h_deg = {-85.0, 0.0}; // each lamp only its own side
     right.h_deg = {0.0, 85.0};
     moment.lamps = {lamp(left, {0.0, 0.0, 0.0}), lamp(right, {0.0, 0.0, 0.0})};
-    Renderer renderer(bench.device(), scene, {});
+    Renderer renderer(bench.device(), scene, unshadowed());
     const AgainstTwin found = against_twin(renderer, scene, moment, camera({0.0, 0.0, 0.3}, 0.0, 0.0, 30.0, 64, 32));
     Found worst;
     worst.add(found.error(), fmt::format("{}: {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared));

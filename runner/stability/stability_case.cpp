@@ -33,6 +33,7 @@ std::filesystem::path StabilityBench::write(const std::string& name, std::string
 }
 
 void Found::add(double trial_error, const std::string& trial) {
+    ++trials;
     if (!std::isfinite(error) && !where.empty())
         return;
     if (where.empty() || !(trial_error <= error)) {
@@ -82,7 +83,8 @@ StabilityRow judge(const StabilityCase& one, StabilityBench& bench) {
 const std::vector<StabilityCase>& stability_cases() {
     static const std::vector<StabilityCase> all = [] {
         std::vector<StabilityCase> cases;
-        for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases, motion_cases})
+        for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases, geometry_cases, shadow_cases, road_cases, image_cases,
+                                  time_cases, number_cases, motion_cases})
             for (StabilityCase& one : family())
                 cases.push_back(std::move(one));
         return cases;

@@ -22,6 +22,9 @@ class StabilityBench {
 
     /// Throws DeviceError, InputError.
     Device& device();
+    const std::string& backend() const { return backend_; }
+    /// Gives the device back, for a case that plays a drive, which opens its own: two must not be open at a time.
+    void close_device() { device_.reset(); }
     bool drew() const { return device_.has_value(); }
     std::string folder() const { return folder_.string(); }
     /// A path in the folder, for a case to write to.
@@ -40,8 +43,9 @@ class StabilityBench {
 
 /// The worst of what a case tried.
 struct Found {
-    double error = 0.0;       ///< in the case's unit
-    std::string where;        ///< at which of the values tried it was worst
+    double error = 0.0; ///< in the case's unit
+    std::string where;  ///< at which of the values tried it was worst
+    int trials = 0;
     std::string not_measured; ///< why there is no error; "" where there is one
 
     /// Takes a trial's error when it is worse. One that is not finite is worse than all others and stays.
@@ -82,5 +86,11 @@ std::vector<StabilityCase> camera_cases();
 std::vector<StabilityCase> table_cases();
 std::vector<StabilityCase> tone_cases();
 std::vector<StabilityCase> motion_cases();
+std::vector<StabilityCase> geometry_cases();
+std::vector<StabilityCase> shadow_cases();
+std::vector<StabilityCase> road_cases();
+std::vector<StabilityCase> image_cases();
+std::vector<StabilityCase> time_cases();
+std::vector<StabilityCase> number_cases();
 
 } // namespace fernlicht

@@ -16,7 +16,12 @@ std::string measured(const StabilityRow& row) {
     return std::isfinite(row.found.error) ? fmt::format("{:.3g}", row.found.error) : "not finite";
 }
 
-std::string where(const StabilityRow& row) { return row.found.not_measured.empty() ? row.found.where : row.found.not_measured; }
+std::string where(const StabilityRow& row) {
+    if (!row.found.not_measured.empty())
+        return row.found.not_measured;
+    // Of trials that are all right none is the worst.
+    return row.found.error == 0.0 && row.found.trials > 1 ? fmt::format("none in {} trials", row.found.trials) : row.found.where;
+}
 
 std::string cell(const std::string& text) {
     std::string out;
@@ -65,7 +70,8 @@ std::string stability_json(const std::vector<StabilityRow>& rows, const std::str
                         {"unit", row.of->unit},
                         {"bound", row.of->bound},
                         {"reason", row.of->reason},
-                        {"where", row.found.where},
+                        {"where", where(row)},
+                        {"trials", row.found.trials},
                         {"not_measured", row.found.not_measured.empty() ? Json(nullptr) : Json(row.found.not_measured)},
                         {"verdict", judgement_name(row.verdict)}});
     }

@@ -40,7 +40,7 @@ AgainstTwin on_a_wall(StabilityBench& bench, const CandelaTable& table, double y
                       double fov_deg = 20.0) {
     Scene scene = empty_scene();
     add_sheet(scene, "wall", 0, {25.0, 40.0, -40.0}, {0.0, -80.0, 0.0}, {0.0, 0.0, 80.0});
-    Renderer renderer(bench.device(), scene, {});
+    Renderer renderer(bench.device(), scene, unshadowed());
     Moment moment;
     moment.lamps = {lamp(table, {0.0, 0.0, 0.0}, yaw_rad, pitch_rad)};
     return against_twin(renderer, scene, moment, camera({0.0, 0.0, 0.0}, 0.0, 0.0, fov_deg, 64, 48));
@@ -132,7 +132,7 @@ Found zero(StabilityBench& bench) {
         through_a_file(bench, "zero", table_of(axis(-10.0, 1.0, 21), axis(-10.0, 1.0, 21), [](auto, auto) { return 0.0; }));
     Scene scene = empty_scene();
     add_sheet(scene, "board", 1, {25.0, 40.0, -40.0}, {0.0, -80.0, 0.0}, {0.0, 0.0, 80.0});
-    Renderer renderer(bench.device(), scene, {});
+    Renderer renderer(bench.device(), scene, unshadowed());
     Moment moment;
     moment.lamps = {lamp(table, {0.0, 0.0, 0.0})};
     const Frame frame = renderer.draw(moment, camera({0.0, 0.0, 0.0}, 0.0, 0.0, 20.0, 16, 16), everything);
@@ -173,7 +173,7 @@ Found poles(StabilityBench& bench) {
     Scene scene = empty_scene();
     add_sheet(scene, "floor", 0, {-3.0, -3.0, -1.0}, {6.0, 0.0, 0.0}, {0.0, 6.0, 0.0});
     add_sheet(scene, "ceiling", 0, {-3.0, -3.0, 1.0}, {0.0, 6.0, 0.0}, {6.0, 0.0, 0.0});
-    Renderer renderer(bench.device(), scene, {});
+    Renderer renderer(bench.device(), scene, unshadowed());
     Found worst;
     for (const double pitch : {-0.5 * pi, 0.5 * pi})
         for (const double lamp_pitch : {0.0, 1e-7, radians(1.0)}) {

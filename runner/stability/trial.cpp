@@ -87,6 +87,12 @@ Scene empty_scene() {
     return {{road, board}, {}, {}};
 }
 
+RendererSettings unshadowed() {
+    RendererSettings settings;
+    settings.shadows = false;
+    return settings;
+}
+
 View camera(const glm::dvec3& position_m, double yaw_rad, double pitch_rad, double fov_deg, int width_px, int height_px) {
     View view;
     view.name = "camera";
@@ -105,21 +111,54 @@ std::size_t not_finite(const Frame& frame) {
 
 double AgainstTwin::error() const { return not_finite > 0 || compared == 0 ? std::numeric_limits<double>::infinity() : of_bound; }
 
-double rounding_bound_lx(const LitLamp& lamp, double illuminance_lx, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m) {
-    const double d = glm::length(to_lamp), cosine = std::abs(glm::dot(normal, to_lamp)) / d;
-    const double moved = place_roundings * rounding * reach_m / d;
-    const glm::dvec2 angles =
-        photometry::goniometer_angles(photometry::lamp_space(-to_lamp, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()));
-    const double gradient_lx =
-        lamp.intensity_factor * gradient_cd(lamp.file->table, degrees(angles.x), degrees(angles.y)) * cosine / (d * d);
-    // The cosine's own rounding is of d, so that it counts in the way a movement does.
-    return illuminance_lx * (light_roundings * rounding + 3.0 * moved) +
-           illuminance_lx / std::max(cosine, 1e-300) * (moved + 4.0 * rounding) + gradient_lx * (angle_error_rad + moved);
+double rounding_bound_lx(const LitLamp& lamp, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m) {
+    const double d = glm::length(to_lamp), cosine = glm::dot(normal, to_lamp) / d;
+    const double moved = place_roundings * rounding * reach_m / d, cosine_error = moved + 4.0 * rounding;
+    if (!(cosine > -cosine_error))
+        return 0.0; // surely behind the surface: exactly dark
+    const glm::dvec3 w = photometry::lamp_space(-to_lamp, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward());
+    const glm::dvec2 angles = photometry::goniometer_angles(w);
+    const double h = degrees(angles.x), v = degrees(angles.y), scale = lamp.intensity_factor / (d * d), lit = std::max(cosine, 0.0);
+    const double facing = w.z > 0.0 ? scale * intensity_cd(lamp.file->table, h, v) : 0.0;
+    return facing * (lit * (light_roundings * rounding + 3.0 * moved) + cosine_error) +
+           scale * gradient_cd(lamp.file->table, h, v) * lit * (angle_error_rad + moved);
 }
 
-AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& moment, const View& view, bool shadows) {
+AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& view, double reach_m,
+                          const std::function<bool(const glm::dvec3&)>& inside) {
+    const Camera camera = camera_of(moment, view);
+    AgainstTwin result;
+    result.not_finite = not_finite(frame);
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x) {
+            const Ray ray = pixel_ray(camera, view, x + 0.5, y + 0.5);
+            const glm::dvec3 point = ray.origin_m - ray.direction * (ray.origin_m.z / ray.direction.z);
+            if (!(ray.direction.z < 0.0) || !inside(point))
+                continue;
+            ++result.compared;
+            double bound = 1e-30, truth = 0.0;
+            for (const LitLamp& lamp : moment.lamps) {
+                const glm::dvec3 to_lamp = lamp.pose.position_m - moment.ego.position_m - point, up(0.0, 0.0, 1.0);
+                truth += intensity_towards_cd(lamp, moment.ego.position_m + point) * photometry::incidence(up, to_lamp) /
+                         glm::dot(to_lamp, to_lamp);
+                bound += rounding_bound_lx(lamp, to_lamp, up, reach_m);
+            }
+            const double drawn = static_cast<double>(frame.illuminance_lx.at(x, y)), off = std::abs(drawn - truth);
+            if (truth > 0.0)
+                result.worst_relative = std::max(result.worst_relative, off / truth);
+            const bool hole = frame.ids.at(x, y) == 0;
+            if (const double ratio = hole ? std::numeric_limits<double>::infinity() : off / bound;
+                result.where.empty() || ratio > result.of_bound) {
+                result.of_bound = ratio;
+                result.where = fmt::format("{} {} {}", hole ? "hole at pixel" : "pixel", x, y);
+            }
+        }
+    return result;
+}
+
+AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& moment, const View& view) {
     const Frame frame = renderer.draw(moment, view, everything);
-    const Twin twin(scene, shadows);
+    const Twin twin(scene, false);
     const double reach = reach_of(scene, moment, view);
     AgainstTwin result;
     result.not_finite = not_finite(frame);
@@ -134,13 +173,8 @@ AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& m
                 continue;
             ++result.compared;
             double bound = 1e-30 + truth.illuminance_lx * light_roundings * rounding;
-            for (const LitLamp& lamp : moment.lamps) {
-                const glm::dvec3 to_lamp = lamp.pose.position_m - moment.ego.position_m - truth.point_m;
-                const double cosine = photometry::incidence(truth.normal, to_lamp);
-                const double e = photometry::facing_illuminance(intensity_towards_cd(lamp, moment.ego.position_m + truth.point_m), to_lamp);
-                if (cosine > 0.0)
-                    bound += rounding_bound_lx(lamp, e * cosine, to_lamp, truth.normal, reach);
-            }
+            for (const LitLamp& lamp : moment.lamps)
+                bound += rounding_bound_lx(lamp, lamp.pose.position_m - moment.ego.position_m - truth.point_m, truth.normal, reach);
             const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - truth.illuminance_lx);
             if (truth.illuminance_lx > 0.0)
                 result.worst_relative = std::max(result.worst_relative, off / truth.illuminance_lx);

@@ -22,6 +22,9 @@ Scene empty_scene();
 
 View camera(const glm::dvec3& position_m, double yaw_rad, double pitch_rad, double fov_deg, int width_px, int height_px);
 
+/// Without shadows, which the comparisons with twin and plane leave out; shadow_cases.cpp has them.
+RendererSettings unshadowed();
+
 inline constexpr Wanted everything{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 /// Values of the frame's pictures that are NaN or infinite.
@@ -40,9 +43,15 @@ struct AgainstTwin {
 
 /// Draws and compares pixel by pixel. The bound of a pixel: 24 roundings of light, and what 16 roundings of the largest coordinate among
 /// scene, lamp and camera move the point, as seen in 1 / d^2, in the cosine, and in the beam's gradient (twin.h).
-AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& moment, const View& view, bool shadows = false);
+AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& moment, const View& view);
+
+/// The same for a scene that is all one horizontal plane at height 0 of the car, in closed form: for scenes of too many triangles for the
+/// twin. `inside` tells which places (relative to the car) must be covered; there a pixel that shows nothing is a hole, and infinitely
+/// wrong.
+AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& view, double reach_m,
+                          const std::function<bool(const glm::dvec3&)>& inside);
 
 /// The bound for one lamp at one point; `reach_m` is the largest coordinate involved, relative to the car.
-double rounding_bound_lx(const LitLamp& lamp, double illuminance_lx, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m);
+double rounding_bound_lx(const LitLamp& lamp, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m);
 
 } // namespace fernlicht::stability

@@ -22,21 +22,22 @@ std::string matrix_text(const CandelaTable& table) {
     return fmt::to_string(out);
 }
 
-std::string straight_road_text() {
-    return R"(<?xml version="1.0"?>
+std::string lane_text(int id, double width_m, const std::string& more) {
+    return fmt::format(R"(<lane id="{}" type="driving"><width sOffset="0" a="{}" b="0" c="0" d="0"/>{}</lane>)", id, width_m, more);
+}
+
+std::string road_text(double length_m, const std::string& plan, const std::string& lanes, const std::string& profiles) {
+    return fmt::format(R"(<?xml version="1.0"?>
 <OpenDRIVE><header revMajor="1" revMinor="7"/>
-<road name="straight" length="600" id="1" junction="-1">
-<planView><geometry s="0" x="0" y="0" hdg="0" length="600"><line/></geometry></planView>
-<lanes><laneSection s="0">
-<left><lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></left>
-<center><lane id="0"/></center>
-<right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></right>
-</laneSection></lanes></road></OpenDRIVE>
-)";
+<road name="trial" length="{}" id="1" junction="-1">
+<planView>{}</planView>{}
+<lanes><laneSection s="0"><center><lane id="0"/></center><right>{}</right></laneSection></lanes></road></OpenDRIVE>
+)",
+                       length_m, plan, profiles, lanes);
 }
 
 std::filesystem::path write_drive_file(StabilityBench& bench, const std::string& name, const std::string& more, const std::string& time) {
-    bench.write("straight.xodr", straight_road_text());
+    bench.write("straight.xodr", road_text(600.0, line_of_600_m, lane_text(-1, 3.5)));
     const CandelaTable table{{-40.0, 40.0}, {-20.0, 20.0}, {5000.0, 5000.0, 5000.0, 5000.0}, {}, BetweenSamples::linear_cd};
     bench.write("even.csv", matrix_text(table));
     return bench.write(name, fmt::format("fernlicht: 1\nname: trial\nroad: straight.xodr\n{}\ncar:\n  lamps:\n    right: {{file: even.csv, "
