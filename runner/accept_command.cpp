@@ -37,10 +37,10 @@ std::filesystem::path frame_file(const std::filesystem::path& run_folder, const 
 }
 
 /// Key and frames of each lamp set that was played.
-Reference reference_of(const CheckedJson& played, const RunContext& context, const std::filesystem::path& run_folder) {
+AcceptedReference reference_of(const CheckedJson& played, const RunContext& context, const std::filesystem::path& run_folder) {
     if (const CheckedJson done = played.at("ticks_done"); done.whole() != played.at("ticks_planned").whole())
         done.refuse("all moments that were planned: an incomplete run is no reference");
-    Reference reference;
+    AcceptedReference reference;
     reference.key = reference_key(played.at("drive").text(), played.at("variant").text(), played.at("technique").text(), context);
     for (const CheckedJson& frame : played.at("frames").items())
         if (const CheckedJson exr = frame.at("exr"); !exr.is_null())
@@ -49,9 +49,9 @@ Reference reference_of(const CheckedJson& played, const RunContext& context, con
 }
 
 /// Rows tell drive and lamp set by name.
-void add_row(std::vector<Reference>& references, const CheckedJson& row) {
+void add_row(std::vector<AcceptedReference>& references, const CheckedJson& row) {
     const std::string drive = row.at("drive").text(), variant = row.at("variant").text();
-    for (Reference& reference : references)
+    for (AcceptedReference& reference : references)
         if (reference.key.drive == drive && reference.key.variant == variant)
             if (Reading reading = reading_of(row); !is_of_time(reading))
                 reference.readings.push_back(std::move(reading));
@@ -67,7 +67,7 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
     if (const CheckedJson complete = report.at("complete"); !complete.truth())
         complete.refuse("a complete run");
     const RunContext context = context_of(report);
-    std::vector<Reference> references;
+    std::vector<AcceptedReference> references;
     for (const CheckedJson& played : report.at("drives").items())
         references.push_back(reference_of(played, context, run_folder));
     for (const CheckedJson& row : report.at("rows").items())
@@ -75,7 +75,7 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
     store_references(references_folder, references);
     Accepted accepted;
     accepted.drives = references.size();
-    for (const Reference& reference : references) {
+    for (const AcceptedReference& reference : references) {
         accepted.frames += reference.frames.size();
         accepted.readings += reference.readings.size();
     }

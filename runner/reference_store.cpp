@@ -87,10 +87,10 @@ Json copy_frames(const std::vector<ReferenceFrame>& frames, const fs::path& fold
     return list;
 }
 
-Reference read_reference(const fs::path& folder) {
+AcceptedReference read_reference(const fs::path& folder) {
     const CheckedJson json = CheckedJson::read(folder / "reference.json");
     json.expect_schema(reference_schema, 1);
-    Reference reference;
+    AcceptedReference reference;
     reference.key = read_key(json.at("key"));
     for (const CheckedJson& reading : json.at("readings").items())
         reference.readings.push_back(read_reading(reading));
@@ -141,7 +141,7 @@ struct PartFolder {
 
 /// Writes one reference beside the others; nothing refers to it yet. Its folder is named by its content, so that the same results
 /// accepted again are the same folder.
-IndexEntry write_reference(const fs::path& store, const Reference& reference) {
+IndexEntry write_reference(const fs::path& store, const AcceptedReference& reference) {
     const PartFolder part(store / fmt::format(".part-{}", ::getpid()));
     Json readings = Json::array();
     for (const Reading& reading : reference.readings)
@@ -167,20 +167,20 @@ IndexEntry write_reference(const fs::path& store, const Reference& reference) {
 
 } // namespace
 
-std::optional<Reference> find_reference(const fs::path& store, const ReferenceKey& key) {
+std::optional<AcceptedReference> find_reference(const fs::path& store, const ReferenceKey& key) {
     for (const IndexEntry& entry : read_index(store))
         if (entry.key == key)
             return read_reference(store / entry.folder);
     return std::nullopt;
 }
 
-void store_references(const fs::path& store, const std::vector<Reference>& references) {
+void store_references(const fs::path& store, const std::vector<AcceptedReference>& references) {
     make_folder(store);
     const FolderLock lock(store);
     remove_leftovers(store);
     const std::vector<IndexEntry> before = read_index(store);
     std::vector<IndexEntry> after = before;
-    for (const Reference& reference : references) {
+    for (const AcceptedReference& reference : references) {
         IndexEntry entry = write_reference(store, reference);
         const auto known = std::ranges::find(after, entry.key, &IndexEntry::key);
         if (known == after.end())

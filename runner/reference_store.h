@@ -15,7 +15,7 @@ struct ReferenceFrame {
     std::filesystem::path exr; ///< where the file lies
 };
 
-struct Reference {
+struct AcceptedReference {
     ReferenceKey key;
     Readings readings;
     std::vector<ReferenceFrame> frames;
@@ -23,11 +23,11 @@ struct Reference {
 
 /// nullopt when nothing was accepted for this key, or the folder is not there. Throws InputError when index, reference or frames are
 /// damaged: stored hashes must agree.
-std::optional<Reference> find_reference(const std::filesystem::path& store, const ReferenceKey& key);
+std::optional<AcceptedReference> find_reference(const std::filesystem::path& store, const ReferenceKey& key);
 
 /// Takes all of these (their frames are copied) in place of what was there under the same keys; other keys stay. Interrupted at any
 /// moment, the store holds either everything from before or everything new. Waits while another process stores.
 /// Throws DeviceError when the folder cannot be written, InputError when a frame cannot be read or the store is damaged.
-void store_references(const std::filesystem::path& store, const std::vector<Reference>& references);
+void store_references(const std::filesystem::path& store, const std::vector<AcceptedReference>& references);
 
 } // namespace fernlicht

@@ -160,7 +160,7 @@ std::vector<Verdict> judge_against_references(const PlayedVariant& played, const
         return std::vector<Verdict>{{VerdictKind::fail, "reference", text, context.command}};
     };
     try {
-        const std::optional<Reference> reference = find_reference(references_folder, key);
+        const std::optional<AcceptedReference> reference = find_reference(references_folder, key);
         if (!reference)
             return failed(fmt::format("nothing accepted in {} for {}", references_folder.string(), key_text(key)));
         std::vector<Verdict> verdicts = judge_readings(played.readings, reference->readings, context.command, tolerance);
