@@ -193,6 +193,29 @@ TEST(CarModel, StandsOnASlopeButForTheBrakesCreep) {
     EXPECT_NEAR(stopping.at(12.0).speed_mps, creep_mps, 0.02 * -creep_mps);
 }
 
+TEST(CarModel, StepsInTheRoadAreHitWithinTheTolerance) {
+    // Where the body jumps against the road, an axle stands on an edge: within 1e-9 s of travel, whatever the tolerance of the steps.
+    for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+        CarModel model;
+        model.car.tolerance = tolerance;
+        model.car.road_steps = {{20.0, 0.02}, {20.01, -0.03}, {31.7, 0.01}};
+        const CarRun run = run_car(model, {{0.0, 25.0, 0.0}}, 2.0);
+        std::vector<double> hits_m;
+        for (std::size_t step = 0; step + 1 < run.path().steps(); ++step) {
+            const double t_s = run.path().step_end_s(step);
+            const CarPlace before = run.at(t_s - 1e-9), behind = run.at(t_s);
+            if (std::abs(behind.rear_lift_m - before.rear_lift_m) > 5e-3) // rear axle
+                hits_m.push_back(behind.distance_m);
+            else if (std::abs(behind.pitch_rad - before.pitch_rad) > 5e-3 / model.wheelbase_m) // front axle
+                hits_m.push_back(behind.distance_m + model.wheelbase_m);
+        }
+        ASSERT_EQ(hits_m.size(), 6U) << tolerance;
+        const double edges_m[] = {20.0, 20.01, 20.0, 20.01, 31.7, 31.7};
+        for (std::size_t i = 0; i < 6; ++i)
+            EXPECT_NEAR(hits_m[i], edges_m[i], 25.0 * 1e-9 + 1e-12) << tolerance; // and some roundings of 20 m
+    }
+}
+
 TEST(CarModel, From60MetresASecondToRestAndBack) {
     CarModel model;
     const std::vector<SpeedSegment> wishes{{0.0, 60.0, 0.0}, {1.0, 60.0, -7.5}, {9.0, 0.0, 0.0}, {12.0, 0.0, 3.0}, {32.0, 60.0, 0.0}};
