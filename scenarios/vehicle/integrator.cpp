@@ -21,6 +21,7 @@ bool crosses(const Watch& watch, double before, double after) {
 struct Crossing {
     std::size_t watch = 0;
     double place = 2.0; ///< of the step, [0, 1]
+    bool rising = true;
 };
 
 /// The state at a place of the step tried.
@@ -49,7 +50,7 @@ std::optional<Crossing> first_crossing(const std::vector<Watch>& watches, const 
                     (crosses(watches[w], before, there) ? high : low) = middle;
                 }
                 if (high < first.place)
-                    first = {w, high};
+                    first = {w, high, before < 0.0};
                 break;
             }
             before = after;
@@ -144,6 +145,26 @@ void Integrator::weigh_stiffness() {
     single_.restart();
 }
 
+/// Repeats the step so that it ends behind the event by at most `within_s`. The continuous extension, where the event was found, is less
+/// exact than the method itself, hence the corrections: Newton's, by the slope over the last fifth of the step.
+double Integrator::step_to(const Watch& watch, bool rising, double t_s, double step_s, double within_s, const std::vector<double>& x) {
+    constexpr int most_corrections = 6;
+    for (int correction = 0;; ++correction) {
+        try_step(t_s, step_s, x);
+        single_.extend(step_s, x);
+        const std::vector<double>& nodes = single_.tried().nodes;
+        const double there = watch.value(t_s + step_s, single_.tried().end.data());
+        const double before = watch.value(t_s + 0.8 * step_s, &nodes[4 * x.size()]);
+        const double slope = (there - before) / (0.2 * step_s), late_s = there / slope;
+        const bool crossed = rising ? there >= 0.0 : there <= 0.0;
+        if (correction == most_corrections || (crossed && !(late_s > within_s)))
+            return step_s;
+        // Aims at the middle of what is allowed; where the slope tells nothing, just on.
+        const double further_s = late_s > -0.5 * step_s && late_s < 0.5 * step_s ? 0.5 * within_s - late_s : within_s;
+        step_s += crossed || further_s > 0.0 ? further_s : within_s;
+    }
+}
+
 Arrival Integrator::integrate(double start_s, double end_s, std::vector<double>& x, const std::vector<Watch>& watches, DensePath* path) {
     const bool fixed = options_.fixed_step_s > 0.0;
     double t_s = start_s;
@@ -183,10 +204,8 @@ Arrival Integrator::integrate(double start_s, double end_s, std::vector<double>&
             const double within_s = std::max(options_.event_tolerance_s, 4.0 * rounding * std::abs(t_s));
             crossing = first_crossing(watches, single_.tried(), t_s, step_s, within_s / step_s);
             if (crossing && crossing->place < 1.0) {
-                step_s *= crossing->place;
+                step_s = step_to(watches[crossing->watch], crossing->rising, t_s, step_s * crossing->place, within_s, x);
                 arrival_s = t_s + step_s;
-                try_step(t_s, step_s, x);
-                single_.extend(step_s, x);
             }
         }
         if (path)

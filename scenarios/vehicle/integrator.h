@@ -47,6 +47,7 @@ class Integrator {
     double error_of(const std::vector<double>& x);
     double next_step(double step_s, double error, bool taken);
     void weigh_stiffness();
+    double step_to(const Watch& watch, bool rising, double t_s, double step_s, double within_s, const std::vector<double>& x);
     [[noreturn]] void give_up(double t_s, const std::string& found) const;
 
     const OdeProblem& problem_;
