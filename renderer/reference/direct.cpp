@@ -1,8 +1,10 @@
+#include "renderer/reference/lanes.h"
 #include "renderer/reference/shot.h"
 
 #include "scenarios/photometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace fernlicht::reference {
@@ -41,9 +43,10 @@ double facing_lx(const LitLamp& lamp, const glm::dvec3& lamp_m, const glm::dvec3
 
 namespace {
 
+using Points = std::array<glm::dvec3, packet_size>;
+
 /// Lanes among `lanes` from whose points the lamp is seen; all of them without shadows.
-LaneMask seen_lanes(const Shot& shot, const std::array<glm::dvec3, packet_size>& from_m, const std::array<glm::dvec3, packet_size>& to_m,
-                    LaneMask lanes, PacketLight& light) {
+LaneMask seen_lanes(const Shot& shot, const Points& from_m, const Points& to_m, LaneMask lanes, PacketLight& light) {
     if (!shot.settings.shadows || lanes == 0)
         return lanes;
     light.rays += static_cast<std::uint64_t>(__builtin_popcount(lanes));
@@ -54,59 +57,93 @@ void tally(ShadowTally& tally, std::size_t lamp, LaneMask asked, LaneMask seen) 
     tally.seen[lamp] |= static_cast<std::uint8_t>((seen != 0 ? 1 : 0) | ((asked & ~seen) != 0 ? 2 : 0));
 }
 
-void add_lamp(const Shot& shot, std::size_t index, const std::array<glm::dvec3, packet_size>& lamp_m,
-              std::array<glm::dvec3, packet_size>& colour, PacketLight& light, ShadowTally& edges) {
+/// I / d^2 in each lane of `asked`, as facing_lx; returns the lanes where it is above 0.
+LaneMask facing_lanes(const LitLamp& lamp, const Points& lamp_m, const Points& point_m, LaneMask asked, Lanes& e_perp_lx) {
+    Points in_lamp;
+    Lanes across{}, up{}, ahead{}, level{}, h_rad, v_rad;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (!in_mask(asked, i))
+            continue;
+        in_lamp[i] = photometry::lamp_space(point_m[i] - lamp_m[i], -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward());
+        across[i] = in_lamp[i].x, up[i] = in_lamp[i].y, ahead[i] = in_lamp[i].z;
+        level[i] = std::sqrt(in_lamp[i].x * in_lamp[i].x + in_lamp[i].z * in_lamp[i].z);
+    }
+    angles(across, ahead, h_rad); // photometry.glsl: goniometer_angles
+    angles(up, level, v_rad);
+    LaneMask lit = 0;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (!in_mask(asked, i) || ahead[i] <= 0.0)
+            continue;
+        const double cd = lamp.intensity_factor * intensity_cd(lamp.file->table, degrees(h_rad[i]), degrees(v_rad[i]));
+        e_perp_lx[i] = photometry::facing_illuminance(cd, in_lamp[i]);
+        lit |= e_perp_lx[i] > 0.0 ? 1U << i : 0U;
+    }
+    return lit;
+}
+
+/// Angles at the surfaces between lamp and eye, where they retroreflect (photometry.glsl: observation_angle).
+void observation_lanes(const Shot& shot, const PacketLight& light, const Points& lamp_m, LaneMask seen, Lanes& angle_rad) {
+    Lanes sine{}, cosine{};
+    for (std::size_t i = 0; i < packet_size; ++i)
+        if (in_mask(seen, i) && light.responses[i].retro_rl > 0.0) {
+            const glm::dvec3 &p = light.hits[i].point_m, to_lamp = lamp_m[i] - p, to_eye = shot.to_eye(p);
+            sine[i] = glm::length(glm::cross(to_lamp, to_eye));
+            cosine[i] = glm::dot(to_lamp, to_eye);
+        }
+    angles(sine, cosine, angle_rad);
+}
+
+void add_luminance(const Shot& shot, const LitLamp& lamp, const Points& lamp_m, const Lanes& e_perp, const Lanes& cosine, LaneMask seen,
+                   const PacketLight& light, Points& colour) {
+    Lanes angle_rad;
+    observation_lanes(shot, light, lamp_m, seen, angle_rad);
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (!in_mask(seen, i))
+            continue;
+        const SurfaceResponse& response = light.responses[i];
+        colour[i] += lamp.colour.linear_srgb * (response.albedo * (e_perp[i] * cosine[i] / pi));
+        if (response.retro_rl > 0.0)
+            colour[i] +=
+                lamp.colour.linear_srgb * photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle_rad[i],
+                                                                      response.retro_reference_rad, response.retro_inverse_falloff);
+    }
+}
+
+void add_lamp(const Shot& shot, std::size_t index, const Points& lamp_m, Points& colour, PacketLight& light, ShadowTally& edges) {
     const LitLamp& lamp = shot.moment.lamps[index];
-    std::array<double, packet_size> e_perp{}, cosine{};
-    std::array<glm::dvec3, packet_size> from_m{};
-    LaneMask asked = 0, behind = 0;
+    Lanes e_perp{}, cosine{};
+    Points point_m;
+    LaneMask facing = 0, behind = 0;
     for (std::size_t i = 0; i < packet_size; ++i) {
         if (!in_mask(light.hit, i))
             continue;
         const SurfaceHit& hit = light.hits[i];
         const glm::dvec3 to_lamp = lamp_m[i] - hit.point_m;
+        point_m[i] = hit.point_m;
         cosine[i] = photometry::incidence(hit.normal, to_lamp);
-        e_perp[i] = cosine[i] > 0.0 ? facing_lx(lamp, lamp_m[i], hit.point_m) : 0.0;
-        if (e_perp[i] <= 0.0)
-            continue;
-        from_m[i] = EmbreeScene::raised(hit);
-        asked |= 1U << i;
+        facing |= cosine[i] > 0.0 ? 1U << i : 0U;
         if (shot.settings.shadows && glm::dot(hit.facet_normal, to_lamp) <= 0.0)
             behind |= 1U << i; // the flat triangle itself stands in the way
     }
-    const LaneMask seen = seen_lanes(shot, from_m, lamp_m, asked & ~behind, light);
+    const LaneMask asked = facing_lanes(lamp, lamp_m, point_m, facing, e_perp);
+    for (std::size_t i = 0; i < packet_size; ++i)
+        if (in_mask(asked, i))
+            point_m[i] = EmbreeScene::raised(light.hits[i]);
+    const LaneMask seen = seen_lanes(shot, point_m, lamp_m, asked & ~behind, light);
     tally(edges, index, asked, seen);
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(seen, i))
-            continue;
-        const double e = e_perp[i] * cosine[i];
-        light.illuminance_lx[i] += e;
-        if (!shot.wanted.luminance)
-            continue;
-        const SurfaceResponse& response = light.responses[i];
-        colour[i] += lamp.colour.linear_srgb * (response.albedo * e / pi);
-        if (response.retro_rl > 0.0) {
-            const glm::dvec3& p = light.hits[i].point_m;
-            const double angle = photometry::observation_angle(lamp_m[i] - p, shot.to_eye(p));
-            colour[i] +=
-                lamp.colour.linear_srgb * photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle,
-                                                                      response.retro_reference_rad, response.retro_inverse_falloff);
-        }
-    }
+    for (std::size_t i = 0; i < packet_size; ++i)
+        light.illuminance_lx[i] += in_mask(seen, i) ? e_perp[i] * cosine[i] : 0.0;
+    if (shot.wanted.luminance && seen != 0)
+        add_luminance(shot, lamp, lamp_m, e_perp, cosine, seen, light, colour);
 }
 
-void add_target(const Shot& shot, std::size_t index, const std::array<glm::dvec3, packet_size>& lamp_m, PacketLight& light,
-                ShadowTally& edges) {
-    std::array<double, packet_size> e_perp{};
-    std::array<glm::dvec3, packet_size> target_m{};
-    LaneMask asked = 0;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(light.hit, i))
-            continue;
-        target_m[i] = light.hits[i].point_m + glm::dvec3(0.0, 0.0, shot.settings.target_height_m);
-        e_perp[i] = facing_lx(shot.moment.lamps[index], lamp_m[i], target_m[i]);
-        asked |= e_perp[i] > 0.0 ? 1U << i : 0U;
-    }
+void add_target(const Shot& shot, std::size_t index, const Points& lamp_m, PacketLight& light, ShadowTally& edges) {
+    Lanes e_perp{};
+    Points target_m;
+    for (std::size_t i = 0; i < packet_size; ++i)
+        if (in_mask(light.hit, i))
+            target_m[i] = light.hits[i].point_m + glm::dvec3(0.0, 0.0, shot.settings.target_height_m);
+    const LaneMask asked = facing_lanes(shot.moment.lamps[index], lamp_m, target_m, light.hit, e_perp);
     const LaneMask seen = seen_lanes(shot, target_m, lamp_m, asked, light);
     tally(edges, shot.moment.lamps.size() + index, asked, seen);
     for (std::size_t i = 0; i < packet_size; ++i)
@@ -121,7 +158,7 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
     light.rays = static_cast<std::uint64_t>(__builtin_popcount(lanes));
     light.hit = shot.embree.cast(rays, lanes, shot.camera.is_map, light.hits);
     const double sky_lx = shot.moment.daylight.horizontal_illuminance_lx;
-    std::array<glm::dvec3, packet_size> colour{}, lamp_m{};
+    Points colour{}, lamp_m{};
     if (shot.wanted.luminance)
         for (std::size_t i = 0; i < packet_size; ++i)
             if (in_mask(light.hit, i))

@@ -31,16 +31,6 @@ std::size_t triangle_count(const Mesh& mesh) {
     return count;
 }
 
-/// The batch that holds a mesh's triangle, and the triangle's first index.
-std::pair<const Batch*, std::uint32_t> batch_of(const Mesh& mesh, std::uint32_t triangle) {
-    for (const Batch& batch : mesh.batches) {
-        if (triangle < batch.count / 3)
-            return {&batch, batch.first + 3 * triangle};
-        triangle -= batch.count / 3;
-    }
-    return {nullptr, 0};
-}
-
 /// oneTBB gives all loops to come the floating-point settings that it met first. Embree's builders, which are loops of oneTBB, flush
 /// denormals to zero while they run; were they the first, every loop after them would, the reference's own in double among them.
 void meet_tbb_first() {
@@ -81,6 +71,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const glm::dvec3& origin_m)
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
         const std::size_t count = triangle_count(mesh);
+        add_facets(mesh);
         if (count == 0)
             continue;
         const RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -99,7 +90,6 @@ EmbreeScene::EmbreeScene(const Scene& scene, const glm::dvec3& origin_m)
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(embree_->scene, geometry, static_cast<unsigned>(m));
         rtcReleaseGeometry(geometry);
-        triangles_ += count;
     }
     rtcCommitScene(embree_->scene);
     embree_->check("building the scene");
@@ -112,27 +102,42 @@ glm::dvec3 EmbreeScene::raised(const SurfaceHit& hit) {
     return hit.point_m + hit.facet_normal * (raise_share * std::max({extent.x, extent.y, extent.z, least_extent_m}));
 }
 
+void EmbreeScene::add_facets(const Mesh& mesh) {
+    first_facet_.push_back(facets_.size());
+    for (const Batch& batch : mesh.batches)
+        for (std::uint32_t k = batch.first; k + 2 < batch.first + batch.count; k += 3) {
+            const Vertex &a = mesh.vertices[mesh.indices[k]], &b = mesh.vertices[mesh.indices[k + 1]],
+                         &c = mesh.vertices[mesh.indices[k + 2]];
+            Facet facet;
+            facet.corner_m = mesh.origin_m - origin_m_ + glm::dvec3(a.position_m);
+            facet.ab_m = glm::dvec3(b.position_m) - glm::dvec3(a.position_m);
+            facet.ac_m = glm::dvec3(c.position_m) - glm::dvec3(a.position_m);
+            facet.normal = glm::normalize(glm::cross(facet.ab_m, facet.ac_m));
+            if (glm::dot(facet.normal, glm::dvec3(a.normal) + glm::dvec3(b.normal) + glm::dvec3(c.normal)) < 0.0)
+                facet.normal = -facet.normal;
+            facet.first = k;
+            facet.material = batch.material;
+            facets_.push_back(facet);
+        }
+}
+
 SurfaceHit EmbreeScene::hit_on(const Ray& ray, std::uint32_t mesh_index, std::uint32_t triangle) const {
+    const Facet& facet = facets_[first_facet_[mesh_index] + triangle];
     const Mesh& mesh = scene_.meshes[mesh_index];
-    const auto [batch, first] = batch_of(mesh, triangle);
-    const Vertex &a = mesh.vertices[mesh.indices[first]], &b = mesh.vertices[mesh.indices[first + 1]],
-                 &c = mesh.vertices[mesh.indices[first + 2]];
+    const std::uint32_t* const index = &mesh.indices[facet.first];
+    const Vertex &a = mesh.vertices[index[0]], &b = mesh.vertices[index[1]], &c = mesh.vertices[index[2]];
     // Moeller and Trumbore 1997, without the test for inside, which Embree has made.
-    const glm::dvec3 ab = glm::dvec3(b.position_m) - glm::dvec3(a.position_m), ac = glm::dvec3(c.position_m) - glm::dvec3(a.position_m);
-    const glm::dvec3 p = glm::cross(ray.direction, ac), s = ray.origin_m - (mesh.origin_m - origin_m_ + glm::dvec3(a.position_m)),
-                     q = glm::cross(s, ab);
-    const double determinant = glm::dot(ab, p), u = glm::dot(s, p) / determinant, v = glm::dot(ray.direction, q) / determinant,
+    const glm::dvec3 p = glm::cross(ray.direction, facet.ac_m), s = ray.origin_m - facet.corner_m, q = glm::cross(s, facet.ab_m);
+    const double inverse = 1.0 / glm::dot(facet.ab_m, p), u = glm::dot(s, p) * inverse, v = glm::dot(ray.direction, q) * inverse,
                  w = 1.0 - u - v;
     SurfaceHit hit;
-    hit.distance_m = glm::dot(ac, q) / determinant;
+    hit.distance_m = glm::dot(facet.ac_m, q) * inverse;
     hit.mesh = mesh_index;
-    hit.material = batch->material;
+    hit.material = facet.material;
     hit.triangle = triangle;
     hit.point_m = ray.origin_m + ray.direction * hit.distance_m;
     hit.normal = glm::normalize(glm::dvec3(a.normal) * w + glm::dvec3(b.normal) * u + glm::dvec3(c.normal) * v);
-    hit.facet_normal = glm::normalize(glm::cross(ab, ac));
-    if (glm::dot(hit.facet_normal, hit.normal) < 0.0)
-        hit.facet_normal = -hit.facet_normal;
+    hit.facet_normal = facet.normal;
     hit.uv = glm::dvec2(a.uv) * w + glm::dvec2(b.uv) * u + glm::dvec2(c.uv) * v;
     hit.from_behind = glm::dot(ray.direction, hit.facet_normal) > 0.0;
     return hit;

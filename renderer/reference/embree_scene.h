@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace fernlicht::reference {
 
@@ -63,15 +64,24 @@ class EmbreeScene {
     /// than that casts no shadow and shades nothing.
     static glm::dvec3 raised(const SurfaceHit& hit);
 
-    std::size_t triangles() const { return triangles_; }
+    std::size_t triangles() const { return facets_.size(); }
 
   private:
     struct Embree;
+    /// A triangle as hit_on needs it, in double.
+    struct Facet {
+        glm::dvec3 corner_m, ab_m, ac_m; ///< one corner relative to origin_m, and from there to the other two
+        glm::dvec3 normal;               ///< of the plane, on the lit side
+        std::uint32_t first = 0;         ///< of its three indices
+        std::uint32_t material = 0;
+    };
+    void add_facets(const Mesh& mesh);
     SurfaceHit hit_on(const Ray& ray, std::uint32_t mesh, std::uint32_t triangle) const;
 
     const Scene& scene_;
     glm::dvec3 origin_m_;
-    std::size_t triangles_ = 0;
+    std::vector<Facet> facets_;            ///< of all meshes in turn
+    std::vector<std::size_t> first_facet_; ///< by mesh
     std::unique_ptr<Embree> embree_;
 };
 

@@ -1,5 +1,6 @@
 #include "renderer/reference/tile.h"
 
+#include "renderer/reference/lanes.h"
 #include "renderer/reference/path.h"
 #include "renderer/reference/replicates.h"
 #include "renderer/reference/solved_light.h"
@@ -15,7 +16,6 @@ static_assert(tile_px == packet_size, "a row of a tile is a packet of rays throu
 constexpr LaneMask all_lanes = 0xFFFF;
 
 /// Illuminance, target, luminance.
-using Lanes = std::array<double, packet_size>;
 using Results = std::array<Lanes, 3>;
 
 struct Seen {

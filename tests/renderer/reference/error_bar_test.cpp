@@ -1,6 +1,7 @@
 // Error bars are as wide as the errors: a bar too wide is as wrong as one too narrow.
 #include "tests/renderer/reference/rooms.h"
 
+#include "renderer/reference/lanes.h"
 #include "renderer/reference/replicates.h"
 #include "renderer/reference/sampling.h"
 
@@ -156,6 +157,28 @@ TEST(ReferencePoints, OfDifferentKeysAreUniformAndIndependent) {
             sum += (c - 100.0) * (c - 100.0) / 100.0;
         EXPECT_LT(sum, 103.4);
     }
+}
+
+TEST(ReferenceLanes, AnglesAreThoseOfTheLibrary) {
+    reference::Lanes y{}, x{}, angle{};
+    double worst = 0.0;
+    for (std::uint32_t k = 0; k < 4000; ++k) {
+        for (std::size_t i = 0; i < reference::packet_size; ++i) {
+            const glm::dvec2 p = reference::PointNet(3).point(16 * k + static_cast<std::uint32_t>(i), 0);
+            const double turn = 2.0 * pi * p.x, length = std::pow(10.0, 12.0 * p.y - 6.0);
+            y[i] = length * std::sin(turn), x[i] = length * std::cos(turn) * (i % 4 == 0 ? 1e-9 : 1.0);
+        }
+        reference::angles(y, x, angle);
+        for (std::size_t i = 0; i < reference::packet_size; ++i)
+            worst = std::max(worst, std::abs(angle[i] - std::atan2(y[i], x[i])));
+    }
+    EXPECT_LT(worst, 1e-15); // two units in the last place of pi
+    y = {0.0, 0.0, 1.0, -1.0, 0.0, 1.0};
+    x = {0.0, 1.0, 0.0, 0.0, -1.0, 1.0};
+    reference::angles(y, x, angle);
+    const std::array<double, 6> truth{0.0, 0.0, 0.5 * pi, -0.5 * pi, pi, 0.25 * pi};
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        EXPECT_DOUBLE_EQ(angle[i], truth[i]) << i;
 }
 
 /// All but the times.
