@@ -39,6 +39,13 @@ void meet_tbb_first() {
 
 } // namespace
 
+std::string embree_version() {
+    const RTCDevice device = rtcNewDevice(nullptr);
+    const long version = static_cast<long>(rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION));
+    rtcReleaseDevice(device);
+    return std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." + std::to_string(version % 100);
+}
+
 struct EmbreeScene::Embree {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;

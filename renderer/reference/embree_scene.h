@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace fernlicht::reference {
@@ -32,6 +33,9 @@ struct SurfaceHit {
     glm::dvec2 uv{0.0};
     bool from_behind = false; ///< the ray came from the side that is not lit
 };
+
+/// "3.13.5", of the library that is loaded.
+std::string embree_version();
 
 class EmbreeScene {
   public:
@@ -60,7 +64,7 @@ class EmbreeScene {
 
     /// From where rays leave a surface, so that they do not meet it again: raised along the flat triangle's normal by what floats round.
     /// A vertex, the ray's origin and Embree's edge functions are each off by at most half a unit in the last place (2^-24) of the largest
-    /// coordinate; eight such units cover their sum in three dimensions: 0.1 mm within 100 m of the origin, 0.4 mm at 800 m. What is lower
+    /// coordinate; eight such units cover their sum in three dimensions: 0.05 mm within 100 m of the origin, 0.4 mm at 800 m. What is lower
     /// than that casts no shadow and shades nothing.
     static glm::dvec3 raised(const SurfaceHit& hit);
 

@@ -9,8 +9,9 @@
 //
 // How many samples: a pilot of 16 points (64 paths) that is thrown away decides it. A pixel whose error came out above the target is drawn
 // again, from the start, with more points of other nets; only the last drawing counts. The pilot aims below the target, so that in the
-// first drawing an error bar decides by itself in some per cent of pixels only; the tests' z-scores hold what bias that leaves. Things that
-// cover less than about one sixteenth of a pixel can be missed by all samples of both drawings; then the bar does not know of them.
+// first drawing an error bar decides by itself in some per cent of pixels only; the tests' z-scores hold what bias that leaves. A pixel
+// whose pilot, or a neighbour's, saw several surfaces or a shadow's edge gets at least 128 samples. What covers a smaller part of a pixel
+// than one in its number of samples can still be missed by all of them; then the bar does not know of it.
 //
 // Direct: Lambert and retroreflecting surfaces, lamps as points or discs, visibility by a ray, the intensity from the candela table in
 // double, the sky as a share (1 + n_z) / 2 that nothing hides: the same light as the technique `photometric` and its twin.

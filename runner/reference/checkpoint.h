@@ -9,7 +9,7 @@
 namespace fernlicht {
 
 /// 32 hexadecimal digits over everything that decides the picture: fernlicht's version, the resolved drive, the content of each file it
-/// came from, lamp set, moment, view and settings. Not the number of threads, and not where files lie or results go.
+/// came from and its path, lamp set, moment, view and settings. Not the number of threads, and not where results go.
 std::string hash_of_inputs(const ReferenceResult& result, const Drive& drive);
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder);

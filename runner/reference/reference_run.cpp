@@ -53,6 +53,7 @@ Moment moment_near(const Stage& stage, const Variant& variant, double time_s) {
 RunContext context_of(const ReferenceRequest& request, const Stage& stage) {
     RunContext context;
     context.versions = library_versions();
+    context.versions.emplace_back("Embree", reference::embree_version());
     context.cpu = fmt::format("{} ({})", cpu_name(), simd_class());
     context.os = os_name();
     context.command = shell_quoted(request.command);

@@ -180,7 +180,7 @@ TEST_P(ReferenceAndTwin, AgreeWhereNoLightBounces) {
                 ++ids_differ;
                 continue;
             }
-            // The twin's rays start 1 mm above the surface, these 0.1 mm: at a shadow's edge either may be right.
+            // The twin's rays start 1 mm above the surface, these 0.05 mm: at a shadow's edge either may be right.
             const double e = image.illuminance_lx.mean.at(x, y), difference = std::abs(e - truth.illuminance_lx);
             if (difference > 1e-6 * truth.illuminance_lx) {
                 ++shadow_differs;
