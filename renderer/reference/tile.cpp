@@ -9,6 +9,7 @@ namespace fernlicht::reference {
 namespace {
 
 static_assert(tile_px == packet_size, "a row of a tile is a packet of rays through pixels' centres");
+
 /// What every pixel has, its samples' number last: a pixel counts as drawn by it.
 void store(ReferenceImage& image, int x, int y, const std::array<MeanAndError, 3>& result, std::uint8_t mixed, int samples) {
     const std::array<Estimate*, 3> estimates{&image.illuminance_lx, &image.target_lx, &image.luminance_cdm2};
