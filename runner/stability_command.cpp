@@ -90,7 +90,10 @@ void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub =
         app.add_subcommand("stability", "try extreme and degenerate inputs, each held against a bound; exit code 1 when one fails");
-    sub->add_option("--only", flags->only, "names of cases, with * and ?: 'lamp/*'");
+    CLI::Option* only = sub->add_option("--only", flags->only, "names of cases, with * and ?: 'lamp/*'");
+    sub->add_flag_callback(
+           "--equations", [flags] { flags->only = "equation/*"; }, "the light equations one by one")
+        ->excludes(only);
     CLI::Option* json = sub->add_flag("--json", flags->json, "prints JSON");
     sub->add_flag("--markdown", flags->markdown, "prints the table of docs/accuracy.md")->excludes(json);
     sub->add_flag("--list", flags->list, "names the cases and tries none");

@@ -92,5 +92,6 @@ std::vector<StabilityCase> road_cases();
 std::vector<StabilityCase> image_cases();
 std::vector<StabilityCase> time_cases();
 std::vector<StabilityCase> number_cases();
+std::vector<StabilityCase> equation_cases();
 
 } // namespace fernlicht

@@ -1,4 +1,5 @@
 // Every case of `fernlicht stability`, judged as the command judges it; and the judging itself.
+#include "runner/stability/equations.h"
 #include "runner/stability/stability_case.h"
 #include "runner/stability/stability_text.h"
 #include "scenarios/values/errors.h"
@@ -9,6 +10,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 namespace fernlicht {
 namespace {
@@ -95,6 +97,59 @@ TEST(StabilityCases, HaveNamesOfTheirOwnAndReasons) {
         EXPECT_GT(one.could_break.size(), 10U) << one.full_name();
         EXPECT_FALSE(one.unit.empty()) << one.full_name();
     }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+TEST(StabilityEquations, AreAllExaminedAndSayWhatIsHeld) {
+    const std::vector<std::string> lines = lines_of(content_of(FERNLICHT_SOURCE_DIR "/scenarios/photometry.glsl"));
+    std::set<std::string> examined;
+    for (const Equation& equation : equations())
+        examined.insert(equation.function);
+    std::size_t functions = 0;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        if (!lines[i].starts_with("FN "))
+            continue;
+        ++functions;
+        const std::size_t name = lines[i].find(' ', 3) + 1;
+        const std::string function = lines[i].substr(name, lines[i].find('(') - name);
+        EXPECT_TRUE(examined.contains(function)) << function;
+        EXPECT_EQ(lines[i - 1], "// " + bound_of(function).comment()) << "beside " << function;
+    }
+    EXPECT_EQ(functions, equation_bounds().size());
+    EXPECT_EQ(examined.size(), functions);
+}
+
+TEST(StabilityEquations, AreCalledByTheirNumbers) {
+    // a = 3 cd, distance 2 m: 0.75 lx; the dark end of the sRGB curve: 12.92 c.
+    EXPECT_DOUBLE_EQ(equation_in_double(10, {3.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0})[0], 0.75);
+    EXPECT_DOUBLE_EQ(equation_in_double(28, {0.001})[0], 0.01292);
+    EXPECT_EQ(equation_in_float(10, {3.0F, 0.0F, 0.0F, 0.0F, 0.0F, 2.0F, 0.0F})[0], 0.75F);
+    Device device = open_device("auto");
+    EquationProbe probe(device, 10);
+    std::vector<EquationArguments> points(70'000); // more than one draw takes
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {static_cast<float>(i), 0.0F, 0.0F, 0.0F, 0.0F, 2.0F, 0.0F};
+    const std::vector<EquationValue> values = probe.at(points);
+    ASSERT_EQ(values.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        ASSERT_EQ(values[i][0], 0.25F * static_cast<float>(i));
+}
+
+/// In float, 1 + x loses what is below half a unit: the search must find that, far from where it begins.
+TEST(StabilityEquations, TheSearchFindsWhatFloatsLose) {
+    Device device = open_device("auto");
+    const auto examination = [&] { return examine(equations()[26], device, 0.2, 1); }; // log(1 + s x) / log(1 + s)
+    const Examination found = examination();
+    EXPECT_GT(found.in_float.error, 1e-7);
+    EXPECT_LT(found.in_float.error, 1e-6);
+    EXPECT_EQ(found.in_float.at, examination().in_float.at) << "same seed, same search";
 }
 
 TEST(StabilityCommand, TriesWhatItIsAskedFor) {
