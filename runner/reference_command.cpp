@@ -105,7 +105,7 @@ void add_solver_options(CLI::App& sub, Flags& flags) {
         ->check(CLI::Range(1e-14, 1.0))
         ->capture_default_str();
     sub.add_option("--photons", solver.photons, "photon-map: sent out; becomes a multiple of 16")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 30))
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 26))
         ->capture_default_str();
     sub.add_option("--photon-radius", solver.radius_m, "photon-map: metres over which light is averaged")
         ->check(CLI::Range(0.001, 100.0))

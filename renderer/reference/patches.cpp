@@ -99,14 +99,14 @@ Patches::Patches(const EmbreeScene& embree, std::vector<Facet> facets, double pa
         const Facet& facet = facets_[f];
         const double base = glm::length(facet.corner_m[2] - facet.corner_m[1]), height = 2.0 * facet.area_m2 / base;
         if (base / patch_m > static_cast<double>(most))
-            throw InputError({{}, 0, 0, "patch"}, fmt::format("{} m would cut a side of {:.0f} m", patch_m, base),
+            throw InputError({{}, 0, 0, "--patch"}, fmt::format("{} m would cut a side of {:.0f} m", patch_m, base),
                              fmt::format("a size that makes at most {} patches", most));
         cuts_.push_back({static_cast<std::uint32_t>(places_.size()), std::max(1U, static_cast<std::uint32_t>(std::ceil(height / patch_m))),
                          base / patch_m});
         for (std::uint32_t row = 0; row < cuts_.back().rows; ++row) {
             const std::uint32_t columns = cuts_.back().columns(row);
             if (places_.size() + columns > most)
-                throw InputError({{}, 0, 0, "patch"}, fmt::format("{} m makes more than {} patches", patch_m, most),
+                throw InputError({{}, 0, 0, "--patch"}, fmt::format("{} m makes more than {} patches", patch_m, most),
                                  "a larger patch or a shorter reach");
             for (std::uint32_t column = 0; column < columns; ++column)
                 places_.push_back({f, row, column});

@@ -15,7 +15,8 @@
 namespace fernlicht::reference {
 namespace {
 
-constexpr std::size_t most_patches = 4'000'000, most_rays = std::size_t{1} << 31;
+/// 1.2 kB a patch and 4 bytes a ray: at most 3.3 GB.
+constexpr std::size_t most_patches = 1'000'000, most_rays = std::size_t{1} << 29;
 constexpr std::uint64_t radiosity_seed = 0x5ad105171ULL; ///< apart from the pixels' nets
 constexpr int most_sweeps = 10'000;                      ///< a white closed room never ends
 
@@ -114,8 +115,8 @@ Radiosity::Radiosity(const Shot& shot, Preparation& preparation)
     const std::size_t count = patches_.size(),
                       each = (static_cast<std::size_t>(shot.settings.solver.form_factor_rays) + replicate_count - 1) / replicate_count;
     if (count * each * replicate_count > most_rays)
-        throw InputError({{}, 0, 0, "form factor rays"}, std::to_string(count) + " patches with as many rays each as asked for",
-                         "at most 2^31 rays together");
+        throw InputError({{}, 0, 0, "--form-factor-rays"}, std::to_string(count) + " patches with as many rays each as asked for",
+                         "at most 2^29 rays together");
     reflectance_.resize(count, glm::dvec3(0.0)), emission_lx_.resize(count, glm::dvec3(0.0));
     all_.resize(replicate_count), lamps_.resize(replicate_count);
     std::vector<System> systems(replicate_count);

@@ -20,7 +20,7 @@ namespace fernlicht::reference {
 
 class Radiosity : public SolvedLight {
   public:
-    /// Throws InputError for more than 4 million patches or 2^31 rays.
+    /// Throws InputError for more than a million patches or 2^29 rays.
     Radiosity(const Shot& shot, Preparation& preparation);
 
     glm::dvec3 irradiance(const SurfaceHit& hit, Part part, std::size_t replicate) const override;

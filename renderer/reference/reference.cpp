@@ -41,8 +41,8 @@ void check(const ReferenceSettings& s) {
     if (!(solver.reach_m > 0.0 && solver.reach_m <= 2000.0) || !(solver.patch_m >= 0.001) || !std::isfinite(solver.patch_m) ||
         !(solver.radius_m >= 0.001 && solver.radius_m <= 100.0) || !(solver.residual > 0.0))
         fail("a solver's reach must be above 0 and at most 2000 m, patches at least 1 mm, photons' radius 1 mm to 100 m, residual above 0");
-    if (solver.form_factor_rays < 1 || solver.form_factor_rays > (1 << 20) || solver.photons < 1 || solver.photons > (1 << 30))
-        fail("form factor rays must be 1 to 2^20, photons 1 to 2^30");
+    if (solver.form_factor_rays < 1 || solver.form_factor_rays > (1 << 20) || solver.photons < 1 || solver.photons > (1 << 26))
+        fail("form factor rays must be 1 to 2^20, photons 1 to 2^26");
 }
 
 void check_materials(const Scene& scene) {

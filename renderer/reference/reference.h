@@ -44,7 +44,7 @@ struct SolverSettings {
     double patch_m = 1.0;           ///< radiosity: the longest side of a patch, nearly; > 0
     int form_factor_rays = 128;     ///< radiosity: from each patch; a multiple of 16
     double residual = 1e-4;         ///< radiosity: left of the light when the iteration ends; > 0
-    std::int64_t photons = 1 << 20; ///< photon map: sent out; becomes a multiple of 16
+    std::int64_t photons = 1 << 20; ///< photon map: sent out, up to 2^26 (some 100 bytes each); becomes a multiple of 16
     double radius_m = 0.25;         ///< photon map: of the disc over which light is averaged; > 0
     bool final_gather =
         true; ///< a pixel's light is gathered by rays from what was solved; false: it is taken from there, lamps' direct light apart

@@ -78,6 +78,10 @@ ReferenceResult described(const ReferenceRequest& request, const Stage& stage) {
     result.wanted = {.illuminance = true, .target = is_map, .luminance = !is_map};
     result.settings = request.settings;
     result.settings.shadows = drive.shadows;
+    if (!drive.shadows && (request.settings.integrator == Integrator::radiosity || request.settings.integrator == Integrator::photon_map))
+        throw InputError({drive.file, 0, 0, "--integrator"},
+                         "found " + integrator_name(request.settings.integrator) + " for a drive without shadows",
+                         "direct, whitted or path: light that is solved has shadows");
     if (drive.extent)
         result.settings.target_height_m = drive.extent->target_height_m;
     result.inputs_hash = hash_of_inputs(result, drive);
