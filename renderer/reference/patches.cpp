@@ -12,6 +12,9 @@ namespace {
 
 /// A facet smaller than this holds no light that could be told from rounding, m2.
 constexpr double least_area_m2 = 1e-12;
+/// A triangle that reaches less far into a cell than this share of it does not meet it: far above the rounding of shares, 1e-13 for a
+/// thousand cells in a row.
+constexpr double sliver = 1e-9;
 
 Facet facet_of(const EmbreeScene& embree, std::uint32_t mesh_index, std::uint32_t triangle, const Batch& batch, std::uint32_t first) {
     const Mesh& mesh = embree.scene().meshes[mesh_index];
@@ -57,6 +60,41 @@ glm::dvec3 weights_at(const Facet& facet, const glm::dvec3& point_m) {
     return {1.0 - b - c, b, c};
 }
 
+/// The part of a convex polygon where dot(p, axis) >= least.
+std::vector<glm::dvec2> clipped(const std::vector<glm::dvec2>& polygon, const glm::dvec2& axis, double least) {
+    std::vector<glm::dvec2> out;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double da = glm::dot(a, axis) - least, db = glm::dot(b, axis) - least;
+        if (da >= 0.0)
+            out.push_back(a);
+        if ((da >= 0.0) != (db >= 0.0))
+            out.push_back(a + (b - a) * (da / (da - db)));
+    }
+    return out;
+}
+
+double area_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+}
+
+/// Drawn evenly from a convex polygon of at least one point.
+glm::dvec2 anywhere_in(const std::vector<glm::dvec2>& polygon, const glm::dvec2& square) {
+    double all = 0.0;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        all += area_of(polygon[0], polygon[i - 1], polygon[i]);
+    double drawn = square.x * all;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        const double area = area_of(polygon[0], polygon[i - 1], polygon[i]);
+        if (drawn < area || i + 1 == polygon.size()) {
+            const double root = std::sqrt(area > 0.0 ? std::min(1.0, drawn / area) : 0.0);
+            return polygon[0] * (1.0 - root) + polygon[i - 1] * (root * (1.0 - square.y)) + polygon[i] * (root * square.y);
+        }
+        drawn -= area;
+    }
+    return polygon.front();
+}
+
 } // namespace
 
 SurfaceHit Facet::at(const glm::dvec3& w) const {
@@ -88,9 +126,11 @@ std::vector<Facet> facets_within(const EmbreeScene& embree, const glm::dvec3& ce
     return facets;
 }
 
-std::uint32_t Patches::Cut::columns(std::uint32_t row) const {
-    const double widest = 1.0 - static_cast<double>(row) / rows;
-    return std::max(1U, static_cast<std::uint32_t>(std::ceil(columns_at_base * widest)));
+Patches::Columns Patches::Cut::in_row(std::uint32_t row) const {
+    const double t = static_cast<double>(row) / rows, low = apex * t * columns, high = (1.0 - (1.0 - apex) * t) * columns;
+    const std::uint32_t begin = std::min(columns - 1, static_cast<std::uint32_t>(low + sliver)),
+                        end = std::clamp(static_cast<std::uint32_t>(std::ceil(high - sliver)), begin + 1, columns);
+    return {begin, end - begin};
 }
 
 Patches::Patches(const EmbreeScene& embree, std::vector<Facet> facets, double patch_m, std::size_t most) : facets_(std::move(facets)) {
@@ -101,15 +141,17 @@ Patches::Patches(const EmbreeScene& embree, std::vector<Facet> facets, double pa
         if (base / patch_m > static_cast<double>(most))
             throw InputError({{}, 0, 0, "--patch"}, fmt::format("{} m would cut a side of {:.0f} m", patch_m, base),
                              fmt::format("a size that makes at most {} patches", most));
-        cuts_.push_back({static_cast<std::uint32_t>(places_.size()), std::max(1U, static_cast<std::uint32_t>(std::ceil(height / patch_m))),
-                         base / patch_m});
+        const auto parts = [&](double length_m) { return std::max(1U, static_cast<std::uint32_t>(std::ceil(length_m / patch_m))); };
+        const glm::dvec3 along = (facet.corner_m[2] - facet.corner_m[1]) / (base * base);
+        cuts_.push_back({static_cast<std::uint32_t>(places_.size()), parts(height), parts(base),
+                         std::clamp(glm::dot(facet.corner_m[0] - facet.corner_m[1], along), 0.0, 1.0)});
         for (std::uint32_t row = 0; row < cuts_.back().rows; ++row) {
-            const std::uint32_t columns = cuts_.back().columns(row);
-            if (places_.size() + columns > most)
+            const Columns columns = cuts_.back().in_row(row);
+            if (places_.size() + columns.count > most)
                 throw InputError({{}, 0, 0, "--patch"}, fmt::format("{} m makes more than {} patches", patch_m, most),
                                  "a larger patch or a shorter reach");
-            for (std::uint32_t column = 0; column < columns; ++column)
-                places_.push_back({f, row, column});
+            for (std::uint32_t k = 0; k < columns.count; ++k)
+                places_.push_back({f, row, columns.first + k});
         }
         std::vector<std::uint32_t>& of_mesh = facet_of_[facet.mesh];
         if (of_mesh.size() <= facet.triangle)
@@ -125,24 +167,30 @@ std::uint32_t Patches::at(const SurfaceHit& hit) const {
     const std::uint32_t f = of_mesh[hit.triangle];
     const Cut& cut = cuts_[f];
     const glm::dvec3 w = weights_at(facets_[f], hit.point_m);
-    const auto part = [](double share, std::uint32_t count) { // rounding may put a place just outside
-        return static_cast<std::uint32_t>(std::clamp(std::floor(share * count), 0.0, static_cast<double>(count - 1)));
+    const auto part = [](double share, std::uint32_t count, std::uint32_t first,
+                         std::uint32_t last) { // rounding may put a place just outside
+        return static_cast<std::uint32_t>(std::clamp(std::floor(share * count), static_cast<double>(first), static_cast<double>(last)));
     };
-    const std::uint32_t row = part(w.x, cut.rows);
+    const std::uint32_t row = part(w.x, cut.rows, 0, cut.rows - 1);
     std::uint32_t patch = cut.first;
     for (std::uint32_t r = 0; r < row; ++r)
-        patch += cut.columns(r);
-    return patch + part(w.x < 1.0 ? w.z / (1.0 - w.x) : 0.0, cut.columns(row));
+        patch += cut.in_row(r).count;
+    const Columns columns = cut.in_row(row);
+    return patch + part(w.x * cut.apex + w.z, cut.columns, columns.first, columns.first + columns.count - 1) - columns.first;
 }
 
 SurfaceHit Patches::place(std::uint32_t patch, const glm::dvec2& square) const {
     const Place& place = places_[patch];
     const Cut& cut = cuts_[place.facet];
-    // Widths fall as 1 - t, so that (1 - t)^2 is uniform over the row's area.
-    const double below = 1.0 - static_cast<double>(place.row) / cut.rows, above = 1.0 - (place.row + 1.0) / cut.rows,
-                 wide = std::sqrt(below * below + (above * above - below * below) * square.x),
-                 along = (place.column + square.y) / cut.columns(place.row);
-    return facets_[place.facet].at({1.0 - wide, wide * (1.0 - along), wide * along});
+    std::vector<glm::dvec2> cell{{0.0, 0.0}, {1.0, 0.0}, {cut.apex, 1.0}}; // x, t
+    for (const auto& [axis, least] : {std::pair(glm::dvec2(1.0, 0.0), static_cast<double>(place.column) / cut.columns),
+                                      std::pair(glm::dvec2(-1.0, 0.0), -(place.column + 1.0) / cut.columns),
+                                      std::pair(glm::dvec2(0.0, 1.0), static_cast<double>(place.row) / cut.rows),
+                                      std::pair(glm::dvec2(0.0, -1.0), -(place.row + 1.0) / cut.rows)})
+        if (std::vector<glm::dvec2> inside = clipped(cell, axis, least); !inside.empty()) // a point may be lost to rounding
+            cell = std::move(inside);
+    const glm::dvec2 p = anywhere_in(cell, square);
+    return facets_[place.facet].at({p.y, 1.0 - p.x - p.y * (1.0 - cut.apex), p.x - p.y * cut.apex});
 }
 
 } // namespace fernlicht::reference

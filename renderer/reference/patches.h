@@ -1,9 +1,8 @@
-// The surfaces near the car in pieces: triangles cut into rows along their longest side, rows into cells.
+// The surfaces near the car in pieces: triangles under a grid of cells along their longest side.
 //
-// With t the distance from the longest side as a share of the height, and a the place along it, a triangle of height h and longest side b
-// is cut at t = i / rows, rows = ceil(h / patch), and each row at a = j / columns, columns = ceil(b (1 - t) / patch) with t where the row
-// is widest: no side is longer than a patch should be. Thin triangles do not make thin patches of them, and a triangle smaller than a patch
-// stays whole.
+// With x the place along the longest side b, as a share of it, and t the distance from it as a share of the triangle's height h, cells are
+// 1 / ceil(b / patch) wide and 1 / ceil(h / patch) high, clipped by the triangle. So no cell is wider or higher than a patch should be,
+// thin triangles make short cells and not long slivers, and a triangle smaller than a patch stays whole.
 #pragma once
 
 #include "renderer/reference/embree_scene.h"
@@ -45,11 +44,14 @@ class Patches {
     std::uint32_t material(std::uint32_t patch) const { return facets_[places_[patch].facet].material; }
 
   private:
+    struct Columns {
+        std::uint32_t first, count;
+    };
     struct Cut {
         std::uint32_t first = 0; ///< patch
-        std::uint32_t rows = 0;
-        double columns_at_base = 0.0; ///< longest side over patch_m
-        std::uint32_t columns(std::uint32_t row) const;
+        std::uint32_t rows = 1, columns = 1;
+        double apex = 0.0;                       ///< where along the longest side the third corner stands, 0..1
+        Columns in_row(std::uint32_t row) const; ///< those that the triangle meets
     };
     struct Place {
         std::uint32_t facet, row, column;

@@ -38,8 +38,13 @@ TEST(Patches, CoverTheirTrianglesAndFindTheirOwnPlaces) {
     EXPECT_GT(patches.size(), 40U + 40U + 20U + 2U); // 20 m of two thin triangles, the slanted ones, one for each of the small
     EXPECT_LT(patches.size(), 200U);                 // thin ones are not cut across
     for (std::uint32_t p = 0; p < patches.size(); ++p)
-        for (const glm::dvec2 square : {glm::dvec2(0.1, 0.1), glm::dvec2(0.9, 0.5), glm::dvec2(0.5, 0.9)})
+        for (const glm::dvec2 square : {glm::dvec2(0.1, 0.1), glm::dvec2(0.9, 0.5), glm::dvec2(0.47, 0.9)}) // not 0.5: a corner of some
             EXPECT_EQ(patches.at(patches.place(p, square)), p);
+    // No patch is larger than asked for, in any direction: a fan of slivers would pass for light from the triangle's other end.
+    for (std::uint32_t p = 0; p < patches.size(); ++p)
+        for (const glm::dvec2 a : {glm::dvec2(0.01, 0.01), glm::dvec2(0.99, 0.01), glm::dvec2(0.99, 0.99)})
+            for (const glm::dvec2 b : {glm::dvec2(0.5, 0.99), glm::dvec2(0.99, 0.99)})
+                EXPECT_LT(glm::length(patches.place(p, a).point_m - patches.place(p, b).point_m), 0.5 * std::sqrt(2.0));
     // A ray finds the patch of the place that it is aimed at.
     const reference::SurfaceHit place = patches.place(7, {0.3, 0.6});
     const auto hit = embree.cast({place.point_m + glm::dvec3(0.01, 0.02, 3.0), glm::dvec3(-0.01, -0.02, -3.0)});
