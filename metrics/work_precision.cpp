@@ -12,10 +12,11 @@ bool dominates(const WorkPrecisionRow& a, const WorkPrecisionRow& b) {
     return error_a <= error_b && time_a <= time_b && (error_a < error_b || time_a < time_b);
 }
 
-/// Better in one by more than both intervals, and not worse in the other.
+/// In each of both either better by more than both intervals or the same, and not the same in both.
 bool surely_dominates(const WorkPrecisionRow& a, const WorkPrecisionRow& b) {
-    const bool more_precise = std::max(a.error->high, a.floor) < b.error->low, faster = a.seconds->high < b.seconds->low;
-    return more_precise || faster;
+    const bool more_precise = std::max(a.error->high, a.floor) < b.error->low, as_precise = a.claimed_error() == b.claimed_error();
+    const bool faster = a.seconds->high < b.seconds->low, as_fast = *a.seconds == *b.seconds;
+    return (more_precise && (faster || as_fast)) || (as_precise && faster);
 }
 
 } // namespace

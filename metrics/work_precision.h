@@ -47,7 +47,7 @@ struct Standing {
     bool on_front = false; ///< measured, and nobody is
     std::optional<std::size_t>
         dominated_by;    ///< the row on the front that is, with the least error; of equals the fastest, of those the first
-    bool surely = false; ///< and none of their intervals overlap in what it is better in
+    bool surely = false; ///< and in both it is either the same or better by more than both intervals
 };
 /// One for each row, in their order. Rows that are not measured have no standing. Equal rows do not dominate one another.
 std::vector<Standing> standings(const std::vector<WorkPrecisionRow>& rows);

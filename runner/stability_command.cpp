@@ -4,6 +4,7 @@
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -13,7 +14,8 @@ namespace fernlicht {
 namespace {
 
 struct Flags {
-    std::string only = "*", backend = "auto", out;
+    std::vector<std::string> only{"*"};
+    std::string backend = "auto", out;
     bool json = false, markdown = false, list = false, thorough = false;
 };
 
@@ -21,8 +23,13 @@ struct Flags {
 class TrialFolder {
   public:
     explicit TrialFolder(const std::string& asked) : path_(asked), kept_(!asked.empty()) {
-        if (kept_)
+        if (kept_) {
+            std::error_code failed;
+            std::filesystem::create_directories(path_, failed);
+            if (failed)
+                throw DeviceError(fmt::format("{}: the folder cannot be made: {}", printable(asked), failed.message()));
             return;
+        }
         std::string name = (std::filesystem::temp_directory_path() / "fernlicht-stability-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr)
             throw DeviceError("no folder can be made in " + std::filesystem::temp_directory_path().string());
@@ -42,19 +49,22 @@ class TrialFolder {
     bool kept_;
 };
 
-std::vector<const StabilityCase*> chosen_cases(const std::string& glob) {
-    std::vector<const StabilityCase*> chosen;
+/// In the table's order, each once. Throws InputError for a pattern that fits none.
+std::vector<const StabilityCase*> chosen_cases(const std::vector<std::string>& patterns) {
     std::vector<std::string> names;
-    for (const StabilityCase& one : stability_cases()) {
+    for (const StabilityCase& one : stability_cases())
         names.push_back(one.full_name());
-        if (::fnmatch(glob.c_str(), one.full_name().c_str(), 0) == 0)
+    const auto fits = [](const std::string& pattern, const std::string& name) { return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0; };
+    for (const std::string& pattern : patterns)
+        if (std::ranges::none_of(names, [&](const std::string& name) { return fits(pattern, name); })) {
+            const std::string nearest = nearest_name(pattern, names);
+            throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}', which fits no case", printable(pattern)),
+                             nearest.empty() ? "a pattern like 'lamp/*'; --list names the cases" : nearest);
+        }
+    std::vector<const StabilityCase*> chosen;
+    for (const StabilityCase& one : stability_cases())
+        if (std::ranges::any_of(patterns, [&](const std::string& pattern) { return fits(pattern, one.full_name()); }))
             chosen.push_back(&one);
-    }
-    if (chosen.empty()) {
-        const std::string nearest = nearest_name(glob, names);
-        throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}', which fits no case", printable(glob)),
-                         nearest.empty() ? "a pattern like 'lamp/*'; --list names the cases" : nearest);
-    }
     return chosen;
 }
 
@@ -67,6 +77,8 @@ int stability(const Flags& flags) {
     }
     const TrialFolder folder(flags.out);
     StabilityBench bench(flags.backend, folder.path(), flags.thorough);
+    if (flags.backend != "auto")
+        bench.device(); // what cannot be drawn with is no case that fails
     std::vector<StabilityRow> rows;
     for (const StabilityCase* one : cases) {
         rows.push_back(judge(*one, bench));
@@ -90,13 +102,16 @@ void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub =
         app.add_subcommand("stability", "try extreme and degenerate inputs, each held against a bound; exit code 1 when one fails");
-    CLI::Option* only = sub->add_option("--only", flags->only, "names of cases, with * and ?: 'lamp/*'");
+    CLI::Option* only = sub->add_option("--only", flags->only, "names of cases, with * and ?, commas between: 'lamp/*,table/zero'")
+                            ->delimiter(',')
+                            ->allow_extra_args(false)
+                            ->default_str("");
     sub->add_flag_callback(
-           "--equations", [flags] { flags->only = "equation/*"; }, "the light equations one by one")
+           "--equations", [flags] { flags->only = {"equation/*"}; }, "the light equations one by one")
         ->excludes(only);
     CLI::Option* json = sub->add_flag("--json", flags->json, "prints JSON");
-    sub->add_flag("--markdown", flags->markdown, "prints the table of docs/accuracy.md")->excludes(json);
-    sub->add_flag("--list", flags->list, "names the cases and tries none");
+    CLI::Option* markdown = sub->add_flag("--markdown", flags->markdown, "prints the table of docs/accuracy.md")->excludes(json);
+    sub->add_flag("--list", flags->list, "names the cases and tries none")->excludes(json)->excludes(markdown);
     sub->add_flag("--thorough", flags->thorough, "searches ten times as long");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--out", flags->out, "folder in which the files that the cases write are kept");

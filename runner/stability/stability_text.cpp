@@ -56,7 +56,7 @@ std::string stability_markdown(const std::vector<StabilityRow>& rows) {
     std::string text = "| case | what could break | worst error | bound | reason of the bound | verdict |\n|---|---|---|---|---|---|\n";
     for (const StabilityRow& row : rows)
         text += fmt::format("| {} | {} | {} ({}) | {:g} {} | {} | {} |\n", row.of->full_name(), cell(row.of->could_break), measured(row),
-                            cell(where(row)), row.of->bound, row.of->unit, cell(row.of->reason), judgement_name(row.verdict));
+                            cell(where(row)), row.of->bound, cell(row.of->unit), cell(row.of->reason), judgement_name(row.verdict));
     return text;
 }
 

@@ -23,10 +23,19 @@ TEST(WorkPrecision, FrontIsWhatNobodyBeatsInBoth) {
     EXPECT_FALSE(s[3].on_front);
     EXPECT_EQ(s[3].dominated_by, 1U); // as exact, and faster
     EXPECT_TRUE(s[3].surely);
+    EXPECT_TRUE(s[4].surely);         // farther off and slower, both beyond the bars
     EXPECT_EQ(s[4].dominated_by, 2U); // by all of them; the one with the least error is named
     EXPECT_EQ(s[5].dominated_by, 1U);
     EXPECT_FALSE(s[5].surely); // bars overlap in both
     EXPECT_FALSE(s[0].dominated_by);
+}
+
+TEST(WorkPrecision, OneSureAdvantageIsNotEnoughWhereTheOtherIsInDoubt) {
+    const std::vector<Standing> s = standings({row("a", 1.0, 1.0), row("far off", 9.0, 1.05), row("slow", 1.05, 9.0)});
+    EXPECT_EQ(s[1].dominated_by, 0U);
+    EXPECT_FALSE(s[1].surely); // it may be the faster one
+    EXPECT_EQ(s[2].dominated_by, 0U);
+    EXPECT_FALSE(s[2].surely); // it may be the more exact one
 }
 
 TEST(WorkPrecision, EqualsDoNotBeatOneAnother) {
