@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
 #include <utility>
 
 namespace fernlicht {
@@ -124,6 +126,33 @@ double worst_error(const CandelaTable& table, const BeamTexture& texture, const 
     return worst;
 }
 
+BeamTexture sampled(const CandelaTable& table, const Axis& h, const Axis& v, int bits) {
+    BeamTexture texture;
+    texture.width = static_cast<int>(h.count);
+    texture.height = static_cast<int>(v.count);
+    texture.h_first_rad = radians(h.first_deg);
+    texture.v_first_rad = radians(v.first_deg);
+    texture.h_step_rad = radians(h.step_deg);
+    texture.v_step_rad = radians(v.step_deg);
+    texture.bits = bits;
+    texture.cd.reserve(h.count * v.count);
+    // The last texel may lie a rounding error beyond the table's edge, where the table is dark: stay inside.
+    const auto inside = [](double angle, const std::vector<double>& axis) { return std::clamp(angle, axis.front(), axis.back()); };
+    for (std::size_t y = 0; y < v.count; ++y)
+        for (std::size_t x = 0; x < h.count; ++x)
+            texture.cd.push_back(static_cast<float>(
+                intensity_cd(table, inside(h.at(static_cast<double>(x)), table.h_deg), inside(v.at(static_cast<double>(y)), table.v_deg))));
+    texture.scale_cd = static_cast<double>(*std::ranges::max_element(texture.cd));
+    if (bits < 32 && texture.scale_cd > 0.0) {
+        const double step_cd = texture.scale_cd / largest_step(bits);
+        for (float& cd : texture.cd)
+            cd = static_cast<float>(std::round(static_cast<double>(cd) / step_cd) * step_cd);
+    }
+    if (const double peak = peak_of(table).cd; peak > 0.0)
+        texture.worst_error_of_peak = worst_error(table, texture, h, v) / peak;
+    return texture;
+}
+
 } // namespace
 
 BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels) {
@@ -136,18 +165,20 @@ BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels)
         h = choose_axis(table.h_deg, across, -90.0, 90.0, coarser_h);
         v = choose_axis(table.v_deg, up, -90.0, 90.0, coarser_v);
     }
-    BeamTexture texture{static_cast<int>(h.count), static_cast<int>(v.count), {}, radians(h.first_deg), radians(v.first_deg),
-                        radians(h.step_deg),       radians(v.step_deg),       0.0};
-    texture.cd.reserve(h.count * v.count);
-    // The last texel may lie a rounding error beyond the table's edge, where the table is dark: stay inside.
-    const auto inside = [](double angle, const std::vector<double>& axis) { return std::clamp(angle, axis.front(), axis.back()); };
-    for (std::size_t y = 0; y < v.count; ++y)
-        for (std::size_t x = 0; x < h.count; ++x)
-            texture.cd.push_back(static_cast<float>(
-                intensity_cd(table, inside(h.at(static_cast<double>(x)), table.h_deg), inside(v.at(static_cast<double>(y)), table.v_deg))));
-    if (const double peak = peak_of(table).cd; peak > 0.0)
-        texture.worst_error_of_peak = worst_error(table, texture, h, v) / peak;
-    return texture;
+    return sampled(table, h, v, 32);
+}
+
+BeamTexture make_beam_texture(const CandelaTable& table, const BeamTexels& texels) {
+    for (const int texels_each_way : {texels.width, texels.height})
+        if (texels_each_way < least_beam_texels || texels_each_way > most_beam_texels)
+            throw std::invalid_argument(fmt::format("beam texture: {} x {} texels, expected {} to {} each way", texels.width, texels.height,
+                                                    least_beam_texels, most_beam_texels));
+    const auto axis = [](const std::vector<double>& samples, Range range, int count) {
+        const double from = std::max(samples[range.first], -90.0), to = std::min(samples[range.last], 90.0);
+        return Axis{from, to > from ? (to - from) / (count - 1) : finest_needed_deg, static_cast<std::size_t>(count)};
+    };
+    return sampled(table, axis(table.h_deg, lit_range(table, true), texels.width),
+                   axis(table.v_deg, lit_range(table, false), texels.height), texels.bits);
 }
 
 } // namespace fernlicht

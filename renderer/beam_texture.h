@@ -1,13 +1,16 @@
 // A candela table as the uniform float grid that the GPU looks up.
 #pragma once
 
+#include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/candela_table.h"
 
 namespace fernlicht {
 
 struct BeamTexture {
     int width = 0, height = 0;
-    std::vector<float> cd; ///< rows from low V to high V
+    std::vector<float> cd; ///< rows from low V to high V; with less than 32 bits whole steps of scale_cd / largest_step(bits)
+    int bits = 32;         ///< of a texel: 8, 16 or 32
+    double scale_cd = 0.0; ///< the largest value
     double h_first_rad = 0.0, v_first_rad = 0.0, h_step_rad = 0.0, v_step_rad = 0.0;
     double worst_error_of_peak = 0.0; ///< largest |texture - table| over peak; exact for linear_cd, for log_cd sampled
 };
@@ -16,5 +19,9 @@ struct BeamTexture {
 /// texels where a common step exists: bilinear look-up then gives the table's linear rule exactly. Beyond `max_texels` the
 /// steps grow, across before up, and the error says what it cost. A dark table gives a 2 x 2 texture of zeros.
 BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels = std::size_t{4} << 20);
+
+/// The lit part of a table (H within +-90 degrees) on as many texels, from edge to edge. Throws std::invalid_argument for sizes out of
+/// least_beam_texels to most_beam_texels.
+BeamTexture make_beam_texture(const CandelaTable& table, const BeamTexels& texels);
 
 } // namespace fernlicht

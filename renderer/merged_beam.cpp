@@ -83,7 +83,7 @@ Pose merged_pose(std::span<const LitLamp> lamps) {
     return pose;
 }
 
-ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, int width, int height, bool eight_bit) {
+ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, const BeamTexels& texels) {
     const Pose pose = merged_pose(lamps);
     Moment moment;
     for (const LitLamp& lamp : lamps)
@@ -92,7 +92,7 @@ ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, int width, int he
             moment.lamps.back().pose = {to_local(pose, lamp.pose.position_m), glm::transpose(pose.axes) * lamp.pose.axes};
         }
     const TangentWindow window = window_of(moment.lamps, {});
-    return sampled_beam(window, width, height, eight_bit, [&](double x, double y) {
+    return sampled_beam(window, texels, [&](double x, double y) {
         return target_illuminance_lx(moment, exact_at_m * glm::normalize(glm::dvec3(1.0, -x, y)));
     });
 }

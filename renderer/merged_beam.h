@@ -17,6 +17,6 @@ Pose merged_pose(std::span<const LitLamp> lamps);
 /// The texture to project from merged_pose(): for each direction from there the sum of all lamps' facing illuminance at its point 25 m
 /// away. With E = texel * 625 / d^2, d from the merged pose, it is exact at 25 m; nearer, the beams lie closer together than
 /// in truth, farther away wider apart. Depends on where the lamps stand to each other, not on where the car is.
-ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, int width, int height, bool eight_bit);
+ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, const BeamTexels& texels);
 
 } // namespace fernlicht

@@ -47,14 +47,16 @@ double most_outside_cd(const CandelaTable& table, const TangentWindow& window) {
 }
 
 double texel_lx(const ProjectedBeam& beam, std::size_t index) {
-    return beam.steps.empty() ? static_cast<double>(beam.lx[index]) : beam.steps[index] / 255.0 * beam.scale_lx;
+    return beam.steps.empty() ? static_cast<double>(beam.lx[index])
+                              : beam.steps[index] / static_cast<double>(largest_step(beam.bits)) * beam.scale_lx;
 }
 
 void quantise(ProjectedBeam& beam) {
     beam.steps.reserve(beam.lx.size());
     for (const float lx : beam.lx)
-        beam.steps.push_back(beam.scale_lx > 0.0 ? static_cast<std::uint8_t>(std::lround(static_cast<double>(lx) / beam.scale_lx * 255.0))
-                                                 : std::uint8_t{0});
+        beam.steps.push_back(
+            beam.scale_lx > 0.0 ? static_cast<std::uint16_t>(std::lround(static_cast<double>(lx) / beam.scale_lx * largest_step(beam.bits)))
+                                : std::uint16_t{0});
 }
 
 struct WorstErrors {
@@ -130,8 +132,9 @@ TangentWindow lit_window(const CandelaTable& table) {
     return w;
 }
 
-ProjectedBeam sampled_beam(const TangentWindow& window, int width, int height, bool eight_bit,
+ProjectedBeam sampled_beam(const TangentWindow& window, const BeamTexels& texels,
                            const std::function<double(double, double)>& illuminance_lx) {
+    const int width = texels.width, height = texels.height;
     if (width < 1 || height < 1 || width > most_texels || height > most_texels)
         throw std::invalid_argument(fmt::format("projected beam: {} x {} texels, expected 1 to {} each way", width, height, most_texels));
     ProjectedBeam beam;
@@ -149,7 +152,8 @@ ProjectedBeam sampled_beam(const TangentWindow& window, int width, int height, b
     });
     beam.scale_lx = static_cast<double>(*std::ranges::max_element(beam.lx));
     ProjectedBeam given = beam;
-    if (eight_bit) {
+    if (texels.bits < 32) {
+        given.bits = texels.bits;
         quantise(given);
         given.lx.clear();
     }
@@ -162,12 +166,12 @@ ProjectedBeam sampled_beam(const TangentWindow& window, int width, int height, b
     return given;
 }
 
-ProjectedBeam make_projected_beam(const CandelaTable& table, int width, int height, bool eight_bit) {
+ProjectedBeam make_projected_beam(const CandelaTable& table, const BeamTexels& texels) {
     const auto illuminance_lx = [&](double x, double y) {
         const glm::dvec2 angles = photometry::goniometer_angles({x, y, 1.0});
         return intensity_cd(table, degrees(angles.x), degrees(angles.y)) / cd_per_lx;
     };
-    ProjectedBeam beam = sampled_beam(lit_window(table), width, height, eight_bit, illuminance_lx);
+    ProjectedBeam beam = sampled_beam(lit_window(table), texels, illuminance_lx);
     if (const double peak_cd = peak_of(table).cd; peak_cd > 0.0)
         beam.beyond_window_of_peak = most_outside_cd(table, beam.window) / peak_cd;
     return beam;

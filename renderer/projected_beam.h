@@ -3,6 +3,7 @@
 // lies from the candela table is part of it.
 #pragma once
 
+#include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/candela_table.h"
 
 #include <cstdint>
@@ -21,27 +22,28 @@ struct TangentWindow {
 struct ProjectedBeam {
     int width = 0, height = 0;
     TangentWindow window;
-    double distance_m = 25.0;        ///< at which the lux hold, facing the lamp
-    double scale_lx = 0.0;           ///< the largest value; of step 255 when 8-bit
-    std::vector<float> lx;           ///< empty when 8-bit
-    std::vector<std::uint8_t> steps; ///< lx = step / 255 * scale_lx; empty when float
+    double distance_m = 25.0;         ///< at which the lux hold, facing the lamp
+    double scale_lx = 0.0;            ///< the largest value, that of the largest step
+    int bits = 32;                    ///< of a texel: 8, 16 or 32
+    std::vector<float> lx;            ///< empty with less than 32 bits
+    std::vector<std::uint16_t> steps; ///< lx = step / largest_step(bits) * scale_lx; empty when float
 
     // Against what the texture was made from, in shares of the largest illuminance met there, sampled on and between the texels of the
     // window.
     double resolution_error_of_peak = 0.0;   ///< worst of the bilinear texture in float
-    double quantisation_error_of_peak = 0.0; ///< worst of what rounding to 255 steps changes; 0 when float
+    double quantisation_error_of_peak = 0.0; ///< worst of what rounding to steps changes; 0 when float
     double worst_error_of_peak = 0.0;        ///< worst of the texture as it is
     double beyond_window_of_peak = 0.0;      ///< most intense light outside the window, which the projection loses
 
-    std::size_t bytes() const { return lx.size() * sizeof(float) + steps.size(); }
+    std::size_t bytes() const { return (lx.size() + steps.size()) * static_cast<std::size_t>(bits / 8); }
 };
 
 /// The smallest window that holds all cells of the table with light in them, within 54 degrees left and right, 24 down and 20 up: what a
 /// wider window gains at the sides it loses in texels on the road. A table without light there gives the whole of it.
 TangentWindow lit_window(const CandelaTable& table);
 
-/// E_m = I / 625 in lux at 25 m over lit_window(). The thesis had 512 x 128 in 8 bits. width and height from 1 to 16384.
-ProjectedBeam make_projected_beam(const CandelaTable& table, int width, int height, bool eight_bit);
+/// E_m = I / 625 in lux at 25 m over lit_window(). The thesis had 512 x 128 in 8 bits. Width and height from 1 to 16384.
+ProjectedBeam make_projected_beam(const CandelaTable& table, const BeamTexels& texels);
 
 /// Bilinear by hand at s, t in 0..1 across and up the window; 0 outside.
 double projected_lx(const ProjectedBeam& beam, double s, double t);
@@ -55,7 +57,7 @@ glm::dmat4 texture_from_lamp_as_printed(const TangentWindow& window);
 
 /// A texture of any illuminance over a window, with its errors except beyond_window_of_peak; for beams that are not one table.
 /// `illuminance_lx` gets the tangents x / z and y / z, is called from several threads, and its result is >= 0.
-ProjectedBeam sampled_beam(const TangentWindow& window, int width, int height, bool eight_bit,
+ProjectedBeam sampled_beam(const TangentWindow& window, const BeamTexels& texels,
                            const std::function<double(double, double)>& illuminance_lx);
 
 } // namespace fernlicht

@@ -22,8 +22,8 @@ inline constexpr double emissive_reach_m = 500.0;
 inline constexpr double lowered_rad = 0.92 * std::numbers::pi / 180.0;
 /// Ends of the projection's depth, r/q = 1 - near / z (projected_beam.h).
 inline constexpr double projection_near_m = 0.1;
-/// Texels of a projected beam in float; in 8 bits the thesis's.
-inline constexpr int beam_width = 1024, beam_height = 512, eight_bit_width = 512, eight_bit_height = 128;
+/// Texels of a projected beam unless others are asked for.
+inline constexpr BeamTexels projected_texels{1024, 512, 32};
 
 inline double time_of_day(const Daylight& daylight) { return std::clamp(daylight.horizontal_illuminance_lx / sun_max_lx, 0.0, 1.0); }
 

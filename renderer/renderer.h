@@ -16,7 +16,7 @@ enum class ReadBack { plain, overlapped };
 struct RendererSettings {
     std::string technique = "photometric";
     ToneMapper tone_mapper;
-    bool eight_bit_beams = false; ///< projected beams in 8 bits, 512 x 128, as the thesis had them; else float
+    std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float
     bool shadows = true;
     int shadow_width = 1024, shadow_height = 512;
     double shadow_tolerance_m = 0.03; ///< shadows are looked up from points at least this far above a surface

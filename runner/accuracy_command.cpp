@@ -16,7 +16,7 @@ namespace {
 /// The flags as typed.
 struct Flags {
     std::vector<std::filesystem::path> drives;
-    std::vector<std::string> techniques, resolutions, shadow_maps;
+    std::vector<std::string> techniques, resolutions, shadow_maps, beams;
     std::string variant, backend = "auto", out;
     SweepRequest sweep;
     bool quiet = false, solvers = false;
@@ -32,6 +32,25 @@ std::vector<std::pair<int, int>> sizes_of(const char* flag, const std::vector<st
     return sizes;
 }
 
+std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& texts) {
+    constexpr const char* expected = "float, eight-bit or WIDTHxHEIGHTxBITS with 8, 16 or 32 bits, e.g. 512x128x8";
+    std::vector<std::optional<BeamTexels>> beams;
+    for (const std::string& text : texts) {
+        if (text == "float" || text == "eight-bit") {
+            beams.push_back(text == "float" ? std::nullopt : std::optional(eight_bit_texels));
+            continue;
+        }
+        const std::size_t last = std::min(text.rfind('x'), text.size() - 1);
+        const std::string depth = text.substr(last + 1);
+        const auto [width, height] = two_numbers("--beams", text.substr(0, last), 'x', false, expected);
+        if ((depth != "8" && depth != "16" && depth != "32") || std::min(width, height) < least_beam_texels ||
+            std::max(width, height) > most_beam_texels)
+            refuse_flag("--beams", text, expected);
+        beams.emplace_back(BeamTexels{width, height, depth == "8" ? 8 : depth == "16" ? 16 : 32});
+    }
+    return beams;
+}
+
 int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     AccuracyRequest request;
     request.sweep = flags.sweep;
@@ -39,6 +58,7 @@ int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     request.sweep.techniques = flags.techniques;
     request.sweep.resolutions = sizes_of("--resolutions", flags.resolutions, 8192);
     request.sweep.shadow_maps = sizes_of("--shadow-maps", flags.shadow_maps, 8192);
+    request.sweep.beams = beams_of(flags.beams);
     for (const std::filesystem::path& file : flags.drives)
         request.drives.push_back(read_drive(file));
     request.backend = flags.backend;
@@ -69,7 +89,11 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
                     "WIDTHxHEIGHT,...: the first for all, the others beside it; else 1024x512, twice, a half and a quarter of it")
         ->delimiter(',')
         ->allow_extra_args(false);
-    sub->add_flag("--full", flags->sweep.full, "every technique with every resolution and shadow map; else one varied at a time");
+    sub->add_option("--beams", flags->beams,
+                    "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others beside it; else the drive's and four others")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    sub->add_flag("--full", flags->sweep.full, "every technique with every resolution, shadow map and beam; else one varied at a time");
     sub->add_option("--moments", flags->sweep.moments, "spread evenly over the drive")->check(CLI::Range(1, 1000))->capture_default_str();
     sub->add_option("--rounds", flags->sweep.rounds, "of times; in each, every configuration draws the moments once")
         ->check(CLI::Range(1, 100000))

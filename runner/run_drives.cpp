@@ -42,7 +42,7 @@ RendererSettings settings_for(Device& device, bool profile) {
 RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
     settings.technique = drive.technique;
     settings.tone_mapper = drive.tone_mapper;
-    settings.eight_bit_beams = drive.eight_bit_beams;
+    settings.beams = drive.beams;
     settings.shadows = drive.shadows;
     if (drive.extent)
         settings.target_height_m = drive.extent->target_height_m;
@@ -52,6 +52,10 @@ RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
 std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, const Renderer& renderer) {
     std::vector<std::string> notes = stage.drive.notes;
     notes.insert(notes.end(), stage.network.warnings.begin(), stage.network.warnings.end());
+    const Technique& technique = renderer.technique();
+    if (stage.drive.beams && technique.kind != TechniqueKind::ours && technique.features.find("PROJECTED") == std::string_view::npos)
+        notes.push_back(
+            fmt::format("beams: technique {} has no beam textures, so that their size and depth change nothing", technique.name));
     for (const MountedLamp& lamp : variant.lamps) {
         if (lamp.photometric_distance_m > 0.0)
             notes.push_back(fmt::format("{}: nearer than {} m it is in its near field, where a point source is an approximation", lamp.name,

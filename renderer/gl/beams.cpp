@@ -28,23 +28,40 @@ ShadowWindow window_of(const BeamTexture& g) {
     return w;
 }
 
+template <class Step> std::vector<Step> steps_of(const BeamTexture& g) {
+    std::vector<Step> steps;
+    for (const float cd : g.cd)
+        steps.push_back(static_cast<Step>(g.scale_cd > 0.0 ? std::lround(static_cast<double>(cd) / g.scale_cd * largest_step(g.bits)) : 0));
+    return steps;
+}
+
 } // namespace
+
+GLenum format_of_texels(int bits) { return bits == 32 ? GL_R32F : (bits == 16 ? GL_R16 : GL_R8); }
 
 const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     if (const auto known = known_.find(file.get()); known != known_.end())
         return known->second.second;
     Beam beam;
     beam.id = static_cast<int>(known_.size());
-    beam.grid = make_beam_texture(file->table);
+    beam.grid = made(file->table);
     const BeamTexture& g = beam.grid;
     beam.bounds = BeamBounds(g);
     beam.window = window_of(g);
     constexpr double asin_reaches_rad = 0.5235; // 30 degrees
     beam.steep = g.v_first_rad < -asin_reaches_rad || g.v_first_rad + (g.height - 1) * g.v_step_rad > asin_reaches_rad;
-    beam.texture = make_texture(context_, GL_R32F, g.width, g.height);
+    beam.texture = make_texture(context_, format_of_texels(g.bits), g.width, g.height);
     context_.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RED, GL_FLOAT, g.cd.data());
-    texture_bytes_ += 4U * g.cd.size();
+    const auto send = [&](GLenum type, const void* texels) {
+        context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RED, type, texels);
+    };
+    if (g.bits == 32)
+        send(GL_FLOAT, g.cd.data());
+    else
+        g.bits == 16 ? send(GL_UNSIGNED_SHORT, steps_of<std::uint16_t>(g).data())
+                     : send(GL_UNSIGNED_BYTE, steps_of<std::uint8_t>(g).data());
+    beam.cd_a_unit = g.bits == 32 ? 1.0 : g.scale_cd;
+    texture_bytes_ += static_cast<std::size_t>(g.bits / 8) * g.cd.size();
     context_.check("uploading a beam texture");
     return known_.emplace(file.get(), std::pair(file, std::move(beam))).first->second.second;
 }

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace fernlicht::gl {
 
@@ -18,21 +19,30 @@ struct ShadowWindow {
 struct Beam {
     int id = 0; ///< in the order of upload
     BeamTexture grid;
+    double cd_a_unit = 1.0; ///< of what a look-up gives: 1 for float, the largest value for steps of it
     BeamBounds bounds;
     ShadowWindow window;
     bool steep = false; ///< reaches beyond 30 degrees up or down
     Texture texture;
 };
 
+/// The format of a texture of one channel with so many bits (BeamTexels).
+GLenum format_of_texels(int bits);
+
 class Beams {
   public:
-    explicit Beams(Context& context) : context_(context) {}
+    Beams(Context& context, const std::optional<BeamTexels>& texels) : context_(context), texels_(texels) {}
 
     const Beam& of(const std::shared_ptr<const LampFile>& file);
+    /// Of the beam as it is drawn with against its table, relative to the peak.
+    double error_of_peak(const LampFile& file) const { return made(file.table).worst_error_of_peak; }
     std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
+    BeamTexture made(const CandelaTable& table) const { return texels_ ? make_beam_texture(table, *texels_) : make_beam_texture(table); }
+
     Context& context_;
+    std::optional<BeamTexels> texels_;
     std::map<const LampFile*, std::pair<std::shared_ptr<const LampFile>, Beam>> known_;
     std::size_t texture_bytes_ = 0;
 };

@@ -1,7 +1,6 @@
 // One way to light a scene on the GPU: what renderer.cpp asks of it.
 #pragma once
 
-#include "renderer/beam_texture.h"
 #include "renderer/camera.h"
 #include "renderer/gl/pass_clock.h"
 #include "renderer/gl/targets.h"
@@ -33,7 +32,7 @@ class Lighting {
     /// What the last drawn shot did not need.
     virtual std::vector<LeftOut> left_out() const = 0;
     /// Of the beam as it is drawn with against its table, relative to the peak; nullopt where no beam of one lamp is drawn with.
-    virtual std::optional<double> beam_error(const LampFile& lamp) const { return make_beam_texture(lamp.table).worst_error_of_peak; }
+    virtual std::optional<double> beam_error(const LampFile& lamp) const = 0;
 };
 
 /// The lighting of a technique by its name. Throws InputError.

@@ -12,7 +12,7 @@ glm::vec4 four(const glm::dvec3& v) { return {glm::vec3(v), 0.0F}; }
 } // namespace
 
 NaiveLighting::NaiveLighting(Context& context, const Scene& scene, const RendererSettings& settings)
-    : context_(context), settings_(settings), scene_(context, scene, false), beams_(context), list_(context, scene_),
+    : context_(context), settings_(settings), scene_(context, scene, false), beams_(context, settings.beams), list_(context, scene_),
       depth_(context, "depth.vert.glsl", "", {}), block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
       shadow_target_(make_framebuffer(context)) {}
 
@@ -42,7 +42,8 @@ void NaiveLighting::set_lamps(const Moment& moment) {
         packed_.push_back(
             {four(lamp.pose.position_m - moment.ego.position_m), four(-lamp.pose.left()), four(lamp.pose.up()), four(lamp.pose.forward()),
              glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
-             glm::vec4(g.width, g.height, lamp.intensity_factor, settings_.shadows ? 1.0 : 0.0), four(lamp.colour.linear_srgb),
+             glm::vec4(g.width, g.height, lamp.intensity_factor * beam.cd_a_unit, settings_.shadows ? 1.0 : 0.0),
+             four(lamp.colour.linear_srgb),
              glm::vec4(w.left, w.bottom, settings_.shadow_width / (w.right - w.left), settings_.shadow_height / (w.top - w.bottom))});
     }
     update_buffer(context_, block_, packed_);

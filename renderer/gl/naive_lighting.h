@@ -15,6 +15,7 @@ class NaiveLighting : public Lighting {
 
     void draw(const Shot& shot) override;
     void prepare(const Shot& shot) override;
+    std::optional<double> beam_error(const LampFile& lamp) const override { return beams_.error_of_peak(lamp); }
     std::vector<LeftOut> left_out() const override { return {}; }
 
   private:

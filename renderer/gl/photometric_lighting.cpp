@@ -32,7 +32,7 @@ glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), stat
 } // namespace
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
-    : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context),
+    : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, settings.beams),
       shadows_(context, scene_, {settings.shadow_width, settings.shadow_height}), list_(context, scene_),
       block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
 
@@ -48,7 +48,8 @@ void PhotometricLighting::set_lamps(const Shot& shot) {
         const glm::dvec3 eye = to_lamp_space(lamp, shot.camera.is_map ? -shot.camera.axis : shot.camera.eye_m - at);
         const glm::dvec3 raise = to_lamp_space(lamp, {0.0, 0.0, settings_.target_height_m});
         packed_.push_back({four(at), four(-lamp.pose.left()), four(lamp.pose.up()), four(lamp.pose.forward()),
-                           four(lamp.colour.linear_srgb, lamp.intensity_factor), four(eye, shot.camera.is_map ? 0.0 : 1.0), four(raise)});
+                           four(lamp.colour.linear_srgb, lamp.intensity_factor * lamp_beams_.back()->cd_a_unit),
+                           four(eye, shot.camera.is_map ? 0.0 : 1.0), four(raise)});
     }
     update_buffer(context_, block_, packed_);
 }

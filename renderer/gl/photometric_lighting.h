@@ -16,6 +16,7 @@ class PhotometricLighting : public Lighting {
 
     void draw(const Shot& shot) override;
     void prepare(const Shot& shot) override;
+    std::optional<double> beam_error(const LampFile& lamp) const override { return beams_.error_of_peak(lamp); }
     std::vector<LeftOut> left_out() const override { return left_out_; }
 
   private:

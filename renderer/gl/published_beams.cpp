@@ -1,5 +1,6 @@
 #include "renderer/gl/published_beams.h"
 
+#include "renderer/gl/beams.h"
 #include "renderer/merged_beam.h"
 #include "renderer/published_light.h"
 
@@ -22,10 +23,6 @@ template <class T> std::vector<T> framed(std::vector<T> texels, int width, int h
                 if (x == 0 || y == 0 || x == width - 1 || y == height - 1 || (depth > 1 && (z == 0 || z == depth - 1)))
                     texels[i] = T{0};
     return texels;
-}
-
-ProjectedBeam projected(const CandelaTable& table, bool eight_bit) {
-    return make_projected_beam(table, eight_bit ? eight_bit_width : beam_width, eight_bit ? eight_bit_height : beam_height, eight_bit);
 }
 
 void set_linear(const GladGLContext& gl, GLuint texture) {
@@ -56,7 +53,7 @@ bool LampArrangement::same_as(const LampArrangement& other) const {
 UploadedBeam PublishedBeams::upload(const ProjectedBeam& beam) {
     const GladGLContext& gl = context_.gl;
     UploadedBeam uploaded{beam.window, beam.steps.empty() ? 1.0 : beam.scale_lx, beam.scale_lx, beam.worst_error_of_peak,
-                          make_texture(context_, beam.steps.empty() ? GL_R32F : GL_R8, beam.width, beam.height)};
+                          make_texture(context_, format_of_texels(beam.bits), beam.width, beam.height)};
     set_linear(gl, uploaded.texture);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const auto send = [&](GLenum type, const void* texels) {
@@ -64,8 +61,10 @@ UploadedBeam PublishedBeams::upload(const ProjectedBeam& beam) {
     };
     if (beam.steps.empty())
         send(GL_FLOAT, framed(beam.lx, beam.width, beam.height, 1).data());
+    else if (beam.bits == 16)
+        send(GL_UNSIGNED_SHORT, framed(beam.steps, beam.width, beam.height, 1).data());
     else
-        send(GL_UNSIGNED_BYTE, framed(beam.steps, beam.width, beam.height, 1).data());
+        send(GL_UNSIGNED_BYTE, framed(std::vector<std::uint8_t>(beam.steps.begin(), beam.steps.end()), beam.width, beam.height, 1).data());
     texture_bytes_ += beam.bytes();
     context_.check("uploading a projected beam");
     return uploaded;
@@ -75,12 +74,12 @@ const UploadedBeam& PublishedBeams::of(const std::shared_ptr<const LampFile>& fi
     const auto known = beams_.find(file);
     if (known != beams_.end())
         return known->second;
-    return beams_.emplace(file, upload(projected(file->table, eight_bit_))).first->second;
+    return beams_.emplace(file, upload(make_projected_beam(file->table, texels_))).first->second;
 }
 
 double PublishedBeams::error_of_peak(const LampFile& file) const {
     const auto known = std::ranges::find_if(beams_, [&](const auto& entry) { return entry.first.get() == &file; });
-    return known != beams_.end() ? known->second.worst_error_of_peak : projected(file.table, eight_bit_).worst_error_of_peak;
+    return known != beams_.end() ? known->second.worst_error_of_peak : make_projected_beam(file.table, texels_).worst_error_of_peak;
 }
 
 const std::vector<Spot>& PublishedBeams::spots_of(const std::shared_ptr<const LampFile>& file) {
@@ -106,10 +105,7 @@ template <class Made, class Make> const Made& PublishedBeams::kept(std::list<Kep
 }
 
 const UploadedBeam& PublishedBeams::merged(const Moment& moment) {
-    return kept(merged_, moment, [&] {
-        return upload(make_merged_beam(moment.lamps, eight_bit_ ? eight_bit_width : beam_width, eight_bit_ ? eight_bit_height : beam_height,
-                                       eight_bit_));
-    });
+    return kept(merged_, moment, [&] { return upload(make_merged_beam(moment.lamps, texels_)); });
 }
 
 const UploadedMap& PublishedBeams::ground_map(const Moment& moment) {

@@ -37,7 +37,7 @@ class LampArrangement {
 
 class PublishedBeams {
   public:
-    PublishedBeams(Context& context, bool eight_bit) : context_(context), eight_bit_(eight_bit) {}
+    PublishedBeams(Context& context, const BeamTexels& texels) : context_(context), texels_(texels) {}
 
     const UploadedBeam& of(const std::shared_ptr<const LampFile>& file);
     double error_of_peak(const LampFile& file) const;
@@ -58,7 +58,7 @@ class PublishedBeams {
     UploadedBeam upload(const ProjectedBeam& beam);
 
     Context& context_;
-    bool eight_bit_;
+    BeamTexels texels_;
     std::map<std::shared_ptr<const LampFile>, UploadedBeam> beams_;
     std::map<std::shared_ptr<const LampFile>, std::vector<Spot>> spots_;
     std::list<Kept<UploadedBeam>> merged_; ///< used last stands first

@@ -56,7 +56,7 @@ glm::dmat4 lamp_from_ego(const Pose& pose, const glm::dvec3& ego_m) {
 
 PublishedLighting::PublishedLighting(Context& context, const Scene& scene, const RendererSettings& settings)
     : context_(context), settings_(settings), technique_(technique_named(settings.technique)), features_(features_of(technique_)),
-      scene_(context, scene, true), beams_(context, settings.eight_bit_beams), list_(context, scene_),
+      scene_(context, scene, true), beams_(context, settings.beams.value_or(projected_texels)), list_(context, scene_),
       lamp_block_(make_buffer(context, std::vector<PackedLamp>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
       spot_block_(make_buffer(context, std::vector<PackedSpot>(most_lamps * most_spots), GL_DYNAMIC_STORAGE_BIT)) {}
 

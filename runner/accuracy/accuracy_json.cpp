@@ -36,6 +36,7 @@ Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& d
             {"width_px", c.width_px},
             {"height_px", c.height_px},
             {"shadow_map", {{"width", c.shadow_width}, {"height", c.shadow_height}}},
+            {"beams", beams_text(c.beams)},
             {"varied", text_or_null(c.varied)},
             {"road", errors_json(found.road, found.no_illuminance, frames)},
             {"road_p95_by_moment", found.road_p95},

@@ -12,9 +12,11 @@ struct Configuration {
     std::string technique;
     int width_px = 0, height_px = 0;
     int shadow_width = 1024, shadow_height = 512;
+    std::optional<BeamTexels> beams; ///< nullopt: as fine as the technique takes them, in float
     std::string varied; ///< what differs from the drive's own way beside the technique: "resolution", "shadow maps"; "" for nothing
 };
-std::string name_of(const Configuration& configuration); ///< "photometric", "photometric, 512x384"
+std::string beams_text(const std::optional<BeamTexels>& beams); ///< "512x128x8"; "float" for nullopt
+std::string name_of(const Configuration& configuration);        ///< "photometric", "photometric, 512x384"
 
 /// Reach on the own lane's centre against the reference's, over the moments in which both have one.
 struct ReachError {

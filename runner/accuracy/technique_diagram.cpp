@@ -14,7 +14,10 @@ WorkPrecisionRow row_of(const ConfigurationResult& found) {
     row.label = name_of(c);
     row.parameters = {{"technique", c.technique},
                       {"resolution", fmt::format("{}x{}", c.width_px, c.height_px)},
-                      {"shadow maps", fmt::format("{}x{}", c.shadow_width, c.shadow_height)}};
+                      {"shadow maps", fmt::format("{}x{}", c.shadow_width, c.shadow_height)},
+                      {"beams", beams_text(c.beams)}};
+    if (c.beams == eight_bit_texels && c.varied == "beams")
+        row.note = "as the thesis";
     row.why_not = found.no_illuminance;
     if (found.road && found.road->pixels > 0) {
         const auto [least, most] = std::ranges::minmax(found.road_p95);
@@ -72,8 +75,8 @@ WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
                                "reference's finest map; maps for reach have as many pixels each way as the view has, in the same ratio");
     for (const ConfigurationResult& found : drive.configurations) {
         const auto others = std::ranges::count_if(drive.configurations, [&](const ConfigurationResult& other) {
-            return other.configuration.technique == found.configuration.technique && other.configuration.varied != "shadow maps" &&
-                   other.configuration.varied != "beams";
+            return other.configuration.technique == found.configuration.technique &&
+                   (other.configuration.varied.empty() || other.configuration.varied == "resolution");
         });
         if (others < 2 || (!found.configuration.varied.empty() && found.configuration.varied != "resolution"))
             continue;

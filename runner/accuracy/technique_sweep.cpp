@@ -38,6 +38,17 @@ const View& view_to_compare(const Drive& drive) {
     throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a perspective view whose pictures are compared");
 }
 
+std::vector<std::optional<BeamTexels>> beams_of(const SweepRequest& request, const Drive& drive) {
+    std::vector<std::optional<BeamTexels>> beams = request.beams;
+    if (beams.empty())
+        beams = {drive.beams, eight_bit_texels, BeamTexels{512, 128, 32}, BeamTexels{1024, 512, 8}, BeamTexels{2048, 1024, 16}};
+    std::vector<std::optional<BeamTexels>> distinct;
+    for (const auto& texels : beams)
+        if (std::ranges::find(distinct, texels) == distinct.end())
+            distinct.push_back(texels);
+    return distinct;
+}
+
 /// The drive with the reaches that are compared: at 1 and 5 lx.
 Drive measured_drive(const Drive& drive) {
     Drive measured = drive;
@@ -64,19 +75,26 @@ void add_contestant(Contestants& contestants, Renderer& renderer, const View& vi
 
 } // namespace
 
+std::string beams_text(const std::optional<BeamTexels>& beams) {
+    return beams ? fmt::format("{}x{}x{}", beams->width, beams->height, beams->bits) : "float";
+}
+
 std::string name_of(const Configuration& c) {
-    if (c.varied == "resolution")
-        return fmt::format("{}, {}x{}", c.technique, c.width_px, c.height_px);
-    if (c.varied == "shadow maps")
-        return fmt::format("{}, shadow maps {}x{}", c.technique, c.shadow_width, c.shadow_height);
-    return c.technique + (c.varied.empty() ? "" : fmt::format(", {}", c.varied));
+    std::string name = c.technique;
+    if (c.varied.find("resolution") != std::string::npos)
+        name += fmt::format(", {}x{}", c.width_px, c.height_px);
+    if (c.varied.find("shadow maps") != std::string::npos)
+        name += fmt::format(", shadow maps {}x{}", c.shadow_width, c.shadow_height);
+    if (c.varied.find("beams") != std::string::npos)
+        name += ", beams " + beams_text(c.beams);
+    return name;
 }
 
 RendererSettings settings_of(const Drive& drive, const Configuration& configuration) {
     RendererSettings settings;
     settings.technique = configuration.technique;
     settings.tone_mapper = drive.tone_mapper;
-    settings.eight_bit_beams = drive.eight_bit_beams;
+    settings.beams = configuration.beams;
     settings.shadows = drive.shadows;
     settings.shadow_width = configuration.shadow_width;
     settings.shadow_height = configuration.shadow_height;
@@ -97,41 +115,44 @@ const Variant& variant_of(const Drive& drive, const std::string& name) {
     throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
-std::vector<Configuration> configurations_of(const SweepRequest& request, const View& driver) {
+std::vector<Configuration> configurations_of(const SweepRequest& request, const Drive& drive) {
+    const View& driver = view_to_compare(drive);
     const std::vector<Size> resolutions = sizes_of(request.resolutions, {driver.width_px, driver.height_px}, {0.5, 0.25});
     const RendererSettings usual;
     const std::vector<Size> maps = sizes_of(request.shadow_maps, {usual.shadow_width, usual.shadow_height}, {2.0, 0.5, 0.25});
-    std::vector<Configuration> all;
-    const auto add = [&](const Technique& row, Size resolution, Size map, const std::string& varied) {
-        all.push_back({std::string(row.name), resolution.first, resolution.second, map.first, map.second, varied});
-    };
+    const std::vector<std::optional<BeamTexels>> beams = beams_of(request, drive);
     std::vector<Technique> rows;
     for (const Technique& row : chosen_techniques(request.techniques))
         if (request.techniques.empty() || std::ranges::find(request.techniques, row.name) != request.techniques.end())
             rows.push_back(row);
+    std::vector<Configuration> all;
+    const auto add = [&](const Technique& row, std::size_t r, std::size_t m, std::size_t b) {
+        std::string varied;
+        for (const auto& [index, name] : {std::pair(r, "resolution"), std::pair(m, "shadow maps"), std::pair(b, "beams")})
+            if (index > 0)
+                varied += (varied.empty() ? "" : ", ") + std::string(name);
+        all.push_back(
+            {std::string(row.name), resolutions[r].first, resolutions[r].second, maps[m].first, maps[m].second, beams[b], varied});
+    };
     for (const Technique& row : rows)
-        add(row, resolutions.front(), maps.front(), "");
+        add(row, 0, 0, 0);
     for (const Technique& row : rows) {
-        const bool ours = row.kind == TechniqueKind::ours;
+        const bool ours = row.kind == TechniqueKind::ours, textures = ours || row.features.find("PROJECTED") != std::string_view::npos,
+                   varied = row.name == "photometric" || row.name == "full";
         for (std::size_t r = 0; r < resolutions.size(); ++r)
-            for (std::size_t m = 0; m < maps.size(); ++m) {
-                const bool star = (r > 0) != (m > 0);
-                if (r + m == 0 || (m > 0 && !ours) || (!request.full && !star))
-                    continue;
-                if (!request.full && row.name != "photometric" && !(row.name == "full" && r > 0))
-                    continue;
-                add(row, resolutions[r], maps[m],
-                    star ? (r > 0 ? "resolution" : "shadow maps")
-                         : fmt::format("{}x{}, shadow maps {}x{}", resolutions[r].first, resolutions[r].second, maps[m].first,
-                                       maps[m].second));
-            }
+            for (std::size_t m = 0; m < maps.size(); ++m)
+                for (std::size_t b = 0; b < beams.size(); ++b) {
+                    const int differences = (r > 0 ? 1 : 0) + (m > 0 ? 1 : 0) + (b > 0 ? 1 : 0);
+                    if (differences > 0 && (ours || m == 0) && (textures || b == 0) && (request.full || (differences == 1 && varied)))
+                        add(row, r, m, b);
+                }
     }
     return all;
 }
 
 void check_sweep(const SweepRequest& request, const Stage& stage) {
     variant_of(stage.drive, request.variant);
-    configurations_of(request, view_to_compare(stage.drive));
+    configurations_of(request, stage.drive);
     const int moments = tick_count(stage.drive);
     if (request.moments < 1 || request.moments > moments)
         throw InputError({stage.drive.file, 0, 0, "--moments"}, fmt::format("found {}", request.moments),
@@ -142,7 +163,7 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
     const Drive drive = measured_drive(stage.drive);
     const Variant& variant = variant_of(stage.drive, request.variant);
     const View& driver = view_to_compare(stage.drive);
-    const std::vector<Configuration> configurations = configurations_of(request, driver);
+    const std::vector<Configuration> configurations = configurations_of(request, stage.drive);
     const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
     DriveAccuracy result{stage.drive.name, stage.drive.title, variant.name, {}, {}, {}};
     for (const Moment& moment : moments)

@@ -13,17 +13,18 @@ struct SweepRequest {
     std::vector<std::string> techniques;          ///< empty: all
     std::vector<std::pair<int, int>> resolutions; ///< pixels, the first for all; empty: the drive's, and 1/2 and 1/4 of it
     std::vector<std::pair<int, int>> shadow_maps; ///< texels, the first for all; empty: 1024 x 512, twice, 1/2 and 1/4 of it
-    bool full = false;                            ///< every technique with every resolution and shadow map; else one varied at a time
+    std::vector<std::optional<BeamTexels>> beams; ///< the first for all; empty: the drive's, and some finer and coarser ones
+    bool full = false;                            ///< every technique with every resolution, shadow map and beam; else one varied at a time
     int moments = 3, rounds = 7;
     double target_error = 0.005; ///< wanted standard error of the reference, in shares
     int most_samples = 256;      ///< of the reference, a pixel
     std::uint64_t seed = 1;
 };
 
-/// What is drawn, in order: each technique the drive's own way, then, one at a time, the other resolutions (of `photometric` and `full`)
-/// and shadow maps (of `photometric`), as far as these techniques take part. Throws InputError for a technique that is unknown or comes
-/// twice.
-std::vector<Configuration> configurations_of(const SweepRequest& request, const View& driver);
+/// What is drawn, in order: each technique the drive's own way, then, one at a time, the other resolutions and
+/// beams (of `photometric` and `full`) and shadow maps (of `photometric`), as far as these techniques take part. Throws InputError for a
+/// technique that is unknown or comes twice.
+std::vector<Configuration> configurations_of(const SweepRequest& request, const Drive& drive);
 
 /// Throws InputError for what sweep_techniques would.
 void check_sweep(const SweepRequest& request, const Stage& stage);

@@ -45,7 +45,7 @@ const View& view_to_time(const Drive& drive) {
 RendererSettings settings_for(const Drive& drive, const Technique& technique) {
     RendererSettings settings;
     settings.tone_mapper = drive.tone_mapper;
-    settings.eight_bit_beams = drive.eight_bit_beams;
+    settings.beams = drive.beams;
     settings.shadows = drive.shadows;
     settings.technique = technique.name;
     return settings;

@@ -1,6 +1,7 @@
 // A drive: everything that decides what a run shows, resolved to plain values. Read from YAML; written back beside the results.
 #pragma once
 
+#include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/vehicle/vehicle_parameters.h"
@@ -130,8 +131,8 @@ struct Drive {
     std::vector<Probe> probes;
     std::vector<Limit> limits;
     bool shadows = true;
-    bool eight_bit_beams = false; ///< techniques that project beam textures do so with the founding thesis's 8 bits, 512 x 128
-    bool textured = true;         ///< surfaces have pictures
+    std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float
+    bool textured = true;            ///< surfaces have pictures
     std::uint64_t seed = 1;
     std::vector<LampSource> lamp_sources; ///< where the lamps' files came from
     std::vector<std::string> notes;       ///< what was decided for the user ("the route ends after 8.2 s"), one sentence each

@@ -29,6 +29,19 @@ void read_route(const YamlMap& keys, Drive& drive) {
             drive.via.push_back(road.text());
 }
 
+/// float, eight-bit, or size and depth.
+std::optional<BeamTexels> read_beams(const YamlEntry& given) {
+    if (given.is_scalar())
+        return given.choice({"float", "eight-bit"}) == 1 ? std::optional(eight_bit_texels) : std::nullopt;
+    const YamlMap keys = given.map({"width", "height", "bits"});
+    const YamlEntry bits = keys.require("bits");
+    BeamTexels texels{keys.require("width").whole(least_beam_texels, most_beam_texels),
+                      keys.require("height").whole(least_beam_texels, most_beam_texels), bits.whole(0, 1000)};
+    if (texels.bits != 8 && texels.bits != 16 && texels.bits != 32)
+        bits.refuse("8, 16 or 32");
+    return texels;
+}
+
 void read_time(const YamlMap& keys, Drive& drive) {
     drive.speed = read_speed(keys);
     drive.step_s = read_step_s(keys);
@@ -65,7 +78,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     drive.limits = read_limits(keys);
     drive.shadows = keys.flag_or("shadows", drive.shadows);
     if (const auto beams = keys.find("beams"))
-        drive.eight_bit_beams = beams->choice({"float", "eight-bit"}) == 1;
+        drive.beams = read_beams(*beams);
     if (const auto textures = keys.find("textures"))
         drive.textured = textures->choice({"none", "shipped"}) == 1;
     if (const auto seed = keys.find("seed"))

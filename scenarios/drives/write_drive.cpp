@@ -272,7 +272,10 @@ std::string write_drive(const Drive& drive) {
     write_measure(out, drive);
     write_limits(out, drive);
     out.add(0, "shadows: {}", drive.shadows);
-    out.add(0, "beams: {}", drive.eight_bit_beams ? "eight-bit" : "float");
+    if (drive.beams && *drive.beams != eight_bit_texels)
+        out.add(0, "beams: {{width: {}, height: {}, bits: {}}}", drive.beams->width, drive.beams->height, drive.beams->bits);
+    else
+        out.add(0, "beams: {}", drive.beams ? "eight-bit" : "float");
     out.add(0, "textures: {}", drive.textured ? "shipped" : "none");
     out.add(0, "seed: {}", drive.seed);
     return out.take();

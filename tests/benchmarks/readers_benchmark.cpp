@@ -85,7 +85,7 @@ BENCHMARK(beam_texture)->Unit(benchmark::kMillisecond);
 void projected_beam(benchmark::State& state) {
     const CandelaTable& table = country_road().moment.lamps.front().file->table;
     for (auto _ : state)
-        benchmark::DoNotOptimize(make_projected_beam(table, 512, 128, true));
+        benchmark::DoNotOptimize(make_projected_beam(table, {512, 128, 8}));
 }
 BENCHMARK(projected_beam)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime(); // parallel inside
 

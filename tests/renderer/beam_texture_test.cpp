@@ -86,5 +86,24 @@ TEST(BeamTexture, LeavesTheDarkRimOut) {
     EXPECT_NEAR(degrees(texture.h_first_rad + (texture.width - 1) * texture.h_step_rad), 20.0, 1e-9);
 }
 
+TEST(BeamTexture, OfAGivenSizeRunsFromEdgeToEdgeInSteps) {
+    const CandelaTable table = table_on({-10, -5, -4.5, -4, 0, 1, 2.5, 10}, {-4, -2, -1, -0.75, -0.5, 0, 2}, 6);
+    const BeamTexture fine = make_beam_texture(table, {201, 121, 32}), coarse = make_beam_texture(table, {201, 121, 8});
+    EXPECT_EQ(fine.width, 201);
+    EXPECT_NEAR(degrees(fine.h_step_rad), 0.1, 1e-12); // 20 degrees in 200
+    EXPECT_NEAR(degrees(fine.v_first_rad + 120 * fine.v_step_rad), 2.0, 1e-12);
+    EXPECT_NEAR(look_up(fine, 1.0, -0.75), intensity_cd(table, 1.0, -0.75), 1e-2); // both on texels
+    EXPECT_EQ(coarse.scale_cd, fine.scale_cd);
+    for (std::size_t i = 0; i < fine.cd.size(); ++i) {
+        const double steps = static_cast<double>(coarse.cd[i]) / fine.scale_cd * 255.0;
+        ASSERT_NEAR(steps, std::round(steps), 1e-4);
+        ASSERT_NEAR(coarse.cd[i], fine.cd[i], 0.5001 / 255.0 * fine.scale_cd);
+    }
+    EXPECT_GT(coarse.worst_error_of_peak, 0.4 / 255.0);
+    EXPECT_LT(make_beam_texture(table, {201, 121, 16}).worst_error_of_peak, fine.worst_error_of_peak + 1.0 / 65535.0);
+    EXPECT_THROW(make_beam_texture(table, {1, 121, 8}), std::invalid_argument);
+    EXPECT_THROW(make_beam_texture(table, {201, 8193, 8}), std::invalid_argument);
+}
+
 } // namespace
 } // namespace fernlicht

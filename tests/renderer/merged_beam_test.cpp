@@ -35,7 +35,7 @@ TEST(MergedBeam, LampsThatAreOffDoNotMoveIt) {
     const std::vector<LitLamp> lamps{lamp_at({3.5, 0.6, 0.6}, 0.1), lamp_at({3.5, -0.6, 0.7}, 3.0, 0.0)};
     EXPECT_EQ(merged_pose(lamps).position_m, glm::dvec3(3.5, 0.6, 0.6));
     EXPECT_EQ(merged_pose({}), Pose());
-    EXPECT_EQ(make_merged_beam({}, 4, 4, false).scale_lx, 0.0);
+    EXPECT_EQ(make_merged_beam({}, {4, 4, 32}).scale_lx, 0.0);
 }
 
 TEST(MergedBeam, AxesThatCancelAreRefused) {
@@ -47,7 +47,7 @@ TEST(MergedBeam, IsExactAt25MetresAndWrongNearer) {
     Moment moment;
     moment.lamps = {lamp_at({3.5, 0.6, 0.65}, 0.02), lamp_at({3.5, -0.6, 0.65}, -0.01, 0.7)};
     const Pose pose = merged_pose(moment.lamps);
-    const ProjectedBeam beam = make_merged_beam(moment.lamps, 512, 256, false);
+    const ProjectedBeam beam = make_merged_beam(moment.lamps, {512, 256, 32});
     double worst_nearer = 0.0;
     for (int row = 0; row < beam.height; row += 5)
         for (int column = 0; column < beam.width; column += 7) {
@@ -65,7 +65,7 @@ TEST(MergedBeam, IsExactAt25MetresAndWrongNearer) {
 
 TEST(MergedBeam, OneLampIsItsOwnProjection) {
     const std::vector<LitLamp> one{lamp_at({1.0, 2.0, 0.5}, 0.4)};
-    const ProjectedBeam merged = make_merged_beam(one, 128, 64, true), own = make_projected_beam(one[0].file->table, 128, 64, true);
+    const ProjectedBeam merged = make_merged_beam(one, {128, 64, 8}), own = make_projected_beam(one[0].file->table, {128, 64, 8});
     EXPECT_NEAR(merged.window.left, own.window.left, 1e-12);
     EXPECT_NEAR(merged.window.top, own.window.top, 1e-12);
     EXPECT_NEAR(merged.scale_lx, own.scale_lx, 1e-5);
@@ -75,7 +75,7 @@ TEST(MergedBeam, OneLampIsItsOwnProjection) {
 TEST(MergedBeam, SeesBothWindowsWhole) {
     const std::vector<LitLamp> lamps{lamp_at({3.5, 5.0, 0.65}, 0.1), lamp_at({3.5, -5.0, 0.65}, -0.1)};
     const TangentWindow own = lit_window(lamps[0].file->table);
-    const ProjectedBeam beam = make_merged_beam(lamps, 64, 32, false);
+    const ProjectedBeam beam = make_merged_beam(lamps, {64, 32, 32});
     EXPECT_LT(beam.window.left, own.left);
     EXPECT_GT(beam.window.right, own.right);
     EXPECT_LE(beam.window.right, 1.4);
@@ -83,7 +83,7 @@ TEST(MergedBeam, SeesBothWindowsWhole) {
 
 TEST(MergedBeam, GoesWithTheCar) {
     std::vector<LitLamp> lamps{lamp_at({3.5, 0.6, 0.65}, 0.02), lamp_at({3.5, -0.6, 0.65}, -0.01)};
-    const ProjectedBeam at_origin = make_merged_beam(lamps, 64, 32, false);
+    const ProjectedBeam at_origin = make_merged_beam(lamps, {64, 32, 32});
     const Pose car{{3e6, -2e6, 400.0}, axes_from_angles(1.0, 0.05, 0.02)};
     const Pose before = compose(car, merged_pose(lamps));
     for (LitLamp& lamp : lamps)
@@ -91,7 +91,7 @@ TEST(MergedBeam, GoesWithTheCar) {
     const Pose after = merged_pose(lamps);
     EXPECT_LT(glm::distance(before.position_m, after.position_m), 1e-8); // a unit in the last place of 3e6 m is 5e-10
     EXPECT_LT(glm::distance(before.forward(), after.forward()), 1e-12);
-    const ProjectedBeam far = make_merged_beam(lamps, 64, 32, false);
+    const ProjectedBeam far = make_merged_beam(lamps, {64, 32, 32});
     for (std::size_t i = 0; i < far.lx.size(); ++i)
         ASSERT_NEAR(static_cast<double>(far.lx[i]), static_cast<double>(at_origin.lx[i]), 1e-5 * at_origin.scale_lx);
 }

@@ -47,7 +47,7 @@ TEST(ProjectedBeam, WindowLeavesTheDarkRimOutAndIsNeverWiderThanItsLimits) {
 
 TEST(ProjectedBeam, TexelsStandAtHalvesAndHoldLuxAt25Metres) {
     const CandelaTable table = rising_table();
-    const ProjectedBeam beam = make_projected_beam(table, 4, 2, false);
+    const ProjectedBeam beam = make_projected_beam(table, {4, 2, 32});
     ASSERT_EQ(beam.lx.size(), 8u);
     const double edge = tan_deg(10); // texel centres at -3/4, -1/4, 1/4 and 3/4 of it
     for (std::size_t row = 0; row < 2; ++row)
@@ -63,7 +63,7 @@ TEST(ProjectedBeam, TexelsStandAtHalvesAndHoldLuxAt25Metres) {
 TEST(ProjectedBeam, RowsRunFromBelowUpwards) {
     CandelaTable table = rising_table();
     table.cd = {6250, 6250, 0, 0}; // bright below
-    const ProjectedBeam beam = make_projected_beam(table, 3, 2, false);
+    const ProjectedBeam beam = make_projected_beam(table, {3, 2, 32});
     EXPECT_GT(beam.lx[1], beam.lx[4]);
 }
 
@@ -82,7 +82,7 @@ TEST(ProjectedBeam, IsBilinearBetweenTexelsHeldAtTheEdgeAndDarkOutside) {
 }
 
 TEST(ProjectedBeam, EightBitsAreStepsOfTheLargestValue) {
-    const ProjectedBeam fine = make_projected_beam(rising_table(), 64, 8, false), coarse = make_projected_beam(rising_table(), 64, 8, true);
+    const ProjectedBeam fine = make_projected_beam(rising_table(), {64, 8, 32}), coarse = make_projected_beam(rising_table(), {64, 8, 8});
     ASSERT_EQ(coarse.steps.size(), 512u);
     EXPECT_TRUE(coarse.lx.empty());
     EXPECT_EQ(coarse.scale_lx, fine.scale_lx);
@@ -99,31 +99,31 @@ TEST(ProjectedBeam, EightBitsAreStepsOfTheLargestValue) {
 TEST(ProjectedBeam, ResolutionErrorIsThatOfAKinkMissedBetweenTexels) {
     // A ridge at H = 0 between two texels, in tangents nearly a triangle: the texels beside it miss its top.
     CandelaTable table{{-1, 0, 1}, {-40, 40}, {0, 6250, 0, 0, 6250, 0}, {}, BetweenSamples::linear_cd};
-    const ProjectedBeam beam = make_projected_beam(table, 16, 2, false);
+    const ProjectedBeam beam = make_projected_beam(table, {16, 2, 32});
     EXPECT_NEAR(beam.resolution_error_of_peak, 0.5 / 8.0, 2e-4); // half a texel beside it, 8 texels from foot to top
-    EXPECT_NEAR(make_projected_beam(table, 64, 2, false).resolution_error_of_peak, 0.5 / 32.0, 2e-4);
+    EXPECT_NEAR(make_projected_beam(table, {64, 2, 32}).resolution_error_of_peak, 0.5 / 32.0, 2e-4);
 }
 
 TEST(ProjectedBeam, TellsWhatTheWindowLoses) {
     CandelaTable table{{-70, 0, 70}, {-30, 0, 30}, std::vector<double>(9, 625.0), {}, BetweenSamples::linear_cd};
     table.at(1, 1) = 2500.0;
-    EXPECT_DOUBLE_EQ(make_projected_beam(table, 8, 8, false).beyond_window_of_peak, 0.25);
-    EXPECT_EQ(make_projected_beam(rising_table(), 8, 8, false).beyond_window_of_peak, 0.0);
+    EXPECT_DOUBLE_EQ(make_projected_beam(table, {8, 8, 32}).beyond_window_of_peak, 0.25);
+    EXPECT_EQ(make_projected_beam(rising_table(), {8, 8, 32}).beyond_window_of_peak, 0.0);
 }
 
 TEST(ProjectedBeam, DarkAndBackwardBeamsAreDark) {
     CandelaTable dark = rising_table();
     dark.cd.assign(4, 0.0);
     for (const CandelaTable& table : {dark, even_table(100, 170, -5, 5), even_table(-5, 5, 60, 80)}) {
-        const ProjectedBeam beam = make_projected_beam(table, 8, 4, true);
+        const ProjectedBeam beam = make_projected_beam(table, {8, 4, 8});
         EXPECT_EQ(beam.scale_lx, 0.0);
         EXPECT_EQ(beam.worst_error_of_peak, 0.0);
         for (const std::uint8_t step : beam.steps)
             EXPECT_EQ(step, 0);
     }
-    EXPECT_EQ(make_projected_beam(even_table(100, 170, -5, 5), 8, 4, false).beyond_window_of_peak, 1.0);
-    EXPECT_THROW(make_projected_beam(dark, 0, 4, false), std::invalid_argument);
-    EXPECT_THROW(make_projected_beam(dark, 4, 16385, false), std::invalid_argument);
+    EXPECT_EQ(make_projected_beam(even_table(100, 170, -5, 5), {8, 4, 32}).beyond_window_of_peak, 1.0);
+    EXPECT_THROW(make_projected_beam(dark, {0, 4, 32}), std::invalid_argument);
+    EXPECT_THROW(make_projected_beam(dark, {4, 16385, 32}), std::invalid_argument);
 }
 
 TEST(ProjectedBeam, MatrixPutsTheWindowsCornersOnTheTexturesCorners) {
@@ -157,7 +157,7 @@ TEST(ProjectedBeam, AsPrintedTheBeamIsTwiceAsWideAtOneMetreAnd4PerCentAt25) {
 
 TEST(ProjectedBeam, ProjectsWhatTheTableSays) {
     const CandelaTable table = lamp_of_model(lamp_models()[0]).table;
-    const ProjectedBeam beam = make_projected_beam(table, 2048, 1024, false);
+    const ProjectedBeam beam = make_projected_beam(table, {2048, 1024, 32});
     const glm::dmat4 m = texture_from_lamp(beam.window);
     for (const double h : {-30.0, -3.0, 1.6, 12.0})
         for (const double v : {-8.0, -3.0, -1.2}) {
@@ -171,7 +171,7 @@ TEST(ProjectedBeam, ProjectsWhatTheTableSays) {
 
 TEST(ProjectedBeam, OfTheThesisAliasesAtTheCutOff) {
     const CandelaTable table = lamp_of_model(lamp_models()[0]).table;
-    const ProjectedBeam old = make_projected_beam(table, 512, 128, true), fine = make_projected_beam(table, 1024, 512, false);
+    const ProjectedBeam old = make_projected_beam(table, {512, 128, 8}), fine = make_projected_beam(table, {1024, 512, 32});
     EXPECT_GT(old.resolution_error_of_peak, 0.05);
     EXPECT_LT(fine.resolution_error_of_peak, 0.25 * old.resolution_error_of_peak); // a quarter of the height: 1/4 to 1/16, kink or curve
     EXPECT_LE(old.quantisation_error_of_peak, 0.5 / 255.0 + 1e-6);

@@ -82,8 +82,8 @@ struct Car {
             lamp.pose = {to_local(m.ego, lamp.pose.position_m), glm::transpose(m.ego.axes) * lamp.pose.axes};
         std::ranges::reverse(moment.lamps);
         for (const LitLamp& lamp : moment.lamps)
-            beams.push_back(eight_bit ? make_projected_beam(lamp.file->table, 512, 128, true)
-                                      : make_projected_beam(lamp.file->table, 1024, 512, false));
+            beams.push_back(eight_bit ? make_projected_beam(lamp.file->table, {512, 128, 8})
+                                      : make_projected_beam(lamp.file->table, {1024, 512, 32}));
         for (std::size_t i = 0; i < beams.size(); ++i)
             lamps.push_back({moment.lamps[i].pose, moment.lamps[i].intensity_factor, &beams[i], &moment.lamps[i].file->table});
     }
@@ -179,7 +179,7 @@ Value vertex_spots(const Car& car, const Point& point) {
 }
 
 Value merged(const Car& car, const Point& point) {
-    static const ProjectedBeam beam = make_merged_beam(car.moment.lamps, 1024, 512, false);
+    static const ProjectedBeam beam = make_merged_beam(car.moment.lamps, {1024, 512, 32});
     const Lamp lamp{merged_pose(car.moment.lamps), 1.0, &beam, nullptr};
     const double d = interpolated(point, [&](const glm::dvec3& c) { return glm::distance(c, lamp.pose.position_m); });
     const Value e_m = projected(lamp, point.p, false, 0.0);

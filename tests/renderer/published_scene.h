@@ -102,7 +102,8 @@ class PublishedTest : public testing::Test {
     Renderer renderer(const std::string& technique, const Scene& scene, bool eight_bit = false) {
         RendererSettings settings;
         settings.technique = technique;
-        settings.eight_bit_beams = eight_bit;
+        if (eight_bit)
+            settings.beams = eight_bit_texels;
         return Renderer(device_, scene, settings);
     }
 };

@@ -24,20 +24,24 @@ const json& row_of(const json& rows, const std::string& label) {
 
 TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     const TemporaryFolder folder;
-    const Outcome run = run_program("accuracy --quiet --moments 1 --rounds 6 --samples 32 --resolutions 128x96,64x48 --shadow-maps 256x128 "
-                                    "--techniques plain,full,light-map-2d,photometric --out " +
-                                    (folder / "out ") + library_file("drives/straight.yaml"));
+    const Outcome run = run_program(
+        "accuracy --quiet --moments 1 --rounds 6 --samples 32 --resolutions 128x96,64x48 --shadow-maps 256x128 --beams float,64x32x8 "
+        "--techniques plain,full,light-map-2d,photometric --out " +
+        (folder / "out ") + library_file("drives/straight.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
     tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/accuracy/accuracy.schema.json")));
     EXPECT_THAT(schema.check(accuracy), IsEmpty());
     const json& all = accuracy.at("drives").at(0).at("configurations");
-    ASSERT_EQ(all.size(), 6U); // four techniques, two of them at another resolution
+    ASSERT_EQ(all.size(), 8U); // four techniques, two of them at another resolution and with other beams
     const json &ours = row_of(all, "photometric"), &full = row_of(all, "full");
     EXPECT_LT(ours.at("road").at("relative").at("median"),
               0.005);                                            // what 32 samples leave
     EXPECT_GT(full.at("road").at("relative").at("median"), 0.5); // the cosine is missing
     EXPECT_GT(full.at("road").at("mean"), 0.5);
+    EXPECT_GT(row_of(all, "photometric, beams 64x32x8").at("road").at("relative").at("median"),
+              3.0 * ours.at("road").at("relative").at("median").get<double>());
+    EXPECT_LT(row_of(all, "photometric, beams 64x32x8").at("texture_bytes"), ours.at("texture_bytes"));
     for (const json& reach : ours.at("reach"))
         EXPECT_LT(std::abs(reach.at("worst_m").get<double>()), 1.0);
     EXPECT_GT(row_of(all, "full").at("reach").at(0).at("worst_m"), 10.0);
@@ -58,8 +62,9 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
 
 TEST(AccuracyRun, RefusesWhatItCannotUse) {
     const std::string drive = library_file("drives/straight.yaml");
-    for (const char* flags : {"--techniques no-such", "--techniques full,full", "--resolutions 8x8", "--resolutions 64", "--variant neon",
-                              "--moments 100000", "--moments 0", "--target-error 0"}) {
+    for (const char* flags :
+         {"--techniques no-such", "--techniques full,full", "--resolutions 8x8", "--resolutions 64", "--variant neon", "--moments 100000",
+          "--moments 0", "--target-error 0", "--beams 64x32", "--beams 64x32x12", "--beams 1x1x8"}) {
         const TemporaryFolder folder;
         const Outcome run = run_program("accuracy --quiet " + std::string(flags) + " --out " + (folder / "out ") + drive);
         EXPECT_EQ(run.exit_code, 2) << flags << "\n" << run.output;
@@ -88,7 +93,7 @@ class PictureErrors : public testing::Test {
                     value *= factor;
             return [frame] { return frame; };
         };
-        return errors_of(references, draw, renderer.technique(), {"photometric", 128, 96, 1024, 512, ""}, view, 1.0);
+        return errors_of(references, draw, renderer.technique(), {"photometric", 128, 96, 1024, 512, {}, ""}, view, 1.0);
     }
 
     Stage stage{read_drive(library_file("drives/straight.yaml"))};
@@ -134,18 +139,17 @@ TEST(RoadAreas, AddUpToTheRoadInView) {
 }
 
 TEST(AccuracySweep, VariesOneAtATime) {
-    View driver;
-    driver.width_px = 1024;
-    driver.height_px = 768;
+    const Drive drive = read_drive(library_file("drives/straight.yaml"));
     SweepRequest request;
     std::vector<std::string> names;
-    for (const Configuration& c : configurations_of(request, driver))
+    for (const Configuration& c : configurations_of(request, drive))
         names.push_back(name_of(c));
-    EXPECT_EQ(names.size(), techniques().size() + 4 + 3);
-    EXPECT_THAT(names, testing::IsSupersetOf({"plain", "photometric, 512x384", "full, 256x192", "photometric, shadow maps 2048x1024"}));
+    EXPECT_EQ(names.size(), techniques().size() + 2 * 2 + 3 + 2 * 4); // resolutions, shadow maps, beams
+    EXPECT_THAT(names, testing::IsSupersetOf({"plain", "photometric, 512x384", "full, 256x192", "photometric, shadow maps 2048x1024",
+                                              "full, beams 512x128x8", "photometric, beams 2048x1024x16"}));
     request.techniques = {"full", "photometric"};
     request.full = true;
-    EXPECT_EQ(configurations_of(request, driver).size(), 3U * 4U + 3U); // shadow maps mean nothing to full
+    EXPECT_EQ(configurations_of(request, drive).size(), 3U * 4U * 5U + 3U * 5U); // shadow maps mean nothing to full
 }
 
 } // namespace

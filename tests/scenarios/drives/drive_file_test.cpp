@@ -118,9 +118,13 @@ TEST_F(DriveFile, DaylightStepSpeedAndTheRest) {
     EXPECT_TRUE(read(minimal).textured);
     EXPECT_TRUE(read(minimal + "textures: shipped").textured);
     EXPECT_FALSE(read(minimal + "textures: none").textured);
-    EXPECT_FALSE(read(minimal).eight_bit_beams);
-    EXPECT_TRUE(read(minimal + "beams: eight-bit").eight_bit_beams);
-    EXPECT_FALSE(read(minimal + "beams: float").eight_bit_beams);
+    EXPECT_FALSE(read(minimal).beams);
+    EXPECT_EQ(read(minimal + "beams: eight-bit").beams, eight_bit_texels);
+    EXPECT_EQ(read(minimal + "beams: {width: 64, height: 32, bits: 16}").beams, (BeamTexels{64, 32, 16}));
+    EXPECT_THROW(read(minimal + "beams: {width: 64, height: 32, bits: 12}"), InputError);
+    EXPECT_THROW(read(minimal + "beams: {width: 1, height: 32, bits: 8}"), InputError);
+    EXPECT_THROW(read(minimal + "beams: {width: 64, bits: 8}"), InputError);
+    EXPECT_FALSE(read(minimal + "beams: float").beams);
     const Drive drive =
         read(minimal + "route: {road: 17, lane: -2, s_m: 5.5, via: [3, x]}\ncapture: {all: true, exr: false, per_second: 4}\n"
                        "tone_mapper: {kind: logarithmic, s: 10, l_max_cdm2: 100}\ntechnique: as-published\nshadows: false\n"

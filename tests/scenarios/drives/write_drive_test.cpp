@@ -88,7 +88,7 @@ void expect_same(const Drive& a, const Drive& b) {
     EXPECT_EQ(a.probes, b.probes);
     EXPECT_EQ(a.limits, b.limits);
     EXPECT_EQ(a.shadows, b.shadows);
-    EXPECT_EQ(a.eight_bit_beams, b.eight_bit_beams);
+    EXPECT_EQ(a.beams, b.beams);
     EXPECT_EQ(a.textured, b.textured);
     EXPECT_EQ(a.seed, b.seed);
 }
@@ -132,7 +132,8 @@ class AnyDrive {
             return Limit{text(), number(-5.0, 0.0), coin() ? std::optional(number(0.0, 1e9)) : std::nullopt};
         });
         drive.shadows = coin();
-        drive.eight_bit_beams = coin();
+        if (coin())
+            drive.beams = coin() ? eight_bit_texels : BeamTexels{2 + static_cast<int>(drive.seed % 100), 33, coin() ? 16 : 32};
         drive.textured = coin();
         drive.seed = random_();
         return drive;
