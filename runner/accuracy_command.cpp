@@ -7,6 +7,7 @@
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -18,8 +19,9 @@ struct Flags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> techniques, resolutions, shadow_maps, beams;
     std::string variant, backend = "auto", out;
+    std::vector<std::string> diagrams{"techniques"};
     SweepRequest sweep;
-    bool quiet = false, solvers = false;
+    bool quiet = false;
 };
 
 std::vector<std::pair<int, int>> sizes_of(const char* flag, const std::vector<std::string>& texts, int most) {
@@ -51,8 +53,17 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
     return beams;
 }
 
+std::vector<std::string> diagrams_of(const std::vector<std::string>& asked) {
+    const std::vector<std::string> known = diagram_names();
+    for (const std::string& name : asked)
+        if (name != "all" && std::ranges::find(known, name) == known.end())
+            refuse_flag("--diagrams", name, "all, techniques, reference, solvers, extent, beam, metrics or step");
+    return std::ranges::find(asked, "all") != asked.end() ? known : asked;
+}
+
 int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     AccuracyRequest request;
+    request.diagrams = diagrams_of(flags.diagrams);
     request.sweep = flags.sweep;
     request.sweep.variant = flags.variant;
     request.sweep.techniques = flags.techniques;
@@ -65,7 +76,6 @@ int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     request.folder = flags.out.empty() ? default_output_folder("accuracy", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
     request.quiet = flags.quiet;
-    request.solvers = flags.solvers;
     const AccuracyResult result = run_accuracy(request);
     fmt::print("{}\n{}\n", accuracy_text(result), (request.folder / "accuracy.html").string());
     if (!result.interrupted.empty())
@@ -79,6 +89,10 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub = app.add_subcommand("accuracy", "hold the techniques against the reference: error beside run time");
     sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
+    sub->add_option("--diagrams", flags->diagrams,
+                    "all, or some of techniques, reference, solvers, extent, beam, metrics, step; else techniques")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
     sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->delimiter(',')->allow_extra_args(false);
     sub->add_option("--resolutions", flags->resolutions,
@@ -107,7 +121,6 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--seed", flags->sweep.seed, "of the reference and of the order in each round")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
-    sub->add_flag("--solvers", flags->solvers, "the solvers that move car and lamps too, a diagram for each problem");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
     sub->add_flag("--quiet", flags->quiet, "no progress");

@@ -25,10 +25,15 @@ Json reach_json(const std::vector<ReachError>& reach) {
     return out;
 }
 
-Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& drive) {
+std::vector<int> frames_of(const DriveAccuracy& drive) {
     std::vector<int> frames;
     for (const auto& [tick, time_s] : drive.moments)
         frames.push_back(tick);
+    return frames;
+}
+
+Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& drive) {
+    const std::vector<int> frames = frames_of(drive);
     const Configuration& c = found.configuration;
     const auto work = typical_work(found.work);
     return {{"label", name_of(c)},
@@ -49,12 +54,27 @@ Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& d
             {"texture_bytes", work ? Json(work->texture_bytes) : Json(nullptr)}};
 }
 
+Json twin_json(const DriveAccuracy& drive) {
+    if (!drive.twin)
+        return nullptr;
+    const TwinAgreement& twin = *drive.twin;
+    return {{"flat", errors_json(twin.flat, "no light", frames_of(drive))},
+            {"steep_of_bound", errors_json(twin.steep_of_bound, "no steep light", frames_of(drive))},
+            {"steep_within", twin.steep_within},
+            {"pixels_of_several_surfaces", twin.several_surfaces},
+            {"pixels_of_shadow_edges", twin.shadow_edges}};
+}
+
 Json drive_json(const DriveAccuracy& drive) {
     Json moments = Json::array(), configurations = Json::array();
     for (const auto& [tick, time_s] : drive.moments)
         moments.push_back({{"frame", tick}, {"time_s", time_s}});
     for (const ConfigurationResult& found : drive.configurations)
         configurations.push_back(configuration_json(found, drive));
+    Json simplifications = Json::array();
+    for (const Simplification& price : drive.simplifications)
+        simplifications.push_back(
+            {{"name", price.name}, {"road", errors_json(price.errors, "no lamp shines on the road", frames_of(drive))}});
     const ReferenceCost& cost = drive.reference;
     return {
         {"drive", drive.drive},
@@ -63,7 +83,9 @@ Json drive_json(const DriveAccuracy& drive) {
         {"moments", moments},
         {"reference",
          {{"seconds", cost.seconds}, {"rays", cost.rays}, {"median_samples", cost.median_samples}, {"most_samples", cost.most_samples}}},
-        {"configurations", configurations}};
+        {"configurations", configurations},
+        {"simplifications", simplifications},
+        {"twin", twin_json(drive)}};
 }
 
 Json interval_json(const std::optional<Interval>& interval) {

@@ -81,6 +81,28 @@ data drive_part(const DriveAccuracy& drive) {
     for (const ConfigurationResult& found : drive.configurations)
         rows.push_back(configuration_part(found, drive));
     part.set("rows", rows);
+    data prices{List::list};
+    for (const Simplification& price : drive.simplifications)
+        if (price.errors && price.errors->pixels > 0) {
+            const PixelErrors& e = *price.errors;
+            data row;
+            row.set("name", price.name);
+            row.set("errors", quantiles_text(price.errors, ""));
+            row.set("mean", two_digits(100.0 * e.mean));
+            row.set("beyond", fmt::format("{:.1f} / {:.1f} / {:.1f}", e.percent_beyond[0], e.percent_beyond[1], e.percent_beyond[2]));
+            prices.push_back(row);
+        }
+    part.set("has_prices", !prices.is_empty_list());
+    part.set("prices", prices);
+    part.set("has_twin", drive.twin && drive.twin->flat);
+    if (drive.twin && drive.twin->flat) {
+        const TwinAgreement& twin = *drive.twin;
+        part.set("twin",
+                 fmt::format("{} pixels differ by {:.1e} in the median, {:.1e} for 99 % of them, {:.1e} at worst; of {} pixels where ln E "
+                             "changes by more than 50 a radian {} lie within gradient times 6e-6 rad plus rounding",
+                             twin.flat->pixels, twin.flat->error.median, twin.flat->error.p99, twin.flat->worst.error,
+                             twin.steep_of_bound ? twin.steep_of_bound->pixels : 0, twin.steep_within));
+    }
     return part;
 }
 

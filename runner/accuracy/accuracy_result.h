@@ -37,6 +37,20 @@ struct ConfigurationResult {
     std::vector<Work> work; ///< by moment
 };
 
+/// What one simplification costs by itself, on the road; nothing where no lamp shines.
+struct Simplification {
+    std::string name;
+    std::optional<PixelErrors> errors;
+};
+
+/// Drawn by photometric against the double twin, pixels with at least 0.05 lx.
+struct TwinAgreement {
+    std::optional<PixelErrors> flat;           ///< where |d ln E / d angle| < 50 per radian
+    std::optional<PixelErrors> steep_of_bound; ///< elsewhere: the error in shares of gradient times angle error (6e-6 rad) plus rounding
+    std::size_t steep_within = 0;              ///< pixels of these with no more than that
+    std::size_t several_surfaces = 0, shadow_edges = 0; ///< pixels left out
+};
+
 /// What the references of a drive's moments took.
 struct ReferenceCost {
     double seconds = 0.0;
@@ -49,6 +63,8 @@ struct DriveAccuracy {
     std::vector<std::pair<int, double>> moments; ///< tick and time in seconds
     ReferenceCost reference;
     std::vector<ConfigurationResult> configurations;
+    std::vector<Simplification> simplifications;
+    std::optional<TwinAgreement> twin; ///< where photometric took part
 };
 
 struct AccuracyResult {
@@ -70,8 +86,10 @@ std::optional<Interval> time_of(const std::vector<double>& seconds);
 WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px);
 /// The same ways at more than one resolution: worst error of reach over time a frame.
 WorkPrecision resolutions_diagram(const DriveAccuracy& drive);
-/// The first for the drive's own resolution and each other at which more than two ways were measured, then the second where there is more
-/// than one resolution.
+/// The same way with other shadow maps: pixels of the view that are off by more than a fifth over time a frame.
+WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive);
+/// The first for the drive's own resolution and each other at which more than two ways were measured, then the others where there is
+/// more than one resolution or shadow map.
 std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
 
 /// Tables for a terminal. Lines end with a newline.

@@ -2,6 +2,7 @@
 
 #include "renderer/sanity.h"
 #include "runner/accuracy/solver_diagrams.h"
+#include "runner/accuracy/studies.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
 #include "runner/progress.h"
@@ -15,6 +16,42 @@
 #include <unistd.h>
 
 namespace fernlicht {
+namespace {
+
+bool asked_for(const AccuracyRequest& request, const char* diagram) {
+    return std::ranges::find(request.diagrams, diagram) != request.diagrams.end();
+}
+
+void add_sweep(const AccuracyRequest& request, const Stage& stage, Device& device, AccuracyResult& result) {
+    std::optional<Progress> progress;
+    result.drives.push_back(sweep_techniques(stage, device, request.sweep, [&](std::size_t done, std::size_t all, const std::string&) {
+        if (!progress)
+            progress.emplace("accuracy of " + stage.drive.name, static_cast<int>(all), request.quiet, "steps");
+        progress->done(static_cast<int>(done));
+        return !Interruption::asked();
+    }));
+    std::ranges::move(sweep_diagrams(result.drives.back()), std::back_inserter(result.diagrams));
+}
+
+/// Each on the middle or some moments of the drive.
+void add_studies(const AccuracyRequest& request, const Stage& stage, Device& device, AccuracyResult& result) {
+    const Variant& variant = variant_of(stage.drive, request.sweep.variant);
+    const StudyGoesOn go_on = [] { return !Interruption::asked(); };
+    const auto add = [&](const char* name, auto study) {
+        if (asked_for(request, name) && go_on())
+            result.diagrams.push_back(study());
+    };
+    if (asked_for(request, "reference") && go_on())
+        std::ranges::move(reference_study(stage, variant, request.sweep.seed, go_on), std::back_inserter(result.diagrams));
+    add("extent", [&] { return extent_study(stage, variant, go_on); });
+    add("beam", [&] { return beam_study(stage, variant, go_on); });
+    add("metrics", [&] { return metrics_study(stage, variant, device, go_on); });
+    add("step", [&] { return step_study(stage, variant, go_on); });
+}
+
+} // namespace
+
+std::vector<std::string> diagram_names() { return {"techniques", "reference", "solvers", "extent", "beam", "metrics", "step"}; }
 
 AccuracyResult run_accuracy(const AccuracyRequest& request) {
     std::deque<Stage> stages; // everything is read and checked before the first frame
@@ -36,18 +73,11 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     for (const Stage& stage : stages) {
         add_inputs(result.context.inputs, stage.drive.opened);
         add_inputs(result.context.inputs, stage.network.opened);
-        if (Interruption::asked())
-            break;
-        std::optional<Progress> progress;
-        result.drives.push_back(sweep_techniques(stage, device, request.sweep, [&](std::size_t done, std::size_t all, const std::string&) {
-            if (!progress)
-                progress.emplace("accuracy of " + stage.drive.name, static_cast<int>(all), request.quiet, "steps");
-            progress->done(static_cast<int>(done));
-            return !Interruption::asked();
-        }));
-        std::ranges::move(sweep_diagrams(result.drives.back()), std::back_inserter(result.diagrams));
+        if (asked_for(request, "techniques") && !Interruption::asked())
+            add_sweep(request, stage, device, result);
+        add_studies(request, stage, device, result);
     }
-    if (request.solvers && !Interruption::asked())
+    if (asked_for(request, "solvers") && !Interruption::asked())
         std::ranges::move(solver_diagrams(study_solvers()), std::back_inserter(result.diagrams));
     result.others = other_use(before, cpu_use(), ::getpid());
     if (Interruption::asked())

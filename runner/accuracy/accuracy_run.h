@@ -8,12 +8,15 @@ namespace fernlicht {
 struct AccuracyRequest {
     std::vector<Drive> drives;
     SweepRequest sweep;
+    std::vector<std::string> diagrams{"techniques"}; ///< of diagram_names()
     std::string backend = "auto";
     std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
     std::vector<std::string> command;
     bool quiet = false;
-    bool solvers = false; ///< the solvers that move car and lamps, too: some 10 s
 };
+
+/// "techniques", "reference", "solvers", "extent", "beam", "metrics", "step".
+std::vector<std::string> diagram_names();
 
 /// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.
 AccuracyResult run_accuracy(const AccuracyRequest& request);

@@ -47,6 +47,34 @@ std::string drive_table(const DriveAccuracy& drive) {
                          lines);
 }
 
+std::string simplifications_table(const DriveAccuracy& drive) {
+    std::vector<Cells> lines;
+    for (const Simplification& price : drive.simplifications)
+        if (price.errors && price.errors->pixels > 0) {
+            const PixelErrors& e = *price.errors;
+            lines.push_back({price.name, percent(e.error.median), percent(e.error.p95), percent(e.mean),
+                             fmt::format("{:.1f}/{:.1f}/{:.1f}", e.percent_beyond[0], e.percent_beyond[1], e.percent_beyond[2])});
+        }
+    return lines.empty() ? ""
+                         : "\nWhat each simplification costs by itself, in double precision on the road's triangles, in %\n" +
+                               aligned_table("<>>>>", {"changed", "median", "95 %", "mean, signed", "area > 1/5/20 %"}, lines);
+}
+
+std::string twin_text(const DriveAccuracy& drive) {
+    if (!drive.twin || !drive.twin->flat)
+        return "";
+    const TwinAgreement& twin = *drive.twin;
+    std::string text = fmt::format("\nphotometric against the double twin: {} pixels, error {:.1e} (median), {:.1e} (99 %), {:.1e} (worst)",
+                                   twin.flat->pixels, twin.flat->error.median, twin.flat->error.p99, twin.flat->worst.error);
+    if (twin.steep_of_bound)
+        text += fmt::format(
+            "; {} pixels where ln E changes by more than 50 a radian: {} within the bound by their gradient, 99 % have at most {:.2g} "
+            "of it, the worst {:.2g}",
+            twin.steep_of_bound->pixels, twin.steep_within, twin.steep_of_bound->error.p99, twin.steep_of_bound->worst.error);
+    return text +
+           fmt::format("; left out: {} pixels of several surfaces, {} with a shadow's edge\n", twin.several_surfaces, twin.shadow_edges);
+}
+
 /// Who is on the front, and who is beaten by whom.
 std::string front_text(const WorkPrecision& diagram) {
     const std::vector<Standing> standing = standings(diagram.rows);
@@ -81,7 +109,7 @@ std::string accuracy_text(const AccuracyResult& result) {
         text += "Error of illuminance in % (road: median, 95 %, 99 %, worst pixel, % of its area beyond 1, 5 and 20 %; whole view and "
                 "target: 95 %),\n"
                 "of luminance (95 %), worst error of reach at 1 and 5 lx, time a frame, textures\n";
-        text += drive_table(drive);
+        text += drive_table(drive) + simplifications_table(drive) + twin_text(drive);
     }
     for (const WorkPrecision& diagram : result.diagrams)
         text += front_text(diagram);

@@ -97,6 +97,32 @@ WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
     return diagram;
 }
 
+WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive) {
+    WorkPrecision diagram;
+    diagram.name = "shadow-maps-" + drive.drive;
+    diagram.title = fmt::format("Shadow maps: {}, {}", drive.drive, drive.variant);
+    diagram.error_name = "pixels of the view off by more than 20 %";
+    diagram.error_unit = "%";
+    diagram.time_name = "time a frame";
+    diagram.notes.emplace_back(
+        "illuminance in the driver's view where the reference has at least 0.05 lx, beyond its noise: edges of shadows, and of "
+        "things, whose pixels the reference averages");
+    for (const ConfigurationResult& found : drive.configurations) {
+        const Configuration& c = found.configuration;
+        if (c.technique != "photometric" || (!c.varied.empty() && c.varied != "shadow maps"))
+            continue;
+        WorkPrecisionRow row = row_of(found);
+        row.label = fmt::format("{} x {}", c.shadow_width, c.shadow_height);
+        row.floor = 0.0;
+        if (found.whole && found.whole->pixels > 0) {
+            const double share = found.whole->percent_beyond[2];
+            row.error = {share, share, share};
+        }
+        diagram.rows.push_back(std::move(row));
+    }
+    return diagram;
+}
+
 std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive) {
     std::vector<std::pair<int, int>> sizes;
     for (const ConfigurationResult& found : drive.configurations)
@@ -110,6 +136,8 @@ std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive) {
             diagrams.push_back(std::move(diagram));
     }
     if (WorkPrecision diagram = resolutions_diagram(drive); sizes.size() > 1 && !diagram.rows.empty())
+        diagrams.push_back(std::move(diagram));
+    if (WorkPrecision diagram = shadow_maps_diagram(drive); diagram.rows.size() > 1)
         diagrams.push_back(std::move(diagram));
     return diagrams;
 }

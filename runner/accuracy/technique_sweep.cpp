@@ -1,6 +1,8 @@
 #include "runner/accuracy/technique_sweep.h"
 
 #include "runner/accuracy/picture_errors.h"
+#include "runner/accuracy/simplifications.h"
+#include "runner/accuracy/twin_agreement.h"
 #include "runner/bench/bench_run.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/values/errors.h"
@@ -63,6 +65,26 @@ struct Contestants {
     std::deque<View> views;
     std::vector<Contestant> all;
 };
+
+/// Of photometric as the drive draws it; nullopt where it took no part.
+std::optional<TwinAgreement> twin_agreement(const References& references, const Stage& stage, Device& device,
+                                            const std::vector<Moment>& moments, const std::vector<ConfigurationResult>& found) {
+    const auto ours = std::ranges::find_if(
+        found, [](const ConfigurationResult& r) { return r.configuration.technique == "photometric" && r.configuration.varied.empty(); });
+    if (ours == found.end())
+        return std::nullopt;
+    const View view = resized(view_to_compare(stage.drive), ours->configuration.width_px, ours->configuration.height_px);
+    Renderer renderer(device, stage.scene, settings_of(stage.drive, ours->configuration));
+    const Reference reference(stage.scene);
+    ReferenceSettings settings = references.settings();
+    settings.footprint = Footprint::centre;
+    TwinAgreementFold fold(settings.floor_lx);
+    for (std::size_t m = 0; m < moments.size(); ++m)
+        fold.add(moments[m], view, renderer.draw(moments[m], view, {.illuminance = true, .depth = true, .ids = true}),
+                 reference.render(moments[m], view, {.illuminance = true}, settings), references.driver(m, view).reference,
+                 static_cast<int>(m));
+    return fold.finish();
+}
 
 void add_contestant(Contestants& contestants, Renderer& renderer, const View& view, const std::vector<Moment>& moments) {
     static constexpr Wanted wanted{.colour = true};
@@ -165,7 +187,7 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
     const View& driver = view_to_compare(stage.drive);
     const std::vector<Configuration> configurations = configurations_of(request, stage.drive);
     const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
-    DriveAccuracy result{stage.drive.name, stage.drive.title, variant.name, {}, {}, {}};
+    DriveAccuracy result{stage.drive.name, stage.drive.title, variant.name, {}, {}, {}, {}, {}};
     for (const Moment& moment : moments)
         result.moments.emplace_back(moment.tick, moment.time_s);
 
@@ -210,6 +232,8 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
         for (const Moment& moment : moments)
             result.configurations.back().work.push_back(renderer.count(moment, view, {.colour = true}));
     }
+    result.simplifications = price_simplifications(stage, moments);
+    result.twin = twin_agreement(references, stage, device, moments, result.configurations);
     ContestOptions options;
     options.moments = moments.size();
     options.rounds = static_cast<std::size_t>(request.rounds);

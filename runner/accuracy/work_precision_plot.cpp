@@ -176,7 +176,8 @@ double draw_list(Canvas& canvas, const WorkPrecision& diagram, const std::vector
         canvas.text(list_px + 20.0, y, fmt::format("{}", i + 1),
                     {.size_px = letter_px, .colour = letters.colour, .bold = letters.bold, .anchor = "end"});
         canvas.text(list_px + 28.0, y, row.label + (row.note.empty() ? "" : " (" + row.note + ")"), letters);
-        canvas.text(list_px + 330.0, y, claimed_text(row, diagram.error_unit), {.size_px = letter_px, .colour = ink, .anchor = "end"});
+        canvas.text(list_px + 330.0, y, claimed_text(row, diagram.error_unit.size() <= 3 ? diagram.error_unit : ""),
+                    {.size_px = letter_px, .colour = ink, .anchor = "end"});
         canvas.text(list_px + 398.0, y, row.seconds ? time_text(row.seconds->value) : "-",
                     {.size_px = letter_px, .colour = ink, .anchor = "end"});
         canvas.text(list_px + 410.0, y, standing_text(standing[i]), {.size_px = letter_px, .colour = faint});

@@ -118,7 +118,7 @@ TEST(ProjectedBeam, DarkAndBackwardBeamsAreDark) {
         const ProjectedBeam beam = make_projected_beam(table, {8, 4, 8});
         EXPECT_EQ(beam.scale_lx, 0.0);
         EXPECT_EQ(beam.worst_error_of_peak, 0.0);
-        for (const std::uint8_t step : beam.steps)
+        for (const std::uint16_t step : beam.steps)
             EXPECT_EQ(step, 0);
     }
     EXPECT_EQ(make_projected_beam(even_table(100, 170, -5, 5), {8, 4, 32}).beyond_window_of_peak, 1.0);

@@ -48,6 +48,14 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     EXPECT_EQ(full.at("target").at("not_measured"), "technique full does not compute the illuminance of targets");
     EXPECT_EQ(row_of(all, "plain").at("road").at("not_measured"), "technique plain does not compute an illuminance");
     EXPECT_EQ(ours.at("frame_s").size(), 6U);
+    const json& drive = accuracy.at("drives").at(0);
+    EXPECT_LT(drive.at("twin").at("flat").at("relative").at("p99"), 1e-4);
+    EXPECT_GT(drive.at("twin").at("flat").at("pixels"), 1000);
+    const json& prices = drive.at("simplifications");
+    EXPECT_GT(prices.at(0).at("road").at("relative").at("median"), 1.0); // no cosine
+    EXPECT_LT(prices.at(1).at("road").at("mean"), 0.0);                  // 1 + d^2 is too dark
+    EXPECT_LT(prices.at(1).at("road").at("relative").at("p95"), 0.1);
+    EXPECT_GT(prices.at(6).at("road").at("relative").at("median"), prices.at(5).at("road").at("relative").at("median")); // 8 bits on top
     const json& techniques = accuracy.at("diagrams").at(0);
     for (const json& row : techniques.at("rows"))
         EXPECT_EQ(row.at("error").is_null() ? 0 : 1, (row.at("on_front").get<bool>() ? 1 : 0) + (row.at("beaten_by").is_null() ? 0 : 1));
@@ -60,11 +68,32 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr("not measured"));
 }
 
+TEST(AccuracyRun, StudiesWhatIsNoTechnique) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program("accuracy --quiet --diagrams extent,metrics,reference --out " + (folder / "out ") +
+                                    library_file("drives/straight.yaml"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/accuracy/accuracy.schema.json")));
+    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    EXPECT_THAT(accuracy.at("drives"), IsEmpty());
+    const json& diagrams = accuracy.at("diagrams");
+    ASSERT_EQ(diagrams.size(), 4U); // the reference's two ways, grid, comparisons
+    const auto error = [&](std::size_t diagram, std::size_t row) {
+        return diagrams.at(diagram).at("rows").at(row).at("error").at("value").get<double>();
+    };
+    EXPECT_LT(error(0, 3), 0.25 * error(0, 0)); // 64 times the samples: an eighth or less, if all goes as the root
+    EXPECT_LT(error(1, 2), 0.5 * error(1, 0));  // 16 times
+    EXPECT_GT(error(2, 0), error(2, 3));        // cells of 4 m and 0.5 m
+    EXPECT_EQ(error(3, 0), 0.0);                // every pixel
+    EXPECT_GT(error(3, 7), 0.0);
+}
+
 TEST(AccuracyRun, RefusesWhatItCannotUse) {
     const std::string drive = library_file("drives/straight.yaml");
     for (const char* flags :
          {"--techniques no-such", "--techniques full,full", "--resolutions 8x8", "--resolutions 64", "--variant neon", "--moments 100000",
-          "--moments 0", "--target-error 0", "--beams 64x32", "--beams 64x32x12", "--beams 1x1x8"}) {
+          "--moments 0", "--target-error 0", "--beams 64x32", "--beams 64x32x12", "--beams 1x1x8", "--diagrams all,nonsense"}) {
         const TemporaryFolder folder;
         const Outcome run = run_program("accuracy --quiet " + std::string(flags) + " --out " + (folder / "out ") + drive);
         EXPECT_EQ(run.exit_code, 2) << flags << "\n" << run.output;

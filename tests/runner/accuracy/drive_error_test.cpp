@@ -14,7 +14,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 json played(const TemporaryFolder& folder, const std::string& name, const std::string& flags) {
-    const Outcome run = run_program("run --quiet --resolution 160x120 --frames 0:5 " + flags + " --out " + (folder / name + " ") +
+    const Outcome run = run_program("run --quiet --resolution 160x120 --frames 0:2 " + flags + " --out " + (folder / name + " ") +
                                     library_file("drives/straight.yaml"));
     EXPECT_LE(run.exit_code, 1) << run.output;
     json report = json::parse(content_of(folder / name + "/report.json"));
@@ -29,7 +29,7 @@ TEST(DriveError, StandsInEveryReport) {
     ASSERT_EQ(report.at("drives").size(), 2U);
     for (const json& drive : report.at("drives")) {
         const json& accuracy = drive.at("accuracy");
-        EXPECT_EQ(accuracy.at("frames"), json({1, 3, 5}));
+        EXPECT_EQ(accuracy.at("frames"), json({0, 1, 2}));
         EXPECT_EQ(accuracy.at("width_px"), 160);
         EXPECT_GT(accuracy.at("road").at("pixels"), 3000);
         EXPECT_LT(accuracy.at("road").at("relative").at("median"), 0.005); // what so few samples leave
