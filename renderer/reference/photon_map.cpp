@@ -14,6 +14,7 @@ namespace fernlicht::reference {
 namespace {
 
 constexpr std::uint64_t photon_seed = 0x9407035ULL; ///< apart from the pixels' nets
+constexpr std::uint32_t photons_a_question = 256;   ///< whether to go on: about a millisecond
 constexpr double plane_share = 0.3, least_cosine = 0.7;
 
 /// Cells are two radii wide: a sphere meets at most two each way.
@@ -34,6 +35,8 @@ PhotonMap::Map PhotonMap::sent_out(const Shot& shot, const PhotonEmission& emiss
     const PointNet net(mixed(mixed(shot.settings.seed, photon_seed), replicate));
     std::vector<Photon> photons;
     for (std::uint32_t i = 0; i < count; ++i) {
+        if (i % photons_a_question == 0)
+            shot.leave_if_asked();
         const SamplePoint point{net, i};
         const PhotonStart start = emission.start(shot, point);
         const glm::dvec3 flux = start.flux_lm / static_cast<double>(count);

@@ -52,6 +52,7 @@ Drawing draw_pixel(const Shot& shot, int x, int y, std::uint64_t round, bool of_
     PacketLight light;
     const bool at_centre = shot.settings.footprint == Footprint::centre;
     for (int k = 0; k < each; ++k) {
+        shot.leave_if_asked();
         for (std::size_t i = 0; i < packet_size; ++i) {
             points[i] = {PointNet(mixed(key, of_one_net ? 0 : i)),
                          static_cast<std::uint32_t>(of_one_net ? i : static_cast<std::size_t>(k))};

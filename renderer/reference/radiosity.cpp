@@ -54,10 +54,12 @@ struct Radiosity::System {
     }
 
     /// Returns the number of sweeps. The residual is that of the result.
-    int solve(std::vector<glm::dvec3>& e, const std::vector<glm::dvec3>& reflectance, double wanted, double& residual) const {
+    int solve(const Shot& shot, std::vector<glm::dvec3>& e, const std::vector<glm::dvec3>& reflectance, double& residual) const {
+        const double wanted = shot.settings.solver.residual;
         e = given;
         int sweeps = 0;
         for (residual = 1.0; residual > wanted && sweeps < most_sweeps; ++sweeps) {
+            shot.leave_if_asked();
             double change = 0.0, total = 0.0;
             for (std::size_t i = 0; i < e.size(); ++i) {
                 const glm::dvec3 now = right_side(e, reflectance, i);
@@ -127,8 +129,10 @@ Radiosity::Radiosity(const Shot& shot, Preparation& preparation)
     std::atomic<std::uint64_t> rays = 0;
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), 256), [&](const auto& range) {
         std::uint64_t cast = 0;
-        for (std::uint32_t patch = range.begin(); patch < range.end(); ++patch)
+        for (std::uint32_t patch = range.begin(); patch < range.end(); ++patch) {
+            shot.leave_if_asked();
             measure(shot, patch, systems, cast);
+        }
         rays += cast;
     });
     std::array<int, replicate_count> sweeps{};
@@ -138,7 +142,7 @@ Radiosity::Radiosity(const Shot& shot, Preparation& preparation)
         for (std::size_t k = 0; k < system.landing.size(); ++k)
             if (system.landing[k] != Patches::none)
                 system.given[k / each] += emission_lx_[system.landing[k]] / static_cast<double>(each);
-        sweeps[r] = system.solve(all_[r], reflectance_, shot.settings.solver.residual, residual[r]);
+        sweeps[r] = system.solve(shot, all_[r], reflectance_, residual[r]);
     });
     preparation.rays += rays;
     preparation.patches = count;

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -18,8 +20,11 @@ namespace {
 
 /// Origins of rays' geometry stand on a grid of this width, so that they do not depend on what was drawn before.
 constexpr double origin_grid_m = 128.0;
-/// Between calls of go_on.
+/// Wanted between calls of go_on.
 constexpr double batch_s = 0.5;
+/// A batch grows on tiles that see the sky and then meets those that need thousands of samples: what has not begun by then waits.
+constexpr double latest_start_s = 1.0, no_limit_s = std::numeric_limits<double>::infinity();
+constexpr std::size_t first_batch = 4;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -94,6 +99,19 @@ std::vector<Corner> open_tiles(const ReferenceImage& image) {
     return tiles;
 }
 
+/// Draws tiles, the first for certain, others if they can begin in time. Which were drawn tells the picture; what is in them does not
+/// depend on it. Returns the rays cast.
+std::uint64_t draw_batch(const reference::Shot& shot, std::span<const Corner> tiles, ReferenceImage& image, double latest_s) {
+    std::atomic<std::uint64_t> rays = 0;
+    const auto start = std::chrono::steady_clock::now();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            if (i == 0 || seconds_since(start) < latest_s)
+                rays += reference::draw_tile(shot, tiles[i].x, tiles[i].y, image);
+    });
+    return rays;
+}
+
 std::size_t pixels_done(const ReferenceImage& image) {
     return image.samples.size() - static_cast<std::size_t>(std::ranges::count(image.samples.pixels(), 0U));
 }
@@ -117,12 +135,13 @@ std::shared_ptr<const reference::EmbreeScene> Reference::geometry(const Moment& 
 }
 
 ReferenceImage Reference::render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
-                                 const GoOn& go_on, ReferenceImage from) const {
+                                 const GoOn& go_on, ReferenceImage from, const StopAsked& stop_asked) const {
     check(settings);
     check_materials(scene_);
     const auto start = std::chrono::steady_clock::now();
     const auto embree = geometry(moment);
     reference::Shot shot(*embree, moment, view, wanted, settings);
+    shot.stop_asked = stop_asked;
     ReferenceImage image = empty_image(view, wanted);
     if (!from.samples.empty()) {
         check_from(from, image);
@@ -130,28 +149,31 @@ ReferenceImage Reference::render(const Moment& moment, const View& view, const W
     }
     const double seconds_before = image.seconds;
     image.preparation = {};
-    shot.solved = reference::solve_light(shot, image.preparation);
-    std::atomic<std::uint64_t> rays = image.rays + image.preparation.rays;
-    const std::vector<Corner> tiles = open_tiles(image);
-    image.complete = true;
-    std::size_t batch = go_on ? 4 : tiles.size();
-    for (std::size_t first = 0; first < tiles.size();) {
+    const auto told = [&] {
+        image.seconds = seconds_before + seconds_since(start);
+        return !go_on || go_on(image, pixels_done(image));
+    };
+    try {
+        shot.solved = reference::solve_light(shot, image.preparation);
+    } catch (const reference::Stopped&) {
+        image.complete = false;
+        told();
+        return image;
+    }
+    image.rays += image.preparation.rays;
+    std::vector<Corner> tiles = open_tiles(image);
+    std::size_t batch = go_on ? first_batch : tiles.size();
+    bool goes_on = true;
+    while (goes_on && !tiles.empty()) {
         const auto batch_start = std::chrono::steady_clock::now();
-        const std::size_t last = std::min(tiles.size(), first + batch);
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, 1), [&](const auto& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i)
-                rays += reference::draw_tile(shot, tiles[i].x, tiles[i].y, image);
-        });
+        image.rays += draw_batch(shot, std::span(tiles).first(std::min(batch, tiles.size())), image, go_on ? latest_start_s : no_limit_s);
         batch = std::clamp(static_cast<std::size_t>(static_cast<double>(batch) * batch_s / std::max(seconds_since(batch_start), 1e-3)),
                            batch / 4 + 1, 2 * batch);
-        first = last;
-        image.seconds = seconds_before + seconds_since(start);
-        image.rays = rays;
-        if (go_on && !go_on(image, pixels_done(image)) && first < tiles.size()) {
-            image.complete = false;
-            break;
-        }
+        tiles = open_tiles(image);
+        const bool stopped = stop_asked && stop_asked(); // before go_on, which then knows of it
+        goes_on = told() && !stopped;
     }
+    image.complete = tiles.empty();
     return image;
 }
 

@@ -106,8 +106,12 @@ struct ReferenceImage {
     Preparation preparation; ///< included in seconds and rays
 };
 
-/// Called from the drawing thread every half second or so, and never at the same time as pixels change. False: stop.
+/// Called from the drawing thread every half second or so, and never at the same time as pixels change; at the latest when the tiles that
+/// began within a second are drawn. False: stop.
 using GoOn = std::function<bool(const ReferenceImage& so_far, std::size_t pixels_done)>;
+/// Asked by every thread, between packets of rays and sweeps of a solver. True, from then on: stop within milliseconds and throw away the
+/// tiles at hand (16 x 16 pixels, which take seconds where a pixel needs thousands of paths).
+using StopAsked = std::function<bool()>;
 
 class Reference {
   public:
@@ -121,7 +125,7 @@ class Reference {
     /// number of threads, and for a picture drawn in one go or gone on with from `from`, an incomplete picture of the same call.
     /// Throws DeviceError (Embree, memory), std::invalid_argument for settings that make no sense or a `from` of another size.
     ReferenceImage render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
-                          const GoOn& go_on = {}, ReferenceImage from = {}) const;
+                          const GoOn& go_on = {}, ReferenceImage from = {}, const StopAsked& stop_asked = {}) const;
 
     /// Rays' geometry about a point near the car; built when first asked for, kept until another is needed.
     std::shared_ptr<const reference::EmbreeScene> geometry(const Moment& moment) const;

@@ -12,6 +12,9 @@ namespace fernlicht::reference {
 
 class SolvedLight;
 
+/// Thrown where the work at hand is to be left (StopAsked).
+struct Stopped {};
+
 /// What all rays of a picture share.
 struct Shot {
     Shot(const EmbreeScene& embree, const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings);
@@ -24,7 +27,12 @@ struct Shot {
     Camera camera;
     glm::dvec3 car_m{0.0};                     ///< the car's origin, relative to the scene's
     std::shared_ptr<const SolvedLight> solved; ///< of integrators that solve before they draw
+    StopAsked stop_asked;                      ///< or nothing to ask
 
+    void leave_if_asked() const {
+        if (stop_asked && stop_asked())
+            throw Stopped{};
+    }
     /// Through a place in the picture, relative to the scene's origin.
     Ray ray_through(double x_px, double y_px) const;
     glm::dvec3 to_eye(const glm::dvec3& point_m) const;

@@ -26,7 +26,8 @@ class SolvedLight {
     virtual glm::dvec3 irradiance(const SurfaceHit& hit, Part part, std::size_t replicate) const = 0;
 };
 
-/// Solves as the shot's settings ask; nothing where its integrator needs none. Throws InputError for more patches than can be held.
+/// Solves as the shot's settings ask; nothing where its integrator needs none. Throws InputError for more patches than can be held,
+/// Stopped when that is asked for; cutting surfaces into patches and sorting photons, seconds for the largest, do not ask.
 std::shared_ptr<const SolvedLight> solve_light(const Shot& shot, Preparation& preparation);
 
 /// Adds to a packet that light_packet has lit without the sky's share all other light: by final gathering (one ray a sample over the

@@ -89,9 +89,7 @@ class Pilots {
     std::uint64_t rays_ = 0;
 };
 
-} // namespace
-
-std::uint64_t draw_tile(const Shot& shot, int x0, int y0, ReferenceImage& image) {
+std::uint64_t draw_pixels(const Shot& shot, int x0, int y0, ReferenceImage& image) {
     std::uint64_t rays = 0;
     const int width = std::min(tile_px, image.samples.width() - x0), bottom = std::min(y0 + tile_px, image.samples.height());
     if (is_certain(shot.settings)) {
@@ -110,6 +108,21 @@ std::uint64_t draw_tile(const Shot& shot, int x0, int y0, ReferenceImage& image)
         }
     }
     return rays;
+}
+
+} // namespace
+
+std::uint64_t draw_tile(const Shot& shot, int x0, int y0, ReferenceImage& image) {
+    try {
+        return draw_pixels(shot, x0, y0, image);
+    } catch (const Stopped&) {
+        for (int y = y0; y < std::min(y0 + tile_px, image.samples.height()); ++y)
+            for (int x = x0; x < std::min(x0 + tile_px, image.samples.width()); ++x) {
+                store(image, x, y, {}, 0, 0);
+                image.ids.at(x, y) = 0;
+            }
+        return 0;
+    }
 }
 
 } // namespace fernlicht::reference

@@ -6,6 +6,7 @@
 #include "renderer/reference/sampling.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -243,6 +244,55 @@ TEST(ReferenceBytes, AreTheSameWhenAPictureIsGoneOnWith) {
     EXPECT_GE(calls, 1);
     expect_same_bytes(whole, part);
     EXPECT_THROW(reference.render(room.moment, camera({0, 0, 0}, 0, 0, 60, 5), everything, room.settings, {}, part), std::invalid_argument);
+}
+
+TEST(ReferenceBytes, AreTheSameWhenStoppedInTheMiddleOfATile) {
+    const Room room;
+    const Reference reference(room.scene);
+    const ReferenceImage whole = reference.render(room.moment, room.view, everything, room.settings);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    int questions = 0;
+    constexpr int answered_no = 5000; // a tile takes 12 a pixel and more: the first is drawn, the second begun
+    const auto stop = [&] { return ++questions > answered_no; };
+    ReferenceImage part = reference.render(room.moment, room.view, everything, room.settings, {}, {}, stop);
+    EXPECT_FALSE(part.complete);
+    EXPECT_LT(questions, answered_no + 20); // each of the 9 tiles asks once more and is left
+    std::size_t drawn = 0;
+    for (std::size_t i = 0; i < part.samples.size(); ++i) {
+        const bool is_drawn = part.samples.pixels()[i] != 0;
+        drawn += is_drawn ? 1U : 0U;
+        EXPECT_EQ(part.illuminance_lx.mean.pixels()[i], is_drawn ? whole.illuminance_lx.mean.pixels()[i] : 0.0F);
+        EXPECT_EQ(part.ids.pixels()[i], is_drawn ? whole.ids.pixels()[i] : 0U);
+    }
+    EXPECT_GT(drawn, 0U);
+    EXPECT_LT(drawn, part.samples.size());
+    part = reference.render(room.moment, room.view, everything, room.settings, {}, std::move(part));
+    EXPECT_TRUE(part.complete);
+    expect_same_bytes(whole, part);
+}
+
+TEST(ReferenceBytes, AreNoneWhenStoppedWhileTheLightIsSolved) {
+    Room room;
+    room.settings.solver.photons = 1 << 22; // seconds, were it not stopped
+    room.settings.solver.form_factor_rays = 1 << 16;
+    for (const Integrator integrator : {Integrator::radiosity, Integrator::photon_map}) {
+        room.settings.integrator = integrator;
+        std::atomic<int> questions = 0;
+        int told = 0;
+        const ReferenceImage image = Reference(room.scene)
+                                         .render(
+                                             room.moment, room.view, everything, room.settings,
+                                             [&](const ReferenceImage&, std::size_t done) {
+                                                 ++told;
+                                                 EXPECT_EQ(done, 0U);
+                                                 return false;
+                                             },
+                                             {}, [&] { return ++questions > 3; });
+        EXPECT_FALSE(image.complete);
+        EXPECT_EQ(image.rays, 0U);
+        EXPECT_EQ(told, 1); // so that a checkpoint can be written
+        EXPECT_LT(questions, 100);
+    }
 }
 
 } // namespace
