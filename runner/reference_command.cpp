@@ -7,9 +7,11 @@
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 #include <memory>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -26,7 +28,42 @@ struct Flags {
     int most_samples = ReferenceSettings{}.most_samples;
     std::uint64_t seed = 1;
     bool resume = false, quiet = false;
+    std::vector<std::string> given; ///< names of the options that were typed
 };
+
+/// Options that mean something to some integrators alone.
+struct Belonging {
+    const char* flag;
+    std::vector<Integrator> users;
+};
+const std::vector<Belonging>& belongings() {
+    using enum Integrator;
+    static const std::vector<Belonging> all{{"--smooth-depth", {whitted}},     {"--reach", {radiosity, photon_map}},
+                                            {"--patch", {radiosity}},          {"--form-factor-rays", {radiosity}},
+                                            {"--residual", {radiosity}},       {"--photons", {photon_map}},
+                                            {"--photon-radius", {photon_map}}, {"--no-gather", {radiosity, photon_map}}};
+    return all;
+}
+
+/// Refuses what would be ignored.
+void check_given(const Flags& flags) {
+    const auto is_given = [&](const char* flag) { return std::ranges::count(flags.given, flag) > 0; };
+    for (const Belonging& one : belongings())
+        if (is_given(one.flag) && !std::ranges::count(one.users, *integrator_of(flags.integrator))) {
+            std::string users;
+            for (const Integrator user : one.users)
+                users += (users.empty() ? "" : " or ") + integrator_name(user);
+            throw InputError({{}, 0, 0, one.flag}, "found --integrator " + flags.integrator + ", which makes no use of it",
+                             "--integrator " + users);
+        }
+    if (flags.no_gather && is_given("--most-samples"))
+        throw InputError({{}, 0, 0, "--most-samples"}, "found --no-gather, which takes as few samples as there can be", "one of the two");
+    for (const auto& [flag, text] :
+         {std::pair("--view", &flags.view), std::pair("--variant", &flags.variant), std::pair("--road", &flags.road),
+          std::pair("--resolution", &flags.resolution), std::pair("--out", &flags.out)})
+        if (is_given(flag) && text->empty())
+            refuse_flag(flag, *text, "something, or the option left out");
+}
 
 /// "0.5%" and "0.005" are the same.
 double share_of(const std::string& text) {
@@ -67,6 +104,7 @@ ReferenceSettings settings_of(const Flags& flags) {
 }
 
 int draw_reference(const Flags& flags, const std::vector<std::string>& command) {
+    check_given(flags);
     if (flags.resume && flags.out.empty())
         throw InputError({{}, 0, 0, "--resume"}, "found no --out", "the folder of the reference that was interrupted");
     ReferenceRequest request;
@@ -77,6 +115,7 @@ int draw_reference(const Flags& flags, const std::vector<std::string>& command) 
     request.moment_s = flags.moment_s;
     request.folder =
         flags.out.empty() ? default_output_folder(request.drive.name + "-reference", utc_now()) : std::filesystem::path(flags.out);
+    request.resolution_asked = !flags.resolution.empty();
     request.resume = flags.resume;
     request.quiet = flags.quiet;
     request.command = command;
@@ -119,7 +158,9 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub = app.add_subcommand("reference", "draw one moment by rays, each pixel with its standard error");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
-    sub->add_option("--moment", flags->moment_s, "seconds into the drive; the nearest moment is drawn")->capture_default_str();
+    sub->add_option("--moment", flags->moment_s,
+                    "seconds into the drive, 0 to its last moment, one step before its end; the nearest moment is drawn")
+        ->capture_default_str();
     sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
     sub->add_option("--view", flags->view, "view of the drive; else the driver's");
     sub->add_option("--integrator", flags->integrator,
@@ -129,7 +170,8 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
     add_solver_options(*sub, *flags);
     sub->add_option("--target-error", flags->target_error, "standard error wanted of each pixel, e.g. 0.5% or 0.005")
         ->capture_default_str();
-    sub->add_option("--most-samples", flags->most_samples, "in a pixel's mean, whatever its error")
+    sub->add_option("--most-samples", flags->most_samples,
+                    "in a pixel's mean, whatever its error; a power of two, others are rounded down; at least 128 where light bounces")
         ->check(CLI::Range(16, 1 << 24))
         ->capture_default_str();
     sub->add_option("--lamp-radius", flags->lamp_radius_m, "metres; lamps are discs of this radius. 0: points")
@@ -138,14 +180,19 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
     sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
         ->allow_extra_args(false);
     sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of a perspective view");
     sub->add_option("--seed", flags->seed, "of the samples")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
     sub->add_flag("--resume", flags->resume, "go on with what was interrupted in the folder --out");
     sub->add_flag("--quiet", flags->quiet, "no progress");
-    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return draw_reference(*flags, command); }; });
+    sub->callback([flags, command, sub, &chosen] {
+        for (const CLI::Option* option : std::as_const(*sub).get_options())
+            if (option->count() > 0)
+                flags->given.push_back(option->get_name());
+        chosen = [flags, command] { return draw_reference(*flags, command); };
+    });
 }
 
 } // namespace fernlicht

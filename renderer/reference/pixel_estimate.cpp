@@ -98,6 +98,8 @@ int most_each(const ReferenceSettings& s) {
 
 } // namespace
 
+int most_samples_used(const ReferenceSettings& s) { return most_each(s) * static_cast<int>(replicate_count); }
+
 Drawing pilot_of(const Shot& shot, int x, int y) {
     const bool is_path = !is_direct(shot.settings);
     return draw_pixel(shot, x, y, 0, !is_path, is_path ? path_pilot_each : 1);

@@ -98,7 +98,11 @@ Image<float> relative_error_percent(const Estimate& estimate, double floor) {
 Json error_json(const std::optional<ErrorReached>& error) {
     if (!error)
         return nullptr;
-    return {{"median", error->median}, {"p95", error->p95}, {"worst", error->worst}, {"share_reached", error->share_reached}};
+    return {{"lit_pixels", error->lit_pixels},
+            {"median", error->median},
+            {"p95", error->p95},
+            {"worst", error->worst},
+            {"share_reached", error->share_reached}};
 }
 
 Json context_json(const RunContext& context) {

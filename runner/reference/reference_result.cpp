@@ -14,18 +14,18 @@ std::optional<ErrorReached> error_reached(const Estimate& estimate, const Image<
     std::vector<double> relative;
     std::size_t reached = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        if (samples.pixels()[i] == 0)
+        if (samples.pixels()[i] == 0 || !(estimate.mean.pixels()[i] > 0.0F))
             continue;
         const double error =
             static_cast<double>(estimate.standard_error.pixels()[i]) / std::max(static_cast<double>(estimate.mean.pixels()[i]), floor);
         relative.push_back(error);
         reached += error <= target_error ? 1 : 0;
     }
-    const auto count = static_cast<double>(relative.size());
+    const std::size_t lit = relative.size();
     const std::optional<Spread> spread = spread_of(std::move(relative));
     if (!spread)
         return std::nullopt;
-    return ErrorReached{spread->median, spread->p95, spread->maximum, static_cast<double>(reached) / count};
+    return ErrorReached{lit, spread->median, spread->p95, spread->maximum, static_cast<double>(reached) / static_cast<double>(lit)};
 }
 
 std::optional<ErrorReached> ReferenceResult::illuminance() const {
@@ -79,15 +79,18 @@ std::string reference_text(const ReferenceResult& r) {
     std::string text = fmt::format("{}, {}, after {:.3f} s, {} {} x {}, {}, standard error wanted {:.3g} %\n",
                                    r.title.empty() ? r.drive : r.title, r.variant, r.moment.time_s, r.view.name, r.view.width_px,
                                    r.view.height_px, integrator_name(r.settings.integrator), 100.0 * r.settings.target_error);
-    const auto line = [&](const char* name, const std::optional<ErrorReached>& e) {
+    const auto line = [&](const char* name, bool is_wanted, const std::optional<ErrorReached>& e) {
         if (e)
             text += fmt::format(
-                "{:<12} error of the pixels: half below {:.3g} %, 95 % below {:.3g} %, worst {:.3g} %; {:.2f} % of them reached it\n", name,
-                100.0 * e->median, 100.0 * e->p95, 100.0 * e->worst, 100.0 * e->share_reached);
+                "{:<12} of the {} lit pixels half have an error of at most {:.3g} %, 95 % of at most {:.3g} %, the worst {:.3g} %; "
+                "{:.2f} % of the lit pixels reached it\n",
+                name, e->lit_pixels, 100.0 * e->median, 100.0 * e->p95, 100.0 * e->worst, 100.0 * e->share_reached);
+        else if (is_wanted)
+            text += fmt::format("{:<12} no pixel that is drawn is lit\n", name);
     };
-    line("illuminance", r.illuminance());
-    line("target", r.target());
-    line("luminance", r.luminance());
+    line("illuminance", r.wanted.illuminance, r.illuminance());
+    line("target", r.wanted.target, r.target());
+    line("luminance", r.wanted.luminance, r.luminance());
     text += preparation_text(r.image.preparation);
     const double samples = spread_of({r.image.samples.pixels().begin(), r.image.samples.pixels().end()}).value_or(Spread{}).mean;
     text += fmt::format("{:.1f} samples a pixel, {:.1f} million rays in {:.2f} s, {:.2f} million rays a second, {} triangles\n", samples,

@@ -8,12 +8,14 @@
 
 namespace fernlicht {
 
-/// How near a result came to the error that was wanted: relative standard errors, of max(mean, floor), over all pixels drawn.
+/// How near a result came to the error that was wanted: relative standard errors, of max(mean, floor), over the lit pixels, those whose
+/// mean is above 0. Where no sample saw light (the sky, the back of a hill) the error is 0 and would say nothing but how many they are.
 struct ErrorReached {
+    std::size_t lit_pixels = 0;
     double median = 0.0, p95 = 0.0, worst = 0.0;
-    double share_reached = 0.0; ///< of pixels whose error is at most the target
+    double share_reached = 0.0; ///< of lit pixels whose error is at most the target
 };
-/// nullopt where the result was not wanted or no pixel is drawn.
+/// nullopt where the result was not wanted or no pixel that is drawn is lit.
 std::optional<ErrorReached> error_reached(const Estimate& estimate, const Image<std::uint32_t>& samples, double target_error, double floor);
 
 struct ReferenceResult {

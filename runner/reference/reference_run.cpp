@@ -1,6 +1,7 @@
 #include "runner/reference/reference_run.h"
 
 #include "renderer/reference/embree_scene.h"
+#include "renderer/reference/pixel_estimate.h"
 #include "runner/interruption.h"
 #include "runner/library_versions.h"
 #include "runner/output_folder.h"
@@ -75,9 +76,13 @@ ReferenceResult described(const ReferenceRequest& request, const Stage& stage) {
     result.view = view_of(drive, request.view);
     result.moment = moment_near(stage, variant, request.moment_s);
     const bool is_map = result.view.projection == Projection::map;
+    if (is_map && request.resolution_asked)
+        throw InputError({drive.file, 0, 0, "--resolution"}, "found the map '" + printable(result.view.name) + "'",
+                         "a perspective view: a map's pixels are those of the drive file");
     result.wanted = {.illuminance = true, .target = is_map, .luminance = !is_map};
     result.settings = request.settings;
     result.settings.shadows = drive.shadows;
+    result.settings.most_samples = reference::most_samples_used(request.settings);
     if (!drive.shadows && (request.settings.integrator == Integrator::radiosity || request.settings.integrator == Integrator::photon_map))
         throw InputError({drive.file, 0, 0, "--integrator"},
                          "found " + integrator_name(request.settings.integrator) + " for a drive without shadows",

@@ -11,11 +11,13 @@ struct ReferenceRequest {
     double moment_s = 0.0;
     ReferenceSettings settings;
     std::filesystem::path folder;
+    bool resolution_asked = false; ///< for the view, which a map has none of
     bool resume = false, quiet = false;
     std::vector<std::string> command;
 };
 
-/// Throws InputError (no such view or lamp set, a moment outside the drive, a folder that is not empty, a checkpoint of other inputs),
+/// Throws InputError (no such view or lamp set, a moment outside the drive, a resolution for a map, a folder that is not empty, a
+/// checkpoint of other inputs),
 /// DeviceError. A picture that was interrupted comes back incomplete, its checkpoint in the folder.
 ReferenceResult run_reference(const ReferenceRequest& request);
 

@@ -27,11 +27,12 @@ std::map<std::string, Image<float>> channels_of(const std::filesystem::path& fol
 TEST(ReferenceCommand, WritesMeanAndVarianceAndSaysHowNearItCame) {
     const TemporaryFolder folder;
     const Outcome run = run_program("reference " + library_file("drives/worked-example.yaml") +
-                                    " --target-error 2% --resolution 64x48 --quiet --out " + (folder / "out"));
+                                    " --target-error 2% --most-samples 1100 --resolution 64x48 --quiet --out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const json said = json_of(folder / "out");
     EXPECT_EQ(said.at("settings").at("target_error"), 0.02);
     EXPECT_EQ(said.at("settings").at("integrator"), "direct");
+    EXPECT_EQ(said.at("settings").at("most_samples"), 1024); // as used
     EXPECT_TRUE(said.at("complete"));
     EXPECT_GE(said.at("context").at("inputs").size(), 3U); // drive, road, lamp
     EXPECT_GT(said.at("rays").get<double>(), 64.0 * 48.0 * 32.0);
@@ -40,15 +41,21 @@ TEST(ReferenceCommand, WritesMeanAndVarianceAndSaysHowNearItCame) {
     ASSERT_EQ(mean.width(), 64);
     EXPECT_GT(*std::ranges::max_element(mean.pixels()), 1.0F);
     // The share that reached the target, from the picture itself.
-    std::size_t reached = 0;
-    for (std::size_t i = 0; i < mean.size(); ++i)
-        reached +=
-            std::sqrt(static_cast<double>(variance.pixels()[i])) <=
-                    0.02 * std::max(static_cast<double>(mean.pixels()[i]), said.at("settings").at("floor_lx").get<double>()) * (1 + 1e-6)
-                ? 1U
-                : 0U;
+    std::size_t reached = 0, lit = 0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        const bool is_lit = mean.pixels()[i] > 0.0F;
+        lit += is_lit ? 1U : 0U;
+        reached += is_lit && std::sqrt(static_cast<double>(variance.pixels()[i])) <=
+                                 0.02 * std::max(static_cast<double>(mean.pixels()[i]), said.at("settings").at("floor_lx").get<double>()) *
+                                     (1 + 1e-6)
+                       ? 1U
+                       : 0U;
+    }
+    EXPECT_GT(lit, 0U);
+    EXPECT_LT(lit, mean.size()); // the sky
+    EXPECT_EQ(said.at("relative_standard_error").at("illuminance").at("lit_pixels").get<std::size_t>(), lit);
     EXPECT_NEAR(said.at("relative_standard_error").at("illuminance").at("share_reached").get<double>(),
-                static_cast<double>(reached) / static_cast<double>(mean.size()), 1e-3);
+                static_cast<double>(reached) / static_cast<double>(lit), 1e-3);
     EXPECT_TRUE(channels.contains("luminance.cdm2") && channels.contains("luminance.variance_cd2m4") && channels.contains("samples"));
     for (const char* picture : {"reference.png", "illuminance.png", "error.png"})
         EXPECT_GT(std::filesystem::file_size(folder / (std::string("out/") + picture)), 100U) << picture;
@@ -87,10 +94,15 @@ TEST(ReferenceCommand, GoesOnAfterAnInterruptionAndEndsInTheSameBytes) {
 TEST(ReferenceCommand, BadInputIsOneSentenceAndExitCodeTwo) {
     const TemporaryFolder folder;
     const std::string drive = "reference " + library_file("drives/straight.yaml");
-    for (const std::string& arguments :
-         std::vector<std::string>{"reference", "reference /nonexistent.yaml", drive + " --moment 1e9", drive + " --view nowhere",
-                                  drive + " --variant candle", drive + " --target-error 0", drive + " --target-error 200%",
-                                  drive + " --target-error 0.5x", drive + " --lamp-radius -1", drive + " --resolution 0x0"}) {
+    for (const std::string& arguments : std::vector<std::string>{
+             "reference", "reference /nonexistent.yaml", drive + " --moment 1e9", drive + " --view nowhere", drive + " --variant candle",
+             drive + " --target-error 0", drive + " --target-error 200%", drive + " --target-error 0.5x", drive + " --lamp-radius -1",
+             drive + " --resolution 0x0",
+             // what would have no effect
+             drive + " --reach 30", drive + " --integrator path --patch 1", drive + " --integrator whitted --no-gather",
+             drive + " --integrator radiosity --photons 100", drive + " --integrator photon-map --residual 0.1",
+             drive + " --smooth-depth 3", drive + " --integrator radiosity --no-gather --most-samples 64", drive + " --view ''",
+             drive + " --view map --resolution 64x48"}) {
         const Outcome run = run_program(arguments + " --out " + (folder / "out"));
         EXPECT_EQ(run.exit_code, 2) << arguments << '\n' << run.output;
         EXPECT_FALSE(std::filesystem::exists(folder / "out")) << arguments;
@@ -143,19 +155,22 @@ TEST(ReferenceCheckpoint, ComesBackAsItWasAndIsRefusedWhenItIsNot) {
     }
 }
 
-TEST(ReferenceErrorReached, IsRelativeToTheMeanOrTheFloorOverPixelsDrawn) {
-    Estimate estimate{Image<float>(4, 1), Image<float>(4, 1)};
-    estimate.mean.pixels() = {10.0F, 0.0F, 1.0F, 5.0F};
-    estimate.standard_error.pixels() = {0.05F, 0.0005F, 0.02F, 99.0F};
-    Image<std::uint32_t> samples(4, 1, 16);
-    samples.at(3, 0) = 0;
+TEST(ReferenceErrorReached, IsRelativeToTheMeanOrTheFloorOverLitPixelsDrawn) {
+    Estimate estimate{Image<float>(6, 1), Image<float>(6, 1)};
+    estimate.mean.pixels() = {10.0F, 0.01F, 1.0F, 5.0F, 0.0F, 0.0F};
+    estimate.standard_error.pixels() = {0.05F, 0.0005F, 0.02F, 99.0F, 0.0F, 0.0F};
+    Image<std::uint32_t> samples(6, 1, 16);
+    samples.at(3, 0) = 0; // not drawn; the last two are not lit
     const auto reached = error_reached(estimate, samples, 0.011, 0.05);
     ASSERT_TRUE(reached);
     EXPECT_NEAR(reached->median, 0.01, 1e-6); // 0.005, 0.01 of the floor, 0.02
     EXPECT_NEAR(reached->worst, 0.02, 1e-6);
     EXPECT_DOUBLE_EQ(reached->share_reached, 2.0 / 3.0);
+    EXPECT_EQ(reached->lit_pixels, 3U);
+    const Estimate dark{Image<float>(6, 1), Image<float>(6, 1)};
+    EXPECT_FALSE(error_reached(dark, samples, 0.011, 0.05));
     EXPECT_FALSE(error_reached({}, samples, 0.01, 0.05));
-    EXPECT_FALSE(error_reached(estimate, Image<std::uint32_t>(4, 1), 0.01, 0.05));
+    EXPECT_FALSE(error_reached(estimate, Image<std::uint32_t>(6, 1), 0.01, 0.05));
 }
 
 } // namespace
