@@ -4,6 +4,7 @@
 #include "runner/flag_values.h"
 #include "runner/output_folder.h"
 #include "runner/run_context.h"
+#include "runner/run_drives.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -18,7 +19,7 @@ namespace {
 struct Flags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> techniques, resolutions, shadow_maps, beams;
-    std::string variant, backend = "auto", out;
+    std::string variant, target_error = "0.5%", backend = "auto", out;
     std::vector<std::string> diagrams{"techniques"};
     SweepRequest sweep;
     bool quiet = false;
@@ -57,7 +58,7 @@ std::vector<std::string> diagrams_of(const std::vector<std::string>& asked) {
     const std::vector<std::string> known = diagram_names();
     for (const std::string& name : asked)
         if (name != "all" && std::ranges::find(known, name) == known.end())
-            refuse_flag("--diagrams", name, "all, techniques, reference, solvers, extent, beam, metrics or step");
+            refuse_flag("--diagrams", name, "all, techniques, reference, classical, solvers, extent, beam, metrics or step");
     return std::ranges::find(asked, "all") != asked.end() ? known : asked;
 }
 
@@ -66,12 +67,14 @@ int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     request.diagrams = diagrams_of(flags.diagrams);
     request.sweep = flags.sweep;
     request.sweep.variant = flags.variant;
+    request.sweep.target_error = share_of("--target-error", flags.target_error);
     request.sweep.techniques = flags.techniques;
     request.sweep.resolutions = sizes_of("--resolutions", flags.resolutions, 8192);
     request.sweep.shadow_maps = sizes_of("--shadow-maps", flags.shadow_maps, 8192);
     request.sweep.beams = beams_of(flags.beams);
     for (const std::filesystem::path& file : flags.drives)
         request.drives.push_back(read_drive(file));
+    refuse_equal_names(request.drives);
     request.backend = flags.backend;
     request.folder = flags.out.empty() ? default_output_folder("accuracy", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
@@ -80,7 +83,10 @@ int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     fmt::print("{}\n{}\n", accuracy_text(result), (request.folder / "accuracy.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
-    return result.interrupted.empty() ? 0 : 1;
+    const bool measured = std::ranges::any_of(result.diagrams, [](const WorkPrecision& diagram) {
+        return std::ranges::any_of(diagram.rows, [](const WorkPrecisionRow& row) { return row.measured(); });
+    });
+    return result.interrupted.empty() && measured ? 0 : 1;
 }
 
 } // namespace
@@ -90,7 +96,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     CLI::App* sub = app.add_subcommand("accuracy", "hold the techniques against the reference: error beside run time");
     sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
     sub->add_option("--diagrams", flags->diagrams,
-                    "all, or some of techniques, reference, solvers, extent, beam, metrics, step; else techniques")
+                    "all, or some of techniques, reference, classical, solvers, extent, beam, metrics, step; else techniques")
         ->delimiter(',')
         ->allow_extra_args(false);
     sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
@@ -112,8 +118,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--rounds", flags->sweep.rounds, "of times; in each, every configuration draws the moments once")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    sub->add_option("--target-error", flags->sweep.target_error, "wanted standard error of the reference, in shares")
-        ->check(CLI::Range(1e-6, 1.0))
+    sub->add_option("--target-error", flags->target_error, "standard error wanted of each pixel of the reference, e.g. 0.5% or 0.005")
         ->capture_default_str();
     sub->add_option("--samples", flags->sweep.most_samples, "most samples a pixel of the reference")
         ->check(CLI::Range(16, 1 << 20))

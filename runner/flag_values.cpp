@@ -31,4 +31,15 @@ std::pair<int, int> resolution_of(const std::string& text) {
     return two_numbers("--resolution", text, 'x', false, "WIDTHxHEIGHT, e.g. 1024x768");
 }
 
+double share_of(const char* flag, const std::string& text) {
+    const bool percent = text.ends_with('%');
+    const char *const begin = text.data(), *const end = begin + text.size() - (percent ? 1 : 0);
+    double value = 0.0;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    value *= percent ? 0.01 : 1.0;
+    if (error != std::errc{} || stop != end || !(value > 0.0 && value <= 1.0))
+        refuse_flag(flag, text, "a share above 0 and up to 1, or per cent, e.g. 0.005 or 0.5%");
+    return value;
+}
+
 } // namespace fernlicht

@@ -16,4 +16,7 @@ std::pair<int, int> two_numbers(const char* flag, const std::string& text, char 
 /// "1024x768". Throws InputError naming --resolution.
 std::pair<int, int> resolution_of(const std::string& text);
 
+/// A share above 0 and up to 1: "0.5%" and "0.005" are the same. Throws InputError naming the flag.
+double share_of(const char* flag, const std::string& text);
+
 } // namespace fernlicht

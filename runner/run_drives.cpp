@@ -226,4 +226,13 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     return report;
 }
 
+void refuse_equal_names(const std::vector<Drive>& drives) {
+    for (std::size_t i = 0; i < drives.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (drives[i].name == drives[k].name)
+                throw InputError({drives[i].file, 0, 0, "name"},
+                                 "found '" + printable(drives[i].name) + "', as in " + drives[k].file.string(),
+                                 "a name of its own for each drive of a run");
+}
+
 } // namespace fernlicht

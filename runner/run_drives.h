@@ -21,4 +21,7 @@ struct RunOptions {
 /// was done is kept, marked incomplete, and the error is thrown on.
 Report run_drives(const std::vector<Drive>& drives, const RunOptions& options);
 
+/// Reports and folders tell drives apart by their names. Throws InputError for two of one name.
+void refuse_equal_names(const std::vector<Drive>& drives);
+
 } // namespace fernlicht

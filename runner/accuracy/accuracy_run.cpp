@@ -1,15 +1,19 @@
 #include "runner/accuracy/accuracy_run.h"
 
 #include "renderer/sanity.h"
+#include "runner/accuracy/classical_study.h"
+#include "runner/accuracy/reference_shots.h"
 #include "runner/accuracy/solver_diagrams.h"
 #include "runner/accuracy/studies.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
+#include "scenarios/drives/advance.h"
 
 #include <algorithm>
 #include <deque>
+#include <fmt/format.h>
 #include <iterator>
 #include <optional>
 #include <thread>
@@ -43,6 +47,13 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
     };
     if (asked_for(request, "reference") && go_on())
         std::ranges::move(reference_study(stage, variant, request.sweep.seed, go_on), std::back_inserter(result.diagrams));
+    add("classical", [&] {
+        const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
+        WorkPrecision diagram = classical_study(stage.scene, moment, resized(*driver_view(stage.drive), 64, 48), {}, go_on);
+        diagram.name += "-" + stage.drive.name;
+        diagram.title += fmt::format(": {}, {}", stage.drive.name, variant.name);
+        return diagram;
+    });
     add("extent", [&] { return extent_study(stage, variant, go_on); });
     add("beam", [&] { return beam_study(stage, variant, go_on); });
     add("metrics", [&] { return metrics_study(stage, variant, device, go_on); });
@@ -51,7 +62,9 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
 
 } // namespace
 
-std::vector<std::string> diagram_names() { return {"techniques", "reference", "solvers", "extent", "beam", "metrics", "step"}; }
+std::vector<std::string> diagram_names() {
+    return {"techniques", "reference", "classical", "solvers", "extent", "beam", "metrics", "step"};
+}
 
 AccuracyResult run_accuracy(const AccuracyRequest& request) {
     std::deque<Stage> stages; // everything is read and checked before the first frame
