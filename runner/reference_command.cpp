@@ -8,7 +8,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
@@ -65,18 +64,6 @@ void check_given(const Flags& flags) {
             refuse_flag(flag, *text, "something, or the option left out");
 }
 
-/// "0.5%" and "0.005" are the same.
-double share_of(const std::string& text) {
-    const bool percent = text.ends_with('%');
-    const char *const begin = text.data(), *const end = begin + text.size() - (percent ? 1 : 0);
-    double value = 0.0;
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    value *= percent ? 0.01 : 1.0;
-    if (error != std::errc{} || stop != end || !(value > 0.0 && value <= 1.0))
-        refuse_flag("--target-error", text, "a share above 0 and up to 1, or per cent, e.g. 0.005 or 0.5%");
-    return value;
-}
-
 DriveEdits edits_of(const Flags& flags) {
     DriveEdits edits;
     for (const std::string& lamp : flags.lamps) {
@@ -96,7 +83,7 @@ ReferenceSettings settings_of(const Flags& flags) {
     settings.most_smooth = flags.most_smooth;
     settings.solver = flags.solver;
     settings.solver.final_gather = !flags.no_gather;
-    settings.target_error = share_of(flags.target_error);
+    settings.target_error = share_of("--target-error", flags.target_error);
     settings.lamp_radius_m = flags.lamp_radius_m;
     settings.most_samples = flags.most_samples;
     settings.seed = flags.seed;
