@@ -49,7 +49,9 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
         std::ranges::move(reference_study(stage, variant, request.sweep.seed, go_on), std::back_inserter(result.diagrams));
     add("classical", [&] {
         const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
-        WorkPrecision diagram = classical_study(stage.scene, moment, resized(*driver_view(stage.drive), 64, 48), {}, go_on);
+        ClassicalStudy study;
+        study.seed = request.sweep.seed;
+        WorkPrecision diagram = classical_study(stage.scene, moment, resized(*driver_view(stage.drive), 64, 48), study, go_on);
         diagram.name += "-" + stage.drive.name;
         diagram.title += fmt::format(": {}, {}", stage.drive.name, variant.name);
         return diagram;

@@ -17,7 +17,7 @@ WorkPrecisionRow row_of(const ConfigurationResult& found) {
                       {"shadow maps", fmt::format("{}x{}", c.shadow_width, c.shadow_height)},
                       {"beams", beams_text(c.beams)}};
     if (c.beams == eight_bit_texels && c.varied == "beams")
-        row.note = "as the thesis";
+        row.note = "thesis";
     row.why_not = found.no_illuminance;
     if (found.road && found.road->pixels > 0) {
         const auto [least, most] = std::ranges::minmax(found.road_p95);
