@@ -1,20 +1,35 @@
 #include "runner/reference/checkpoint.h"
 
 #include "runner/durable_files.h"
+#include "runner/output_folder.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 
-#include <array>
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <type_traits>
 
 namespace fernlicht {
 namespace {
 
-/// The file: this word, the hash of the inputs, the hash of what follows, then the numbers as they lie in memory.
-constexpr std::string_view magic = "fernlicht reference checkpoint 1\n";
-constexpr std::size_t hash_digits = 32;
+/// The file: this word, the inputs as text, an empty line, the hash of what follows, then the numbers as they lie in memory.
+constexpr std::string_view magic = "fernlicht reference checkpoint 2\n";
+constexpr std::size_t hash_digits = 32, most_named = 3;
+const std::string content_of = "content of ";
+
+using Input = std::pair<std::string, std::string>; ///< name, value
+using Inputs = std::vector<Input>;
+Inputs inputs_of(std::string_view text) {
+    Inputs lines;
+    for (std::size_t end = text.find('\n'); end != std::string_view::npos; text.remove_prefix(end + 1), end = text.find('\n')) {
+        const std::string_view line = text.substr(0, end);
+        const std::size_t tab = std::min(line.find('\t'), line.size());
+        lines.emplace_back(line.substr(0, tab), line.substr(std::min(tab + 1, line.size())));
+    }
+    return lines;
+}
 
 template <class T> void append(std::string& bytes, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -77,50 +92,88 @@ ReferenceImage blank(const View& view, const Wanted& wanted) {
 
 } // namespace
 
-std::string hash_of_inputs(const ReferenceResult& result, const Drive& drive) {
+std::string deciding_inputs(const ReferenceResult& result, const Drive& drive) {
     const ReferenceSettings& s = result.settings;
-    std::string text = fmt::format("{}\n{}\n{} {} {} {}\n", FERNLICHT_VERSION, write_drive(drive), result.variant, result.moment.tick,
-                                   result.view.name, result.wanted.target);
-    text += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n", static_cast<int>(s.integrator), static_cast<int>(s.footprint),
-                        s.target_error, s.floor_lx, s.floor_cdm2, s.least_samples, s.most_samples, s.most_bounces, s.lamp_radius_m,
-                        s.target_height_m, s.shadows, s.seed);
-    text += fmt::format("{} {} {} {} {} {} {} {}\n", s.most_smooth, s.solver.reach_m, s.solver.patch_m, s.solver.form_factor_rays,
-                        s.solver.residual, s.solver.photons, s.solver.radius_m, s.solver.final_gather);
+    const SolverSettings& v = s.solver;
+    std::string text;
+    const auto add = [&](const std::string& name, const auto& value) { text += fmt::format("{}\t{}\n", name, value); };
+    const std::string resolved = write_drive(drive);
+    add("version", FERNLICHT_VERSION);
+    add("--variant", printable(result.variant));
+    add("--view", printable(result.view.name));
+    add("width in pixels", result.view.width_px), add("height in pixels", result.view.height_px);
+    add("--moment", fmt::format("{} s", result.moment.time_s));
+    add("--integrator", integrator_name(s.integrator));
+    add("--target-error", s.target_error), add("--most-samples", s.most_samples);
+    add("--lamp-radius", s.lamp_radius_m), add("--seed", s.seed);
+    add("--smooth-depth", s.most_smooth), add("--reach", v.reach_m), add("--patch", v.patch_m);
+    add("--form-factor-rays", v.form_factor_rays), add("--residual", v.residual), add("--photons", v.photons);
+    add("--photon-radius", v.radius_m), add("final gathering", v.final_gather);
+    add("footprint", static_cast<int>(s.footprint)), add("floor_lx", s.floor_lx), add("floor_cdm2", s.floor_cdm2);
+    add("least samples", s.least_samples), add("most bounces", s.most_bounces);
+    add("target height", s.target_height_m), add("shadows", s.shadows), add("tick", result.moment.tick);
     for (const FileRead& file : result.context.inputs)
-        text += file.xxh128 + "\n";
-    return content_hash(text.data(), text.size());
+        add(content_of + printable(file.path.string(), 400), file.xxh128);
+    add(content_of + "the drive with its files and changes", content_hash(resolved.data(), resolved.size()));
+    return text;
+}
+
+std::string differing_inputs(const std::string& then, const std::string& now) {
+    const Inputs before = inputs_of(then), after = inputs_of(now);
+    std::vector<std::string> differences;
+    for (const auto& [name, value] : after) {
+        const auto old = std::ranges::find(before, name, &Input::first);
+        if (old != before.end() && old->second == value)
+            continue;
+        if (name.starts_with(content_of))
+            differences.push_back("other " + name);
+        else
+            differences.push_back(fmt::format("{} {}, now {}", name, old == before.end() ? "unknown" : printable(old->second), value));
+    }
+    for (const auto& [name, value] : before)
+        if (std::ranges::find(after, name, &Input::first) == after.end())
+            differences.push_back(printable(name, 400) + " no more");
+    if (differences.size() > most_named) {
+        const std::size_t others = differences.size() - most_named;
+        differences.resize(most_named);
+        differences.push_back(fmt::format("{} more", others));
+    }
+    return fmt::format("{}", fmt::join(differences, "; "));
 }
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder) { return folder / "checkpoint.bin"; }
 
-void write_checkpoint(const ReferenceImage& image, const std::string& inputs_hash, const std::filesystem::path& folder) {
+void write_checkpoint(const ReferenceImage& image, const std::string& inputs, const std::filesystem::path& folder) {
     std::string payload;
     append(payload, image.seconds);
     append(payload, image.rays);
     for_each_image(image, [&](const auto& pixels) { append_pixels(payload, pixels); });
     const std::filesystem::path next = folder / "checkpoint.next";
-    write_durably(next, std::string(magic) + inputs_hash + content_hash(payload.data(), payload.size()) + payload);
+    write_durably(next, std::string(magic) + inputs + '\n' + content_hash(payload.data(), payload.size()) + payload);
     rename_durably(next, checkpoint_file(folder));
 }
 
-ReferenceImage read_checkpoint(const std::string& inputs_hash, const View& view, const Wanted& wanted,
-                               const std::filesystem::path& folder) {
+ReferenceImage read_checkpoint(const std::string& inputs, const View& view, const Wanted& wanted, const std::filesystem::path& folder) {
     const std::filesystem::path path = checkpoint_file(folder);
-    const auto refuse = [&](const char* found, const char* expected) { throw InputError({path, 0, 0, "--resume"}, found, expected); };
+    const auto refuse = [&](const std::string& found, const char* expected) {
+        throw InputError({path, 0, 0, "--resume"}, found, expected);
+    };
+    if (!std::filesystem::exists(path) && !is_marked_incomplete(folder) && std::filesystem::exists(folder / "reference.json"))
+        refuse("found a picture that is finished", "the folder of a reference that was interrupted");
     if (!std::filesystem::exists(path))
         refuse("found no checkpoint there", "the folder of a reference that was interrupted");
     FilesRead ignored;
     const std::string bytes = read_file(path, ignored, std::size_t{1} << 32);
     const std::string_view all = bytes;
-    const std::size_t head = magic.size() + 2 * hash_digits;
-    if (all.size() < head || !all.starts_with(magic))
+    const std::size_t inputs_end = all.find("\n\n"), head = inputs_end + 2 + hash_digits;
+    if (!all.starts_with(magic) || inputs_end == std::string_view::npos || all.size() < head)
         refuse("found something else", "a checkpoint of this version of fernlicht");
-    if (all.substr(magic.size(), hash_digits) != inputs_hash)
-        refuse("found the checkpoint of another picture", "the same drive, files, flags and version as when it was interrupted");
+    if (const std::string then(all.substr(magic.size(), inputs_end + 1 - magic.size())); then != inputs)
+        refuse("found the checkpoint of another picture: " + differing_inputs(then, inputs),
+               "the same drive, files, flags and version as when it was interrupted");
     const std::string_view payload = all.substr(head);
     ReferenceImage image = blank(view, wanted);
-    if (payload.size() != payload_bytes(image) ||
-        content_hash(payload.data(), payload.size()) != all.substr(magic.size() + hash_digits, hash_digits))
+    if (payload.size() != payload_bytes(image) || content_hash(payload.data(), payload.size()) != all.substr(inputs_end + 2, hash_digits))
         refuse("found a checkpoint that is damaged", "one that is whole");
     Reader reader(payload);
     reader.take(image.seconds);

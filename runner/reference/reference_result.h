@@ -27,7 +27,8 @@ struct ReferenceResult {
     ReferenceSettings settings;
     ReferenceImage image;
     std::size_t triangles = 0;
-    std::string inputs_hash; ///< of everything that decides the picture (checkpoint.h)
+    std::string inputs;      ///< everything that decides the picture (checkpoint.h)
+    std::string inputs_hash; ///< 32 hexadecimal digits over them
     std::string interrupted; ///< "" where all is drawn
 
     std::optional<ErrorReached> illuminance() const;

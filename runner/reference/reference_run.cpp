@@ -89,7 +89,8 @@ ReferenceResult described(const ReferenceRequest& request, const Stage& stage) {
                          "direct, whitted or path: light that is solved has shadows");
     if (drive.extent)
         result.settings.target_height_m = drive.extent->target_height_m;
-    result.inputs_hash = hash_of_inputs(result, drive);
+    result.inputs = deciding_inputs(result, drive);
+    result.inputs_hash = content_hash(result.inputs.data(), result.inputs.size());
     return result;
 }
 
@@ -109,7 +110,7 @@ void draw(ReferenceResult& result, const Stage& stage, const ReferenceRequest& r
             const bool stop = Interruption::asked();
             const auto now = std::chrono::steady_clock::now();
             if (stop || std::chrono::duration<double>(now - stored).count() > checkpoint_every_s) {
-                write_checkpoint(so_far, result.inputs_hash, request.folder);
+                write_checkpoint(so_far, result.inputs, request.folder);
                 stored = now;
             }
             return !stop;
@@ -125,8 +126,11 @@ ReferenceResult run_reference(const ReferenceRequest& request) {
     const Stage stage(request.drive);
     ReferenceResult result = described(request, stage);
     ReferenceImage from;
+    if (!request.resume && std::filesystem::exists(checkpoint_file(request.folder)))
+        throw InputError({request.folder, 0, 0, "--out"}, "holds a reference that was interrupted",
+                         "--resume to go on with it, or a new or an empty folder");
     if (request.resume)
-        from = read_checkpoint(result.inputs_hash, result.view, result.wanted, request.folder);
+        from = read_checkpoint(result.inputs, result.view, result.wanted, request.folder);
     OutputFolder folder = request.resume ? OutputFolder::left_incomplete(request.folder) : OutputFolder(request.folder);
     draw(result, stage, request, std::move(from));
     write_reference(result, stage.drive.tone_mapper, request.folder);

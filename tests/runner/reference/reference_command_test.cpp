@@ -78,9 +78,11 @@ TEST(ReferenceCommand, GoesOnAfterAnInterruptionAndEndsInTheSameBytes) {
 
     const Outcome other = run_program(command + " --seed 2 --resume --out " + (folder / "parts"));
     EXPECT_EQ(other.exit_code, 2);
-    EXPECT_NE(other.output.find("another picture"), std::string::npos) << other.output;
-    EXPECT_EQ(run_program(command + " --out " + (folder / "parts")).exit_code, 2); // without --resume: not empty
-    EXPECT_EQ(run_program(command + " --resume").exit_code, 2);                    // go on with what?
+    EXPECT_NE(other.output.find("another picture: --seed 1, now 2, expected"), std::string::npos) << other.output;
+    const Outcome again = run_program(command + " --out " + (folder / "parts"));
+    EXPECT_EQ(again.exit_code, 2); // not empty
+    EXPECT_NE(again.output.find("--resume to go on"), std::string::npos) << again.output;
+    EXPECT_EQ(run_program(command + " --resume").exit_code, 2); // go on with what?
 
     const Outcome resumed = run_program(command + " --resume --quiet --out " + (folder / "parts"));
     ASSERT_EQ(resumed.exit_code, 0) << resumed.output;
@@ -88,7 +90,9 @@ TEST(ReferenceCommand, GoesOnAfterAnInterruptionAndEndsInTheSameBytes) {
         EXPECT_EQ(content_of(folder / (std::string("whole/") + file)), content_of(folder / (std::string("parts/") + file))) << file;
     EXPECT_EQ(json_of(folder / "whole").at("rays"), json_of(folder / "parts").at("rays"));
     EXPECT_FALSE(std::filesystem::exists(folder / "parts/checkpoint.bin"));
-    EXPECT_EQ(run_program(command + " --resume --out " + (folder / "parts")).exit_code, 2); // nothing is left to go on with
+    const Outcome finished = run_program(command + " --resume --out " + (folder / "parts"));
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_NE(finished.output.find("finished"), std::string::npos) << finished.output;
 }
 
 TEST(ReferenceCommand, BadInputIsOneSentenceAndExitCodeTwo) {
@@ -129,11 +133,11 @@ TEST(ReferenceCheckpoint, ComesBackAsItWasAndIsRefusedWhenItIsNot) {
     view.width_px = 3;
     view.height_px = 2;
     constexpr Wanted wanted{.illuminance = true};
-    const std::string hash(32, 'a'), other(32, 'b');
+    const std::string inputs = "version\t1\n--seed\t1\n", other = "version\t1\n--seed\t2\n";
     const ReferenceImage image = small_picture();
-    EXPECT_THROW(read_checkpoint(hash, view, wanted, folder.path()), InputError); // none there
-    write_checkpoint(image, hash, folder.path());
-    const ReferenceImage back = read_checkpoint(hash, view, wanted, folder.path());
+    EXPECT_THROW(read_checkpoint(inputs, view, wanted, folder.path()), InputError); // none there
+    write_checkpoint(image, inputs, folder.path());
+    const ReferenceImage back = read_checkpoint(inputs, view, wanted, folder.path());
     EXPECT_EQ(back.illuminance_lx.mean, image.illuminance_lx.mean);
     EXPECT_EQ(back.illuminance_lx.standard_error, image.illuminance_lx.standard_error);
     EXPECT_TRUE(back.luminance_cdm2.mean.empty());
@@ -151,8 +155,16 @@ TEST(ReferenceCheckpoint, ComesBackAsItWasAndIsRefusedWhenItIsNot) {
     }
     for (const std::string& bytes : damaged) {
         std::ofstream(checkpoint_file(folder.path()), std::ios::binary) << bytes;
-        EXPECT_THROW(read_checkpoint(hash, view, wanted, folder.path()), InputError) << bytes.size();
+        EXPECT_THROW(read_checkpoint(inputs, view, wanted, folder.path()), InputError) << bytes.size();
     }
+}
+
+TEST(ReferenceCheckpoint, NamesWhatDiffers) {
+    EXPECT_EQ(differing_inputs("--seed\t1\n--view\tmap\n", "--seed\t2\n--view\tmap\n"), "--seed 1, now 2");
+    EXPECT_EQ(differing_inputs("content of a.ies\tf00\nb\t1\n", "content of a.ies\tba5\nc\t2\n"),
+              "other content of a.ies; c unknown, now 2; b no more");
+    EXPECT_EQ(differing_inputs("", "a\t1\nb\t1\nc\t1\nd\t1\ne\t1\n"), "a unknown, now 1; b unknown, now 1; c unknown, now 1; 2 more");
+    EXPECT_EQ(differing_inputs("broken", "\n"), " unknown, now ");
 }
 
 TEST(ReferenceErrorReached, IsRelativeToTheMeanOrTheFloorOverLitPixelsDrawn) {
