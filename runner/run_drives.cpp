@@ -17,6 +17,7 @@
 #include "runner/stage.h"
 #include "runner/summary.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/motion.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -51,6 +52,8 @@ RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
 
 std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, const Renderer& renderer) {
     std::vector<std::string> notes = stage.drive.notes;
+    if (variant.motion)
+        std::ranges::copy(variant.motion->notes, std::back_inserter(notes));
     notes.insert(notes.end(), stage.network.warnings.begin(), stage.network.warnings.end());
     const Technique& technique = renderer.technique();
     if (stage.drive.beams && technique.kind != TechniqueKind::ours && technique.features.find("PROJECTED") == std::string_view::npos)

@@ -2,6 +2,7 @@
 
 #include "scenarios/drives/advance.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/vehicle/car_validity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +24,15 @@ std::vector<SpeedSegment> wishes(const std::vector<SpeedPoint>& profile) {
     return segments;
 }
 
+/// "1 step", "2 steps"
+std::string counted(std::uint64_t count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
+
 std::string solved(const SolverWork& work) {
     const auto part = [](const char* method, const MethodWork& did) {
-        return did.steps == 0 ? std::string() : fmt::format("{} for {:.3g} s ({} steps), ", method, did.simulated_s, did.steps);
+        return did.steps == 0 ? std::string() : fmt::format("{} for {:.3g} s ({}), ", method, did.simulated_s, counted(did.steps, "step"));
     };
-    return fmt::format("{}{}{} steps rejected, {} evaluations", part("dormand-prince", work.dormand_prince),
-                       part("rosenbrock", work.rosenbrock), work.dormand_prince.rejected + work.rosenbrock.rejected, work.derivatives);
+    return fmt::format("{}{}{} rejected, {}", part("dormand-prince", work.dormand_prince), part("rosenbrock", work.rosenbrock),
+                       counted(work.dormand_prince.rejected + work.rosenbrock.rejected, "step"), counted(work.derivatives, "evaluation"));
 }
 
 /// The largest differences between plan and motion, looked at where steps end.
@@ -108,9 +112,19 @@ void fit_to_route(Drive& drive, const Route& route, const CarRun& car) {
     drive.duration_s = ticks * drive.step_s;
 }
 
-std::string actuator_note(const Variant& variant, const char* which, const ActuatorRun& run) {
-    return fmt::format("{}: {}: {}; {} times at its rate limit, {} times at a stop", variant.name, which, solved(run.work),
-                       run.rate_limited, run.at_stop);
+std::string actuator_note(const char* which, const ActuatorRun& run) {
+    return fmt::format("{}: {}; {} at its rate limit, {} at a stop", which, solved(run.work), counted(run.rate_limited, "time"),
+                       counted(run.at_stop, "time"));
+}
+
+/// Refuses what the model does not describe; a note of wheels that hop.
+void check_validity(Drive& drive, const CarRun& car) {
+    const CarValidity validity = car_validity(car, drive.duration_s);
+    if (validity.beyond)
+        throw InputError({drive.file, 0, 0, "vehicle"}, validity.beyond->found, validity.beyond->expected);
+    if (validity.hops > 0)
+        drive.notes.push_back(fmt::format("vehicle: wheels of an axle leave the road {}, for at most {:.2g} s",
+                                          counted(static_cast<std::uint64_t>(validity.hops), "time"), validity.longest_hop_s));
 }
 
 void simulate_vehicle(Drive& drive, const Route& route) {
@@ -121,16 +135,17 @@ void simulate_vehicle(Drive& drive, const Route& route) {
     model.road = road_course(route, distance_m(drive.speed, drive.duration_s) + 200.0);
     const auto car = std::make_shared<const CarRun>(run_car(model, wishes(drive.speed), drive.duration_s));
     fit_to_route(drive, route, *car);
+    check_validity(drive, *car);
     drive.notes.push_back(fmt::format("vehicle: {}; {}", solved(car->work()), strayed(*car, drive.speed)));
     for (Variant& variant : drive.variants) {
-        auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt});
+        auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt, {}});
         if (variant.levelling) {
             motion->levelling = run_levelling(drive, variant, *car);
-            drive.notes.push_back(actuator_note(variant, "levelling", *motion->levelling));
+            motion->notes.push_back(actuator_note("levelling", *motion->levelling));
         }
         if (variant.swivel) {
             motion->swivel = run_swivel(drive, variant, *car, model);
-            drive.notes.push_back(actuator_note(variant, "swivel", *motion->swivel));
+            motion->notes.push_back(actuator_note("swivel", *motion->swivel));
         }
         variant.motion = std::move(motion);
     }
@@ -144,6 +159,8 @@ void simulate(Drive& drive, const Route& route) {
     try {
         simulate_vehicle(drive, route);
     } catch (const InputError& error) {
+        if (!error.where().file.empty())
+            throw;
         throw InputError({drive.file, 0, 0, "vehicle"}, error.what());
     }
 }

@@ -10,11 +10,12 @@ namespace fernlicht {
 struct Motion {
     std::shared_ptr<const CarRun> car; ///< the same for all variants: lamps do not act on it
     std::optional<ActuatorRun> levelling, swivel;
+    std::vector<std::string> notes; ///< on how they were solved
 };
 
-/// Gives each variant its motion and the drive notes on how it was solved and how far the car strayed from its plan. Nothing for a drive
-/// without a vehicle. A drive whose car comes to the route's end too soon is cut, with a note. Throws InputError when the equations cannot
-/// be solved as the drive asks.
+/// Gives each variant its motion and the drive notes on how the car's was solved and how far the car strayed from its plan. Nothing for a
+/// drive without a vehicle. A drive whose car comes to the route's end too soon is cut, with a note. Throws InputError when the equations
+/// cannot be solved as the drive asks, and when the car does what its model does not describe (car_validity.h).
 void simulate(Drive& drive, const Route& route);
 
 /// Adds the actuators' angles at that time to a lamp's aim.

@@ -1,5 +1,7 @@
 #include "scenarios/drives/vehicle_keys.h"
 
+#include "scenarios/vehicle/car_validity.h"
+
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -20,6 +22,19 @@ void read_axle(const YamlMap& keys, std::string_view name, AxleParameters& axle)
     axle.cornering_stiffness_n_per_rad = of.number_or("cornering_stiffness_n_per_rad", axle.cornering_stiffness_n_per_rad, 1.0e3, 1.0e8);
     axle.slip_stiffness_n = of.number_or("slip_stiffness_n", axle.slip_stiffness_n, 1.0e3, 1.0e8);
     axle.wheel_inertia_kgm2 = of.number_or("wheel_inertia_kgm2", axle.wheel_inertia_kgm2, 0.01, 1000.0);
+}
+
+/// At the key that was given: the springs, else the mass.
+void check_springs(const YamlMap& keys, const char* name, const VehicleParameters& car, const AxleParameters& axle, double part_of_load) {
+    const double deflection_m = deflection_at_rest_m(car, axle, part_of_load);
+    if (deflection_m <= greatest_deflection_m)
+        return;
+    YamlEntry blamed = keys.find("mass_kg").value_or(keys.entry());
+    if (const auto given = keys.find(name))
+        blamed = *given;
+    blamed.refuse(fmt::format("{} springs of {:g} N/m, which the car's {:g} kg press together by {:.2g} m at rest", name,
+                              axle.spring_n_per_m, car.mass_kg, deflection_m),
+                  fmt::format("at most {:g} m (0.8 Hz): stiffer springs or less mass_kg", greatest_deflection_m));
 }
 
 std::vector<RoadStep> read_road_steps(const YamlMap& keys) {
@@ -121,6 +136,8 @@ std::optional<VehicleParameters> read_vehicle(const YamlMap& drive) {
     const double unsprung_kg = car.front.unsprung_mass_kg + car.rear.unsprung_mass_kg;
     if (unsprung_kg > 0.5 * car.mass_kg)
         keys.entry().refuse(fmt::format("axles of {} kg under a car of {} kg", unsprung_kg, car.mass_kg), "at most half of mass_kg");
+    check_springs(keys, "front", car, car.front, car.front_load);
+    check_springs(keys, "rear", car, car.rear, 1.0 - car.front_load);
     return car;
 }
 

@@ -117,6 +117,11 @@ class TreeBuilder : public YAML::EventHandler {
         if (parent.value.kind == YamlValue::Kind::list) {
             parent.value.items.push_back(std::move(value));
         } else if (parent.member) {
+            // Nothing after the key: the parser places it at what comes next, lines below.
+            if (value.kind == YamlValue::Kind::null && value.line != parent.member->line) {
+                value.line = parent.member->line;
+                value.column = parent.member->column;
+            }
             parent.member->value = std::move(value);
             parent.value.members.push_back(std::move(*parent.member));
             parent.member.reset();

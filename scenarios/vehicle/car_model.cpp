@@ -9,7 +9,7 @@ namespace {
 
 using namespace car_state;
 
-constexpr double gravity_mps2 = 9.81, air_kg_per_m3 = 1.2;
+constexpr double air_kg_per_m3 = 1.2;
 constexpr double standing_rad_s = 0.02;  ///< brakes and rolling resistance turn from holding to sliding over this spin: 6 mm/s of the tyre
 constexpr double tyre_damping_s = 0.008; ///< of the contact's stretch: about a tenth of the critical damping of a car held by its tyres
 constexpr double least_load_n = 10.0;    ///< of an axle in the air, so that nothing is divided by 0

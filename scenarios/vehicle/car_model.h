@@ -9,6 +9,8 @@
 
 namespace fernlicht {
 
+inline constexpr double gravity_mps2 = 9.81;
+
 /// Places in the state vector. "By the road": above the place that the road gives it, from the rest on a level road.
 namespace car_state {
 enum : std::size_t {

@@ -56,14 +56,22 @@ CarPlace CarRun::at(double time_s) const {
     place.rear_lift_m = value(rear_body);
     const double front_lift_m = value(front_body);
     place.pitch_rad = (front_lift_m - place.rear_lift_m) / wheelbase_m_;
-    place.spring_pitch_rad = (front_lift_m - value(front_wheel) - place.rear_lift_m + value(rear_wheel)) / wheelbase_m_;
+    const double front_wheel_m = value(front_wheel), rear_wheel_m = value(rear_wheel);
+    place.spring_pitch_rad = (front_lift_m - front_wheel_m - place.rear_lift_m + rear_wheel_m) / wheelbase_m_;
     place.steering_rad = value(steering);
+    place.front_load_n = std::max(front_rest_n_ - front_tyre_n_per_m_ * front_wheel_m, 0.0);
+    place.rear_load_n = std::max(rear_rest_n_ - rear_tyre_n_per_m_ * rear_wheel_m, 0.0);
     return place;
 }
 
 CarRun run_car(CarModel start, const std::vector<SpeedSegment>& wishes, double end_s) {
     CarRun run;
     run.wheelbase_m_ = start.wheelbase_m;
+    const double weight_n = start.car.mass_kg * gravity_mps2;
+    run.front_rest_n_ = weight_n * start.rear_m() / start.wheelbase_m;
+    run.rear_rest_n_ = weight_n * start.front_m() / start.wheelbase_m;
+    run.front_tyre_n_per_m_ = start.car.front.tyre_spring_n_per_m;
+    run.rear_tyre_n_per_m_ = start.car.rear.tyre_spring_n_per_m;
     run.path_ = DensePath({std::begin(kept), std::end(kept)});
     start.wish = wishes.front();
     const auto model = std::make_shared<CarModel>(std::move(start));

@@ -16,6 +16,7 @@ struct CarPlace {
     double pitch_rad = 0.0;        ///< of the body against the road under its axles, nose up positive
     double spring_pitch_rad = 0.0; ///< what sensors at both axles' springs see of it: without the tyres
     double steering_rad = 0.0;
+    double front_load_n = 0.0, rear_load_n = 0.0; ///< of the axles' tyres on the road; 0: in the air
 };
 
 class CarRun {
@@ -31,6 +32,8 @@ class CarRun {
     DensePath path_;
     SolverWork work_;
     double wheelbase_m_ = 0.0;
+    double front_rest_n_ = 0.0, rear_rest_n_ = 0.0; ///< loads at rest
+    double front_tyre_n_per_m_ = 0.0, rear_tyre_n_per_m_ = 0.0;
 };
 
 /// Drives from time 0 and distance 0 to `end_s`. `wishes`: by time, the first at 0. Their kinks and the car's steps in the road are hit by

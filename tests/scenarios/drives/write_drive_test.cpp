@@ -171,7 +171,7 @@ class AnyDrive {
     SourceKind kind() { return std::vector{SourceKind::filament, SourceKind::arc, SourceKind::led}[static_cast<std::size_t>(whole(0, 2))]; }
 
     AxleParameters axle() {
-        return {number(1.0, 100.0), number(1e3, 1e5), number(0.0, 1e4), number(1e3, 1e6),
+        return {number(1.0, 100.0), number(1e5, 1e6), number(0.0, 1e4), number(1e3, 1e6), // springs that bear 5 t
                 number(1e3, 1e6),   number(1e3, 1e6), number(0.01, 9.0)};
     }
     ActuatorParameters actuator() {
