@@ -5,6 +5,7 @@
 #include "runner/lux_map.h"
 #include "runner/probe_fold.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/motion.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -108,6 +109,16 @@ class Measuring {
     std::deque<std::future<ExtentRow>> waiting_; ///< each waits for its thread when it is destroyed
 };
 
+CarRow car_row(const Motion& motion, double time_s) {
+    const CarPlace place = motion.car->at(time_s);
+    CarRow row{time_s, degrees(place.pitch_rad), 1e3 * place.rear_lift_m, std::nullopt, std::nullopt};
+    if (motion.levelling)
+        row.levelling_deg = degrees(motion.levelling->angle_rad(time_s));
+    if (motion.swivel)
+        row.swivel_deg = degrees(motion.swivel->angle_rad(time_s));
+    return row;
+}
+
 } // namespace
 
 std::string no_illuminance(const std::string& technique) { return fmt::format("technique {} does not compute an illuminance", technique); }
@@ -171,6 +182,8 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
         if (drawn)
             measuring.add(std::move(*drawn));
         played.speed_mps.emplace_back(moment.time_s, moment.speed_mps);
+        if (variant.motion)
+            played.car.push_back(car_row(*variant.motion, moment.time_s));
         ++played.ticks_done;
         if (!options.go_on(played.ticks_done))
             break;

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
 
 namespace fernlicht {
@@ -89,6 +90,39 @@ void set_axes(plots::Figure& figure, const std::string& x_label, const std::stri
     }
 }
 
+/// One quantity of the car over time. `value`: none where a lamp set has no such actuator.
+std::string car_svg(const ComparedDrive& drive, const char* title, const char* label, const char* unit,
+                    const std::function<std::optional<double>(const CarRow&)>& value) {
+    plots::Figure figure;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.6, "", false};
+        for (const CarRow& row : drive.variants[i]->car)
+            if (const std::optional<double> found = value(row))
+                series.points.push_back({row.time_s, *found});
+        series.markers = series.points.size() == 1;
+        if (!series.points.empty())
+            figure.series.push_back(std::move(series));
+    }
+    if (figure.series.empty())
+        return {};
+    const plots::Polyline& first = figure.series.front().points;
+    const bool alike =
+        figure.series.size() == drive.variants.size() && std::ranges::all_of(figure.series, [&](const plots::Series& series) {
+            return std::ranges::equal(series.points, first,
+                                      [](const plots::Point& a, const plots::Point& b) { return a.x == b.x && a.y == b.y; });
+        });
+    if (alike) {
+        figure.series.resize(1);
+        figure.series.front().name.clear();
+        figure.series.front().colour = {60, 60, 60};
+    }
+    figure.title = title;
+    figure.width_px = 640.0;
+    figure.height_px = 240.0;
+    set_axes(figure, "time", "s", label, unit);
+    return plots::svg_of(figure);
+}
+
 } // namespace
 
 std::vector<double> plotted_limits_lx(const ComparedDrive& drive) {
@@ -153,6 +187,16 @@ std::string speed_svg(const ComparedDrive& drive) {
     figure.height_px = 240.0;
     set_axes(figure, "time", "s", "speed", "km/h");
     return plots::svg_of(figure);
+}
+
+std::vector<std::string> car_svgs(const ComparedDrive& drive) {
+    std::vector<std::string> svgs{
+        car_svg(drive, "Pitch of the body against the road", "pitch, nose up", "deg", [](const CarRow& row) { return row.pitch_deg; }),
+        car_svg(drive, "Lift of the body over the rear axle", "lift", "mm", [](const CarRow& row) { return row.rear_lift_mm; }),
+        car_svg(drive, "Levelling", "lamps up", "deg", [](const CarRow& row) { return row.levelling_deg; }),
+        car_svg(drive, "Swivel", "lamps to the left", "deg", [](const CarRow& row) { return row.swivel_deg; })};
+    std::erase(svgs, "");
+    return svgs;
 }
 
 std::string timing_svg(const ComparedDrive& drive) {

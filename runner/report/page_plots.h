@@ -16,6 +16,10 @@ std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limi
 /// Speed over time. All lamp sets drive alike, so the first one's. "" without samples.
 std::string speed_svg(const ComparedDrive& drive);
 
+/// What the car of a drive with a vehicle does, over time: pitch of the body against the road, lift of the body over the rear axle, angles
+/// of levelling and swivel. A line per lamp set, one where all that have it agree. Without those that nobody has; none without a vehicle.
+std::vector<std::string> car_svgs(const ComparedDrive& drive);
+
 /// Time per moment of the pass "frame" per lamp set, with its median. "" without samples.
 std::string timing_svg(const ComparedDrive& drive);
 

@@ -104,6 +104,16 @@ struct DriveError {
     bool measured() const { return !ticks.empty(); }
 };
 
+/// What the car and its lamp actuators do at one moment of a drive with a vehicle.
+struct CarRow {
+    double time_s = 0.0;
+    double pitch_deg = 0.0;                          ///< of the body against the road under its axles, nose up positive
+    double rear_lift_mm = 0.0;                       ///< of the body over the rear axle, from the rest on a level road
+    std::optional<double> levelling_deg, swivel_deg; ///< of the lamps, up and left positive; where the lamp set has them
+
+    bool operator==(const CarRow&) const = default;
+};
+
 /// One drive played with one lamp set.
 struct PlayedVariant {
     std::string drive, variant, technique;
@@ -115,6 +125,7 @@ struct PlayedVariant {
     std::vector<LuxMap> maps;                         ///< at captured moments, at most as many as the page shows
     std::vector<ExtentRow> extents;                   ///< every moment
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed
+    std::vector<CarRow> car;                          ///< every moment of a drive with a vehicle, else empty
     std::string no_road_lx, no_target_lx;             ///< why there are no rendered extents of that plane; "" where there are
     std::vector<PassTime> passes;                     ///< raw samples of frames drawn alone, warm-up dropped: "frame", "shadow", ...
     Throughput throughput;

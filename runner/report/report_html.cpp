@@ -46,6 +46,8 @@ data plots_part(const ComparedDrive& drive) {
     part.set("has_reaches", has_reaches);
     part.set("reaches", reaches);
     add(speeds, speed_svg(drive));
+    for (const std::string& svg : car_svgs(drive))
+        add(speeds, svg);
     part.set("speeds", speeds);
     part.set("has_timing", add(timings, timing_svg(drive)));
     part.set("timings", timings);

@@ -233,6 +233,21 @@ Json accuracy_json(const DriveError& error) {
             {"whole_view", errors_json(error.whole, "", error.ticks)}};
 }
 
+/// Columns with an entry per moment; only the actuators that the lamp set has.
+Json car_json(const std::vector<CarRow>& rows) {
+    Json columns;
+    for (const CarRow& row : rows) {
+        columns["time_s"].push_back(finite(row.time_s, "time"));
+        columns["pitch_deg"].push_back(finite(row.pitch_deg, "pitch"));
+        columns["rear_lift_mm"].push_back(finite(row.rear_lift_mm, "lift"));
+        if (row.levelling_deg)
+            columns["levelling_deg"].push_back(finite(*row.levelling_deg, "levelling"));
+        if (row.swivel_deg)
+            columns["swivel_deg"].push_back(finite(*row.swivel_deg, "swivel"));
+    }
+    return columns;
+}
+
 Json drive_json(const PlayedVariant& played) {
     Json frames = Json::array(), speed = Json::array();
     for (const StoredFrame& frame : played.frames)
@@ -243,21 +258,24 @@ Json drive_json(const PlayedVariant& played) {
                           {"exr", frame.exr.empty() ? Json(nullptr) : Json(frame.exr)}});
     for (const auto& [time_s, mps] : played.speed_mps)
         speed.push_back({finite(time_s, "time"), finite(mps, "speed")});
-    return {{"drive", played.drive},
-            {"variant", played.variant},
-            {"technique", played.technique},
-            {"lamps", pairs(played.lamps)},
-            {"ticks_planned", played.ticks_planned},
-            {"ticks_done", played.ticks_done},
-            {"verdicts", verdicts_json(played.verdicts)},
-            {"left_out", played.left_out},
-            {"notes", played.notes},
-            {"summary", summary_json(played)},
-            {"frames", frames},
-            {"contact_sheet", contact_sheet_json(played.contact_sheet)},
-            {"speed_mps", speed},
-            {"accuracy", accuracy_json(played.error)},
-            {"extents", extents_json(played)}};
+    Json json{{"drive", played.drive},
+              {"variant", played.variant},
+              {"technique", played.technique},
+              {"lamps", pairs(played.lamps)},
+              {"ticks_planned", played.ticks_planned},
+              {"ticks_done", played.ticks_done},
+              {"verdicts", verdicts_json(played.verdicts)},
+              {"left_out", played.left_out},
+              {"notes", played.notes},
+              {"summary", summary_json(played)},
+              {"frames", frames},
+              {"contact_sheet", contact_sheet_json(played.contact_sheet)},
+              {"speed_mps", speed},
+              {"accuracy", accuracy_json(played.error)},
+              {"extents", extents_json(played)}};
+    if (!played.car.empty())
+        json["car"] = car_json(played.car);
+    return json;
 }
 
 /// What comparing took, and what a frame takes.

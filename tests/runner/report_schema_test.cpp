@@ -32,6 +32,29 @@ TEST(ReportSchema, DescribesReports) {
     EXPECT_THAT(report_schema().check(json::parse(report_json({}))), IsEmpty());
 }
 
+TEST(ReportSchema, DescribesTheCarOfADriveWithAVehicle) {
+    Report report = tests::sample_report(2);
+    EXPECT_FALSE(json::parse(report_json(report))["drives"][0].contains("car")) << "drives without a vehicle";
+    report.played[0].car = {{0.0, -1.5, 30.25, std::nullopt, std::nullopt}, {0.1, -1.25, 31.0, std::nullopt, std::nullopt}};
+    report.played[1].car = {{0.0, -1.5, 30.25, 1.125, -4.0}, {0.1, -1.25, 31.0, 1.25, -4.5}};
+    const json written = json::parse(report_json(report));
+    EXPECT_THAT(report_schema().check(written), IsEmpty());
+    EXPECT_EQ(written["drives"][0]["car"], json::parse(R"({"time_s": [0, 0.1], "pitch_deg": [-1.5, -1.25], "rear_lift_mm": [30.25, 31]})"));
+    EXPECT_EQ(written["drives"][1]["car"]["levelling_deg"], json({1.125, 1.25}));
+    EXPECT_EQ(written["drives"][1]["car"]["swivel_deg"], json({-4.0, -4.5}));
+}
+
+TEST(ReportSchema, ThePagePlotsTheCarBesideTheSpeed) {
+    Report report = tests::sample_report(2);
+    const auto page = [&] { return report_html(report, {}); };
+    EXPECT_THAT(page(), testing::Not(HasSubstr("Pitch of the body")));
+    report.played[0].car = {{0.0, -1.5, 30.25, std::nullopt, std::nullopt}, {0.1, -1.25, 31.0, std::nullopt, std::nullopt}};
+    report.played[1].car = {{0.0, -1.5, 30.25, 1.125, std::nullopt}, {0.1, -1.25, 31.0, 1.25, std::nullopt}};
+    const std::string shown = page();
+    EXPECT_THAT(shown, testing::AllOf(HasSubstr("Pitch of the body against the road"), HasSubstr("Lift of the body over the rear axle"),
+                                      HasSubstr("Levelling"), testing::Not(HasSubstr("Swivel"))));
+}
+
 TEST(ReportSchema, RefusesWhatIsNoReport) {
     const json good = json::parse(report_json(tests::sample_report(1)));
     const auto complaint = [&](const char* pointer, const json& value) {
