@@ -1,8 +1,11 @@
 #include "runner/lamp_command.h"
 
+#include "runner/flag_values.h"
+#include "runner/lamp_against.h"
 #include "runner/lamp_description.h"
 #include "runner/plots/isocandela.h"
 #include "runner/plots/png.h"
+#include "runner/report/json_text.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/values/errors.h"
 
@@ -62,6 +65,7 @@ void refuse_to_overwrite_input(const LampRequest& request, const std::filesystem
         return !in.empty() && std::filesystem::equivalent(in, out, ignored);
     };
     bool input = same(request.file);
+    input = input || same(request.against);
     for (const auto* list : {&request.add, &request.subtract})
         for (const auto& path : *list)
             input = input || same(path);
@@ -137,6 +141,20 @@ void add_texture_options(CLI::App& command, LampReadOptions& reading) {
     extent("--texture-v", reading.texture_v_extent_deg, "degrees of the bottom and the top edge");
 }
 
+/// In place of the description; the picture is that of the difference.
+int tell_apart(const LampFile& lamp, const LampRequest& request) {
+    if (request.spots || !request.convert.empty())
+        throw InputError({{}, 0, 0, "--against"}, "found --spots or --convert beside it", "one of them");
+    const LampFile other = read_lamp(request.against, request.reading);
+    const LampDifference difference = difference_of(lamp, other, request.noise_relative);
+    if (!request.picture.empty()) {
+        const std::string svg = plots::svg_of(difference_figure(lamp, other, difference));
+        write_file(request.picture, request.picture.extension() == ".png" ? plots::png_of_svg(svg) : svg);
+    }
+    fmt::print("{}", request.json ? json_text(difference_json(difference)) : difference_text(lamp, other, difference));
+    return 0;
+}
+
 } // namespace
 
 LampFile lamp_of(const LampRequest& request) {
@@ -167,6 +185,8 @@ int lamp_command(const LampRequest& request) {
     if (!request.picture.empty())
         refuse_to_overwrite_input(request, request.picture, "--picture");
     const LampFile lamp = lamp_of(request);
+    if (!request.against.empty())
+        return tell_apart(lamp, request);
     LampDescription description = describe(lamp);
     if (request.spots)
         description.spots = fit_spots(lamp.table, *request.spots);
@@ -193,6 +213,11 @@ void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
     command->add_option("--scale", request->scale, "multiplies the intensities")->capture_default_str();
     command->add_flag("--mirror", request->mirror, "exchanges left and right: right-hand to left-hand traffic and back");
     command->add_option("--add", request->add, "adds another lamp's light");
+    command->add_option("--against", request->against,
+                        "tells what differs from this lamp: aim, cut-off, level, zones; and what is only noise");
+    command->add_option_function<std::string>(
+        "--noise", [request](const std::string& text) { request->noise_relative = share_of("--noise", text); },
+        "with --against: standard deviation of an intensity, e.g. 1%; what the tables themselves show counts where it is larger");
     command->add_option("--subtract", request->subtract, "takes another lamp's light off; what would be negative becomes 0 and is counted");
     add_choice(*command, "--rule", request->reading.rule, {{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}},
                "between the samples: linear (in cd) or log (in log cd)");

@@ -25,6 +25,8 @@ struct LampRequest {
     std::vector<double> window;             ///< of the picture: left, right, bottom, top in degrees; empty: chosen
     std::optional<int> spots;               ///< spot lights to fit, 1 to 8
     bool json = false;
+    std::filesystem::path against; ///< a lamp to be told apart from; empty: none
+    double noise_relative = 0.0;   ///< with `against`: standard deviation of an intensity
 };
 
 /// Reads or models the lamp, then scales, mirrors, adds and subtracts, in this order. Throws InputError.

@@ -126,11 +126,12 @@ void draw_axes(Canvas& c, const Figure& f, const Area& a) {
     c.text(across, a.top + 0.5 * a.height, label_of(f.y), {.size_px = 13.0, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
 }
 
-void draw_colour_bar(Canvas& c, const Axis& axis, const Area& a) {
+void draw_colour_bar(Canvas& c, const ColourBar& bar, const Area& a) {
+    const Axis& axis = bar.axis;
     constexpr int steps = 128;
     Image<Colour> colours(1, steps);
     for (int i = 0; i < steps; ++i)
-        colours.at(0, i) = sequential(1.0 - (i + 0.5) / steps);
+        colours.at(0, i) = bar.diverging ? diverging(1.0 - 2.0 * (i + 0.5) / steps) : sequential(1.0 - (i + 0.5) / steps);
     const double left = a.right() + 18.0, width = 14.0;
     c.picture(left, a.top, width, a.height, colours);
     c.rectangle(left, a.top, width, a.height, {.stroke = css(ink)});
@@ -333,7 +334,7 @@ std::string svg_of(const Figure& f) {
     draw_axes(canvas, f, area);
     draw_heading(canvas, f, legend, area);
     if (f.colour_bar)
-        draw_colour_bar(canvas, f.colour_bar->axis, area);
+        draw_colour_bar(canvas, *f.colour_bar, area);
     return canvas.finish();
 }
 
@@ -343,6 +344,15 @@ Image<Colour> heat_map(const Image<float>& values, const Axis& axis, Colour miss
         const auto value = static_cast<double>(values.pixels()[i]);
         const double t = position(axis, value);
         pixels.pixels()[i] = !std::isfinite(value) ? missing : sequential(std::isfinite(t) ? t : 0.0);
+    }
+    return pixels;
+}
+
+Image<Colour> difference_map(const Image<float>& values, const Axis& axis, Colour missing) {
+    Image<Colour> pixels(values.width(), values.height());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double t = position(axis, static_cast<double>(values.pixels()[i]));
+        pixels.pixels()[i] = std::isfinite(t) ? diverging(2.0 * t - 1.0) : missing;
     }
     return pixels;
 }

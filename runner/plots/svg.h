@@ -63,9 +63,11 @@ struct Note {
     bool cross = false; ///< a small cross at the point itself
 };
 
-/// The key to a heat map: what its colours mean, along an axis. Colours as by sequential() over the axis' positions.
+/// The key to a heat map: what its colours mean, along an axis. Colours as by sequential() over the axis' positions, or by diverging() with
+/// white in the axis' middle.
 struct ColourBar {
     Axis axis;
+    bool diverging = false;
 };
 
 struct Figure {
@@ -92,5 +94,8 @@ std::string svg_of(const Figure& figure);
 /// A grid of values as pixels, row 0 on top, by sequential() over the axis; a value that is not finite becomes `missing`, one that
 /// has no place on a logarithmic axis the darkest colour.
 Image<Colour> heat_map(const Image<float>& values, const Axis& axis, Colour missing = {200, 200, 200});
+
+/// The same by diverging(): white in the axis' middle.
+Image<Colour> difference_map(const Image<float>& values, const Axis& axis, Colour missing = {200, 200, 200});
 
 } // namespace fernlicht::plots

@@ -174,5 +174,28 @@ TEST_F(LampCommand, AFileThatIsReadIsNeverOverwritten) {
     EXPECT_TRUE(content(copy) == before);
 }
 
+TEST_F(LampCommand, TellsWhatDiffersFromAnotherLamp) {
+    LampRequest request = shipped("halogen-low");
+    request.against = request.file;
+    EXPECT_THAT(printed(request), HasSubstr("no difference beyond noise"));
+    request.json = true;
+    EXPECT_EQ(nlohmann::json::parse(printed(request)).at("differs"), false);
+    request.scale = 0.97;
+    request.picture = folder_ / "difference.svg";
+    const nlohmann::json told = nlohmann::json::parse(printed(request));
+    EXPECT_NEAR(told.at("level_share").at("value").get<double>(), -0.03, 1e-4);
+    EXPECT_EQ(told.at("zones").size(), 0U);
+    EXPECT_THAT(content(request.picture), HasSubstr("dimmer all over"));
+    request.spots = 3;
+    EXPECT_THAT(refusal(request), HasSubstr("--against: found --spots or --convert beside it"));
+}
+
+TEST_F(LampCommand, RefusesToCompareWithDarkness) {
+    LampRequest request = shipped("halogen-low");
+    request.against = request.file;
+    request.scale = 0.0;
+    EXPECT_THAT(refusal(request), HasSubstr("found no light in it"));
+}
+
 } // namespace
 } // namespace fernlicht

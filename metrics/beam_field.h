@@ -1,0 +1,47 @@
+// A lamp's table as a field of log intensity that can be asked between its samples, with the error of asking there.
+#pragma once
+
+#include "scenarios/lamps/candela_table.h"
+
+namespace fernlicht {
+
+/// Natural logarithm of the intensity at a direction, of floor_cd where there is less.
+struct FieldValue {
+    double log_cd = 0.0;      ///< cubic through four samples a side
+    double uncertainty = 0.0; ///< how far linear in log cd and linear in cd lie from that: what interpolation leaves open; 0 on the samples
+};
+
+/// How a whole beam was turned: as its table's angles shift, or as a lamp turns on its mount. They differ far from the axis alone.
+enum class BeamTurn { angles_shifted, lamp_rotated };
+
+struct BeamShift {
+    double right_deg = 0.0, up_deg = 0.0;
+    BeamTurn turn = BeamTurn::angles_shifted;
+};
+
+class BeamField {
+  public:
+    /// `floor_cd` above 0 keeps the logarithm finite where there is no light. The table must hold its invariants.
+    BeamField(const CandelaTable& table, double floor_cd);
+
+    const CandelaTable& table() const { return *table_; }
+    /// At the samples exactly what the table has. Directions outside the axes take the edge's value: ask `has` first.
+    FieldValue at(double h_deg, double v_deg) const;
+    bool has(double h_deg, double v_deg) const { return has_data(*table_, h_deg, v_deg); }
+    double node(std::size_t v, std::size_t h) const { return log_cd_[v * table_->h_deg.size() + h]; }
+    /// d log / d h and d log / d v at a sample, by central differences between its neighbours.
+    std::pair<double, double> gradient(std::size_t v, std::size_t h) const;
+
+  private:
+    const CandelaTable* table_;
+    double floor_cd_;
+    std::vector<double> log_cd_;
+};
+
+/// Where the light that a shifted beam sends to (h, v) lies in the beam as it was.
+std::pair<double, double> before_shift(double h_deg, double v_deg, const BeamShift& shift);
+
+/// The step to which the table's intensities are rounded, a power of ten in cd; 0 when they are not.
+double rounding_of(const CandelaTable& table);
+
+} // namespace fernlicht

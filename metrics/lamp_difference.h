@@ -1,0 +1,51 @@
+// What differs between two lamps' beams, and what is no more than noise: aim, cut-off, level, zones.
+//
+// Both tables are compared in log intensity at the samples of the tested one. First the noise: what two tables of the same lamp would
+// differ by, from their rounding, from what the user says, and from how much neighbouring differences scatter. Then the smallest claim that
+// explains the rest: nothing; the whole beam aimed otherwise (a shift of all its light); the cut-off moved while the light below stays (the
+// band of 0.5 degrees round it fitted apart from the light more than 1 degree below); the whole beam brighter or dimmer; and last the zones
+// that are left. A shift or a level is claimed when it lies beyond `z_limit` standard errors and the directions claimed as zones shrink by
+// it.
+#pragma once
+
+#include "metrics/beam_shift.h"
+#include "metrics/beam_zones.h"
+
+#include <string>
+
+namespace fernlicht {
+
+struct LampDifferenceOptions {
+    /// Standard deviation of a sample of either table, relative. The estimate from the tables comes on top where it is larger. A tolerance
+    /// of
+    /// +-a is a / sqrt(3) when all within it is as likely.
+    double noise_relative = 0.0;
+    double false_claim_chance = 0.01; ///< of any claim at all between two tables of one lamp
+};
+
+struct Measured {
+    double value = 0.0, uncertainty = 0.0; ///< standard error
+};
+
+struct LampDifference {
+    std::size_t directions = 0;  ///< samples compared: both tables have data, and either has at least 1/1000 of the peak
+    double noise_relative = 0.0; ///< standard deviation of one difference where the beam has more than a tenth of its peak
+    double z_limit = 0.0;
+    double floor_cd = 0.0;                             ///< light below this is not compared
+    std::optional<Measured> aim_up_deg, aim_right_deg; ///< the whole beam, where claimed; both or neither
+    std::optional<Measured> cut_off_up_deg;            ///< over the light below it, where claimed
+    std::optional<Measured> level;                     ///< share: +0.03 is 3 % brighter all over; where claimed
+    std::vector<BeamZone> zones;                       ///< clearest first
+    std::string not_told;                              ///< what could not be told apart, if anything: one sentence
+
+    bool any() const { return aim_up_deg || cut_off_up_deg || level || !zones.empty(); }
+};
+
+/// `tested` against `against`, both with light. Throws std::invalid_argument for a table without light and options out of range (noise
+/// 0..1, chance above 0 and below 1). The same tables give the same bytes.
+LampDifference compare_lamps(const CandelaTable& tested, const CandelaTable& against, const LampDifferenceOptions& options = {});
+
+/// One sentence each, the aim first; "no difference beyond noise" when nothing is claimed.
+std::vector<std::string> sentences_of(const LampDifference& difference);
+
+} // namespace fernlicht

@@ -1,0 +1,23 @@
+// Two lamps told apart: as text, as JSON, as a picture.
+#pragma once
+
+#include "metrics/lamp_difference.h"
+#include "runner/plots/svg.h"
+#include "scenarios/lamps/lamp_file.h"
+
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+
+/// Throws InputError naming the lamp that has no light.
+LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative);
+
+std::string difference_text(const LampFile& tested, const LampFile& against, const LampDifference& difference);
+/// Figures with units in their names; null where nothing is claimed.
+nlohmann::ordered_json difference_json(const LampDifference& difference);
+
+/// Tested over against, less 1, in per cent over H and V: blue is dimmer, orange brighter, grey not compared. As they are, with no shift
+/// undone; frames are the zones that are claimed.
+plots::Figure difference_figure(const LampFile& tested, const LampFile& against, const LampDifference& difference);
+
+} // namespace fernlicht

@@ -1,0 +1,185 @@
+// Lamps made from the shipped tables, with what was done to them known: each change found and named, nothing else claimed.
+#include "metrics/lamp_difference.h"
+
+#include "scenarios/lamps/lamp_file.h"
+#include "scenarios/lamps/lamp_model.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace fernlicht {
+namespace {
+
+CandelaTable shipped(const std::string& name) { return read_lamp(FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/" + name + ".ies").table; }
+
+/// Each sample up to `share` more or less, all as likely.
+CandelaTable with_noise(CandelaTable table, double share, unsigned seed) {
+    std::mt19937 random(seed);
+    for (double& cd : table.cd)
+        cd *= 1.0 + share * (2.0 * (static_cast<double>(random()) / 4294967295.0) - 1.0);
+    return table;
+}
+
+struct Zone {
+    double left, right, bottom, top;
+};
+
+CandelaTable dimmed(CandelaTable table, const Zone& zone, double factor) {
+    for (std::size_t v = 0; v < table.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
+            if (table.h_deg[h] >= zone.left && table.h_deg[h] <= zone.right && table.v_deg[v] >= zone.bottom && table.v_deg[v] <= zone.top)
+                table.at(v, h) *= factor;
+    return table;
+}
+
+/// The same table with its angles shifted.
+CandelaTable aimed(CandelaTable table, double right_deg, double up_deg) {
+    for (double& h : table.h_deg)
+        h += right_deg;
+    for (double& v : table.v_deg)
+        v += up_deg;
+    return table;
+}
+
+/// The light near and above the cut-off moved up, more than 1 degree below it as it was, between both a gradual stretch.
+CandelaTable raised_cut_off(const CandelaTable& table, double up_deg) {
+    CandelaTable out = table;
+    for (std::size_t v = 0; v < table.v_deg.size(); ++v) {
+        const double part = std::clamp((table.v_deg[v] + 0.57 + 1.2) / 0.8, 0.0, 1.0);
+        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
+            out.at(v, h) = intensity_cd(table, table.h_deg[h], table.v_deg[v] - part * up_deg);
+    }
+    return out;
+}
+
+/// Every second row and column.
+CandelaTable thinned(const CandelaTable& table) {
+    CandelaTable out;
+    out.rule = table.rule;
+    for (std::size_t h = 0; h < table.h_deg.size(); h += 2)
+        out.h_deg.push_back(table.h_deg[h]);
+    for (std::size_t v = 0; v < table.v_deg.size(); v += 2) {
+        out.v_deg.push_back(table.v_deg[v]);
+        for (std::size_t h = 0; h < table.h_deg.size(); h += 2)
+            out.cd.push_back(table.at(v, h));
+    }
+    return out;
+}
+
+/// The lamp turned on its mount, upwards, measured over the same angles again.
+CandelaTable pitched(const CandelaTable& table, double up_deg) {
+    CandelaTable out = table;
+    for (std::size_t v = 0; v < table.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < table.h_deg.size(); ++h) {
+            const double pitch = up_deg * 0.017453292519943295, a = table.h_deg[h] * 0.017453292519943295,
+                         b = table.v_deg[v] * 0.017453292519943295;
+            const double x = std::cos(b) * std::sin(a), y = std::sin(b), z = std::cos(b) * std::cos(a);
+            const double y_back = y * std::cos(pitch) - z * std::sin(pitch), z_back = y * std::sin(pitch) + z * std::cos(pitch);
+            out.at(v, h) = intensity_cd(table, std::atan2(x, z_back) / 0.017453292519943295, std::asin(y_back) / 0.017453292519943295);
+        }
+    return out;
+}
+
+std::string said(const LampDifference& difference) {
+    std::string text;
+    for (const std::string& sentence : sentences_of(difference))
+        text += sentence + "\n";
+    return text;
+}
+
+class LampDifferenceOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(LampDifferenceOf, AnEqualLampIsNone) {
+    const CandelaTable lamp = shipped(GetParam());
+    EXPECT_FALSE(compare_lamps(lamp, lamp).any());
+}
+
+TEST_P(LampDifferenceOf, AZoneFivePercentDimmerIsFoundWithinADegree) {
+    const CandelaTable lamp = shipped(GetParam());
+    const Zone zone{-8.0, -3.0, -4.0, -1.5};
+    for (const double noise : {0.0, 0.01}) {
+        const LampDifference found = compare_lamps(with_noise(dimmed(lamp, zone, 0.95), noise, 1), lamp);
+        EXPECT_FALSE(found.aim_up_deg || found.cut_off_up_deg || found.level) << noise << "\n" << said(found);
+        ASSERT_EQ(found.zones.size(), 1U) << noise << "\n" << said(found);
+        const BeamZone& got = found.zones.front();
+        EXPECT_NEAR(got.h_from_deg, zone.left, 1.0);
+        EXPECT_NEAR(got.h_to_deg, zone.right, 1.0);
+        EXPECT_NEAR(got.v_from_deg, zone.bottom, 1.0);
+        EXPECT_NEAR(got.v_to_deg, zone.top, 1.0);
+        EXPECT_NEAR(got.share, -0.05, 0.003);
+    }
+}
+
+TEST_P(LampDifferenceOf, AnAimIsFoundAndNothingElse) {
+    const CandelaTable lamp = shipped(GetParam());
+    for (const double noise : {0.0, 0.01}) {
+        const LampDifference found = compare_lamps(with_noise(aimed(lamp, 0.0, 0.3), noise, 2), lamp);
+        ASSERT_TRUE(found.aim_up_deg) << noise << "\n" << said(found);
+        EXPECT_NEAR(found.aim_up_deg->value, 0.3, 0.01); // asked for: 0.05
+        EXPECT_NEAR(found.aim_right_deg->value, 0.0, 0.02);
+        EXPECT_FALSE(found.cut_off_up_deg || found.level || !found.zones.empty()) << noise << "\n" << said(found);
+    }
+}
+
+TEST_P(LampDifferenceOf, ALampTurnedOnItsMountIsAnAim) {
+    const CandelaTable lamp = shipped(GetParam());
+    const LampDifference found = compare_lamps(with_noise(pitched(lamp, -0.3), 0.01, 5), lamp);
+    ASSERT_TRUE(found.aim_up_deg) << said(found);
+    EXPECT_NEAR(found.aim_up_deg->value, -0.3, 0.01);
+    EXPECT_FALSE(found.cut_off_up_deg || found.level || !found.zones.empty()) << said(found);
+}
+
+TEST_P(LampDifferenceOf, AnAimAndADimmerZoneAreBothFound) {
+    const CandelaTable lamp = shipped(GetParam());
+    const LampDifference found = compare_lamps(with_noise(aimed(dimmed(lamp, {-8.0, -3.0, -4.0, -1.5}, 0.95), 0.2, -0.1), 0.01, 6), lamp);
+    ASSERT_TRUE(found.aim_up_deg) << said(found);
+    EXPECT_NEAR(found.aim_up_deg->value, -0.1, 0.01);
+    EXPECT_NEAR(found.aim_right_deg->value, 0.2, 0.02);
+    ASSERT_EQ(found.zones.size(), 1U) << said(found);
+    EXPECT_NEAR(found.zones.front().share, -0.05, 0.005);
+}
+
+/// Another laboratory's angles: a coarser or finer table of the same lamp.
+TEST_P(LampDifferenceOf, OtherAnglesOfTheSameLampAreNone) {
+    const CandelaTable lamp = shipped(GetParam()), coarse = thinned(lamp);
+    for (const LampDifference& found :
+         {compare_lamps(lamp, coarse), compare_lamps(coarse, lamp), compare_lamps(with_noise(lamp, 0.01, 7), coarse)})
+        EXPECT_FALSE(found.any()) << said(found);
+}
+
+TEST_P(LampDifferenceOf, ARaisedCutOffIsNoAim) {
+    const CandelaTable lamp = shipped(GetParam());
+    for (const double noise : {0.0, 0.01}) {
+        const LampDifference found = compare_lamps(with_noise(raised_cut_off(lamp, 0.2), noise, 3), lamp);
+        ASSERT_TRUE(found.cut_off_up_deg) << noise << "\n" << said(found);
+        EXPECT_NEAR(found.cut_off_up_deg->value, 0.2, 0.05);
+        EXPECT_FALSE(found.aim_up_deg || found.level || !found.zones.empty()) << noise << "\n" << said(found);
+    }
+}
+
+TEST_P(LampDifferenceOf, MoreLightAllOverIsALevel) {
+    const CandelaTable lamp = shipped(GetParam());
+    const LampDifference found = compare_lamps(with_noise(scaled(lamp, 1.03), 0.01, 4), lamp);
+    ASSERT_TRUE(found.level) << said(found);
+    EXPECT_NEAR(found.level->value, 0.03, 0.001);
+    EXPECT_FALSE(found.aim_up_deg || found.cut_off_up_deg || !found.zones.empty()) << said(found);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, LampDifferenceOf, testing::Values("halogen-low", "xenon-low"));
+
+// At most 1 % of pairs may have a claim. Were it just that, 200 pairs would have more than 7 with a chance of 0.1 % (binomial).
+TEST(LampDifference, NoiseAloneIsNoDifference) {
+    const CandelaTable lamp = thinned(shipped("halogen-low")); // a quarter of the time
+    int claims = 0;
+    std::string what;
+    for (unsigned seed = 0; seed < 200; ++seed)
+        if (const LampDifference found = compare_lamps(with_noise(lamp, 0.01, seed), lamp); found.any()) {
+            ++claims;
+            what += said(found);
+        }
+    EXPECT_LE(claims, 7) << what;
+}
+
+} // namespace
+} // namespace fernlicht
