@@ -10,9 +10,9 @@ namespace {
 
 void check(const ComparedPixel& p) {
     if (!std::isfinite(p.tested) || !std::isfinite(p.reference) || !(p.standard_error >= 0.0 && std::isfinite(p.standard_error)) ||
-        !(p.area_m2 >= 0.0 && std::isfinite(p.area_m2)))
+        (p.area_m2 && !(*p.area_m2 >= 0.0 && std::isfinite(*p.area_m2))))
         throw std::invalid_argument(fmt::format("pixel {}, {} of picture {}: {} against {} +- {} over {} m2 cannot be compared", p.x, p.y,
-                                                p.picture, p.tested, p.reference, p.standard_error, p.area_m2));
+                                                p.picture, p.tested, p.reference, p.standard_error, p.area_m2.value_or(0.0)));
 }
 
 ErrorQuantiles quantiles_of(std::vector<float> values) {
@@ -44,15 +44,20 @@ void PixelErrorFold::add(const ComparedPixel& p) {
         dark_floors_.push_back(static_cast<float>(noise));
         return;
     }
+    if (!errors_.empty() && p.area_m2.has_value() == (without_area_ > 0))
+        throw std::invalid_argument(
+            fmt::format("pixel {}, {} of picture {} has {} area, and others are not so", p.x, p.y, p.picture, p.area_m2 ? "an" : "no"));
     const double error = difference / p.reference;
     keep_worse(so_far_.worst, error, p, errors_.empty());
     errors_.push_back(static_cast<float>(error));
     floors_.push_back(static_cast<float>(noise / p.reference));
     signed_sum_ += (p.tested - p.reference) / p.reference;
-    so_far_.area_m2 += p.area_m2;
+    const double weight = p.area_m2.value_or(1.0);
+    sum_ += weight;
+    without_area_ += p.area_m2 ? 0U : 1U;
     for (std::size_t i = 0; i < counted_errors.size(); ++i)
         if (difference > counted_errors[i] * p.reference + noise)
-            beyond_m2_[i] += p.area_m2;
+            beyond_[i] += weight;
 }
 
 std::optional<PixelErrors> PixelErrorFold::finish() const {
@@ -66,8 +71,10 @@ std::optional<PixelErrors> PixelErrorFold::finish() const {
     all.dark_error = quantiles_of(dark_errors_);
     all.dark_floor = quantiles_of(dark_floors_);
     all.mean = errors_.empty() ? 0.0 : signed_sum_ / static_cast<double>(errors_.size());
-    for (std::size_t i = 0; i < beyond_m2_.size(); ++i)
-        all.percent_beyond[i] = all.area_m2 > 0.0 ? 100.0 * beyond_m2_[i] / all.area_m2 : 0.0;
+    if (without_area_ == 0)
+        all.area_m2 = sum_;
+    for (std::size_t i = 0; i < beyond_.size(); ++i)
+        all.percent_beyond[i] = sum_ > 0.0 ? 100.0 * beyond_[i] / sum_ : 0.0;
     return all;
 }
 

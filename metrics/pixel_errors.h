@@ -12,8 +12,8 @@ namespace fernlicht {
 /// One pixel held against the reference, in the picture's unit (lx, cd/m2).
 struct ComparedPixel {
     double tested = 0.0, reference = 0.0;
-    double standard_error = 0.0; ///< of `reference`
-    double area_m2 = 1.0;        ///< of the surface that the pixel shows; 0: takes no part in shares of area
+    double standard_error = 0.0;   ///< of `reference`
+    std::optional<double> area_m2; ///< of the surface that the pixel shows; 0: takes no part in shares of area; nullopt: pixels are counted
     int picture = 0, x = 0, y = 0;
 };
 
@@ -45,8 +45,8 @@ struct PixelErrors {
     ErrorQuantiles floor;                   ///< of sure * standard error / reference: errors below are the reference's own
     double mean = 0.0;                      ///< signed, over the pixels: above 0 the picture is too bright
     WorstPixel worst;                       ///< the largest error
-    double area_m2 = 0.0;                   ///< together
-    std::array<double, 3> percent_beyond{}; ///< of that area, beyond counted_errors by more than the noise; 0 without area
+    std::optional<double> area_m2;          ///< together; nullopt where the pixels came without areas
+    std::array<double, 3> percent_beyond{}; ///< of that area, else of the pixels, beyond counted_errors by more than the noise; 0 of 0 m2
     // Where it is less; in the picture's unit.
     std::size_t dark_pixels = 0;
     ErrorQuantiles dark_error, dark_floor;
@@ -60,7 +60,8 @@ class PixelErrorFold {
   public:
     explicit PixelErrorFold(const ErrorRule& rule = {}) : rule_(rule) {}
 
-    /// Throws std::invalid_argument for a value that is not finite or an error or area below 0, naming the pixel.
+    /// Either all pixels have an area or none has. Throws std::invalid_argument for a value that is not finite, an error or area below 0,
+    /// and a pixel with an area among others without, naming the pixel.
     void add(const ComparedPixel& pixel);
     /// nullopt where no pixel was compared.
     std::optional<PixelErrors> finish() const;
@@ -69,7 +70,9 @@ class PixelErrorFold {
     ErrorRule rule_;
     PixelErrors so_far_;
     double signed_sum_ = 0.0;
-    std::array<double, 3> beyond_m2_{};
+    std::size_t without_area_ = 0;   ///< of the pixels in errors_
+    double sum_ = 0.0;               ///< m2 or pixels
+    std::array<double, 3> beyond_{}; ///< of these
     std::vector<float> errors_, floors_, dark_errors_, dark_floors_;
 };
 

@@ -16,6 +16,8 @@ bool dominates(const WorkPrecisionRow& a, const WorkPrecisionRow& b) {
 bool surely_dominates(const WorkPrecisionRow& a, const WorkPrecisionRow& b) {
     const bool more_precise = std::max(a.error->high, a.floor) < b.error->low, as_precise = a.claimed_error() == b.claimed_error();
     const bool faster = a.seconds->high < b.seconds->low, as_fast = *a.seconds == *b.seconds;
+    if (std::min(a.seconds->samples, b.seconds->samples) < fewest_timings)
+        return false;
     return (more_precise && (faster || as_fast)) || (as_precise && faster);
 }
 

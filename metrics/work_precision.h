@@ -13,6 +13,8 @@ namespace fernlicht {
 /// A figure with the interval that it was found in: low <= value <= high.
 struct Interval {
     double value = 0.0, low = 0.0, high = 0.0;
+    std::size_t samples = 0; ///< of a repeated measurement: how many; 0 for what was not repeated
+    bool of_median = false;  ///< low to high holds the median of what the samples were drawn from with 95 %; else from least to most
     bool operator==(const Interval&) const = default;
 };
 
@@ -46,9 +48,14 @@ struct WorkPrecision {
 struct Standing {
     bool on_front = false; ///< measured, and nobody is
     std::optional<std::size_t>
-        dominated_by;    ///< the row on the front that is, with the least error; of equals the fastest, of those the first
-    bool surely = false; ///< and in both it is either the same or better by more than both intervals
+        dominated_by; ///< the row on the front that is, with the least error; of equals the fastest, of those the first
+    /// And in both it is either the same or better by more than both intervals, with at least fewest_timings of either.
+    bool surely = false;
 };
+/// Samples of times of which all of one lie below all of the other by chance in at most one of twenty cases (3! 3! / 6!). Fewer tell
+/// nothing surely.
+inline constexpr std::size_t fewest_timings = 3;
+
 /// One for each row, in their order. Rows that are not measured have no standing. Equal rows do not dominate one another.
 std::vector<Standing> standings(const std::vector<WorkPrecisionRow>& rows);
 

@@ -83,6 +83,8 @@ int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     fmt::print("{}\n{}\n", accuracy_text(result), (request.folder / "accuracy.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
+    for (const std::string& missing : result.missing)
+        fmt::print("missing: {}\n", missing);
     const bool measured = std::ranges::any_of(result.diagrams, [](const WorkPrecision& diagram) {
         return std::ranges::any_of(diagram.rows, [](const WorkPrecisionRow& row) { return row.measured(); });
     });

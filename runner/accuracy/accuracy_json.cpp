@@ -1,5 +1,6 @@
 #include "runner/accuracy/accuracy_result.h"
 #include "runner/accuracy/errors_json.h"
+#include "runner/accuracy/figures.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
 
@@ -43,6 +44,7 @@ Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& d
             {"shadow_map", {{"width", c.shadow_width}, {"height", c.shadow_height}}},
             {"beams", beams_text(c.beams)},
             {"varied", text_or_null(c.varied)},
+            {"moments", found.moments},
             {"road", errors_json(found.road, found.no_illuminance, frames)},
             {"road_p95_by_moment", found.road_p95},
             {"whole_view", errors_json(found.whole, found.no_illuminance, frames)},
@@ -92,6 +94,14 @@ Json interval_json(const std::optional<Interval>& interval) {
     return interval ? Json{{"value", interval->value}, {"low", interval->low}, {"high", interval->high}} : Json(nullptr);
 }
 
+/// A time: what its interval is depends on how often it was taken.
+Json time_json(const std::optional<Interval>& time) {
+    Json out = interval_json(time);
+    if (time)
+        out.update({{"timings", time->samples}, {"interval", text_or_null(interval_name(*time))}});
+    return out;
+}
+
 Json diagram_json(const WorkPrecision& diagram) {
     const std::vector<Standing> standing = standings(diagram.rows);
     Json rows = Json::array();
@@ -103,7 +113,7 @@ Json diagram_json(const WorkPrecision& diagram) {
         rows.push_back({{"label", row.label},
                         {"parameters", parameters},
                         {"error", interval_json(row.error)},
-                        {"seconds", interval_json(row.seconds)},
+                        {"seconds", time_json(row.seconds)},
                         {"floor", row.floor},
                         {"below_floor", row.below_floor()},
                         {"bytes", row.bytes ? Json(*row.bytes) : Json(nullptr)},
@@ -153,6 +163,7 @@ std::string accuracy_json(const AccuracyResult& result) {
              {"schema_version", 1},
              {"context", context_json(result)},
              {"interrupted", text_or_null(result.interrupted)},
+             {"missing", result.missing},
              {"settings", {{"rounds", result.rounds}, {"target_error", result.target_error}, {"most_samples", result.most_samples}}},
              {"drives", drives},
              {"diagrams", diagrams}});

@@ -27,6 +27,12 @@ data row_part(const WorkPrecision& diagram, std::size_t i, const Standing& stand
     return part;
 }
 
+std::string capitalised(std::string text) {
+    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+        text.front() = static_cast<char>(text.front() - 'a' + 'A');
+    return text;
+}
+
 data diagram_part(const WorkPrecision& diagram) {
     data part, rows{List::list}, notes{List::list};
     const std::vector<Standing> standing = standings(diagram.rows);
@@ -37,7 +43,7 @@ data diagram_part(const WorkPrecision& diagram) {
     for (std::size_t i = 0; i < diagram.rows.size(); ++i)
         rows.push_back(row_part(diagram, i, standing[i]));
     for (const std::string& note : diagram.notes)
-        notes.push_back(clean_text(note));
+        notes.push_back(capitalised(clean_text(note)));
     part.set("rows", rows);
     part.set("notes", notes);
     return part;
@@ -118,6 +124,11 @@ std::string accuracy_html(const AccuracyResult& result) {
     page.set("started", clean_text(result.context.started_utc));
     page.set("interrupted", clean_text(result.interrupted));
     page.set("is_interrupted", !result.interrupted.empty());
+    data missing{List::list};
+    for (const std::string& what : result.missing)
+        missing.push_back(clean_text(what));
+    page.set("has_missing", !result.missing.empty());
+    page.set("missing", missing);
     page.set("diagrams", diagrams);
     page.set("drives", drives);
     page.set("context", context_part(result.context));

@@ -29,6 +29,7 @@ struct ReachError {
 
 struct ConfigurationResult {
     Configuration configuration;
+    std::size_t moments = 0;                             ///< compared
     std::string no_illuminance, no_target, no_luminance; ///< why there are no errors; "" where there are
     std::optional<PixelErrors> road, whole, target, luminance;
     std::vector<double> road_p95; ///< of each moment with lit road
@@ -65,6 +66,7 @@ struct DriveAccuracy {
     std::vector<ConfigurationResult> configurations;
     std::vector<Simplification> simplifications;
     std::optional<TwinAgreement> twin; ///< where photometric took part
+    std::vector<std::string> missing;  ///< what was not measured because the sweep was ended, one clause each
 };
 
 struct AccuracyResult {
@@ -74,15 +76,17 @@ struct AccuracyResult {
     int most_samples = 0;
     OtherUse others; ///< while times were taken
     std::string interrupted;
+    std::vector<std::string> missing; ///< what was not measured because of that, one sentence each
     std::vector<DriveAccuracy> drives;
     std::vector<WorkPrecision> diagrams;
 };
 
-/// Median of samples with its 95 % interval; of fewer than six samples from the least to the most. nullopt for none.
+/// Median of samples with its 95 % interval; of fewer than six samples from the least to the most, and the interval says so. nullopt for
+/// none.
 std::optional<Interval> time_of(const std::vector<double>& seconds);
 
 /// At one resolution: error of illuminance on the road (95 % of the pixels) over time a frame; bars: the moments' least and most, the
-/// median's 95 % interval.
+/// median's 95 % interval or, of fewer than six rounds, their least and most.
 WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px);
 /// The same ways at more than one resolution: worst error of reach over time a frame.
 WorkPrecision resolutions_diagram(const DriveAccuracy& drive);

@@ -28,25 +28,39 @@ bool asked_for(const AccuracyRequest& request, const char* diagram) {
 
 void add_sweep(const AccuracyRequest& request, const Stage& stage, Device& device, AccuracyResult& result) {
     std::optional<Progress> progress;
-    result.drives.push_back(sweep_techniques(stage, device, request.sweep, [&](std::size_t done, std::size_t all, const std::string&) {
-        if (!progress)
-            progress.emplace("accuracy of " + stage.drive.name, static_cast<int>(all), request.quiet, "steps");
-        progress->done(static_cast<int>(done));
-        return !Interruption::asked();
-    }));
+    int steps = 0;
+    result.drives.push_back(sweep_techniques(
+        stage, device, request.sweep,
+        [&](std::size_t done, std::size_t all, const std::string&) {
+            steps = static_cast<int>(all);
+            if (!progress)
+                progress.emplace("accuracy of " + stage.drive.name, steps, request.quiet, "steps");
+            progress->done(static_cast<int>(done));
+            return !Interruption::asked();
+        },
+        Interruption::asked));
+    if (result.drives.back().missing.empty())
+        progress->done(steps);
     std::ranges::move(sweep_diagrams(result.drives.back()), std::back_inserter(result.diagrams));
 }
 
 /// Each on the middle or some moments of the drive.
 void add_studies(const AccuracyRequest& request, const Stage& stage, Device& device, AccuracyResult& result) {
     const Variant& variant = variant_of(stage.drive, request.sweep.variant);
-    const StudyGoesOn go_on = [] { return !Interruption::asked(); };
-    const auto add = [&](const char* name, auto study) {
-        if (asked_for(request, name) && go_on())
-            result.diagrams.push_back(study());
+    bool ended = false; // whether the study at hand was told to end
+    const StudyGoesOn go_on = [&ended] { return !(ended = Interruption::asked()); };
+    const auto add_all = [&](const char* name, auto study) {
+        if (!asked_for(request, name))
+            return;
+        const bool begun = go_on();
+        if (begun)
+            std::ranges::move(study(), std::back_inserter(result.diagrams));
+        if (ended)
+            result.missing.push_back(
+                fmt::format("diagram {} of {}: {}", name, stage.drive.name, begun ? "ended before its last row" : "not begun"));
     };
-    if (asked_for(request, "reference") && go_on())
-        std::ranges::move(reference_study(stage, variant, request.sweep.seed, go_on), std::back_inserter(result.diagrams));
+    const auto add = [&](const char* name, auto study) { add_all(name, [&] { return std::vector<WorkPrecision>{study()}; }); };
+    add_all("reference", [&] { return reference_study(stage, variant, request.sweep.seed, go_on); });
     add("classical", [&] {
         const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
         ClassicalStudy study;
@@ -88,12 +102,23 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     for (const Stage& stage : stages) {
         add_inputs(result.context.inputs, stage.drive.opened);
         add_inputs(result.context.inputs, stage.network.opened);
-        if (asked_for(request, "techniques") && !Interruption::asked())
-            add_sweep(request, stage, device, result);
+        if (asked_for(request, "techniques")) {
+            if (!Interruption::asked())
+                add_sweep(request, stage, device, result);
+            else
+                result.missing.push_back(fmt::format("drive {}: not begun", stage.drive.name));
+        }
         add_studies(request, stage, device, result);
     }
-    if (asked_for(request, "solvers") && !Interruption::asked())
-        std::ranges::move(solver_diagrams(study_solvers()), std::back_inserter(result.diagrams));
+    if (asked_for(request, "solvers")) {
+        if (!Interruption::asked())
+            std::ranges::move(solver_diagrams(study_solvers()), std::back_inserter(result.diagrams));
+        else
+            result.missing.emplace_back("diagram solvers: not begun");
+    }
+    for (const DriveAccuracy& drive : result.drives)
+        for (const std::string& missing : drive.missing)
+            result.missing.push_back(fmt::format("drive {}: {}", drive.drive, missing));
     result.others = other_use(before, cpu_use(), ::getpid());
     if (Interruption::asked())
         result.interrupted = "interrupted by the user";

@@ -57,7 +57,7 @@ WorkPrecisionRow row_of(const std::string& label, const std::vector<Direction>& 
     PixelErrorFold fold(ErrorRule{1e-300});
     const Made made = make();
     for (const Direction& direction : directions)
-        fold.add({looked_up_cd(made, direction), direction.cd, 0.0, 1.0, 0, 0, 0});
+        fold.add({looked_up_cd(made, direction), direction.cd, 0.0, {}, 0, 0, 0});
     WorkPrecisionRow row;
     row.label = label;
     if (const auto errors = fold.finish())

@@ -60,6 +60,7 @@ PixelErrors errors_of(const ReferenceImage& tested, const ReferenceImage& truth)
                 fold.add({.tested = tested.illuminance_lx.mean.at(x, y),
                           .reference = mean.at(x, y),
                           .standard_error = error.at(x, y),
+                          .area_m2 = {},
                           .x = x,
                           .y = y});
     return fold.finish().value_or(PixelErrors{});
@@ -86,7 +87,7 @@ WorkPrecisionRow row_of(const Way& way, const ReferenceImage& image, const Refer
     }
     const double p95 = 100.0 * errors.error.p95;
     row.error = Interval{p95, p95, p95};
-    row.seconds = Interval{image.seconds, image.seconds, image.seconds};
+    row.seconds = Interval{image.seconds, image.seconds, image.seconds, 1};
     return row;
 }
 

@@ -27,8 +27,9 @@ Json errors_json(const std::optional<PixelErrors>& errors, const std::string& wh
         out["relative_floor"] = quantiles_json(errors->floor);
         out["mean"] = errors->mean;
         out["worst"] = worst_json(errors->worst, frames);
-        out["area_m2"] = errors->area_m2;
-        out["percent_of_area_beyond"] = {
+        if (errors->area_m2)
+            out["area_m2"] = *errors->area_m2;
+        out[errors->area_m2 ? "percent_of_area_beyond" : "percent_of_pixels_beyond"] = {
             {"1", errors->percent_beyond[0]}, {"5", errors->percent_beyond[1]}, {"20", errors->percent_beyond[2]}};
     }
     if (errors->dark_pixels > 0) {

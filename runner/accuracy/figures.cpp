@@ -29,6 +29,21 @@ std::string time_text(double seconds) {
                            : fmt::format("{:.1f} s", seconds);
 }
 
+std::string interval_name(const Interval& time) {
+    if (time.samples == 0)
+        return "";
+    return time.samples == 1 ? "one timing" : time.of_median ? "95 % interval of the median" : "least to most";
+}
+
+std::string timings_text(const Interval& time) {
+    if (time.samples <= 1)
+        return "of one round, whose spread is unknown: nobody is surely faster";
+    if (time.of_median)
+        return fmt::format("medians of {} rounds with their 95 % intervals", time.samples);
+    return fmt::format("medians of {} rounds, bars from the least to the most{}", time.samples,
+                       time.samples < fewest_timings ? ": too few for anybody to be surely faster" : "");
+}
+
 std::string standing_text(const Standing& standing) {
     if (standing.on_front)
         return "front";

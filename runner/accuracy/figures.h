@@ -13,7 +13,12 @@ std::string two_digits(double value);
 std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit);
 /// "12.3 ms", "0.85 s".
 std::string time_text(double seconds);
-/// "front", "beaten by 3" (numbers from 1), "perhaps by 3" where the bars overlap, "".
+/// What a time and its bar come from: "medians of 7 rounds with their 95 % intervals", "medians of 4 rounds, bars from the least to the
+/// most", "of one round, so that nobody is surely faster". For `samples` > 0.
+std::string timings_text(const Interval& time);
+/// "95 % interval of the median", "least to most", "one timing"; "" for what was not timed repeatedly.
+std::string interval_name(const Interval& time);
+/// "front", "beaten by 3" (numbers from 1), "perhaps by 3" where that is not sure, "".
 std::string standing_text(const Standing& standing);
 
 } // namespace fernlicht

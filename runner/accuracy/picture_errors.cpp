@@ -14,8 +14,10 @@ std::string reason(const Technique& technique, const char* what) {
     return fmt::format("technique {} does not compute {}", technique.name, what);
 }
 
-std::vector<ReachError> reach_errors(const References& references, const std::vector<std::vector<LaneExtent>>& rendered,
-                                     const std::string& no_road, const std::string& no_target) {
+/// `rendered` by `moments`.
+std::vector<ReachError> reach_errors(const References& references, const std::vector<std::size_t>& moments,
+                                     const std::vector<std::vector<LaneExtent>>& rendered, const std::string& no_road,
+                                     const std::string& no_target) {
     std::vector<ReachError> errors;
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
         for (const double limit_lx : {1.0, 5.0}) {
@@ -23,7 +25,8 @@ std::vector<ReachError> reach_errors(const References& references, const std::ve
             std::vector<double> differences;
             for (std::size_t m = 0; m < rendered.size(); ++m) {
                 const ExtentKey key{plane, "own", limit_lx};
-                const LaneExtent *const ours = find_extent(rendered[m], key), *const truth = find_extent(references.extents(m), key);
+                const LaneExtent *const ours = find_extent(rendered[m], key), *const truth =
+                                                                                  find_extent(references.extents(moments[m]), key);
                 if (ours && truth && !ours->reach_is_cut_off && !truth->reach_is_cut_off)
                     differences.push_back(ours->reach_centre_m - truth->reach_centre_m);
             }
@@ -44,8 +47,8 @@ std::vector<ReachError> reach_errors(const References& references, const std::ve
 void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture) {
     for (int y = 0; y < tested.height(); ++y)
         for (int x = 0; x < tested.width(); ++x) {
-            const double m2 = road_m2 ? static_cast<double>(road_m2->at(x, y)) : 1.0;
-            if (m2 >= 0.0)
+            const std::optional<double> m2 = road_m2 ? std::optional(static_cast<double>(road_m2->at(x, y))) : std::nullopt;
+            if (!m2 || *m2 >= 0.0)
                 fold.add({static_cast<double>(tested.at(x, y)), static_cast<double>(reference.mean.at(x, y)),
                           static_cast<double>(reference.standard_error.at(x, y)), m2, picture, x, y});
         }
@@ -73,18 +76,24 @@ ReferenceCost References::cost() const {
     return cost;
 }
 
-void References::add_driver(std::size_t moment, const View& view) {
+bool References::add_driver(std::size_t moment, const View& view, const StopAsked& stop) {
     ReferenceShot shot{view, {}, {}, {}};
-    shot.reference = reference_.render(moments_[moment], view, {.illuminance = true, .target = true, .luminance = true}, settings_);
+    shot.reference =
+        reference_.render(moments_[moment], view, {.illuminance = true, .target = true, .luminance = true}, settings_, {}, {}, stop);
+    count(shot.reference);
+    if (!shot.reference.complete)
+        return false;
     shot.geometry = geometry_.draw(moments_[moment], view, {.depth = true, .ids = true});
     shot.road_m2 = road_areas_m2(stage_.scene, moments_[moment], view, shot.geometry);
-    count(shot.reference);
     shots_.emplace(std::tuple(moment, view.width_px, view.height_px), std::move(shot));
+    return true;
 }
 
-void References::add_map(std::size_t moment) {
+bool References::add_map(std::size_t moment, const StopAsked& stop) {
+    bool complete = true;
     const Draw draw = [&](const Moment& at, const View& view, const Wanted& wanted) {
-        ReferenceImage image = reference_.render(at, view, wanted, settings_);
+        ReferenceImage image = reference_.render(at, view, wanted, settings_, {}, {}, stop);
+        complete = complete && image.complete;
         count(image);
         Frame frame;
         frame.illuminance_lx = std::move(image.illuminance_lx.mean);
@@ -92,49 +101,62 @@ void References::add_map(std::size_t moment) {
         return [frame] { return frame; };
     };
     ExtentDrawing drawing = fold_.draw(moments_[moment], draw);
+    if (!complete)
+        return false;
     std::vector<LaneExtent> extents = fold_.rendered(drawing);
     maps_.emplace(moment, std::pair(std::move(drawing), std::move(extents)));
+    return true;
 }
 
 const ReferenceShot& References::driver(std::size_t moment, const View& view) const {
     return shots_.at({moment, view.width_px, view.height_px});
 }
 
-ConfigurationResult errors_of(const References& references, const Draw& draw, const Technique& technique,
-                              const Configuration& configuration, const View& view, double map_scale) {
-    ConfigurationResult result;
-    result.configuration = configuration;
-    result.no_illuminance = technique.illuminance ? "" : reason(technique, "an illuminance");
-    result.no_target = technique.target ? "" : reason(technique, "the illuminance of targets");
-    result.no_luminance = technique.luminance ? "" : reason(technique, "a luminance");
-    const ErrorRule lux{references.settings().floor_lx}, luminance{references.settings().floor_cdm2};
-    PixelErrorFold road(lux), whole(lux), target(lux), bright(luminance);
-    std::vector<std::vector<LaneExtent>> rendered;
-    for (std::size_t m = 0; m < references.moments().size() && technique.illuminance; ++m) {
-        const ReferenceShot& shot = references.driver(m, view);
-        const Frame frame = draw(references.moments()[m], view, {.illuminance = true, .target = true, .luminance = true})();
-        const auto picture = static_cast<int>(m);
-        PixelErrorFold here(lux);
-        add_pixels(here, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
-        add_pixels(road, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
-        add_pixels(whole, frame.illuminance_lx, shot.reference.illuminance_lx, nullptr, picture);
-        if (technique.target)
-            add_pixels(target, frame.target_lx, shot.reference.target_lx, &shot.road_m2, picture);
-        if (technique.luminance)
-            add_pixels(bright, frame.luminance_cdm2, shot.reference.luminance_cdm2, nullptr, picture);
-        if (const auto errors = here.finish(); errors && errors->pixels > 0)
-            result.road_p95.push_back(errors->error.p95);
-        ExtentDrawing map = references.map(m);
-        map.view.width_px = std::max(2, static_cast<int>(std::lround(map.view.width_px * map_scale)));
-        map.view.height_px = std::max(2, static_cast<int>(std::lround(map.view.height_px * map_scale)));
-        map.frame = draw(references.moments()[m], map.view, {.illuminance = true, .target = true})();
-        rendered.push_back(references.fold().rendered(map));
-    }
-    result.road = road.finish();
-    result.whole = whole.finish();
-    result.target = target.finish();
-    result.luminance = bright.finish();
-    result.reach = reach_errors(references, rendered, result.no_illuminance, result.no_target);
+ConfigurationErrors::ConfigurationErrors(const References& references, const Technique& technique, const Configuration& configuration,
+                                         const View& view, double map_scale)
+    : references_(&references), illuminance_(technique.illuminance), target_(technique.illuminance && technique.target),
+      luminance_(technique.illuminance && technique.luminance), view_(view), map_scale_(map_scale),
+      road_(ErrorRule{references.settings().floor_lx}), whole_(road_), target_errors_(road_),
+      bright_(ErrorRule{references.settings().floor_cdm2}) {
+    so_far_.configuration = configuration;
+    so_far_.no_illuminance = technique.illuminance ? "" : reason(technique, "an illuminance");
+    so_far_.no_target = technique.target ? "" : reason(technique, "the illuminance of targets");
+    so_far_.no_luminance = technique.luminance ? "" : reason(technique, "a luminance");
+}
+
+void ConfigurationErrors::add(std::size_t m, const Draw& draw) {
+    ++so_far_.moments;
+    if (!illuminance_)
+        return;
+    const Moment& moment = references_->moments()[m];
+    const ReferenceShot& shot = references_->driver(m, view_);
+    const Frame frame = draw(moment, view_, {.illuminance = true, .target = true, .luminance = true})();
+    const auto picture = static_cast<int>(m);
+    PixelErrorFold here(ErrorRule{references_->settings().floor_lx});
+    add_pixels(here, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
+    add_pixels(road_, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
+    add_pixels(whole_, frame.illuminance_lx, shot.reference.illuminance_lx, nullptr, picture);
+    if (target_)
+        add_pixels(target_errors_, frame.target_lx, shot.reference.target_lx, &shot.road_m2, picture);
+    if (luminance_)
+        add_pixels(bright_, frame.luminance_cdm2, shot.reference.luminance_cdm2, nullptr, picture);
+    if (const auto errors = here.finish(); errors && errors->pixels > 0)
+        so_far_.road_p95.push_back(errors->error.p95);
+    ExtentDrawing map = references_->map(m);
+    map.view.width_px = std::max(2, static_cast<int>(std::lround(map.view.width_px * map_scale_)));
+    map.view.height_px = std::max(2, static_cast<int>(std::lround(map.view.height_px * map_scale_)));
+    map.frame = draw(moment, map.view, {.illuminance = true, .target = true})();
+    moments_.push_back(m);
+    rendered_.push_back(references_->fold().rendered(map));
+}
+
+ConfigurationResult ConfigurationErrors::finish() const {
+    ConfigurationResult result = so_far_;
+    result.road = road_.finish();
+    result.whole = whole_.finish();
+    result.target = target_errors_.finish();
+    result.luminance = bright_.finish();
+    result.reach = reach_errors(*references_, moments_, rendered_, result.no_illuminance, result.no_target);
     return result;
 }
 

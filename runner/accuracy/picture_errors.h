@@ -16,8 +16,9 @@ class References {
     References(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
                const ReferenceSettings& settings);
 
-    void add_driver(std::size_t moment, const View& view);
-    void add_map(std::size_t moment);
+    /// False when it was stopped; then the picture is not there.
+    bool add_driver(std::size_t moment, const View& view, const StopAsked& stop = {});
+    bool add_map(std::size_t moment, const StopAsked& stop = {});
 
     const std::vector<Moment>& moments() const { return moments_; }
     const ReferenceShot& driver(std::size_t moment, const View& view) const;
@@ -46,9 +47,28 @@ class References {
 /// Adds the pixels that `road_m2` knows with their areas (road_areas_m2), or all pixels without it.
 void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture);
 
-/// Errors of all moments together as `draw` draws them, without times; maps for reach are drawn with `map_scale` times the reference's
-/// pixels each way. What the technique does not compute has no errors but a reason.
-ConfigurationResult errors_of(const References& references, const Draw& draw, const Technique& technique,
-                              const Configuration& configuration, const View& view, double map_scale);
+/// Errors of moments together, without times; maps for reach are drawn with `map_scale` times the reference's pixels each way. What the
+/// technique does not compute has no errors but a reason.
+class ConfigurationErrors {
+  public:
+    /// `references` must outlive it.
+    ConfigurationErrors(const References& references, const Technique& technique, const Configuration& configuration, const View& view,
+                        double map_scale);
+
+    /// The moment as `draw` draws it; its references are there.
+    void add(std::size_t moment, const Draw& draw);
+    /// Of the moments added.
+    ConfigurationResult finish() const;
+
+  private:
+    const References* references_;
+    bool illuminance_, target_, luminance_;
+    View view_;
+    double map_scale_;
+    ConfigurationResult so_far_;
+    PixelErrorFold road_, whole_, target_errors_, bright_;
+    std::vector<std::size_t> moments_;
+    std::vector<std::vector<LaneExtent>> rendered_; ///< by the moments_
+};
 
 } // namespace fernlicht

@@ -1,5 +1,6 @@
 #include "metrics/statistics.h"
 #include "runner/accuracy/accuracy_result.h"
+#include "runner/accuracy/figures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,8 @@
 namespace fernlicht {
 namespace {
 
-WorkPrecisionRow row_of(const ConfigurationResult& found) {
+/// `moments`: of the drive's sweep.
+WorkPrecisionRow row_of(const ConfigurationResult& found, std::size_t moments) {
     const Configuration& c = found.configuration;
     WorkPrecisionRow row;
     row.label = name_of(c);
@@ -18,6 +20,8 @@ WorkPrecisionRow row_of(const ConfigurationResult& found) {
                       {"beams", beams_text(c.beams)}};
     if (c.beams == eight_bit_texels && c.varied == "beams")
         row.note = "thesis";
+    if (found.moments < moments)
+        row.note += fmt::format("{}{} of {} moments", row.note.empty() ? "" : ", ", found.moments, moments);
     row.why_not = found.no_illuminance;
     if (found.road && found.road->pixels > 0) {
         const auto [least, most] = std::ranges::minmax(found.road_p95);
@@ -35,6 +39,15 @@ WorkPrecisionRow row_of(const ConfigurationResult& found) {
     return row;
 }
 
+/// What the bars of times are.
+std::string times_note(const DriveAccuracy& drive) {
+    std::optional<Interval> time;
+    for (const ConfigurationResult& found : drive.configurations)
+        if (const auto of = time_of(found.samples.frame_s); of && (!time || of->samples < time->samples))
+            time = of;
+    return time ? "times are " + timings_text(*time) : "times were not taken";
+}
+
 } // namespace
 
 std::optional<Interval> time_of(const std::vector<double>& seconds) {
@@ -42,8 +55,8 @@ std::optional<Interval> time_of(const std::vector<double>& seconds) {
     if (!spread)
         return std::nullopt;
     if (const auto interval = median_interval(seconds))
-        return Interval{spread->median, interval->low, interval->high};
-    return Interval{spread->median, spread->minimum, spread->maximum};
+        return Interval{spread->median, interval->low, interval->high, spread->count, true};
+    return Interval{spread->median, spread->minimum, spread->maximum, spread->count};
 }
 
 WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px) {
@@ -56,11 +69,12 @@ WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int h
     diagram.floor_name = "noise of the reference";
     diagram.notes.push_back(
         fmt::format("{} moments; errors of illuminance in the driver's view where the reference has at least 0.05 lx, bars "
-                    "from the least to the most of the moments; times with the 95 % interval of their median",
+                    "from the least to the most of the moments",
                     drive.moments.size()));
+    diagram.notes.push_back(times_note(drive));
     for (const ConfigurationResult& found : drive.configurations)
         if (found.configuration.width_px == width_px && found.configuration.height_px == height_px)
-            diagram.rows.push_back(row_of(found));
+            diagram.rows.push_back(row_of(found, drive.moments.size()));
     return diagram;
 }
 
@@ -80,7 +94,7 @@ WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
         });
         if (others < 2 || (!found.configuration.varied.empty() && found.configuration.varied != "resolution"))
             continue;
-        WorkPrecisionRow row = row_of(found);
+        WorkPrecisionRow row = row_of(found, drive.moments.size());
         row.label = fmt::format("{}, {}x{}", found.configuration.technique, found.configuration.width_px, found.configuration.height_px);
         row.floor = 0.0;
         row.error.reset();
@@ -111,7 +125,7 @@ WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive) {
         const Configuration& c = found.configuration;
         if (c.technique != "photometric" || (!c.varied.empty() && c.varied != "shadow maps"))
             continue;
-        WorkPrecisionRow row = row_of(found);
+        WorkPrecisionRow row = row_of(found, drive.moments.size());
         row.label = fmt::format("{} x {}", c.shadow_width, c.shadow_height);
         row.floor = 0.0;
         if (found.whole && found.whole->pixels > 0) {

@@ -63,8 +63,46 @@ Drive measured_drive(const Drive& drive) {
 struct Contestants {
     std::deque<Renderer> renderers;
     std::deque<View> views;
-    std::vector<Contestant> all;
+    std::vector<std::string> names;
+    std::set<Size> sizes; ///< of the views
 };
+
+ReferenceSettings reference_settings(const Drive& drive, const SweepRequest& request) {
+    ReferenceSettings settings;
+    settings.target_error = request.target_error;
+    settings.most_samples = request.most_samples;
+    settings.shadows = drive.shadows;
+    settings.seed = request.seed;
+    settings.target_height_m = drive.extent->target_height_m;
+    return settings;
+}
+
+Draw drawn_by(Renderer& renderer) {
+    return [&renderer](const Moment& moment, const View& at, const Wanted& pictures) { return renderer.submit(moment, at, pictures); };
+}
+
+void add_contestants(Contestants& contestants, std::vector<ConfigurationErrors>& errors, const References& references, const Stage& stage,
+                     const Drive& drive, Device& device, const std::vector<Configuration>& configurations) {
+    const int finest_px = std::ranges::max(configurations, {}, &Configuration::width_px).width_px;
+    for (const Configuration& c : configurations) {
+        Renderer& renderer = contestants.renderers.emplace_back(device, stage.scene, settings_of(drive, c));
+        contestants.views.push_back(resized(view_to_compare(drive), c.width_px, c.height_px));
+        contestants.names.push_back(name_of(c));
+        contestants.sizes.emplace(c.width_px, c.height_px);
+        errors.emplace_back(references, renderer.technique(), c, contestants.views.back(), static_cast<double>(c.width_px) / finest_px);
+    }
+}
+
+/// After `compared` comparisons, all of a moment's before the next one's.
+std::vector<std::string> missing_errors(std::size_t compared, std::size_t ways, std::size_t moments) {
+    const std::size_t whole = compared / ways, rest = compared % ways;
+    if (whole == moments)
+        return {};
+    std::string text = fmt::format("errors: {} of {} moments were compared", whole, moments);
+    if (rest > 0)
+        text += fmt::format(", and {} of {} ways in the next", rest, ways);
+    return {text};
+}
 
 /// Of photometric as the drive draws it; nullopt where it took no part.
 std::optional<TwinAgreement> twin_agreement(const References& references, const Stage& stage, Device& device,
@@ -86,13 +124,32 @@ std::optional<TwinAgreement> twin_agreement(const References& references, const 
     return fold.finish();
 }
 
-void add_contestant(Contestants& contestants, Renderer& renderer, const View& view, const std::vector<Moment>& moments) {
+/// Renderers with a place in the result only: all of them here, since the errors are whole.
+void take_times(Contestants& contestants, const std::vector<Moment>& moments, const SweepRequest& request,
+                const std::function<bool(const std::string&)>& step, const StopAsked& stop, DriveAccuracy& result) {
     static constexpr Wanted wanted{.colour = true};
-    const View* const kept = &contestants.views.emplace_back(view);
-    Renderer* const drawing = &renderer;
-    drawing->prepare(moments, *kept, wanted);
-    contestants.all.push_back(
-        {[=, &moments](std::size_t moment) { drawing->render(moments[moment], *kept, wanted); }, [=] { drawing->finish(); }});
+    std::vector<Contestant> all;
+    for (std::size_t i = 0; i < contestants.renderers.size(); ++i) {
+        Renderer* const drawing = &contestants.renderers[i];
+        const View* const view = &contestants.views[i];
+        drawing->prepare(moments, *view, wanted);
+        all.push_back({[=, &moments](std::size_t moment) { drawing->render(moments[moment], *view, wanted); }, [=] { drawing->finish(); }});
+        for (const Moment& moment : moments)
+            result.configurations[i].work.push_back(drawing->count(moment, *view, wanted));
+    }
+    ContestOptions options;
+    options.moments = moments.size();
+    options.rounds = static_cast<std::size_t>(request.rounds);
+    options.frame_by_frame = false;
+    options.seed = request.seed;
+    options.go_on = [&](std::size_t) { return step("times"); };
+    options.stop = [&] { return stop && stop(); };
+    Contest contest = hold_contest(all, options, real_clocks());
+    const std::size_t rounds = contest.orders.size();
+    if (rounds < options.rounds)
+        result.missing.push_back(fmt::format("times: {} of {} rounds were taken", rounds, options.rounds));
+    for (std::size_t i = 0; i < result.configurations.size(); ++i)
+        result.configurations[i].samples = std::move(contest.samples[i]);
 }
 
 } // namespace
@@ -181,68 +238,44 @@ void check_sweep(const SweepRequest& request, const Stage& stage) {
                          fmt::format("1 to {}, the drive's moments", moments));
 }
 
-DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on) {
+DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on,
+                               const StopAsked& stop) {
     const Drive drive = measured_drive(stage.drive);
     const Variant& variant = variant_of(stage.drive, request.variant);
-    const View& driver = view_to_compare(stage.drive);
-    const std::vector<Configuration> configurations = configurations_of(request, stage.drive);
     const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
-    DriveAccuracy result{stage.drive.name, stage.drive.title, variant.name, {}, {}, {}, {}, {}};
+    DriveAccuracy result{stage.drive.name, stage.drive.title, variant.name, {}, {}, {}, {}, {}, {}};
     for (const Moment& moment : moments)
         result.moments.emplace_back(moment.tick, moment.time_s);
+    References references(stage, drive, device, moments, reference_settings(drive, request));
+    Contestants contestants;
+    std::vector<ConfigurationErrors> errors;
+    add_contestants(contestants, errors, references, stage, drive, device, configurations_of(request, stage.drive));
 
-    ReferenceSettings wanted;
-    wanted.target_error = request.target_error;
-    wanted.most_samples = request.most_samples;
-    wanted.shadows = drive.shadows;
-    wanted.seed = request.seed;
-    wanted.target_height_m = drive.extent->target_height_m;
-    References references(stage, drive, device, moments, wanted);
-    const int finest_px = std::ranges::max(configurations, {}, &Configuration::width_px).width_px;
-    std::set<Size> sizes;
-    for (const Configuration& c : configurations)
-        sizes.emplace(c.width_px, c.height_px);
-    const std::size_t steps = moments.size() * (sizes.size() + 1) + configurations.size() + static_cast<std::size_t>(request.rounds);
-    std::size_t done = 0;
-    const auto step = [&](const std::string& at) { return go_on(done++, steps, at); };
-    for (std::size_t m = 0; m < moments.size(); ++m) {
-        if (!step("reference from above"))
-            return result;
-        references.add_map(m);
-        for (const Size& size : sizes) {
-            if (!step(fmt::format("reference {}x{}", size.first, size.second)))
-                return result;
-            references.add_driver(m, resized(driver, size.first, size.second));
-        }
+    const std::size_t pictures = contestants.sizes.size() + 1;
+    const std::size_t steps = moments.size() * (pictures + errors.size()) + static_cast<std::size_t>(request.rounds);
+    std::size_t done = 0, compared = 0;
+    bool going_on = true;
+    const auto step = [&](const std::string& at) { return going_on = going_on && go_on(done++, steps, at); };
+    for (std::size_t m = 0; m < moments.size() && going_on; ++m) {
+        going_on = step("reference from above") && references.add_map(m, stop);
+        for (const Size& size : contestants.sizes)
+            going_on = step(fmt::format("reference {}x{}", size.first, size.second)) &&
+                       references.add_driver(m, resized(view_to_compare(drive), size.first, size.second), stop);
+        for (std::size_t i = 0; i < errors.size() && step(contestants.names[i]); ++i, ++compared)
+            errors[i].add(m, drawn_by(contestants.renderers[i]));
     }
     result.reference = references.cost();
-
-    Contestants contestants;
-    for (const Configuration& configuration : configurations) {
-        if (!step(name_of(configuration)))
-            break;
-        Renderer& renderer = contestants.renderers.emplace_back(device, stage.scene, settings_of(drive, configuration));
-        const View view = resized(driver, configuration.width_px, configuration.height_px);
-        const Draw draw = [&](const Moment& moment, const View& at, const Wanted& pictures) {
-            return renderer.submit(moment, at, pictures);
-        };
-        result.configurations.push_back(errors_of(references, draw, renderer.technique(), configuration, view,
-                                                  static_cast<double>(configuration.width_px) / finest_px));
-        add_contestant(contestants, renderer, view, moments);
-        for (const Moment& moment : moments)
-            result.configurations.back().work.push_back(renderer.count(moment, view, {.colour = true}));
+    for (const ConfigurationErrors& found : errors)
+        if (ConfigurationResult finished = found.finish(); finished.moments > 0)
+            result.configurations.push_back(std::move(finished));
+    if (!going_on) {
+        result.missing = missing_errors(compared, errors.size(), moments.size());
+        result.missing.emplace_back("all times, the price of each simplification, and the agreement with the double twin");
+        return result;
     }
     result.simplifications = price_simplifications(stage, moments);
     result.twin = twin_agreement(references, stage, device, moments, result.configurations);
-    ContestOptions options;
-    options.moments = moments.size();
-    options.rounds = static_cast<std::size_t>(request.rounds);
-    options.frame_by_frame = false;
-    options.seed = request.seed;
-    options.go_on = [&](std::size_t) { return step("times"); };
-    Contest contest = hold_contest(contestants.all, options, real_clocks());
-    for (std::size_t i = 0; i < result.configurations.size(); ++i)
-        result.configurations[i].samples = std::move(contest.samples[i]);
+    take_times(contestants, moments, request, step, stop, result);
     return result;
 }
 

@@ -32,9 +32,11 @@ void check_sweep(const SweepRequest& request, const Stage& stage);
 /// Called with the number of steps done of how many; false ends the sweep.
 using StepsDone = std::function<bool(std::size_t done, std::size_t all, const std::string& at)>;
 
-/// Errors first, then times in seeded random order. Ends early when `go_on` says so, with what was done; a configuration that was not
-/// measured is not in the result. Throws InputError and DeviceError.
-DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on);
+/// Errors first, moment by moment, then times in seeded random order. Ends early when `go_on` says so, or when `stop` is true in the
+/// middle of a picture of the reference, with all that was done and a word on what is missing; a configuration that was compared in no
+/// moment is not in the result. Throws InputError and DeviceError.
+DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on,
+                               const StopAsked& stop = {});
 
 /// How a drive is drawn in a configuration.
 RendererSettings settings_of(const Drive& drive, const Configuration& configuration);

@@ -61,11 +61,11 @@ void TwinAgreementFold::add(const Moment& moment, const View& view, const Frame&
                                        ray.direction * (static_cast<double>(frame.depth_m.at(x, y)) / glm::dot(ray.direction, camera.axis));
             const double gradient = gradient_per_rad(moment, point_m);
             if (gradient < steep_per_rad) {
-                flat_.add({tested, right, 0.0, 1.0, picture, x, y});
+                flat_.add({tested, right, 0.0, {}, picture, x, y});
                 continue;
             }
             const double allowed = gradient * angle_error_rad + rounding, ratio = std::abs(tested - right) / right / allowed;
-            of_bound_.add({1.0 + ratio, 1.0, 0.0, 1.0, picture, x, y});
+            of_bound_.add({1.0 + ratio, 1.0, 0.0, {}, picture, x, y});
             within_ += ratio <= 1.0 ? 1U : 0U;
         }
 }

@@ -136,7 +136,47 @@ void draw_row(Canvas& canvas, const Ground& ground, const WorkPrecisionRow& row,
         canvas.dot({x, y}, radius_px - 1.4, {255, 255, 255});
 }
 
-/// The row's number beside its point, where it hides no point and no other number as long as such a place is found.
+/// Points that touch, and the numbers of their rows.
+struct Heap {
+    double x, y; ///< of the first
+    std::vector<std::size_t> numbers;
+};
+
+/// Each row's point is in the first heap whose first point it touches, from the left.
+std::vector<Heap> heaps_of(const Ground& ground, const WorkPrecision& diagram) {
+    std::vector<Heap> points;
+    for (std::size_t i = 0; i < diagram.rows.size(); ++i)
+        if (const WorkPrecisionRow& row = diagram.rows[i]; row.measured())
+            points.push_back({ground.x(1e3 * row.seconds->value), ground.y(row.claimed_error()), {i + 1}});
+    std::ranges::stable_sort(points, {}, &Heap::x);
+    std::vector<Heap> heaps;
+    for (const Heap& point : points) {
+        const auto touched =
+            std::ranges::find_if(heaps, [&](const Heap& heap) { return std::hypot(heap.x - point.x, heap.y - point.y) < 2.0 * radius_px; });
+        if (touched == heaps.end())
+            heaps.push_back(point);
+        else
+            touched->numbers.push_back(point.numbers.front());
+    }
+    return heaps;
+}
+
+/// "2-4, 9".
+std::string ranges_text(std::vector<std::size_t> numbers) {
+    std::ranges::sort(numbers);
+    std::string text;
+    for (std::size_t i = 0, last = 0; i < numbers.size(); i = last + 1) {
+        for (last = i; last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1;)
+            ++last;
+        text += (text.empty() ? "" : ", ") + fmt::format("{}", numbers[i]);
+        if (last > i)
+            text += fmt::format("{}{}", last == i + 1 ? ", " : "-", numbers[last]);
+    }
+    return text;
+}
+
+/// The rows' numbers beside their points, one label for points that touch, where it hides no point and no other label as long as such a
+/// place is found.
 void draw_numbers(Canvas& canvas, const Ground& ground, const WorkPrecision& diagram) {
     std::vector<Box> taken;
     for (const WorkPrecisionRow& row : diagram.rows)
@@ -144,31 +184,35 @@ void draw_numbers(Canvas& canvas, const Ground& ground, const WorkPrecision& dia
             const double x = ground.x(1e3 * row.seconds->value), y = ground.y(row.claimed_error());
             taken.push_back({x - radius_px, y - radius_px, x + radius_px, y + radius_px});
         }
-    for (std::size_t i = 0; i < diagram.rows.size(); ++i) {
-        if (!diagram.rows[i].measured())
-            continue;
-        const std::string number = fmt::format("{}", i + 1);
-        const double x = ground.x(1e3 * diagram.rows[i].seconds->value), y = ground.y(diagram.rows[i].claimed_error()),
-                     width = plots::text_width(number, letter_px), height = 9.0;
+    for (const Heap& heap : heaps_of(ground, diagram)) {
+        const std::string number = ranges_text(heap.numbers);
+        const double x = heap.x, y = heap.y, width = plots::text_width(number, letter_px), height = 9.0;
         Box chosen{};
         bool found = false;
         for (double away = 9.0; away < 48.0 && !found; away += 5.0)
             for (int k = 0; k < 16 && !found; ++k) {
-                const double angle = 0.7 + 0.3926990817 * k, cx = x + away * std::cos(angle), cy = y - away * std::sin(angle);
+                const double angle = 0.7 + 0.3926990817 * k, cx = x + (away + 0.5 * width - 4.0) * std::cos(angle),
+                             cy = y - away * std::sin(angle);
                 chosen = {cx - 0.5 * width - 1.0, cy - 0.5 * height - 1.0, cx + 0.5 * width + 1.0, cy + 0.5 * height + 1.0};
                 found = chosen.left > left_px && chosen.bottom < ground.bottom() &&
                         std::ranges::none_of(taken, [&](const Box& box) { return box.meets(chosen); });
             }
         taken.push_back(chosen);
         const double cx = 0.5 * (chosen.left + chosen.right), cy = 0.5 * (chosen.top + chosen.bottom);
-        if (std::hypot(cx - x, cy - y) > 15.0)
+        if (std::hypot(std::max(0.0, std::abs(cx - x) - 0.5 * width), cy - y) > 15.0)
             canvas.line({{x, y}, {cx, cy}}, {.colour = faint, .width_px = 0.5});
         canvas.text(cx, cy + 4.0, number, {.size_px = letter_px, .colour = ink, .anchor = "middle", .halo = "#ffffff"});
     }
 }
 
 double draw_list(Canvas& canvas, const WorkPrecision& diagram, const std::vector<Standing>& standing) {
-    double y = top_px + 8.0;
+    const plots::Lettering heading{.size_px = letter_px, .colour = faint};
+    const auto right_aligned = [&](double x, const std::string& text) {
+        canvas.text(list_px + x, top_px - 6.0, text, {.size_px = heading.size_px, .colour = heading.colour, .anchor = "end"});
+    };
+    right_aligned(330.0, fmt::format("error [{}]", diagram.error_unit));
+    right_aligned(398.0, "time");
+    double y = top_px + 12.0;
     for (std::size_t i = 0; i < diagram.rows.size(); ++i, y += line_px) {
         const WorkPrecisionRow& row = diagram.rows[i];
         const plots::Lettering letters{

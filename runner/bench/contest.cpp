@@ -47,14 +47,16 @@ ContestClocks real_clocks() {
 }
 
 Contest hold_contest(const std::vector<Contestant>& contestants, const ContestOptions& options, const ContestClocks& clocks) {
+    Contest contest;
+    contest.samples.resize(contestants.size());
     for (const Contestant& contestant : contestants) {
+        if (options.stop())
+            return contest;
         for (std::size_t play = 0; play < options.warm_up_plays; ++play)
             for (std::size_t moment = 0; moment < options.moments; ++moment)
                 contestant.draw(moment);
         contestant.finish();
     }
-    Contest contest;
-    contest.samples.resize(contestants.size());
     std::mt19937_64 chance(options.seed);
     for (std::size_t round = 0; round < options.rounds && options.go_on(round); ++round) {
         contest.orders.push_back(random_order(contestants.size(), chance));

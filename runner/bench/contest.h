@@ -31,6 +31,7 @@ struct ContestOptions {
     bool frame_by_frame = true;    ///< else a round is drawn back to back only, and there are no latencies
     std::uint64_t seed = 1;        ///< of the orders
     std::function<bool(std::size_t rounds_done)> go_on = [](std::size_t) { return true; }; ///< asked before each round
+    std::function<bool()> stop = [] { return false; }; ///< asked before each contestant's warm-up; true: no rounds are held
 };
 
 /// Seconds of one contestant. All per frame; a round is drawn twice, once back to back and once frame by frame.

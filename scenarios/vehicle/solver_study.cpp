@@ -118,6 +118,7 @@ SolverRow measured(const StudiedProblem& problem, const SolverOptions& options, 
         row.seconds = seconds[seconds.size() / 2];
         row.least_seconds = seconds.front();
         row.most_seconds = seconds.back();
+        row.repetitions = seconds.size();
     } catch (const InputError& gave_up) {
         row.not_measured = gave_up.what();
     }

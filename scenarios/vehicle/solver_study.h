@@ -18,7 +18,8 @@ struct SolverRow {
     std::string against;                  ///< "closed form", "run at a tolerance of 1e-12"
     std::uint64_t steps = 0, rejected = 0, derivatives = 0, jacobians = 0;
     double seconds = 0.0, least_seconds = 0.0, most_seconds = 0.0; ///< median, least and most over the repetitions
-    std::string not_measured;                                      ///< why there is neither error nor time; "" where there are
+    std::size_t repetitions = 0;
+    std::string not_measured; ///< why there is neither error nor time; "" where there are
 };
 
 struct SolverStudy {

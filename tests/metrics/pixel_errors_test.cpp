@@ -22,7 +22,7 @@ TEST(PixelErrors, TwoPerCentTooBrightShowsAsTwoPerCent) {
     for (const double error : {errors.error.median, errors.error.p95, errors.error.p99, errors.worst.error, errors.mean})
         EXPECT_NEAR(error, 0.02, 1e-8); // kept as float
     EXPECT_EQ(errors.pixels, 100U);
-    EXPECT_DOUBLE_EQ(errors.area_m2, 200.0);
+    EXPECT_DOUBLE_EQ(errors.area_m2.value(), 200.0);
     EXPECT_THAT(errors.percent_beyond, ElementsAre(100.0, 0.0, 0.0));
     EXPECT_FALSE(errors.below_floor());
     EXPECT_NEAR(of_ramp(0.98).mean, -0.02, 1e-12);
@@ -92,6 +92,21 @@ TEST(PixelErrors, RefusesWhatIsNoNumber) {
     EXPECT_THROW(fold.add({1.0, 1.0, -1e-9, 1.0, 0, 0, 0}), std::invalid_argument);
     EXPECT_THROW(fold.add({1.0, 1.0, 0.0, -1.0, 0, 0, 0}), std::invalid_argument);
     EXPECT_FALSE(fold.finish());
+}
+
+TEST(PixelErrors, WithoutAreasPixelsAreCounted) {
+    PixelErrorFold fold;
+    for (int x = 0; x < 9; ++x)
+        fold.add({1.0, 1.0, 0.0, {}, 0, x, 0});
+    fold.add({1.5, 1.0, 0.0, {}, 0, 9, 0});
+    const PixelErrors errors = fold.finish().value();
+    EXPECT_FALSE(errors.area_m2);
+    EXPECT_EQ(errors.pixels, 10U);
+    EXPECT_DOUBLE_EQ(errors.percent_beyond[2], 10.0);
+    EXPECT_THROW(fold.add({1.0, 1.0, 0.0, 1.0, 0, 0, 0}), std::invalid_argument);
+    PixelErrorFold road;
+    road.add({1.0, 1.0, 0.0, 2.0, 0, 0, 0});
+    EXPECT_THROW(road.add({1.0, 1.0, 0.0, {}, 0, 0, 0}), std::invalid_argument);
 }
 
 } // namespace

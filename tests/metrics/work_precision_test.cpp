@@ -6,12 +6,12 @@
 namespace fernlicht {
 namespace {
 
-/// Bars of a tenth each way.
+/// Bars of a tenth each way, of seven timings.
 WorkPrecisionRow row(const char* label, double error, double seconds, double floor = 0.0) {
     WorkPrecisionRow r;
     r.label = label;
     r.error = {error, 0.9 * error, 1.1 * error};
-    r.seconds = {seconds, 0.9 * seconds, 1.1 * seconds};
+    r.seconds = {seconds, 0.9 * seconds, 1.1 * seconds, 7, true};
     r.floor = floor;
     return r;
 }
@@ -36,6 +36,28 @@ TEST(WorkPrecision, OneSureAdvantageIsNotEnoughWhereTheOtherIsInDoubt) {
     EXPECT_FALSE(s[1].surely); // it may be the faster one
     EXPECT_EQ(s[2].dominated_by, 0U);
     EXPECT_FALSE(s[2].surely); // it may be the more exact one
+}
+
+TEST(WorkPrecision, FewTimingsMakeNothingSure) {
+    WorkPrecisionRow good = row("good", 1.0, 1.0), bad = row("bad", 9.0, 9.0);
+    const auto sure = [&](std::size_t of_good, std::size_t of_bad) {
+        good.seconds->samples = of_good;
+        bad.seconds->samples = of_bad;
+        const std::vector<Standing> s = standings({good, bad});
+        EXPECT_EQ(s[1].dominated_by, 0U); // by its figures it is
+        return s[1].surely;
+    };
+    EXPECT_TRUE(sure(3, 3)); // in one order of 20
+    EXPECT_FALSE(sure(1, 7));
+    EXPECT_FALSE(sure(7, 1));
+    EXPECT_FALSE(sure(2, 2));
+    EXPECT_FALSE(sure(0, 0));
+    bad.seconds = good.seconds = {1.0, 1.0, 1.0, 1}; // the same time, found once
+    EXPECT_FALSE(standings({good, bad})[1].surely);
+    good.error = bad.error;
+    good.seconds->value = 0.5;
+    good.seconds->high = 0.5;
+    EXPECT_FALSE(standings({good, bad})[1].surely); // as exact, and once found to be faster
 }
 
 TEST(WorkPrecision, EqualsDoNotBeatOneAnother) {

@@ -14,6 +14,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 const json& row_of(const json& rows, const std::string& label) {
     for (const json& row : rows)
@@ -48,6 +49,11 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     EXPECT_EQ(full.at("target").at("not_measured"), "technique full does not compute the illuminance of targets");
     EXPECT_EQ(row_of(all, "plain").at("road").at("not_measured"), "technique plain does not compute an illuminance");
     EXPECT_EQ(ours.at("frame_s").size(), 6U);
+    EXPECT_TRUE(ours.at("road").contains("area_m2") && ours.at("target").contains("area_m2"));
+    for (const char* not_of_road : {"whole_view", "luminance"}) { // a count of pixels is no area
+        EXPECT_FALSE(ours.at(not_of_road).contains("area_m2") || ours.at(not_of_road).contains("percent_of_area_beyond"));
+        EXPECT_TRUE(ours.at(not_of_road).contains("percent_of_pixels_beyond"));
+    }
     const json& drive = accuracy.at("drives").at(0);
     EXPECT_LT(drive.at("twin").at("flat").at("relative").at("p99"), 1e-4);
     EXPECT_GT(drive.at("twin").at("flat").at("pixels"), 1000);
@@ -60,12 +66,79 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     for (const json& row : techniques.at("rows"))
         EXPECT_EQ(row.at("error").is_null() ? 0 : 1, (row.at("on_front").get<bool>() ? 1 : 0) + (row.at("beaten_by").is_null() ? 0 : 1));
     EXPECT_GT(row_of(techniques.at("rows"), "full").at("error").at("value"), 50.0);
+    EXPECT_EQ(row_of(techniques.at("rows"), "full").at("seconds").at("timings"), 6);
+    EXPECT_EQ(row_of(techniques.at("rows"), "full").at("seconds").at("interval"), "95 % interval of the median");
+    EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr("medians of 6 rounds with their 95 % intervals"));
+    EXPECT_THAT(accuracy.at("missing"), IsEmpty());
     EXPECT_FALSE(row_of(techniques.at("rows"), "plain").at("on_front"));
     EXPECT_EQ(accuracy.at("diagrams").at(1).at("rows").size(), 4U);
     for (const char* name : {"accuracy.csv", "accuracy.html", "techniques-straight-1-128x96.svg", "techniques-straight-1-128x96.png"})
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / name)) << name;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
     EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr("not measured"));
+}
+
+TEST(AccuracyRun, OneRoundMakesNobodySurelyFaster) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program("accuracy --quiet --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --shadow-maps 256x128 "
+                                    "--beams float --techniques full,full-no-sun,merged-beams,photometric --out " +
+                                    (folder / "out ") + library_file("drives/straight.yaml"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_THAT(run.output, HasSubstr(", perhaps"));
+    const std::string page = content_of(folder / "out/accuracy.html");
+    EXPECT_THAT(page, HasSubstr("Times are of one round, whose spread is unknown: nobody is surely faster"));
+    EXPECT_THAT(page, Not(HasSubstr(">beaten by "))); // of a row, which would be sure
+    int beaten = 0;
+    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
+    for (const json& row : accuracy.at("diagrams").at(0).at("rows")) {
+        beaten += row.at("beaten_by").is_null() ? 0 : 1;
+        EXPECT_FALSE(row.at("beaten_surely"));
+        EXPECT_EQ(row.at("seconds").at("interval"), "one timing");
+    }
+    EXPECT_GT(beaten, 0);
+}
+
+/// Interrupted at `sign`; the JSON is checked against its schema.
+json interrupted(const TemporaryFolder& folder, const std::string& flags, const std::string& sign) {
+    const Outcome run = run_interrupted(
+        "accuracy --moments 3 --samples 16 --resolutions 64x48 --shadow-maps 256x128 --beams float --techniques full,photometric " + flags +
+            " --out " + (folder / "out ") + library_file("drives/straight.yaml"),
+        sign);
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("missing: drive straight-1: "));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
+    json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/accuracy/accuracy.schema.json")));
+    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    EXPECT_EQ(accuracy.at("interrupted"), "interrupted by the user");
+    EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr(accuracy.at("missing").at(0).get<std::string>()));
+    return accuracy;
+}
+
+TEST(AccuracyRun, InterruptedKeepsWhatWasCompared) {
+    const TemporaryFolder folder;
+    // Steps of a moment: from above, from the seat, two ways. After six the second moment's ways are next.
+    const json accuracy = interrupted(folder, "--rounds 8", " 6/20 ");
+    const json& drive = accuracy.at("drives").at(0);
+    ASSERT_EQ(drive.at("configurations").size(), 2U);
+    for (const json& found : drive.at("configurations")) {
+        EXPECT_GE(found.at("moments"), 1);
+        EXPECT_LT(found.at("moments"), 3);
+        EXPECT_GT(found.at("road").at("pixels"), 100);
+    }
+    EXPECT_THAT(accuracy.at("missing").at(0).get<std::string>(), HasSubstr("of 3 moments were compared"));
+    EXPECT_THAT(accuracy.at("missing").at(1).get<std::string>(), HasSubstr("all times"));
+}
+
+TEST(AccuracyRun, InterruptedKeepsTheRoundsTaken) {
+    const TemporaryFolder folder;
+    const json accuracy = interrupted(folder, "--rounds 988", " 100/1000 "); // 12 steps for the errors
+    const json& found = accuracy.at("drives").at(0).at("configurations").at(0);
+    EXPECT_EQ(found.at("moments"), 3);
+    EXPECT_GT(found.at("frame_s").size(), 0U);
+    EXPECT_LT(found.at("frame_s").size(), 988U);
+    EXPECT_TRUE(row_of(accuracy.at("diagrams").at(0).at("rows"), "full").at("not_measured").is_null());
+    EXPECT_THAT(accuracy.at("missing").at(0).get<std::string>(), HasSubstr("of 988 rounds were taken"));
 }
 
 TEST(AccuracyRun, StudiesWhatIsNoTechnique) {
@@ -122,7 +195,9 @@ class PictureErrors : public testing::Test {
                     value *= factor;
             return [frame] { return frame; };
         };
-        return errors_of(references, draw, renderer.technique(), {"photometric", 128, 96, 1024, 512, {}, ""}, view, 1.0);
+        ConfigurationErrors errors(references, renderer.technique(), {"photometric", 128, 96, 1024, 512, {}, ""}, view, 1.0);
+        errors.add(0, draw);
+        return errors.finish();
     }
 
     Stage stage{read_drive(library_file("drives/straight.yaml"))};

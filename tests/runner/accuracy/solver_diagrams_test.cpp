@@ -7,7 +7,7 @@ namespace fernlicht {
 namespace {
 
 TEST(SolverDiagrams, HoldEveryRowOnce) {
-    SolverRow first{"car to rest", Solver::rosenbrock, 1e-6, 0.0, 2e-8, 3e-11, "rad", "a tight run", 4, 1, 30, 5, 0.02, 0.01, 0.05, ""};
+    SolverRow first{"car to rest", Solver::rosenbrock, 1e-6, 0.0, 2e-8, 3e-11, "rad", "a tight run", 4, 1, 30, 5, 0.02, 0.01, 0.05, 5, ""};
     SolverRow second = first;
     second.problem = "actuator of 5 Hz";
     second.solver = Solver::dormand_prince;
@@ -23,7 +23,7 @@ TEST(SolverDiagrams, HoldEveryRowOnce) {
     const WorkPrecisionRow& row = diagrams[0].rows[0];
     EXPECT_EQ(row.label, "rosenbrock, 1e-06");
     EXPECT_EQ(row.error, (Interval{2e-8, 2e-8, 2e-8}));
-    EXPECT_EQ(row.seconds, (Interval{0.02, 0.01, 0.05}));
+    EXPECT_EQ(row.seconds, (Interval{0.02, 0.01, 0.05, 5}));
     EXPECT_EQ(row.floor, 3e-11);
     EXPECT_THAT(row.parameters, testing::Contains(std::pair<std::string, std::string>("evaluations", "30")));
     EXPECT_FALSE(diagrams[0].rows[1].measured());
