@@ -1,0 +1,85 @@
+#include "metrics/aliasing/band_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <oneapi/tbb/parallel_for.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+constexpr int half_width_px = 32;
+constexpr double beta = 6.0;
+
+/// Weights of the samples from half_width_px before a pixel's centre to as many behind; their sum is 1.
+std::vector<double> low_pass(int k) {
+    const int count = 2 * half_width_px * k;
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) {
+        const double x = (i + 0.5) / k - half_width_px, at = x / half_width_px, angle = std::numbers::pi * x;
+        weights.push_back(std::sin(angle) / angle * std::cyl_bessel_i(0.0, beta * std::sqrt(1.0 - at * at)));
+        sum += weights.back();
+    }
+    for (double& weight : weights)
+        weight /= sum;
+    return weights;
+}
+
+int mirrored(int i, int count) {
+    const int period = 2 * count;
+    const int within = ((i % period) + period) % period;
+    return within < count ? within : period - 1 - within;
+}
+
+/// At the centre of every k-th group of k samples along x: filtered, transposed.
+Image<double> filtered_along_x(const Image<double>& fine, int k, const std::vector<double>& weights) {
+    const int count = static_cast<int>(weights.size()), before = count / 2 - k / 2;
+    Image<double> out(fine.height(), fine.width() / k);
+    oneapi::tbb::parallel_for(0, fine.height(), [&](int y) {
+        std::vector<double> row(static_cast<std::size_t>(fine.width() + 2 * before));
+        for (int i = 0; i < static_cast<int>(row.size()); ++i)
+            row[static_cast<std::size_t>(i)] = fine.at(mirrored(i - before, fine.width()), y);
+        for (int x = 0; x < out.height(); ++x) {
+            double sum = 0.0;
+            for (std::size_t i = 0; i < weights.size(); ++i)
+                sum += weights[i] * row[static_cast<std::size_t>(x * k) + i];
+            out.at(y, x) = sum;
+        }
+    });
+    return out;
+}
+
+Image<double> checked_doubles(const Image<float>& reference, int k) {
+    if (k < 4 || k % 2 != 0 || reference.empty() || reference.width() % k != 0 || reference.height() % k != 0)
+        throw std::invalid_argument(
+            fmt::format("a reference of {}x{} is not {} times as fine as a picture", reference.width(), reference.height(), k));
+    Image<double> values(reference.width(), reference.height());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values.pixels()[i] = static_cast<double>(reference.pixels()[i]);
+        if (!std::isfinite(values.pixels()[i]))
+            throw std::invalid_argument(fmt::format("the reference's value {} is {}", i, values.pixels()[i]));
+    }
+    return values;
+}
+
+} // namespace
+
+BandSplit split_bands(const Image<float>& reference, int k) {
+    const Image<double> fine = checked_doubles(reference, k);
+    const std::vector<double> weights = low_pass(k);
+    BandSplit split{filtered_along_x(filtered_along_x(fine, k, weights), k, weights), {}};
+    split.folded = split.ideal;
+    for (int y = 0; y < split.ideal.height(); ++y)
+        for (int x = 0; x < split.ideal.width(); ++x) {
+            const int right = x * k + k / 2, lower = y * k + k / 2;
+            const double centre =
+                0.25 * ((fine.at(right - 1, lower - 1) + fine.at(right, lower - 1)) + (fine.at(right - 1, lower) + fine.at(right, lower)));
+            split.folded.at(x, y) = centre - split.ideal.at(x, y);
+        }
+    return split;
+}
+
+} // namespace fernlicht

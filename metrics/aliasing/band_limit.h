@@ -1,0 +1,19 @@
+// What a display of w x h pixels can show of a picture drawn k times as fine, and what it cannot.
+#pragma once
+
+#include "scenarios/values/image.h"
+
+namespace fernlicht {
+
+/// A view of w x h pixels out of its reference of (k w) x (k h).
+struct BandSplit {
+    Image<double> ideal;  ///< the reference below the display's Nyquist limit, 0.5 cycles per pixel along x and y, at the pixels' centres
+    Image<double> folded; ///< the reference at the pixels' centres less `ideal`: what is above the limit, where it folds back to
+};
+
+/// Low pass: sinc under a Kaiser window (Kaiser 1974, beta 6) of 16 pixels to each side: flat within 0.2 % up to 0.44 cycles per pixel,
+/// below 0.2 % from 0.56 on. Beyond its edges the picture is mirrored. Threads do not change a bit.
+/// Throws std::invalid_argument unless `reference` is k times 1 x 1 or more, k even and at least 4, and its values are finite.
+BandSplit split_bands(const Image<float>& reference, int k);
+
+} // namespace fernlicht

@@ -1,0 +1,50 @@
+// How much of what a picture shows is not there: structure that neither the scene below the display's Nyquist limit nor a blur of it
+// explains.
+#pragma once
+
+#include "metrics/aliasing/band_limit.h"
+
+#include <vector>
+
+namespace fernlicht {
+
+/// Mean squares over the picture of one part of the difference, by how it is weighed.
+struct AliasingPart {
+    double rms = 0.0;              ///< in the picture's unit
+    double contrast_percent = 0.0; ///< r.m.s. over blocks of the part's r.m.s. / the block's mean luminance
+    double visible = 0.0; ///< the same in multiples of the contrast that an eye just sees: sqrt(sum (modulation * sensitivity)^2), r.m.s.
+};
+
+/// Of spatial frequencies |f| in [from, to) cycles per pixel.
+struct AliasingBand {
+    double from = 0.0, to = 0.0;
+    AliasingPart aliasing, lost;
+};
+
+struct SpatialAliasing {
+    // Only structure of at least 1/16 cycle per pixel: what is slower is shading.
+    AliasingPart aliasing;           ///< what no blur explains; aliasing^2 = folded^2 + rest^2 but for the ridge of the fit
+    AliasingPart folded;             ///< of it, what goes with the scene's content above the display's Nyquist limit, folded back
+    AliasingPart rest;               ///< of it, what does not: stairs of a beam's texels, steps of 8 bits, noise
+    AliasingPart lost;               ///< what blur took away of the content below the limit; no aliasing
+    std::vector<AliasingBand> bands; ///< octaves, and what lies in the corners beyond 1/2
+    double worst_visible = 0.0;      ///< the block with the most visible aliasing
+    int worst_x = 0, worst_y = 0;    ///< its centre, pixels
+    Image<double> aliasing_picture, folded_picture;
+};
+
+/// Luminances below count as this where contrast is taken: the lower end of mesopic vision in CIE 191:2010.
+inline constexpr double least_seen_cdm2 = 0.005;
+
+/// Blocks of 32 x 32 pixels under a sine window, neighbours overlapping by half. In each, `tested` without level and slope is told apart by
+/// least squares (squared window) into
+///   a symmetric filter of 7 x 7 pixels of the ideal picture (25 free values): the scene, sharp or blurred, as bright as it may be;
+///   of what is left, a symmetric filter of 3 x 3 pixels (5 values) of the content folded back, and the rest.
+/// A pure blur reads 0 as far as 7 x 7 pixels hold it. What folds back to within 1/64 cycle per pixel of where it came from, 0.5, is taken
+/// for the scene. `folded` knows only what the reference knows: content up to k / 2 cycles per pixel. Frequencies come from the blocks'
+/// Fourier transform, sensitivity from still_contrast_sensitivity() at the block's own mean luminance.
+/// `tested` and `split` have the same size, at least 32 x 32; pixels_per_degree > 0. Throws std::invalid_argument otherwise and for values
+/// that are not finite. Threads do not change a bit.
+SpatialAliasing measure_spatial_aliasing(const Image<float>& tested, const BandSplit& split, double pixels_per_degree);
+
+} // namespace fernlicht
