@@ -2,6 +2,7 @@
 #include "runner/accept_command.h"
 #include "runner/accuracy_command.h"
 #include "runner/bench_command.h"
+#include "runner/compare_command.h"
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
 #include "runner/reference_command.h"
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
     std::function<int()> chosen;
     fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_compare_command(app, chosen);
     fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);

@@ -108,6 +108,33 @@ void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path) {
     write_whole(path, spec, OIIO::TypeDesc::UINT8, picture.data());
 }
 
+Image<Rgb8> read_png(const std::filesystem::path& path) {
+    const auto refuse = [&](const std::string& found) {
+        throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(found.substr(0, found.find('\n')), 200),
+                         "a PNG picture of 8 bits, grey or RGB");
+    };
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+    if (!input)
+        refuse(OIIO::geterror());
+    if (std::string_view(input->format_name()) != "png")
+        refuse(std::string("is ") + input->format_name());
+    const OIIO::ImageSpec spec = input->spec();
+    if (spec.format != OIIO::TypeDesc::UINT8 || (spec.nchannels != 1 && spec.nchannels != 3))
+        refuse(std::to_string(spec.nchannels) + " channels of " + spec.format.c_str());
+    if (spec.width <= 0 || spec.height <= 0 || spec.image_pixels() > (OIIO::imagesize_t{1} << 28) / 3)
+        refuse("it claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    std::vector<std::uint8_t> levels(static_cast<std::size_t>(spec.image_pixels()) * channels);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, levels.data()))
+        refuse(input->geterror());
+    Image<Rgb8> picture(spec.width, spec.height);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const std::uint8_t* level = levels.data() + i * channels;
+        picture.pixels()[i] = channels == 3 ? Rgb8{level[0], level[1], level[2]} : Rgb8{level[0], level[0], level[0]};
+    }
+    return picture;
+}
+
 std::vector<PictureChannel> read_exr(const std::filesystem::path& path) {
     const auto refuse = [&](const std::string& found) {
         throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(found, 200), "an EXR picture");

@@ -27,6 +27,10 @@ void write_channels(const std::vector<PictureChannel>& channels, const Moment& m
 /// 8-bit sRGB. Throws DeviceError.
 void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path);
 
+/// An 8-bit grey or RGB picture; grey becomes r = g = b. Throws InputError: missing, no PNG, cut short, other bits, with alpha, more than
+/// 2^28 values.
+Image<Rgb8> read_png(const std::filesystem::path& path);
+
 /// All channels of an EXR file. Throws InputError: missing, no EXR, cut short, more than 2^28 values.
 std::vector<PictureChannel> read_exr(const std::filesystem::path& path);
 

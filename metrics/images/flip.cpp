@@ -1,0 +1,223 @@
+#include "metrics/images/flip.h"
+
+#include "metrics/images/flip_tile.h"
+#include "metrics/images/srgb.h"
+#include "scenarios/values/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace fernlicht {
+namespace {
+
+template <class Picture> void check(const Picture& tested, const Picture& reference, double pixels_per_degree) {
+    if (tested.width() != reference.width() || tested.height() != reference.height())
+        throw std::invalid_argument(fmt::format("pictures of {}x{} and {}x{} cannot be compared", tested.width(), tested.height(),
+                                                reference.width(), reference.height()));
+    if (tested.empty())
+        throw std::invalid_argument("empty pictures cannot be compared");
+    if (!(pixels_per_degree >= 1.0 && pixels_per_degree <= 1000.0))
+        throw std::invalid_argument(fmt::format("{} pixels per degree are not from 1 to 1000", pixels_per_degree));
+}
+
+/// Calls `work(tile, memory)` for all tiles of a picture, several at once.
+template <class Work> void for_tiles(int width, int height, const Work& work) {
+    struct Scratch {
+        flip::TileMemory memory;
+        std::vector<float> errors = std::vector<float>(static_cast<std::size_t>(flip::tile_px) * flip::tile_px);
+    };
+    const int across = (width + flip::tile_px - 1) / flip::tile_px, down = (height + flip::tile_px - 1) / flip::tile_px;
+    tbb::enumerable_thread_specific<Scratch> scratch;
+    tbb::parallel_for(0, across * down, [&](int number) {
+        const int x = number % across * flip::tile_px, y = number / across * flip::tile_px;
+        Scratch& mine = scratch.local();
+        work(flip::Tile{x, y, std::min(flip::tile_px, width - x), std::min(flip::tile_px, height - y)}, mine.memory, mine.errors.data());
+    });
+}
+
+flip::Rows rows_of(const Image<Rgb8>& picture) {
+    return [&picture](int y, int x, int count, float* r, float* g, float* b) {
+        const auto& linear = srgb_table();
+        const Rgb8* pixel = &picture.at(x, y);
+        for (int i = 0; i < count; ++i) {
+            r[i] = linear[pixel[i].r];
+            g[i] = linear[pixel[i].g];
+            b[i] = linear[pixel[i].b];
+        }
+    };
+}
+
+/// (a x^2 + b x) / (c x^2 + d x + e): Narkowicz's fit to the ACES curve, with the 0.6 of its exposure in x.
+namespace aces {
+constexpr double a = 0.6 * 0.6 * 2.51, b = 0.6 * 0.03, c = 0.6 * 0.6 * 2.43, d = 0.6 * 0.59, e = 0.14;
+
+float shown(float x) {
+    // Beyond 100 the quotient is 1 after clamping; x squared must stay finite.
+    const float v = x < 100.0F ? x : 100.0F;
+    const float y = v * (static_cast<float>(a) * v + static_cast<float>(b)) /
+                    (v * (static_cast<float>(c) * v + static_cast<float>(d)) + static_cast<float>(e));
+    return y < 1.0F ? y : 1.0F;
+}
+
+/// The x that is shown as 0.85, the bright end of the exposures (section 3.2 of the second paper).
+double bright_end() {
+    constexpr double t = 0.85;
+    const double p = a - t * c, q = b - t * d, r = -t * e;
+    return (-q + std::sqrt(q * q - 4.0 * p * r)) / (2.0 * p);
+}
+} // namespace aces
+
+flip::Rows rows_of(const Image<glm::vec3>& picture, float factor) {
+    return [&picture, factor](int y, int x, int count, float* r, float* g, float* b) {
+        const glm::vec3* pixel = &picture.at(x, y);
+        for (int i = 0; i < count; ++i) {
+            r[i] = aces::shown(factor * pixel[i].x);
+            g[i] = aces::shown(factor * pixel[i].y);
+            b[i] = aces::shown(factor * pixel[i].z);
+        }
+    };
+}
+
+flip::Rows rows_of(const Image<float>& picture, float factor) {
+    return [&picture, factor](int y, int x, int count, float* r, float* g, float* b) {
+        const float* pixel = &picture.at(x, y);
+        for (int i = 0; i < count; ++i)
+            r[i] = g[i] = b[i] = aces::shown(factor * pixel[i]);
+    };
+}
+
+bool is_light(float v) { return v >= 0.0F && std::isfinite(v); }
+bool is_light(const glm::vec3& v) { return is_light(v.x) && is_light(v.y) && is_light(v.z); }
+float luminance_of(float v) { return v; }
+float luminance_of(const glm::vec3& v) { return 0.2126F * v.x + 0.7152F * v.y + 0.0722F * v.z; }
+
+template <class Pixel> void check_light(const Image<Pixel>& picture, const char* which) {
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x)
+            if (!is_light(picture.at(x, y)))
+                throw std::invalid_argument(fmt::format("{} picture: pixel {}, {} is below 0 or not finite", which, x, y));
+}
+
+double median_of(std::vector<float>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return static_cast<double>(*middle);
+}
+
+template <class Pixel> ExposureRange exposures_of(const Image<Pixel>& reference) {
+    check_light(reference, "reference");
+    std::vector<float> luminances;
+    for (const Pixel& p : reference.pixels())
+        luminances.push_back(luminance_of(p));
+    const double largest = luminances.empty() ? 0.0 : static_cast<double>(*std::ranges::max_element(luminances));
+    if (!(largest > 0.0))
+        throw std::invalid_argument("a reference without light has no exposure");
+    double middle = median_of(luminances);
+    if (!(middle > 0.0)) {
+        std::erase_if(luminances, [](float v) { return !(v > 0.0F); });
+        middle = median_of(luminances);
+    }
+    ExposureRange range;
+    range.start = std::log2(aces::bright_end() / largest);
+    range.stop = std::min(std::log2(aces::bright_end() / middle), range.start + most_stops);
+    range.count = std::max(2, static_cast<int>(std::ceil(range.stop - range.start)));
+    return range;
+}
+
+template <class Pixel> Image<float> worst_of_exposures(const Image<Pixel>& tested, const Image<Pixel>& reference,
+                                                       const ExposureRange& exposures, double pixels_per_degree, flip::Colours colours) {
+    check(tested, reference, pixels_per_degree);
+    check_light(tested, "tested");
+    check_light(reference, "reference");
+    const flip::Filters filters = flip::filters_for(pixels_per_degree);
+    std::vector<std::pair<flip::Rows, flip::Rows>> exposed;
+    for (int i = 0; i < exposures.count; ++i) {
+        const double stops = std::lerp(exposures.start, exposures.stop, static_cast<double>(i) / (exposures.count - 1));
+        const auto factor = static_cast<float>(std::exp2(stops));
+        exposed.emplace_back(rows_of(tested, factor), rows_of(reference, factor));
+    }
+    Image<float> map(tested.width(), tested.height());
+    for_tiles(map.width(), map.height(), [&](const flip::Tile& tile, flip::TileMemory& memory, float* errors) {
+        for (const auto& [rows_tested, rows_reference] : exposed) {
+            flip::flip_of_tile(tile, map.width(), map.height(), rows_tested, rows_reference, filters, colours, memory, errors);
+            for (int row = 0; row < tile.height; ++row)
+                for (int x = 0; x < tile.width; ++x) {
+                    float& worst = map.at(tile.x + x, tile.y + row);
+                    worst = std::max(worst, errors[row * flip::tile_px + x]);
+                }
+        }
+    });
+    return map;
+}
+
+} // namespace
+
+double pixels_per_degree_of_screen(double distance_m, double width_m, int width_px) {
+    return distance_m * width_px / width_m * radians(1.0);
+}
+
+double pixels_per_degree_of_view(double vertical_fov_rad, int height_px) {
+    return 0.5 * height_px / std::tan(0.5 * vertical_fov_rad) * radians(1.0);
+}
+
+Image<float> flip_ldr(const Image<Rgb8>& tested, const Image<Rgb8>& reference, double pixels_per_degree) {
+    check(tested, reference, pixels_per_degree);
+    const flip::Filters filters = flip::filters_for(pixels_per_degree);
+    const flip::Rows rows_tested = rows_of(tested), rows_reference = rows_of(reference);
+    Image<float> map(tested.width(), tested.height());
+    for_tiles(map.width(), map.height(), [&](const flip::Tile& tile, flip::TileMemory& memory, float* errors) {
+        flip::flip_of_tile(tile, map.width(), map.height(), rows_tested, rows_reference, filters, flip::Colours::all, memory, errors);
+        for (int row = 0; row < tile.height; ++row)
+            std::copy_n(errors + row * flip::tile_px, tile.width, &map.at(tile.x, tile.y + row));
+    });
+    return map;
+}
+
+ExposureRange exposures_for(const Image<glm::vec3>& reference) { return exposures_of(reference); }
+ExposureRange exposures_for(const Image<float>& reference) { return exposures_of(reference); }
+
+Image<float> flip_hdr(const Image<glm::vec3>& tested, const Image<glm::vec3>& reference, const ExposureRange& exposures,
+                      double pixels_per_degree) {
+    return worst_of_exposures(tested, reference, exposures, pixels_per_degree, flip::Colours::all);
+}
+
+Image<float> flip_hdr(const Image<float>& tested, const Image<float>& reference, const ExposureRange& exposures, double pixels_per_degree) {
+    return worst_of_exposures(tested, reference, exposures, pixels_per_degree, flip::Colours::grey);
+}
+
+FlipSummary summary_of_flip(const Image<float>& errors) {
+    if (errors.empty())
+        throw std::invalid_argument("an empty map has no mean");
+    std::vector<float> sorted = errors.pixels();
+    std::ranges::sort(sorted);
+    double sum = 0.0;
+    for (const float e : sorted)
+        sum += static_cast<double>(e);
+    FlipSummary s;
+    s.mean = sum / static_cast<double>(sorted.size());
+    s.minimum = static_cast<double>(sorted.front());
+    s.maximum = static_cast<double>(sorted.back());
+    const auto ranked = [&](double part) {
+        const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
+        return static_cast<double>(sorted[rank > 0 ? rank - 1 : 0]);
+    };
+    s.first_quartile = ranked(0.25);
+    s.median = ranked(0.5);
+    s.third_quartile = ranked(0.75);
+    const std::pair<double, double*> parts[] = {
+        {0.25, &s.weighted_first_quartile}, {0.5, &s.weighted_median}, {0.75, &s.weighted_third_quartile}};
+    double so_far = 0.0;
+    std::size_t next = 0;
+    for (const float e : sorted) {
+        so_far += static_cast<double>(e);
+        for (; next < 3 && so_far > parts[next].first * sum; ++next)
+            *parts[next].second = static_cast<double>(e);
+    }
+    return s;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,63 @@
+// How strictly two pictures must agree: a tree of leaves, each a statement about pixels, joined by `all` and `any`. A class of strictness
+// is such a tree with a name. What comes back tells how near to its threshold everything came, not only whether it passed.
+#pragma once
+
+#include "scenarios/values/image.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+/// A pixel keeps it with a difference |tested - reference| of at most absolute + relative * |reference|, in the picture's unit (levels
+/// 0..255, lx, cd/m2). Of several channels all must.
+struct PixelBound {
+    double absolute = 0.0, relative = 0.0;
+};
+
+/// Pixels that are not 0 are looked at.
+using PixelMask = Image<std::uint8_t>;
+
+struct StrictnessNode {
+    enum class Kind {
+        every,      ///< every pixel keeps `bound`
+        percentage, ///< at most `percent` of the pixels do not keep `bound`
+        hard_limit, ///< no pixel of the picture breaks `bound`, under the mask or not, shifted or not
+        all,        ///< every child passes
+        any,        ///< at least one child passes
+    };
+    Kind kind = Kind::all;
+    PixelBound bound = {};
+    double percent = 0.0; ///< 0..100
+    /// A pixel is compared with the nearest value among the reference's 3 x 3 pixels around its place: what moved by one pixel has not
+    /// changed.
+    bool one_pixel_shift = false;
+    std::optional<PixelMask> mask = {}; ///< none: all pixels
+    std::string mask_name = {};
+    std::vector<StrictnessNode> children = {};
+};
+
+struct StrictnessResult {
+    std::string statement; ///< "at most 0.1 % of the pixels differ by more than 1 level"
+    bool passed = false;
+    // Of a leaf. What its statement limits: the difference of the pixel that is farthest from keeping its bound, or a percentage.
+    double found = 0.0;
+    double threshold = 0.0; ///< it passes up to here, included
+    std::string unit;
+    std::size_t pixels = 0;       ///< looked at
+    int worst_x = 0, worst_y = 0; ///< the pixel that is farthest from keeping its bound
+    /// (threshold - found) / threshold: 1 no difference, 0 just passed, below 0 failed. Of `all` the least of the children, of `any` the
+    /// largest. With a threshold of 0 it is 0 where that passes, and none where it does not: nothing is a share of it.
+    std::optional<double> margin;
+    std::vector<StrictnessResult> children; ///< of all and any
+};
+
+/// Channels in pairs, one for a linear picture, three for a display picture, all of one size. Throws std::invalid_argument for sizes that
+/// differ (masks too), empty pictures, values that are not finite, bounds below 0, a percentage outside 0..100, an all or any without
+/// children, and a mask that looks at no pixel.
+StrictnessResult judge_strictness(const StrictnessNode& tree, const std::vector<Image<float>>& tested,
+                                  const std::vector<Image<float>>& reference, const std::string& unit);
+
+} // namespace fernlicht

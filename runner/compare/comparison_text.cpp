@@ -1,0 +1,72 @@
+#include "runner/bench/aligned_table.h"
+#include "runner/compare/comparison_writers.h"
+#include "scenarios/values/errors.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+std::string number(double value) {
+    return value == std::round(value) && std::abs(value) < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:.6g}", value);
+}
+
+void append_values(std::string& text, const LayerComparison& layer) {
+    std::vector<std::vector<std::string>> rows;
+    for (const ComparedValue& v : layer.values)
+        rows.push_back({"  " + v.name, v.value ? number(*v.value) : "not measured", v.value ? v.unit : "",
+                        !v.value  ? v.why_not
+                        : v.place ? fmt::format("at {}, {}", v.place->first, v.place->second)
+                                  : ""});
+    text += aligned_table("<><<", {"  " + layer.name, "", "", ""}, rows);
+}
+
+std::string margin_text(const StrictnessResult& r) {
+    if (!r.margin)
+        return "no share of 0";
+    return fmt::format("{:.3g} % {}", 100.0 * std::abs(*r.margin), *r.margin >= 0.0 ? "to spare" : "too much");
+}
+
+void append_strictness(std::string& text, const StrictnessResult& r, std::size_t depth) {
+    text += fmt::format("{:{}}{} {}", "", 2 * depth + 2, r.passed ? "pass" : "FAIL", r.statement);
+    if (r.children.empty())
+        text += fmt::format(": {} of {} {}, {}, farthest at {}, {}", number(r.found), number(r.threshold), r.unit, margin_text(r),
+                            r.worst_x, r.worst_y);
+    text += '\n';
+    for (const StrictnessResult& child : r.children)
+        append_strictness(text, child, depth + 1);
+}
+
+void append_histogram(std::string& text, const LayerComparison& layer) {
+    const auto all = static_cast<double>(layer.histogram.pixels());
+    text += fmt::format("  pixels by error: {:.4g} % none", 100.0 * static_cast<double>(layer.histogram.equal) / all);
+    for (int bin = 0; bin < ErrorHistogram::bins; bin += ErrorHistogram::bins_per_decade) { // decades are enough to read
+        std::size_t count = 0;
+        for (int i = bin; i < bin + ErrorHistogram::bins_per_decade; ++i)
+            count += layer.histogram.counts[static_cast<std::size_t>(i)];
+        if (count > 0)
+            text += fmt::format(", {:.4g} % from {:g}", 100.0 * static_cast<double>(count) / all, ErrorHistogram::edge(bin));
+    }
+    text += ' ' + layer.unit + '\n';
+}
+
+} // namespace
+
+std::string comparison_text(const PictureComparison& comparison, const PicturePair& pair) {
+    std::string text = fmt::format("reference A  {}\ntested B     {}\n{} x {} pixels, {:.4f} pixels per degree; differences are B - A\n",
+                                   printable(pair.reference.string(), 400), printable(pair.tested.string(), 400), pair.width, pair.height,
+                                   comparison.pixels_per_degree);
+    for (const LayerComparison& layer : comparison.layers) {
+        text += '\n';
+        append_values(text, layer);
+        append_histogram(text, layer);
+        if (layer.strictness) {
+            text += fmt::format("  strictness {}: {}\n", comparison.strictness_name, layer.strictness->passed ? "pass" : "FAIL");
+            append_strictness(text, *layer.strictness, 1);
+        }
+    }
+    return text;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,89 @@
+#include "runner/compare_command.h"
+
+#include "metrics/images/flip.h"
+#include "runner/compare/comparison_writers.h"
+#include "runner/compare/strictness_file.h"
+#include "runner/output_folder.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/pose.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+struct Flags {
+    std::filesystem::path reference, tested, out;
+    std::string strictness;
+    std::optional<double> pixels_per_degree, view_fov_deg;
+    bool json = false;
+};
+
+double pixels_per_degree(const Flags& flags, int height_px) {
+    const auto in_range = [](const char* flag, double value) {
+        if (!(value >= 1.0 && value <= 1000.0))
+            throw InputError({{}, 0, 0, flag}, fmt::format("found {:g} pixels per degree", value), "1 to 1000 of them");
+        return value;
+    };
+    if (flags.pixels_per_degree)
+        return in_range("--ppd", *flags.pixels_per_degree);
+    if (!flags.view_fov_deg)
+        return default_pixels_per_degree;
+    if (!(*flags.view_fov_deg > 0.0 && *flags.view_fov_deg < 180.0))
+        throw InputError({{}, 0, 0, "--view-fov"}, fmt::format("found {:g}", *flags.view_fov_deg), "degrees above 0 and below 180");
+    return in_range("--view-fov", pixels_per_degree_of_view(radians(*flags.view_fov_deg), height_px));
+}
+
+int compare_two_pictures(const Flags& flags) {
+    std::optional<StrictnessClass> strictness;
+    if (!flags.strictness.empty())
+        strictness = read_strictness(flags.strictness);
+    const PicturePair pair = read_picture_pair(flags.reference, flags.tested);
+    const double density = pixels_per_degree(flags, pair.height);
+    std::optional<OutputFolder> folder;
+    if (!flags.out.empty())
+        folder.emplace(flags.out);
+    const PictureComparison comparison = compare_pictures(pair, density, strictness ? &*strictness : nullptr);
+    std::vector<std::string> pictures;
+    if (folder) {
+        pictures = write_comparison_pictures(comparison, pair, folder->path());
+        write_file(folder->path() / "compare.json", comparison_json(comparison, pair, pictures));
+    }
+    fmt::print("{}", flags.json ? comparison_json(comparison, pair, pictures) : comparison_text(comparison, pair));
+    if (folder) {
+        folder->finish();
+        if (!flags.json)
+            fmt::print("\npictures and compare.json: {}\n", folder->path().string());
+    }
+    return comparison.passed() ? 0 : 1;
+}
+
+/// What A and B are decides how they are compared. Runs (folders with a report) and lamps would come here, before the pictures.
+int compare(const Flags& flags) {
+    for (const std::filesystem::path& file : {flags.reference, flags.tested})
+        if (!is_picture(file))
+            throw InputError({file, 0, 0, {}}, "is neither a PNG nor an EXR picture", "two pictures of one kind");
+    return compare_two_pictures(flags);
+}
+
+} // namespace
+
+void add_compare_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub =
+        app.add_subcommand("compare", "tells how two pictures differ: in numbers, in pictures, and whether they are alike enough");
+    sub->add_option("A", flags->reference, "the reference: PNG (display) or EXR (linear), as run writes them")->required();
+    sub->add_option("B", flags->tested, "what is compared with it: of the same kind and size")->required();
+    sub->add_option(
+        "--strictness", flags->strictness,
+        "identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md); exit code 1 when B does not keep it");
+    CLI::Option* density = sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree, for FLIP; 67.02 when nothing is said");
+    sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view in degrees, instead of --ppd")->excludes(density);
+    sub->add_option("--out", flags->out, "a new or empty folder for pictures of the difference and compare.json");
+    sub->add_flag("--json", flags->json, "prints JSON");
+    sub->callback([flags, &chosen] { chosen = [flags] { return compare(*flags); }; });
+}
+
+} // namespace fernlicht
