@@ -3,6 +3,7 @@
 #include "runner/flag_values.h"
 #include "runner/lamp_against.h"
 #include "runner/lamp_description.h"
+#include "runner/lamp_regulation.h"
 #include "runner/plots/isocandela.h"
 #include "runner/plots/png.h"
 #include "runner/report/json_text.h"
@@ -177,6 +178,11 @@ LampFile lamp_of(const LampRequest& request) {
 }
 
 int lamp_command(const LampRequest& request) {
+    if (!request.regulation.empty())
+        return lamp_regulation(request);
+    if (request.cut_off)
+        return lamp_cut_off(request);
+    refuse_regulation_options(request);
     check_picture_name(request.picture);
     if (request.spots && (*request.spots < 1 || *request.spots > most_spots))
         throw InputError({{}, 0, 0, "--spots"}, fmt::format("found {}", *request.spots), fmt::format("1 to {}", most_spots));
@@ -225,6 +231,7 @@ void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
                {{"automatic", TypeCAxis::automatic}, {"horizontal", TypeCAxis::horizontal}, {"nadir", TypeCAxis::nadir}},
                "where Type C and EULUMDAT beams point: automatic, horizontal or nadir");
     add_texture_options(*command, request->reading);
+    add_regulation_options(*command, *request);
     command->footer("Order of the changes: scale, mirror, add, subtract.");
     command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
 }

@@ -1,7 +1,6 @@
-// Our own lamps against the rows of their regulations, as sampled from the table that is shipped, with the margins printed.
+// Our own lamps: files that are what the model writes, with the flux and the edges of common lamps. The rows of their regulations are held
+// in tests/metrics/regulation/shipped_lamps_test.cpp.
 #include "scenarios/lamps/lamp_model.h"
-
-#include "tests/scenarios/lamps/regulation_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +12,6 @@
 namespace fernlicht {
 namespace {
 
-using namespace regulation;
-
-constexpr double step_deg = 0.05; // along segments and across zones; the texts give none
-
 std::filesystem::path shipped(const std::string& name) {
     return std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/lamps" / (name + ".ies");
 }
@@ -27,108 +22,6 @@ const CandelaTable& table(const std::string& name) {
     if (added)
         it->second = read_lamp(shipped(name)).table;
     return it->second;
-}
-
-std::vector<double> samples(double from, double to) {
-    std::vector<double> all;
-    const int n = std::max(1, static_cast<int>(std::ceil((to - from) / step_deg - 1e-9)));
-    for (int i = 0; i <= n; ++i)
-        all.push_back(from + (to - from) * i / n);
-    return all;
-}
-
-struct Span {
-    double low = none, high = 0.0;
-    void add(double cd) {
-        low = std::min(low, cd);
-        high = std::max(high, cd);
-    }
-};
-
-Span over(const CandelaTable& t, const Row& row) {
-    Span span;
-    for (const double v : samples(row.v_from, row.v_to))
-        for (const double h : samples(row.h_from, row.h_to))
-            span.add(intensity_cd(t, h, v));
-    return span;
-}
-
-void print(const std::string& lamp, const std::string& row, double found, const std::string& limit, double limit_cd) {
-    std::cout << fmt::format("    {:12} {:22} {:9.0f} cd, {} {:.0f} ({:+.0f} %)\n", lamp, row, found, limit, limit_cd,
-                             100.0 * (found / limit_cd - 1.0));
-}
-
-void expect_rows(const std::string& lamp, const std::vector<Row>& rows) {
-    for (const Row& row : rows) {
-        const Span span = over(table(lamp), row);
-        EXPECT_GE(span.low, row.min_cd) << row.name;
-        EXPECT_LE(span.high, row.max_cd) << row.name;
-        if (row.min_cd > 0.0)
-            print(lamp, row.name, span.low, "at least", row.min_cd);
-        if (row.max_cd < none)
-            print(lamp, row.name, span.high, "at most", row.max_cd);
-    }
-}
-
-std::vector<std::string> broken(const CandelaTable& t, const std::vector<Row>& rows) {
-    std::vector<std::string> names;
-    for (const Row& row : rows)
-        if (const Span span = over(t, row); span.low < row.min_cd || span.high > row.max_cd)
-            names.push_back(row.name);
-    return names;
-}
-
-/// Even-odd rule; the boundary is sampled by itself.
-bool inside(const std::vector<std::pair<double, double>>& polygon, double h, double v) {
-    bool in = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const auto [hi, vi] = polygon[i];
-        const auto [hj, vj] = polygon[j];
-        if ((vi > v) != (vj > v) && h < hi + (hj - hi) * (v - vi) / (vj - vi))
-            in = !in;
-    }
-    return in;
-}
-
-double most_in_zone_3(const CandelaTable& t) {
-    Span span;
-    for (const double v : samples(0, 4))
-        for (const double h : samples(-8, 8))
-            if (inside(zone_3, h, v))
-                span.add(intensity_cd(t, h, v));
-    for (std::size_t i = 0; i < zone_3.size(); ++i) {
-        const auto [h0, v0] = zone_3[i];
-        const auto [h1, v1] = zone_3[(i + 1) % zone_3.size()];
-        for (const double s : samples(0.0, 10.0))
-            span.add(intensity_cd(t, h0 + (h1 - h0) * s / 10.0, v0 + (v1 - v0) * s / 10.0));
-    }
-    return span.high;
-}
-
-TEST(RegulationRows, LampsThatAreWrongBreakThem) {
-    const CandelaTable& low = table("halogen-low");
-    EXPECT_THAT(broken(low, r112_b), testing::IsEmpty());
-    EXPECT_THAT(broken(mirrored(low), r112_b), testing::IsSupersetOf({"75R", "75L", "50L"}));
-    EXPECT_THAT(broken(scaled(low, 0.3), r112_b), testing::IsSupersetOf({"75R", "50R", "25L", "25R", "zone IV"}));
-    EXPECT_THAT(broken(scaled(low, 1.5), r112_b), testing::Contains("B50L"));
-    CandelaTable raised = low; // aimed at the horizon in place of 1 % down
-    for (double& v : raised.v_deg)
-        v += 0.57;
-    EXPECT_GT(most_in_zone_3(raised), zone_3_max_cd);
-}
-
-void expect_glow(const std::string& lamp) {
-    const CandelaTable& t = table(lamp);
-    const double most = most_in_zone_3(t);
-    EXPECT_LE(most, zone_3_max_cd);
-    print(lamp, "zone III", most, "at most", zone_3_max_cd);
-    for (const Sum& sum : overhead) {
-        double cd = 0.0;
-        for (const auto& [h, v] : sum.points)
-            cd += intensity_cd(t, h, v);
-        EXPECT_GE(cd, sum.min_cd) << sum.name;
-        print(lamp, sum.name, cd, "at least", sum.min_cd);
-    }
 }
 
 TEST(LampModel, ShippedFilesAreWhatTheModelWritesByteForByte) {
@@ -151,42 +44,6 @@ TEST(LampModel, ShippedFilesSayThatTheyAreAModel) {
         EXPECT_EQ(lamp.table, lamp_of_model(m).table) << m.name; // no digit is lost
         EXPECT_TRUE(lamp.notes.empty()) << m.name;
     }
-}
-
-TEST(LampModel, HalogenLowBeamMeetsR112ClassB) {
-    expect_rows("halogen-low", r112_b);
-    expect_glow("halogen-low");
-    const CandelaTable& t = table("halogen-low");
-    const double twice_50r = 2.0 * intensity_cd(t, 1.72, -0.86);
-    const double most = over(t, {"zone I", -9, 9, -4, -1.72}).high;
-    EXPECT_LT(most, twice_50r);
-    print("halogen-low", "zone I", most, "below", twice_50r);
-}
-
-TEST(LampModel, XenonLowBeamMeetsR98ClassD) {
-    expect_rows("xenon-low", r98_d);
-    expect_glow("xenon-low");
-}
-
-void expect_driving(const std::string& lamp, const Driving& limits) {
-    const CandelaTable& t = table(lamp);
-    const Peak peak = peak_of(t);
-    EXPECT_GE(peak.cd, limits.imax_min);
-    EXPECT_LE(peak.cd, driving_imax_max);
-    EXPECT_GE(intensity_cd(t, 0, 0), 0.8 * peak.cd);
-    print(lamp, "Imax", peak.cd, "at least", limits.imax_min);
-    print(lamp, "HV", intensity_cd(t, 0, 0), "at least", 0.8 * peak.cd);
-    for (const auto& [h, least] : {std::pair{2.5, limits.at_2_5}, {5.0, limits.at_5}})
-        for (const double side : {-1.0, 1.0}) {
-            const double least_on_way = over(t, {"", std::min(side * h, 0.0), std::max(side * h, 0.0), 0, 0}).low;
-            EXPECT_GE(least_on_way, least) << side * h;
-            print(lamp, fmt::format("H {:+.1f}", side * h), least_on_way, "at least", least);
-        }
-}
-
-TEST(LampModel, HighBeamsMeetTheirDrivingRows) {
-    expect_driving("halogen-high", driving_b);
-    expect_driving("xenon-high", driving_d);
 }
 
 /// Sharpness: the largest fall of log10 I over 0.1 degrees upwards, and where the steepest point is.

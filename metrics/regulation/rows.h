@@ -1,0 +1,90 @@
+// Rows of the tables, written short.
+#pragma once
+
+#include "metrics/regulation/regulation.h"
+
+#include <utility>
+
+namespace fernlicht {
+
+/// 65 mm at 25 m: atan(0.065 / 25). UN R149 01 series, annex 4; R123, annex 9.
+inline constexpr Receiver un_receiver{Receiver::Shape::square, 0.148969};
+/// A circle of 0.009 times the distance: 2 atan(0.0045). FMVSS 108, S14.2.5.7.2.
+inline constexpr Receiver fmvss_receiver{Receiver::Shape::disc, 0.515659};
+
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+inline Limits at_least(double cd) { return {cd, no_limit}; }
+inline Limits at_most(double cd) { return {0.0, cd}; }
+inline Limits between(double least_cd, double most_cd) { return {least_cd, most_cd}; }
+
+inline RegulationRow point(std::string id, double h_deg, double v_deg, Limits limits) {
+    return {.id = std::move(id), .kind = RowKind::point, .places = {{h_deg, v_deg}}, .limits = limits, .ratio_of = {}, .note = {}};
+}
+
+/// Level, from H to H at one V.
+inline RegulationRow segment(std::string id, double h_from_deg, double h_to_deg, double v_deg, Limits limits) {
+    return {.id = std::move(id),
+            .kind = RowKind::segment,
+            .places = {{h_from_deg, v_deg}, {h_to_deg, v_deg}},
+            .limits = limits,
+            .ratio_of = {},
+            .note = {}};
+}
+
+inline RegulationRow zone(std::string id, std::vector<Direction> corners, Limits limits) {
+    return {.id = std::move(id), .kind = RowKind::zone, .places = std::move(corners), .limits = limits, .ratio_of = {}, .note = {}};
+}
+
+inline std::vector<Direction> rectangle(double h_from_deg, double h_to_deg, double v_from_deg, double v_to_deg) {
+    return {{h_from_deg, v_from_deg}, {h_to_deg, v_from_deg}, {h_to_deg, v_to_deg}, {h_from_deg, v_to_deg}};
+}
+
+inline RegulationRow sum_of(std::string id, std::vector<Direction> places, Limits limits) {
+    return {.id = std::move(id), .kind = RowKind::sum, .places = std::move(places), .limits = limits, .ratio_of = {}, .note = {}};
+}
+
+inline RegulationRow brightest(std::string id, std::vector<Direction> corners, Limits limits) {
+    return {.id = std::move(id), .kind = RowKind::brightest, .places = std::move(corners), .limits = limits, .ratio_of = {}, .note = {}};
+}
+
+inline RegulationRow noted(RegulationRow row, std::string note) {
+    row.note = std::move(note);
+    return row;
+}
+
+inline RegulationRow scoped(RegulationRow row, Scope scope) {
+    row.scope = scope;
+    return row;
+}
+
+inline RegulationRow at_least_of(RegulationRow row, std::string of, double ratio) {
+    row.ratio_of = std::move(of);
+    row.ratio = ratio;
+    row.ratio_is_minimum = true;
+    return row;
+}
+
+inline RegulationRow at_most_of(RegulationRow row, std::string of, double ratio) {
+    row = at_least_of(std::move(row), std::move(of), ratio);
+    row.ratio_is_minimum = false;
+    return row;
+}
+
+/// Zone III of UN R112, R98, R149 and (as III a) R123: the dark side above the cut-off.
+inline const std::vector<Direction> zone_3{{-8, 1}, {-8, 4}, {8, 4}, {8, 2}, {6, 1.5}, {1.5, 1.5}, {0, 0}, {-4, 0}};
+
+/// Light for signs overhead: sums over three directions at 4 U and at 2 U.
+inline const std::vector<Direction> signs_4u{{-8, 4}, {0, 4}, {8, 4}}, signs_2u{{-4, 2}, {0, 2}, {4, 2}};
+
+/// Every direction that a goniometer reaches: where a text says "maximum" without a place.
+inline const std::vector<Direction> everywhere = rectangle(-180, 180, -90, 90);
+
+/// The families, each in a file of its own.
+std::vector<Regulation> r149_regulations();
+std::vector<Regulation> r112_and_r98_regulations();
+std::vector<Regulation> r123_passing_regulations();
+std::vector<Regulation> r123_driving_regulations();
+std::vector<Regulation> fmvss108_regulations();
+
+} // namespace fernlicht

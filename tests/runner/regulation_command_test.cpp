@@ -1,0 +1,125 @@
+// `fernlicht lamp FILE --regulation` and `--cut-off` through the program.
+#include "metrics/regulation/regulation.h"
+#include "tests/runner/program.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string lamp(const std::string& name) { return "lamp '" + library_file("lamps/" + name + ".ies") + "' "; }
+
+TEST(RegulationCommand, PrintsRowsVerdictAndTheNarrowest) {
+    const Outcome o = run_program(lamp("halogen-low") + "--regulation r112-b");
+    EXPECT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_THAT(o.output,
+                AllOf(HasSubstr("per our table of UN R112"), HasSubstr("two published transcriptions"), HasSubstr("set to 0.57 D"),
+                      HasSubstr("narrowest    75R +26."), HasSubstr("pass: meets all 18 rows of our table; no approval")));
+    EXPECT_LT(o.output.find("\nB50L "), o.output.find("\nzone III ")); // in the regulation's order
+    EXPECT_LT(o.output.find("\nzone III "), o.output.find("\n75R "));
+}
+
+TEST(RegulationCommand, AFailedRowIsExitCode1AndNamed) {
+    const Outcome o = run_program(lamp("halogen-low") + "--scale 0.7 --regulation r112-b --no-re-aim --json");
+    EXPECT_EQ(o.exit_code, 1);
+    const json j = json::parse(o.output);
+    EXPECT_EQ(j["verdict"], "fail");
+    EXPECT_EQ(j["narrowest"][0], "75R");
+    EXPECT_EQ(j["rows"].size(), 18u);
+    EXPECT_FALSE(j["aim"][0]["cut_off"]["kink_h_deg"].is_null());
+    // Turned up by what the edition allows, more light reaches 75R.
+    const Outcome turned = run_program(lamp("halogen-low") + "--scale 0.7 --regulation r112-b");
+    EXPECT_EQ(turned.exit_code, 0);
+    EXPECT_THAT(turned.output, HasSubstr("within what the edition allows"));
+}
+
+TEST(RegulationCommand, LeftHandTrafficIsTheMirrorImage) {
+    const Outcome right = run_program(lamp("xenon-low") + "--regulation r98-d --json");
+    const Outcome left = run_program(lamp("xenon-low") + "--mirror --regulation r98-d --left-hand-traffic --json");
+    const json r = json::parse(right.output)["rows"], l = json::parse(left.output)["rows"];
+    ASSERT_EQ(r.size(), l.size());
+    for (std::size_t i = 0; i < r.size(); ++i) {
+        EXPECT_EQ(r[i]["found"], l[i]["found"]) << r[i];
+        EXPECT_EQ(r[i]["margin"], l[i]["margin"]);
+        EXPECT_EQ(r[i]["h_deg"].get<double>(), 0.0 - l[i]["h_deg"].get<double>());
+    }
+    EXPECT_THAT(left.output, AllOf(HasSubstr("\"B50R\""), HasSubstr("\"75L\""), Not(HasSubstr("\"75R\""))));
+    EXPECT_EQ(run_program(lamp("xenon-low") + "--regulation r98-d --left-hand-traffic --aim as-is").exit_code, 1);
+}
+
+TEST(RegulationCommand, TwoFilesAreHalfTheirSumWhereTheTableSaysSo) {
+    const auto rows = [](const std::string& arguments) { return json::parse(run_program(arguments).output)["rows"]; };
+    const std::string table = "--regulation r123-c --aim as-is --json";
+    const json one = rows(lamp("halogen-low") + table);
+    const json same = rows(lamp("halogen-low") + "--add '" + library_file("lamps/halogen-low.ies") + "' " + table);
+    const json both = rows(lamp("halogen-low") + "--add '" + library_file("lamps/xenon-low.ies") + "' " + table);
+    const json other = rows(lamp("xenon-low") + table);
+    const auto found = [](const json& all, const std::string& id) {
+        for (const json& row : all)
+            if (row["id"] == id)
+                return row["found"].get<double>();
+        return -1.0;
+    };
+    for (const char* id : {"B50L", "75R", "50V", "25LL", "S50LL + S50 + S50RR"}) {
+        EXPECT_NEAR(found(same, id), found(one, id), 1e-9 * found(one, id)) << id;
+        EXPECT_NEAR(found(both, id), (found(one, id) + found(other, id)) / 2.0, 1e-9 * found(one, id)) << id;
+    }
+    EXPECT_EQ(found(one, "HV, each side"), -1.0);
+    EXPECT_NEAR(found(both, "HV, each side"), std::min(found(one, "HV"), found(other, "HV")), 1e-6);
+    EXPECT_THAT(run_program(lamp("halogen-low") + "--regulation r123-c").output, HasSubstr("half the sum of both sides; one file given"));
+}
+
+TEST(RegulationCommand, ADrivingBeamKeepsThePassingBeamsAim) {
+    const std::string aim_by = "--aim-by '" + library_file("lamps/halogen-low.ies") + "' ";
+    const json j = json::parse(run_program(lamp("halogen-high") + "--regulation r112-driving-b --json " + aim_by).output);
+    EXPECT_THAT(j["aim"][0]["how"].get<std::string>(), HasSubstr("by the passing beam: cut-off found"));
+    EXPECT_NEAR(j["aim"][0]["turned_deg"][1].get<double>(), 0.011, 0.005);
+}
+
+TEST(RegulationCommand, ListNamesEveryTableAndItsRows) {
+    const Outcome text = run_program("lamp --regulation list");
+    EXPECT_EQ(text.exit_code, 0);
+    const json list = json::parse(run_program("lamp --regulation list --json").output);
+    ASSERT_EQ(list.size(), regulation_ids().size());
+    for (const std::string& id : regulation_ids())
+        EXPECT_THAT(text.output, HasSubstr("  " + id + " "));
+    EXPECT_GT(list[0]["rows"].size(), 20u);
+}
+
+TEST(RegulationCommand, CutOffTellsItsFigures) {
+    const Outcome text = run_program(lamp("xenon-low") + "--cut-off");
+    EXPECT_EQ(text.exit_code, 0);
+    EXPECT_THAT(text.output, AllOf(HasSubstr("detector 30 mm at 25 m"), HasSubstr("kink         H -0.0"), HasSubstr("rise         14.")));
+    const json j = json::parse(run_program(lamp("xenon-low") + "--cut-off --json --detector 0 --sharpness at-inflection").output);
+    EXPECT_LT(j["level"][1]["sharpness_g"].get<double>(), 0.345);
+    EXPECT_NEAR(j["level"][1]["inflection_v_deg"].get<double>(), -0.57, 0.02);
+    const Outcome high = run_program(lamp("halogen-high") + "--cut-off");
+    EXPECT_THAT(high.output, HasSubstr("not_measured"));
+}
+
+TEST(RegulationCommand, RefusesWhatItCannotDoInOneSentence) {
+    const auto refused = [](const std::string& arguments, const std::string& words) {
+        const Outcome o = run_program(arguments);
+        EXPECT_EQ(o.exit_code, 2) << arguments;
+        EXPECT_THAT(o.output, HasSubstr(words));
+        EXPECT_EQ(std::count(o.output.begin(), o.output.end(), '\n'), 1) << o.output;
+    };
+    refused(lamp("halogen-low") + "--regulation r112-x", "found 'r112-x', expected 'r112-");
+    refused(lamp("halogen-low") + "--regulation r112-b --aim sideways", "--aim: found 'sideways'");
+    refused(lamp("halogen-low") + "--regulation fmvss108-lb2m --left-hand-traffic", "--left-hand-traffic");
+    refused(lamp("halogen-low") + "--regulation r112-b --convert x.ies", "--convert together with --regulation");
+    refused(lamp("halogen-low") + "--cut-off --detector -1", "--detector: found -1");
+    refused(lamp("halogen-low") + "--cut-off --sharpness most", "--sharpness: found 'most'");
+    refused("lamp --regulation r112-b", "found no lamp");
+    const std::string other = "--add '" + library_file("lamps/halogen-low.ies") + "' ";
+    refused(lamp("halogen-low") + "--regulation r123-c " + other + other, "--add: found 2 files");
+    refused(lamp("halogen-low") + "--aim as-is", "--regulation");
+}
+
+} // namespace
+} // namespace fernlicht
