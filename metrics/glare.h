@@ -10,6 +10,7 @@
 #pragma once
 
 #include "metrics/measured.h"
+#include "scenarios/drives/seeing_parameters.h"
 
 #include <string_view>
 #include <vector>
@@ -22,11 +23,9 @@ struct GlareSource {
     double theta_deg = 0.0; ///< from the line of sight
 };
 
-enum class VeilingEquation {
-    stiles_holladay, ///< Lv = 10 E / theta^2, without age; 1 < theta < 30
-    age_adjusted,    ///< Lv = 10 (1 + (A/70)^4) E / theta^2; 1 < theta < 30 [read]
-    cie_general      ///< Lv = E (10/theta^3 + (5/theta^2 + 0.1 p/theta)(1 + (A/62.5)^4) + 0.0025 p); 0.1 < theta < 100 [memory]
-};
+// stiles_holladay: Lv = 10 E / theta^2, without age; 1 < theta < 30
+// age_adjusted:    Lv = 10 (1 + (A/70)^4) E / theta^2; 1 < theta < 30 [read]
+// cie_general:     Lv = E (10/theta^3 + (5/theta^2 + 0.1 p/theta)(1 + (A/62.5)^4) + 0.0025 p); 0.1 < theta < 100 [memory]
 /// "cie-general", as drives name it.
 std::string_view name(VeilingEquation equation);
 

@@ -4,6 +4,7 @@
 #include "runner/frame_times.h"
 #include "runner/lux_map.h"
 #include "runner/probe_fold.h"
+#include "runner/seeing/seeing_fold.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/motion.h"
 
@@ -153,6 +154,7 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
     const ExtentFold extent(drive, route);
     Measuring measuring(extent, played.extents);
     ProbeFold probes(drive, route);
+    SeeingFold seeing(drive, route);
 
     State state = start(drive);
     while (state.tick < std::max(0, options.ticks.first) && state.tick + 1 < tick_count(drive))
@@ -178,6 +180,7 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
         }
         probes.add(moment, draw);
         times.end_moment();
+        seeing.add(moment);
         pictures.store(moment);
         if (drawn)
             measuring.add(std::move(*drawn));
@@ -193,6 +196,8 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
     times.finish(played);
     pictures.finish(played.ticks_done == played.ticks_planned);
     played.readings = probes.finish();
+    std::ranges::copy(seeing.readings(), std::back_inserter(played.readings));
+    played.seeing = seeing.series();
     return played;
 }
 

@@ -2,6 +2,7 @@
 
 #include "renderer/technique.h"
 #include "runner/limits.h"
+#include "runner/seeing/seeing_fold.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/roads/road_mesh.h"
@@ -16,7 +17,7 @@ Stage::Stage(Drive d)
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     fit_to_route(drive, route);
     simulate(drive, route);
-    check_limit_names(drive);
+    check_limit_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);
 }
 

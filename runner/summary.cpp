@@ -201,6 +201,6 @@ std::string name_part(const std::string& text) {
     return part;
 }
 
-bool is_of_time(const Reading& reading) { return reading.unit == "ms" || reading.unit == "s"; }
+bool is_of_time(const Reading& reading) { return reading.unit == "ms"; }
 
 } // namespace fernlicht

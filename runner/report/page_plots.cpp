@@ -16,12 +16,6 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN(); // what plots leave out
 
-plots::Colour colour_of(std::size_t variant) {
-    unsigned rgb = 0;
-    std::from_chars(variant_colour(variant) + 1, variant_colour(variant) + 7, rgb, 16);
-    return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255), static_cast<std::uint8_t>(rgb & 255)};
-}
-
 plots::Colour darker(plots::Colour colour) {
     const auto half = [](std::uint8_t channel) { return static_cast<std::uint8_t>(channel / 2); };
     return {half(colour.r), half(colour.g), half(colour.b)};
@@ -124,6 +118,12 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
 }
 
 } // namespace
+
+plots::Colour colour_of(std::size_t variant) {
+    unsigned rgb = 0;
+    std::from_chars(variant_colour(variant) + 1, variant_colour(variant) + 7, rgb, 16);
+    return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255), static_cast<std::uint8_t>(rgb & 255)};
+}
 
 std::vector<double> plotted_limits_lx(const ComparedDrive& drive) {
     std::vector<double> limits;

@@ -1,6 +1,7 @@
 // The figures of report.html as SVG, ready to stand in the page.
 #pragma once
 
+#include "runner/plots/colour.h"
 #include "runner/report/page_parts.h"
 
 namespace fernlicht {
@@ -12,6 +13,12 @@ std::string lux_map_svg(const LuxMap& map, const std::string& lamp);
 /// Reach in the own lane over the drive: a line per lamp set, the twin's as a thin dashed line, the band of +-0.1 degrees of aim.
 /// "" when nothing of that plane and limit was measured.
 std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limit_lx);
+
+/// What the drive asks of glare and seeing: for each subject its drawn columns over the distance, a line per lamp set.
+std::vector<std::string> seeing_svgs(const ComparedDrive& drive);
+
+/// A lamp set's colour in every plot.
+plots::Colour colour_of(std::size_t variant);
 
 /// Speed over time. All lamp sets drive alike, so the first one's. "" without samples.
 std::string speed_svg(const ComparedDrive& drive);

@@ -6,6 +6,7 @@
 #include "metrics/pixel_errors.h"
 #include "metrics/statistics.h"
 #include "renderer/renderer.h"
+#include "runner/seeing/seeing_series.h"
 #include "scenarios/drives/frame.h"
 
 #include <string>
@@ -125,6 +126,7 @@ struct PlayedVariant {
     std::vector<LuxMap> maps;                         ///< at captured moments, at most as many as the page shows
     std::vector<ExtentRow> extents;                   ///< every moment
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed
+    std::vector<SeeingSeries> seeing;                 ///< glare and light at fixed places, every moment; empty where not asked for
     std::vector<CarRow> car;                          ///< every moment of a drive with a vehicle, else empty
     std::string no_road_lx, no_target_lx;             ///< why there are no rendered extents of that plane; "" where there are
     std::vector<PassTime> passes;                     ///< raw samples of frames drawn alone, warm-up dropped: "frame", "shadow", ...

@@ -49,6 +49,12 @@ data plots_part(const ComparedDrive& drive) {
     for (const std::string& svg : car_svgs(drive))
         add(speeds, svg);
     part.set("speeds", speeds);
+    data seen{List::list};
+    bool has_seen = false;
+    for (const std::string& svg : seeing_svgs(drive))
+        has_seen = add(seen, svg) || has_seen;
+    part.set("has_seen", has_seen);
+    part.set("seen", seen);
     part.set("has_timing", add(timings, timing_svg(drive)));
     part.set("timings", timings);
     part.set("passes", timing_table(drive));

@@ -215,6 +215,29 @@ Json extents_json(const PlayedVariant& played) {
     return out;
 }
 
+/// Seven digits: far below what any of the lamp tables knows.
+Json seven_digits(const std::optional<double>& value, const std::string& what) {
+    return value ? Json(std::stod(fmt::format("{:.7g}", finite(*value, what.c_str())))) : Json(nullptr);
+}
+
+/// Columns with one entry per moment; null where it was not measured.
+Json seeing_json(const std::vector<SeeingSeries>& all) {
+    Json out = Json::array();
+    for (const SeeingSeries& series : all) {
+        Json at = Json::array(), columns = Json::array();
+        for (const double at_m : series.at_m)
+            at.push_back(rounded(at_m, series.over.c_str()));
+        for (const SeeingSeries::Column& column : series.columns) {
+            Json values = Json::array();
+            for (const std::optional<double>& value : column.values)
+                values.push_back(seven_digits(value, column.name));
+            columns.push_back({{"name", column.name}, {"what", column.label}, {"unit", column.unit}, {"values", std::move(values)}});
+        }
+        out.push_back({{"subject", series.subject}, {"over", series.over}, {"frame", series.ticks}, {"at_m", at}, {"columns", columns}});
+    }
+    return out;
+}
+
 Json contact_sheet_json(const StoredFrame& sheet) {
     if (sheet.png.empty())
         return nullptr;
@@ -273,6 +296,8 @@ Json drive_json(const PlayedVariant& played) {
               {"speed_mps", speed},
               {"accuracy", accuracy_json(played.error)},
               {"extents", extents_json(played)}};
+    if (!played.seeing.empty())
+        json["seeing"] = seeing_json(played.seeing);
     if (!played.car.empty())
         json["car"] = car_json(played.car);
     return json;

@@ -1,6 +1,7 @@
 // A drive: everything that decides what a run shows, resolved to plain values. Read from YAML; written back beside the results.
 #pragma once
 
+#include "scenarios/drives/seeing_parameters.h"
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/roads/route.h"
@@ -129,6 +130,7 @@ struct Drive {
     std::string technique = "photometric";
     std::optional<ExtentParameters> extent;
     std::vector<Probe> probes;
+    SeeingParameters seeing; ///< sensors and glare
     std::vector<Limit> limits;
     bool shadows = true;
     std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float

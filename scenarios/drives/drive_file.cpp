@@ -74,7 +74,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     drive.tone_mapper = read_tone_mapper(keys);
     if (const auto technique = keys.find("technique"))
         drive.technique = technique->name();
-    read_measure(keys, drive.extent, drive.probes);
+    read_measure(keys, drive);
     drive.limits = read_limits(keys);
     drive.shadows = keys.flag_or("shadows", drive.shadows);
     if (const auto beams = keys.find("beams"))

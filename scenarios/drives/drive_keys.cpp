@@ -1,5 +1,7 @@
 #include "scenarios/drives/drive_keys.h"
 
+#include "scenarios/drives/seeing_keys.h"
+
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -144,21 +146,22 @@ ToneMapper read_tone_mapper(const YamlMap& drive) {
     return mapper;
 }
 
-void read_measure(const YamlMap& drive, std::optional<ExtentParameters>& extent, std::vector<Probe>& probes) {
-    extent = ExtentParameters{};
-    const auto given = drive.find("measure");
+void read_measure(const YamlMap& keys, Drive& drive) {
+    drive.extent = ExtentParameters{};
+    const auto given = keys.find("measure");
     if (!given)
         return;
-    const YamlMap keys = given->map({"extent", "probes"});
-    if (const auto parameters = keys.find("extent")) {
+    const YamlMap measure = given->map({"extent", "probes", "sensors", "glare"});
+    if (const auto parameters = measure.find("extent")) {
         if (!parameters->is_scalar())
-            extent = read_extent(*parameters);
+            drive.extent = read_extent(*parameters);
         else if (!parameters->flag())
-            extent.reset();
+            drive.extent.reset();
     }
-    if (const auto named = keys.find("probes"))
+    if (const auto named = measure.find("probes"))
         for (const auto& [name, entry] : named->named(1000))
-            probes.push_back(read_probe(name, entry));
+            drive.probes.push_back(read_probe(name, entry));
+    drive.seeing = read_seeing(measure);
 }
 
 std::vector<Limit> read_limits(const YamlMap& drive) {

@@ -18,8 +18,8 @@ Daylight read_daylight(const YamlMap& drive);
 std::vector<View> read_views(const YamlMap& drive);
 Capture read_capture(const YamlMap& drive);
 ToneMapper read_tone_mapper(const YamlMap& drive);
-/// `measure`: extent (nullopt for `extent: false`) and probes.
-void read_measure(const YamlMap& drive, std::optional<ExtentParameters>& extent, std::vector<Probe>& probes);
+/// `measure`: extent (nullopt for `extent: false`), probes, sensors and glare.
+void read_measure(const YamlMap& keys, Drive& drive);
 std::vector<Limit> read_limits(const YamlMap& drive);
 
 /// Position from [x, y, z], each within 100 m of the car's origin.

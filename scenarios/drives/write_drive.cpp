@@ -1,5 +1,7 @@
 #include "scenarios/drives/drive.h"
 
+#include "scenarios/drives/seeing_keys.h"
+
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,6 +45,7 @@ class Lines {
         fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
         text_ += '\n';
     }
+    void add_all(const std::string& lines) { text_ += lines; }
     std::string take() { return std::move(text_); }
 
   private:
@@ -270,6 +273,7 @@ std::string write_drive(const Drive& drive) {
             drive.tone_mapper.l_max_cdm2);
     out.add(0, "technique: {}", quoted(drive.technique));
     write_measure(out, drive);
+    out.add_all(write_seeing(drive.seeing));
     write_limits(out, drive);
     out.add(0, "shadows: {}", drive.shadows);
     if (drive.beams && *drive.beams != eight_bit_texels)

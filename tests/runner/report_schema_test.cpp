@@ -55,6 +55,29 @@ TEST(ReportSchema, ThePagePlotsTheCarBesideTheSpeed) {
                                       HasSubstr("Levelling"), testing::Not(HasSubstr("Swivel"))));
 }
 
+TEST(ReportSchema, DescribesSeeingWhereADriveAsks) {
+    Report report = tests::sample_report(2);
+    EXPECT_FALSE(json::parse(report_json(report))["drives"][0].contains("seeing"));
+    EXPECT_THAT(report_html(report, {}), testing::Not(HasSubstr("Seeing and glare")));
+    report.played[0].seeing = {{"glare_eye",
+                                "Oncoming driver",
+                                "distance to the observer",
+                                {0, 1},
+                                {30.0, 20.0},
+                                {{"facing_lx", "illuminance facing the lamps", "lx", true, true, {0.5, 1.25}},
+                                 {"de_boer", "de Boer's rating", "", false, true, {std::nullopt, 4.0}},
+                                 {"theta_left_deg", "angle of left", "deg", false, false, {1.0, 2.0}}}}};
+    const json written = json::parse(report_json(report));
+    EXPECT_THAT(report_schema().check(written), IsEmpty());
+    const json& seen = written["drives"][0]["seeing"][0];
+    EXPECT_EQ(seen["subject"], "glare_eye");
+    EXPECT_EQ(seen["at_m"], json({30.0, 20.0}));
+    EXPECT_EQ(seen["columns"][1]["values"], json::parse("[null, 4.0]"));
+    const std::string page = report_html(report, {});
+    EXPECT_THAT(page, testing::AllOf(HasSubstr("Seeing and glare"), HasSubstr("Oncoming driver: illuminance facing the lamps"),
+                                     HasSubstr("de Boer"), testing::Not(HasSubstr("angle of left"))));
+}
+
 TEST(ReportSchema, RefusesWhatIsNoReport) {
     const json good = json::parse(report_json(tests::sample_report(1)));
     const auto complaint = [&](const char* pointer, const json& value) {

@@ -64,6 +64,32 @@ TEST(Run, TheWorkedExampleGives0386LuxOnBothPaths) {
     EXPECT_NEAR(reading(report, "probe_road-7m_lx"), by_hand, 2e-6);
 }
 
+TEST(Run, AnIihsDriveMeasuresItsSensorsAsTheExtentDoes) {
+    const TemporaryFolder folder;
+    std::string drive = content_of(library_file("drives/iihs-straight.yaml"));
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        for (std::size_t at = 0; (at = drive.find(from, at)) != std::string::npos; at += to.size())
+            drive.replace(at, from.size(), to);
+    };
+    replace("../", library_file(""));
+    replace("resolution_px: [1024, 768]", "resolution_px: [32, 24]");
+    replace("extent: {limits_lx: [1, 3, 5, 10]}", "extent: false");
+    replace("capture: {per_second: 0.5}", "capture: {per_second: 0}");
+    std::ofstream(folder / "drive.yaml") << drive << "limits:\n  - {reading: sensor_right-edge_reach_5lx_m, at_least: 50}\n"
+                                         << "  - {reading: glare_lane-centre_facing_max_lx, at_most: 1.4}\n";
+    const Outcome run = run_program("run " + (folder / "drive.yaml") + " --quiet --no-accuracy --out " + (folder / "out"));
+    EXPECT_EQ(run.exit_code, 1) << "xenon gives the eye more than 1.4 lx: " << run.output;
+    const json report = report_of(folder / "out");
+    // README's table has 61.5 m and 70.2 m for the own lane's right edge, by the rendered extent.
+    EXPECT_NEAR(reading(report, "sensor_right-edge_reach_5lx_m", "halogen"), 61.5, 0.2);
+    EXPECT_NEAR(reading(report, "sensor_right-edge_reach_5lx_m", "xenon"), 70.2, 0.2);
+    EXPECT_GT(reading(report, "glare_lane-centre_facing_max_lx", "xenon"), 1.4);
+    EXPECT_LT(reading(report, "glare_lane-centre_facing_max_lx", "halogen"), 1.4);
+    EXPECT_EQ(report.at("drives")[0].at("seeing").size(), 3U);
+    EXPECT_NE(content_of(folder / "out/report.html").find("Seeing and glare"), std::string::npos);
+    EXPECT_NE(content_of(folder / "out/readings.csv").find("glare_lane-centre_de_boer_min"), std::string::npos);
+}
+
 TEST(Run, TwiceTheSameBytes) {
     const TemporaryFolder folder;
     const std::string drive = library_file("drives/straight.yaml");

@@ -1,6 +1,7 @@
 // The example and the shipped drives: each can be read, has its road, and keeps enough of it ahead for what it measures.
 #include "scenarios/drives/advance.h"
 
+#include <cmath>
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <set>
@@ -34,7 +35,9 @@ TEST_P(Shipped, ReadsAndFitsItsRoad) {
     EXPECT_GT(moment.lamps[0].intensity_factor, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Drives, Shipped, testing::Values("bench", "straight", "s-bend", "country", "motorway", "village", "first-light"),
+INSTANTIATE_TEST_SUITE_P(Drives, Shipped,
+                         testing::Values("bench", "straight", "s-bend", "country", "motorway", "village", "first-light", "iihs-straight",
+                                         "iihs-left-150", "iihs-right-150", "iihs-left-250", "iihs-right-250"),
                          [](const auto& test) {
                              std::string name = test.param;
                              std::erase(name, '-');
@@ -46,8 +49,35 @@ TEST(ShippedDrives, AreAllTested) {
     for (const auto& entry : std::filesystem::directory_iterator(library))
         names.insert(entry.path().stem().string());
     // The worked example is not a route: the runner's tests play it and hold it to its own limits. Braking is tested with its motion.
-    EXPECT_THAT(names, testing::ElementsAre("bench", "braking", "country", "first-light", "motorway", "s-bend", "straight", "village",
-                                            "worked-example"));
+    EXPECT_THAT(names,
+                testing::ElementsAre("bench", "braking", "country", "first-light", "iihs-left-150", "iihs-left-250", "iihs-right-150",
+                                     "iihs-right-250", "iihs-straight", "motorway", "s-bend", "straight", "village", "worked-example"));
+}
+
+TEST(ShippedDrives, TheIihsSensorsStandInTheBend) {
+    for (const auto& [name, radius_m] :
+         {std::pair("iihs-straight", 0.0), std::pair("iihs-left-150", 150.0), std::pair("iihs-right-150", -150.0),
+          std::pair("iihs-left-250", 250.0), std::pair("iihs-right-250", -250.0)}) {
+        const Drive drive = read_drive(library / (std::string(name) + ".yaml"));
+        const RoadNetwork network = read_opendrive(drive.road_file);
+        const Route route(network, drive.start, drive.via);
+        ASSERT_TRUE(drive.seeing.sensors && drive.seeing.glare);
+        ASSERT_EQ(drive.seeing.sensors->points.size(), 2U);
+        EXPECT_EQ(drive.seeing.sensors->limits_lx, std::vector<double>{5.0});
+        const double at_m = drive.seeing.glare->oncoming.at(0).at_m;
+        EXPECT_EQ(drive.seeing.glare->oncoming[0].eye_height_m, 1.1);
+        for (const Sensor& sensor : drive.seeing.sensors->points) {
+            EXPECT_EQ(sensor.at_m, at_m);
+            EXPECT_EQ(sensor.above_m, 0.25);
+        }
+        const glm::dvec3 before = route.pose(at_m - 30.0).forward(), after = route.pose(at_m + 10.0).forward();
+        const double turn_rad = std::asin(before.x * after.y - before.y * after.x);
+        // The own lane's centre runs 1.75 m to the right of the reference line.
+        EXPECT_NEAR(turn_rad, radius_m == 0.0 ? 0.0 : 40.0 / (radius_m + 1.75), 1e-4) << name;
+        const double last_m = distance_m(drive.speed, (tick_count(drive) - 1) * drive.step_s) + drive.bumper_m;
+        EXPECT_LT(last_m, at_m) << "ends before the sensors";
+        EXPECT_GT(last_m, at_m - 10.0);
+    }
 }
 
 TEST(ShippedDrives, FirstLightDipsAfterThreeSecondsOfHighBeam) {

@@ -222,6 +222,24 @@ TEST_F(Schema, AgreesWithTheReader) {
                                               "measure: {extent: {limits_lx: []}}",
                                               "measure: {probes: {a: {left_m: 3}}}",
                                               "measure: {probes: {a: {ahead_m: 3}}}",
+                                              "measure: {sensors: {}}",
+                                              "measure: {sensors: {points: {}}}",
+                                              "measure: {sensors: {points: {a: {at_m: 3}}}}",
+                                              "measure: {sensors: {points: {a: {at_m: 3, across: kerb}}}}",
+                                              "measure: {sensors: {points: {a: {at_m: 3, across: left-edge, above_m: 51}}}}",
+                                              "measure: {sensors: {points: {a: {}}, limits_lx: []}}",
+                                              "measure: {sensors: {points: {a: {at_m: 1}}, limits_lx: [0]}}",
+                                              "measure: {glare: {}}",
+                                              "measure: {glare: {mirrors: true}}",
+                                              "measure: {glare: {mirrors: false}}",
+                                              "measure: {glare: {mirrors: {gaps_m: []}}}",
+                                              "measure: {glare: {mirrors: {places: {m: [1, 2, 3]}}}}",
+                                              "measure: {glare: {oncoming: {a: {at_m: 1}}, mirrors: false}}",
+                                              "measure: {glare: {oncoming: {}}}",
+                                              "measure: {glare: {oncoming: {a: {eye_height_m: 1}}}}",
+                                              "measure: {glare: {mirrors: true, equation: cie-general, age_years: 101}}",
+                                              "measure: {glare: {mirrors: true, limits_de_boer: [10]}}",
+                                              "measure: {glare: {mirrors: true, pigmentation: 1.2, adaptation_cdm2: 0}}",
                                               "limits: []",
                                               "limits: [{reading: x}]",
                                               "limits: [{reading: x, at_least: 3}]",
@@ -297,7 +315,8 @@ TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
         if (example.substr(line, at - line).find('#') != std::string::npos)
             continue; // a comment
         const std::string name = match->str(1);
-        if (name == "left" || name == "right" || name == "halogen" || name == "xenon" || name == "driver")
+        if (name == "left" || name == "right" || name == "halogen" || name == "xenon" || name == "driver" || name == "opposite" ||
+            name == "inside")
             continue; // names are the user's
         std::string misspelt = example;
         misspelt.insert(at + 2, "q");

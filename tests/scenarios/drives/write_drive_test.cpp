@@ -86,6 +86,7 @@ void expect_same(const Drive& a, const Drive& b) {
     EXPECT_EQ(a.technique, b.technique);
     EXPECT_EQ(a.extent, b.extent);
     EXPECT_EQ(a.probes, b.probes);
+    EXPECT_EQ(a.seeing, b.seeing);
     EXPECT_EQ(a.limits, b.limits);
     EXPECT_EQ(a.shadows, b.shadows);
     EXPECT_EQ(a.beams, b.beams);
@@ -128,6 +129,15 @@ class AnyDrive {
                 ExtentParameters{{number(0.1, 9.0), 1e-6}, number(0.0, 2.0), number(50.0, 300.0), number(5.0, 30.0), number(0.3, 2.0), {}};
         for (int i = 0; i < whole(0, 3); ++i)
             drive.probes.push_back({"p" + std::to_string(i), number(-9.0, 200.0), number(-9.0, 9.0), number(0.0, 2.0)});
+        if (coin())
+            drive.seeing.sensors =
+                SensorParameters{{number(1.0, 9.0)}, {}, {{"s", number(0.0, 99.0), Across::right_edge, number(0.0, 2.0)}}};
+        if (coin())
+            drive.seeing.glare =
+                GlareParameters{{{"o", number(0.0, 99.0), number(0.5, 2.0)}},
+                                coin() ? std::optional(MirrorParameters{{number(9.0, 99.0)}, {1.0, number(0.0, 1.0), 1.2}}) : std::nullopt,
+                                VeilingEquation::stiles_holladay,
+                                number(20.0, 80.0)};
         drive.limits = several<Limit>(3, [&] {
             return Limit{text(), number(-5.0, 0.0), coin() ? std::optional(number(0.0, 1e9)) : std::nullopt};
         });

@@ -45,6 +45,10 @@ TEST_P(LibraryRoads, ContinueFromRecordToRecord) {
 INSTANTIATE_TEST_SUITE_P(All, LibraryRoads,
                          testing::Values(std::pair("bench.xodr", "fernlicht bench"), std::pair("straight.xodr", "fernlicht straight"),
                                          std::pair("s-bend.xodr", "fernlicht s-bend"), std::pair("country.xodr", "fernlicht country road"),
+                                         std::pair("iihs-left-150.xodr", "fernlicht iihs-left-150"),
+                                         std::pair("iihs-right-150.xodr", "fernlicht iihs-right-150"),
+                                         std::pair("iihs-left-250.xodr", "fernlicht iihs-left-250"),
+                                         std::pair("iihs-right-250.xodr", "fernlicht iihs-right-250"),
                                          std::pair("motorway.xodr", "fernlicht motorway"), std::pair("village.xodr", "fernlicht village")));
 
 /// Signed radius of the reference line, left positive, from three of its points.
@@ -61,6 +65,23 @@ TEST(LibraryRoadShapes, SBendHasTheFourBendsOfItsHeader) {
     EXPECT_NEAR(radius_m(road, 530.0), -150.0, 1e-3);
     EXPECT_NEAR(radius_m(road, 970.0), 250.0, 1e-3);
     EXPECT_NEAR(radius_m(road, 1230.0), -250.0, 1e-3);
+}
+
+TEST(LibraryRoadShapes, IihsBendsHaveTheirRadiusAndNoStepInCurvature) {
+    for (const auto& [name, radius] : {std::pair("iihs-left-150.xodr", 150.0), std::pair("iihs-right-150.xodr", -150.0),
+                                       std::pair("iihs-left-250.xodr", 250.0), std::pair("iihs-right-250.xodr", -250.0)}) {
+        const Road road = library_road(name).roads.at(0);
+        EXPECT_DOUBLE_EQ(road.length_m, 710.0);
+        for (const double s : {310.0, 380.0, 450.0})
+            EXPECT_NEAR(radius_m(road, s), radius, 1e-3) << name << ' ' << s;
+        // Curvature along the clothoids of 100 m: linear from 0 at 200 m to 1/R at 300 m, and back from 460 m to 560 m.
+        for (const double share : {0.25, 0.5, 0.75})
+            for (const double s : {200.0 + 100.0 * share, 560.0 - 100.0 * share})
+                EXPECT_NEAR(1.0 / radius_m(road, s), share / radius, 1e-7) << name << ' ' << s;
+        EXPECT_NEAR(plan_pose(road, 100.0).forward().y, 0.0, 1e-12);
+        const glm::dvec3 end = plan_pose(road, 700.0).forward();
+        EXPECT_NEAR(std::atan2(end.y, end.x), 260.0 / radius, 1e-9) << "160 m of arc and twice half of 100 m";
+    }
 }
 
 TEST(LibraryRoadShapes, CountryRoadHasItsCrestDipAndBanks) {

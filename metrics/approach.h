@@ -1,0 +1,35 @@
+// A figure followed while a car comes nearer to a place: what it is at a distance, how far away it passes a limit, for how long.
+// Between moments it runs as in crossing.h: straight in its logarithm, straight where one of the two is 0.
+#pragma once
+
+#include "metrics/measured.h"
+
+#include <vector>
+
+namespace fernlicht {
+
+struct ApproachSample {
+    double time_s = 0.0;
+    double distance_m = 0.0;     ///< still to go, which falls or stays; or gone, which rises or stays
+    std::optional<double> value; ///< >= 0; nullopt: not measured
+};
+using Approach = std::vector<ApproachSample>;
+
+/// With distances to go: the value where so many metres are left. Not measured where the drive comes from nearer or ends farther away.
+Measured value_at(const Approach& approach, double distance_m);
+
+/// With distances to go: farthest at which the value reaches the limit; 0: nowhere. Not measured where it does so from the first moment on.
+Measured reached_from_m(const Approach& approach, double limit);
+
+/// Seconds and metres of the drive at or above the limit.
+struct Stretch {
+    double time_s = 0.0, length_m = 0.0;
+};
+Stretch at_or_above(const Approach& approach, double limit);
+Stretch below(const Approach& approach, double limit);
+
+/// Largest and smallest of the measured values.
+std::optional<double> largest(const Approach& approach);
+std::optional<double> smallest(const Approach& approach);
+
+} // namespace fernlicht

@@ -1,0 +1,70 @@
+#include "runner/seeing/seeing_fold.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace fernlicht {
+namespace {
+
+void check_place(const Drive& drive, const Route& route, const std::string& key, double at_m) {
+    if (at_m > route.length_m())
+        throw InputError({drive.file, 0, 0, key}, fmt::format("found {} m", at_m),
+                         fmt::format("a place on the route, which is {:.1f} m long", route.length_m()));
+}
+
+} // namespace
+
+SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
+    const SeeingParameters& asked = drive.seeing;
+    if (asked.sensors) {
+        for (const Sensor& sensor : asked.sensors->points)
+            check_place(drive, route, fmt::format("measure.sensors.points.{}.at_m", sensor.name), sensor.at_m);
+        sensors_.emplace(drive, route);
+    }
+    if (asked.glare) {
+        for (const GlareObserver& observer : asked.glare->oncoming)
+            check_place(drive, route, fmt::format("measure.glare.oncoming.{}.at_m", observer.name), observer.at_m);
+        oncoming_.emplace(drive, route);
+        if (asked.glare->mirrors)
+            mirrors_.emplace(drive, route);
+    }
+}
+
+void SeeingFold::add(const Moment& moment) {
+    const auto each = [&](auto& fold) {
+        if (fold)
+            fold->add(moment);
+    };
+    each(sensors_);
+    each(oncoming_);
+    each(mirrors_);
+}
+
+Readings SeeingFold::readings() const {
+    Readings all;
+    const auto each = [&](const auto& fold) {
+        if (fold)
+            std::ranges::copy(fold->readings(), std::back_inserter(all));
+    };
+    each(sensors_);
+    each(oncoming_);
+    each(mirrors_);
+    return all;
+}
+
+std::vector<SeeingSeries> SeeingFold::series() const {
+    std::vector<SeeingSeries> all;
+    const auto each = [&](const auto& fold) {
+        if (fold)
+            std::ranges::copy(fold->series(), std::back_inserter(all));
+    };
+    each(sensors_);
+    each(oncoming_);
+    each(mirrors_);
+    return all;
+}
+
+} // namespace fernlicht

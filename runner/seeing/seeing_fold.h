@@ -1,0 +1,26 @@
+// All that a drive measures of seeing and glare, folded over its moments. By the twin alone: nothing is drawn for it.
+#pragma once
+
+#include "metrics/readings.h"
+#include "runner/seeing/mirror_fold.h"
+#include "runner/seeing/sensor_fold.h"
+
+namespace fernlicht {
+
+class SeeingFold {
+  public:
+    /// Drive and route must outlive the fold. Throws InputError for places beyond the route's end.
+    SeeingFold(const Drive& drive, const Route& route);
+
+    void add(const Moment& moment);
+    /// Nothing where the drive asks for nothing. Names do not depend on what was added.
+    Readings readings() const;
+    std::vector<SeeingSeries> series() const;
+
+  private:
+    std::optional<SensorFold> sensors_;
+    std::optional<OncomingFold> oncoming_;
+    std::optional<MirrorFold> mirrors_;
+};
+
+} // namespace fernlicht

@@ -1,0 +1,27 @@
+// Figures of seeing and glare over the moments of a drive, as report.json stores and the page draws them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+struct SeeingSeries {
+    std::string subject; ///< "glare_oncoming": the stem of its readings
+    std::string title;   ///< "Oncoming driver \"opposite\""
+    std::string over;    ///< what `at_m` is: "distance to the observer"
+    std::vector<int> ticks;
+    std::vector<double> at_m;
+    struct Column {
+        std::string name;  ///< with its unit at the end, as of readings: "facing_lx"
+        std::string label; ///< for people: "illuminance facing the lamps"
+        std::string unit;
+        bool logarithmic = false; ///< as drawn
+        bool drawn = true;
+        std::vector<std::optional<double>> values; ///< one per tick
+    };
+    std::vector<Column> columns;
+};
+
+} // namespace fernlicht

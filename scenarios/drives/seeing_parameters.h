@@ -1,0 +1,84 @@
+// What a drive measures beyond extents and probes: light at fixed places that the car drives up to, and what it does to the eyes of others.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+/// Where across the road: edges of the driving lanes as the driver sees them, centres of the own lane and of the nearest oncoming one.
+enum class Across { own_centre, oncoming_centre, right_edge, left_edge };
+
+/// A place beside or above the road at which illuminance is followed while the car comes nearer.
+struct Sensor {
+    std::string name;
+    double at_m = 0.0; ///< along the route from its start
+    Across across = Across::own_centre;
+    double above_m = 0.25; ///< above the road's surface
+
+    bool operator==(const Sensor&) const = default;
+};
+
+struct SensorParameters {
+    std::vector<double> limits_lx{1.0, 3.0, 5.0, 10.0};
+    std::vector<double> distances_m{25.0, 50.0, 75.0, 100.0, 150.0}; ///< from the front bumper, at which the illuminance is told
+    std::vector<Sensor> points;
+
+    bool operator==(const SensorParameters&) const = default;
+};
+
+/// An oncoming driver who stands still on the centre of the nearest oncoming lane and looks along it.
+struct GlareObserver {
+    std::string name;
+    double at_m = 0.0; ///< along the route from its start
+    double eye_height_m = 1.1;
+
+    bool operator==(const GlareObserver&) const = default;
+};
+
+struct Mirror {
+    std::string name;
+    glm::dvec3 position_m{0.0}; ///< in the frame of its car: x forward from the rear axle, y left, z up from the road
+
+    bool operator==(const Mirror&) const = default;
+};
+
+/// A car ahead in the own lane, whose driver has this car's lamps in the mirrors: as this car's driver has those of a follower with the
+/// same lamps.
+struct MirrorParameters {
+    std::vector<double> gaps_m{15.0, 30.0, 60.0, 100.0}; ///< from the front bumper to the rear axle of the car ahead
+    glm::dvec3 eye_m{1.3, 0.35, 1.2};
+    double reflectance = 0.8;
+    std::vector<Mirror> mirrors{{"left", {1.9, 0.95, 1.0}}, {"inside", {1.85, 0.0, 1.3}}, {"right", {1.9, -0.95, 1.0}}};
+
+    bool operator==(const MirrorParameters&) const = default;
+};
+
+enum class VeilingEquation { stiles_holladay, age_adjusted, cie_general };
+
+struct GlareParameters {
+    std::vector<GlareObserver> oncoming;
+    std::optional<MirrorParameters> mirrors;
+    VeilingEquation equation = VeilingEquation::cie_general;
+    double age_years = 25.0;
+    double pigmentation = 0.5;
+    double adaptation_cdm2 = 1.0;
+    std::vector<double> distances_m{25.0, 50.0, 75.0, 100.0, 150.0}; ///< from the front bumper
+    std::vector<double> limits_lx{0.5, 1.0, 3.0};                    ///< of illuminance facing the lamps, for times above them
+    std::vector<double> limits_percent{10.0};                        ///< of the threshold increment
+    std::vector<double> limits_de_boer{5.0, 3.0};                    ///< for times below them
+
+    bool operator==(const GlareParameters&) const = default;
+};
+
+/// Off, all of it, unless a drive asks.
+struct SeeingParameters {
+    std::optional<SensorParameters> sensors;
+    std::optional<GlareParameters> glare;
+
+    bool operator==(const SeeingParameters&) const = default;
+};
+
+} // namespace fernlicht

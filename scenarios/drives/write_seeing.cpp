@@ -1,0 +1,61 @@
+#include "scenarios/drives/seeing_keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <iterator>
+
+namespace fernlicht {
+namespace {
+
+std::string list(const std::vector<double>& numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); }
+std::string list(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+std::string_view word(Across across) {
+    return across == Across::own_centre        ? "own-centre"
+           : across == Across::oncoming_centre ? "oncoming-centre"
+           : across == Across::right_edge      ? "right-edge"
+                                               : "left-edge";
+}
+
+std::string_view word(VeilingEquation equation) {
+    return equation == VeilingEquation::stiles_holladay ? "stiles-holladay"
+           : equation == VeilingEquation::age_adjusted  ? "age-adjusted"
+                                                        : "cie-general";
+}
+
+/// Names are made of letters, digits and "-_.": quotes are for those that look like numbers.
+std::string sensors(const SensorParameters& sensors) {
+    std::string text = fmt::format("  sensors:\n    limits_lx: {}\n    distances_m: {}\n    points:\n", list(sensors.limits_lx),
+                                   list(sensors.distances_m));
+    for (const Sensor& sensor : sensors.points)
+        text += fmt::format("      \"{}\": {{at_m: {}, across: {}, above_m: {}}}\n", sensor.name, sensor.at_m, word(sensor.across),
+                            sensor.above_m);
+    return text;
+}
+
+std::string glare(const GlareParameters& glare) {
+    std::string text = "  glare:\n";
+    if (!glare.oncoming.empty())
+        text += "    oncoming:\n";
+    for (const GlareObserver& observer : glare.oncoming)
+        text += fmt::format("      \"{}\": {{at_m: {}, eye_height_m: {}}}\n", observer.name, observer.at_m, observer.eye_height_m);
+    if (const auto& mirrors = glare.mirrors) {
+        text += fmt::format("    mirrors:\n      gaps_m: {}\n      eye_m: {}\n      reflectance: {}\n      places:\n",
+                            list(mirrors->gaps_m), list(mirrors->eye_m), mirrors->reflectance);
+        for (const Mirror& mirror : mirrors->mirrors)
+            text += fmt::format("        \"{}\": {}\n", mirror.name, list(mirror.position_m));
+    }
+    text += fmt::format("    equation: {}\n    age_years: {}\n    pigmentation: {}\n    adaptation_cdm2: {}\n", word(glare.equation),
+                        glare.age_years, glare.pigmentation, glare.adaptation_cdm2);
+    text += fmt::format("    distances_m: {}\n    limits_lx: {}\n    limits_percent: {}\n    limits_de_boer: {}\n", list(glare.distances_m),
+                        list(glare.limits_lx), list(glare.limits_percent), list(glare.limits_de_boer));
+    return text;
+}
+
+} // namespace
+
+std::string write_seeing(const SeeingParameters& seeing) {
+    return (seeing.sensors ? sensors(*seeing.sensors) : "") + (seeing.glare ? glare(*seeing.glare) : "");
+}
+
+} // namespace fernlicht

@@ -1,0 +1,77 @@
+// measure's sensors and glare: read, refused, written back.
+#include "tests/scenarios/drives/drive_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class SeeingKeys : public DriveFixture {
+  protected:
+    SeeingParameters seeing(const std::string& measure) { return read(minimal + "measure: {" + measure + "}\n").seeing; }
+    std::string refused(const std::string& measure) { return refusal(minimal + "measure: {" + measure + "}\n"); }
+};
+
+TEST_F(SeeingKeys, AreOffUnlessAsked) {
+    EXPECT_EQ(read(minimal).seeing, SeeingParameters{});
+    EXPECT_EQ(seeing("extent: true"), SeeingParameters{});
+    EXPECT_THAT(write_drive(read(minimal)), testing::AllOf(testing::Not(HasSubstr("sensors")), testing::Not(HasSubstr("glare"))));
+}
+
+TEST_F(SeeingKeys, AreReadAndHaveDefaults) {
+    const SeeingParameters short_form = seeing("sensors: {points: {edge: {at_m: 90}}}, glare: {oncoming: {a: {at_m: 80}}, mirrors: true}");
+    EXPECT_EQ(short_form.sensors->points, (std::vector<Sensor>{{"edge", 90.0, Across::own_centre, 0.25}}));
+    EXPECT_EQ(short_form.sensors->limits_lx, SensorParameters{}.limits_lx);
+    EXPECT_EQ(short_form.glare->oncoming, (std::vector<GlareObserver>{{"a", 80.0, 1.1}}));
+    EXPECT_EQ(short_form.glare->mirrors, MirrorParameters{});
+    EXPECT_EQ(short_form.glare->equation, VeilingEquation::cie_general);
+    const SeeingParameters long_form = seeing(
+        "sensors: {limits_lx: [5], distances_m: [], points: {e: {at_m: 1, across: left-edge, above_m: 1.5}}}, glare: {oncoming: {a: "
+        "{at_m: 80, eye_height_m: 2}}, mirrors: {gaps_m: [10], eye_m: [1, 0, 1.5], reflectance: 0.4, places: {m: [2, 1, 1]}}, equation: "
+        "age-adjusted, age_years: 60, pigmentation: 1.2, adaptation_cdm2: 0.3, distances_m: [50], limits_lx: [2], limits_percent: [15], "
+        "limits_de_boer: [4]}");
+    EXPECT_EQ(long_form.sensors, (SensorParameters{{5.0}, {}, {{"e", 1.0, Across::left_edge, 1.5}}}));
+    const GlareParameters expected{{{"a", 80.0, 2.0}},
+                                   MirrorParameters{{10.0}, {1.0, 0.0, 1.5}, 0.4, {{"m", {2.0, 1.0, 1.0}}}},
+                                   VeilingEquation::age_adjusted,
+                                   60.0,
+                                   1.2,
+                                   0.3,
+                                   {50.0},
+                                   {2.0},
+                                   {15.0},
+                                   {4.0}};
+    EXPECT_EQ(long_form.glare, expected);
+}
+
+TEST_F(SeeingKeys, AreWrittenAsTheyWereRead) {
+    for (const char* measure :
+         {"sensors: {points: {'1.5': {at_m: 0.1, across: right-edge}, 'null': {at_m: 2, across: oncoming-centre}}}",
+          "glare: {oncoming: {a: {at_m: 80.3}}, mirrors: true, equation: stiles-holladay}", "glare: {mirrors: {places: {x: [1, 2, 3]}}}",
+          "extent: false, probes: {p: {ahead_m: 3}}, glare: {oncoming: {a: {at_m: 1}}, limits_lx: [], distances_m: []}"}) {
+        const Drive drive = read(minimal + "measure: {" + measure + "}\n");
+        EXPECT_EQ(read(write_drive(drive)).seeing, drive.seeing) << measure;
+    }
+}
+
+TEST_F(SeeingKeys, RefuseWhatTheyCannotUse) {
+    EXPECT_THAT(refused("glare: {}"), HasSubstr("measure.glare: glare without eyes, expected oncoming"));
+    EXPECT_THAT(refused("glare: {mirrors: false}"), HasSubstr("glare without eyes"));
+    EXPECT_THAT(refused("glare: {oncoming: {a: {at: 3}}}"), HasSubstr("unknown key, expected 'at_m'"));
+    EXPECT_THAT(refused("glare: {oncoming: {a: {}}}"), HasSubstr("measure.glare.oncoming.a.at_m: missing"));
+    EXPECT_THAT(refused("glare: {mirrors: true, equation: cie}"), HasSubstr("measure.glare.equation: found 'cie'"));
+    EXPECT_THAT(refused("glare: {mirrors: true, age_years: 5}"), HasSubstr("measure.glare.age_years: found '5'"));
+    EXPECT_THAT(refused("glare: {mirrors: {eye_m: [1, 1, 1], places: {m: [1, 1, 1]}}}"), HasSubstr("a mirror in the driver's eye"));
+    EXPECT_THAT(refused("glare: {mirrors: {places: {}}}"), HasSubstr("measure.glare.mirrors.places"));
+    EXPECT_THAT(refused("glare: {mirrors: true, limits_de_boer: [0.5]}"), HasSubstr("limits_de_boer"));
+    EXPECT_THAT(refused("sensors: {}"), HasSubstr("measure.sensors.points: missing"));
+    EXPECT_THAT(refused("sensors: {points: {a: {at_m: 3, across: kerb}}}"), HasSubstr("found 'kerb'"));
+    EXPECT_THAT(refused("sensors: {points: {a: {at_m: -3}}}"), HasSubstr("measure.sensors.points.a.at_m: found '-3'"));
+    EXPECT_THAT(refused("sensor: {}"), StartsWith("drive.yaml:7:11: measure.sensor: unknown key, expected 'sensors'"));
+}
+
+} // namespace
+} // namespace fernlicht
