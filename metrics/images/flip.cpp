@@ -137,7 +137,7 @@ template <class Pixel> Image<float> worst_of_exposures(const Image<Pixel>& teste
     std::vector<std::pair<flip::Rows, flip::Rows>> exposed;
     for (int i = 0; i < exposures.count; ++i) {
         const double stops = std::lerp(exposures.start, exposures.stop, static_cast<double>(i) / (exposures.count - 1));
-        const auto factor = static_cast<float>(std::exp2(stops));
+        const auto factor = static_cast<float>(std::exp2(std::min(stops, 127.0))); // a float's largest: 0 times infinity is no light
         exposed.emplace_back(rows_of(tested, factor), rows_of(reference, factor));
     }
     Image<float> map(tested.width(), tested.height());

@@ -27,10 +27,13 @@ Image<Colour> magnified(const Image<Colour>& pixels, int factor) {
     return out;
 }
 
-void draw_label(Canvas& canvas, const SheetLine& line, double scale) {
-    // Of lines beside each other the dashed one has its label elsewhere, so that both can be read.
-    const plots::Point& middle = line.points[line.dash.empty() ? line.points.size() / 2 : line.points.size() / 4];
-    canvas.text(middle.x * scale, middle.y * scale, line.label, {.size_px = 11.0, .colour = line.colour, .halo = "#000000"});
+/// At the line's right end, of dashed ones at the left: of lines beside each other both can be read.
+void draw_label(Canvas& canvas, const SheetLine& line, double scale, double width) {
+    const bool left = !line.dash.empty();
+    const auto [leftmost, rightmost] = std::ranges::minmax_element(line.points, {}, &plots::Point::x);
+    const plots::Point& end = left ? *leftmost : *rightmost;
+    canvas.text(std::clamp(end.x * scale + (left ? -3.0 : 3.0), left ? 26.0 : 2.0, left ? width : width - 26.0), end.y * scale + 4.0,
+                line.label, {.size_px = 11.0, .colour = line.colour, .anchor = left ? "end" : "start", .halo = "#000000"});
 }
 
 void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top, double scale) {
@@ -45,7 +48,7 @@ void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top
     }
     for (const SheetLine& line : panel.lines)
         if (!line.label.empty() && !line.points.empty())
-            draw_label(canvas, line, scale);
+            draw_label(canvas, line, scale, width);
     canvas.end_window();
     canvas.text(left, top + height + 17.0, panel.caption, {.size_px = 13.0, .colour = ink});
 }
@@ -64,7 +67,7 @@ void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double 
         canvas.text(left + 21.0, y + 4.0, text, {.size_px = 11.0, .colour = ink});
         widest = std::max(widest, plots::text_width(text, 11.0));
     }
-    canvas.text(left + 38.0 + widest, top + 0.5 * height, legend.label,
+    canvas.text(left + 46.0 + widest, top + 0.5 * height, legend.label,
                 {.size_px = 12.0, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
 }
 

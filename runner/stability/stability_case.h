@@ -90,6 +90,7 @@ std::vector<StabilityCase> geometry_cases();
 std::vector<StabilityCase> shadow_cases();
 std::vector<StabilityCase> road_cases();
 std::vector<StabilityCase> image_cases();
+std::vector<StabilityCase> comparison_cases();
 std::vector<StabilityCase> time_cases();
 std::vector<StabilityCase> number_cases();
 std::vector<StabilityCase> equation_cases();

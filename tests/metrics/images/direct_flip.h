@@ -96,19 +96,23 @@ class DirectFlip {
     /// Sum of kernel times value around each pixel; positive weights divided by their sum, negative ones by theirs.
     std::vector<double> filtered(const Plane& in, std::size_t channel, int radius, const Kernel& kernel) const {
         double positive = 0, negative = 0;
+        std::vector<double> weights;
         for (int y = -radius; y <= radius; ++y)
-            for (int x = -radius; x <= radius; ++x)
-                (kernel(x, y) > 0 ? positive : negative) += std::abs(kernel(x, y));
+            for (int x = -radius; x <= radius; ++x) {
+                weights.push_back(kernel(x, y));
+                (weights.back() > 0 ? positive : negative) += std::abs(weights.back());
+            }
+        for (double& weight : weights)
+            weight = weight == 0 ? 0 : weight / (weight > 0 ? positive : negative);
         std::vector<double> out;
         for (int py = 0; py < height_; ++py)
             for (int px = 0; px < width_; ++px) {
                 double sum = 0;
+                const double* weight = weights.data();
                 for (int y = -radius; y <= radius; ++y)
-                    for (int x = -radius; x <= radius; ++x) {
-                        const double weight = kernel(x, y);
+                    for (int x = -radius; x <= radius; ++x, ++weight) {
                         const int ix = std::clamp(px + x, 0, width_ - 1), iy = std::clamp(py + y, 0, height_ - 1);
-                        if (weight != 0.0)
-                            sum += weight / (weight > 0 ? positive : negative) * in[static_cast<std::size_t>(iy * width_ + ix)][channel];
+                        sum += *weight * in[static_cast<std::size_t>(iy * width_ + ix)][channel];
                     }
                 out.push_back(sum);
             }

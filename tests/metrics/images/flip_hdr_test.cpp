@@ -59,6 +59,14 @@ TEST(FlipHdr, ExtremesKeepTheRangeBounded) {
         EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
 }
 
+// All but dark: exposures of more than 2^127 are no floats.
+TEST(FlipHdr, NextToNoLightIsStillCompared) {
+    const auto faint = grey(4, 4, {0.0F, 1e-40F, 1e-39F}), none = grey(4, 4, {0.0F});
+    const auto map = flip_hdr(none, faint, exposures_for(faint));
+    for (const float e : map.pixels())
+        EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
+}
+
 TEST(FlipHdr, TheSameIsZero) {
     const auto picture = grey(30, 20, {0.0F, 0.01F, 3.0F, 200.0F, 1e4F});
     for (const auto map = flip_hdr(picture, picture, exposures_for(picture)); const float e : map.pixels())
