@@ -23,7 +23,7 @@ struct LampDifferenceOptions {
     double false_claim_chance = 0.01; ///< of any claim at all between two tables of one lamp
 };
 
-struct Measured {
+struct FittedFigure {
     double value = 0.0, uncertainty = 0.0; ///< standard error
 };
 
@@ -31,12 +31,12 @@ struct LampDifference {
     std::size_t directions = 0;  ///< samples compared: both tables have data, and either has at least 1/1000 of the peak
     double noise_relative = 0.0; ///< standard deviation of one difference where the beam has more than a tenth of its peak
     double z_limit = 0.0;
-    double floor_cd = 0.0;                             ///< light below this is not compared
-    std::optional<Measured> aim_up_deg, aim_right_deg; ///< the whole beam, where claimed; both or neither
-    std::optional<Measured> cut_off_up_deg;            ///< over the light below it, where claimed
-    std::optional<Measured> level;                     ///< share: +0.03 is 3 % brighter all over; where claimed
-    std::vector<BeamZone> zones;                       ///< clearest first
-    std::string not_told;                              ///< what could not be told apart, if anything: one sentence
+    double floor_cd = 0.0;                                 ///< light below this is not compared
+    std::optional<FittedFigure> aim_up_deg, aim_right_deg; ///< the whole beam, where claimed; both or neither
+    std::optional<FittedFigure> cut_off_up_deg;            ///< over the light below it, where claimed
+    std::optional<FittedFigure> level;                     ///< share: +0.03 is 3 % brighter all over; where claimed
+    std::vector<BeamZone> zones;                           ///< clearest first
+    std::string not_told;                                  ///< what could not be told apart, if anything: one sentence
 
     bool any() const { return aim_up_deg || cut_off_up_deg || level || !zones.empty(); }
 };

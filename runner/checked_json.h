@@ -18,6 +18,7 @@ class CheckedJson {
 
     CheckedJson at(const std::string& key) const;
     std::vector<CheckedJson> items() const; ///< of a list
+    bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
     bool is_null() const { return value_->is_null(); }
     std::string text() const;
     double number() const;

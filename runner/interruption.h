@@ -3,7 +3,8 @@
 
 namespace fernlicht {
 
-/// While it lives, SIGINT and SIGTERM set a flag; a second one ends the program at once.
+/// While it lives, SIGINT and SIGTERM set a flag; a second one ends the program at once. One within another, as a run within a study, hears
+/// what the outer one heard.
 class Interruption {
   public:
     Interruption();

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_framed = 4; ///< zones; more would hide the picture
 
-Json measured_json(const std::optional<Measured>& measured) {
+Json measured_json(const std::optional<FittedFigure>& measured) {
     return measured ? Json{{"value", measured->value}, {"standard_error", measured->uncertainty}} : Json(nullptr);
 }
 
@@ -55,9 +55,9 @@ Image<float> ratio(const plots::Figure& figure, const CandelaTable& tested, cons
     return image;
 }
 
-/// Round 1, to the least 2, 5 or 10 (or a power of ten of these) that holds 98 % of the ratios; so far from 1 that both sides differ by
-/// more than a tenth, on a logarithmic scale.
-plots::Axis axis_of(const Image<float>& values) {
+} // namespace
+
+plots::Axis ratio_axis(const Image<float>& values) {
     std::vector<double> sizes;
     for (const float value : values.pixels())
         if (std::isfinite(value) && value > 0.0F)
@@ -81,8 +81,6 @@ plots::Axis axis_of(const Image<float>& values) {
             break;
     return {"new over old", "", 1.0 - share, 1.0 + share};
 }
-
-} // namespace
 
 LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative) {
     refuse_darkness(tested);
@@ -135,7 +133,7 @@ plots::Figure difference_figure(const LampFile& tested, const LampFile& against,
     figure.height_px = 420.0;
     show_beam(figure, against.table);
     const Image<float> values = ratio(figure, tested.table, against.table, difference.floor_cd);
-    const plots::Axis axis = axis_of(values);
+    const plots::Axis axis = ratio_axis(values);
     figure.colour_bar = plots::ColourBar{axis, true};
     figure.rasters.push_back(
         {plots::difference_map(values, axis, {225, 225, 225}), figure.x.from, figure.x.to, figure.y.to, figure.y.from});

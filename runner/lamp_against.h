@@ -20,4 +20,8 @@ nlohmann::ordered_json difference_json(const LampDifference& difference);
 /// undone; frames are the zones that are claimed.
 plots::Figure difference_figure(const LampFile& tested, const LampFile& against, const LampDifference& difference);
 
+/// An axis for ratios, round 1, to the least 1 %, 2 %, 5 %, 10 % or 20 % that holds 98 % of them; where they lie farther from 1, to a
+/// factor of 2, 5, 10, 100 or 1000 on a logarithmic scale. Values that are not above 0 do not count.
+plots::Axis ratio_axis(const Image<float>& values);
+
 } // namespace fernlicht

@@ -8,6 +8,7 @@
 #include "runner/reference_command.h"
 #include "runner/run_command.h"
 #include "runner/stability_command.h"
+#include "runner/study/study_command.h"
 #include "runner/techniques_command.h"
 #include "scenarios/values/errors.h"
 
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     std::function<int()> chosen;
     fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_study_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_compare_command(app, chosen);
     fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);

@@ -41,22 +41,10 @@ DriveEdits edits_of(const Flags& flags) {
     return edits;
 }
 
-TickRange ticks_of(const Flags& flags) {
-    TickRange range;
-    if (flags.frames.empty())
-        return range;
-    const auto [first, last] = two_numbers("--frames", flags.frames, ':', true, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
-    range.first = first < 0 ? 0 : first;
-    range.last = last < 0 ? range.last : last;
-    if (range.first > range.last)
-        refuse_flag("--frames", flags.frames, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
-    return range;
-}
-
 int run(const Flags& flags, const std::vector<std::string>& command) {
     RunOptions options;
     options.backend = flags.backend;
-    options.ticks = ticks_of(flags);
+    options.ticks = tick_range(flags.frames);
     options.quiet = flags.quiet;
     options.profile = flags.profile;
     options.contact_sheet = flags.contact_sheet;
@@ -83,6 +71,18 @@ int run(const Flags& flags, const std::vector<std::string>& command) {
 }
 
 } // namespace
+
+TickRange tick_range(const std::string& frames) {
+    TickRange range;
+    if (frames.empty())
+        return range;
+    const auto [first, last] = two_numbers("--frames", frames, ':', true, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
+    range.first = first < 0 ? 0 : first;
+    range.last = last < 0 ? range.last : last;
+    if (range.first > range.last)
+        refuse_flag("--frames", frames, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
+    return range;
+}
 
 void add_run_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();

@@ -1,0 +1,69 @@
+#include "runner/study/study_command.h"
+
+#include "runner/output_folder.h"
+#include "runner/run_command.h"
+#include "runner/run_context.h"
+#include "runner/study/study_run.h"
+#include "runner/study/study_writers.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct Flags {
+    std::filesystem::path file;
+    std::string backend = "auto", frames, out, references, only;
+    bool resume = false, quiet = false, no_accuracy = false, list = false;
+};
+
+int list_cells(const Study& study) {
+    for (const StudyCell& cell : cells_of(study))
+        fmt::print("{:<40} {}\n", cell.name, cell.condition);
+    return 0;
+}
+
+int study(const Flags& flags, const std::vector<std::string>& command) {
+    const Study study = read_study(flags.file);
+    if (flags.list)
+        return list_cells(study);
+    if (flags.resume && flags.out.empty())
+        throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
+    StudyOptions options;
+    options.folder = flags.out.empty() ? default_output_folder(study.name, utc_now()) : std::filesystem::path(flags.out);
+    options.only = flags.only;
+    options.resume = flags.resume;
+    options.run.backend = flags.backend;
+    options.run.ticks = tick_range(flags.frames);
+    options.run.quiet = flags.quiet;
+    options.run.accuracy = !flags.no_accuracy;
+    options.run.references = flags.references;
+    options.run.command = command;
+    const StudyResult result = run_study(study, options);
+    fmt::print("{}{}\n", study_text(result), (options.folder / "report.html").string());
+    return overall(result) == VerdictKind::pass ? 0 : 1;
+}
+
+} // namespace
+
+void add_study_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and tell what differs beyond noise");
+    sub->add_option("FILE", flags->file, "study file (YAML)")->required();
+    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
+    sub->add_flag("--resume", flags->resume, "go on with a study that did not end, in its --out folder; finished cells are kept");
+    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--frames", flags->frames, "FIRST:LAST moments of each drive to play, from 0");
+    sub->add_option("--references", flags->references, "folder of accepted results to judge each cell against");
+    sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments of each cell lie from the reference");
+    sub->add_option("--only", flags->only, "play only cells whose name holds this");
+    sub->add_flag("--list", flags->list, "only name the cells");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });
+}
+
+} // namespace fernlicht

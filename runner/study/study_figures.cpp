@@ -1,0 +1,235 @@
+#include "runner/lamp_against.h"
+#include "runner/picture_file.h"
+#include "runner/report/clean_text.h"
+#include "runner/report/extent_summary.h"
+#include "runner/report/page_plots.h"
+#include "runner/study/study_writers.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+/// Cells that differ in nothing but the lamp.
+bool is_beside(const StudyCell& a, const StudyCell& b) {
+    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage;
+}
+
+/// Groups of such cells, in order; cells that were not played are left out, and groups without any.
+std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result) {
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < result.cells.size(); ++i) {
+        if (!result.cells[i].failed.empty())
+            continue;
+        if (groups.empty() || !is_beside(result.cells[groups.back().front()].cell, result.cells[i].cell))
+            groups.emplace_back();
+        groups.back().push_back(i);
+    }
+    return groups;
+}
+
+const std::string& lamp_of(const StudyResult& result, std::size_t cell) { return result.study.lamps[result.cells[cell].cell.lamp].name; }
+
+plots::Colour colour_of(const StudyResult& result, std::size_t cell) { return plots::series_colour(result.cells[cell].cell.lamp); }
+
+/// "straight_twilight": the group's cells' common name.
+std::string group_name(const StudyResult& result, const std::vector<std::size_t>& group) {
+    std::string name = result.cells[group.front()].cell.name;
+    if (const std::size_t at = name.find("_" + lamp_of(result, group.front())); at != std::string::npos)
+        name.erase(at, 1 + lamp_of(result, group.front()).size());
+    return name;
+}
+
+std::string place_of(const StudyResult& result, const std::vector<std::size_t>& group) {
+    const CellResult& cell = result.cells[group.front()];
+    return short_text(cell.title, 60) + "; " + cell.cell.condition;
+}
+
+/// The reach plotted of what the deciding readings ask for: on a target and on the road, at the limits that they name.
+std::set<std::pair<ExtentPlane, double>> plotted_reaches(const StudyResult& result) {
+    std::set<std::pair<ExtentPlane, double>> keys;
+    for (const CellResult& cell : result.cells)
+        for (const ReachOverDrive& reach : cell.reaches) {
+            const std::string name = fmt::format("reach_{}lx_{}_own_m", reach.limit_lx, plane_name(reach.plane));
+            if (std::ranges::find(result.study.readings, name) != result.study.readings.end())
+                keys.emplace(reach.plane, reach.limit_lx);
+        }
+    return keys;
+}
+
+void add_reach(const StudyResult& result, const std::vector<std::size_t>& group, ExtentPlane plane, double limit_lx,
+               std::vector<StudyFigure>& figures) {
+    plots::Figure figure;
+    figure.title = fmt::format("Reach at {:g} lx {}, own lane", limit_lx, plane == ExtentPlane::road ? "on the road" : "on a target");
+    figure.subtitle = place_of(result, group);
+    figure.width_px = 560.0;
+    figure.height_px = 300.0;
+    std::vector<double> xs, ys;
+    for (const std::size_t cell : group)
+        for (const ReachOverDrive& reach : result.cells[cell].reaches) {
+            if (reach.plane != plane || reach.limit_lx != limit_lx)
+                continue;
+            plots::Series line{short_text(lamp_of(result, cell), 24), {}, colour_of(result, cell), 1.6, "", reach.reach_m.size() == 1};
+            for (std::size_t i = 0; i < reach.reach_m.size(); ++i)
+                line.points.push_back({reach.distance_m[i], reach.reach_m[i]});
+            xs.insert(xs.end(), reach.distance_m.begin(), reach.distance_m.end());
+            ys.insert(ys.end(), reach.reach_m.begin(), reach.reach_m.end());
+            figure.series.push_back(std::move(line));
+        }
+    if (figure.series.empty())
+        return;
+    figure.x = plots::axis_around("along the route", "m", xs);
+    figure.y = plots::axis_around("reach", "m", ys, plots::Scale::linear, true);
+    figures.push_back({fmt::format("reach-{:g}lx-{}_{}", limit_lx, plane_name(plane), group_name(result, group)),
+                       figure.title + ": " + figure.subtitle, plots::svg_of(figure), group});
+}
+
+/// Lux from above at the middle stored moment of a cell. nullopt where there is no map, or no lux in it.
+std::optional<LuxMap> map_of(const StudyResult& result, std::size_t cell, const std::filesystem::path& folder) {
+    const auto view_of = [&](const StoredFrame& frame) {
+        const auto found = std::ranges::find(result.cells[cell].maps, frame.view, &View::name);
+        return found == result.cells[cell].maps.end() ? nullptr : &*found;
+    };
+    std::vector<const StoredFrame*> maps;
+    for (const StoredFrame& frame : result.cells[cell].frames)
+        if (!frame.exr.empty() && view_of(frame))
+            maps.push_back(&frame);
+    if (maps.empty())
+        return std::nullopt;
+    const StoredFrame& frame = *maps[maps.size() / 2];
+    for (PictureChannel& channel : read_exr(folder / frame.exr))
+        if (channel.name == "illuminance.lx") {
+            const View& view = *view_of(frame);
+            return LuxMap{std::move(channel.values),
+                          view.map_ahead_m,
+                          view.map_behind_m,
+                          view.map_left_m,
+                          view.map_right_m,
+                          {},
+                          frame.tick,
+                          frame.time_s};
+        }
+    return std::nullopt;
+}
+
+/// New over old on the road from above, ahead to the right; grey where both are below 0.1 lx.
+std::string map_difference_svg(const LuxMap& now, const LuxMap& before, const std::string& title) {
+    constexpr double faintest_lx = 0.1;
+    if (now.lx.width() != before.lx.width() || now.lx.height() != before.lx.height())
+        return {};
+    Image<float> ratio(now.lx.height(), now.lx.width());
+    for (int y = 0; y < now.lx.height(); ++y)
+        for (int x = 0; x < now.lx.width(); ++x) {
+            const double a = static_cast<double>(now.lx.at(x, y)), b = static_cast<double>(before.lx.at(x, y));
+            const bool lit = std::max(a, b) >= faintest_lx;
+            ratio.at(now.lx.height() - 1 - y, x) =
+                lit ? static_cast<float>(std::max(a, 1e-6) / std::max(b, 1e-6)) : std::numeric_limits<float>::quiet_NaN();
+        }
+    const plots::Axis axis = ratio_axis(ratio);
+    plots::Figure figure;
+    figure.title = title;
+    figure.subtitle =
+        fmt::format("after {:.2f} s; blue is less, orange more light; grey: below {:g} lx with both", now.time_s, faintest_lx);
+    figure.x = {"ahead of the car's origin", "m", -now.behind_m, now.ahead_m};
+    figure.y = {"to the left", "m", -now.right_m, now.left_m};
+    figure.width_px = 1140.0;
+    figure.height_px = std::clamp(130.0 + 990.0 * (now.left_m + now.right_m) / (now.ahead_m + now.behind_m), 300.0, 900.0);
+    figure.equal_units = true;
+    figure.colour_bar = plots::ColourBar{axis, true};
+    figure.rasters.push_back({plots::difference_map(ratio, axis, {225, 225, 225}), -now.behind_m, now.ahead_m, now.left_m, -now.right_m});
+    return plots::svg_of(figure);
+}
+
+void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, const std::filesystem::path& folder,
+              std::vector<StudyFigure>& figures) {
+    std::vector<std::optional<LuxMap>> maps;
+    for (const std::size_t cell : group) {
+        maps.push_back(map_of(result, cell, folder));
+        if (maps.back())
+            figures.push_back({fmt::format("lux_{}", result.cells[cell].cell.name),
+                               fmt::format("{}: {}", lamp_of(result, cell), place_of(result, group)),
+                               lux_map_svg(*maps.back(), lamp_of(result, cell) + ", " + place_of(result, group)),
+                               {cell}});
+    }
+    for (const StudyComparison& pair : result.study.comparisons)
+        for (std::size_t a = 0; a < group.size(); ++a)
+            for (std::size_t b = 0; b < group.size(); ++b) {
+                if (lamp_of(result, group[a]) != pair.tested || lamp_of(result, group[b]) != pair.against || !maps[a] || !maps[b])
+                    continue;
+                const std::string title = fmt::format("{} over {}, {}", pair.tested, pair.against, place_of(result, group));
+                if (std::string svg = map_difference_svg(*maps[a], *maps[b], title); !svg.empty())
+                    figures.push_back({fmt::format("lux-difference_{}_{}-{}", group_name(result, group), pair.tested, pair.against),
+                                       title,
+                                       std::move(svg),
+                                       {group[a], group[b]}});
+            }
+}
+
+/// Error against the reference over the time of a driver's view, one point a cell.
+void add_work_precision(const StudyResult& result, std::vector<StudyFigure>& figures) {
+    plots::Figure figure;
+    figure.title = "Error against run time";
+    figure.subtitle = "95 % of the road's illuminance lies within, against the reference";
+    figure.width_px = 560.0;
+    figure.height_px = 360.0;
+    std::vector<double> xs, ys;
+    std::vector<std::size_t> cells;
+    for (std::size_t technique = 0; technique < result.study.techniques.size(); ++technique) {
+        plots::Series series{result.study.techniques[technique], {}, plots::series_colour(technique), 0.0, "", true};
+        for (std::size_t i = 0; i < result.cells.size(); ++i) {
+            const CellResult& cell = result.cells[i];
+            if (cell.cell.technique != technique || !cell.error_share || !cell.frame_s)
+                continue;
+            series.points.push_back({1e3 * *cell.frame_s, 100.0 * *cell.error_share});
+            xs.push_back(series.points.back().x);
+            ys.push_back(series.points.back().y);
+            cells.push_back(i);
+        }
+        // Points of their own, not a line from cell to cell.
+        for (const plots::Point& point : series.points)
+            figure.series.push_back({figure.series.empty() || figure.series.back().colour != series.colour ? series.name : "",
+                                     {point},
+                                     series.colour,
+                                     1.0,
+                                     "",
+                                     true});
+    }
+    if (cells.empty())
+        return;
+    figure.x = plots::axis_around("time a frame", "ms", xs, plots::Scale::logarithmic);
+    figure.y = plots::axis_around("error", "%", ys, plots::Scale::logarithmic);
+    figures.push_back({"work-precision", figure.title, plots::svg_of(figure), cells});
+}
+
+void add_lamp_differences(const StudyResult& result, std::vector<StudyFigure>& figures) {
+    for (const LampComparison& lamps : result.lamps) {
+        plots::Figure figure = difference_figure(read_lamp(lamps.file), read_lamp(lamps.other_file), lamps.difference);
+        figure.title = fmt::format("{} over {} ({})", lamps.tested, lamps.against, lamps.side);
+        figures.push_back({fmt::format("lamps_{}-{}{}", lamps.tested, lamps.against, lamps.side == "right" ? "_right" : ""),
+                           figure.title,
+                           plots::svg_of(figure),
+                           {}});
+    }
+}
+
+} // namespace
+
+std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder) {
+    std::vector<StudyFigure> figures;
+    add_lamp_differences(result, figures);
+    const std::vector<std::vector<std::size_t>> groups = groups_of(result);
+    for (const auto& [plane, limit_lx] : plotted_reaches(result))
+        for (const std::vector<std::size_t>& group : groups)
+            add_reach(result, group, plane, limit_lx, figures);
+    for (const std::vector<std::size_t>& group : groups)
+        add_maps(result, group, folder, figures);
+    add_work_precision(result, figures);
+    return figures;
+}
+
+} // namespace fernlicht

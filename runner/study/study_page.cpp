@@ -1,0 +1,229 @@
+#include "report_files.h"
+#include "runner/plots/png.h"
+#include "runner/report/clean_text.h"
+#include "runner/report/extent_summary.h"
+#include "runner/report/page_parts.h"
+#include "runner/study/study_writers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <kainjow/mustache.hpp>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+using kainjow::mustache::data;
+using List = data::type;
+
+constexpr std::size_t embedded_bytes = std::size_t{48} << 20; // of pictures as they lie on disk
+
+const std::string& lamp_of(const StudyResult& result, std::size_t cell) { return result.study.lamps[result.cells[cell].cell.lamp].name; }
+
+std::string value_text(const std::optional<double>& value) { return value ? figure(*value, 2) : "not measured"; }
+
+/// For the browser's sorting: a number, or nothing.
+std::string sort_key(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+data change_part(const StudyResult& result, std::size_t index) {
+    const Change& change = result.changes[index];
+    const bool known = change.new_value && change.old_value;
+    data part;
+    part.set("id", fmt::format("c{}", index));
+    part.set("number", fmt::format("{}", index));
+    part.set("lamps", clean_text(lamp_of(result, change.tested) + " / " + lamp_of(result, change.against)));
+    part.set("new_lamp", clean_text(lamp_of(result, change.tested)));
+    part.set("old_lamp", clean_text(lamp_of(result, change.against)));
+    part.set("drive", clean_text(result.cells[change.tested].drive));
+    part.set("condition", clean_text(result.cells[change.tested].cell.condition));
+    part.set("reading", clean_text(reading_in_words(change.reading)));
+    part.set("name", clean_text(change.reading));
+    part.set("unit", clean_text(change.unit));
+    part.set("old", value_text(change.old_value));
+    part.set("new", value_text(change.new_value));
+    part.set("old_key", sort_key(change.old_value));
+    part.set("new_key", sort_key(change.new_value));
+    part.set("delta", known ? signed_figure(change.delta(), 2) : "");
+    part.set("delta_key", known ? fmt::format("{}", change.delta()) : "");
+    const double old_size = std::abs(change.old_value.value_or(0.0));
+    part.set("percent", known && old_size > 0.0 ? signed_figure(100.0 * change.delta() / old_size, 1) : "");
+    part.set("percent_key", known && old_size > 0.0 ? fmt::format("{}", 100.0 * change.delta() / old_size) : "");
+    part.set("uncertainty", change.uncertainty ? figure(*change.uncertainty, 2) : "");
+    part.set("uncertainty_key", sort_key(change.uncertainty));
+    part.set("aim", change.by_aim ? figure(*change.by_aim, 2) : "");
+    part.set("aim_key", sort_key(change.by_aim));
+    part.set("has_aim", change.by_aim.has_value());
+    part.set("has_percent", known && old_size > 0.0);
+    part.set("kind", change_name(change.kind));
+    part.set("class", change.kind == ChangeKind::real ? "real" : "quiet");
+    return part;
+}
+
+/// What the study comes to, in one sentence.
+std::string sentence_of(const StudyResult& result) {
+    std::size_t decided = 0, real = 0, within = 0;
+    for (const Change& change : result.changes) {
+        decided += change.decides ? 1U : 0U;
+        real += change.decides && change.kind == ChangeKind::real ? 1U : 0U;
+        within += change.decides && change.kind == ChangeKind::within_aim ? 1U : 0U;
+    }
+    if (result.study.comparisons.empty())
+        return "Nothing was to be compared.";
+    return fmt::format("Of {} deciding readings {} changed for real, {} by less than 0.1° of aim would do.", decided, real, within);
+}
+
+bool has_several_conditions(const StudyResult& result) {
+    return std::ranges::any_of(result.cells,
+                               [&](const CellResult& cell) { return cell.cell.condition != result.cells.front().cell.condition; });
+}
+
+data verdict_part(const StudyResult& result) {
+    const VerdictKind kind = overall(result);
+    data part, failures{List::list};
+    bool any = false;
+    const auto add = [&](const std::string& where, const Verdict& verdict) {
+        if (verdict.kind == VerdictKind::pass)
+            return;
+        data row;
+        row.set("name", clean_text(verdict.name));
+        row.set("where", clean_text(where));
+        row.set("text", clean_text(verdict.text));
+        row.set("rerun", clean_text(verdict.rerun));
+        failures.push_back(row);
+        any = true;
+    };
+    for (const Verdict& verdict : result.verdicts)
+        add("study", verdict);
+    for (const CellResult& cell : result.cells) {
+        if (!cell.failed.empty())
+            add(cell.cell.name, {VerdictKind::not_measured, "not played", cell.failed, cell.command});
+        for (const Verdict& verdict : cell.verdicts)
+            add(cell.cell.name, verdict);
+    }
+    part.set("class", verdict_name(kind));
+    part.set("word", kind == VerdictKind::pass ? "Within limits" : kind == VerdictKind::fail ? "Limits exceeded" : "Not all was measured");
+    part.set("mark", kind == VerdictKind::pass ? "✓" : kind == VerdictKind::fail ? "✗" : "?");
+    part.set("sentence", sentence_of(result));
+    part.set("has_failures", any);
+    part.set("failures", failures);
+    part.set("incomplete", !result.interrupted.empty());
+    part.set("interrupted", clean_text(result.interrupted));
+    data lamps{List::list};
+    for (const LampComparison& pair : result.lamps) {
+        data row, sentences{List::list};
+        row.set("names", clean_text(fmt::format("{} against {} ({})", pair.tested, pair.against, pair.side)));
+        const std::vector<std::string> all = sentences_of(pair.difference);
+        for (std::size_t i = 0; i < std::min<std::size_t>(5, all.size()); ++i)
+            sentences.push_back(clean_text(all[i]));
+        row.set("sentences", sentences);
+        row.set("more", all.size() > 5 ? fmt::format("and {} more zones, all in study.json", all.size() - 5) : "");
+        lamps.push_back(row);
+    }
+    part.set("lamps", lamps);
+    part.set("has_lamps", !result.lamps.empty());
+    return part;
+}
+
+data figure_part(const StudyFigure& figure) {
+    data part;
+    part.set("svg", figure.svg);
+    part.set("title", clean_text(figure.title));
+    part.set("link", relative_link("figures/" + figure.name));
+    return part;
+}
+
+data figures_part(const StudyResult& result, const std::string& prefix) {
+    data list{List::list};
+    for (const StudyFigure& figure : result.figures)
+        if (figure.name.starts_with(prefix))
+            list.push_back(figure_part(figure));
+    return list;
+}
+
+/// Driver's views of the same moment with two lamps, one over the other.
+data strip_part(const StudyResult& result, const std::filesystem::path& folder) {
+    std::size_t budget = embedded_bytes;
+    data strips{List::list};
+    for (const StudyComparison& pair : result.study.comparisons)
+        for (std::size_t a = 0; a < result.cells.size(); ++a)
+            for (std::size_t b = 0; b < result.cells.size(); ++b) {
+                const CellResult &now = result.cells[a], &before = result.cells[b];
+                if (lamp_of(result, a) != pair.tested || lamp_of(result, b) != pair.against || now.cell.drive != before.cell.drive ||
+                    now.cell.condition != before.cell.condition || now.cell.technique != before.cell.technique)
+                    continue;
+                for (const StoredFrame& frame : now.frames) {
+                    const auto other = std::ranges::find_if(
+                        before.frames, [&](const StoredFrame& f) { return f.tick == frame.tick && f.view == frame.view; });
+                    if (frame.png.empty() || other == before.frames.end() || other->png.empty())
+                        continue;
+                    FilesRead ignored;
+                    const std::string one = read_file(folder / frame.png, ignored), two = read_file(folder / other->png, ignored);
+                    if (one.size() + two.size() > budget)
+                        continue;
+                    budget -= one.size() + two.size();
+                    data part;
+                    part.set("title", clean_text(fmt::format("{}, after {:.1f} s ({})", now.title, frame.time_s, now.cell.condition)));
+                    part.set("new_lamp", clean_text(pair.tested));
+                    part.set("old_lamp", clean_text(pair.against));
+                    part.set("new_picture", plots::base64(one));
+                    part.set("old_picture", plots::base64(two));
+                    part.set("new_link", relative_link(frame.png));
+                    part.set("old_link", relative_link(other->png));
+                    strips.push_back(part);
+                }
+            }
+    return strips;
+}
+
+data cells_part(const StudyResult& result) {
+    data list{List::list};
+    for (const CellResult& cell : result.cells) {
+        data part;
+        part.set("name", clean_text(cell.cell.name));
+        part.set("condition", clean_text(cell.cell.condition));
+        part.set("played", cell.failed.empty());
+        part.set("failed", clean_text(cell.failed));
+        part.set("link", relative_link("cells/" + cell.cell.name + "/report.html"));
+        part.set("error", cell.error_share ? figure(100.0 * *cell.error_share, 2) + " %" : "not measured");
+        part.set("frame", cell.frame_s ? figure(1e3 * *cell.frame_s, 1) + " ms" : "not measured");
+        part.set("command", clean_text(cell.command));
+        list.push_back(part);
+    }
+    return list;
+}
+
+} // namespace
+
+std::string study_html(const StudyResult& result, const std::filesystem::path& folder) {
+    data page, largest{List::list}, rows{List::list};
+    for (const std::size_t i : result.largest)
+        largest.push_back(change_part(result, i));
+    for (std::size_t i = 0; i < result.changes.size(); ++i)
+        if (result.changes[i].decides)
+            rows.push_back(change_part(result, i));
+    page.set("title", short_text(result.study.title, 160));
+    page.set("started", clean_text(result.context.started_utc));
+    page.set("style", std::string(report_file("report.css")) + std::string(report_file("study.css")));
+    page.set("script", std::string(report_file("study.js")));
+    page.set("verdict", verdict_part(result));
+    page.set("largest", largest);
+    page.set("has_largest", !result.largest.empty());
+    page.set("rows", rows);
+    page.set("several_conditions", has_several_conditions(result));
+    page.set("lamp_figures", figures_part(result, "lamps_"));
+    page.set("reaches", figures_part(result, "reach-"));
+    page.set("maps", figures_part(result, "lux"));
+    page.set("work", figures_part(result, "work-precision"));
+    page.set("strips", strip_part(result, folder));
+    page.set("cells", cells_part(result));
+    page.set("command", clean_text(result.context.command));
+    page.set("backend", clean_text(result.context.backend + ", " + result.context.gl_renderer));
+    kainjow::mustache::mustache page_template{std::string(report_file("study.html.mustache"))};
+    std::string html = page_template.render(page);
+    if (!page_template.is_valid())
+        throw std::logic_error("study.html.mustache: " + page_template.error_message());
+    return html;
+}
+
+} // namespace fernlicht

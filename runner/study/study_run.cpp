@@ -1,0 +1,172 @@
+#include "runner/study/study_run.h"
+
+#include "runner/capture.h"
+#include "runner/checked_json.h"
+#include "runner/interruption.h"
+#include "runner/lamp_against.h"
+#include "runner/output_folder.h"
+#include "runner/run_context.h"
+#include "runner/stage.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Planned {
+    StudyCell cell;
+    Drive drive;
+};
+
+std::vector<StudyCell> wanted_cells(const Study& study, const std::string& only) {
+    std::vector<StudyCell> cells = cells_of(study);
+    std::erase_if(cells, [&](const StudyCell& cell) { return cell.name.find(only) == std::string::npos; });
+    if (cells.empty())
+        throw InputError({study.file, 0, 0, "--only"}, "found no cell whose name holds '" + printable(only) + "'",
+                         "part of a name that --list shows");
+    return cells;
+}
+
+std::vector<Planned> plan(const Study& study, const std::string& only) {
+    std::vector<Planned> planned;
+    for (const StudyCell& cell : wanted_cells(study, only))
+        planned.push_back({cell, cell_drive(study, cell)});
+    const StudyCell* last = nullptr;
+    for (const Planned& one : planned) { // roads and techniques too, once each
+        if (!last || last->drive != one.cell.drive || last->technique != one.cell.technique)
+            const Stage stage(one.drive);
+        last = &one.cell;
+    }
+    return planned;
+}
+
+/// The files of one lamp set against those of another, sides apart where they differ.
+std::vector<LampComparison> compare_lamp_files(const Study& study) {
+    const auto find = [&](const std::string& name) { return *std::ranges::find(study.lamps, name, &StudyLamp::name); };
+    std::vector<LampComparison> out;
+    for (const StudyComparison& pair : study.comparisons) {
+        const StudyLamp now = find(pair.tested), before = find(pair.against);
+        const bool alike = now.left == now.right && before.left == before.right;
+        for (const bool left : {true, false}) {
+            if (alike && !left)
+                continue;
+            const fs::path &file = left ? now.left : now.right, &other = left ? before.left : before.right;
+            out.push_back({pair.tested, pair.against,
+                           alike  ? "left and right"
+                           : left ? "left"
+                                  : "right",
+                           file, other, difference_of(read_lamp(file), read_lamp(other), study.noise_relative)});
+        }
+    }
+    return out;
+}
+
+std::string resolved_name(const Drive& drive) { return file_name_of(drive.name) + ".yaml"; }
+
+/// Played from the same resolved drive, the same bytes of every file and over the same moments.
+bool is_same_cell(const fs::path& folder, const Drive& drive, const TickRange& ticks) {
+    FilesRead ignored;
+    if (!fs::is_regular_file(folder / resolved_name(drive)) || read_file(folder / resolved_name(drive), ignored) != write_drive(drive))
+        return false;
+    const CheckedJson report = CheckedJson::read(folder / "report.json");
+    std::map<std::string, std::string> hashes;
+    for (const CheckedJson& input : report.at("context").at("inputs").items())
+        hashes[input.at("path").text()] = input.at("xxh128").text();
+    const auto is_known = [&](const FileRead& file) { return file.path == drive.file || hashes[file.path.string()] == file.xxh128; };
+    const std::vector<CheckedJson> played = report.at("drives").items();
+    return played.size() == 1 && played.front().at("ticks_planned").whole() == ticks_to_play(drive, ticks) &&
+           std::ranges::all_of(drive.opened, is_known);
+}
+
+/// True where the cell's folder holds what is wanted. Clears what a stopped run left there.
+bool is_finished(const fs::path& folder, const Planned& planned, const StudyOptions& options) {
+    if (!fs::exists(folder))
+        return false;
+    if (is_marked_incomplete(folder)) {
+        fs::remove_all(folder);
+        return false;
+    }
+    if (!is_same_cell(folder, planned.drive, options.run.ticks))
+        throw InputError({folder, 0, 0, "--resume"}, "found a cell that was played with other files or settings",
+                         "the study as it was begun");
+    return true;
+}
+
+std::string repeating(const StudyOptions& options, const fs::path& folder, const Planned& planned) {
+    std::vector<std::string> words{options.run.command.empty() ? "fernlicht" : options.run.command.front(), "run",
+                                   (folder / resolved_name(planned.drive)).string()};
+    if (options.run.ticks.last != TickRange{}.last || options.run.ticks.first > 0) {
+        words.emplace_back("--frames");
+        words.push_back(fmt::format("{}:{}", options.run.ticks.first, options.run.ticks.last));
+    }
+    words.emplace_back("--out");
+    words.push_back("out/" + planned.cell.name);
+    return shell_quoted(words);
+}
+
+/// Plays the cell or takes it as it lies there; false when the user stopped it.
+bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& result, RunContext& context) {
+    const fs::path folder = options.folder / "cells" / planned.cell.name;
+    result.reused = is_finished(folder, planned, options);
+    if (!result.reused) {
+        RunOptions run = options.run;
+        run.folder = folder;
+        const Report report = run_drives({planned.drive}, run);
+        context = report.context;
+        if (!report.complete) {
+            result.failed = report.interrupted;
+            return false;
+        }
+    }
+    read_cell_report(options.folder, result);
+    return true;
+}
+
+} // namespace
+
+StudyResult run_study(const Study& study, const StudyOptions& options) {
+    StudyResult result;
+    result.study = study;
+    const std::vector<Planned> planned = plan(study, options.only);
+    result.lamps = compare_lamp_files(study);
+    // A machine that cannot draw says so before there is a folder.
+    result.context = make_context(open_device(options.run.backend).info(), options.run.command, planned.front().drive.seed);
+    OutputFolder folder = options.resume ? OutputFolder::left_incomplete(options.folder) : OutputFolder(options.folder);
+    const Interruption listening;
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+        CellResult cell;
+        cell.cell = planned[i].cell;
+        cell.title = planned[i].drive.title;
+        cell.grid_cell_m = planned[i].drive.extent ? planned[i].drive.extent->cell_m : cell.grid_cell_m;
+        std::ranges::copy_if(planned[i].drive.views, std::back_inserter(cell.maps),
+                             [](const View& view) { return view.projection == Projection::map; });
+        cell.command = repeating(options, options.folder / "cells" / cell.cell.name, planned[i]);
+        if (result.interrupted.empty() && !options.run.quiet)
+            fmt::print(stderr, "cell {} of {}: {}\n", i + 1, planned.size(), cell.cell.name);
+        try {
+            if (!result.interrupted.empty())
+                cell.failed = "not reached";
+            else if (!play_cell(planned[i], options, cell, result.context) || Interruption::asked())
+                result.interrupted = "interrupted by the user";
+        } catch (const InputError& error) {
+            if (error.where().key == "--resume")
+                throw;
+            cell.failed = error.what();
+        } catch (const std::exception& error) {
+            cell.failed = error.what();
+        }
+        result.cells.push_back(std::move(cell));
+    }
+    compare_cells(result);
+    write_study(result, options.folder);
+    if (result.complete())
+        folder.finish();
+    return result;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,233 @@
+#include "runner/report/clean_text.h"
+#include "runner/report/extent_summary.h"
+#include "runner/report/report_writers.h"
+#include "runner/study/study_writers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+
+namespace fernlicht {
+namespace {
+
+std::string value_text(const std::optional<double>& value, const std::string& unit) {
+    return value ? fmt::format("{:.4g} {}", *value, unit) : "not measured";
+}
+
+/// "halogen -> xenon on straight-1 (night, aim -1 %, 13.2 V)"
+std::string place_of(const StudyResult& result, const Change& change) {
+    const CellResult &now = result.cells[change.tested], &before = result.cells[change.against];
+    return fmt::format("{} against {} on {} ({})", result.study.lamps[now.cell.lamp].name, result.study.lamps[before.cell.lamp].name,
+                       now.drive, now.cell.condition);
+}
+
+std::string latex_text(const std::string& text) {
+    std::string out;
+    for (const char c : text)
+        switch (c) {
+        case '_':
+        case '%':
+        case '&':
+        case '#':
+        case '$':
+        case '{':
+        case '}':
+            out += std::string("\\") + c;
+            break;
+        case '~':
+            out += "\\textasciitilde{}";
+            break;
+        case '^':
+            out += "\\textasciicircum{}";
+            break;
+        case '\\':
+            out += "\\textbackslash{}";
+            break;
+        default:
+            out += c;
+        }
+    return out;
+}
+
+/// `|` would end a cell.
+std::string markdown_text(const std::string& text) {
+    std::string out;
+    for (const char c : text)
+        out += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
+    return out;
+}
+
+using Escape = std::function<std::string(const std::string&)>;
+
+/// Lamps, drive and condition, reading, old, new, change, uncertainty, what it is.
+std::vector<std::string> table_row(const StudyResult& result, const Change& change, const Escape& escape) {
+    const CellResult& now = result.cells[change.tested];
+    return {escape(result.study.lamps[now.cell.lamp].name + " / " + result.study.lamps[result.cells[change.against].cell.lamp].name),
+            escape(now.drive),
+            escape(now.cell.condition),
+            escape(reading_in_words(change.reading)),
+            change.old_value ? fmt::format("{:.2f}", *change.old_value) : "--",
+            change.new_value ? fmt::format("{:.2f}", *change.new_value) : "--",
+            change.new_value && change.old_value ? fmt::format("{:+.2f}", change.delta()) : "--",
+            change.uncertainty ? fmt::format("{:.2f}", *change.uncertainty) : "--",
+            escape(change.unit),
+            change_name(change.kind)};
+}
+
+const std::vector<std::string> headings{"new / old", "drive", "condition", "reading", "old", "new", "change", "±", "unit", "is"};
+
+std::string joined(const std::vector<std::string>& parts, const std::string& between) {
+    return fmt::format("{}", fmt::join(parts, between));
+}
+
+} // namespace
+
+std::string reading_in_words(const std::string& name) {
+    std::string words = name;
+    for (const auto& [from, to] : {std::pair("reach_", "reach at "), std::pair("width_", "width at "), std::pair("area_", "area at "),
+                                   std::pair("unlit_before_reach_", "unlit before reach at ")})
+        if (words.starts_with(from)) {
+            words = to + words.substr(std::string(from).size());
+            break;
+        }
+    if (words == name)
+        return name;
+    for (const auto& [from, to] :
+         {std::pair("lx_road_", " lx on the road, "), std::pair("lx_target_", " lx on a target, "), std::pair("own", "own lane"),
+          std::pair("all", "whole width"), std::pair("_at_", ", "), std::pair("_p05", ", 5th percentile"), std::pair("_min", ", least"),
+          std::pair("_left_edge", ", left edge"), std::pair("_right_edge", ", right edge")})
+        if (const std::size_t at = words.find(from); at != std::string::npos)
+            words.replace(at, std::string(from).size(), to);
+    for (const char* unit : {"m_m", "_m2", "_m"}) // "20m_m" is at 20 m, in metres
+        if (words.ends_with(unit)) {
+            words.resize(words.size() - std::string(unit).size());
+            words += unit == std::string("m_m") ? " m ahead" : "";
+            break;
+        }
+    std::ranges::replace(words, '_', ' ');
+    return words;
+}
+
+std::string delta_text(const Change& change) {
+    const double old_size = std::abs(change.old_value.value_or(0.0));
+    return fmt::format("{:+.2f} {}{}", change.delta(), change.unit,
+                       old_size > 0.0 ? fmt::format(" ({:+.1f} %)", 100.0 * change.delta() / old_size) : "");
+}
+
+std::string study_text(const StudyResult& result) {
+    std::string text = fmt::format("{}: {}\n", clean_text(result.study.title), verdict_name(overall(result)));
+    if (!result.interrupted.empty())
+        text += "incomplete: " + result.interrupted + "\n";
+    for (const CellResult& cell : result.cells)
+        if (!cell.failed.empty())
+            text += fmt::format("NOT PLAYED {}: {}\n", cell.cell.name, clean_text(cell.failed));
+    const auto add = [&](const std::string& where, const std::vector<Verdict>& verdicts) {
+        for (const Verdict& verdict : verdicts)
+            if (verdict.kind != VerdictKind::pass)
+                text += fmt::format("{} {}{}: {}\n", verdict.kind == VerdictKind::fail ? "FAIL" : "NOT MEASURED", where, verdict.name,
+                                    verdict.text);
+    };
+    add("", result.verdicts);
+    for (const CellResult& cell : result.cells)
+        add(cell.cell.name + ": ", cell.verdicts);
+    for (const LampComparison& lamps : result.lamps) {
+        const std::vector<std::string> sentences = sentences_of(lamps.difference);
+        text += fmt::format("{} against {} ({}): {}{}\n", lamps.tested, lamps.against, lamps.side, sentences.front(),
+                            sentences.size() > 1 ? fmt::format("; and {} more", sentences.size() - 1) : "");
+    }
+    if (result.largest.empty())
+        text += "no deciding reading changed beyond what calculation and 0.1 degrees of aim leave open\n";
+    for (const std::size_t i : result.largest) {
+        const Change& change = result.changes[i];
+        text += fmt::format("{}: {} -> {}, {} +-{:.2g}; {}\n", reading_in_words(change.reading), value_text(change.old_value, change.unit),
+                            value_text(change.new_value, change.unit), delta_text(change), change.uncertainty.value_or(0.0),
+                            place_of(result, change));
+    }
+    return text;
+}
+
+std::string study_csv(const StudyResult& result) {
+    std::string csv =
+        "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,kind,decides,"
+        "new_cell,old_cell,why_not\r\n";
+    const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); };
+    for (std::size_t i = 0; i < result.changes.size(); ++i) {
+        const Change& c = result.changes[i];
+        const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
+        const bool known = c.new_value && c.old_value;
+        const std::vector<std::string> fields{fmt::format("c{}", i),
+                                              csv_text(result.study.lamps[now.cell.lamp].name),
+                                              csv_text(result.study.lamps[before.cell.lamp].name),
+                                              csv_text(now.drive),
+                                              csv_text(result.study.techniques[now.cell.technique]),
+                                              csv_text(now.cell.condition),
+                                              csv_text(c.reading),
+                                              csv_text(c.unit),
+                                              number(c.old_value),
+                                              number(c.new_value),
+                                              known ? fmt::format("{}", c.delta()) : "",
+                                              number(c.uncertainty),
+                                              number(c.by_aim),
+                                              change_name(c.kind),
+                                              c.decides ? "yes" : "no",
+                                              csv_text(now.cell.name),
+                                              csv_text(before.cell.name),
+                                              csv_text(c.why_not)};
+        csv += joined(fields, ",") + "\r\n";
+    }
+    return csv;
+}
+
+std::string study_markdown(const StudyResult& result) {
+    std::string text = "# " + markdown_text(clean_text(result.study.title)) + "\n\n";
+    text += "| " + joined(headings, " | ") + " |\n|---|---|---|---|--:|--:|--:|--:|---|---|\n";
+    for (const Change& change : result.changes)
+        if (change.decides)
+            text += "| " + joined(table_row(result, change, markdown_text), " | ") + " |\n";
+    text += "\nMedians over the drive unless said otherwise. ± is what calculation leaves open of the change; *within aim* means that 0.1° "
+            "of aim would do as "
+            "much.\n";
+    return text;
+}
+
+std::string study_latex(const StudyResult& result) {
+    std::string text = "% \\usepackage{booktabs}\n\\begin{tabular}{llllrrrrll}\n\\toprule\n";
+    std::vector<std::string> titles = headings;
+    std::ranges::replace(titles, std::string("±"), std::string("$\\pm$"));
+    text += joined(titles, " & ") + " \\\\\n\\midrule\n";
+    for (const Change& change : result.changes)
+        if (change.decides) {
+            std::vector<std::string> row = table_row(result, change, latex_text);
+            for (std::size_t i = 4; i < 8; ++i)
+                row[i] = "$" + row[i] + "$";
+            text += joined(row, " & ") + " \\\\\n";
+        }
+    return text + "\\bottomrule\n\\end{tabular}\n";
+}
+
+std::string study_junit(const StudyResult& result) {
+    Report report;
+    report.context = result.context;
+    for (const CellResult& cell : result.cells) {
+        PlayedVariant suite;
+        suite.drive = cell.cell.name;
+        suite.variant = cell.cell.condition;
+        suite.technique = result.study.techniques[cell.cell.technique];
+        suite.verdicts.push_back(cell.failed.empty() ? Verdict{VerdictKind::pass, "played", "all moments", cell.command}
+                                                     : Verdict{VerdictKind::not_measured, "played", cell.failed, cell.command});
+        suite.verdicts.insert(suite.verdicts.end(), cell.verdicts.begin(), cell.verdicts.end());
+        report.played.push_back(std::move(suite));
+    }
+    PlayedVariant own;
+    own.drive = result.study.name;
+    own.variant = "limits of the study";
+    own.technique = "photometric";
+    own.verdicts = result.verdicts;
+    report.played.push_back(std::move(own));
+    report.complete = result.interrupted.empty();
+    report.interrupted = result.interrupted;
+    return report_junit(report);
+}
+
+} // namespace fernlicht

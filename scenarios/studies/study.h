@@ -1,0 +1,75 @@
+// A study: lamps x drives x techniques x conditions, and what is to be compared with what. Read from YAML.
+#pragma once
+
+#include "scenarios/drives/drive.h"
+
+namespace fernlicht {
+
+/// One lamp set of a study: what the car carries in place of the drive's own lamps.
+struct StudyLamp {
+    std::string name;
+    std::filesystem::path left, right; ///< low beams; the same file twice where the study names one
+    std::filesystem::path high;        ///< high beams; "" for none
+    SourceKind source = SourceKind::filament;
+    LampColour colour;
+    /// The dip that the lamp's file already holds: files measured in regulation aim have their cut-off 1 % down.
+    double file_aim_percent = -1.0;
+};
+
+/// Values of each condition; every combination is played.
+struct StudyConditions {
+    std::vector<Daylight> times_of_day;
+    std::vector<double> aim_percent{-1.0}; ///< of the cut-off: -1 is 1 cm down in 1 m
+    std::vector<double> voltage_v{13.2};
+};
+
+struct StudyComparison {
+    std::string tested, against; ///< lamps by name
+};
+
+/// On a reading of one lamp, or on how much it changed.
+struct StudyLimit {
+    std::string reading;
+    std::string lamp; ///< "" for every lamp; always "" for a change
+    std::optional<double> at_least, at_most, change_at_least, change_at_most;
+};
+
+struct Study {
+    std::string name, title;
+    std::filesystem::path file;
+    std::string text; ///< of the file
+    std::vector<StudyLamp> lamps;
+    std::vector<std::filesystem::path> drives;
+    std::vector<std::string> techniques{"photometric"};
+    StudyConditions conditions;
+    std::vector<StudyComparison> comparisons;
+    std::vector<std::string> readings; ///< that decide, by name
+    std::vector<StudyLimit> limits;
+    int pictured_moments = 4;                         ///< stored moments of each cell
+    std::optional<std::pair<int, int>> resolution_px; ///< of the camera views; nullopt: the drives' own
+    double noise_relative = 0.0;                      ///< standard deviation of the lamps' intensities, for the comparison of their tables
+    FilesRead opened;
+};
+
+inline constexpr std::size_t most_study_cells = 500;
+
+/// One thing that is played: a drive with one lamp set in one technique under one condition.
+struct StudyCell {
+    std::string name; ///< its folder: "straight_xenon", with technique and conditions where the study has several
+    std::size_t drive = 0, lamp = 0, technique = 0, time_of_day = 0, aim = 0, voltage = 0; ///< indices into the study's lists
+    std::string condition;                                                                 ///< "night, aim -1 %, 13.2 V"; for people
+};
+
+/// Reads and checks a study file, version 1 (scenarios/study.example.yaml explains every key). Throws InputError with file, line, column
+/// and key: unknown keys (with the nearest known one), names that no lamp has, a condition that cannot be played, more than 500 cells. Lamp
+/// and drive files must exist; they are read by cell_drive.
+Study read_study(const std::filesystem::path& path);
+
+/// All cells: drives, then techniques, times of day, aims, voltages, and lamps innermost, so that what is compared lies side by side.
+std::vector<StudyCell> cells_of(const Study& study);
+
+/// The drive that plays a cell: the study's drive file with this lamp set alone, its aim, voltage and daylight, few stored moments. Throws
+/// InputError for what the drive file or the lamp refuses, and for a drive with high beams where the lamp set has none.
+Drive cell_drive(const Study& study, const StudyCell& cell);
+
+} // namespace fernlicht

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# ci/nightly with stand-ins for set-up, CMake and the program: what it plays, against which references, which exit code it hands on.
+set -uo pipefail
+source_tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+tree=$(mktemp --directory)
+trap 'rm -rf "$tree"' EXIT
+failures=0
+
+mkdir -p "$tree"/{ci,bin,build/release}
+cp "$source_tree/ci/nightly" "$tree/ci/"
+printf '#!/bin/sh\n' | tee "$tree/ci/setup" >"$tree/bin/cmake"
+# Stands for `fernlicht study FILE --references FOLDER --quiet --out DIR`.
+cat >"$tree/build/release/fernlicht" <<'END'
+#!/bin/sh
+[ "$1 $3 $5 $6" = "study --references --quiet --out" ] && [ ! -e "$7" ] || exit 2
+[ "$CODE" -lt 2 ] || exit "$CODE"
+mkdir -p "$7" && echo "$2 $4" | tee "$7/report.html" >"$7/junit.xml"
+exit "$CODE"
+END
+chmod +x "$tree/ci/setup" "$tree/bin/cmake" "$tree/build/release/fernlicht"
+
+# expect EXIT-CODE TEXT [ARGUMENT...]: runs it from another folder; the program's exit code is in CODE.
+expect() {
+    local got=0 said
+    said=$(cd / && PATH=$tree/bin:$PATH "$tree/ci/nightly" "${@:3}" 2>&1 </dev/null) || got=$?
+    if ((got != $1)); then
+        echo "exit code $got, expected $1"
+        ((++failures))
+    fi
+    if [[ $said != *"$2"* ]]; then
+        echo "said '$said', expected '$2'"
+        ((++failures))
+    fi
+}
+
+export CODE=0
+expect 0 "nightly: JUnit  out/nightly-1/junit.xml"
+[[ $(<"$tree/out/nightly-1/report.html") == "scenarios/library/studies/standard.yaml references" ]] || { echo "played something else"; ((++failures)); }
+FERNLICHT_REFERENCES=/elsewhere expect 0 "out/mine/report.html" other.yaml out/mine
+[[ $(<"$tree/out/mine/report.html") == "other.yaml /elsewhere" ]] || { echo "took other files"; ((++failures)); }
+CODE=1 expect 1 "accept"
+CODE=3 expect 3 "left no report"
+((failures == 0))

@@ -1,0 +1,149 @@
+// What counts as a change, by hand-made cells.
+#include "runner/study/study_result.h"
+#include "runner/study/study_writers.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+void put(CellResult& cell, const std::string& name, std::optional<double> value, const std::string& unit, const std::string& why = "") {
+    cell.readings[name] = {name, value, unit, "", -1, why};
+}
+
+/// Two lamps on one drive. Of reach each side leaves 0.3 + 0.1 m open, so 0.57 m together; 0.1 degrees move it by 4 m.
+StudyResult two_cells(double old_reach_m, double new_reach_m) {
+    StudyResult result;
+    result.study.name = result.study.title = "by hand";
+    result.study.lamps.resize(2);
+    result.study.lamps[0].name = "old";
+    result.study.lamps[1].name = "new";
+    result.study.drives = {"one.yaml"};
+    result.study.conditions.times_of_day = {{}};
+    result.study.comparisons = {{"new", "old"}};
+    result.study.readings = {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "width_1lx_road_all_at_20m_m"};
+    for (std::size_t lamp = 0; lamp < 2; ++lamp) {
+        CellResult cell;
+        cell.cell.lamp = lamp;
+        cell.cell.name = lamp == 0 ? "one_old" : "one_new";
+        cell.drive = "one-1";
+        put(cell, "reach_5lx_target_own_m", lamp == 0 ? old_reach_m : new_reach_m, "m");
+        put(cell, "reach_5lx_target_own_grid_error_m", 0.3, "m");
+        put(cell, "reach_5lx_target_own_twin_difference_m", 0.1, "m");
+        put(cell, "reach_5lx_target_own_per_tenth_degree_m", lamp == 0 ? 4.0 : -3.0, "m");
+        result.cells.push_back(cell);
+    }
+    return result;
+}
+
+const Change& change_in(const StudyResult& result, const std::string& name) {
+    for (const Change& change : result.changes)
+        if (change.reading == name)
+            return change;
+    throw std::runtime_error("no change of " + name);
+}
+
+ChangeKind kind_for(double old_m, double new_m) {
+    StudyResult result = two_cells(old_m, new_m);
+    compare_cells(result);
+    EXPECT_EQ(result.changes.size(), 1U) << "rows on trust are no readings";
+    EXPECT_NEAR(result.changes.front().uncertainty.value_or(0.0), 0.4 * std::sqrt(2.0), 1e-12);
+    return result.changes.front().kind;
+}
+
+TEST(StudyCompare, AChangeIsRealBeyondCalculationAndAim) {
+    EXPECT_EQ(kind_for(40.0, 40.0), ChangeKind::none);
+    EXPECT_EQ(kind_for(40.0, 40.56), ChangeKind::none);
+    EXPECT_EQ(kind_for(40.0, 40.58), ChangeKind::within_aim);
+    EXPECT_EQ(kind_for(40.0, 36.0), ChangeKind::within_aim); // 4 < hypot(4, 0.57)
+    EXPECT_EQ(kind_for(40.0, 44.1), ChangeKind::real);       // 4.1 > 4.04
+    EXPECT_EQ(kind_for(40.0, 35.9), ChangeKind::real);
+}
+
+TEST(StudyCompare, RanksByShareEachReadingOnce) {
+    StudyResult result = two_cells(40.0, 50.0); // 20 % of the larger
+    for (CellResult& cell : result.cells) {
+        put(cell, "reach_1lx_road_own_m", cell.cell.lamp == 0 ? 20.0 : 10.0, "m"); // 50 %
+        put(cell, "reach_1lx_road_own_grid_error_m", 0.1, "m");
+        put(cell, "reach_1lx_road_own_twin_difference_m", 0.0, "m");
+        put(cell, "width_1lx_road_all_at_20m_m", cell.cell.lamp == 0 ? 5.0 : 5.3, "m"); // 0.3 < 0.35: a column of the grid at each edge
+        put(cell, "area_1lx_road_all_m2", cell.cell.lamp == 0 ? 10.0 : 90.0, "m2");     // decides nothing
+        put(cell, "area_1lx_road_all_grid_error_m2", 1.0, "m2");
+    }
+    compare_cells(result);
+    ASSERT_EQ(result.largest.size(), 2U);
+    EXPECT_EQ(result.changes[result.largest[0]].reading, "reach_1lx_road_own_m");
+    EXPECT_EQ(result.changes[result.largest[1]].reading, "reach_5lx_target_own_m");
+    EXPECT_EQ(change_in(result, "width_1lx_road_all_at_20m_m").kind, ChangeKind::none);
+    EXPECT_EQ(change_in(result, "area_1lx_road_all_m2").kind, ChangeKind::real);
+    EXPECT_DOUBLE_EQ(change_in(result, "reach_1lx_road_own_m").size(), 0.5);
+}
+
+TEST(StudyCompare, WhatNobodyVouchesForIsNotKnown) {
+    StudyResult result = two_cells(40.0, 50.0);
+    put(result.cells[0], "glare_at_eye_lx", 0.2, "lx");
+    put(result.cells[1], "glare_at_eye_lx", 0.4, "lx");
+    put(result.cells[0], "dazzle_lx", 0.2, "lx");
+    put(result.cells[1], "dazzle_lx", 0.4, "lx");
+    put(result.cells[0], "dazzle_standard_error_lx", 0.03, "lx");
+    put(result.cells[1], "dazzle_standard_error_lx", 0.04, "lx");
+    put(result.cells[0], "reach_10lx_road_own_m", 3.0, "m");
+    put(result.cells[1], "reach_10lx_road_own_m", std::nullopt, "m", "never lit");
+    compare_cells(result);
+    EXPECT_EQ(change_in(result, "glare_at_eye_lx").kind, ChangeKind::unknown);
+    EXPECT_THAT(change_in(result, "glare_at_eye_lx").why_not, HasSubstr("nothing tells"));
+    EXPECT_EQ(change_in(result, "dazzle_lx").kind, ChangeKind::real);
+    EXPECT_DOUBLE_EQ(*change_in(result, "dazzle_lx").uncertainty, 0.05);
+    EXPECT_EQ(change_in(result, "reach_10lx_road_own_m").why_not, "never lit");
+}
+
+TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
+    StudyResult result = two_cells(40.0, 50.0);
+    result.study.limits.resize(3);
+    result.study.limits[0].reading = result.study.limits[1].reading = "reach_5lx_target_own_m";
+    result.study.limits[0].lamp = "new";
+    result.study.limits[0].at_least = 45.0;
+    result.study.limits[1].change_at_most = 9.0;
+    result.study.limits[2].reading = "nothing_m";
+    result.study.limits[2].change_at_least = 0.0;
+    compare_cells(result);
+    ASSERT_EQ(result.verdicts.size(), 3U);
+    EXPECT_EQ(result.verdicts[0].kind, VerdictKind::pass);
+    EXPECT_EQ(result.verdicts[1].kind, VerdictKind::fail);
+    EXPECT_EQ(result.verdicts[2].kind, VerdictKind::not_measured);
+    EXPECT_EQ(overall(result), VerdictKind::fail);
+    EXPECT_THAT(study_junit(result), HasSubstr("<failure"));
+    EXPECT_THAT(study_text(result), HasSubstr("FAIL one_new: change of reach_5lx_target_own_m: 10 m, limit at most 9 m"));
+}
+
+TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
+    StudyResult result = two_cells(40.0, 40.0);
+    compare_cells(result);
+    EXPECT_EQ(overall(result), VerdictKind::pass);
+    result.cells[1].failed = "the disk is full";
+    EXPECT_EQ(overall(result), VerdictKind::not_measured);
+    EXPECT_THAT(study_junit(result), HasSubstr("the disk is full"));
+}
+
+TEST(StudyText, SaysReadingsInWords) {
+    EXPECT_EQ(reading_in_words("reach_5lx_target_own_m"), "reach at 5 lx on a target, own lane");
+    EXPECT_EQ(reading_in_words("width_1lx_road_all_at_20m_m"), "width at 1 lx on the road, whole width, 20 m ahead");
+    EXPECT_EQ(reading_in_words("area_1lx_road_all_m2"), "area at 1 lx on the road, whole width");
+    EXPECT_EQ(reading_in_words("probe_kerb_lx"), "probe_kerb_lx");
+}
+
+TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
+    StudyResult result = two_cells(40.0, 50.0);
+    result.study.lamps[1].name = result.study.comparisons[0].tested = "a_b|c%";
+    compare_cells(result);
+    EXPECT_THAT(study_latex(result), HasSubstr("a\\_b|c\\% / old"));
+    EXPECT_THAT(study_latex(result), HasSubstr("$40.00$ & $50.00$ & $+10.00$ & $0.57$"));
+    EXPECT_THAT(study_markdown(result), HasSubstr("a_b\\|c% / old"));
+    EXPECT_THAT(study_csv(result), HasSubstr("c0,a_b|c%,old,one-1"));
+}
+
+} // namespace
+} // namespace fernlicht

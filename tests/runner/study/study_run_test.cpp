@@ -1,0 +1,168 @@
+// Whole studies through the program.
+#include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr const char* quick = " --frames 0:5 --quiet --no-accuracy ";
+
+std::string write_study_file(const TemporaryFolder& folder, const std::string& second_lamp, const std::string& more = "") {
+    const std::string file = folder / "study.yaml";
+    std::ofstream(file) << "fernlicht_study: 1\nname: two\ntitle: Two cells\nlamps:\n  old: {low: " << library_file("lamps/halogen-low.ies")
+                        << "}\n  new: " << second_lamp << "\ndrives: [" << library_file("drives/straight.yaml")
+                        << "]\npictured_moments: 2\nresolution_px: [96, 72]\n"
+                        << more;
+    return file;
+}
+
+/// The page as a browser sees it. Without Chromium it is not opened.
+void open_page(const TemporaryFolder& folder) {
+    std::string page = content_of(folder / "out/report.html");
+    page.insert(page.rfind("</body>"), R"(<script>
+const table = document.querySelector('table.sortable'), heads = Array.from(table.tHead.rows[0].cells);
+const column = heads.findIndex((head) => head.textContent === 'change');
+const keys = () => Array.from(table.tBodies[0].rows, (row) => Number(row.cells[column].dataset.key));
+const inOrder = (sign) => keys().every((key, i, all) => i === 0 || sign * (key - all[i - 1]) >= 0);
+const button = heads[column].querySelector('button');
+button.click(); const up = inOrder(1); button.click(); const down = inOrder(-1);
+const slider = document.querySelector('.strip input');
+slider.value = '20'; slider.dispatchEvent(new Event('input'));
+const share = document.querySelector('.stack').style.getPropertyValue('--share');
+const targets = Array.from(document.querySelectorAll('a[href^="#"]')).every((a) => document.getElementById(a.getAttribute('href').slice(1)));
+const links = Array.from(document.querySelectorAll('a[href^="."]'), (a) => a.getAttribute('href'));
+const pictures = Array.from(document.images).every((image) => image.complete && image.naturalWidth === 96);
+document.title = [up, down, share, targets, pictures, document.images.length].join(' ') + '|' + links.join('|');
+</script>)");
+    std::ofstream(folder / "out/opened.html") << page;
+    const Outcome browser =
+        run_shell(fmt::format("timeout 120 chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr --user-data-dir={} "
+                              "--dump-dom file://{}",
+                              folder / "browser", folder / "out/opened.html"));
+    EXPECT_THAT(browser.output, Not(HasSubstr("CONSOLE"))) << "the browser complained";
+    const std::size_t from = browser.output.find("<title>"), to = browser.output.find("</title>");
+    ASSERT_LT(from, to) << browser.output.substr(0, 2000);
+    std::istringstream title(browser.output.substr(from + 7, to - from - 7));
+    std::string part;
+    std::getline(title, part, '|');
+    EXPECT_EQ(part, "true true 20% true true 2") << "one moment within the first six, two lamps";
+    std::size_t links = 0;
+    while (std::getline(title, part, '|')) {
+        ++links;
+        EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + part))) << part;
+    }
+    EXPECT_GT(links, 10U);
+}
+
+json without_times(json study) {
+    study.erase("context");
+    return study;
+}
+
+struct StudyProgram : testing::Test {
+    TemporaryFolder folder;
+    std::string xenon = "{low: " + library_file("lamps/xenon-low.ies") + ", source: arc}";
+};
+
+TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
+    const std::string file = write_study_file(folder, xenon);
+    const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json study = json::parse(content_of(folder / "out/study.json"));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/study/study.schema.json")));
+    EXPECT_THAT(schema.check(study), IsEmpty());
+    EXPECT_EQ(study.at("verdict"), "pass");
+    ASSERT_EQ(study.at("cells").size(), 2U);
+    const std::string page = content_of(folder / "out/report.html");
+    std::size_t deciding = 0;
+    for (const json& change : study.at("changes")) {
+        // The row's values are those of the cells' own reports.
+        for (const auto& [cell, value] : {std::pair("old_cell", "old_value"), std::pair("new_cell", "new_value")}) {
+            const json report = json::parse(content_of(folder / ("out/cells/" + change.at(cell).get<std::string>() + "/report.json")));
+            bool found = false;
+            if (change.at("decides") == true)
+                for (const json& row : report.at("rows"))
+                    found = found || (row.at("name") == change.at("reading") && row.at("value") == change.at(value));
+            EXPECT_EQ(found, change.at("decides").get<bool>()) << change;
+            if (change.at("decides") == false)
+                break;
+        }
+        if (change.at("decides") == true) {
+            ++deciding;
+            EXPECT_THAT(page, HasSubstr("<tr id=\"" + change.at("id").get<std::string>() + "\""));
+        }
+    }
+    EXPECT_EQ(deciding, 6U);
+    ASSERT_EQ(study.at("largest_changes").size(), 3U);
+    for (const json& id : study.at("largest_changes"))
+        EXPECT_THAT(page, HasSubstr("data-row=\"" + id.get<std::string>() + "\""));
+    for (const json& figure : study.at("figures"))
+        for (const char* form : {"svg", "png"})
+            EXPECT_GT(std::filesystem::file_size(folder / ("out/" + figure.at(form).get<std::string>())), 500U) << figure;
+    EXPECT_THAT(content_of(folder / "out/study.tex"), HasSubstr("\\toprule"));
+    EXPECT_THAT(content_of(folder / "out/study.md"), HasSubstr("| new / old | straight-1 |"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE"));
+    if (run_shell("command -v chromium").exit_code != 0)
+        GTEST_SKIP() << "no Chromium on this machine: the page is not opened";
+    open_page(folder);
+}
+
+TEST_F(StudyProgram, TheSameLampUnderAnotherNameDiffersInNothing) {
+    const std::string file = write_study_file(folder, "{low: " + library_file("lamps/halogen-low.ies") + "}");
+    // Against references of which none was accepted: red, and all the rest is there.
+    const Outcome run = run_program("study " + file + quick + "--references " + (folder / "none") + " --out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 1) << run.output;
+    const json study = json::parse(content_of(folder / "out/study.json"));
+    EXPECT_EQ(study.at("verdict"), "fail");
+    EXPECT_THAT(study.at("largest_changes"), IsEmpty());
+    EXPECT_EQ(study.at("lamps").at(0).at("difference").at("differs"), false);
+    std::size_t known = 0;
+    for (const json& change : study.at("changes")) {
+        EXPECT_TRUE(change.at("kind") == "no difference" || change.at("kind") == "not known") << change;
+        known += change.at("kind") == "no difference" ? 1U : 0U;
+    }
+    EXPECT_GT(known, 50U);
+    EXPECT_THAT(run.output, HasSubstr("no difference beyond noise"));
+}
+
+TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
+    const std::string file = write_study_file(folder, xenon);
+    const std::string arguments = "study " + file + " --frames 0:5 --no-accuracy --out ";
+    ASSERT_EQ(run_program(arguments + (folder / "whole")).exit_code, 0);
+    const Outcome stopped = run_interrupted(arguments + (folder / "out"), "cell 2 of 2");
+    EXPECT_EQ(stopped.exit_code, 1) << stopped.output;
+    EXPECT_THAT(stopped.output, HasSubstr("incomplete: interrupted by the user"));
+    EXPECT_THAT(content_of(folder / "out/report.html"), HasSubstr("The study did not end"));
+    const Outcome other = run_program("study " + file + " --frames 0:4 --no-accuracy --resume --out " + (folder / "out"));
+    EXPECT_EQ(other.exit_code, 2) << "other moments are another study";
+    EXPECT_THAT(other.output, HasSubstr("found a cell that was played with other files or settings"));
+    const Outcome resumed = run_program(arguments + (folder / "out") + " --resume");
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
+    const json study = json::parse(content_of(folder / "out/study.json"));
+    EXPECT_EQ(study.at("context").at("cells").at(0).at("reused"), true);
+    EXPECT_EQ(without_times(study), without_times(json::parse(content_of(folder / "whole/study.json"))));
+    for (const char* name : {"study.csv", "study.md", "study.tex"})
+        EXPECT_EQ(content_of(folder / (std::string("out/") + name)), content_of(folder / (std::string("whole/") + name))) << name;
+}
+
+TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
+    const std::string file = write_study_file(folder, xenon, "techniques: [fotometric]\n");
+    const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out"));
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    EXPECT_EQ(run_program("study " + file + " --resume").exit_code, 2);
+    const Outcome none = run_program("study " + library_file("studies/standard.yaml") + " --only moon --out " + (folder / "out"));
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_THAT(none.output, HasSubstr("no cell whose name holds 'moon'"));
+}
+
+} // namespace
+} // namespace fernlicht

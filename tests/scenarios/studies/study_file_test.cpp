@@ -1,0 +1,118 @@
+#include "scenarios/studies/study.h"
+#include "scenarios/values/errors.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
+
+class StudyFile : public testing::Test {
+  protected:
+    std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) / ("study-" + std::to_string(::getpid()) + ".yaml");
+    void TearDown() override { std::filesystem::remove(file_); }
+
+    Study read(const std::string& text) {
+        std::ofstream(file_) << text;
+        return read_study(file_);
+    }
+    std::string refusal(const std::string& text) {
+        try {
+            read(text);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "not refused";
+    }
+    static std::string with(const std::string& more) {
+        return "fernlicht_study: 1\nlamps:\n  a: {low: " + library + "lamps/halogen-low.ies}\n  b: {left: " + library +
+               "lamps/xenon-low.ies, right: " + library + "lamps/halogen-low.ies, source: arc}\ndrives: [" + library +
+               "drives/straight.yaml]\n" + more;
+    }
+};
+
+TEST_F(StudyFile, TheExampleAndTheStandardStudyAreRead) {
+    const Study example = read_study(FERNLICHT_SOURCE_DIR "/scenarios/study.example.yaml");
+    EXPECT_EQ(cells_of(example).size(), 2U * 2U * 3U * 2U);
+    const Study standard = read_study(library + "studies/standard.yaml");
+    EXPECT_EQ(standard.name, "standard-1");
+    EXPECT_EQ(cells_of(standard).size(), 10U);
+    EXPECT_EQ(cells_of(standard).front().name, "straight_halogen");
+    EXPECT_EQ(cells_of(standard).back().name, "village_xenon");
+}
+
+TEST_F(StudyFile, WhatIsNotGivenIsNightAtRegulationAim) {
+    const Study study = read(with(""));
+    const std::vector<StudyCell> cells = cells_of(study);
+    ASSERT_EQ(cells.size(), 2U);
+    EXPECT_EQ(cells[0].condition, "night, aim -1 %, 13.2 V");
+    ASSERT_EQ(study.comparisons.size(), 1U) << "all with the first";
+    EXPECT_EQ(study.comparisons[0].tested, "b");
+    const Drive drive = cell_drive(study, cells[1]);
+    ASSERT_EQ(drive.variants.size(), 1U);
+    EXPECT_EQ(drive.variants[0].name, "b");
+    EXPECT_EQ(drive.daylight.horizontal_illuminance_lx, 0.0);
+    for (const MountedLamp& lamp : drive.variants[0].lamps) {
+        EXPECT_EQ(lamp.pitch_rad, 0.0) << "the file has its own dip";
+        EXPECT_EQ(lamp.source, SourceKind::arc);
+        EXPECT_EQ(lamp.file->name, lamp.name == "left" ? "xenon low beam (model)" : "halogen low beam (model)");
+    }
+}
+
+TEST_F(StudyFile, ConditionsReachTheDrive) {
+    const Study study = read(with("conditions: {time_of_day: [night, twilight], aim_percent: [-1, -1.5], voltage_v: [12, 13.2]}\n"));
+    const std::vector<StudyCell> cells = cells_of(study);
+    ASSERT_EQ(cells.size(), 16U);
+    EXPECT_EQ(cells[0].name, "straight_a_night_aim-1_12V");
+    EXPECT_EQ(cells[15].name, "straight_b_twilight_aim-1.5_13.2V");
+    const Drive drive = cell_drive(study, cells[12]); // twilight, -1.5 %, 12 V, a
+    EXPECT_EQ(drive.daylight.horizontal_illuminance_lx, 3.4);
+    for (const MountedLamp& lamp : drive.variants[0].lamps) {
+        EXPECT_DOUBLE_EQ(lamp.pitch_rad, std::atan(-0.015) + std::atan(0.01));
+        EXPECT_EQ(lamp.voltage_v, 12.0);
+    }
+}
+
+TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
+    EXPECT_THAT(refusal(with("conditons: {}\n")), HasSubstr("conditions"));
+    EXPECT_THAT(refusal(with("conditions: {time_of_day: dusk}\n")), HasSubstr("night"));
+    EXPECT_THAT(refusal(with("conditions: {mirror: true}\n")), HasSubstr("cannot be mirrored to left-hand traffic yet"));
+    EXPECT_THAT(refusal(with("conditions: {weather: rain}\n")), HasSubstr("weather"));
+    EXPECT_THAT(refusal(with("conditions: {voltage_v: 24}\n")), HasSubstr("13.8"));
+    EXPECT_THAT(refusal(with("conditions: {aim_percent: [-1, -1]}\n")), HasSubstr("a value given twice"));
+    EXPECT_THAT(refusal(with("compare: [{new: bb, against: a}]\n")), HasSubstr("no lamp 'bb' in this study, expected one of a, b"));
+    EXPECT_THAT(refusal(with("compare: [{new: a, against: a}]\n")), HasSubstr("compared with itself"));
+    EXPECT_THAT(refusal(with("limits: [{reading: x}]\n")), HasSubstr("a limit without a number"));
+    EXPECT_THAT(refusal("fernlicht_study: 2\n"), HasSubstr("version of the study file's schema"));
+    EXPECT_THAT(refusal(with("lamps: {}\n")), HasSubstr("lamps"));
+}
+
+TEST_F(StudyFile, RefusesMoreCellsThanAnybodyWaitsFor) {
+    std::string aims;
+    for (int i = 0; i < 90; ++i)
+        aims += (i ? ", " : "") + std::to_string(-0.01 * i);
+    EXPECT_THAT(refusal(with("conditions: {aim_percent: [" + aims + "], voltage_v: [12, 13, 13.5]}\n")), HasSubstr("540 cells"));
+}
+
+TEST_F(StudyFile, HighBeamsComeWithTheLampOrNotAtAll) {
+    std::string text = with("");
+    text.replace(text.find("straight.yaml"), 13, "first-light.yaml");
+    const Study study = read(text);
+    try {
+        cell_drive(study, cells_of(study).front());
+        FAIL() << "not refused";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("lamps.a: found no high beam"));
+    }
+}
+
+} // namespace
+} // namespace fernlicht
