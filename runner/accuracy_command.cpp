@@ -27,7 +27,7 @@ struct Flags {
 
 std::vector<std::pair<int, int>> sizes_of(const char* flag, const std::vector<std::string>& texts, int most) {
     std::vector<std::pair<int, int>> sizes;
-    for (const std::string& text : texts) {
+    for (const std::string& text : items_of(flag, texts)) {
         sizes.push_back(two_numbers(flag, text, 'x', false, "WIDTHxHEIGHT, e.g. 512x384"));
         if (std::min(sizes.back().first, sizes.back().second) < 16 || std::max(sizes.back().first, sizes.back().second) > most)
             refuse_flag(flag, text, "16 to 8192 each way");
@@ -38,7 +38,7 @@ std::vector<std::pair<int, int>> sizes_of(const char* flag, const std::vector<st
 std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& texts) {
     constexpr const char* expected = "float, eight-bit or WIDTHxHEIGHTxBITS with 8, 16 or 32 bits, e.g. 512x128x8";
     std::vector<std::optional<BeamTexels>> beams;
-    for (const std::string& text : texts) {
+    for (const std::string& text : items_of("--beams", texts)) {
         if (text == "float" || text == "eight-bit") {
             beams.push_back(text == "float" ? std::nullopt : std::optional(eight_bit_texels));
             continue;
@@ -54,8 +54,8 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
     return beams;
 }
 
-std::vector<std::string> diagrams_of(const std::vector<std::string>& asked) {
-    const std::vector<std::string> known = diagram_names();
+std::vector<std::string> diagrams_of(const std::vector<std::string>& lists) {
+    const std::vector<std::string> known = diagram_names(), asked = items_of("--diagrams", lists);
     for (const std::string& name : asked)
         if (name != "all" && std::ranges::find(known, name) == known.end())
             refuse_flag("--diagrams", name, "all, techniques, reference, classical, solvers, extent, beam, metrics or step");
@@ -68,7 +68,7 @@ int accuracy(const Flags& flags, const std::vector<std::string>& command) {
     request.sweep = flags.sweep;
     request.sweep.variant = flags.variant;
     request.sweep.target_error = share_of("--target-error", flags.target_error);
-    request.sweep.techniques = flags.techniques;
+    request.sweep.techniques = items_of("--techniques", flags.techniques);
     request.sweep.resolutions = sizes_of("--resolutions", flags.resolutions, 8192);
     request.sweep.shadow_maps = sizes_of("--shadow-maps", flags.shadow_maps, 8192);
     request.sweep.beams = beams_of(flags.beams);
@@ -99,21 +99,17 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
     sub->add_option("--diagrams", flags->diagrams,
                     "all, or some of techniques, reference, classical, solvers, extent, beam, metrics, step; else techniques")
-        ->delimiter(',')
         ->allow_extra_args(false);
     sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
-    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->delimiter(',')->allow_extra_args(false);
+    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);
     sub->add_option("--resolutions", flags->resolutions,
                     "WIDTHxHEIGHT,...: the first for all, the others beside it; else the drive's, a half and a quarter of it")
-        ->delimiter(',')
         ->allow_extra_args(false);
     sub->add_option("--shadow-maps", flags->shadow_maps,
                     "WIDTHxHEIGHT,...: the first for all, the others beside it; else 1024x512, twice, a half and a quarter of it")
-        ->delimiter(',')
         ->allow_extra_args(false);
     sub->add_option("--beams", flags->beams,
                     "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others beside it; else the drive's and four others")
-        ->delimiter(',')
         ->allow_extra_args(false);
     sub->add_flag("--full", flags->sweep.full, "every technique with every resolution, shadow map and beam; else one varied at a time");
     sub->add_option("--moments", flags->sweep.moments, "spread evenly over the drive")->check(CLI::Range(1, 1000))->capture_default_str();

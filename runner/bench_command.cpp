@@ -37,7 +37,7 @@ int bench(const Flags& flags, const std::vector<std::string>& command) {
                          "to be run from the repository's root, or a drive file");
     request.drive = read_drive(flags.drive, edits);
     request.variant = flags.variant;
-    request.techniques = flags.techniques;
+    request.techniques = items_of("--techniques", flags.techniques);
     request.moments = flags.frames;
     request.rounds = flags.rounds;
     request.seed = flags.seed;
@@ -57,7 +57,7 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
     CLI::App* sub = app.add_subcommand("bench", "time the techniques against one another");
     sub->add_option("--drive", flags->drive, "drive file (YAML) whose moments are drawn")->capture_default_str();
     sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
-    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->delimiter(',')->allow_extra_args(false);
+    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);
     sub->add_option("--frames", flags->frames, "moments, spread evenly over the drive")->capture_default_str();
     sub->add_option("--rounds", flags->rounds, "in each, every technique draws the moments once")->capture_default_str();
     sub->add_option("--seed", flags->seed, "of the order in each round")

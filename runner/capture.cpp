@@ -89,16 +89,19 @@ StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, c
     const std::filesystem::path place = std::filesystem::path("frames") / file_name_of(set);
     const std::string stem = fmt::format("{}-{:06}", file_name_of(view.name), moment.tick);
     StoredFrame stored{moment.tick, moment.time_s, view.name, {}, {}};
+    const bool png = capture.png && !frame.colour.empty(), exr = capture.exr && has_linear_picture(frame);
+    if (!png && !exr)
+        return stored; // and no folder for nothing
     std::error_code error;
     std::filesystem::create_directories(folder / place, error);
     if (error)
         throw DeviceError((folder / place).string() + ": cannot be made: " + error.message());
     const auto shared = std::make_shared<const Frame>(std::move(frame));
-    if (capture.png && !shared->colour.empty()) {
+    if (png) {
         stored.png = (place / (stem + ".png")).generic_string();
         writers.submit([shared, path = folder / stored.png] { write_png(shared->colour, path); });
     }
-    if (capture.exr && has_linear_picture(*shared)) {
+    if (exr) {
         stored.exr = (place / (stem + ".exr")).generic_string();
         writers.submit([shared, moment, view, path = folder / stored.exr] { write_exr(*shared, moment, view, path); });
     }

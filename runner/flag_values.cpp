@@ -2,6 +2,7 @@
 
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace fernlicht {
@@ -25,6 +26,19 @@ std::pair<int, int> two_numbers(const char* flag, const std::string& text, char 
     };
     const std::string_view all = text;
     return {number(all.substr(0, at)), number(all.substr(at + 1))};
+}
+
+std::vector<std::string> items_of(const char* flag, const std::vector<std::string>& lists) {
+    std::vector<std::string> items;
+    for (const std::string& list : lists)
+        for (std::size_t begin = 0; begin <= list.size();) {
+            const std::size_t end = std::min(list.find(',', begin), list.size());
+            items.push_back(list.substr(begin, end - begin));
+            if (items.back().empty())
+                refuse_flag(flag, list, "something before and after each comma");
+            begin = end + 1;
+        }
+    return items;
 }
 
 std::pair<int, int> resolution_of(const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace fernlicht {
 
@@ -12,6 +13,9 @@ namespace fernlicht {
 /// Two whole numbers from 0 up with a separator: "1024x768", "0:59". Either may be missing where `open` says so (-1).
 /// Throws InputError naming the flag.
 std::pair<int, int> two_numbers(const char* flag, const std::string& text, char separator, bool open, const char* expected);
+
+/// The items of "a,b" and of a flag given several times, in order. Throws InputError naming the flag for an item that is empty.
+std::vector<std::string> items_of(const char* flag, const std::vector<std::string>& lists);
 
 /// "1024x768". Throws InputError naming --resolution.
 std::pair<int, int> resolution_of(const std::string& text);

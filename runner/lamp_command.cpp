@@ -60,7 +60,8 @@ LampFile read_other(const std::filesystem::path& path, const LampReadOptions& re
     return other;
 }
 
-void refuse_to_overwrite_input(const LampRequest& request, const std::filesystem::path& out, const char* option) {
+/// What is read is never replaced, what else is there by --force alone.
+void refuse_to_overwrite(const LampRequest& request, const std::filesystem::path& out, const char* option) {
     const auto same = [&](const std::filesystem::path& in) {
         std::error_code ignored; // a path that is not there is no input
         return !in.empty() && std::filesystem::equivalent(in, out, ignored);
@@ -72,6 +73,8 @@ void refuse_to_overwrite_input(const LampRequest& request, const std::filesystem
             input = input || same(path);
     if (input)
         throw InputError({out, 0, 0, option}, "found a file that is read", "another name to write to");
+    if (!request.force && std::filesystem::exists(std::filesystem::symlink_status(out)))
+        throw InputError({out, 0, 0, option}, "found a file of that name", "another name to write to, or --force");
 }
 
 std::optional<plots::AngleWindow> window_of(const std::vector<double>& edges) {
@@ -187,9 +190,9 @@ int lamp_command(const LampRequest& request) {
     if (request.spots && (*request.spots < 1 || *request.spots > most_spots))
         throw InputError({{}, 0, 0, "--spots"}, fmt::format("found {}", *request.spots), fmt::format("1 to {}", most_spots));
     if (!request.convert.empty())
-        refuse_to_overwrite_input(request, request.convert, "--convert");
+        refuse_to_overwrite(request, request.convert, "--convert");
     if (!request.picture.empty())
-        refuse_to_overwrite_input(request, request.picture, "--picture");
+        refuse_to_overwrite(request, request.picture, "--picture");
     const LampFile lamp = lamp_of(request);
     if (!request.against.empty())
         return tell_apart(lamp, request);
@@ -212,6 +215,7 @@ void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
                         "one of our own models in place of a file: halogen-low, halogen-high, xenon-low, xenon-high");
     command->add_flag("--json", request->json, "prints JSON");
     command->add_option("--picture", request->picture, "writes the isocandela diagram: .svg or .png");
+    command->add_flag("--force", request->force, "lets --convert and --picture replace a file that is there");
     command->add_option("--window", request->window, "of the picture: left, right, bottom and top in degrees")->expected(4);
     command->add_option("--spots", request->spots, "fits this many spot lights of OpenGL 1.x (1 to 8) and tells what they leave over");
     command->add_option("--convert", request->convert,

@@ -23,6 +23,7 @@ struct LampRequest {
     bool mirror = false;
     std::vector<std::filesystem::path> add, subtract;
     std::filesystem::path convert, picture; ///< empty: none
+    bool force = false;                     ///< files of these names may be replaced
     std::vector<double> window;             ///< of the picture: left, right, bottom, top in degrees; empty: chosen
     std::optional<int> spots;               ///< spot lights to fit, 1 to 8
     bool json = false;

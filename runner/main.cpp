@@ -47,7 +47,13 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
         return chosen();
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? within_limits : users_input;
+        if (error.get_exit_code() == 0) { // --help, --version
+            app.exit(error);
+            return within_limits;
+        }
+        complain(users_input, error);
+        fmt::print(stderr, "Run with --help for more information.\n");
+        return users_input;
     } catch (const fernlicht::InputError& error) {
         return complain(users_input, error);
     } catch (const fernlicht::DeviceError& error) {

@@ -1,5 +1,6 @@
 #include "runner/stability_command.h"
 
+#include "runner/flag_values.h"
 #include "runner/stability/stability_text.h"
 #include "scenarios/values/errors.h"
 
@@ -69,7 +70,7 @@ std::vector<const StabilityCase*> chosen_cases(const std::vector<std::string>& p
 }
 
 int stability(const Flags& flags) {
-    const std::vector<const StabilityCase*> cases = chosen_cases(flags.only);
+    const std::vector<const StabilityCase*> cases = chosen_cases(items_of("--only", flags.only));
     if (flags.list) {
         for (const StabilityCase* one : cases)
             fmt::print("{:<32} {}\n", one->full_name(), one->could_break);
@@ -103,7 +104,6 @@ void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
     CLI::App* sub =
         app.add_subcommand("stability", "try extreme and degenerate inputs, each held against a bound; exit code 1 when one fails");
     CLI::Option* only = sub->add_option("--only", flags->only, "names of cases, with * and ?, commas between: 'lamp/*,table/zero'")
-                            ->delimiter(',')
                             ->allow_extra_args(false)
                             ->default_str("");
     sub->add_flag_callback(

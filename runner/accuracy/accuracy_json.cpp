@@ -1,7 +1,6 @@
 #include "runner/accuracy/accuracy_result.h"
 #include "runner/accuracy/errors_json.h"
 #include "runner/accuracy/figures.h"
-#include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
 
 #include <cmath>
@@ -12,19 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
-Json reach_json(const std::vector<ReachError>& reach) {
-    Json out = Json::array();
-    for (const ReachError& error : reach) {
-        Json entry{{"plane", plane_name(error.plane)}, {"limit_lx", error.limit_lx}, {"moments", error.moments}};
-        if (error.why_not.empty())
-            entry.update({{"median_m", error.median_m}, {"worst_m", error.worst_m}});
-        else
-            entry["not_measured"] = error.why_not;
-        out.push_back(std::move(entry));
-    }
-    return out;
-}
 
 std::vector<int> frames_of(const DriveAccuracy& drive) {
     std::vector<int> frames;

@@ -3,6 +3,7 @@
 
 #include "metrics/pixel_errors.h"
 #include "metrics/work_precision.h"
+#include "runner/accuracy/reach_error.h"
 #include "runner/bench/bench_result.h"
 
 namespace fernlicht {
@@ -18,14 +19,8 @@ struct Configuration {
 std::string beams_text(const std::optional<BeamTexels>& beams); ///< "512x128x8"; "float" for nullopt
 std::string name_of(const Configuration& configuration);        ///< "photometric", "photometric, 512x384"
 
-/// Reach on the own lane's centre against the reference's, over the moments in which both have one.
-struct ReachError {
-    ExtentPlane plane = ExtentPlane::road;
-    double limit_lx = 0.0;
-    std::size_t moments = 0;
-    double median_m = 0.0, worst_m = 0.0; ///< signed: above 0 the picture is lit farther; `worst` by its size
-    std::string why_not;                  ///< why there is none; "" where there is
-};
+/// At which `accuracy` compares reach.
+inline const std::vector<double> measured_limits_lx{1.0, 5.0};
 
 struct ConfigurationResult {
     Configuration configuration;

@@ -99,13 +99,12 @@ std::string front_text(const WorkPrecision& diagram) {
 } // namespace
 
 std::string accuracy_text(const AccuracyResult& result) {
-    std::string text =
-        fmt::format("{} through {}; {}, {} cores\n", result.context.gl_renderer, result.context.backend, result.context.cpu, result.cores);
+    std::string text = fmt::format("{} through {}; {}, {}\n", result.context.gl_renderer, result.context.backend, result.context.cpu,
+                                   counted(result.cores, "core"));
     for (const DriveAccuracy& drive : result.drives) {
-        text +=
-            fmt::format("\n{}, {}: {} moments; the reference took {:.1f} s, {:.1f} million rays, {:.0f} samples a pixel in the median\n",
-                        drive.drive, drive.variant, drive.moments.size(), drive.reference.seconds,
-                        1e-6 * static_cast<double>(drive.reference.rays), drive.reference.median_samples);
+        text += fmt::format("\n{}, {}: {}; the reference took {:.1f} s, {:.1f} million rays, {:.0f} samples a pixel in the median\n",
+                            drive.drive, drive.variant, counted(drive.moments.size(), "moment"), drive.reference.seconds,
+                            1e-6 * static_cast<double>(drive.reference.rays), drive.reference.median_samples);
         text += "Error of illuminance in % (road: median, 95 %, 99 %, worst pixel, % of its area beyond 1, 5 and 20 %; whole view and "
                 "target: 95 %),\n"
                 "of luminance (95 %), worst error of reach at 1 and 5 lx, time a frame, textures\n";

@@ -1,5 +1,7 @@
 #include "runner/accuracy/errors_json.h"
 
+#include "runner/report/extent_summary.h"
+
 namespace fernlicht {
 namespace {
 
@@ -36,6 +38,19 @@ Json errors_json(const std::optional<PixelErrors>& errors, const std::string& wh
         out["dark"] = quantiles_json(errors->dark_error);
         out["dark_floor"] = quantiles_json(errors->dark_floor);
         out["dark_worst"] = worst_json(errors->dark_worst, frames);
+    }
+    return out;
+}
+
+nlohmann::ordered_json reach_json(const std::vector<ReachError>& reach) {
+    Json out = Json::array();
+    for (const ReachError& error : reach) {
+        Json entry{{"plane", plane_name(error.plane)}, {"limit_lx", error.limit_lx}, {"moments", error.moments}};
+        if (error.why_not.empty())
+            entry.update({{"median_m", error.median_m}, {"worst_m", error.worst_m}});
+        else
+            entry["not_measured"] = error.why_not;
+        out.push_back(std::move(entry));
     }
     return out;
 }

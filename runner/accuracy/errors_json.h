@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/pixel_errors.h"
+#include "runner/accuracy/reach_error.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,5 +10,6 @@ namespace fernlicht {
 
 /// `frames`: the tick of each picture. Without pixels: why not.
 nlohmann::ordered_json errors_json(const std::optional<PixelErrors>& errors, const std::string& why_not, const std::vector<int>& frames);
+nlohmann::ordered_json reach_json(const std::vector<ReachError>& reach);
 
 } // namespace fernlicht

@@ -29,6 +29,8 @@ std::string time_text(double seconds) {
                            : fmt::format("{:.1f} s", seconds);
 }
 
+std::string counted(std::size_t count, const std::string& what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
+
 std::string interval_name(const Interval& time) {
     if (time.samples == 0)
         return "";

@@ -18,6 +18,8 @@ std::string time_text(double seconds);
 std::string timings_text(const Interval& time);
 /// "95 % interval of the median", "least to most", "one timing"; "" for what was not timed repeatedly.
 std::string interval_name(const Interval& time);
+/// "1 moment", "3 moments".
+std::string counted(std::size_t count, const std::string& what);
 /// "front", "beaten by 3" (numbers from 1), "perhaps by 3" where that is not sure, "".
 std::string standing_text(const Standing& standing);
 

@@ -1,7 +1,6 @@
 #include "runner/accuracy/picture_errors.h"
 
 #include "metrics/statistics.h"
-#include "runner/report/extent_summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,34 +11,6 @@ namespace {
 
 std::string reason(const Technique& technique, const char* what) {
     return fmt::format("technique {} does not compute {}", technique.name, what);
-}
-
-/// `rendered` by `moments`.
-std::vector<ReachError> reach_errors(const References& references, const std::vector<std::size_t>& moments,
-                                     const std::vector<std::vector<LaneExtent>>& rendered, const std::string& no_road,
-                                     const std::string& no_target) {
-    std::vector<ReachError> errors;
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
-        for (const double limit_lx : {1.0, 5.0}) {
-            ReachError error{plane, limit_lx, 0, 0.0, 0.0, plane == ExtentPlane::road ? no_road : no_target};
-            std::vector<double> differences;
-            for (std::size_t m = 0; m < rendered.size(); ++m) {
-                const ExtentKey key{plane, "own", limit_lx};
-                const LaneExtent *const ours = find_extent(rendered[m], key), *const truth =
-                                                                                  find_extent(references.extents(moments[m]), key);
-                if (ours && truth && !ours->reach_is_cut_off && !truth->reach_is_cut_off)
-                    differences.push_back(ours->reach_centre_m - truth->reach_centre_m);
-            }
-            error.moments = differences.size();
-            if (const auto spread = spread_of(differences)) {
-                error.median_m = spread->median;
-                error.worst_m = *std::ranges::max_element(differences, {}, [](double d) { return std::abs(d); });
-            } else if (error.why_not.empty()) {
-                error.why_not = "no moment has a reach that ends on the road";
-            }
-            errors.push_back(error);
-        }
-    return errors;
 }
 
 } // namespace
@@ -152,11 +123,14 @@ void ConfigurationErrors::add(std::size_t m, const Draw& draw) {
 
 ConfigurationResult ConfigurationErrors::finish() const {
     ConfigurationResult result = so_far_;
+    std::vector<std::vector<LaneExtent>> references;
+    for (const std::size_t m : moments_)
+        references.push_back(references_->extents(m));
     result.road = road_.finish();
     result.whole = whole_.finish();
     result.target = target_errors_.finish();
     result.luminance = bright_.finish();
-    result.reach = reach_errors(*references_, moments_, rendered_, result.no_illuminance, result.no_target);
+    result.reach = reach_errors(rendered_, references, measured_limits_lx, result.no_illuminance, result.no_target);
     return result;
 }
 

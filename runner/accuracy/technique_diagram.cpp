@@ -67,10 +67,9 @@ WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int h
     diagram.error_unit = "%";
     diagram.time_name = "time a frame";
     diagram.floor_name = "noise of the reference";
-    diagram.notes.push_back(
-        fmt::format("{} moments; errors of illuminance in the driver's view where the reference has at least 0.05 lx, bars "
-                    "from the least to the most of the moments",
-                    drive.moments.size()));
+    diagram.notes.push_back(fmt::format("{}; errors of illuminance in the driver's view where the reference has at least 0.05 lx, bars "
+                                        "from the least to the most of the moments",
+                                        counted(drive.moments.size(), "moment")));
     diagram.notes.push_back(times_note(drive));
     for (const ConfigurationResult& found : drive.configurations)
         if (found.configuration.width_px == width_px && found.configuration.height_px == height_px)

@@ -55,7 +55,7 @@ std::vector<std::optional<BeamTexels>> beams_of(const SweepRequest& request, con
 Drive measured_drive(const Drive& drive) {
     Drive measured = drive;
     ExtentParameters extent = drive.extent.value_or(ExtentParameters{});
-    extent.limits_lx = {1.0, 5.0};
+    extent.limits_lx = measured_limits_lx;
     measured.extent = extent;
     return measured;
 }

@@ -1,3 +1,4 @@
+#include "runner/accuracy/figures.h"
 #include "runner/bench/aligned_table.h"
 #include "runner/bench/bench_result.h"
 
@@ -69,8 +70,9 @@ std::string cost_table(const std::vector<BenchRow>& rows) {
 
 std::string bench_heading(const BenchResult& result) {
     const RunContext& context = result.context;
-    std::string text = fmt::format("{}, {}: {} moments x {} rounds, {} x {} pixels, orders from seed {}\n", result.drive, result.variant,
-                                   result.moments.size(), result.orders.size(), result.width_px, result.height_px, context.seed);
+    std::string text = fmt::format("{}, {}: {} x {}, {} x {} pixels, orders from seed {}\n", result.drive, result.variant,
+                                   counted(result.moments.size(), "moment"), counted(result.orders.size(), "round"), result.width_px,
+                                   result.height_px, context.seed);
     text += fmt::format("{} through {}; {}, {} cores; load average {} before, {} after\n", context.gl_renderer, context.backend,
                         context.cpu, result.cores, load_text(result.load_before), load_text(result.load_after));
     if (!result.gpu_not_measured.empty())

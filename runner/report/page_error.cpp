@@ -1,6 +1,8 @@
 #include "runner/accuracy/figures.h"
 #include "runner/report/clean_text.h"
+#include "runner/report/extent_summary.h"
 #include "runner/report/page_parts.h"
+#include "runner/report/page_plots.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@ std::string percent(double share, double floor) { return share < floor ? "< " + 
 
 data error_row(const char* where, const PixelErrors& errors) {
     data row;
+    row.set("why_not", false);
     const ErrorQuantiles &e = errors.error, &f = errors.floor;
     row.set("where", where);
     row.set("median", percent(e.median, f.median));
@@ -24,10 +27,49 @@ data error_row(const char* where, const PixelErrors& errors) {
     return row;
 }
 
+data missing_row(const char* where, const std::string& why_not) {
+    data row;
+    row.set("where", where);
+    row.set("why_not", "not measured: " + clean_text(why_not));
+    return row;
+}
+
+data error_rows(const DriveError& error) {
+    data rows{List::list};
+    const auto add = [&](const char* where, const std::optional<PixelErrors>& errors, const std::string& why_not) {
+        if (errors && errors->pixels > 0)
+            rows.push_back(error_row(where, *errors));
+        else
+            rows.push_back(missing_row(where, why_not.empty() ? "no light there" : why_not));
+    };
+    add("illuminance, road", error.road, "");
+    add("illuminance, targets above it", error.target, error.no_target);
+    add("illuminance, whole view", error.whole, "");
+    add("luminance, whole view", error.luminance, error.no_luminance);
+    return rows;
+}
+
+/// A row a plane, a cell a limit.
+data reach_rows(const DriveError& error) {
+    data rows{List::list};
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
+        data row, cells{List::list};
+        row.set("plane", plane_name(plane));
+        for (const ReachError& reach : error.reach)
+            if (reach.plane == plane)
+                cells.push_back(reach.why_not.empty() ? signed_figure(reach.median_m, 2) + " / " + signed_figure(reach.worst_m, 2)
+                                                      : clean_text(reach.why_not));
+        row.set("cells", cells);
+        if (!error.reach.empty())
+            rows.push_back(row);
+    }
+    return rows;
+}
+
 } // namespace
 
 data error_part(const ComparedDrive& drive) {
-    data part, sets{List::list};
+    data part, sets{List::list}, limits{List::list};
     bool said = false, measured = false;
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
         const PlayedVariant& played = *drive.variants[i];
@@ -39,14 +81,17 @@ data error_part(const ComparedDrive& drive) {
         set.set("colour", variant_colour(i));
         if (error.measured()) {
             set.set("sentence",
-                    fmt::format("{} against {} moment{} at {} × {} pixels, which took {} s; {}", clean_text(played.technique),
+                    fmt::format("{} against {} moment{} at {} × {} pixels{}, which took {} s; {}", clean_text(played.technique),
                                 error.ticks.size(), error.ticks.size() == 1 ? "" : "s", error.width_px, error.height_px,
-                                figure(error.seconds, 1),
+                                error.ticks.size() > 1 ? ", targets and luminance in the middle one" : "", figure(error.seconds, 1),
                                 played.throughput.view_s ? fmt::format("a frame of the run takes {}", time_text(*played.throughput.view_s))
                                                          : "too few moments were played to time a frame"));
-            for (const auto& [where, errors] : {std::pair("road", &error.road), std::pair("whole view", &error.whole)})
-                if (*errors && (*errors)->pixels > 0)
-                    rows.push_back(error_row(where, **errors));
+            rows = error_rows(error);
+            set.set("reach", reach_rows(error));
+            if (limits.is_empty_list())
+                for (const ReachError& reach : error.reach)
+                    if (reach.plane == ExtentPlane::road)
+                        limits.push_back(fmt::format("{:g} lx", reach.limit_lx));
             measured = true;
         } else {
             set.set("sentence", "not measured: " + clean_text(error.not_measured));
@@ -58,6 +103,11 @@ data error_part(const ComparedDrive& drive) {
     part.set("said", said);
     part.set("measured", measured);
     part.set("sets", sets);
+    part.set("has_reach", !limits.is_empty_list());
+    part.set("limits", limits);
+    const std::string plot = error_svg(drive);
+    part.set("has_plot", !plot.empty());
+    part.set("plot", plot);
     return part;
 }
 

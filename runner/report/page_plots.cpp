@@ -21,12 +21,20 @@ plots::Colour darker(plots::Colour colour) {
     return {half(colour.r), half(colour.g), half(colour.b)};
 }
 
-/// A drive that stands still has no use for distance as its axis.
+/// A car that stands still, if only for a while, has no use for distance as its axis: all of that while would fall on one point. Neither
+/// has one on springs, whose beam swings in time.
 bool by_distance(const ComparedDrive& drive) {
+    constexpr double standing_m = 1e-3; // from one moment to the next
     double farthest_m = 0.0;
-    for (const PlayedVariant* const played : drive.variants)
-        for (const ExtentRow& row : played->extents)
-            farthest_m = std::max(farthest_m, row.distance_m);
+    for (const PlayedVariant* const played : drive.variants) {
+        if (!played->car.empty())
+            return false;
+        for (std::size_t i = 0; i < played->extents.size(); ++i) {
+            farthest_m = std::max(farthest_m, played->extents[i].distance_m);
+            if (i > 0 && played->extents[i].distance_m - played->extents[i - 1].distance_m < standing_m)
+                return false;
+        }
+    }
     return farthest_m > 1.0;
 }
 
@@ -221,6 +229,48 @@ std::string timing_svg(const ComparedDrive& drive) {
     figure.width_px = 640.0;
     figure.height_px = 340.0;
     set_axes(figure, "sample", "", "time", "ms");
+    return plots::svg_of(figure);
+}
+
+std::string error_svg(const ComparedDrive& drive) {
+    plots::Figure figure;
+    std::vector<double> times, errors;
+    double floor = 0.0;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const PlayedVariant& played = *drive.variants[i];
+        const auto pass = std::ranges::find(played.passes, std::string("frame"), &PassTime::name);
+        if (!played.error.road || played.error.road->pixels == 0 || pass == played.passes.end())
+            continue;
+        const auto time = spread_of(pass->seconds);
+        const PixelErrors& road = *played.error.road;
+        if (!time)
+            continue;
+        const auto [least, most] = std::ranges::minmax(played.error.road_p95);
+        const double x = 1e3 * time->median, claimed = 100.0 * std::max(road.error.p95, road.floor.p95);
+        floor = std::max(floor, 100.0 * road.floor.p95);
+        const double low = std::min(claimed, 100.0 * std::max(least, road.floor.p95)), high = std::max(claimed, 100.0 * most);
+        figure.series.push_back({"", {{1e3 * time->minimum, claimed}, {1e3 * time->maximum, claimed}}, colour_of(i), 1.2, "", false});
+        figure.series.push_back({"", {{x, low}, {x, high}}, colour_of(i), 1.2, "", false});
+        figure.series.push_back({short_text(played.variant, 24), {{x, claimed}}, colour_of(i), 1.2, "", true});
+        times.insert(times.end(), {1e3 * time->minimum, 1e3 * time->maximum});
+        errors.insert(errors.end(), {low, high});
+    }
+    if (figure.series.empty() || *std::ranges::max_element(errors) <= 0.0)
+        return {};
+    figure.title = fmt::format("Error against run time: {}", short_text(drive.variants.front()->technique, 24));
+    figure.width_px = 640.0;
+    figure.height_px = 300.0;
+    figure.x = plots::axis_around("time a frame, driver's view alone", "ms", times, plots::Scale::logarithmic);
+    if (floor > 0.0)
+        errors.push_back(0.5 * floor);
+    figure.y = plots::axis_around("lux error on the road, 95 %", "%", errors, plots::Scale::logarithmic);
+    if (floor > 0.0)
+        figure.bands.push_back({"below the reference's noise",
+                                {figure.x.from, figure.x.to},
+                                {figure.y.from, figure.y.from},
+                                {floor, floor},
+                                {150, 156, 163},
+                                0.35});
     return plots::svg_of(figure);
 }
 

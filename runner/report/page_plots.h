@@ -10,8 +10,8 @@ namespace fernlicht {
 /// compare), isolux lines at 1, 3, 5, 10, 30 and 50 lx, lane and road edges, metres from the car's origin. "" for an empty map.
 std::string lux_map_svg(const LuxMap& map, const std::string& lamp);
 
-/// Reach in the own lane over the drive: a line per lamp set, the twin's as a thin dashed line, the band of +-0.1 degrees of aim.
-/// "" when nothing of that plane and limit was measured.
+/// Reach in the own lane over the drive, by distance or, where the car stands still or moves on springs, by time: a line per lamp set, the
+/// twin's as a thin dashed line, the band of +-0.1 degrees of aim. "" when nothing of that plane and limit was measured.
 std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limit_lx);
 
 /// What the drive asks of glare and seeing: for each subject its drawn columns over the distance, a line per lamp set.
@@ -29,6 +29,11 @@ std::vector<std::string> car_svgs(const ComparedDrive& drive);
 
 /// Time per moment of the pass "frame" per lamp set, with its median. "" without samples.
 std::string timing_svg(const ComparedDrive& drive);
+
+/// Error of illuminance on the road (95 % of the pixels) over the time of a frame, both logarithmic: a point a lamp set with bars from the
+/// least to the most of the moments and of the frames' times, and the reference's noise as the band that nothing is claimed in. "" where
+/// no lamp set has both.
+std::string error_svg(const ComparedDrive& drive);
 
 /// Limits worth a figure: 1 and 5 lx where they were measured, else the lowest and the highest that were.
 std::vector<double> plotted_limits_lx(const ComparedDrive& drive);

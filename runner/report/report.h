@@ -6,6 +6,7 @@
 #include "metrics/pixel_errors.h"
 #include "metrics/statistics.h"
 #include "renderer/renderer.h"
+#include "runner/accuracy/reach_error.h"
 #include "runner/seeing/seeing_series.h"
 #include "scenarios/drives/frame.h"
 
@@ -97,10 +98,14 @@ struct Savings {
 struct DriveError {
     std::vector<int> ticks; ///< the moments compared
     int width_px = 0, height_px = 0;
-    std::optional<PixelErrors> road, whole; ///< of illuminance, in the driver's view; road: by area
-    std::uint64_t rays = 0;                 ///< of the reference
-    double seconds = 0.0;                   ///< what comparing took
-    std::string not_measured;               ///< why there are none; "" where there are, and where the run was told to leave it out
+    std::optional<PixelErrors> road, whole;       ///< of illuminance, in the driver's view; road: by area
+    std::optional<PixelErrors> target, luminance; ///< of targets above the road; of the whole view
+    std::string no_target, no_luminance;          ///< why the technique has none; "" where it has
+    std::vector<double> road_p95;                 ///< of each moment with lit road
+    std::vector<ReachError> reach;                ///< at the drive's limits; empty where it measures no extent
+    std::uint64_t rays = 0;                       ///< of the reference
+    double seconds = 0.0;                         ///< what comparing took
+    std::string not_measured;                     ///< why there are none; "" where there are, and where the run was told to leave it out
 
     bool measured() const { return !ticks.empty(); }
 };

@@ -253,7 +253,11 @@ Json accuracy_json(const DriveError& error) {
             {"height_px", error.height_px},
             {"rays", error.rays},
             {"road", errors_json(error.road, "", error.ticks)},
-            {"whole_view", errors_json(error.whole, "", error.ticks)}};
+            {"road_p95_by_moment", error.road_p95},
+            {"whole_view", errors_json(error.whole, "", error.ticks)},
+            {"target", errors_json(error.target, error.no_target, error.ticks)},
+            {"luminance", errors_json(error.luminance, error.no_luminance, error.ticks)},
+            {"reach", reach_json(error.reach)}};
 }
 
 /// Columns with an entry per moment; only the actuators that the lamp set has.

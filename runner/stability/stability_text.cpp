@@ -1,5 +1,6 @@
 #include "runner/stability/stability_text.h"
 
+#include "runner/accuracy/figures.h"
 #include "runner/report/json_text.h"
 
 #include <cmath>
@@ -49,7 +50,7 @@ std::string stability_summary(const std::vector<StabilityRow>& rows) {
         if (row.verdict != Judgement::pass)
             names += fmt::format("{}{} ({})", names.empty() ? ": " : ", ", row.of->full_name(), judgement_name(row.verdict));
     }
-    return fmt::format("{} cases: {} pass, {} fail, {} not_measured{}\n", rows.size(), passed, failed, unmeasured, names);
+    return fmt::format("{}: {} pass, {} fail, {} not_measured{}\n", counted(rows.size(), "case"), passed, failed, unmeasured, names);
 }
 
 std::string stability_markdown(const std::vector<StabilityRow>& rows) {

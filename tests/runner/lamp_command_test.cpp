@@ -134,6 +134,7 @@ TEST_F(LampCommand, PicturesAreWrittenAsTheirNamesSay) {
     printed(request);
     const std::string once = content(request.picture);
     EXPECT_THAT(once, HasSubstr("20 lx"));
+    request.force = true;
     printed(request);
     EXPECT_TRUE(content(request.picture) == once);
 }
@@ -174,6 +175,22 @@ TEST_F(LampCommand, AFileThatIsReadIsNeverOverwritten) {
     EXPECT_TRUE(content(copy) == before);
 }
 
+TEST_F(LampCommand, AFileThatIsThereIsReplacedByForceAlone) {
+    const auto there = folder_ / "there.ies";
+    std::ofstream(there) << "somebody's work";
+    LampRequest request = shipped("halogen-low");
+    request.convert = there;
+    EXPECT_THAT(refusal(request), HasSubstr("--convert: found a file of that name, expected another name to write to, or --force"));
+    std::filesystem::rename(there, folder_ / "there.svg");
+    request.convert.clear();
+    request.picture = folder_ / "there.svg";
+    EXPECT_THAT(refusal(request), HasSubstr("--picture: found a file of that name"));
+    EXPECT_EQ(content(request.picture), "somebody's work");
+    request.force = true;
+    printed(request);
+    EXPECT_THAT(content(request.picture), HasSubstr("<svg"));
+}
+
 TEST_F(LampCommand, TellsWhatDiffersFromAnotherLamp) {
     LampRequest request = shipped("halogen-low");
     request.against = request.file;
@@ -187,6 +204,7 @@ TEST_F(LampCommand, TellsWhatDiffersFromAnotherLamp) {
     EXPECT_EQ(told.at("zones").size(), 0U);
     EXPECT_THAT(content(request.picture), HasSubstr("dimmer all over"));
     request.spots = 3;
+    request.force = true;
     EXPECT_THAT(refusal(request), HasSubstr("--against: found --spots or --convert beside it"));
 }
 

@@ -85,6 +85,7 @@ TEST(AccuracyRun, OneRoundMakesNobodySurelyFaster) {
                                     (folder / "out ") + library_file("drives/straight.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, HasSubstr(", perhaps"));
+    EXPECT_THAT(run.output, HasSubstr("straight-1, halogen: 1 moment; the reference"));
     const std::string page = content_of(folder / "out/accuracy.html");
     EXPECT_THAT(page, HasSubstr("Times are of one round, whose spread is unknown: nobody is surely faster"));
     EXPECT_THAT(page, Not(HasSubstr(">beaten by "))); // of a row, which would be sure
@@ -164,12 +165,30 @@ TEST(AccuracyRun, StudiesWhatIsNoTechnique) {
 
 TEST(AccuracyRun, RefusesWhatItCannotUse) {
     const std::string drive = library_file("drives/straight.yaml");
-    for (const char* flags :
-         {"--techniques no-such", "--techniques full,full", "--resolutions 8x8", "--resolutions 64", "--variant neon", "--moments 100000",
-          "--moments 0", "--target-error 0", "--beams 64x32", "--beams 64x32x12", "--beams 1x1x8", "--diagrams all,nonsense"}) {
+    for (const char* flags : {"--techniques no-such",
+                              "--techniques full,full",
+                              "--resolutions 8x8",
+                              "--resolutions 64",
+                              "--variant neon",
+                              "--moments 100000",
+                              "--moments 0",
+                              "--target-error 0",
+                              "--beams 64x32",
+                              "--beams 64x32x12",
+                              "--beams 1x1x8",
+                              "--diagrams all,nonsense",
+                              "--techniques photometric,",
+                              "--techniques ,full",
+                              "--resolutions 64x48,,32x24",
+                              "--beams float,",
+                              "--shadow-maps 64x64,",
+                              "--diagrams ,extent",
+                              "--no-such-flag",
+                              "--moments x"}) {
         const TemporaryFolder folder;
         const Outcome run = run_program("accuracy --quiet " + std::string(flags) + " --out " + (folder / "out ") + drive);
         EXPECT_EQ(run.exit_code, 2) << flags << "\n" << run.output;
+        EXPECT_TRUE(run.output.starts_with("fernlicht: ")) << run.output;
         EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << flags;
     }
 }

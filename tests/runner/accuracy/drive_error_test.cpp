@@ -34,14 +34,28 @@ TEST(DriveError, StandsInEveryReport) {
         EXPECT_GT(accuracy.at("road").at("pixels"), 3000);
         EXPECT_LT(accuracy.at("road").at("relative").at("median"), 0.005); // what so few samples leave
         EXPECT_GT(accuracy.at("rays"), 100000);
+        EXPECT_LT(accuracy.at("target").at("relative").at("median"), 0.005);
+        EXPECT_LT(accuracy.at("luminance").at("relative").at("median"), 0.2); // textures, sampled once a pixel
+        EXPECT_GT(accuracy.at("luminance").at("relative").at("p95"), accuracy.at("road").at("relative").at("p95"));
+        EXPECT_EQ(accuracy.at("road_p95_by_moment").size(), 3U);
+        ASSERT_EQ(accuracy.at("reach").size(), 8U); // two planes, four limits
+        for (const json& reach : accuracy.at("reach")) {
+            EXPECT_EQ(reach.at("moments"), 3);
+            EXPECT_LT(std::abs(reach.at("worst_m").get<double>()), 0.01); // rays through the same places
+        }
     }
     EXPECT_EQ(report.at("accuracy_times").size(), 2U);
     EXPECT_GT(report.at("accuracy_times").at(0).at("comparing_s"), 0.0);
-    EXPECT_THAT(content_of(folder / "ours/report.html"), HasSubstr("Error against run time"));
+    const std::string page = content_of(folder / "ours/report.html");
+    for (const char* part : {"Error against run time", "luminance, whole view", "Error of reach"})
+        EXPECT_THAT(page, HasSubstr(part));
 
     const json full = played(folder, "full", "--technique full"); // which leaves the cosine out
     EXPECT_GT(full.at("drives").at(0).at("accuracy").at("road").at("relative").at("median"), 0.5);
     EXPECT_GT(full.at("drives").at(0).at("accuracy").at("road").at("mean"), 0.5);
+    EXPECT_GT(full.at("drives").at(0).at("accuracy").at("reach").at(0).at("worst_m"), 10.0);
+    EXPECT_EQ(full.at("drives").at(0).at("accuracy").at("target").at("not_measured"),
+              "technique full does not compute the illuminance of targets");
 }
 
 TEST(DriveError, SaysWhyThereIsNone) {
