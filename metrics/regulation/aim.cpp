@@ -57,14 +57,13 @@ Aim by_cut_off(const CandelaTable& lamp, AimRule rule) {
         aim.how = "no cut-off to aim by 2.5 degrees left, left as it is: " + why_not(usable(first.level) ? last.level : first.level);
         return aim;
     }
-    aim.how = fmt::format("cut-off found at {} degrees 2.5 degrees left, set to 0.57 D", angle(*first.level.inflection_deg, "U", "D"));
+    aim.how = fmt::format("cut-off found at {}, 2.5 degrees left, set to 0.57 D", angle(*first.level.inflection_deg, "U", "D"));
     const std::optional<double> there = sideways(last, rule);
     aim.found = there.has_value();
     if (!there)
         aim.how += "; left as it is sideways: " + (rule == AimRule::cut_off ? last.kink_reason : why_not(last.shoulder));
     else
-        aim.how += fmt::format("; {} turned by {} degrees",
-                               rule == AimRule::cut_off ? "kink set on V-V," : "shoulder at 0.2 D set on line A (0.5 R),",
+        aim.how += fmt::format("; {} by {}", rule == AimRule::cut_off ? "kink set on V-V" : "shoulder at 0.2 D set on line A (0.5 R)",
                                angle(aim.turned.h_deg, "R", "L"));
     return aim;
 }
@@ -84,8 +83,8 @@ Aim by_gradient(const CandelaTable& lamp, AimRule rule) {
     }
     aim.turned.v_deg = to - *scan.inflection_deg;
     aim.position_error_deg = scan.position_error_deg;
-    aim.how = fmt::format("greatest gradient found at {} degrees {}, set to {}", angle(*scan.inflection_deg, "U", "D"), side,
-                          left ? "0.4 D" : "H-H");
+    aim.how =
+        fmt::format("greatest gradient found at {}, {}, set to {}", angle(*scan.inflection_deg, "U", "D"), side, left ? "0.4 D" : "H-H");
     aim.cut_off = measure_cut_off({&lamp, aim.turned});
     return aim;
 }
@@ -110,7 +109,7 @@ Aim by_maximum(const CandelaTable& lamp) {
                 ++inside;
             }
     aim.turned = {-(peak.h_deg + h / inside), -(peak.v_deg + v / inside)};
-    aim.how = fmt::format("middle of the area of maximum intensity found at {}, {} degrees, set on HV", angle(-aim.turned.h_deg, "R", "L"),
+    aim.how = fmt::format("middle of the area of maximum intensity found at {}, {}, set on HV", angle(-aim.turned.h_deg, "R", "L"),
                           angle(-aim.turned.v_deg, "U", "D"));
     return aim;
 }

@@ -87,10 +87,7 @@ class Examination {
         : regulation_(regulation), lamps_(lamps), aims_(aims) {}
 
     std::vector<RowResult> rows_at(Direction turn, const std::vector<std::string>& only = {}) const {
-        std::vector<AimedLamp> aimed;
-        for (std::size_t i = 0; i < lamps_.size(); ++i)
-            aimed.push_back({&lamps_[i], {aims_[i].turned.h_deg + turn.h_deg, aims_[i].turned.v_deg + turn.v_deg}});
-        return check_rows(regulation_, aimed, only);
+        return check_rows(regulation_, aimed(turn), only);
     }
 
     /// The best aim within the allowance, for a lamp with these rows as first aimed. It stays where no other aim leaves fewer rows failed.
@@ -99,18 +96,26 @@ class Examination {
         Direction best;
         const Rank first_rank = rank_of(rows);
         Rank best_rank = first_rank;
-        std::vector<std::string> failed;
-        for (const RowResult& row : rows)
-            if (row.verdict != RowVerdict::pass)
+        std::vector<std::string> failed; // and within reach
+        std::ptrdiff_t lost = 0;
+        for (const RowResult& row : rows) {
+            if (row.verdict == RowVerdict::pass)
+                continue;
+            if (row.verdict == RowVerdict::fail && out_of_reach(regulation_, aimed({}), row, allowed))
+                ++lost;
+            else
                 failed.push_back(row.id);
+        }
+        if (failed.empty())
+            return best;
         const auto try_at = [&](Direction turn) {
             const double slack = 1e-9;
             if (turn.h_deg < -allowed.left_deg - slack || turn.h_deg > allowed.right_deg + slack ||
                 std::abs(turn.v_deg) > allowed.vertical_deg + slack)
                 return;
             // The rows that failed, first: most turns help none of them.
-            if (const Rank of_failed = rank_of(rows_at(turn, failed));
-                of_failed.failed > best_rank.failed || of_failed.failed == first_rank.failed)
+            const std::ptrdiff_t still = lost + rank_of(rows_at(turn, failed)).failed;
+            if (still > best_rank.failed || still == first_rank.failed)
                 return;
             if (const Rank rank = rank_of(rows_at(turn)); rank.better_than(best_rank)) {
                 best_rank = rank;
@@ -131,6 +136,13 @@ class Examination {
     }
 
   private:
+    std::vector<AimedLamp> aimed(Direction turn) const {
+        std::vector<AimedLamp> all;
+        for (std::size_t i = 0; i < lamps_.size(); ++i)
+            all.push_back({&lamps_[i], {aims_[i].turned.h_deg + turn.h_deg, aims_[i].turned.v_deg + turn.v_deg}});
+        return all;
+    }
+
     const Regulation& regulation_;
     const std::vector<CandelaTable>& lamps_;
     const std::vector<Aim>& aims_;

@@ -1,6 +1,7 @@
 #include "metrics/regulation/row_check.h"
 
 #include "metrics/regulation/extremes.h"
+#include "metrics/regulation/rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,13 +82,27 @@ RowResult judged(const RegulationRow& row, const Limits& limits, const ReceivedB
     return result;
 }
 
+/// Neither the brightest nor the darkest sample that a turn could bring to where the row failed would do. (A sum is judged by its total and
+/// a maximum over every direction by what no turn changes.)
+bool hopeless(const RegulationRow& row, const RowResult& failed, const ReceivedBeam& beam, const ReAim& turn) {
+    if (row.kind == RowKind::brightest)
+        return row.places == everywhere;
+    ReceivedBeam::Bounds total;
+    for (const Direction place : row.kind == RowKind::sum ? row.places : std::vector{failed.where}) {
+        const ReceivedBeam::Bounds here = beam.bounds({place.h_deg - turn.right_deg, place.v_deg - turn.vertical_deg},
+                                                      {place.h_deg + turn.left_deg, place.v_deg + turn.vertical_deg});
+        total.low_cd += here.low_cd;
+        total.high_cd += here.high_cd;
+    }
+    return failed.minimum_decides ? total.high_cd < failed.limits.min_cd : total.low_cd > failed.limits.max_cd;
+}
+
 /// Where a row fails at its place and may be measured beside it: the best of five rings of sixteen directions each.
 RowResult judged_with_re_aim(const RegulationRow& row, const Limits& limits, const ReceivedBeam& beam, double within_deg) {
     RowResult best = judged(row, limits, beam, {});
-    if (best.verdict != RowVerdict::fail || within_deg <= 0.0)
+    if (best.verdict != RowVerdict::fail || within_deg <= 0.0 || hopeless(row, best, beam, {within_deg, within_deg, within_deg}))
         return best;
-    const bool whole_sphere = row.kind == RowKind::brightest && row.places.front().h_deg <= -180.0;
-    for (int ring = 1; ring <= 5 && !whole_sphere; ++ring)
+    for (int ring = 1; ring <= 5; ++ring)
         for (int i = 0; i < 16; ++i) {
             const double r = within_deg * ring / 5.0, angle = 2.0 * std::numbers::pi * i / 16.0;
             const Direction by{r * std::cos(angle), r * std::sin(angle)};
@@ -166,6 +181,16 @@ std::vector<RowResult> check_rows(const Regulation& regulation, const std::vecto
         if (checker.asks(row) && (only.empty() || std::find(only.begin(), only.end(), row.id) != only.end()))
             results.push_back(checker.check(row));
     return results;
+}
+
+bool out_of_reach(const Regulation& regulation, const std::vector<AimedLamp>& lamps, const RowResult& failed, const ReAim& allowance) {
+    const auto row =
+        std::find_if(regulation.rows.begin(), regulation.rows.end(), [&](const RegulationRow& r) { return r.id == failed.id; });
+    if (row->scope != Scope::beam || failed.verdict != RowVerdict::fail || !row->ratio_of.empty())
+        return false;
+    const double own = regulation.row_re_aim_deg;
+    return hopeless(*row, failed, ReceivedBeam(lamps, regulation.receiver),
+                    {allowance.left_deg + own, allowance.right_deg + own, allowance.vertical_deg + own});
 }
 
 RowVerdict verdict_of(const std::vector<RowResult>& rows) {

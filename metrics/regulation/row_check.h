@@ -30,6 +30,10 @@ struct RowResult {
 std::vector<RowResult> check_rows(const Regulation& regulation, const std::vector<AimedLamp>& lamps,
                                   const std::vector<std::string>& only = {});
 
+/// Whether a row that failed would also fail, whatever its cause, with the lamps turned anywhere within an allowance: by the brightest and
+/// darkest samples that could come to where it failed. False says nothing.
+bool out_of_reach(const Regulation& regulation, const std::vector<AimedLamp>& lamps, const RowResult& failed, const ReAim& allowance);
+
 /// Passes: the margin is at least -1e-9, which is the rounding of a mean over the receiver.
 inline constexpr double margin_rounding = 1e-9;
 
