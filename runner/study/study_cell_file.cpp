@@ -46,6 +46,25 @@ void read_reaches(const CheckedJson& played, CellResult& cell) {
     }
 }
 
+/// Only drives with eyes to glare have `seeing`.
+void read_glares(const CheckedJson& played, CellResult& cell) {
+    if (!played.has("seeing"))
+        return;
+    for (const CheckedJson& series : played.at("seeing").items()) {
+        GlareOverDrive glare{series.at("subject").text(), series.at("over").text(), {}, {}};
+        if (!glare.subject.starts_with("glare_"))
+            continue;
+        for (const CheckedJson& at : series.at("at_m").items())
+            glare.at_m.push_back(at.number());
+        for (const CheckedJson& column : series.at("columns").items())
+            if (column.at("name").text() == "facing_lx")
+                for (const CheckedJson& value : column.at("values").items())
+                    glare.facing_lx.push_back(value.number_or_null().value_or(std::numeric_limits<double>::quiet_NaN()));
+        if (!glare.at_m.empty() && glare.facing_lx.size() == glare.at_m.size())
+            cell.glares.push_back(std::move(glare));
+    }
+}
+
 std::string file_below(const std::string& folder, const CheckedJson& file) { return file.is_null() ? "" : folder + "/" + file.text(); }
 
 void read_accuracy(const CheckedJson& report, const CheckedJson& played, CellResult& cell) {
@@ -80,6 +99,7 @@ void read_cell_report(const std::filesystem::path& study_folder, CellResult& cel
                                file_below(folder, frame.at("png")), file_below(folder, frame.at("exr"))});
     read_rows(report, cell);
     read_reaches(played, cell);
+    read_glares(played, cell);
     read_accuracy(report, played, cell);
 }
 

@@ -54,6 +54,10 @@ std::optional<double> uncertainty_of(const CellResult& cell, const Reading& read
     if (name.starts_with("probe_"))
         if (const auto twin = value_of(cell, without_unit(reading) + "_twin_lx"); twin && reading.value)
             return std::abs(*twin - *reading.value);
+    for (const char* stem :
+         {"glare_", "sensor_", "mirror_"}) // from the tables in double precision; of lengths and times the moments' distance decides
+        if (name.starts_with(stem) && reading.unit != "m" && reading.unit != "s" && reading.value)
+            return 1e-6 * std::abs(*reading.value);
     return std::nullopt;
 }
 

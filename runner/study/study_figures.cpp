@@ -1,3 +1,4 @@
+#include "runner/capture.h"
 #include "runner/lamp_against.h"
 #include "runner/picture_file.h"
 #include "runner/report/clean_text.h"
@@ -87,6 +88,33 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
     figure.y = plots::axis_around("reach", "m", ys, plots::Scale::linear, true);
     figures.push_back({fmt::format("reach-{:g}lx-{}_{}", limit_lx, plane_name(plane), group_name(result, group)),
                        figure.title + ": " + figure.subtitle, plots::svg_of(figure), group});
+}
+
+/// A line a lamp for each eye that the drive has.
+void add_glares(const StudyResult& result, const std::vector<std::size_t>& group, std::vector<StudyFigure>& figures) {
+    for (const GlareOverDrive& first : result.cells[group.front()].glares) {
+        plots::Figure figure;
+        figure.title = "Illuminance facing the lamps, " + short_text(first.subject, 40);
+        figure.subtitle = place_of(result, group);
+        figure.width_px = 560.0;
+        figure.height_px = 300.0;
+        std::vector<double> xs, ys;
+        for (const std::size_t cell : group)
+            for (const GlareOverDrive& glare : result.cells[cell].glares) {
+                if (glare.subject != first.subject)
+                    continue;
+                plots::Series line{short_text(lamp_of(result, cell), 24), {}, colour_of(result, cell), 1.6, "", glare.at_m.size() == 1};
+                for (std::size_t i = 0; i < glare.at_m.size(); ++i)
+                    line.points.push_back({glare.at_m[i], glare.facing_lx[i]});
+                xs.insert(xs.end(), glare.at_m.begin(), glare.at_m.end());
+                ys.insert(ys.end(), glare.facing_lx.begin(), glare.facing_lx.end());
+                figure.series.push_back(std::move(line));
+            }
+        figure.x = plots::axis_around(first.over, "m", xs);
+        figure.y = plots::axis_around("illuminance", "lx", ys, plots::Scale::logarithmic);
+        figures.push_back({fmt::format("glare-{}_{}", file_name_of(first.subject), group_name(result, group)),
+                           figure.title + ": " + figure.subtitle, plots::svg_of(figure), group});
+    }
 }
 
 /// Lux from above at the middle stored moment of a cell. nullopt where there is no map, or no lux in it.
@@ -226,6 +254,8 @@ std::vector<StudyFigure> study_figures(const StudyResult& result, const std::fil
     for (const auto& [plane, limit_lx] : plotted_reaches(result))
         for (const std::vector<std::size_t>& group : groups)
             add_reach(result, group, plane, limit_lx, figures);
+    for (const std::vector<std::size_t>& group : groups)
+        add_glares(result, group, figures);
     for (const std::vector<std::size_t>& group : groups)
         add_maps(result, group, folder, figures);
     add_work_precision(result, figures);

@@ -213,6 +213,8 @@ std::string study_html(const StudyResult& result, const std::filesystem::path& f
     page.set("several_conditions", has_several_conditions(result));
     page.set("lamp_figures", figures_part(result, "lamps_"));
     page.set("reaches", figures_part(result, "reach-"));
+    page.set("glares", figures_part(result, "glare-"));
+    page.set("has_glares", std::ranges::any_of(result.figures, [](const StudyFigure& f) { return f.name.starts_with("glare-"); }));
     page.set("maps", figures_part(result, "lux"));
     page.set("work", figures_part(result, "work-precision"));
     page.set("strips", strip_part(result, folder));

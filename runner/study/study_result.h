@@ -16,16 +16,23 @@ struct ReachOverDrive {
     std::vector<double> distance_m, reach_m;
 };
 
+/// Illuminance in an oncoming eye, facing the lamps, or through mirrors, over the distance to it; NaN where it was not measured.
+struct GlareOverDrive {
+    std::string subject, over; ///< "glare_opposite", "distance to the observer"
+    std::vector<double> at_m, facing_lx;
+};
+
 struct CellResult {
     StudyCell cell;
-    std::string drive, variant;                           ///< names as its report has them; "" when it was not played
-    std::string title;                                    ///< of the drive, for people
-    std::vector<View> maps;                               ///< the drive's views from above
-    double grid_cell_m = 0.5;                             ///< of the extents' grid along the road; across it is a quarter of this
-    std::string failed;                                   ///< why there is no report; "" when there is one
-    bool reused = false;                                  ///< played by an earlier call
-    std::map<std::string, Reading> readings;              ///< of the whole drive, by name
-    std::vector<ReachOverDrive> reaches;                  ///< rendered
+    std::string drive, variant;              ///< names as its report has them; "" when it was not played
+    std::string title;                       ///< of the drive, for people
+    std::vector<View> maps;                  ///< the drive's views from above
+    double grid_cell_m = 0.5;                ///< of the extents' grid along the road; across it is a quarter of this
+    std::string failed;                      ///< why there is no report; "" when there is one
+    bool reused = false;                     ///< played by an earlier call
+    std::map<std::string, Reading> readings; ///< of the whole drive, by name
+    std::vector<ReachOverDrive> reaches;     ///< rendered
+    std::vector<GlareOverDrive> glares;
     std::vector<StoredFrame> frames;                      ///< paths relative to the study's folder
     std::vector<Verdict> verdicts;                        ///< limits of the drive, references
     std::optional<double> error_share, error_floor_share; ///< 95 % of the road's illuminance against the reference lies within

@@ -84,19 +84,25 @@ TEST(StudyCompare, RanksByShareEachReadingOnce) {
 
 TEST(StudyCompare, WhatNobodyVouchesForIsNotKnown) {
     StudyResult result = two_cells(40.0, 50.0);
-    put(result.cells[0], "glare_at_eye_lx", 0.2, "lx");
-    put(result.cells[1], "glare_at_eye_lx", 0.4, "lx");
+    put(result.cells[0], "light_at_eye_lx", 0.2, "lx");
+    put(result.cells[1], "light_at_eye_lx", 0.4, "lx");
     put(result.cells[0], "dazzle_lx", 0.2, "lx");
     put(result.cells[1], "dazzle_lx", 0.4, "lx");
     put(result.cells[0], "dazzle_standard_error_lx", 0.03, "lx");
     put(result.cells[1], "dazzle_standard_error_lx", 0.04, "lx");
+    for (CellResult& cell : result.cells) { // calculated from the tables in double precision; lengths hang on the moments
+        put(cell, "glare_a_facing_max_lx", cell.cell.lamp == 0 ? 0.2 : 0.2001, "lx");
+        put(cell, "glare_a_length_above_1lx_m", cell.cell.lamp == 0 ? 20.0 : 30.0, "m");
+    }
     put(result.cells[0], "reach_10lx_road_own_m", 3.0, "m");
     put(result.cells[1], "reach_10lx_road_own_m", std::nullopt, "m", "never lit");
     compare_cells(result);
-    EXPECT_EQ(change_in(result, "glare_at_eye_lx").kind, ChangeKind::unknown);
-    EXPECT_THAT(change_in(result, "glare_at_eye_lx").why_not, HasSubstr("nothing tells"));
+    EXPECT_EQ(change_in(result, "light_at_eye_lx").kind, ChangeKind::unknown);
+    EXPECT_THAT(change_in(result, "light_at_eye_lx").why_not, HasSubstr("nothing tells"));
     EXPECT_EQ(change_in(result, "dazzle_lx").kind, ChangeKind::real);
     EXPECT_DOUBLE_EQ(*change_in(result, "dazzle_lx").uncertainty, 0.05);
+    EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::real);
+    EXPECT_EQ(change_in(result, "glare_a_length_above_1lx_m").kind, ChangeKind::unknown);
     EXPECT_EQ(change_in(result, "reach_10lx_road_own_m").why_not, "never lit");
 }
 
