@@ -35,25 +35,6 @@ std::vector<std::pair<int, int>> sizes_of(const char* flag, const std::vector<st
     return sizes;
 }
 
-std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& texts) {
-    constexpr const char* expected = "float, eight-bit or WIDTHxHEIGHTxBITS with 8, 16 or 32 bits, e.g. 512x128x8";
-    std::vector<std::optional<BeamTexels>> beams;
-    for (const std::string& text : items_of("--beams", texts)) {
-        if (text == "float" || text == "eight-bit") {
-            beams.push_back(text == "float" ? std::nullopt : std::optional(eight_bit_texels));
-            continue;
-        }
-        const std::size_t last = std::min(text.rfind('x'), text.size() - 1);
-        const std::string depth = text.substr(last + 1);
-        const auto [width, height] = two_numbers("--beams", text.substr(0, last), 'x', false, expected);
-        if ((depth != "8" && depth != "16" && depth != "32") || std::min(width, height) < least_beam_texels ||
-            std::max(width, height) > most_beam_texels)
-            refuse_flag("--beams", text, expected);
-        beams.emplace_back(BeamTexels{width, height, depth == "8" ? 8 : depth == "16" ? 16 : 32});
-    }
-    return beams;
-}
-
 std::vector<std::string> diagrams_of(const std::vector<std::string>& lists) {
     const std::vector<std::string> known = diagram_names(), asked = items_of("--diagrams", lists);
     for (const std::string& name : asked)

@@ -1,6 +1,9 @@
 // Values of command-line flags that are more than a word.
 #pragma once
 
+#include "scenarios/lamps/beam_texels.h"
+
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,5 +25,8 @@ std::pair<int, int> resolution_of(const std::string& text);
 
 /// A share above 0 and up to 1: "0.5%" and "0.005" are the same. Throws InputError naming the flag.
 double share_of(const char* flag, const std::string& text);
+
+/// "float" (nullopt), "eight-bit" or "512x128x8". Throws InputError naming --beams.
+std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& texts);
 
 } // namespace fernlicht

@@ -1,6 +1,7 @@
 // fernlicht: night drives played headless, headlamps measured. Options end here; below are plain values.
 #include "runner/accept_command.h"
 #include "runner/accuracy_command.h"
+#include "runner/aliasing_command.h"
 #include "runner/bench_command.h"
 #include "runner/compare_command.h"
 #include "runner/doctor_command.h"
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
     fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_compare_command(app, chosen);
     fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_aliasing_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);

@@ -38,6 +38,7 @@ enum Part { aliasing, folded, rest, lost };
 struct BlockResult {
     std::array<std::array<Squares, band_count>, part_count> bands{};
     Block aliasing, folded;
+    double luminance_cdm2 = least_seen_cdm2;
 };
 
 std::size_t band_of(std::size_t bin) {
@@ -70,6 +71,16 @@ std::array<Squares, band_count> squares_of(const Block& block, double luminance_
     return bands;
 }
 
+double rms_of(const Block& block) {
+    double sum = 0.0, weight = 0.0;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+        const double w = block_window()[i] * block_window()[i];
+        sum += w * block[i] * block[i];
+        weight += w;
+    }
+    return std::sqrt(sum / weight);
+}
+
 double mean_of(const Block& block) {
     double sum = 0.0, weight = 0.0;
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -89,6 +100,8 @@ Block difference(const Block& a, const Block& b, double b_factor = 1.0) {
 BlockResult measure_block(const Image<double>& tested, const BandSplit& split, int left, int top, double pixels_per_degree) {
     Block target = block_at(tested, left, top), ideal = block_at(split.ideal, left, top);
     const double tested_mean = mean_of(target), ideal_mean = mean_of(ideal);
+    BlockResult result;
+    const double luminance = result.luminance_cdm2 = std::max(rms_of(target), least_seen_cdm2);
     const double gain = tested_mean > 0.0 && ideal_mean > 0.0 ? tested_mean / ideal_mean : 1.0;
     remove_slope(target);
     remove_slope(ideal);
@@ -102,11 +115,9 @@ BlockResult measure_block(const Image<double>& tested, const BandSplit& split, i
     const Block away = difference(target, ideal, gain);
     const double unit = 1.0 / (gain * gain); // a coefficient is one of the reference, as bright as it is
     const Block filtered = nearest_combination(away, shifts(split.ideal, blur_reach_px), blur_ridge * unit * energy_of(target));
-    BlockResult result;
     result.aliasing = difference(away, filtered);
     result.folded =
         nearest_combination(result.aliasing, shifts(split.folded, fold_reach_px), fold_ridge * unit * energy_of(result.aliasing));
-    const double luminance = std::max(tested_mean, least_seen_cdm2);
     result.bands[aliasing] = squares_of(result.aliasing, luminance, pixels_per_degree);
     result.bands[folded] = squares_of(result.folded, luminance, pixels_per_degree);
     result.bands[rest] = squares_of(difference(result.aliasing, result.folded), luminance, pixels_per_degree);
@@ -167,7 +178,7 @@ SpatialAliasing measure_spatial_aliasing(const Image<float>& tested, const BandS
     oneapi::tbb::parallel_for(std::size_t{0}, blocks.size(),
                               [&](std::size_t i) { blocks[i] = measure_block(picture, split, left_of(i), top_of(i), pixels_per_degree); });
     SpatialAliasing result;
-    result.aliasing_picture = result.folded_picture = Image<double>(picture.width(), picture.height());
+    result.aliasing_picture = result.folded_picture = result.level_picture = Image<double>(picture.width(), picture.height());
     std::array<std::array<Squares, band_count>, part_count> bands{};
     double worst = 0.0, weight = 0.0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -186,6 +197,7 @@ SpatialAliasing measure_spatial_aliasing(const Image<float>& tested, const BandS
         }
         blend(result.aliasing_picture, blocks[i].aliasing, left_of(i), top_of(i));
         blend(result.folded_picture, blocks[i].folded, left_of(i), top_of(i));
+        blend(result.level_picture, Block(side * side, blocks[i].luminance_cdm2), left_of(i), top_of(i));
     }
     result.worst_visible = std::sqrt(worst);
     std::array<Squares, part_count> sums{};

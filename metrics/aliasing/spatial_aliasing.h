@@ -11,7 +11,7 @@ namespace fernlicht {
 /// Mean squares over the picture of one part of the difference, by how it is weighed.
 struct AliasingPart {
     double rms = 0.0;              ///< in the picture's unit
-    double contrast_percent = 0.0; ///< r.m.s. over blocks of the part's r.m.s. / the block's mean luminance
+    double contrast_percent = 0.0; ///< r.m.s. over blocks of the part's r.m.s. / the block's r.m.s. luminance
     double visible = 0.0; ///< the same in multiples of the contrast that an eye just sees: sqrt(sum (modulation * sensitivity)^2), r.m.s.
 };
 
@@ -31,6 +31,7 @@ struct SpatialAliasing {
     double worst_visible = 0.0;      ///< the block with the most visible aliasing
     int worst_x = 0, worst_y = 0;    ///< its centre, pixels
     Image<double> aliasing_picture, folded_picture;
+    Image<double> level_picture; ///< the r.m.s. luminance that contrast is taken to
 };
 
 /// Luminances below count as this where contrast is taken: the lower end of mesopic vision in CIE 191:2010.
@@ -42,7 +43,8 @@ inline constexpr double least_seen_cdm2 = 0.005;
 ///   of what is left, a symmetric filter of 3 x 3 pixels (5 values) of the content folded back, and the rest.
 /// A pure blur reads 0 as far as 7 x 7 pixels hold it. What folds back to within 1/64 cycle per pixel of where it came from, 0.5, is taken
 /// for the scene. `folded` knows only what the reference knows: content up to k / 2 cycles per pixel. Frequencies come from the blocks'
-/// Fourier transform, sensitivity from still_contrast_sensitivity() at the block's own mean luminance.
+/// Fourier transform, sensitivity from still_contrast_sensitivity() at the block's own luminance: the r.m.s., which is the mean but for a
+/// bright spot in the dark, whose contrast would be without bound.
 /// `tested` and `split` have the same size, at least 32 x 32; pixels_per_degree > 0. Throws std::invalid_argument otherwise and for values
 /// that are not finite. Threads do not change a bit.
 SpatialAliasing measure_spatial_aliasing(const Image<float>& tested, const BandSplit& split, double pixels_per_degree);

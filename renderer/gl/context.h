@@ -1,7 +1,7 @@
 // An OpenGL 4.5 core context without a window, and the functions it gives.
 #pragma once
 
-#include "renderer/device.h"
+#include "renderer/surface_filter.h"
 
 #include <glad/gl.h>
 
@@ -16,8 +16,9 @@ class Context {
 
     GladGLContext gl{};
     DeviceInfo info;
-    int compiled_programs = 0; ///< so far
-    std::string last_error;    ///< of high severity, from the debug callback; "" if none
+    int compiled_programs = 0;                               ///< so far
+    SurfaceFilter surface_filter = SurfaceFilter::mipmapped; ///< of surface textures uploaded from now on
+    std::string last_error;                                  ///< of high severity, from the debug callback; "" if none
 
     /// Throws DeviceError if the driver reported an error of high severity or glGetError says so. `doing` names what was done.
     void check(const char* doing);

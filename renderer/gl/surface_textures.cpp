@@ -30,6 +30,14 @@ std::array<std::uint8_t, 256> srgb_curve() {
     return curve;
 }
 
+void set_filter(const GladGLContext& gl, GLuint texture, SurfaceFilter filter) {
+    const GLint smaller = filter == SurfaceFilter::none        ? GL_NEAREST
+                          : filter == SurfaceFilter::trilinear ? GL_LINEAR_MIPMAP_LINEAR
+                                                               : GL_LINEAR_MIPMAP_NEAREST;
+    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, smaller);
+    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, filter == SurfaceFilter::none ? GL_NEAREST : GL_LINEAR);
+}
+
 } // namespace
 
 Texture upload_surface_textures(Context& context, const std::vector<SurfaceTexture>& textures, bool encoded, std::size_t& bytes) {
@@ -44,8 +52,7 @@ Texture upload_surface_textures(Context& context, const std::vector<SurfaceTextu
     gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
     Texture array(context, name);
     gl.TextureStorage3D(name, levels, GL_RGBA8, width, height, static_cast<GLsizei>(textures.size()));
-    gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    set_filter(gl, name, context.surface_filter);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const std::array<std::uint8_t, 256> curve = srgb_curve();
     for (std::size_t layer = 0; layer < textures.size(); ++layer) {
@@ -62,3 +69,5 @@ Texture upload_surface_textures(Context& context, const std::vector<SurfaceTextu
 }
 
 } // namespace fernlicht::gl
+
+void fernlicht::use_surface_filter(Device& device, SurfaceFilter filter) { device.context().surface_filter = filter; }

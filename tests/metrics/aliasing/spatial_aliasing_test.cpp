@@ -139,6 +139,17 @@ TEST(SpatialAliasing, BrightnessIsNoAliasing) {
     EXPECT_NEAR(thrice.aliasing.contrast_percent / once.aliasing.contrast_percent, 1.0, 1e-4); // rounding to float
 }
 
+TEST(SpatialAliasing, ABrightSpotInTheDarkHasFullContrastAndNoMore) {
+    // Ten pixels away and more, all is black; the spot covers one sample of the reference, and by chance the pixel's centre.
+    Image<float> fine(64 * k, 64 * k, 0.0F), tested(64, 64, 0.0F);
+    fine.at(32 * k + k / 2, 32 * k + k / 2) = tested.at(32, 32) = 300.0F;
+    const SpatialAliasing found = measure_spatial_aliasing(tested, split_bands(fine, k), ppd);
+    EXPECT_GT(found.level_picture.at(32, 32), 300.0 / 40.0); // 1 / 32 of it where a block has it in the middle
+    EXPECT_EQ(found.level_picture.at(2, 2), least_seen_cdm2);
+    EXPECT_LT(found.aliasing.contrast_percent, 100.0);
+    EXPECT_GT(found.aliasing.contrast_percent, 20.0);
+}
+
 TEST(SpatialAliasing, ThreadsChangeNoBit) {
     const Image<float> reference = busy_reference(64, 64), tested(64, 64, 1.0F);
     std::vector<SpatialAliasing> found;

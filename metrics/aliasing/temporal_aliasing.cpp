@@ -1,0 +1,106 @@
+#include "metrics/aliasing/temporal_aliasing.h"
+
+#include "metrics/aliasing/contrast_sensitivity.h"
+#include "metrics/aliasing/spatial_aliasing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <fmt/format.h>
+#include <numbers>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+constexpr std::size_t fewest_frames = 8;
+
+void check(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels, const std::vector<Track>& tracks,
+           double rate_hz, double pixels_per_degree) {
+    const bool fits = aliasing.size() >= fewest_frames && levels.size() == aliasing.size() && rate_hz > 0.0 && pixels_per_degree > 0.0;
+    const auto pixels = fits ? static_cast<std::int64_t>(aliasing.front().size()) : 0;
+    const bool one_size = fits && std::ranges::all_of(aliasing, [&](const auto& a) { return a.size() == aliasing.front().size(); }) &&
+                          std::ranges::all_of(levels, [&](const auto& a) { return a.size() == aliasing.front().size(); });
+    const bool within = std::ranges::all_of(tracks, [&](const Track& track) {
+        return track.size() == aliasing.size() && std::ranges::all_of(track, [&](std::int32_t p) { return p >= 0 && p < pixels; });
+    });
+    if (!one_size || !within)
+        throw std::invalid_argument(fmt::format("aliasing over time takes at least {} frames of one size, tracks within them, a rate and a "
+                                                "resolution above 0; found {} frames",
+                                                fewest_frames, aliasing.size()));
+}
+
+/// Mean squares at the frequencies k / frames of the rate, k = 1 ... frames / 2; their sum is the variance under a Hann window.
+class Periodogram {
+  public:
+    explicit Periodogram(std::size_t frames) : frames_(frames) {
+        for (std::size_t t = 0; t < frames; ++t) {
+            const double at = 2.0 * std::numbers::pi / static_cast<double>(frames);
+            turns_.push_back(std::polar(1.0, -at * static_cast<double>(t)));
+            window_.push_back(0.5 - 0.5 * std::cos(at * (static_cast<double>(t) + 0.5)));
+            weight_ += window_.back();
+            squares_ += window_.back() * window_.back();
+        }
+    }
+
+    std::vector<double> of(std::vector<double> values) const {
+        const double first = values.front(); // equal values come out as exactly 0
+        double mean = 0.0;
+        for (std::size_t t = 0; t < frames_; ++t) {
+            values[t] -= first;
+            mean += window_[t] * values[t] / weight_;
+        }
+        std::vector<double> powers;
+        for (std::size_t k = 1; k <= frames_ / 2; ++k) {
+            std::complex<double> sum = 0.0;
+            for (std::size_t t = 0; t < frames_; ++t)
+                sum += window_[t] * (values[t] - mean) * turns_[k * t % frames_];
+            powers.push_back((2 * k == frames_ ? 1.0 : 2.0) * std::norm(sum) / (static_cast<double>(frames_) * squares_));
+        }
+        return powers;
+    }
+
+  private:
+    std::size_t frames_;
+    std::vector<std::complex<double>> turns_;
+    std::vector<double> window_;
+    double weight_ = 0.0, squares_ = 0.0;
+};
+
+} // namespace
+
+TemporalAliasing measure_temporal_aliasing(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels,
+                                           const std::vector<Track>& tracks, double rate_hz, double pixels_per_degree) {
+    check(aliasing, levels, tracks, rate_hz, pixels_per_degree);
+    const std::size_t frames = aliasing.size();
+    const Periodogram periodogram(frames);
+    std::vector<double> sums(frames / 2), values(frames);
+    for (const Track& track : tracks) {
+        double level = 0.0;
+        for (std::size_t t = 0; t < frames; ++t) {
+            values[t] = aliasing[t].pixels()[static_cast<std::size_t>(track[t])];
+            level += levels[t].pixels()[static_cast<std::size_t>(track[t])] / static_cast<double>(frames);
+        }
+        level = std::max(level, least_seen_cdm2);
+        const std::vector<double> powers = periodogram.of(values);
+        for (std::size_t k = 0; k < powers.size(); ++k)
+            sums[k] += powers[k] / (level * level);
+    }
+    TemporalAliasing result;
+    result.tracks = tracks.size();
+    const double count = std::max(1.0, static_cast<double>(tracks.size()));
+    double crawl = 0.0, flicker = 0.0, visible = 0.0;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        const double square = sums[k] / count, hertz = rate_hz * static_cast<double>(k + 1) / static_cast<double>(frames);
+        const double sensitivity = flicker_sensitivity(0.25 * pixels_per_degree, hertz);
+        (hertz < crawl_below_hz ? crawl : flicker) += square;
+        visible += 2.0 * square * sensitivity * sensitivity; // a sine's modulation^2 is twice its mean square
+        result.spectrum.push_back({hertz, 100.0 * std::sqrt(square)});
+    }
+    result.crawl_percent = 100.0 * std::sqrt(crawl);
+    result.flicker_percent = 100.0 * std::sqrt(flicker);
+    result.visible = std::sqrt(visible);
+    return result;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,333 @@
+#include "runner/aliasing/aliasing_run.h"
+
+#include "renderer/sanity.h"
+#include "runner/accuracy/technique_sweep.h"
+#include "runner/aliasing/motion.h"
+#include "runner/interruption.h"
+#include "runner/output_folder.h"
+#include "runner/progress.h"
+#include "runner/run_context.h"
+#include "runner/stage.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/photometry.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fernlicht {
+namespace {
+
+constexpr int fewest_frames = 8, most_frames = 64, most_drawn_px = 16384, least_px = 32, track_stride_px = 2;
+
+/// Relative luminance of a displayed pixel (IEC 61966-2-1) in cd/m2.
+float displayed_cdm2(const Rgb8& pixel) {
+    const auto linear = [](std::uint8_t value) {
+        const double v = value / 255.0;
+        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    };
+    return static_cast<float>(display_white_cdm2 * (0.2126 * linear(pixel.r) + 0.7152 * linear(pixel.g) + 0.0722 * linear(pixel.b)));
+}
+
+/// The mean of each group of n x n pixels.
+Image<float> averaged(const Image<float>& fine, int n) {
+    if (n == 1)
+        return fine;
+    Image<float> out(fine.width() / n, fine.height() / n);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x) {
+            double sum = 0.0;
+            for (int j = 0; j < n; ++j)
+                for (int i = 0; i < n; ++i)
+                    sum += static_cast<double>(fine.at(x * n + i, y * n + j));
+            out.at(x, y) = static_cast<float>(sum / (n * n));
+        }
+    return out;
+}
+
+struct Pictures {
+    Image<float> luminance_cdm2, illuminance_lx; ///< the second only where asked for and known
+};
+
+/// A view drawn n times as fine each way and averaged down by `average`. What is brighter than white is white: no display shows more.
+Pictures pictures_of(Renderer& renderer, const Moment& moment, const View& view, int n, int average, bool displayed, bool illuminance,
+                     float white_cdm2) {
+    const Frame frame = renderer.draw(moment, resized(view, n * view.width_px, n * view.height_px),
+                                      {.colour = displayed, .illuminance = illuminance, .luminance = !displayed});
+    Pictures pictures;
+    if (displayed) {
+        pictures.luminance_cdm2 = Image<float>(frame.colour.width(), frame.colour.height());
+        std::ranges::transform(frame.colour.pixels(), pictures.luminance_cdm2.pixels().begin(), displayed_cdm2);
+    } else {
+        pictures.luminance_cdm2 = frame.luminance_cdm2;
+        for (float& value : pictures.luminance_cdm2.pixels())
+            value = std::min(value, white_cdm2);
+    }
+    pictures.luminance_cdm2 = averaged(pictures.luminance_cdm2, average);
+    if (illuminance)
+        pictures.illuminance_lx = averaged(frame.illuminance_lx, average);
+    return pictures;
+}
+
+RendererSettings settings_of(const Drive& drive, const AliasingConfiguration& configuration) {
+    Configuration same;
+    same.technique = configuration.technique;
+    same.beams = configuration.beams;
+    return settings_of(drive, same);
+}
+
+/// What a technique's pictures are held against: itself, with float beams, drawn `supersample` times as fine, trilinear.
+struct References {
+    std::string technique;
+    std::vector<BandSplit> splits; ///< by moment
+    Image<float> illuminance_lx;   ///< of the moment shown, as fine as drawn; empty where the technique computes none
+};
+
+struct Session {
+    const AliasingRequest& request;
+    const Stage& stage;
+    Device& device;
+    std::vector<Moment> moments;
+    AliasingResult& result;
+    std::vector<Track> tracks;
+    References references;
+    Progress& progress;
+    int done = 0;
+
+    float white_cdm2() const { return static_cast<float>(stage.drive.tone_mapper.l_max_cdm2); }
+    bool step() {
+        progress.done(done++);
+        return !Interruption::asked();
+    }
+};
+
+bool draw_references(Session& s, const Technique& technique) {
+    if (s.references.technique == technique.name)
+        return true;
+    AliasingConfiguration finest;
+    finest.technique = technique.name;
+    use_surface_filter(s.device, SurfaceFilter::trilinear);
+    Renderer renderer(s.device, s.stage.scene, settings_of(s.stage.drive, finest));
+    s.references = {};
+    for (std::size_t m = 0; m < s.moments.size(); ++m) {
+        if (!s.step())
+            return false;
+        Pictures fine = pictures_of(renderer, s.moments[m], s.result.view, s.request.supersample, 1, s.request.displayed,
+                                    technique.illuminance && m == s.result.shown, s.white_cdm2());
+        s.references.splits.push_back(split_bands(fine.luminance_cdm2, s.request.supersample));
+        if (m == s.result.shown)
+            s.references.illuminance_lx = std::move(fine.illuminance_lx);
+    }
+    s.references.technique = technique.name;
+    return true;
+}
+
+void add_squares(AliasingPart& sum, const AliasingPart& part) {
+    sum.rms += part.rms * part.rms;
+    sum.contrast_percent += part.contrast_percent * part.contrast_percent;
+    sum.visible += part.visible * part.visible;
+}
+
+void root(AliasingPart& sum, double count) {
+    for (double* value : {&sum.rms, &sum.contrast_percent, &sum.visible})
+        *value = std::sqrt(*value / count);
+}
+
+/// Numbers: r.m.s. over the moments. Pictures and the worst place: of the one shown.
+SpatialAliasing folded_over(std::vector<SpatialAliasing>& found, std::size_t shown) {
+    SpatialAliasing all = std::move(found[shown]);
+    const auto each = [&](auto use) {
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.aliasing; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.folded; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.rest; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.lost; });
+        for (std::size_t b = 0; b < all.bands.size(); ++b) {
+            use([b](SpatialAliasing& a) -> AliasingPart& { return a.bands[b].aliasing; });
+            use([b](SpatialAliasing& a) -> AliasingPart& { return a.bands[b].lost; });
+        }
+    };
+    found[shown].bands = all.bands;
+    each([&](auto part) {
+        AliasingPart sum;
+        for (SpatialAliasing& one : found)
+            add_squares(sum, part(one));
+        root(sum, static_cast<double>(found.size()));
+        part(all) = sum;
+    });
+    return all;
+}
+
+void measure_jaggedness_of(Session& s, AliasingRow& row, const Image<float>& illuminance_lx) {
+    if (illuminance_lx.empty()) {
+        row.no_jaggedness = fmt::format("technique {} computes no illuminance", row.configuration.technique);
+        return;
+    }
+    row.jaggedness = measure_jaggedness(illuminance_lx, s.references.illuminance_lx, s.request.supersample, s.request.level_lx);
+    if (!row.jaggedness)
+        row.no_jaggedness = fmt::format("no line of {} lx in the picture", s.request.level_lx);
+}
+
+/// False when interrupted: the row is then incomplete.
+bool measure_row(Session& s, AliasingRow& row) {
+    const Technique& technique = technique_named(row.configuration.technique);
+    if (!s.request.displayed && !technique.luminance) {
+        row.why_not = fmt::format("technique {} computes no luminance; --picture display measures what it shows", technique.name);
+        return true;
+    }
+    if (!draw_references(s, technique))
+        return false;
+    use_surface_filter(s.device, row.configuration.filter);
+    Renderer renderer(s.device, s.stage.scene, settings_of(s.stage.drive, row.configuration));
+    const int side = static_cast<int>(std::lround(std::sqrt(row.configuration.samples)));
+    std::vector<SpatialAliasing> found;
+    std::vector<Image<double>> residues, levels;
+    for (std::size_t m = 0; m < s.moments.size(); ++m) {
+        if (!s.step())
+            return false;
+        const bool shown = m == s.result.shown;
+        Pictures drawn = pictures_of(renderer, s.moments[m], s.result.view, side, side, s.request.displayed, technique.illuminance && shown,
+                                     s.white_cdm2());
+        found.push_back(measure_spatial_aliasing(drawn.luminance_cdm2, s.references.splits[m], s.result.pixels_per_degree));
+        if (shown) {
+            measure_jaggedness_of(s, row, drawn.illuminance_lx);
+            row.picture = drawn.luminance_cdm2;
+            row.ideal = Image<float>(s.result.view.width_px, s.result.view.height_px);
+            std::ranges::transform(s.references.splits[m].ideal.pixels(), row.ideal.pixels().begin(),
+                                   [](double value) { return static_cast<float>(value); });
+        }
+        if (s.moments.size() > 1) {
+            residues.push_back(shown ? found.back().aliasing_picture : std::move(found.back().aliasing_picture));
+            levels.push_back(shown ? found.back().level_picture : std::move(found.back().level_picture));
+        }
+    }
+    row.spatial = folded_over(found, s.result.shown);
+    if (s.moments.size() == 1)
+        row.no_temporal = "one moment; --frames measures over time";
+    else if (s.tracks.empty())
+        row.no_temporal = "no point of the scene is seen in all frames";
+    else
+        row.temporal = measure_temporal_aliasing(residues, levels, s.tracks, s.result.rate_hz, s.result.pixels_per_degree);
+    return true;
+}
+
+std::vector<int> ticks_of(const AliasingRequest& request) {
+    const int count = tick_count(request.drive);
+    if (!request.frames) {
+        const double time_s = request.moment_s.value_or(count / 2 * request.drive.step_s), tick = std::round(time_s / request.drive.step_s);
+        if (!(tick >= 0.0 && tick < count))
+            throw InputError({request.drive.file, 0, 0, "--moment"}, fmt::format("found {} s", time_s),
+                             fmt::format("0 to {:.3f} s, the drive's moments", (count - 1) * request.drive.step_s));
+        return {static_cast<int>(tick)};
+    }
+    const auto [first, last] = *request.frames;
+    if (first < 0 || last >= count || last - first + 1 < fewest_frames || last - first + 1 > most_frames)
+        throw InputError({request.drive.file, 0, 0, "--frames"}, fmt::format("found {}:{}", first, last),
+                         fmt::format("{} to {} frames in a row out of 0:{}", fewest_frames, most_frames, count - 1));
+    std::vector<int> ticks;
+    for (int tick = first; tick <= last; ++tick)
+        ticks.push_back(tick);
+    return ticks;
+}
+
+const View& checked_view(const AliasingRequest& request) {
+    const View* const view = driver_view(request.drive);
+    if (!view)
+        throw InputError({request.drive.file, 0, 0, "views"}, "found only maps", "a perspective view");
+    int finest = request.supersample;
+    for (const int samples : request.samples)
+        finest = std::max(finest, static_cast<int>(std::lround(std::sqrt(samples))));
+    if (std::min(view->width_px, view->height_px) < least_px)
+        throw InputError({request.drive.file, 0, 0, "--resolution"}, fmt::format("found {}x{}", view->width_px, view->height_px),
+                         "32 pixels each way at least");
+    if (finest * std::max(view->width_px, view->height_px) > most_drawn_px)
+        throw InputError({request.drive.file, 0, 0, "--supersample"},
+                         fmt::format("found {} times {}x{}", finest, view->width_px, view->height_px),
+                         fmt::format("at most {} pixels each way; a smaller --resolution or --supersample", most_drawn_px));
+    return *view;
+}
+
+/// Frames of geometry, and from them the tracks.
+std::vector<Track> tracks_over(const Stage& stage, Device& device, const std::vector<Moment>& moments, const View& view, std::size_t from) {
+    Renderer renderer(device, stage.scene, {});
+    std::vector<Frame> frames;
+    for (const Moment& moment : moments)
+        frames.push_back(renderer.draw(moment, view, {.depth = true, .ids = true}));
+    return tracks_of(moments, view, frames, from, track_stride_px);
+}
+
+} // namespace
+
+std::vector<AliasingConfiguration> aliasing_configurations(const AliasingRequest& request) {
+    std::vector<std::string> techniques = request.techniques;
+    if (techniques.empty())
+        techniques.push_back(request.drive.technique);
+    std::vector<AliasingConfiguration> all;
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+        technique_named(techniques[i]);
+        if (std::find(techniques.begin(), techniques.begin() + static_cast<std::ptrdiff_t>(i), techniques[i]) !=
+            techniques.begin() + static_cast<std::ptrdiff_t>(i))
+            throw InputError({{}, 0, 0, "--techniques"}, "found " + techniques[i] + " twice", "each technique once");
+        AliasingConfiguration base{techniques[i], request.beams.front(), request.filters.front(), request.samples.front(), ""};
+        all.push_back(base);
+        const auto vary = [&](const char* what, auto member, const auto& values) {
+            for (std::size_t v = 1; v < values.size(); ++v) {
+                all.push_back(base);
+                all.back().*member = values[v];
+                all.back().varied = what;
+            }
+        };
+        vary("beams", &AliasingConfiguration::beams, request.beams);
+        vary("filter", &AliasingConfiguration::filter, request.filters);
+        vary("samples", &AliasingConfiguration::samples, request.samples);
+    }
+    return all;
+}
+
+AliasingResult run_aliasing(const AliasingRequest& request) {
+    const std::vector<int> ticks = ticks_of(request); // everything is read and checked before the first frame
+    const std::vector<AliasingConfiguration> configurations = aliasing_configurations(request);
+    AliasingResult result;
+    result.view = checked_view(request);
+    const Variant& variant = variant_of(request.drive, request.variant);
+    const Stage stage(request.drive);
+    Device device = open_device(request.backend);
+    check_sanity(device);
+    OutputFolder folder(request.folder);
+    result.context = make_context(device.info(), request.command, request.drive.seed);
+    add_inputs(result.context.inputs, stage.drive.opened);
+    add_inputs(result.context.inputs, stage.network.opened);
+    result.drive = stage.drive.name;
+    result.title = stage.drive.title;
+    result.variant = variant.name;
+    result.rate_hz = 1.0 / stage.drive.step_s;
+    result.supersample = request.supersample;
+    result.displayed = request.displayed;
+    result.level_lx = request.level_lx;
+    result.pixels_per_degree = 0.5 * result.view.height_px / std::tan(0.5 * result.view.vertical_fov_rad) * std::numbers::pi / 180.0;
+    const Interruption listening;
+    Progress progress("aliasing of " + stage.drive.name, static_cast<int>(ticks.size() * (configurations.size() + 1)), request.quiet,
+                      "pictures");
+    Session session{request, stage, device, moments_at(ticks, stage, variant), result, {}, {}, progress};
+    for (const Moment& moment : session.moments)
+        result.moments.emplace_back(moment.tick, moment.time_s);
+    result.shown = session.moments.size() / 2;
+    if (session.moments.size() > 1)
+        session.tracks = tracks_over(stage, device, session.moments, result.view, result.shown);
+    for (const AliasingConfiguration& configuration : configurations) {
+        AliasingRow row;
+        row.configuration = configuration;
+        if (!measure_row(session, row))
+            break;
+        result.rows.push_back(std::move(row));
+    }
+    if (result.rows.size() < configurations.size())
+        result.interrupted = "interrupted by the user";
+    write_aliasing(result, request.folder);
+    if (result.interrupted.empty())
+        folder.finish();
+    return result;
+}
+
+} // namespace fernlicht

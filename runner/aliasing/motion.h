@@ -1,0 +1,16 @@
+// Where the points of a scene that stands still go in the picture while the car drives: from depth and the car's poses, without any
+// estimate.
+#pragma once
+
+#include "metrics/aliasing/temporal_aliasing.h"
+#include "scenarios/drives/frame.h"
+
+namespace fernlicht {
+
+/// For every `stride`-th pixel each way of frame `from` that shows something: the pixels that show the same point in all frames. Points
+/// that leave the picture or are hidden (another mesh, or depth off by more than a tenth) in any frame are left out. Frames have depth and
+/// ids.
+std::vector<Track> tracks_of(const std::vector<Moment>& moments, const View& view, const std::vector<Frame>& frames, std::size_t from,
+                             int stride);
+
+} // namespace fernlicht
