@@ -82,6 +82,8 @@ std::vector<SpeedPoint> read_speed(const YamlMap& drive) {
         drive.refuse_missing("speed_kmh", "speed_kmh, speed_mps or speed (a list of {at_s, speed_kmh})");
     if (given->first != "speed")
         return {{0.0, speed_mps(given->first, given->second)}};
+    if (given->second.is_scalar())
+        given->second.refuse("a list of {at_s, speed_kmh}; one speed for all of the drive is speed_kmh or speed_mps");
     std::vector<SpeedPoint> points;
     for (const YamlEntry& entry : given->second.list(1, 10'000)) {
         const YamlMap keys = entry.map({"at_s", "speed_kmh", "speed_mps"});

@@ -33,6 +33,12 @@ TEST_F(DriveRefusal, MissingKeys) {
                 HasSubstr("a lamp without a file"));
 }
 
+TEST_F(DriveRefusal, ASpeedWithoutItsUnitNamesTheKeysThatHaveOne) {
+    EXPECT_EQ(refusal("fernlicht: 1\nroad: road.xodr\nspeed: 60\n"),
+              "drive.yaml:3:8: speed: found '60', expected a list of {at_s, speed_kmh}; one speed for all of the drive is speed_kmh or "
+              "speed_mps");
+}
+
 TEST_F(DriveRefusal, AnotherVersionOfTheFormat) { EXPECT_THAT(refusal("fernlicht: 2\n"), HasSubstr("found '2', expected 1")); }
 
 TEST_F(DriveRefusal, MissingFilesAreNamedWithTheLineThatAsks) {
