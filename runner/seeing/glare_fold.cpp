@@ -2,7 +2,9 @@
 
 #include "runner/seeing/road_places.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 namespace fernlicht {
 namespace {
@@ -115,6 +117,12 @@ OncomingFold::OncomingFold(const Drive& drive, const Route& route) : drive_(driv
         const Pose surface = route.pose(observer.at_m, *left_m);
         eye.place_m = surface.position_m + observer.eye_height_m * surface.up();
         eye.gaze = -surface.forward();
+        if (observer.look_ahead_m > 0.0) {
+            const Pose ahead = route.pose(std::max(observer.at_m - observer.look_ahead_m, 0.0), *left_m);
+            const glm::dvec3 looked_at = ahead.position_m + observer.eye_height_m * ahead.up();
+            if (glm::distance(looked_at, *eye.place_m) > 0.1) // not at the route's very start
+                eye.gaze = glm::normalize(looked_at - *eye.place_m);
+        }
     }
 }
 

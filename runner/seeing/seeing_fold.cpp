@@ -31,6 +31,12 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
         if (asked.glare->mirrors)
             mirrors_.emplace(drive, route);
     }
+    if (asked.visibility)
+        visibility_.emplace(drive, route);
+    if (asked.homogeneity)
+        homogeneity_.emplace(drive, route);
+    if (asked.places)
+        places_.emplace(drive, route);
 }
 
 void SeeingFold::add(const Moment& moment) {
@@ -41,6 +47,9 @@ void SeeingFold::add(const Moment& moment) {
     each(sensors_);
     each(oncoming_);
     each(mirrors_);
+    each(visibility_);
+    each(homogeneity_);
+    each(places_);
 }
 
 Readings SeeingFold::readings() const {
@@ -52,6 +61,9 @@ Readings SeeingFold::readings() const {
     each(sensors_);
     each(oncoming_);
     each(mirrors_);
+    each(visibility_);
+    each(homogeneity_);
+    each(places_);
     return all;
 }
 
@@ -64,6 +76,8 @@ std::vector<SeeingSeries> SeeingFold::series() const {
     each(sensors_);
     each(oncoming_);
     each(mirrors_);
+    each(visibility_);
+    each(homogeneity_);
     return all;
 }
 

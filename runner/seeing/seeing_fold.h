@@ -2,8 +2,11 @@
 #pragma once
 
 #include "metrics/readings.h"
+#include "runner/seeing/homogeneity_fold.h"
 #include "runner/seeing/mirror_fold.h"
+#include "runner/seeing/place_fold.h"
 #include "runner/seeing/sensor_fold.h"
+#include "runner/seeing/visibility_fold.h"
 
 namespace fernlicht {
 
@@ -21,6 +24,9 @@ class SeeingFold {
     std::optional<SensorFold> sensors_;
     std::optional<OncomingFold> oncoming_;
     std::optional<MirrorFold> mirrors_;
+    std::optional<VisibilityFold> visibility_;
+    std::optional<HomogeneityFold> homogeneity_;
+    std::optional<PlaceFold> places_;
 };
 
 } // namespace fernlicht

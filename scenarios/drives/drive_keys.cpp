@@ -153,7 +153,7 @@ void read_measure(const YamlMap& keys, Drive& drive) {
     const auto given = keys.find("measure");
     if (!given)
         return;
-    const YamlMap measure = given->map({"extent", "probes", "sensors", "glare"});
+    const YamlMap measure = given->map({"extent", "probes", "sensors", "glare", "visibility", "homogeneity", "places"});
     if (const auto parameters = measure.find("extent")) {
         if (!parameters->is_scalar())
             drive.extent = read_extent(*parameters);

@@ -35,11 +35,12 @@ SensorParameters read_sensors(const YamlEntry& entry) {
 }
 
 GlareObserver read_observer(const std::string& name, const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"at_m", "eye_height_m"});
+    const YamlMap keys = entry.map({"at_m", "eye_height_m", "look_ahead_m"});
     GlareObserver observer;
     observer.name = name;
     observer.at_m = keys.require("at_m").number(0.0, longest_route_m);
     observer.eye_height_m = keys.number_or("eye_height_m", observer.eye_height_m, 0.1, 10.0);
+    observer.look_ahead_m = keys.number_or("look_ahead_m", observer.look_ahead_m, 0.0, farthest_m);
     return observer;
 }
 
@@ -91,6 +92,53 @@ GlareParameters read_glare(const YamlEntry& entry) {
     return glare;
 }
 
+VisibilityParameters read_visibility(const YamlEntry& entry) {
+    const YamlMap keys = entry.map({"size_m", "reflectance", "level", "age_years", "time_s", "k", "ahead_m", "step_m", "distances_m"});
+    VisibilityParameters visibility;
+    visibility.size_m = keys.number_or("size_m", visibility.size_m, 0.01, 5.0);
+    visibility.reflectance = keys.number_or("reflectance", visibility.reflectance, 0.0, 1.0);
+    visibility.level = keys.number_or("level", visibility.level, 0.01, 1.0e4);
+    visibility.age_years = keys.number_or("age_years", visibility.age_years, 23.0, 75.0);
+    visibility.time_s = keys.number_or("time_s", visibility.time_s, 0.01, 1.0e3);
+    visibility.k = keys.number_or("k", visibility.k, 0.1, 100.0);
+    visibility.ahead_m = keys.number_or("ahead_m", visibility.ahead_m, 10.0, farthest_m);
+    visibility.step_m = keys.number_or("step_m", visibility.step_m, 0.1, 5.0);
+    visibility.distances_m = numbers_or(keys, "distances_m", visibility.distances_m, 1.0, farthest_m);
+    return visibility;
+}
+
+HomogeneityParameters read_homogeneity(const YamlEntry& entry) {
+    const YamlMap keys = entry.map({"least_lx", "ahead_m", "patch_factor"});
+    HomogeneityParameters homogeneity;
+    homogeneity.least_lx = keys.number_or("least_lx", homogeneity.least_lx, 1.0e-6, 1.0e6);
+    homogeneity.ahead_m = keys.number_or("ahead_m", homogeneity.ahead_m, 10.0, 500.0);
+    homogeneity.patch_factor = keys.number_or("patch_factor", homogeneity.patch_factor, 1.01, 1000.0);
+    return homogeneity;
+}
+
+/// `true` or a map with keys; `false` as if it were not there.
+template <class Parameters> std::optional<Parameters> read_or_default(const YamlEntry& entry, Parameters (*read)(const YamlEntry&)) {
+    if (!entry.is_scalar())
+        return read(entry);
+    return entry.flag() ? std::optional(Parameters{}) : std::nullopt;
+}
+
+PlaceParameters read_places(const YamlEntry& entry) {
+    PlaceParameters places;
+    std::optional<YamlEntry> what = entry;
+    if (!entry.is_list()) {
+        const YamlMap keys = entry.map({"what", "distances_m"});
+        what = keys.require("what");
+        if (const auto distances = keys.find("distances_m"))
+            places.distances_m = distances->numbers(1, 16, 1.0, farthest_m);
+    }
+    for (const YamlEntry& place : what->list(1, 3)) {
+        bool* const all[] = {&places.kerb, &places.boards, &places.markings};
+        *all[place.choice({"kerb", "boards", "markings"})] = true;
+    }
+    return places;
+}
+
 } // namespace
 
 SeeingParameters read_seeing(const YamlMap& measure) {
@@ -99,6 +147,12 @@ SeeingParameters read_seeing(const YamlMap& measure) {
         seeing.sensors = read_sensors(*sensors);
     if (const auto glare = measure.find("glare"))
         seeing.glare = read_glare(*glare);
+    if (const auto visibility = measure.find("visibility"))
+        seeing.visibility = read_or_default(*visibility, read_visibility);
+    if (const auto homogeneity = measure.find("homogeneity"))
+        seeing.homogeneity = read_or_default(*homogeneity, read_homogeneity);
+    if (const auto places = measure.find("places"))
+        seeing.places = read_places(*places);
     return seeing;
 }
 

@@ -1,4 +1,4 @@
-// `measure`'s keys of seeing and glare: sensors and glare.
+// `measure`'s keys of seeing and glare: sensors, glare, visibility, homogeneity and places.
 #pragma once
 
 #include "scenarios/drives/drive.h"

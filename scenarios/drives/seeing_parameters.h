@@ -34,6 +34,7 @@ struct GlareObserver {
     std::string name;
     double at_m = 0.0; ///< along the route from its start
     double eye_height_m = 1.1;
+    double look_ahead_m = 0.0; ///< where on the lane the eye looks: so far along it, at its own height; 0: along the lane's tangent
 
     bool operator==(const GlareObserver&) const = default;
 };
@@ -73,10 +74,43 @@ struct GlareParameters {
     bool operator==(const GlareParameters&) const = default;
 };
 
+/// A square target that stands on the own lane's centre and faces the car, and who looks for it.
+struct VisibilityParameters {
+    double size_m = 0.18;
+    double reflectance = 0.04; ///< diffuse
+    double level = 13.35;      ///< visibility level at which it counts as detected
+    double age_years = 25.0;
+    double time_s = 0.2; ///< for which it shows
+    double k = 2.6;
+    double ahead_m = 200.0; ///< how far is looked, from the front bumper
+    double step_m = 1.0;
+    std::vector<double> distances_m{25.0, 50.0, 75.0, 100.0}; ///< from the front bumper, at which level and background are told
+
+    bool operator==(const VisibilityParameters&) const = default;
+};
+
+struct HomogeneityParameters {
+    double least_lx = 1.0; ///< darker ground does not count
+    double ahead_m = 80.0; ///< how far is looked, from the front bumper
+    double patch_factor = 1.5;
+
+    bool operator==(const HomogeneityParameters&) const = default;
+};
+
+struct PlaceParameters {
+    bool kerb = false, boards = false, markings = false;
+    std::vector<double> distances_m{25.0, 50.0, 75.0, 100.0, 150.0}; ///< from the front bumper
+
+    bool operator==(const PlaceParameters&) const = default;
+};
+
 /// Off, all of it, unless a drive asks.
 struct SeeingParameters {
     std::optional<SensorParameters> sensors;
     std::optional<GlareParameters> glare;
+    std::optional<VisibilityParameters> visibility;
+    std::optional<HomogeneityParameters> homogeneity;
+    std::optional<PlaceParameters> places;
 
     bool operator==(const SeeingParameters&) const = default;
 };

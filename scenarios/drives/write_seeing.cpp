@@ -38,7 +38,8 @@ std::string glare(const GlareParameters& glare) {
     if (!glare.oncoming.empty())
         text += "    oncoming:\n";
     for (const GlareObserver& observer : glare.oncoming)
-        text += fmt::format("      \"{}\": {{at_m: {}, eye_height_m: {}}}\n", observer.name, observer.at_m, observer.eye_height_m);
+        text += fmt::format("      \"{}\": {{at_m: {}, eye_height_m: {}, look_ahead_m: {}}}\n", observer.name, observer.at_m,
+                            observer.eye_height_m, observer.look_ahead_m);
     if (const auto& mirrors = glare.mirrors) {
         text += fmt::format("    mirrors:\n      gaps_m: {}\n      eye_m: {}\n      reflectance: {}\n      places:\n",
                             list(mirrors->gaps_m), list(mirrors->eye_m), mirrors->reflectance);
@@ -52,10 +53,30 @@ std::string glare(const GlareParameters& glare) {
     return text;
 }
 
+std::string visibility(const VisibilityParameters& v) {
+    return fmt::format("  visibility: {{size_m: {}, reflectance: {}, level: {}, age_years: {}, time_s: {}, k: {}, ahead_m: {}, step_m: {}, "
+                       "distances_m: {}}}\n",
+                       v.size_m, v.reflectance, v.level, v.age_years, v.time_s, v.k, v.ahead_m, v.step_m, list(v.distances_m));
+}
+
+std::string homogeneity(const HomogeneityParameters& h) {
+    return fmt::format("  homogeneity: {{least_lx: {}, ahead_m: {}, patch_factor: {}}}\n", h.least_lx, h.ahead_m, h.patch_factor);
+}
+
+std::string places(const PlaceParameters& p) {
+    std::vector<std::string> what;
+    for (const auto& [asked, name] : {std::pair(p.kerb, "kerb"), std::pair(p.boards, "boards"), std::pair(p.markings, "markings")})
+        if (asked)
+            what.emplace_back(name);
+    return fmt::format("  places: {{what: [{}], distances_m: {}}}\n", fmt::join(what, ", "), list(p.distances_m));
+}
+
 } // namespace
 
 std::string write_seeing(const SeeingParameters& seeing) {
-    return (seeing.sensors ? sensors(*seeing.sensors) : "") + (seeing.glare ? glare(*seeing.glare) : "");
+    return (seeing.sensors ? sensors(*seeing.sensors) : "") + (seeing.glare ? glare(*seeing.glare) : "") +
+           (seeing.visibility ? visibility(*seeing.visibility) : "") + (seeing.homogeneity ? homogeneity(*seeing.homogeneity) : "") +
+           (seeing.places ? places(*seeing.places) : "");
 }
 
 } // namespace fernlicht

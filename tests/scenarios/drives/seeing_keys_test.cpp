@@ -25,16 +25,17 @@ TEST_F(SeeingKeys, AreReadAndHaveDefaults) {
     const SeeingParameters short_form = seeing("sensors: {points: {edge: {at_m: 90}}}, glare: {oncoming: {a: {at_m: 80}}, mirrors: true}");
     EXPECT_EQ(short_form.sensors->points, (std::vector<Sensor>{{"edge", 90.0, Across::own_centre, 0.25}}));
     EXPECT_EQ(short_form.sensors->limits_lx, SensorParameters{}.limits_lx);
-    EXPECT_EQ(short_form.glare->oncoming, (std::vector<GlareObserver>{{"a", 80.0, 1.1}}));
+    EXPECT_EQ(short_form.glare->oncoming, (std::vector<GlareObserver>{{"a", 80.0, 1.1, 0.0}}));
     EXPECT_EQ(short_form.glare->mirrors, MirrorParameters{});
     EXPECT_EQ(short_form.glare->equation, VeilingEquation::cie_general);
     const SeeingParameters long_form = seeing(
         "sensors: {limits_lx: [5], distances_m: [], points: {e: {at_m: 1, across: left-edge, above_m: 1.5}}}, glare: {oncoming: {a: "
-        "{at_m: 80, eye_height_m: 2}}, mirrors: {gaps_m: [10], eye_m: [1, 0, 1.5], reflectance: 0.4, places: {m: [2, 1, 1]}}, equation: "
+        "{at_m: 80, eye_height_m: 2, look_ahead_m: 30}}, mirrors: {gaps_m: [10], eye_m: [1, 0, 1.5], reflectance: 0.4, places: {m: [2, 1, "
+        "1]}}, equation: "
         "age-adjusted, age_years: 60, pigmentation: 1.2, adaptation_cdm2: 0.3, distances_m: [50], limits_lx: [2], limits_percent: [15], "
         "limits_de_boer: [4]}");
     EXPECT_EQ(long_form.sensors, (SensorParameters{{5.0}, {}, {{"e", 1.0, Across::left_edge, 1.5}}}));
-    const GlareParameters expected{{{"a", 80.0, 2.0}},
+    const GlareParameters expected{{{"a", 80.0, 2.0, 30.0}},
                                    MirrorParameters{{10.0}, {1.0, 0.0, 1.5}, 0.4, {{"m", {2.0, 1.0, 1.0}}}},
                                    VeilingEquation::age_adjusted,
                                    60.0,
@@ -47,10 +48,30 @@ TEST_F(SeeingKeys, AreReadAndHaveDefaults) {
     EXPECT_EQ(long_form.glare, expected);
 }
 
+TEST_F(SeeingKeys, VisibilityHomogeneityAndPlaces) {
+    const SeeingParameters short_form = seeing("visibility: true, homogeneity: true, places: [kerb, markings]");
+    EXPECT_EQ(short_form.visibility, VisibilityParameters{});
+    EXPECT_EQ(short_form.homogeneity, HomogeneityParameters{});
+    EXPECT_EQ(short_form.places, (PlaceParameters{true, false, true}));
+    EXPECT_EQ(seeing("visibility: false, homogeneity: false"), SeeingParameters{});
+    const SeeingParameters long_form = seeing(
+        "visibility: {size_m: 0.3, reflectance: 0.2, level: 7, age_years: 60, time_s: 2, k: 3, ahead_m: 90, step_m: 0.5, distances_m: "
+        "[40]}, homogeneity: {least_lx: 2, ahead_m: 70, patch_factor: 1.2}, places: {what: [boards], distances_m: [33]}");
+    EXPECT_EQ(long_form.visibility, (VisibilityParameters{0.3, 0.2, 7.0, 60.0, 2.0, 3.0, 90.0, 0.5, {40.0}}));
+    EXPECT_EQ(long_form.homogeneity, (HomogeneityParameters{2.0, 70.0, 1.2}));
+    EXPECT_EQ(long_form.places, (PlaceParameters{false, true, false, {33.0}}));
+    EXPECT_THAT(refused("places: [kerbs]"), HasSubstr("measure.places[0]: found 'kerbs'"));
+    EXPECT_THAT(refused("places: {distances_m: [3]}"), HasSubstr("measure.places.what: missing"));
+    EXPECT_THAT(refused("visibility: {age_years: 20}"), HasSubstr("measure.visibility.age_years: found '20'"));
+    EXPECT_THAT(refused("visibility: {sizes_m: 20}"), HasSubstr("unknown key, expected 'size_m'"));
+    EXPECT_THAT(refused("homogeneity: {patch_factor: 1}"), HasSubstr("measure.homogeneity.patch_factor"));
+}
+
 TEST_F(SeeingKeys, AreWrittenAsTheyWereRead) {
     for (const char* measure :
          {"sensors: {points: {'1.5': {at_m: 0.1, across: right-edge}, 'null': {at_m: 2, across: oncoming-centre}}}",
           "glare: {oncoming: {a: {at_m: 80.3}}, mirrors: true, equation: stiles-holladay}", "glare: {mirrors: {places: {x: [1, 2, 3]}}}",
+          "visibility: {size_m: 0.3, k: 2.61}, homogeneity: {ahead_m: 77.7}, places: [boards, markings]",
           "extent: false, probes: {p: {ahead_m: 3}}, glare: {oncoming: {a: {at_m: 1}}, limits_lx: [], distances_m: []}"}) {
         const Drive drive = read(minimal + "measure: {" + measure + "}\n");
         EXPECT_EQ(read(write_drive(drive)).seeing, drive.seeing) << measure;

@@ -138,6 +138,12 @@ class AnyDrive {
                                 coin() ? std::optional(MirrorParameters{{number(9.0, 99.0)}, {1.0, number(0.0, 1.0), 1.2}}) : std::nullopt,
                                 VeilingEquation::stiles_holladay,
                                 number(20.0, 80.0)};
+        if (coin())
+            drive.seeing.visibility = VisibilityParameters{number(0.1, 1.0), number(0.0, 1.0), number(5.0, 20.0)};
+        if (coin())
+            drive.seeing.homogeneity = HomogeneityParameters{number(0.1, 3.0), number(20.0, 90.0), number(1.1, 2.0)};
+        if (coin())
+            drive.seeing.places = PlaceParameters{coin(), coin(), true, {number(10.0, 90.0)}};
         drive.limits = several<Limit>(3, [&] {
             return Limit{text(), number(-5.0, 0.0), coin() ? std::optional(number(0.0, 1e9)) : std::nullopt};
         });

@@ -1,0 +1,153 @@
+// Small targets, evenness and light on boards over a drive on the straight, at places worked out by hand.
+#include "runner/seeing/seeing_fold.h"
+
+#include "metrics/mesopic.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/roads/road_mesh.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+
+/// One lamp of `cd` in every direction, 0.65 m up, on the bumper; the driver's eye 1.3 m before the rear axle, 0.35 m left, 1.2 m up.
+struct Straight {
+    Drive drive = read_drive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives/straight.yaml");
+    RoadNetwork network = read_opendrive(drive.road_file);
+    Route route{network, drive.start, drive.via};
+
+    explicit Straight(double cd, double sp_ratio = 1.5) {
+        drive.speed = {{0.0, 10.0}};
+        drive.duration_s = 1.0;
+        auto file = std::make_shared<LampFile>();
+        file->table = {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd};
+        MountedLamp lamp;
+        lamp.name = "only";
+        lamp.file = file;
+        lamp.position_m = {drive.bumper_m, 0.0, 0.65};
+        lamp.colour.sp_ratio = sp_ratio;
+        drive.variants.front().lamps = {lamp};
+    }
+    SeeingFold played() const {
+        SeeingFold fold(drive, route);
+        State state = start(drive);
+        for (int tick = 0; tick < tick_count(drive); ++tick, state = advance(state, drive))
+            fold.add(moment_at(state, drive, route, drive.variants.front()));
+        return fold;
+    }
+};
+
+Reading named(const Readings& readings, const std::string& name) {
+    for (const Reading& reading : readings)
+        if (reading.name == name)
+            return reading;
+    throw std::runtime_error("no reading " + name);
+}
+double value(const Readings& readings, const std::string& name) {
+    const Reading reading = named(readings, name);
+    if (!reading.value)
+        throw std::runtime_error(name + ": " + reading.why_not);
+    return *reading.value;
+}
+double cube(double x) { return x * x * x; }
+
+/// Luminance of asphalt d metres from the bumper, from the driver's eye: rho E / pi and R_L E_perp exp((reference - angle) / falloff).
+double asphalt_cdm2(double cd, double d, double left, double eye_back) {
+    const Material road = [] {
+        for (const Material& material : road_materials())
+            if (material.name == "asphalt")
+                return material;
+        throw std::logic_error("asphalt");
+    }();
+    const glm::dvec3 to_lamp{-d, -left, 0.65}, to_eye{-d - eye_back, 0.35 - left, 1.2};
+    const double square = d * d + left * left + 0.65 * 0.65;
+    const double angle = std::acos((to_lamp.x * to_eye.x + to_lamp.y * to_eye.y + to_lamp.z * to_eye.z) /
+                                   std::sqrt(square * (to_eye.x * to_eye.x + to_eye.y * to_eye.y + to_eye.z * to_eye.z)));
+    return 0.08 / pi * cd * 0.65 / std::pow(square, 1.5) +
+           static_cast<double>(road.retro_rl) * cd / square *
+               std::exp((static_cast<double>(road.retro_reference_rad) - angle) / static_cast<double>(road.retro_falloff_rad));
+}
+
+TEST(Seeing, ATargetStandsOutAsAdrianSays) {
+    Straight straight(20000.0);
+    straight.drive.seeing.visibility = VisibilityParameters{.level = 2.0, .distances_m = {50.0}};
+    const Readings readings = straight.played().readings();
+    const double eye_back = straight.drive.bumper_m - 1.3;
+    const double on_target = 20000.0 * 50.0 / std::pow(2500.0 + 0.56 * 0.56, 1.5);
+    // The line of sight through the target's middle (0.09 m up) meets the road 1.2 / 1.11 times as far from the eye.
+    const double times = 1.2 / 1.11, behind = (50.0 + eye_back) * times - eye_back, left = 0.35 * (1.0 - times);
+    const double background = asphalt_cdm2(20000.0, behind, left, eye_back);
+    EXPECT_NEAR(value(readings, "background_luminance_own_at_50m_cdm2"), background, 1e-6 * background);
+    const double sight = std::sqrt((50.0 + eye_back) * (50.0 + eye_back) + 0.35 * 0.35 + 1.11 * 1.11);
+    const double level = visibility_level(0.04 / pi * on_target, background, arc_minutes_of(0.18, sight), {25.0, 0.2, 2.6}).value.value();
+    EXPECT_NEAR(value(readings, "visibility_level_own_at_50m"), level, 1e-6 * level);
+    EXPECT_NEAR(value(readings, "mesopic_luminance_own_at_50m_cdm2"), mesopic_luminance(background, 1.5).luminance_cdm2, 1e-6 * background);
+}
+
+TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
+    Straight straight(20000.0);
+    straight.drive.seeing.visibility = VisibilityParameters{.reflectance = 0.5, .level = 20.0, .distances_m = {}};
+    const double from_m = value(straight.played().readings(), "detection_own_m");
+    straight.drive.seeing.visibility->distances_m = {from_m - 0.5, from_m + 0.5};
+    const Readings around = straight.played().readings();
+    std::vector<double> levels;
+    for (const Reading& reading : around)
+        if (reading.name.starts_with("visibility_level"))
+            levels.push_back(reading.value.value());
+    ASSERT_EQ(levels.size(), 2U);
+    EXPECT_GT(levels[0], 20.0);
+    EXPECT_LT(levels[1], 20.0);
+    straight.drive.seeing.visibility->reflectance = 1.0;
+    EXPECT_GT(value(straight.played().readings(), "detection_own_m"), from_m) << "a lighter target from farther away";
+    straight.drive.seeing.visibility->level = 1e4;
+    EXPECT_EQ(value(straight.played().readings(), "detection_own_m"), 0.0) << "nowhere";
+    straight.drive.seeing.visibility->level = 0.01;
+    EXPECT_THAT(named(straight.played().readings(), "detection_own_m").why_not, HasSubstr("beyond the 200 m"));
+}
+
+// On the road E = I h / (x^2 + y^2 + h^2)^1.5 from the lamp: along the middle d lg E / dx = -3 x / (x^2 + h^2) / ln 10.
+TEST(Seeing, EvennessOfOneLampAlone) {
+    Straight straight(20000.0);
+    straight.drive.seeing.homogeneity = HomogeneityParameters{0.01, 80.0, 1.2};
+    const Readings readings = straight.played().readings();
+    const auto lg = [](double x) { return -1.5 * std::log10(x * x + 0.65 * 0.65); };
+    EXPECT_NEAR(value(readings, "gradient_along_own_per_m"), (lg(1.0) - lg(1.5)) / 0.5, 1e-9) << "the first two rows";
+    EXPECT_EQ(value(readings, "gradient_along_own_max_per_m"), value(readings, "gradient_along_own_per_m"));
+    // Means by trapezia over rows of half a metre, the outermost ones counting half.
+    double near_lx = 0.0, far_lx = 0.0;
+    for (int k = 10; k <= 120; ++k)
+        for (int column = -7; column <= 7; ++column) {
+            const double x = 0.5 * k, y = 0.25 * column, e = 1.0 / cube(std::sqrt(x * x + y * y + 0.65 * 0.65));
+            if (k <= 30)
+                near_lx += e * (k == 10 || k == 30 ? 0.5 : 1.0) / 20.0;
+            if (k >= 80)
+                far_lx += e * (k == 80 || k == 120 ? 0.5 : 1.0) / 40.0;
+        }
+    EXPECT_NEAR(value(readings, "foreground_ratio_own"), near_lx / far_lx, 1e-6 * near_lx / far_lx);
+    EXPECT_EQ(value(readings, "patch_dark_own_m"), 0.0);
+}
+
+// 50 m ahead: the right edge 1.75 m beside the lamp, boards 2 m farther and 2 m up, one 5.5 m over the lane.
+TEST(Seeing, KerbAndBoardsByHand) {
+    Straight straight(20000.0);
+    straight.drive.seeing.places = PlaceParameters{true, true, true, {50.0}};
+    const Readings readings = straight.played().readings();
+    const auto square = [](double beside, double height) { return 2500.0 + beside * beside + height * height; };
+    EXPECT_NEAR(value(readings, "kerb_at_50m_lx"), 20000.0 * 0.65 / std::pow(square(1.75, 0.65), 1.5), 1e-9);
+    EXPECT_NEAR(value(readings, "kerb_target_at_50m_lx"), 20000.0 / square(1.75, 0.4), 1e-9);
+    EXPECT_NEAR(value(readings, "board_right_at_50m_lx"), 20000.0 * 50.0 / std::pow(square(3.75, 1.35), 1.5), 1e-9);
+    EXPECT_NEAR(value(readings, "board_left_at_50m_lx"), 20000.0 * 50.0 / std::pow(square(7.25, 1.35), 1.5), 1e-9);
+    EXPECT_NEAR(value(readings, "board_overhead_at_50m_lx"), 20000.0 * 50.0 / std::pow(square(0.0, 4.85), 1.5), 1e-9);
+    // Class RA2: at least 180 cd/(m2 lx) at 0.33 degrees; the driver looks from 0.5 to 1 degree here, where sheeting sends back less.
+    const double ra = value(readings, "board_right_at_50m_cdm2") / value(readings, "board_right_at_50m_lx");
+    EXPECT_GT(ra, 20.0);
+    EXPECT_LT(ra, 180.0);
+    EXPECT_GT(value(readings, "marking_right_at_50m_cdm2"), 0.0);
+}
+
+} // namespace
+} // namespace fernlicht
