@@ -101,7 +101,7 @@ BlockResult measure_block(const Image<double>& tested, const BandSplit& split, i
     Block target = block_at(tested, left, top), ideal = block_at(split.ideal, left, top);
     const double tested_mean = mean_of(target), ideal_mean = mean_of(ideal);
     BlockResult result;
-    const double luminance = result.luminance_cdm2 = std::max(rms_of(target), least_seen_cdm2);
+    const double luminance = result.luminance_cdm2 = std::max({rms_of(target), rms_of(ideal), least_seen_cdm2});
     const double gain = tested_mean > 0.0 && ideal_mean > 0.0 ? tested_mean / ideal_mean : 1.0;
     remove_slope(target);
     remove_slope(ideal);

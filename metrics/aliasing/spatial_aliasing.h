@@ -43,10 +43,10 @@ inline constexpr double least_seen_cdm2 = 0.005;
 ///   of what is left, a symmetric filter of 3 x 3 pixels (5 values) of the content folded back, and the rest.
 /// A pure blur reads 0 as far as 7 x 7 pixels hold it. What folds back to within 1/64 cycle per pixel of where it came from, 0.5, is taken
 /// for the scene. `folded` knows only what the reference knows: content up to k / 2 cycles per pixel. Frequencies come from the blocks'
-/// Fourier transform, sensitivity from still_contrast_sensitivity() at the block's own luminance: the r.m.s., which is the mean but for a
-/// bright spot in the dark, whose contrast would be without bound.
-/// `tested` and `split` have the same size, at least 32 x 32; pixels_per_degree > 0. Throws std::invalid_argument otherwise and for values
-/// that are not finite. Threads do not change a bit.
+/// Fourier transform, sensitivity from still_contrast_sensitivity() at the block's own luminance: the r.m.s., of the picture or of the
+/// ideal one, whichever is brighter, which is the mean but for a bright spot in the dark, whose contrast would be without bound. `tested`
+/// and `split` have the same size, at least 32 x 32; pixels_per_degree > 0. Throws std::invalid_argument otherwise and for values that are
+/// not finite. Threads do not change a bit.
 SpatialAliasing measure_spatial_aliasing(const Image<float>& tested, const BandSplit& split, double pixels_per_degree);
 
 } // namespace fernlicht

@@ -150,6 +150,16 @@ TEST(SpatialAliasing, ABrightSpotInTheDarkHasFullContrastAndNoMore) {
     EXPECT_GT(found.aliasing.contrast_percent, 20.0);
 }
 
+TEST(SpatialAliasing, WhereAPictureIsBlackByMistakeContrastIsFullAndNoMore) {
+    const auto ramp = [](double x, double) { return 0.02 + 0.01 * x; };
+    const auto cut = [&](double x, double y) { return x < 40.25 ? 0.0 : ramp(x, y); };
+    const SpatialAliasing found = measure_spatial_aliasing(drawn(96, 96, 1, cut), split_bands(drawn(96, 96, k, ramp), k), ppd);
+    EXPECT_GT(found.aliasing.contrast_percent, 1.0);
+    EXPECT_LT(found.aliasing.contrast_percent, 100.0);
+    EXPECT_LT(found.rest.contrast_percent, 100.0);
+    EXPECT_GT(found.level_picture.at(20, 48), 0.1); // of what should be there
+}
+
 TEST(SpatialAliasing, ThreadsChangeNoBit) {
     const Image<float> reference = busy_reference(64, 64), tested(64, 64, 1.0F);
     std::vector<SpatialAliasing> found;
