@@ -1,83 +1,7 @@
 #include "runner/checked_json.h"
 #include "runner/study/study_result.h"
-#include "scenarios/values/errors.h"
-
-#include <limits>
 
 namespace fernlicht {
-namespace {
-
-VerdictKind kind_of(const CheckedJson& verdict) {
-    const std::string name = verdict.text();
-    if (name == "pass")
-        return VerdictKind::pass;
-    if (name == "fail")
-        return VerdictKind::fail;
-    if (name != "not_measured")
-        verdict.refuse("pass, fail or not_measured");
-    return VerdictKind::not_measured;
-}
-
-void read_rows(const CheckedJson& report, CellResult& cell) {
-    for (const CheckedJson& row : report.at("rows").items()) {
-        if (!row.at("frame").is_null())
-            continue;
-        Reading reading{row.at("name").text(), row.at("value").number_or_null(), row.at("unit").text(), row.at("where").text(), -1, ""};
-        if (!reading.value)
-            reading.why_not = row.at("not_measured").text();
-        cell.readings.emplace(reading.name, std::move(reading));
-    }
-}
-
-void read_reaches(const CheckedJson& played, CellResult& cell) {
-    const CheckedJson extents = played.at("extents");
-    std::vector<double> distance_m;
-    for (const CheckedJson& distance : extents.at("distance_m").items())
-        distance_m.push_back(distance.number());
-    for (const CheckedJson& series : extents.at("rendered").items()) {
-        if (series.at("lane").text() != "own")
-            continue;
-        ReachOverDrive reach{
-            series.at("plane").text() == "road" ? ExtentPlane::road : ExtentPlane::target, series.at("limit_lx").number(), distance_m, {}};
-        for (const CheckedJson& value : series.at("reach_centre_m").items())
-            reach.reach_m.push_back(value.number_or_null().value_or(std::numeric_limits<double>::quiet_NaN()));
-        if (reach.reach_m.size() == distance_m.size())
-            cell.reaches.push_back(std::move(reach));
-    }
-}
-
-/// Only drives with eyes to glare have `seeing`.
-void read_glares(const CheckedJson& played, CellResult& cell) {
-    if (!played.has("seeing"))
-        return;
-    for (const CheckedJson& series : played.at("seeing").items()) {
-        GlareOverDrive glare{series.at("subject").text(), series.at("over").text(), {}, {}};
-        if (!glare.subject.starts_with("glare_"))
-            continue;
-        for (const CheckedJson& at : series.at("at_m").items())
-            glare.at_m.push_back(at.number());
-        for (const CheckedJson& column : series.at("columns").items())
-            if (column.at("name").text() == "facing_lx")
-                for (const CheckedJson& value : column.at("values").items())
-                    glare.facing_lx.push_back(value.number_or_null().value_or(std::numeric_limits<double>::quiet_NaN()));
-        if (!glare.at_m.empty() && glare.facing_lx.size() == glare.at_m.size())
-            cell.glares.push_back(std::move(glare));
-    }
-}
-
-std::string file_below(const std::string& folder, const CheckedJson& file) { return file.is_null() ? "" : folder + "/" + file.text(); }
-
-void read_accuracy(const CheckedJson& report, const CheckedJson& played, CellResult& cell) {
-    const CheckedJson accuracy = played.at("accuracy");
-    if (accuracy.is_null() || !accuracy.has("road") || !accuracy.at("road").has("relative"))
-        return;
-    cell.error_share = accuracy.at("road").at("relative").at("p95").number();
-    cell.error_floor_share = accuracy.at("road").at("relative_floor").at("p95").number();
-    for (const CheckedJson& time : report.at("accuracy_times").items())
-        cell.frame_s = time.at("frame_s").number_or_null();
-}
-
-} // namespace
 
 void read_cell_report(const std::filesystem::path& study_folder, CellResult& cell) {
     const std::string folder = "cells/" + cell.cell.name;
@@ -88,19 +12,9 @@ void read_cell_report(const std::filesystem::path& study_folder, CellResult& cel
     const std::vector<CheckedJson> drives = report.at("drives").items();
     if (drives.size() != 1)
         report.at("drives").refuse("one drive with one lamp set");
-    const CheckedJson& played = drives.front();
-    cell.drive = played.at("drive").text();
-    cell.variant = played.at("variant").text();
-    for (const CheckedJson& verdict : played.at("verdicts").items())
-        cell.verdicts.push_back(
-            {kind_of(verdict.at("verdict")), verdict.at("name").text(), verdict.at("text").text(), verdict.at("rerun").text()});
-    for (const CheckedJson& frame : played.at("frames").items())
-        cell.frames.push_back({frame.at("frame").whole(), frame.at("time_s").number(), frame.at("view").text(),
-                               file_below(folder, frame.at("png")), file_below(folder, frame.at("exr"))});
-    read_rows(report, cell);
-    read_reaches(played, cell);
-    read_glares(played, cell);
-    read_accuracy(report, played, cell);
+    const double grid_cell_m = cell.grid_cell_m; // the drive's, not the report's
+    static_cast<PlayedResult&>(cell) = read_played(report, drives.front(), folder);
+    cell.grid_cell_m = grid_cell_m;
 }
 
 } // namespace fernlicht

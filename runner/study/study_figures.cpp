@@ -1,5 +1,6 @@
 #include "runner/capture.h"
 #include "runner/lamp_against.h"
+#include "runner/lux_ratio.h"
 #include "runner/picture_file.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
@@ -145,34 +146,6 @@ std::optional<LuxMap> map_of(const StudyResult& result, std::size_t cell, const 
     return std::nullopt;
 }
 
-/// New over old on the road from above, ahead to the right; grey where both are below 0.1 lx.
-std::string map_difference_svg(const LuxMap& now, const LuxMap& before, const std::string& title) {
-    constexpr double faintest_lx = 0.1;
-    if (now.lx.width() != before.lx.width() || now.lx.height() != before.lx.height())
-        return {};
-    Image<float> ratio(now.lx.height(), now.lx.width());
-    for (int y = 0; y < now.lx.height(); ++y)
-        for (int x = 0; x < now.lx.width(); ++x) {
-            const double a = static_cast<double>(now.lx.at(x, y)), b = static_cast<double>(before.lx.at(x, y));
-            const bool lit = std::max(a, b) >= faintest_lx;
-            ratio.at(now.lx.height() - 1 - y, x) =
-                lit ? static_cast<float>(std::max(a, 1e-6) / std::max(b, 1e-6)) : std::numeric_limits<float>::quiet_NaN();
-        }
-    const plots::Axis axis = ratio_axis(ratio);
-    plots::Figure figure;
-    figure.title = title;
-    figure.subtitle =
-        fmt::format("after {:.2f} s; blue is less, orange more light; grey: below {:g} lx with both", now.time_s, faintest_lx);
-    figure.x = {"ahead of the car's origin", "m", -now.behind_m, now.ahead_m};
-    figure.y = {"to the left", "m", -now.right_m, now.left_m};
-    figure.width_px = 1140.0;
-    figure.height_px = std::clamp(130.0 + 990.0 * (now.left_m + now.right_m) / (now.ahead_m + now.behind_m), 300.0, 900.0);
-    figure.equal_units = true;
-    figure.colour_bar = plots::ColourBar{axis, true};
-    figure.rasters.push_back({plots::difference_map(ratio, axis, {225, 225, 225}), -now.behind_m, now.ahead_m, now.left_m, -now.right_m});
-    return plots::svg_of(figure);
-}
-
 void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, const std::filesystem::path& folder,
               std::vector<StudyFigure>& figures) {
     std::vector<std::optional<LuxMap>> maps;
@@ -190,7 +163,7 @@ void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, 
                 if (lamp_of(result, group[a]) != pair.tested || lamp_of(result, group[b]) != pair.against || !maps[a] || !maps[b])
                     continue;
                 const std::string title = fmt::format("{} over {}, {}", pair.tested, pair.against, place_of(result, group));
-                if (std::string svg = map_difference_svg(*maps[a], *maps[b], title); !svg.empty())
+                if (std::string svg = lux_ratio_svg(*maps[a], *maps[b], title); !svg.empty())
                     figures.push_back({fmt::format("lux-difference_{}_{}-{}", group_name(result, group), pair.tested, pair.against),
                                        title,
                                        std::move(svg),

@@ -2,67 +2,25 @@
 #pragma once
 
 #include "metrics/lamp_difference.h"
-#include "runner/report/report.h"
+#include "runner/played_report.h"
+#include "runner/significance.h"
 #include "scenarios/studies/study.h"
-
-#include <map>
 
 namespace fernlicht {
 
-/// Reach on the own lane's centre over a drive; NaN where it was not measured.
-struct ReachOverDrive {
-    ExtentPlane plane = ExtentPlane::road;
-    double limit_lx = 0.0;
-    std::vector<double> distance_m, reach_m;
-};
-
-/// Illuminance in an oncoming eye, facing the lamps, or through mirrors, over the distance to it; NaN where it was not measured.
-struct GlareOverDrive {
-    std::string subject, over; ///< "glare_opposite", "distance to the observer"
-    std::vector<double> at_m, facing_lx;
-};
-
-struct CellResult {
+struct CellResult : PlayedResult {
     StudyCell cell;
-    std::string drive, variant;              ///< names as its report has them; "" when it was not played
-    std::string title;                       ///< of the drive, for people
-    std::vector<View> maps;                  ///< the drive's views from above
-    double grid_cell_m = 0.5;                ///< of the extents' grid along the road; across it is a quarter of this
-    std::string failed;                      ///< why there is no report; "" when there is one
-    bool reused = false;                     ///< played by an earlier call
-    std::map<std::string, Reading> readings; ///< of the whole drive, by name
-    std::vector<ReachOverDrive> reaches;     ///< rendered
-    std::vector<GlareOverDrive> glares;
-    std::vector<StoredFrame> frames;                      ///< paths relative to the study's folder
-    std::vector<Verdict> verdicts;                        ///< limits of the drive, references
-    std::optional<double> error_share, error_floor_share; ///< 95 % of the road's illuminance against the reference lies within
-    std::optional<double> frame_s;                        ///< a driver's view
-    std::string command;                                  ///< that repeats it
+    std::string title;      ///< of the drive, for people
+    std::vector<View> maps; ///< the drive's views from above
+    std::string failed;     ///< why there is no report; "" when there is one
+    bool reused = false;    ///< played by an earlier call
+    std::string command;    ///< that repeats it
 };
-
-/// How sure a change is.
-enum class ChangeKind {
-    real,       ///< beyond what calculation leaves open, and beyond what 0.1 degrees of aim would do
-    within_aim, ///< beyond calculation, but 0.1 degrees of aim would do as much
-    none,       ///< not beyond what calculation leaves open
-    unknown     ///< one side was not measured, or nothing tells how exact the reading is
-};
-const char* change_name(ChangeKind kind); ///< "real", "within aim", "no difference", "not known"
 
 /// One reading of one drive under one condition: a lamp against another.
-struct Change {
+struct Change : ReadingChange {
     std::size_t tested = 0, against = 0; ///< cells
-    std::string reading, unit;
-    std::optional<double> new_value, old_value;
-    std::optional<double> uncertainty; ///< of the difference, same unit; docs/studies.md
-    std::optional<double> by_aim;      ///< what 0.1 degrees of aim moves the reading by, the larger of both lamps
-    ChangeKind kind = ChangeKind::unknown;
-    std::string why_not; ///< for unknown
     bool decides = false;
-
-    double delta() const { return new_value.value_or(0.0) - old_value.value_or(0.0); }
-    /// |delta| over the larger of both sizes, 0 to 2: the measure by which changes are ranked. 1 where the old value was 0.
-    double size() const;
 };
 
 struct LampComparison {

@@ -1,6 +1,7 @@
 // The forms of a study's result as text, and its pictures. Pure functions of the result, except where a folder is given.
 #pragma once
 
+#include "runner/reading_words.h"
 #include "runner/study/study_result.h"
 
 #include <filesystem>
@@ -25,9 +26,6 @@ std::vector<StudyFigure> study_figures(const StudyResult& result, const std::fil
 
 /// One self-contained page; pictures of the driver's view are read below `folder`.
 std::string study_html(const StudyResult& result, const std::filesystem::path& folder);
-
-/// "reach_5lx_target_own_m" as people say it: "reach at 5 lx on a target, own lane".
-std::string reading_in_words(const std::string& name);
 
 /// "+3.2 m" with as many digits as its uncertainty deserves.
 std::string delta_text(const Change& change);

@@ -86,6 +86,8 @@ TEST(StudyCompare, WhatNobodyVouchesForIsNotKnown) {
     StudyResult result = two_cells(40.0, 50.0);
     put(result.cells[0], "light_at_eye_lx", 0.2, "lx");
     put(result.cells[1], "light_at_eye_lx", 0.4, "lx");
+    put(result.cells[0], "signals", 3.0, "1");
+    put(result.cells[1], "signals", 3.0, "1");
     put(result.cells[0], "dazzle_lx", 0.2, "lx");
     put(result.cells[1], "dazzle_lx", 0.4, "lx");
     put(result.cells[0], "dazzle_standard_error_lx", 0.03, "lx");
@@ -99,6 +101,7 @@ TEST(StudyCompare, WhatNobodyVouchesForIsNotKnown) {
     compare_cells(result);
     EXPECT_EQ(change_in(result, "light_at_eye_lx").kind, ChangeKind::unknown);
     EXPECT_THAT(change_in(result, "light_at_eye_lx").why_not, HasSubstr("nothing tells"));
+    EXPECT_EQ(change_in(result, "signals").kind, ChangeKind::none) << "however exact, there is nothing to explain";
     EXPECT_EQ(change_in(result, "dazzle_lx").kind, ChangeKind::real);
     EXPECT_DOUBLE_EQ(*change_in(result, "dazzle_lx").uncertainty, 0.05);
     EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::real);

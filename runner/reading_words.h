@@ -1,0 +1,11 @@
+// Names of readings as people say them.
+#pragma once
+
+#include <string>
+
+namespace fernlicht {
+
+/// "reach_5lx_target_own_m": "reach at 5 lx on a target, own lane". Names of other forms stay as they are.
+std::string reading_in_words(const std::string& name);
+
+} // namespace fernlicht

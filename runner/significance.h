@@ -1,0 +1,46 @@
+// Is a change of a reading real? The one rule that studies and comparisons of runs judge by; docs/studies.md explains it.
+#pragma once
+
+#include "metrics/readings.h"
+
+#include <cmath>
+#include <map>
+
+namespace fernlicht {
+
+/// How sure a change is.
+enum class ChangeKind {
+    real,       ///< beyond what calculation leaves open, and beyond what 0.1 degrees of aim would do
+    within_aim, ///< beyond calculation, but 0.1 degrees of aim would do as much
+    none,       ///< not beyond what calculation leaves open, or the very same figure
+    unknown     ///< one side was not measured, or nothing tells how exact the reading is
+};
+const char* change_name(ChangeKind kind); ///< "real", "within aim", "no difference", "not known"
+
+/// One reading, new against old.
+struct ReadingChange {
+    std::string reading, unit;
+    std::optional<double> new_value, old_value;
+    std::optional<double> uncertainty; ///< of the difference, same unit; docs/studies.md
+    std::optional<double> by_aim;      ///< what 0.1 degrees of aim moves the reading by, the larger of both sides
+    ChangeKind kind = ChangeKind::unknown;
+    std::string why_not = {}; ///< for unknown
+
+    double delta() const { return new_value.value_or(0.0) - old_value.value_or(0.0); }
+    /// |delta| over the larger of both sizes, 0 to 2: the measure by which changes are ranked. 1 where the old value was 0.
+    double size() const;
+};
+
+/// What one side of a comparison read over a whole drive, rows that say how exact others are among it.
+struct PlayedReadings {
+    std::map<std::string, Reading> readings; ///< by name
+    double grid_cell_m = 0.5;                ///< of the extents' grid along the road; across it is a quarter of this
+};
+
+/// Whether a row tells how exact another reading is: such rows are not compared.
+bool says_how_exact(const std::string& name);
+
+/// Both sides must have a reading of this name.
+ReadingChange change_of_reading(const std::string& name, const PlayedReadings& now, const PlayedReadings& before);
+
+} // namespace fernlicht
