@@ -4,8 +4,9 @@
 // Sources, and how well they are known here:
 // [abstract] CIE 146:2002, CIE equations for disability glare: the domains of angle, from its published abstract.
 // [read]     J.J. Vos, On the cause of disability glare, 2003: the age-adjusted equation and both domains.
-// [memory]   CIE general equation's coefficients, the threshold increment above 5 cd/m2, Schmidt-Clausen and Bindels' coefficients: the
-//            standard forms, not read in their primary texts.
+// [others]   CIE general equation's coefficients: several independent programs print the same ones.
+// [memory]   the threshold increment above 5 cd/m2, Schmidt-Clausen and Bindels' coefficients: the standard forms, not read in their
+//            primary texts.
 // Nothing is extrapolated: outside a domain the figure is not measured, and the reason names the angle or luminance.
 #pragma once
 
@@ -25,7 +26,7 @@ struct GlareSource {
 
 // stiles_holladay: Lv = 10 E / theta^2, without age; 1 < theta < 30
 // age_adjusted:    Lv = 10 (1 + (A/70)^4) E / theta^2; 1 < theta < 30 [read]
-// cie_general:     Lv = E (10/theta^3 + (5/theta^2 + 0.1 p/theta)(1 + (A/62.5)^4) + 0.0025 p); 0.1 < theta < 100 [memory]
+// cie_general:     Lv = E (10/theta^3 + (5/theta^2 + 0.1 p/theta)(1 + (A/62.5)^4) + 0.0025 p); 0.1 < theta < 100 [others]
 /// "cie-general", as drives name it.
 std::string_view name(VeilingEquation equation);
 

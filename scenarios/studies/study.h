@@ -42,6 +42,7 @@ struct Study {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> techniques{"photometric"};
     StudyConditions conditions;
+    SeeingParameters measure; ///< what every drive measures of seeing and glare where it does not ask for it itself
     std::vector<StudyComparison> comparisons;
     std::vector<std::string> readings; ///< that decide, by name
     std::vector<StudyLimit> limits;

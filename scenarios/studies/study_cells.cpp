@@ -51,6 +51,19 @@ void put_high_beams(const Study& study, const StudyLamp& lamp, Drive& drive, Dri
     drive = read_drive(drive.file, edits);
 }
 
+/// What the study measures everywhere; a drive that asks for the same kind keeps its own.
+void add_measures(const SeeingParameters& everywhere, SeeingParameters& own) {
+    const auto add = [](const auto& from, auto& to) {
+        if (!to)
+            to = from;
+    };
+    add(everywhere.sensors, own.sensors);
+    add(everywhere.glare, own.glare);
+    add(everywhere.visibility, own.visibility);
+    add(everywhere.homogeneity, own.homogeneity);
+    add(everywhere.places, own.places);
+}
+
 /// The aim of the study is that of the cut-off; the file has its own dip already. Equal ones turn nothing, to the last bit.
 double pitch_rad(const StudyLamp& lamp, double aim_percent) {
     return std::atan(aim_percent / 100.0) - std::atan(lamp.file_aim_percent / 100.0);
@@ -81,6 +94,7 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
     DriveEdits edits = edits_for(study, lamp, cell);
     Drive drive = read_drive(study.drives[cell.drive], edits);
     put_high_beams(study, lamp, drive, edits);
+    add_measures(study.measure, drive.seeing);
     drive.daylight = study.conditions.times_of_day[cell.time_of_day];
     drive.variants.resize(1);
     Variant& variant = drive.variants.front();

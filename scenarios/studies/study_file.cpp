@@ -1,5 +1,6 @@
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/drives/lamp_keys.h"
+#include "scenarios/drives/seeing_keys.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 
@@ -164,6 +165,8 @@ StudyLimit read_limit(const YamlEntry& entry, const std::vector<StudyLamp>& lamp
 }
 
 void read_measuring(const YamlMap& keys, Study& study) {
+    if (const auto measure = keys.find("measure"))
+        study.measure = read_seeing(measure->map({"sensors", "glare", "visibility", "homogeneity", "places"}));
     study.readings = usual_readings;
     if (const auto readings = keys.find("readings")) {
         study.readings.clear();
@@ -202,8 +205,8 @@ Study read_study(const std::filesystem::path& path) {
     study.text = to_utf8(read_file(path, study.opened, most_bytes));
     const YamlValue document = parse_yaml(study.text, path);
     const YamlEntry whole(document, path, "");
-    const YamlMap keys(whole, {"fernlicht_study", "name", "title", "lamps", "drives", "techniques", "conditions", "compare", "readings",
-                               "limits", "pictured_moments", "resolution_px", "lamp_noise_percent"});
+    const YamlMap keys(whole, {"fernlicht_study", "name", "title", "lamps", "drives", "techniques", "conditions", "measure", "compare",
+                               "readings", "limits", "pictured_moments", "resolution_px", "lamp_noise_percent"});
     if (keys.require("fernlicht_study").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht_study").refuse(fmt::format("{}, the version of the study file's schema", schema_version));
     const auto name = keys.find("name"), title = keys.find("title");
