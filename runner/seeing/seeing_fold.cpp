@@ -9,6 +9,15 @@
 namespace fernlicht {
 namespace {
 
+/// What is asked for, one after the other, in the order of reports.
+template <class Do, class... Folds> void each_asked(const Do& act, Folds&... folds) {
+    const auto one = [&](auto& fold) {
+        if (fold)
+            act(*fold);
+    };
+    (one(folds), ...);
+}
+
 void check_place(const Drive& drive, const Route& route, const std::string& key, double at_m) {
     if (at_m > route.length_m())
         throw InputError({drive.file, 0, 0, key}, fmt::format("found {} m", at_m),
@@ -40,44 +49,20 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
 }
 
 void SeeingFold::add(const Moment& moment) {
-    const auto each = [&](auto& fold) {
-        if (fold)
-            fold->add(moment);
-    };
-    each(sensors_);
-    each(oncoming_);
-    each(mirrors_);
-    each(visibility_);
-    each(homogeneity_);
-    each(places_);
+    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, visibility_, homogeneity_, places_);
 }
 
 Readings SeeingFold::readings() const {
     Readings all;
-    const auto each = [&](const auto& fold) {
-        if (fold)
-            std::ranges::copy(fold->readings(), std::back_inserter(all));
-    };
-    each(sensors_);
-    each(oncoming_);
-    each(mirrors_);
-    each(visibility_);
-    each(homogeneity_);
-    each(places_);
+    each_asked([&](const auto& fold) { std::ranges::copy(fold.readings(), std::back_inserter(all)); }, sensors_, oncoming_, mirrors_,
+               visibility_, homogeneity_, places_);
     return all;
 }
 
 std::vector<SeeingSeries> SeeingFold::series() const {
-    std::vector<SeeingSeries> all;
-    const auto each = [&](const auto& fold) {
-        if (fold)
-            std::ranges::copy(fold->series(), std::back_inserter(all));
-    };
-    each(sensors_);
-    each(oncoming_);
-    each(mirrors_);
-    each(visibility_);
-    each(homogeneity_);
+    std::vector<SeeingSeries> all; // places are told at distances ahead, not over the drive
+    each_asked([&](const auto& fold) { std::ranges::copy(fold.series(), std::back_inserter(all)); }, sensors_, oncoming_, mirrors_,
+               visibility_, homogeneity_);
     return all;
 }
 

@@ -1,14 +1,12 @@
 // Sensors, oncoming eyes and mirrors over a drive on a straight and level road, where every place is known by hand.
-#include "runner/seeing/seeing_fold.h"
+#include "tests/runner/seeing/one_lamp_straight.h"
 
 #include "metrics/eye_light.h"
 #include "runner/limits.h"
 #include "runner/summary.h"
-#include "scenarios/drives/advance.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>
-#include <filesystem>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -16,47 +14,10 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The straight with one lamp of 1000 cd in every direction, 0.65 m up, on the car's bumper: rear axle 20 m along the road at first, 10
-/// m/s.
-struct Straight {
-    Drive drive = read_drive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives/straight.yaml");
-    RoadNetwork network = read_opendrive(drive.road_file);
-    Route route{network, drive.start, drive.via};
-
-    Straight() {
-        drive.speed = {{0.0, 10.0}};
-        drive.step_s = 0.1;
-        drive.duration_s = 12.0;
-        auto file = std::make_shared<LampFile>();
-        file->table = {{-180.0, 180.0}, {-90.0, 90.0}, {1000.0, 1000.0, 1000.0, 1000.0}, {}, BetweenSamples::linear_cd};
-        MountedLamp lamp;
-        lamp.name = "only";
-        lamp.file = file;
-        lamp.position_m = {drive.bumper_m, 0.0, 0.65};
-        drive.variants.front().lamps = {lamp};
-        drive.variants.front().changes.clear();
-    }
-    SeeingFold played() const {
-        SeeingFold fold(drive, route);
-        State state = start(drive);
-        for (int tick = 0; tick < tick_count(drive); ++tick, state = advance(state, drive))
-            fold.add(moment_at(state, drive, route, drive.variants.front()));
-        return fold;
-    }
+/// 1000 cd, for 12 s.
+struct Straight : OneLampStraight {
+    Straight() : OneLampStraight(1000.0, 12.0) {}
 };
-
-Reading named(const Readings& readings, const std::string& name) {
-    for (const Reading& reading : readings)
-        if (reading.name == name)
-            return reading;
-    throw std::runtime_error("no reading " + name);
-}
-double value(const Readings& readings, const std::string& name) {
-    const Reading reading = named(readings, name);
-    if (!reading.value)
-        throw std::runtime_error(name + ": " + reading.why_not);
-    return *reading.value;
-}
 
 TEST(Seeing, NothingIsMeasuredUnlessAsked) {
     const Straight straight;

@@ -1,12 +1,10 @@
 // Small targets, evenness and light on boards over a drive on the straight, at places worked out by hand.
-#include "runner/seeing/seeing_fold.h"
+#include "tests/runner/seeing/one_lamp_straight.h"
 
 #include "metrics/mesopic.h"
-#include "scenarios/drives/advance.h"
 #include "scenarios/roads/road_mesh.h"
 
 #include <cmath>
-#include <filesystem>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -14,45 +12,10 @@ namespace {
 
 using testing::HasSubstr;
 
-/// One lamp of `cd` in every direction, 0.65 m up, on the bumper; the driver's eye 1.3 m before the rear axle, 0.35 m left, 1.2 m up.
-struct Straight {
-    Drive drive = read_drive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives/straight.yaml");
-    RoadNetwork network = read_opendrive(drive.road_file);
-    Route route{network, drive.start, drive.via};
-
-    explicit Straight(double cd, double sp_ratio = 1.5) {
-        drive.speed = {{0.0, 10.0}};
-        drive.duration_s = 1.0;
-        auto file = std::make_shared<LampFile>();
-        file->table = {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd};
-        MountedLamp lamp;
-        lamp.name = "only";
-        lamp.file = file;
-        lamp.position_m = {drive.bumper_m, 0.0, 0.65};
-        lamp.colour.sp_ratio = sp_ratio;
-        drive.variants.front().lamps = {lamp};
-    }
-    SeeingFold played() const {
-        SeeingFold fold(drive, route);
-        State state = start(drive);
-        for (int tick = 0; tick < tick_count(drive); ++tick, state = advance(state, drive))
-            fold.add(moment_at(state, drive, route, drive.variants.front()));
-        return fold;
-    }
+/// For 1 s.
+struct Straight : OneLampStraight {
+    explicit Straight(double cd, double sp_ratio = 1.5) : OneLampStraight(cd, 1.0, sp_ratio) {}
 };
-
-Reading named(const Readings& readings, const std::string& name) {
-    for (const Reading& reading : readings)
-        if (reading.name == name)
-            return reading;
-    throw std::runtime_error("no reading " + name);
-}
-double value(const Readings& readings, const std::string& name) {
-    const Reading reading = named(readings, name);
-    if (!reading.value)
-        throw std::runtime_error(name + ": " + reading.why_not);
-    return *reading.value;
-}
 double cube(double x) { return x * x * x; }
 
 /// Luminance of asphalt d metres from the bumper, from the driver's eye: rho E / pi and R_L E_perp exp((reference - angle) / falloff).
