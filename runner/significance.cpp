@@ -1,5 +1,6 @@
 #include "runner/significance.h"
 
+#include "runner/moved_by_light.h"
 #include "runner/summary.h"
 
 #include <algorithm>
@@ -62,6 +63,15 @@ std::optional<double> by_aim(const PlayedReadings& a, const PlayedReadings& b, c
     return std::max(std::abs(first.value_or(0.0)), std::abs(second.value_or(0.0)));
 }
 
+std::optional<double> by_noise(const PlayedReadings& a, const PlayedReadings& b, const std::string& name, double lamp_noise) {
+    if (lamp_noise == 0.0)
+        return 0.0;
+    const auto now = moved_by_light(a, a.readings.at(name)), before = moved_by_light(b, b.readings.at(name));
+    if (!now && !before)
+        return std::nullopt;
+    return noise_deviations * lamp_noise * std::max(now.value_or(0.0), before.value_or(0.0));
+}
+
 void judge(ReadingChange& change, const std::optional<double>& tested, const std::optional<double>& against) {
     if (!change.new_value || !change.old_value)
         return;
@@ -74,10 +84,14 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
         return;
     }
     change.uncertainty = std::hypot(*tested, *against);
-    const double size = std::abs(change.delta());
-    change.kind = size <= *change.uncertainty                                                ? ChangeKind::none
-                  : change.by_aim && size <= std::hypot(*change.by_aim, *change.uncertainty) ? ChangeKind::within_aim
-                                                                                             : ChangeKind::real;
+    const double size = std::abs(change.delta()), unsure = change.unsure();
+    if (size > unsure && !change.by_noise) {
+        change.why_not = "nothing tells how noise of the lamp tables moves this reading";
+        return;
+    }
+    change.kind = size <= unsure                                                ? ChangeKind::none
+                  : change.by_aim && size <= std::hypot(*change.by_aim, unsure) ? ChangeKind::within_aim
+                                                                                : ChangeKind::real;
 }
 
 } // namespace
@@ -99,7 +113,7 @@ bool says_how_exact(const std::string& name) {
     return name.find("_twin_") != std::string::npos;
 }
 
-ReadingChange change_of_reading(const std::string& name, const PlayedReadings& now, const PlayedReadings& before) {
+ReadingChange change_of_reading(const std::string& name, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise) {
     const Reading &tested = now.readings.at(name), &against = before.readings.at(name);
     ReadingChange change;
     change.reading = name;
@@ -108,6 +122,7 @@ ReadingChange change_of_reading(const std::string& name, const PlayedReadings& n
     change.old_value = against.value;
     change.why_not = tested.value ? against.why_not : tested.why_not;
     change.by_aim = by_aim(now, before, name);
+    change.by_noise = by_noise(now, before, name, lamp_noise);
     judge(change, uncertainty_of(now, tested), uncertainty_of(before, against));
     return change;
 }

@@ -10,9 +10,9 @@ namespace fernlicht {
 
 /// How sure a change is.
 enum class ChangeKind {
-    real,       ///< beyond what calculation leaves open, and beyond what 0.1 degrees of aim would do
-    within_aim, ///< beyond calculation, but 0.1 degrees of aim would do as much
-    none,       ///< not beyond what calculation leaves open, or the very same figure
+    real,       ///< beyond what calculation and noise leave open, and beyond what 0.1 degrees of aim would do
+    within_aim, ///< beyond calculation and noise, but 0.1 degrees of aim would do as much
+    none,       ///< not beyond what calculation and noise leave open, or the very same figure
     unknown     ///< one side was not measured, or nothing tells how exact the reading is
 };
 const char* change_name(ChangeKind kind); ///< "real", "within aim", "no difference", "not known"
@@ -23,9 +23,11 @@ struct ReadingChange {
     std::optional<double> new_value, old_value;
     std::optional<double> uncertainty; ///< of the difference, same unit; docs/studies.md
     std::optional<double> by_aim;      ///< what 0.1 degrees of aim moves the reading by, the larger of both sides
+    std::optional<double> by_noise;    ///< what three standard deviations of the lamps' noise move it by; nullopt when nothing tells
     ChangeKind kind = ChangeKind::unknown;
     std::string why_not = {}; ///< for unknown
 
+    double unsure() const { return std::hypot(uncertainty.value_or(0.0), by_noise.value_or(0.0)); } ///< calculation and noise
     double delta() const { return new_value.value_or(0.0) - old_value.value_or(0.0); }
     /// |delta| over the larger of both sizes, 0 to 2: the measure by which changes are ranked. 1 where the old value was 0.
     double size() const;
@@ -40,7 +42,8 @@ struct PlayedReadings {
 /// Whether a row tells how exact another reading is: such rows are not compared.
 bool says_how_exact(const std::string& name);
 
-/// Both sides must have a reading of this name.
-ReadingChange change_of_reading(const std::string& name, const PlayedReadings& now, const PlayedReadings& before);
+/// Both sides must have a reading of this name. `lamp_noise` is the standard deviation of the difference of two intensities of the lamps'
+/// tables that is no difference of the lamps, relative; 0 where both sides' tables are taken as they are.
+ReadingChange change_of_reading(const std::string& name, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise = 0.0);
 
 } // namespace fernlicht

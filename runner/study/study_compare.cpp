@@ -9,9 +9,20 @@
 namespace fernlicht {
 namespace {
 
+/// Of one intensity's difference between two lamps, relative: the larger of both sides.
+double noise_between(const StudyResult& result, const std::string& tested, const std::string& against) {
+    double noise = 0.0;
+    for (const LampComparison& lamps : result.lamps)
+        if (lamps.tested == tested && lamps.against == against)
+            noise = std::max(noise, lamps.difference.noise_relative);
+    return noise;
+}
+
 Change change_of(const StudyResult& result, std::size_t tested, std::size_t against, const std::string& name) {
     Change change;
-    static_cast<ReadingChange&>(change) = change_of_reading(name, result.cells[tested], result.cells[against]);
+    const CellResult &now = result.cells[tested], &before = result.cells[against];
+    const double noise = noise_between(result, result.study.lamps[now.cell.lamp].name, result.study.lamps[before.cell.lamp].name);
+    static_cast<ReadingChange&>(change) = change_of_reading(name, now, before, noise);
     change.tested = tested;
     change.against = against;
     change.decides = std::ranges::find(result.study.readings, name) != result.study.readings.end();

@@ -1,6 +1,7 @@
 #include "runner/lamp_against.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
+#include "runner/study/lamp_verdict.h"
 #include "runner/study/study_writers.h"
 
 #include <fmt/format.h>
@@ -57,6 +58,7 @@ Json change_json(const StudyResult& result, std::size_t index) {
              {"size", known ? Json(change.size()) : Json(nullptr)},
              {"uncertainty", or_null(change.uncertainty)},
              {"by_tenth_degree", or_null(change.by_aim)},
+             {"by_noise", or_null(change.by_noise)},
              {"kind", change_name(change.kind)},
              {"decides", change.decides}};
     if (change.kind == ChangeKind::unknown)
@@ -70,6 +72,7 @@ Json lamps_json(const StudyResult& result) {
         out.push_back({{"new", lamps.tested},
                        {"against", lamps.against},
                        {"side", lamps.side},
+                       {"says", lamp_verdict(lamps)},
                        {"file", lamps.file.string()},
                        {"other_file", lamps.other_file.string()},
                        {"difference", difference_json(lamps.difference)}});

@@ -3,6 +3,7 @@
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/page_parts.h"
+#include "runner/study/lamp_verdict.h"
 #include "runner/study/study_writers.h"
 
 #include <algorithm>
@@ -53,6 +54,9 @@ data change_part(const StudyResult& result, std::size_t index) {
     part.set("uncertainty_key", sort_key(change.uncertainty));
     part.set("aim", change.by_aim ? figure(*change.by_aim, 2) : "");
     part.set("aim_key", sort_key(change.by_aim));
+    part.set("noise", change.by_noise ? figure(*change.by_noise, 2) : "");
+    part.set("noise_key", sort_key(change.by_noise));
+    part.set("has_noise", change.by_noise.value_or(0.0) > 0.0);
     part.set("has_aim", change.by_aim.has_value());
     part.set("has_percent", known && old_size > 0.0);
     part.set("kind", change_name(change.kind));
@@ -109,8 +113,9 @@ data verdict_part(const StudyResult& result) {
     part.set("failures", failures);
     part.set("incomplete", !result.interrupted.empty());
     part.set("interrupted", clean_text(result.interrupted));
-    data lamps{List::list};
+    data lamps{List::list}, words{List::list};
     for (const LampComparison& pair : result.lamps) {
+        words.push_back(clean_text(lamp_verdict(pair)));
         data row, sentences{List::list};
         row.set("names", clean_text(fmt::format("{} against {} ({})", pair.tested, pair.against, pair.side)));
         const std::vector<std::string> all = sentences_of(pair.difference);
@@ -120,6 +125,7 @@ data verdict_part(const StudyResult& result) {
         row.set("more", all.size() > 5 ? fmt::format("and {} more zones, all in study.json", all.size() - 5) : "");
         lamps.push_back(row);
     }
+    part.set("words", words);
     part.set("lamps", lamps);
     part.set("has_lamps", !result.lamps.empty());
     return part;

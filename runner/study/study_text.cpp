@@ -1,6 +1,7 @@
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/report_writers.h"
+#include "runner/study/lamp_verdict.h"
 #include "runner/study/study_writers.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ std::vector<std::string> table_row(const StudyResult& result, const Change& chan
             change.old_value ? fmt::format("{:.2f}", *change.old_value) : "--",
             change.new_value ? fmt::format("{:.2f}", *change.new_value) : "--",
             change.new_value && change.old_value ? fmt::format("{:+.2f}", change.delta()) : "--",
-            change.uncertainty ? fmt::format("{:.2f}", *change.uncertainty) : "--",
+            change.uncertainty ? fmt::format("{:.2f}", change.unsure()) : "--",
             escape(change.unit),
             change_name(change.kind)};
 }
@@ -105,13 +106,10 @@ std::string study_text(const StudyResult& result) {
     add("", result.verdicts);
     for (const CellResult& cell : result.cells)
         add(cell.cell.name + ": ", cell.verdicts);
-    for (const LampComparison& lamps : result.lamps) {
-        const std::vector<std::string> sentences = sentences_of(lamps.difference);
-        text += fmt::format("{} against {} ({}): {}{}\n", lamps.tested, lamps.against, lamps.side, sentences.front(),
-                            sentences.size() > 1 ? fmt::format("; and {} more", sentences.size() - 1) : "");
-    }
+    for (const LampComparison& lamps : result.lamps)
+        text += clean_text(lamp_verdict(lamps)) + "\n";
     if (result.largest.empty())
-        text += "no deciding reading changed beyond what calculation and 0.1 degrees of aim leave open\n";
+        text += "no deciding reading changed beyond what calculation, the tables' noise and 0.1 degrees of aim leave open\n";
     for (const std::size_t i : result.largest) {
         const Change& change = result.changes[i];
         text += fmt::format("{}: {} -> {}, {} +-{:.2g}; {}\n", reading_in_words(change.reading), value_text(change.old_value, change.unit),
@@ -122,9 +120,9 @@ std::string study_text(const StudyResult& result) {
 }
 
 std::string study_csv(const StudyResult& result) {
-    std::string csv =
-        "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,kind,decides,"
-        "new_cell,old_cell,why_not\r\n";
+    std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
+                      "noise,kind,decides,"
+                      "new_cell,old_cell,why_not\r\n";
     const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); };
     for (std::size_t i = 0; i < result.changes.size(); ++i) {
         const Change& c = result.changes[i];
@@ -143,6 +141,7 @@ std::string study_csv(const StudyResult& result) {
                                               known ? fmt::format("{}", c.delta()) : "",
                                               number(c.uncertainty),
                                               number(c.by_aim),
+                                              number(c.by_noise),
                                               change_name(c.kind),
                                               c.decides ? "yes" : "no",
                                               csv_text(now.cell.name),
@@ -159,9 +158,8 @@ std::string study_markdown(const StudyResult& result) {
     for (const Change& change : result.changes)
         if (change.decides)
             text += "| " + joined(table_row(result, change, markdown_text), " | ") + " |\n";
-    text += "\nMedians over the drive unless said otherwise. ± is what calculation leaves open of the change; *within aim* means that 0.1° "
-            "of aim would do as "
-            "much.\n";
+    text += "\nMedians over the drive unless said otherwise. ± is what calculation and the noise of the lamps' tables leave open of the "
+            "change; *within aim* means that 0.1° of aim would do as much.\n";
     return text;
 }
 

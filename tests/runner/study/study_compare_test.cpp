@@ -109,6 +109,41 @@ TEST(StudyCompare, WhatNobodyVouchesForIsNotKnown) {
     EXPECT_EQ(change_in(result, "reach_10lx_road_own_m").why_not, "never lit");
 }
 
+/// Noise of 1 % in the difference of two intensities, three deviations of it: 3 % more or less light.
+TEST(StudyCompare, WhatNoiseOfTheTablesWouldDoIsNoDifference) {
+    StudyResult result = two_cells(40.0, 40.0);
+    result.lamps.resize(1);
+    result.lamps[0].tested = "new";
+    result.lamps[0].against = "old";
+    result.lamps[0].difference.noise_relative = 0.01;
+    for (CellResult& cell : result.cells) {
+        const bool tested = cell.cell.lamp == 1;
+        put(cell, "reach_5lx_target_own_per_tenth_flux_m", 2.0, "m"); // 20 m for 100 %: 0.6 m
+        put(cell, "area_1lx_road_all_m2", 100.0 + (tested ? 1.0 : 0.0), "m2");
+        put(cell, "area_1lx_road_all_grid_error_m2", 0.0, "m2");
+        put(cell, "area_3lx_road_all_m2", 60.0 + (tested ? 1.6 : 0.0), "m2");
+        put(cell, "area_3lx_road_all_grid_error_m2", 0.0, "m2");
+        put(cell, "area_10lx_road_all_m2", 20.0, "m2");
+        put(cell, "area_10lx_road_all_grid_error_m2", 0.0, "m2");
+        put(cell, "glare_a_facing_max_lx", tested ? 2.05 : 2.0, "lx");
+        put(cell, "glare_a_de_boer_min", tested ? 5.03 : 5.0, "1"); // 3 % move W by 2 lg 1.03 = 0.0257, with 1.03 - 1 for ln: 0.0261
+        put(cell, "slippery_standard_error_m", 0.0, "m");
+        put(cell, "slippery_m", tested ? 2.0 : 1.0, "m");
+    }
+    compare_cells(result);
+    EXPECT_NEAR(change_in(result, "reach_5lx_target_own_m").by_noise.value(), 0.6, 1e-12);
+    EXPECT_NEAR(change_in(result, "area_1lx_road_all_m2").by_noise.value(), 0.03 * 40.0 / std::log(3.0), 1e-12);
+    EXPECT_EQ(change_in(result, "area_1lx_road_all_m2").kind, ChangeKind::none); // 1.0 < 1.09
+    EXPECT_NEAR(change_in(result, "area_3lx_road_all_m2").by_noise.value(), 0.03 * 40.0 / std::log(3.0), 1e-12)
+        << "to 1 lx the old lamp has 40 m2 and the new 39.4, to 10 lx 33.2 and 34.6 of a natural logarithm";
+    EXPECT_EQ(change_in(result, "area_3lx_road_all_m2").kind, ChangeKind::real);  // 1.6 > 1.09
+    EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::none); // 0.05 < 3 % of 2.05
+    EXPECT_NEAR(change_in(result, "glare_a_de_boer_min").by_noise.value(), 0.02606, 1e-5);
+    EXPECT_EQ(change_in(result, "glare_a_de_boer_min").kind, ChangeKind::real);
+    EXPECT_EQ(change_in(result, "slippery_m").kind, ChangeKind::unknown);
+    EXPECT_THAT(change_in(result, "slippery_m").why_not, HasSubstr("noise of the lamp tables"));
+}
+
 TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
     StudyResult result = two_cells(40.0, 50.0);
     result.study.limits.resize(3);

@@ -1,0 +1,114 @@
+// What a study says of lamps whose difference is known, through the program: named, measured, and nothing else claimed.
+#include "tests/metrics/changed_lamps.h"
+#include "tests/runner/program.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const Zone zone{-8.0, -3.0, -4.0, -1.5};
+
+/// The lamps of studies/known-differences.yaml, made from the library's halogen low beam.
+LampFile known_lamp(const std::string& name) {
+    LampFile lamp = read_lamp(library_file("lamps/halogen-low.ies"));
+    const CandelaTable table = lamp.table;
+    lamp.table = name == "same"     ? with_noise(table, 0.01, 11)
+                 : name == "dimmer" ? with_noise(dimmed(table, zone, 0.95), 0.01, 12)
+                 : name == "raised" ? with_noise(raised_cut_off(table, 0.2), 0.01, 13)
+                                    : with_noise(aimed(table, 0.0, 0.3), 0.01, 14);
+    for (double& cd : lamp.table.cd)
+        cd = std::round(10.0 * cd) / 10.0; // as the library's lamps
+    for (std::vector<double>* axis : {&lamp.table.h_deg, &lamp.table.v_deg})
+        for (double& deg : *axis)
+            deg = std::round(1000.0 * deg) / 1000.0;
+    for (auto& [key, text] : lamp.labels) {
+        if (key == "LUMCAT")
+            text += ", " + name;
+        if (key == "OTHER" && text.starts_with("UN R112"))
+            text = "made from the library's lamp with a known difference and noise of +-1 %; meets no table";
+    }
+    return lamp;
+}
+
+TEST(KnownDifferences, ShippedLampsAreWhatTheyAreSaidToBeByteForByte) {
+    for (const char* name : {"same", "dimmer", "raised", "high"}) {
+        const auto path = std::filesystem::path(testing::TempDir()) / (std::string("known-") + name + ".ies");
+        write_lamp(known_lamp(name), path);
+        EXPECT_TRUE(content_of(path) == content_of(library_file(std::string("studies/known-differences/") + name + ".ies")))
+            << path << " was written";
+    }
+}
+
+class StudyOfLamps : public testing::Test {
+  protected:
+    TemporaryFolder folder_;
+    json study_;
+    std::string page_, output_;
+
+    void SetUp() override {
+        const Outcome run = run_program("study " + library_file("studies/known-differences.yaml") +
+                                        " --frames 0:1 --quiet --no-accuracy --out " + (folder_ / "out"));
+        ASSERT_EQ(run.exit_code, 0) << run.output;
+        output_ = run.output;
+        study_ = json::parse(content_of(folder_ / "out/study.json"));
+        page_ = content_of(folder_ / "out/report.html");
+    }
+    /// What the study says of a lamp, which stands in report and terminal too.
+    const json& lamp(const std::string& name) const {
+        for (const json& lamps : study_.at("lamps"))
+            if (lamps.at("new") == name) {
+                EXPECT_THAT(page_, HasSubstr("<li>" + lamps.at("says").get<std::string>() + "</li>"));
+                EXPECT_THAT(output_, HasSubstr(lamps.at("says").get<std::string>() + "\n"));
+                return lamps;
+            }
+        throw std::runtime_error("no lamp " + name);
+    }
+    std::size_t real_changes(const std::string& name) const {
+        std::size_t count = 0;
+        for (const json& change : study_.at("changes"))
+            count += change.at("new_cell") == "straight_" + name && change.at("kind") == "real" ? 1U : 0U;
+        return count;
+    }
+    static void expect_nothing_but(const json& difference, const std::string& claimed) {
+        for (const char* name : {"aim_up_deg", "cut_off_up_deg", "level_share"})
+            EXPECT_EQ(difference.at(name).is_null(), claimed != name) << difference.at("says");
+        EXPECT_EQ(difference.at("zones").empty(), claimed != "zones") << difference.at("says");
+    }
+};
+
+TEST_F(StudyOfLamps, NamesEachDifferenceAndNothingElse) {
+    const json dimmer = lamp("dimmer").at("difference");
+    expect_nothing_but(dimmer, "zones");
+    ASSERT_EQ(dimmer.at("zones").size(), 1U);
+    const json& found = dimmer.at("zones").at(0);
+    EXPECT_NEAR(found.at("share"), -0.05, 0.005);
+    EXPECT_NEAR(found.at("h_from_deg"), zone.left, 1.0); // asked for: 1 degree
+    EXPECT_NEAR(found.at("h_to_deg"), zone.right, 1.0);
+    EXPECT_NEAR(found.at("v_from_deg"), zone.bottom, 1.0);
+    EXPECT_NEAR(found.at("v_to_deg"), zone.top, 1.0);
+    EXPECT_THAT(lamp("dimmer").at("says"),
+                testing::MatchesRegex("dimmer against production: [45].[0-9] % dimmer at .* degrees left and .* "
+                                      "degrees down. Nothing else differs beyond the noise of the tables, .* %."));
+    const json raised = lamp("raised").at("difference");
+    expect_nothing_but(raised, "cut_off_up_deg");
+    EXPECT_NEAR(raised.at("cut_off_up_deg").at("value"), 0.2, 0.05);
+    EXPECT_THAT(lamp("raised").at("says"), HasSubstr("the cut-off is 0.2"));
+    const json high = lamp("high").at("difference");
+    expect_nothing_but(high, "aim_up_deg");
+    EXPECT_NEAR(high.at("aim_up_deg").at("value"), 0.3, 0.05); // asked for: 0.05
+    EXPECT_THAT(lamp("high").at("says"), HasSubstr("the whole beam is aimed 0.30 degrees higher. Nothing else"));
+    EXPECT_GT(real_changes("high"), 10U) << "and its readings say so";
+    const json same = lamp("same").at("difference");
+    EXPECT_EQ(same.at("differs"), false);
+    EXPECT_THAT(lamp("same").at("says"), HasSubstr("the same light; no difference beyond the noise of the tables, 0.8"));
+    EXPECT_EQ(real_changes("same"), 0U) << "noise moves areas by more than calculation leaves open, and is no difference of readings";
+}
+
+} // namespace
+} // namespace fernlicht
