@@ -2,7 +2,7 @@
 
 #include "runner/checked_json.h"
 #include "runner/output_folder.h"
-#include "runner/reference_store.h"
+#include "runner/ray_results.h"
 #include "runner/summary.h"
 #include "scenarios/values/errors.h"
 
@@ -17,15 +17,20 @@ namespace {
 RunContext context_of(const CheckedJson& report) {
     const CheckedJson json = report.at("context");
     RunContext context;
+    context.versions = json.at("versions").texts();
     context.backend = json.at("backend").text();
     context.gl_renderer = json.at("gl_renderer").text();
+    context.gl_version = json.at("gl_version").text();
     context.cpu = json.at("cpu").text();
+    context.os = json.at("os").text();
+    context.started_utc = json.at("started_utc").text();
     return context;
 }
 
-Reading reading_of(const CheckedJson& row) {
+AcceptedReading reading_of(const CheckedJson& row, int count) {
     const CheckedJson frame = row.at("frame");
-    return {row.at("name").text(), row.at("value").number_or_null(), row.at("unit").text(), "", frame.is_null() ? -1 : frame.whole(), ""};
+    const std::optional<double> value = row.at("value").number_or_null();
+    return {row.at("name").text(), row.at("unit").text(), frame.is_null() ? -1 : frame.whole(), value, value ? count : 0, 0.0};
 }
 
 /// A frame's file: below the run's folder, wherever a report of others would lead.
@@ -36,30 +41,78 @@ std::filesystem::path frame_file(const std::filesystem::path& run_folder, const 
     return run_folder / path;
 }
 
-/// Key and frames of each lamp set that was played.
+/// Key, producer and frames of each lamp set that was played.
 AcceptedReference reference_of(const CheckedJson& played, const RunContext& context, const std::filesystem::path& run_folder) {
     if (const CheckedJson done = played.at("ticks_done"); done.whole() != played.at("ticks_planned").whole())
         done.refuse("all moments that were planned: an incomplete run is no reference");
     AcceptedReference reference;
-    reference.key = reference_key(played.at("drive").text(), played.at("variant").text(), played.at("technique").text(), context);
+    std::vector<std::pair<std::string, std::string>> inputs = played.at("inputs").texts();
+    reference.key = reference_key(played.at("drive").text(), played.at("variant").text(), played.at("technique").text(), context, inputs);
+    reference.producer = {context.versions, context.gl_version, context.cpu, context.os, std::move(inputs)};
     for (const CheckedJson& frame : played.at("frames").items())
         if (const CheckedJson exr = frame.at("exr"); !exr.is_null())
-            reference.frames.push_back({frame.at("frame").whole(), frame.at("view").text(), frame_file(run_folder, exr)});
+            reference.frames.push_back({frame.at("frame").whole(), frame.at("view").text(), frame_file(run_folder, exr), ""});
     return reference;
 }
 
+/// Mean and variance in place of the first play's value where the repeats differ.
+void add_spread(AcceptedReference& reference, const CheckedJson& repeats) {
+    for (const CheckedJson& spread : repeats.at("spread").items()) {
+        const CheckedJson frame = spread.at("frame");
+        const int tick = frame.is_null() ? -1 : frame.whole();
+        const std::string name = spread.at("name").text();
+        for (AcceptedReading& reading : reference.readings)
+            if (reading.name == name && reading.tick == tick) {
+                reading.mean = spread.at("mean").number();
+                reading.count = spread.at("count").whole();
+                reading.variance = spread.at("variance").number();
+            }
+    }
+}
+
 /// Rows tell drive and lamp set by name.
-void add_row(std::vector<AcceptedReference>& references, const CheckedJson& row) {
-    const std::string drive = row.at("drive").text(), variant = row.at("variant").text();
-    for (AcceptedReference& reference : references)
-        if (reference.key.drive == drive && reference.key.variant == variant)
-            if (Reading reading = reading_of(row); !is_of_time(reading))
+void add_readings(AcceptedReference& reference, const CheckedJson& rows, const CheckedJson& repeats) {
+    for (const CheckedJson& row : rows.items())
+        if (row.at("drive").text() == reference.key.drive && row.at("variant").text() == reference.key.variant)
+            if (AcceptedReading reading = reading_of(row, repeats.at("count").whole()); !is_unit_of_time(reading.unit))
                 reference.readings.push_back(std::move(reading));
+    add_spread(reference, repeats);
+}
+
+/// "3f2a91c04b7e  straight/halogen/photometric: new"
+std::string stored_text(const AcceptedReference& reference, const Stored& stored) {
+    const std::string removed = stored.removed > 0 ? fmt::format(", in place of {}", stored.removed) : "";
+    return fmt::format("{}  {}: {}{}", short_id(stored.id), cell_text(reference.key), stored.is_new ? "new" : "accepted before", removed);
+}
+
+struct Flags {
+    std::string run, to = "references", note;
+    bool add = false, replace = false;
+};
+
+int accept(const Flags& flags) {
+    if (flags.add && flags.replace)
+        throw InputError({{}, 0, 0, "--add"}, "found --replace, too", "one of the two");
+    if (flags.add && flags.note.empty())
+        throw InputError({{}, 0, 0, "--add"}, "found no --note",
+                         "the reason why several results are right, e.g. --note \"two drivers round differently\"");
+    const Acceptance how = flags.add ? Acceptance::add : flags.replace ? Acceptance::replace : Acceptance::first;
+    const Accepted accepted = accept_run(flags.run, flags.to, how, flags.note);
+    std::size_t frames = 0, readings = 0;
+    for (std::size_t i = 0; i < accepted.references.size(); ++i) {
+        frames += accepted.references[i].frames.size();
+        readings += accepted.references[i].readings.size();
+        fmt::print("{}\n", stored_text(accepted.references[i], accepted.stored[i]));
+    }
+    fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings\n", flags.to, accepted.references.size(), frames, readings);
+    return 0;
 }
 
 } // namespace
 
-Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder) {
+RunResults read_run(const std::filesystem::path& run_folder) {
+    if (is_ray_folder(run_folder))
+        return read_ray_folder(run_folder);
     if (is_marked_incomplete(run_folder))
         throw InputError({run_folder, 0, 0, {}}, "holds an incomplete run", "a complete one");
     const CheckedJson report = CheckedJson::read(run_folder / "report.json");
@@ -67,37 +120,33 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
     if (const CheckedJson complete = report.at("complete"); !complete.truth())
         complete.refuse("a complete run");
     const RunContext context = context_of(report);
-    std::vector<AcceptedReference> references;
-    for (const CheckedJson& played : report.at("drives").items())
-        references.push_back(reference_of(played, context, run_folder));
-    for (const CheckedJson& row : report.at("rows").items())
-        add_row(references, row);
-    store_references(references_folder, references);
-    Accepted accepted;
-    accepted.drives = references.size();
-    for (const AcceptedReference& reference : references) {
-        accepted.frames += reference.frames.size();
-        accepted.readings += reference.readings.size();
+    RunResults results;
+    results.started_utc = context.started_utc;
+    for (const CheckedJson& played : report.at("drives").items()) {
+        results.references.push_back(reference_of(played, context, run_folder));
+        add_readings(results.references.back(), report.at("rows"), played.at("repeats"));
     }
+    return results;
+}
+
+Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder, Acceptance how,
+                    const std::string& note) {
+    RunResults results = read_run(run_folder);
+    Accepted accepted;
+    accepted.stored = store_references(references_folder, results.references, how, note, results.started_utc);
+    accepted.references = std::move(results.references);
     return accepted;
 }
 
 void add_accept_command(CLI::App& app, std::function<int()>& chosen) {
-    struct Flags {
-        std::string run, to = "references";
-    };
     const auto flags = std::make_shared<Flags>();
     CLI::App* command = app.add_subcommand("accept", "take a run's results as references for later runs; judges nothing");
-    command->add_option("RUN", flags->run, "folder of a complete run")->required();
-    command->add_option("--to", flags->to, "folder of references")->capture_default_str();
-    command->callback([flags, &chosen] {
-        chosen = [flags] {
-            const Accepted accepted = accept_run(flags->run, flags->to);
-            fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings\n", flags->to, accepted.drives, accepted.frames,
-                       accepted.readings);
-            return 0;
-        };
-    });
+    command->add_option("RUN", flags->run, "folder of a complete run, or of a picture by `fernlicht reference`")->required();
+    command->add_option("--to,--store", flags->to, "folder of references")->capture_default_str();
+    command->add_flag("--replace", flags->replace, "these are right in place of what was accepted under the same keys");
+    command->add_flag("--add", flags->add, "these are right as well: a run passes that agrees with either; needs --note");
+    command->add_option("--note", flags->note, "why, in a sentence; `fernlicht references` shows it");
+    command->callback([flags, &chosen] { chosen = [flags] { return accept(*flags); }; });
 }
 
 } // namespace fernlicht

@@ -1,7 +1,9 @@
 // `fernlicht accept RUN_FOLDER [--to FOLDER]`: take a run's results as what later runs are compared with. Judges nothing.
 #pragma once
 
-#include <filesystem>
+#include "runner/reference_store.h"
+#include "runner/run_results.h"
+
 #include <functional>
 
 namespace CLI {
@@ -12,11 +14,17 @@ namespace fernlicht {
 
 void add_accept_command(CLI::App& app, std::function<int()>& chosen);
 
+/// A run's results as they would be accepted, one for each lamp set of each drive: readings (times left out) with their spread over the
+/// run's repeats, and captured EXR frames. Of a folder of `fernlicht reference`: its one picture with each pixel's variance. Throws
+/// InputError for a folder without a complete run.
+RunResults read_run(const std::filesystem::path& run_folder);
+
 struct Accepted {
-    std::size_t drives = 0, frames = 0, readings = 0;
+    std::vector<AcceptedReference> references;
+    std::vector<Stored> stored; ///< one for each reference
 };
-/// Readings (times left out) and captured EXR frames of every lamp set of every drive. Throws InputError for a folder without a complete
-/// run, DeviceError when the references cannot be written; what was accepted before then still holds.
-Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder);
+/// Throws as read_run and store_references; what was accepted before then still holds.
+Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder,
+                    Acceptance how = Acceptance::first, const std::string& note = "");
 
 } // namespace fernlicht

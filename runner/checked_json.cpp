@@ -17,9 +17,10 @@ CheckedJson CheckedJson::read(const std::filesystem::path& file) {
     return {root, *root, file, ""};
 }
 
+std::string CheckedJson::dump() const { return value_->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace); }
+
 void CheckedJson::refuse(const std::string& expected) const {
-    throw InputError({file_, 0, 0, place_},
-                     "found '" + printable(value_->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)) + "'", expected);
+    throw InputError({file_, 0, 0, place_}, "found '" + printable(dump()) + "'", expected);
 }
 
 CheckedJson CheckedJson::at(const std::string& key) const {
@@ -38,6 +39,15 @@ std::vector<CheckedJson> CheckedJson::items() const {
     std::vector<CheckedJson> result;
     for (std::size_t i = 0; i < value_->size(); ++i)
         result.push_back({root_, (*value_)[i], file_, fmt::format("{}[{}]", place_, i)});
+    return result;
+}
+
+std::vector<std::pair<std::string, std::string>> CheckedJson::texts() const {
+    if (!value_->is_object())
+        refuse("an object");
+    std::vector<std::pair<std::string, std::string>> result;
+    for (const auto& [key, ignored] : value_->items())
+        result.emplace_back(key, at(key).text());
     return result;
 }
 

@@ -19,6 +19,7 @@ class CheckedJson {
     CheckedJson at(const std::string& key) const;
     std::vector<CheckedJson> items() const; ///< of a list
     bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+    std::vector<std::pair<std::string, std::string>> texts() const; ///< an object of texts, in the order of their names
     bool is_null() const { return value_->is_null(); }
     std::string text() const;
     double number() const;
@@ -27,6 +28,7 @@ class CheckedJson {
     bool truth() const;
     /// Refuses a file that says it is something else.
     void expect_schema(const std::string& name, int version) const;
+    std::string dump() const; ///< as JSON on one line
     [[noreturn]] void refuse(const std::string& expected) const;
 
   private:

@@ -7,6 +7,7 @@
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
 #include "runner/reference_command.h"
+#include "runner/references_command.h"
 #include "runner/run_command.h"
 #include "runner/stability_command.h"
 #include "runner/study/study_command.h"
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
     fernlicht::add_doctor_command(app, chosen);
     fernlicht::add_stability_command(app, chosen);
     fernlicht::add_accept_command(app, chosen);
+    fernlicht::add_references_command(app, chosen);
     try {
         app.parse(argc, argv);
         return chosen();

@@ -90,7 +90,17 @@ ReferenceSettings settings_of(const Flags& flags) {
     return settings;
 }
 
+/// `reference` draws, `references` looks after what was accepted: who took the one for the other is led there.
+void check_name(const Flags& flags) {
+    std::error_code ignored;
+    for (const char* action : {"list", "show", "diff", "remove"})
+        if (flags.drive == action && !std::filesystem::exists(flags.drive, ignored))
+            throw InputError({{}, 0, 0, "DRIVE"}, fmt::format("found '{}'", action),
+                             fmt::format("a drive file; accepted results are looked at with `fernlicht references {}`", action));
+}
+
 int draw_reference(const Flags& flags, const std::vector<std::string>& command) {
+    check_name(flags);
     check_given(flags);
     if (flags.resume && flags.out.empty())
         throw InputError({{}, 0, 0, "--resume"}, "found no --out", "the folder of the reference that was interrupted");
@@ -143,7 +153,7 @@ void add_solver_options(CLI::App& sub, Flags& flags) {
 
 void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();
-    CLI::App* sub = app.add_subcommand("reference", "draw one moment by rays, each pixel with its standard error");
+    CLI::App* sub = app.add_subcommand("reference", "draw one moment by rays, each pixel with its standard error (not: `references`)");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
     sub->add_option("--moment", flags->moment_s,
                     "seconds into the drive, 0 to its last moment, one step before its end; the nearest moment is drawn")

@@ -1,6 +1,9 @@
 #include "runner/reference_key.h"
 
+#include "scenarios/values/files.h"
+
 #include <fmt/format.h>
+#include <map>
 
 namespace fernlicht {
 namespace {
@@ -15,12 +18,32 @@ std::string simd_of(const std::string& cpu) {
 
 } // namespace
 
-ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context) {
-    return {drive, variant, technique, context.backend, context.gl_renderer, simd_of(context.cpu)};
+ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context,
+                           const std::vector<std::pair<std::string, std::string>>& inputs) {
+    std::map<std::string, std::string> by_name(inputs.begin(), inputs.end()); // files give them in another order
+    std::string hashes;
+    for (const auto& [name, hash] : by_name)
+        hashes += hash + "\n";
+    return {
+        drive, variant, technique, context.backend, context.gl_renderer, simd_of(context.cpu), content_hash(hashes.data(), hashes.size())};
+}
+
+bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b) {
+    ReferenceKey other = b;
+    other.inputs = a.inputs;
+    return a == other;
+}
+
+bool same_but_device(const ReferenceKey& a, const ReferenceKey& b) {
+    return a.drive == b.drive && a.variant == b.variant && a.technique == b.technique && a.inputs == b.inputs;
 }
 
 std::string key_text(const ReferenceKey& key) {
-    return fmt::format("{}, {}, {}; {}, {}, {}", key.drive, key.variant, key.technique, key.backend, key.gl_renderer, key.simd);
+    return fmt::format("{}, {}, {}; {}", key.drive, key.variant, key.technique, device_text(key));
 }
+
+std::string device_text(const ReferenceKey& key) { return fmt::format("{}, {}, {}", key.backend, key.gl_renderer, key.simd); }
+
+std::string cell_text(const ReferenceKey& key) { return fmt::format("{}/{}/{}", key.drive, key.variant, key.technique); }
 
 } // namespace fernlicht

@@ -10,12 +10,23 @@ struct ReferenceKey {
     /// Class of device. Pictures of one class are the same bytes; llvmpipe's depend on the SIMD it finds, the twin's last digits on the
     /// C library's choice by it.
     std::string backend, gl_renderer, simd;
+    std::string inputs; ///< XXH3-128 over the hashes of what decides the results (cell_inputs.h)
     bool operator==(const ReferenceKey&) const = default;
 };
 
-ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context);
+ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context,
+                           const std::vector<std::pair<std::string, std::string>>& inputs);
+
+/// The same drive, lamp set and technique on the same class of device, whatever the inputs.
+bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b);
+/// The same drive, lamp set, technique and inputs, whatever the device.
+bool same_but_device(const ReferenceKey& a, const ReferenceKey& b);
 
 /// "straight, halogen, photometric; egl, llvmpipe (LLVM 15.0.6, 256 bits), avx2".
 std::string key_text(const ReferenceKey& key);
+/// "egl, llvmpipe (LLVM 15.0.6, 256 bits), avx2".
+std::string device_text(const ReferenceKey& key);
+/// "straight/halogen/photometric".
+std::string cell_text(const ReferenceKey& key);
 
 } // namespace fernlicht

@@ -1,170 +1,152 @@
 #include "runner/references.h"
 
-#include "metrics/image_difference.h"
-#include "runner/picture_file.h"
+#include "runner/device_spread.h"
 #include "runner/reference_store.h"
 #include "runner/summary.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
 
-/// Verdicts on many things of one kind: each that differs by itself, those that agree in one sum.
-class Judgement {
-  public:
-    Judgement(std::string name, std::string rerun) : name_(std::move(name)), rerun_(std::move(rerun)) {}
-
-    void agree(double share_of_tolerance, const std::string& text) {
-        ++agreeing_;
-        if (closest_text_.empty() || share_of_tolerance > closest_share_) {
-            closest_share_ = share_of_tolerance;
-            closest_text_ = text;
-        }
-    }
-    void differ(const std::string& what, const std::string& text) {
-        differing_.push_back({VerdictKind::fail, name_ + " " + what, text, rerun_});
-    }
-    std::vector<Verdict> finish(const std::string& things) {
-        if (differing_.empty() && agreeing_ > 0)
-            return {{VerdictKind::pass, name_, fmt::format("{} {} agree; the farthest off: {}", agreeing_, things, closest_text_), rerun_}};
-        return std::move(differing_);
-    }
-
-  private:
-    std::string name_, rerun_;
-    std::size_t agreeing_ = 0;
-    double closest_share_ = 0.0;
-    std::string closest_text_;
-    std::vector<Verdict> differing_;
-};
-
-std::string value_text(const Reading& reading) {
-    return reading.value ? fmt::format("{} {}", *reading.value, reading.unit) : "not measured";
-}
-
-std::string reading_label(const Reading& reading) {
-    return reading.tick < 0 ? reading.name : fmt::format("{} at frame {}", reading.name, reading.tick);
-}
-
-void judge_reading(Judgement& judgement, const Reading& tested, const Reading& accepted, const ReferenceTolerance& tolerance) {
-    const std::string label = reading_label(accepted);
-    const std::string text = fmt::format("{}, accepted {}", value_text(tested), value_text(accepted));
-    if (tested.unit != accepted.unit || tested.value.has_value() != accepted.value.has_value())
-        return judgement.differ(label, text);
-    if (!accepted.value)
-        return judgement.agree(0.0, fmt::format("{}, {}", label, text));
-    const double difference = std::abs(*tested.value - *accepted.value);
-    const double allowed = tolerance.absolute + tolerance.relative * std::abs(*accepted.value);
-    const std::string figures =
-        fmt::format("{}, {:.3g} % off", text, *accepted.value == 0.0 ? 0.0 : 100.0 * difference / std::abs(*accepted.value));
-    if (difference <= allowed)
-        judgement.agree(difference / allowed, fmt::format("{}, {}", label, figures));
-    else
-        judgement.differ(label, fmt::format("{}, at most {:.3g} %", figures, 100.0 * tolerance.relative));
-}
-
-std::vector<Verdict> judge_readings(const Readings& tested, const Readings& accepted, const std::string& rerun,
-                                    const ReferenceTolerance& tolerance) {
-    Judgement judgement("reference reading", rerun);
-    const auto same = [](const Reading& a, const Reading& b) { return a.name == b.name && a.tick == b.tick; };
-    for (const Reading& reference : accepted) {
-        const auto found = std::ranges::find_if(tested, [&](const Reading& reading) { return same(reading, reference); });
-        if (found == tested.end())
-            judgement.differ(reading_label(reference), "not in this run, accepted " + value_text(reference));
+/// Each thing that differs by itself, those that agree in one sum.
+std::vector<Verdict> verdicts_on(const std::vector<ResultDifference>& differences, const std::string& kind, const std::string& things,
+                                 const std::string& accepted_as, const std::string& rerun) {
+    std::vector<Verdict> verdicts;
+    const ResultDifference* farthest = nullptr;
+    for (const ResultDifference& difference : differences)
+        if (difference.agreement == Agreement::agrees)
+            farthest = farthest && farthest->of_allowed >= difference.of_allowed ? farthest : &difference;
         else
-            judge_reading(judgement, *found, reference, tolerance);
-    }
-    for (const Reading& reading : tested)
-        if (!is_of_time(reading) && std::ranges::none_of(accepted, [&](const Reading& reference) { return same(reading, reference); }))
-            judgement.differ(reading_label(reading), value_text(reading) + ", nothing accepted to compare with");
-    return judgement.finish("readings");
+            verdicts.push_back({difference.agreement == Agreement::differs ? VerdictKind::fail : VerdictKind::not_measured,
+                                kind + " " + difference.what, difference.text + accepted_as, rerun});
+    if (verdicts.empty() && farthest)
+        verdicts.push_back({VerdictKind::pass, kind,
+                            fmt::format("{} {} agree; the farthest off: {}, {}{}", differences.size(), things, farthest->what,
+                                        farthest->text, accepted_as),
+                            rerun});
+    return verdicts;
 }
 
-/// Channels that hold light; depth belongs to geometry.
-bool holds_light(const std::string& channel) { return channel.ends_with(".lx") || channel.ends_with(".cdm2"); }
-
-std::string difference_text(const ImageDifference& difference, const std::string& channel) {
-    if (difference.identical)
-        return channel + " identical";
-    const std::string psnr = std::isfinite(difference.psnr_db) ? fmt::format("{:.1f} dB", difference.psnr_db) : "not measured";
-    return fmt::format("{}: maximum {:.4g} at pixel {}, {}, RMSE {:.3g}, PSNR {}, {:.3g} % of pixels over the threshold", channel,
-                       difference.maximum, difference.maximum_x, difference.maximum_y, difference.rmse, psnr, difference.percent_over);
+std::size_t count_of_not_green(const std::vector<Verdict>& verdicts) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(verdicts, [](const Verdict& verdict) { return verdict.kind != VerdictKind::pass; }));
 }
 
-const PictureChannel* find(const std::vector<PictureChannel>& channels, const std::string& name) {
-    const auto found = std::ranges::find(channels, name, &PictureChannel::name);
-    return found == channels.end() ? nullptr : &*found;
-}
-
-void judge_channels(Judgement& judgement, const std::string& label, const std::vector<PictureChannel>& tested,
-                    const std::vector<PictureChannel>& accepted, const ReferenceTolerance& tolerance) {
-    for (const PictureChannel& channel : tested)
-        if (holds_light(channel.name) && !find(accepted, channel.name))
-            judgement.differ(label, channel.name + ": nothing accepted to compare with");
-    for (const PictureChannel& reference : accepted) {
-        if (!holds_light(reference.name))
-            continue;
-        const PictureChannel* channel = find(tested, reference.name);
-        if (!channel) {
-            judgement.differ(label, reference.name + ": accepted, but not in this run");
-            continue;
-        }
-        const ImageDifference difference = compare_images(channel->values, reference.values, tolerance.absolute, tolerance.relative);
-        const std::string text = difference_text(difference, reference.name);
-        if (difference.percent_over <= tolerance.percent_of_pixels)
-            judgement.agree(difference.maximum, fmt::format("{}, {}", label, text));
-        else
-            judgement.differ(label, fmt::format("{}, at most {} %", text, tolerance.percent_of_pixels));
-    }
-}
-
-std::vector<Verdict> judge_frames(const PlayedVariant& played, const std::filesystem::path& run_folder,
-                                  const std::vector<ReferenceFrame>& accepted, const std::string& rerun,
-                                  const ReferenceTolerance& tolerance) {
-    Judgement judgement("reference frame", rerun);
-    const auto same = [](const StoredFrame& frame, const ReferenceFrame& reference) {
-        return frame.tick == reference.tick && frame.view == reference.view && !frame.exr.empty();
+/// Which of a run's inputs are not those of accepted results.
+std::string other_inputs(const std::vector<std::pair<std::string, std::string>>& run,
+                         const std::vector<std::pair<std::string, std::string>>& accepted) {
+    std::string names;
+    const auto add = [&](const auto& some, const auto& others) {
+        for (const auto& [name, hash] : some)
+            if (std::ranges::find(others, std::pair(name, hash)) == others.end() && names.find(name) == std::string::npos)
+                names += (names.empty() ? "" : ", ") + name;
     };
-    for (const ReferenceFrame& reference : accepted) {
-        const std::string label = fmt::format("{} {}", reference.tick, reference.view);
-        const auto found = std::ranges::find_if(played.frames, [&](const StoredFrame& frame) { return same(frame, reference); });
-        if (found == played.frames.end()) {
-            judgement.differ(label, "accepted, but not in this run");
-            continue;
-        }
-        try {
-            judge_channels(judgement, label, read_exr(run_folder / found->exr), read_exr(reference.exr), tolerance);
-        } catch (const InputError& error) {
-            judgement.differ(label, error.what());
-        } catch (const std::invalid_argument& error) { // of other size, or with values that are no numbers
-            judgement.differ(label, error.what());
-        }
+    add(run, accepted);
+    add(accepted, run);
+    return names;
+}
+
+/// Why there is nothing to judge by.
+std::string nothing_accepted(const std::filesystem::path& store, const std::vector<StoredReference>& entries,
+                             const AcceptedReference& run) {
+    std::string text = fmt::format("nothing accepted in {} for {}", store.string(), key_text(run.key));
+    for (const StoredReference& entry : entries)
+        if (same_but_inputs(entry.key, run.key))
+            return text + fmt::format(" with these inputs; {} had another {}", short_id(entry.id),
+                                      other_inputs(run.producer.inputs, load_reference(store, entry).producer.inputs));
+    for (const StoredReference& entry : entries)
+        if (same_but_device(entry.key, run.key))
+            return text + fmt::format("; {} is of {}", short_id(entry.id), device_text(entry.key));
+    return text;
+}
+
+std::vector<Verdict> judge_readings(const AcceptedReference& run, const std::vector<AcceptedReading>& accepted,
+                                    const std::string& accepted_as, const std::string& rerun, const ReferenceTolerance& tolerance) {
+    return verdicts_on(compare_readings(run.readings, accepted, tolerance), "reference reading", "readings", accepted_as, rerun);
+}
+
+std::vector<Verdict> judge_frames(const AcceptedReference& run, const AcceptedReference& accepted, const std::string& accepted_as,
+                                  const std::string& rerun, const ReferenceTolerance& tolerance) {
+    return verdicts_on(compare_frames(run.frames, accepted.frames, tolerance), "reference frame", "pictures", accepted_as, rerun);
+}
+
+/// Of the verdicts that each entry gives, those with the fewest that are not green. `judge` takes the results and how they are called.
+template <class Judge>
+std::vector<Verdict> nearest(const std::filesystem::path& store, const std::vector<StoredReference>& entries, const Judge& judge) {
+    std::vector<Verdict> best;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::string several = entries.size() > 1 ? fmt::format(", of {} accepted", entries.size()) : "";
+        std::vector<Verdict> verdicts = judge(load_reference(store, entries[i]), fmt::format(" ({}{})", short_id(entries[i].id), several));
+        if (i == 0 || count_of_not_green(verdicts) < count_of_not_green(best))
+            best = std::move(verdicts);
     }
-    for (const StoredFrame& frame : played.frames)
-        if (!frame.exr.empty() && std::ranges::none_of(accepted, [&](const ReferenceFrame& reference) { return same(frame, reference); }))
-            judgement.differ(fmt::format("{} {}", frame.tick, frame.view), "nothing accepted to compare with");
-    return judgement.finish("pictures");
+    return best;
+}
+
+std::vector<Verdict> judge_across(const std::filesystem::path& store, const DeviceSpread& others, const AcceptedReference& run,
+                                  const std::string& rerun, const ReferenceTolerance& tolerance) {
+    AcceptedReference measured = run; // what was measured on all of them; what was not has no spread
+    std::erase_if(measured.readings, [](const AcceptedReading& reading) { return !reading.mean; });
+    std::vector<Verdict> verdicts =
+        judge_readings(measured, others.readings, fmt::format(" (over {} other classes of device)", others.devices), rerun, tolerance);
+    std::ranges::move(nearest(store, others.entries,
+                              [&](const AcceptedReference& accepted, const std::string& accepted_as) {
+                                  return judge_frames(run, accepted, accepted_as, rerun, tolerance);
+                              }),
+                      std::back_inserter(verdicts));
+    return verdicts;
 }
 
 } // namespace
 
+AcceptedReference results_of(const PlayedVariant& played, const RunContext& context, const std::filesystem::path& run_folder,
+                             const std::string& technique) {
+    AcceptedReference results;
+    results.key = reference_key(played.drive, played.variant, technique, context, played.inputs);
+    results.producer = {context.versions, context.gl_version, context.cpu, context.os, played.inputs};
+    for (const Reading& reading : played.readings) {
+        if (is_unit_of_time(reading.unit))
+            continue;
+        AcceptedReading result{reading.name, reading.unit, reading.tick, reading.value, reading.value ? played.repeats.count : 0, 0.0};
+        for (const ReadingSpread& spread : played.repeats.spread)
+            if (spread.name == reading.name && spread.tick == reading.tick) {
+                result.mean = spread.mean;
+                result.count = spread.count;
+                result.variance = spread.variance;
+            }
+        results.readings.push_back(std::move(result));
+    }
+    for (const StoredFrame& frame : played.frames)
+        if (!frame.exr.empty())
+            results.frames.push_back({frame.tick, frame.view, run_folder / frame.exr, ""});
+    return results;
+}
+
 std::vector<Verdict> judge_against_references(const PlayedVariant& played, const RunContext& context,
                                               const std::filesystem::path& run_folder, const std::filesystem::path& references_folder,
-                                              const std::string& technique, const ReferenceTolerance& tolerance) {
-    const ReferenceKey key = reference_key(played.drive, played.variant, technique, context);
+                                              const std::string& technique, bool across_devices, const ReferenceTolerance& tolerance) {
+    const AcceptedReference run = results_of(played, context, run_folder, technique);
     const auto failed = [&](const std::string& text) {
         return std::vector<Verdict>{{VerdictKind::fail, "reference", text, context.command}};
     };
     try {
-        const std::optional<AcceptedReference> reference = find_reference(references_folder, key);
-        if (!reference)
-            return failed(fmt::format("nothing accepted in {} for {}", references_folder.string(), key_text(key)));
-        std::vector<Verdict> verdicts = judge_readings(played.readings, reference->readings, context.command, tolerance);
-        std::ranges::move(judge_frames(played, run_folder, reference->frames, context.command, tolerance), std::back_inserter(verdicts));
+        const std::vector<StoredReference> all = list_references(references_folder);
+        std::vector<StoredReference> entries;
+        std::ranges::copy_if(all, std::back_inserter(entries), [&](const StoredReference& entry) { return entry.key == run.key; });
+        if (entries.empty() && across_devices)
+            if (const DeviceSpread others = spread_over_devices(references_folder, all, run.key); others.devices > 1)
+                return judge_across(references_folder, others, run, context.command, tolerance);
+        if (entries.empty())
+            return failed(nothing_accepted(references_folder, all, run));
+        std::vector<Verdict> verdicts =
+            nearest(references_folder, entries, [&](const AcceptedReference& accepted, const std::string& accepted_as) {
+                std::vector<Verdict> both = judge_readings(run, accepted.readings, accepted_as, context.command, tolerance);
+                std::ranges::move(judge_frames(run, accepted, accepted_as, context.command, tolerance), std::back_inserter(both));
+                return both;
+            });
         return verdicts.empty() ? failed("the accepted reference holds neither readings nor frames") : verdicts;
     } catch (const InputError& error) {
         return failed(error.what());

@@ -1,23 +1,23 @@
-// A run against accepted results: frames pixel by pixel on the linear pictures, readings by relative difference. Changes no reference.
+// A run against accepted results. Changes no reference.
 #pragma once
 
-#include "runner/report/report.h"
+#include "runner/reference_difference.h"
 
 namespace fernlicht {
 
-/// Within one class of device the same bytes are promised. These tolerances forgive what another patch level of a driver or a
-/// library may round otherwise, and nothing that light could explain: 2 % more light exceeds them twentyfold.
-struct ReferenceTolerance {
-    double relative = 1e-3;          ///< of the accepted value
-    double absolute = 1e-4;          ///< lx, cd/m2 or the reading's unit: where the accepted value is next to nothing
-    double percent_of_pixels = 0.01; ///< may lie beyond: edges where one triangle wins over another
-};
+/// What was played as it would be accepted; frames' paths lead into the run's folder, their hashes are left out.
+AcceptedReference results_of(const PlayedVariant& played, const RunContext& context, const std::filesystem::path& run_folder,
+                             const std::string& technique);
 
-/// Verdicts on all frames and readings against what was accepted for this drive, lamp set, technique and class of device. What differs
-/// gets a verdict of its own; what agrees is summed up in one. Nothing accepted, a damaged reference, a frame or reading that only one
-/// side has: failed.
+/// Verdicts on all frames and readings against what was accepted for this drive, lamp set, technique, class of device and inputs. Where
+/// several results are accepted, one that agrees in everything decides, and the text says which; else the nearest, by the number of
+/// things that differ. What differs gets a verdict of its own; what agrees is summed up in one. Nothing accepted, a damaged reference,
+/// a frame or reading that only one side has: failed. A reading that varies too much to tell: not measured.
+/// `across_devices`: where nothing is accepted for this class of device, readings are judged by the spread over two or more other classes,
+/// frames by the nearest of them. Never where something is: within a class the same bytes are promised, and more would hide mistakes.
 std::vector<Verdict> judge_against_references(const PlayedVariant& played, const RunContext& context,
                                               const std::filesystem::path& run_folder, const std::filesystem::path& references_folder,
-                                              const std::string& technique, const ReferenceTolerance& tolerance = {});
+                                              const std::string& technique, bool across_devices = false,
+                                              const ReferenceTolerance& tolerance = {});
 
 } // namespace fernlicht

@@ -4,6 +4,7 @@
 #include "renderer/sanity.h"
 #include "renderer/timer_check.h"
 #include "runner/accuracy/drive_error.h"
+#include "runner/cell_inputs.h"
 #include "runner/contact_sheet.h"
 #include "runner/interruption.h"
 #include "runner/limits.h"
@@ -12,6 +13,7 @@
 #include "runner/preparation.h"
 #include "runner/progress.h"
 #include "runner/references.h"
+#include "runner/repeats.h"
 #include "runner/run_context.h"
 #include "runner/savings.h"
 #include "runner/stage.h"
@@ -73,8 +75,7 @@ std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, c
 }
 
 /// Plays one lamp set and completes it with readings and verdicts.
-PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options,
-                           const RunContext& context, Writers& writers) {
+PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options, Writers& writers) {
     prepare(renderer, stage.drive, stage.route, variant, options.ticks);
     const int compiled = renderer.compiled_programs();
     const std::string label = stage.drive.name + ", " + variant.name;
@@ -89,6 +90,8 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     };
     const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) { return renderer.submit(moment, view, wanted); };
     PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
+    const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
+    played.inputs = cell_inputs(stage.drive, variant, stage.network.opened, std::max(0, options.ticks.first), last_tick);
     if (const int late = renderer.compiled_programs() - compiled; late > 0)
         played.notes.push_back(
             fmt::format("{} shader variants were compiled during the drive: times of their first frames include that", late));
@@ -108,9 +111,6 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
                         "sensitivity to aim and flux, and the grid's error are calculated from the lamps' tables",
                         technique.name, technique.ignores));
     }
-    if (!options.references.empty())
-        std::ranges::copy(judge_against_references(played, context, options.folder, options.references, stage.drive.technique),
-                          std::back_inserter(played.verdicts));
     return played;
 }
 
@@ -178,7 +178,7 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
     Writers writers;
     const std::size_t before = report.played.size();
     for (const Variant& variant : stage.drive.variants) {
-        report.played.push_back(play_variant(stage, variant, renderer, options, report.context, writers));
+        report.played.push_back(play_variant(stage, variant, renderer, options, writers));
         if (Interruption::asked()) {
             report.complete = false;
             report.interrupted = "interrupted by the user";
@@ -191,6 +191,75 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
         add_errors(stage, options, renderer, played);
     if (options.contact_sheet && !Interruption::asked())
         add_contact_sheets(stage, device, settings, options, played);
+}
+
+/// What the frames of a further play take: gone where they are those of the first play, kept to be looked at where they are not.
+void remove_frames(const PlayedVariant& again, const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (const StoredFrame& frame : again.frames)
+        for (const std::string* const path : {&frame.exr, &frame.png})
+            if (!path->empty())
+                std::filesystem::remove(folder / *path, ignored);
+    for (const StoredFrame& frame : again.frames) // folders go when they are empty
+        for (std::filesystem::path path = frame.exr.empty() ? frame.png : frame.exr; path.has_parent_path(); path = path.parent_path())
+            std::filesystem::remove(folder / path.parent_path(), ignored);
+    std::filesystem::remove(folder, ignored);
+    std::filesystem::remove(folder.parent_path(), ignored);
+}
+
+/// A drive's lamp sets once more, by a renderer of its own. Backwards: what one lamp set or drive may leave behind in the driver meets
+/// another.
+void repeat_drive(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options,
+                  std::span<RepeatFold> folds, bool backwards) {
+    Renderer renderer(device, stage.scene, settings_for(stage.drive, settings));
+    Writers writers;
+    for (std::size_t i = 0; i < folds.size() && !Interruption::asked(); ++i) {
+        const std::size_t at = backwards ? folds.size() - 1 - i : i;
+        const PlayedVariant again = play_variant(stage, stage.drive.variants[at], renderer, options, writers);
+        if (!Interruption::asked() && folds[at].add(again, options.folder))
+            remove_frames(again, options.folder);
+    }
+}
+
+/// Plays everything again, by turns backwards and forwards, and says what differs.
+void repeat(const std::deque<Stage>& stages, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
+    std::vector<RepeatFold> folds;
+    for (const PlayedVariant& played : report.played)
+        folds.emplace_back(played, options.folder);
+    std::vector<std::span<RepeatFold>> by_drive;
+    std::size_t first = 0;
+    for (const Stage& stage : stages) {
+        by_drive.push_back(std::span(folds).subspan(first, stage.drive.variants.size()));
+        first += stage.drive.variants.size();
+    }
+    for (int play = 2; play <= options.repeats && !Interruption::asked(); ++play) {
+        RunOptions again = options;
+        again.folder = options.folder / "repeats" / fmt::format("{}", play);
+        const bool backwards = play % 2 == 0;
+        for (std::size_t i = 0; i < stages.size() && !Interruption::asked(); ++i) {
+            const std::size_t at = backwards ? stages.size() - 1 - i : i;
+            repeat_drive(stages[at], device, settings, again, by_drive[at], backwards);
+        }
+    }
+    for (std::size_t i = 0; i < folds.size(); ++i)
+        folds[i].finish(report.played[i], options.repeats, report.context.command);
+    if (Interruption::asked()) {
+        report.complete = false;
+        report.interrupted = "interrupted by the user";
+    }
+}
+
+/// Verdicts that need all of the run.
+void judge(const RunOptions& options, Report& report) {
+    if (!options.references.empty())
+        for (PlayedVariant& played : report.played)
+            std::ranges::copy(judge_against_references(played, report.context, options.folder, options.references, played.technique,
+                                                       options.across_devices),
+                              std::back_inserter(played.verdicts));
+    if (options.known) {
+        add_inputs(report.context.inputs, options.known->opened);
+        apply_known_failures(report, *options.known, options.today);
+    }
 }
 
 } // namespace
@@ -217,6 +286,9 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
         for (Stage& stage : stages)
             if (report.complete)
                 run_drive(stage, device, settings, options, report);
+        if (options.repeats > 1 && report.complete)
+            repeat(stages, device, settings, options, report);
+        judge(options, report);
     } catch (const std::exception& error) {
         report.complete = false;
         report.interrupted = error.what();

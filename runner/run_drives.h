@@ -1,6 +1,7 @@
 // A whole run: each drive with each of its lamp sets, on one device, into one report.
 #pragma once
 
+#include "runner/known_failures.h"
 #include "runner/play.h"
 
 namespace fernlicht {
@@ -12,8 +13,12 @@ struct RunOptions {
     bool quiet = false;
     bool profile = false;             ///< time each pass by finishing after it; frame times are then not representative
     std::filesystem::path references; ///< accepted results to judge against; "" for none
-    bool accuracy = true;             ///< hold a few moments of each lamp set against the reference
-    bool contact_sheet = false;       ///< add one moment of each lamp set, drawn in every technique
+    bool across_devices = false;      ///< where this class of device has none, by those of others
+    int repeats = 1;                  ///< plays of each lamp set; all must agree
+    std::optional<KnownFailures> known;
+    std::string today;          ///< 2026-12-31: by which known failures expire
+    bool accuracy = true;       ///< hold a few moments of each lamp set against the reference
+    bool contact_sheet = false; ///< add one moment of each lamp set, drawn in every technique
     std::vector<std::string> command;
 };
 

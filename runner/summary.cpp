@@ -201,6 +201,6 @@ std::string name_part(const std::string& text) {
     return part;
 }
 
-bool is_of_time(const Reading& reading) { return reading.unit == "ms"; }
+bool is_unit_of_time(const std::string& unit) { return unit == "ms"; }
 
 } // namespace fernlicht

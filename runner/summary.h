@@ -16,6 +16,6 @@ Readings times(const PlayedVariant& played);
 std::string name_part(const std::string& text);
 
 /// Whether a reading tells how long something took on this machine: such readings are reported and never compared.
-bool is_of_time(const Reading& reading);
+bool is_unit_of_time(const std::string& unit);
 
 } // namespace fernlicht

@@ -23,6 +23,8 @@ const char* verdict_name(VerdictKind kind) {
         return "pass";
     case VerdictKind::fail:
         return "fail";
+    case VerdictKind::flaky:
+        return "flaky";
     case VerdictKind::not_measured:
         break;
     }

@@ -46,54 +46,57 @@ std::string signed_figure(double value, int decimals) {
 
 data verdict_part(const Report& report) {
     data part;
-    std::size_t passed = 0, failed = 0, unmeasured = 0;
-    data failures{List::list}, gaps{List::list}, passes{List::list};
+    data failures{List::list}, flakes{List::list}, gaps{List::list}, known{List::list}, passes{List::list};
+    const auto add = [&](const Verdict& verdict, const std::string& drive, const std::string& variant) {
+        data row;
+        row.set("name", clean_text(verdict.name));
+        row.set("text", clean_text(verdict.known.empty() ? verdict.text : verdict.text + "; " + verdict.known));
+        row.set("rerun", clean_text(verdict.rerun));
+        row.set("has_rerun", !verdict.rerun.empty());
+        row.set("drive", clean_text(drive));
+        row.set("variant", clean_text(variant));
+        data& list = !is_red(verdict)                            ? (verdict.kind == VerdictKind::pass ? passes : known)
+                     : verdict.kind == VerdictKind::flaky        ? flakes
+                     : verdict.kind == VerdictKind::not_measured ? gaps
+                                                                 : failures;
+        list.push_back(row);
+    };
     for (const PlayedVariant& played : report.played)
-        for (const Verdict& verdict : played.verdicts) {
-            data row;
-            row.set("name", clean_text(verdict.name));
-            row.set("text", clean_text(verdict.text));
-            row.set("rerun", clean_text(verdict.rerun));
-            row.set("has_rerun", !verdict.rerun.empty());
-            row.set("drive", clean_text(played.drive));
-            row.set("variant", clean_text(played.variant));
-            switch (verdict.kind) {
-            case VerdictKind::pass:
-                ++passed;
-                passes.push_back(row);
-                break;
-            case VerdictKind::fail:
-                ++failed;
-                failures.push_back(row);
-                break;
-            case VerdictKind::not_measured:
-                ++unmeasured;
-                gaps.push_back(row);
-                break;
-            }
-        }
-    const std::size_t limits = passed + failed + unmeasured;
+        for (const Verdict& verdict : played.verdicts)
+            add(verdict, played.drive, played.variant);
+    for (const Verdict& verdict : report.listed)
+        add(verdict, "list of known failures", "");
+    const VerdictCounts counts = count_verdicts(report);
     const VerdictKind verdict = overall(report);
-    const bool none = limits == 0 && report.complete;
+    const bool none = counts.all() == 0 && report.complete;
     const char* const word = verdict == VerdictKind::fail           ? "Limits exceeded"
+                             : verdict == VerdictKind::flaky        ? "Flaky"
                              : !report.complete                     ? "Incomplete"
                              : verdict == VerdictKind::not_measured ? "Not everything was measured"
                              : none                                 ? "No limits were set"
                                                                     : "Within limits";
     part.set("word", word);
     part.set("class", none ? "none" : verdict_name(verdict));
-    part.set("mark", none ? "\u2013" : verdict == VerdictKind::fail ? "\u2717" : verdict == VerdictKind::pass ? "\u2713" : "?");
-    part.set("has_limits", limits > 0);
-    part.set("passed", fmt::format("{}", passed));
-    part.set("limits", fmt::format("{}", limits));
+    part.set("mark", none                            ? "\u2013"
+                     : verdict == VerdictKind::fail  ? "\u2717"
+                     : verdict == VerdictKind::flaky ? "\u2260"
+                     : verdict == VerdictKind::pass  ? "\u2713"
+                                                     : "?");
+    part.set("has_limits", counts.all() > 0);
+    part.set("passed", fmt::format("{}", counts.pass));
+    part.set("limits", fmt::format("{}", counts.all()));
     part.set("incomplete", !report.complete);
     part.set("interrupted", clean_text(report.interrupted));
-    part.set("has_failures", failed > 0);
-    part.set("failures", failures);
-    part.set("has_gaps", unmeasured > 0);
-    part.set("gaps", gaps);
-    part.set("has_passes", passed > 0);
-    part.set("passes", passes);
+    for (const auto& [name, list] : {std::pair("failures", &failures), std::pair("flakes", &flakes), std::pair("gaps", &gaps),
+                                     std::pair("known", &known), std::pair("passes", &passes)}) {
+        part.set(std::string("has_") + name, !list->is_empty_list());
+        part.set(name, *list);
+    }
+    data warnings{List::list};
+    for (const std::string& warning : report.warnings)
+        warnings.push_back(clean_text(warning));
+    part.set("has_warnings", !report.warnings.empty());
+    part.set("warnings", warnings);
     return part;
 }
 

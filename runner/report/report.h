@@ -25,13 +25,29 @@ struct RunContext {
     FilesRead inputs;
 };
 
-enum class VerdictKind { pass, fail, not_measured };
+/// flaky: repeats of the same thing differ.
+enum class VerdictKind { pass, fail, not_measured, flaky };
+/// What the list of known failures says of a verdict.
+enum class Expectation {
+    none,           ///< it is not listed
+    known,          ///< red as it was listed: no news
+    expired,        ///< red as it was listed, but the entry's time is over
+    unexpected_pass ///< listed as failing and green
+};
 struct Verdict {
     VerdictKind kind = VerdictKind::pass;
     std::string name;  ///< "reach_5lx_road_own_m"
     std::string text;  ///< "61.2 m, limit at least 60 m"
     std::string rerun; ///< command that repeats just this
+    Expectation expectation = Expectation::none;
+    std::string known = {}; ///< the list's entry in a sentence; "" where it is not listed
 };
+
+/// What turns a run red: whatever is not green and not known, and what is green against expectation.
+inline bool is_red(const Verdict& verdict) {
+    return verdict.expectation == Expectation::unexpected_pass ||
+           (verdict.kind != VerdictKind::pass && verdict.expectation != Expectation::known);
+}
 
 /// A picture stored at a captured moment; paths are relative to the report's folder.
 struct StoredFrame {
@@ -120,11 +136,27 @@ struct CarRow {
     bool operator==(const CarRow&) const = default;
 };
 
+/// A reading over the repeats of a run.
+struct ReadingSpread {
+    std::string name;
+    int tick = -1;                     ///< -1: of the whole drive
+    int count = 0;                     ///< repeats in which it was measured
+    double mean = 0.0, variance = 0.0; ///< the sample's (n - 1)
+};
+
+/// The same lamp set played several times.
+struct Repeats {
+    int count = 1;                     ///< plays, the first among them
+    std::vector<std::string> differ;   ///< what differs from the first play, the first difference of each kind first; empty: nothing
+    std::vector<ReadingSpread> spread; ///< of readings that differ
+};
+
 /// One drive played with one lamp set.
 struct PlayedVariant {
     std::string drive, variant, technique;
-    std::string title;                                      ///< of the drive, for people
-    std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
+    std::vector<std::pair<std::string, std::string>> inputs; ///< what decides the results: "drive", "road", "lamp file 1" ... -> XXH3-128
+    std::string title;                                       ///< of the drive, for people
+    std::vector<std::pair<std::string, std::string>> lamps;  ///< lamp name -> file name
     int ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;
     StoredFrame contact_sheet;                        ///< one moment drawn in every technique; without a PNG where none was asked for
@@ -140,6 +172,7 @@ struct PlayedVariant {
     Savings savings;
     DriveError error;
     Readings readings; ///< summary of the drive and probes
+    Repeats repeats;
     std::vector<Verdict> verdicts;
     std::vector<std::string> left_out; ///< what the scene did not need, one sentence each
     std::vector<std::string> notes;    ///< near-field, warnings of readers ...
@@ -149,7 +182,9 @@ struct Report {
     RunContext context;
     std::vector<PlayedVariant> played;
     bool complete = true;
-    std::string interrupted; ///< why not complete
+    std::string interrupted;           ///< why not complete
+    std::vector<Verdict> listed;       ///< on the list of known failures itself: entries that are of no use any more
+    std::vector<std::string> warnings; ///< one sentence each
 };
 
 /// The page shows this many moments of a drive: of all that are pictured, evenly spread, first and last among them.
@@ -160,7 +195,16 @@ std::vector<std::size_t> spread_over(std::size_t count, std::size_t most);
 /// Writes report.json, junit.xml, readings.csv, times.csv and report.html into `folder` (frames are there already). Each file atomically.
 void write_report(const Report& report, const std::filesystem::path& folder);
 
-/// The report's verdict: fail if anything failed, else not_measured if anything asked for was not measured, else pass.
+/// The report's verdict over what is red: fail if anything failed or passed unexpectedly, else flaky if a repeat differed, else
+/// not_measured if anything asked for was not measured, else pass.
 VerdictKind overall(const Report& report);
+
+struct VerdictCounts {
+    std::size_t pass = 0, fail = 0, not_measured = 0, flaky = 0; ///< by kind, without those that are known or pass unexpectedly
+    std::size_t known = 0, unexpected_pass = 0;
+
+    std::size_t all() const { return pass + fail + not_measured + flaky + known + unexpected_pass; }
+};
+VerdictCounts count_verdicts(const Report& report);
 
 } // namespace fernlicht

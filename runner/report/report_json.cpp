@@ -4,6 +4,7 @@
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
 #include "runner/report/report_writers.h"
+#include "runner/report/verdict_json.h"
 
 #include <algorithm>
 #include <array>
@@ -76,13 +77,6 @@ Json rows_json(const Report& report) {
             rows.push_back(std::move(row));
         }
     return rows;
-}
-
-Json verdicts_json(const std::vector<Verdict>& verdicts) {
-    Json out = Json::array();
-    for (const Verdict& verdict : verdicts)
-        out.push_back({{"name", verdict.name}, {"verdict", verdict_name(verdict.kind)}, {"text", verdict.text}, {"rerun", verdict.rerun}});
-    return out;
 }
 
 Json key_json(const ExtentKey& key) {
@@ -275,38 +269,6 @@ Json car_json(const std::vector<CarRow>& rows) {
     return columns;
 }
 
-Json drive_json(const PlayedVariant& played) {
-    Json frames = Json::array(), speed = Json::array();
-    for (const StoredFrame& frame : played.frames)
-        frames.push_back({{"frame", frame.tick},
-                          {"time_s", finite(frame.time_s, "time")},
-                          {"view", frame.view},
-                          {"png", frame.png.empty() ? Json(nullptr) : Json(frame.png)},
-                          {"exr", frame.exr.empty() ? Json(nullptr) : Json(frame.exr)}});
-    for (const auto& [time_s, mps] : played.speed_mps)
-        speed.push_back({finite(time_s, "time"), finite(mps, "speed")});
-    Json json{{"drive", played.drive},
-              {"variant", played.variant},
-              {"technique", played.technique},
-              {"lamps", pairs(played.lamps)},
-              {"ticks_planned", played.ticks_planned},
-              {"ticks_done", played.ticks_done},
-              {"verdicts", verdicts_json(played.verdicts)},
-              {"left_out", played.left_out},
-              {"notes", played.notes},
-              {"summary", summary_json(played)},
-              {"frames", frames},
-              {"contact_sheet", contact_sheet_json(played.contact_sheet)},
-              {"speed_mps", speed},
-              {"accuracy", accuracy_json(played.error)},
-              {"extents", extents_json(played)}};
-    if (!played.seeing.empty())
-        json["seeing"] = seeing_json(played.seeing);
-    if (!played.car.empty())
-        json["car"] = car_json(played.car);
-    return json;
-}
-
 /// What comparing took, and what a frame takes.
 Json accuracy_times_json(const Report& report) {
     Json out = Json::array();
@@ -388,13 +350,50 @@ Json savings_json(const Report& report) {
 
 } // namespace
 
+nlohmann::ordered_json played_json(const PlayedVariant& played) {
+    Json frames = Json::array(), speed = Json::array();
+    for (const StoredFrame& frame : played.frames)
+        frames.push_back({{"frame", frame.tick},
+                          {"time_s", finite(frame.time_s, "time")},
+                          {"view", frame.view},
+                          {"png", frame.png.empty() ? Json(nullptr) : Json(frame.png)},
+                          {"exr", frame.exr.empty() ? Json(nullptr) : Json(frame.exr)}});
+    for (const auto& [time_s, mps] : played.speed_mps)
+        speed.push_back({finite(time_s, "time"), finite(mps, "speed")});
+    Json json{{"drive", played.drive},
+              {"variant", played.variant},
+              {"technique", played.technique},
+              {"lamps", pairs(played.lamps)},
+              {"inputs", pairs(played.inputs)},
+              {"ticks_planned", played.ticks_planned},
+              {"ticks_done", played.ticks_done},
+              {"repeats", repeats_json(played.repeats)},
+              {"verdicts", verdicts_json(played.verdicts)},
+              {"left_out", played.left_out},
+              {"notes", played.notes},
+              {"summary", summary_json(played)},
+              {"frames", frames},
+              {"contact_sheet", contact_sheet_json(played.contact_sheet)},
+              {"speed_mps", speed},
+              {"accuracy", accuracy_json(played.error)},
+              {"extents", extents_json(played)}};
+    if (!played.seeing.empty())
+        json["seeing"] = seeing_json(played.seeing);
+    if (!played.car.empty())
+        json["car"] = car_json(played.car);
+    return json;
+}
+
 std::string report_json(const Report& report) {
     Json drives = Json::array();
     for (const PlayedVariant& played : report.played)
-        drives.push_back(drive_json(played));
+        drives.push_back(played_json(played));
     const Json whole{{"schema", "fernlicht report"},
                      {"schema_version", 1},
                      {"verdict", verdict_name(overall(report))},
+                     {"verdict_counts", counts_json(count_verdicts(report))},
+                     {"known_failures", verdicts_json(report.listed)},
+                     {"warnings", report.warnings},
                      {"complete", report.complete},
                      {"interrupted", report.complete ? Json(nullptr) : Json(report.interrupted)},
                      {"rows", rows_json(report)},

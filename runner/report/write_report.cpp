@@ -1,20 +1,43 @@
 #include "runner/report/report.h"
 #include "runner/report/report_writers.h"
 
-#include <algorithm>
-
 namespace fernlicht {
 
+namespace {
+
+template <class Take> void each_verdict(const Report& report, const Take& take) {
+    for (const PlayedVariant& played : report.played)
+        for (const Verdict& verdict : played.verdicts)
+            take(verdict);
+    for (const Verdict& verdict : report.listed)
+        take(verdict);
+}
+
+} // namespace
+
+VerdictCounts count_verdicts(const Report& report) {
+    VerdictCounts counts;
+    each_verdict(report, [&](const Verdict& verdict) {
+        if (verdict.expectation == Expectation::unexpected_pass)
+            ++counts.unexpected_pass;
+        else if (verdict.expectation == Expectation::known)
+            ++counts.known;
+        else
+            ++(verdict.kind == VerdictKind::pass    ? counts.pass
+               : verdict.kind == VerdictKind::fail  ? counts.fail
+               : verdict.kind == VerdictKind::flaky ? counts.flaky
+                                                    : counts.not_measured);
+    });
+    return counts;
+}
+
 VerdictKind overall(const Report& report) {
-    const auto any = [&](VerdictKind kind) {
-        return std::any_of(report.played.begin(), report.played.end(), [&](const PlayedVariant& played) {
-            return std::any_of(played.verdicts.begin(), played.verdicts.end(),
-                               [&](const Verdict& verdict) { return verdict.kind == kind; });
-        });
-    };
-    if (any(VerdictKind::fail))
+    const VerdictCounts counts = count_verdicts(report);
+    if (counts.fail > 0 || counts.unexpected_pass > 0)
         return VerdictKind::fail;
-    return any(VerdictKind::not_measured) || !report.complete ? VerdictKind::not_measured : VerdictKind::pass;
+    if (counts.flaky > 0)
+        return VerdictKind::flaky;
+    return counts.not_measured > 0 || !report.complete ? VerdictKind::not_measured : VerdictKind::pass;
 }
 
 void write_report(const Report& report, const std::filesystem::path& folder) {

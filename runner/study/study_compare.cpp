@@ -42,7 +42,7 @@ void compare_pair(StudyResult& result, const StudyComparison& comparison) {
             if (lamp_of(a) != comparison.tested || lamp_of(b) != comparison.against || !is_same_place(a.cell, b.cell))
                 continue;
             for (const auto& [name, reading] : a.readings)
-                if (!says_how_exact(name) && !is_of_time(reading) && b.readings.contains(name))
+                if (!says_how_exact(name) && !is_unit_of_time(reading.unit) && b.readings.contains(name))
                     result.changes.push_back(change_of(result, i, k, name));
         }
 }

@@ -6,6 +6,7 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 #include "tests/runner/program.h"
+#include "tests/runner/stored_run.h"
 
 #include <chrono>
 #include <csignal>
@@ -18,62 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-/// A small run on disk: two lamp sets, two frames each, a few readings. `light` scales all of it.
-struct StoredRun {
-    explicit StoredRun(const fs::path& folder_, double light = 1.0) : folder(folder_) {
-        fs::create_directories(folder / "frames");
-        report.context.backend = "egl";
-        report.context.gl_renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
-        report.context.cpu = "Some CPU @ 2 GHz (avx2)";
-        report.context.command = "fernlicht run straight.yaml";
-        report.context.started_utc = "2026-01-31T22:15:00Z";
-        for (const char* variant : {"halogen", "xenon"})
-            report.played.push_back(played(variant, light));
-        write_report(report, folder);
-    }
-
-    PlayedVariant played(const std::string& variant, double light) const {
-        PlayedVariant result;
-        result.drive = "straight";
-        result.variant = variant;
-        result.technique = "photometric";
-        result.ticks_planned = result.ticks_done = 20;
-        result.readings = {{"reach_5lx_road_own_m", 60.0 * light, "m", "", -1, ""},
-                           {"reach_1lx_road_own_m", {}, "m", "", -1, "beyond"},
-                           {"frame_time_median_ms", 12.5 + 100.0 * light, "ms", "", -1, ""}};
-        for (const int tick : {0, 10}) {
-            const std::string exr = "frames/" + variant + "-" + std::to_string(tick) + ".exr";
-            write_frame(exr, tick, light);
-            result.frames.push_back({tick, 0.1 * tick, "driver", "", exr});
-        }
-        return result;
-    }
-
-    void write_frame(const std::string& exr, int tick, double light) const {
-        Frame frame;
-        frame.illuminance_lx = Image<float>(64, 48);
-        frame.luminance_cdm2 = Image<float>(64, 48);
-        for (std::size_t i = 0; i < frame.illuminance_lx.size(); ++i) {
-            frame.illuminance_lx.pixels()[i] = static_cast<float>(light * (1.0 + static_cast<double>(i % 64) + tick));
-            frame.luminance_cdm2.pixels()[i] = static_cast<float>(light * 0.05 * static_cast<double>(i / 64));
-        }
-        View view;
-        view.name = "driver";
-        view.width_px = 64;
-        view.height_px = 48;
-        Moment moment;
-        moment.tick = tick;
-        write_exr(frame, moment, view, folder / exr);
-    }
-
-    std::vector<Verdict> judged(const fs::path& references) const {
-        return judge_against_references(report.played[0], report.context, folder, references, "photometric");
-    }
-
-    fs::path folder;
-    Report report;
-};
+using tests::StoredRun;
 
 bool all_pass(const std::vector<Verdict>& verdicts) {
     return !verdicts.empty() && std::ranges::all_of(verdicts, [](const Verdict& verdict) { return verdict.kind == VerdictKind::pass; });
@@ -101,14 +47,22 @@ class References : public ::testing::Test {
   protected:
     TemporaryFolder temporary;
     const fs::path store = temporary.path() / "references";
+    std::string id_of(const std::string& variant) const {
+        for (const StoredReference& entry : list_references(store))
+            if (entry.key.variant == variant)
+                return short_id(entry.id);
+        return "none";
+    }
     const StoredRun run{temporary.path() / "run"};
 };
 
 TEST_F(References, TheSameRunAgrees) {
     const Accepted accepted = accept_run(run.folder, store);
-    EXPECT_EQ(accepted.drives, 2U);
-    EXPECT_EQ(accepted.frames, 4U);
-    EXPECT_EQ(accepted.readings, 4U) << "two readings of each lamp set; times are none";
+    ASSERT_EQ(accepted.references.size(), 2U);
+    for (const AcceptedReference& reference : accepted.references) {
+        EXPECT_EQ(reference.frames.size(), 2U);
+        EXPECT_EQ(reference.readings.size(), 2U) << "times are none";
+    }
     const auto verdicts = run.judged(store);
     EXPECT_TRUE(all_pass(verdicts)) << texts(verdicts);
     ASSERT_EQ(verdicts.size(), 2U);
@@ -158,7 +112,7 @@ TEST_F(References, AReadingTwoPercentOffIsRed) {
     const auto verdicts = other.judged(store);
     EXPECT_EQ(verdicts[0].kind, VerdictKind::fail);
     EXPECT_EQ(verdicts[0].name, "reference reading reach_5lx_road_own_m");
-    EXPECT_EQ(verdicts[0].text, "61.2 m, accepted 60 m, 2 % off, at most 0.1 %");
+    EXPECT_EQ(verdicts[0].text, "61.2 m, accepted 60 m, 2 % off, at most 0.1 % for rounding (" + id_of("halogen") + ")");
 }
 
 TEST_F(References, WhatOnlyOneSideHasIsRed) {
@@ -184,20 +138,36 @@ TEST_F(References, WhatOnlyOneSideHasIsRed) {
 
 TEST_F(References, ADamagedReferenceIsRed) {
     accept_run(run.folder, store);
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(store))
-        if (entry.path().extension() == ".exr")
-            fs::resize_file(entry.path(), 100);
-    const auto verdicts = run.judged(store);
-    ASSERT_EQ(verdicts.size(), 1U);
-    EXPECT_EQ(verdicts[0].kind, VerdictKind::fail);
-    EXPECT_THAT(verdicts[0].text, HasSubstr("is not the frame that was accepted"));
-    accept_run(run.folder, store);
-    EXPECT_TRUE(all_pass(run.judged(store))) << "accepting again mends it";
+    for (const auto& [damage, sentence] :
+         {std::pair("frame", "is not the frame that was accepted"), std::pair("result", "is not the result that")}) {
+        std::vector<fs::path> objects;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(store / "objects"))
+            if (entry.is_regular_file() && content_of(entry.path()).starts_with("{") == (damage == std::string("result")))
+                objects.push_back(entry.path());
+        ASSERT_FALSE(objects.empty());
+        for (const fs::path& object : objects)
+            fs::resize_file(object, fs::file_size(object) - 1);
+        const auto verdicts = run.judged(store);
+        ASSERT_EQ(verdicts.size(), 1U);
+        EXPECT_EQ(verdicts[0].kind, VerdictKind::fail);
+        EXPECT_THAT(verdicts[0].text, HasSubstr(sentence));
+        accept_run(run.folder, store);
+        EXPECT_TRUE(all_pass(run.judged(store))) << "accepting again mends it";
+    }
     for (const char* content : {"", "{", "[]", "{\"schema\": 1}", "{\"schema\": \"fernlicht references\", \"schema_version\": 7}"}) {
         std::ofstream(store / "index.json", std::ios::trunc) << content;
         EXPECT_FALSE(all_pass(run.judged(store))) << content;
         EXPECT_THROW(accept_run(run.folder, store), InputError) << content;
     }
+}
+
+TEST_F(References, AStoreOfTheOldFormIsRefusedWithWhatToDo) {
+    fs::create_directories(store);
+    std::ofstream(store / "index.json") << R"({"schema": "fernlicht references", "schema_version": 1, "references": []})";
+    const Outcome refused = run_program("accept '" + run.folder.string() + "' --to '" + store.string() + "'");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.output, HasSubstr("the old form"));
+    EXPECT_THAT(refused.output, HasSubstr("a new folder, into which the runs are accepted again"));
 }
 
 TEST_F(References, ComparingChangesNothing) {
@@ -215,17 +185,119 @@ TEST_F(References, AcceptingTwiceIsAcceptingOnce) {
     EXPECT_EQ(state_of(store), before);
 }
 
-TEST_F(References, ANewAcceptanceReplacesItsOwnKeysAndLeavesOthers) {
+TEST_F(References, OtherResultsAreTakenOnlyWhenToldHow) {
+    accept_run(run.folder, store);
+    const auto before = state_of(store);
+    const StoredRun brighter(temporary.path() / "brighter", 1.5);
+    EXPECT_THROW(accept_run(brighter.folder, store), InputError);
+    EXPECT_EQ(state_of(store), before);
+}
+
+TEST_F(References, ReplacingTakesItsOwnKeysAndLeavesOthers) {
     accept_run(run.folder, store);
     StoredRun brighter(temporary.path() / "brighter", 1.5);
     brighter.report.played.pop_back(); // halogen alone
     write_report(brighter.report, brighter.folder);
-    accept_run(brighter.folder, store);
+    const Accepted accepted = accept_run(brighter.folder, store, Acceptance::replace);
+    EXPECT_EQ(accepted.stored[0].removed, 1U);
     EXPECT_TRUE(all_pass(brighter.judged(store)));
     EXPECT_FALSE(all_pass(run.judged(store)));
     EXPECT_TRUE(all_pass(judge_against_references(run.report.played[1], run.report.context, run.folder, store, "photometric")));
-    EXPECT_EQ(std::distance(fs::directory_iterator(store), fs::directory_iterator()), 3)
-        << "index and two lamp sets; the old halogen is gone";
+    EXPECT_EQ(list_references(store).size(), 2U);
+    EXPECT_EQ(state_of(store).size(), 1U + 2U + 4U) << "index, results and frames; those of the old halogen are gone";
+}
+
+TEST_F(References, OfSeveralAcceptedAnyWholeOneWillDo) {
+    accept_run(run.folder, store);
+    StoredRun brighter(temporary.path() / "brighter", 1.5);
+    accept_run(brighter.folder, store, Acceptance::add, "another driver");
+    EXPECT_EQ(list_references(store).size(), 4U);
+    EXPECT_TRUE(all_pass(run.judged(store)));
+    const auto verdicts = brighter.judged(store);
+    EXPECT_TRUE(all_pass(verdicts)) << texts(verdicts);
+    EXPECT_THAT(verdicts[0].text, HasSubstr(", of 2 accepted)"));
+    brighter.report.played[0].frames = run.report.played[0].frames; // readings of the one, frames of the other
+    for (StoredFrame& frame : brighter.report.played[0].frames)
+        frame.exr = (run.folder / frame.exr).string();
+    EXPECT_FALSE(all_pass(brighter.judged(store)));
+}
+
+TEST_F(References, TheNearestIsNamedWhereNoneWillDo) {
+    accept_run(run.folder, store);
+    const StoredRun brighter(temporary.path() / "brighter", 1.5);
+    const Accepted accepted = accept_run(brighter.folder, store, Acceptance::add, "another driver");
+    StoredRun other = brighter;
+    other.report.played[0].readings[0].value = 100.0;
+    const auto verdicts = other.judged(store);
+    ASSERT_EQ(verdicts.size(), 2U) << texts(verdicts);
+    EXPECT_EQ(verdicts[0].kind, VerdictKind::fail);
+    EXPECT_THAT(verdicts[0].text, HasSubstr("100 m, accepted 90 m"));
+    EXPECT_THAT(verdicts[0].text, HasSubstr(short_id(accepted.stored[0].id)));
+}
+
+TEST_F(References, TheSpreadOverRepeatsIsStored) {
+    StoredRun repeated = run;
+    PlayedVariant& played = repeated.report.played[0];
+    played.repeats = {12, {"play 2: reach_5lx_road_own_m"}, {{"reach_5lx_road_own_m", -1, 12, 60.01, 1e-4}}};
+    write_report(repeated.report, repeated.folder);
+    accept_run(repeated.folder, store);
+    const AcceptedReference halogen = load_reference(store, list_references(store)[0]);
+    ASSERT_EQ(halogen.readings.size(), 2U);
+    EXPECT_EQ(halogen.readings[0].mean, 60.01);
+    EXPECT_EQ(halogen.readings[0].count, 12);
+    EXPECT_EQ(halogen.readings[0].variance, 1e-4);
+    EXPECT_EQ(halogen.readings[1].count, 0) << "not measured";
+    played.repeats = {};
+    played.readings[0].value = 60.1;
+    const auto verdicts = repeated.judged(store); // 0.06 m for rounding and, with t = 4.9, 0.05 m by chance
+    EXPECT_TRUE(all_pass(verdicts)) << texts(verdicts);
+    EXPECT_THAT(verdicts[0].text, HasSubstr("11 repeats beyond the first"));
+    played.readings[0].value = 60.14;
+    EXPECT_FALSE(all_pass(repeated.judged(store)));
+    EXPECT_EQ(load_reference(store, list_references(store)[1]).readings[0].count, 1) << "the xenon was played once";
+}
+
+TEST_F(References, OtherInputsAreAnotherKeyAndAreNamed) {
+    accept_run(run.folder, store);
+    StoredRun other = run;
+    other.report.played[0].inputs[1].second = "another hash";
+    const auto verdicts = other.judged(store);
+    ASSERT_EQ(verdicts.size(), 1U);
+    EXPECT_THAT(verdicts[0].text, HasSubstr("with these inputs; " + id_of("halogen") + " had another road"));
+    RunContext context = run.report.context;
+    context.backend = "osmesa";
+    EXPECT_THAT(texts(judge_against_references(run.report.played[0], context, run.folder, store, "photometric")),
+                HasSubstr(id_of("halogen") + " is of egl, llvmpipe"));
+}
+
+// Three other classes of device gave 60, 60.001 and 60.002 m: mean 60.001, standard deviation 0.001; Student's t with 2 degrees of freedom
+// at 0.001 is 31.6: chance reaches 31.6 * 0.001 * sqrt(4/3) = 0.036 m, with rounding 0.097 m.
+TEST_F(References, AcrossDevicesTheSpreadOverOthersDecides) {
+    for (int device = 0; device < 3; ++device) {
+        StoredRun other(temporary.path() / std::to_string(device));
+        other.report.context.backend = "egl-device=" + std::to_string(device);
+        other.report.played[0].readings[0].value = 60.0 + 0.001 * device;
+        write_report(other.report, other.folder);
+        accept_run(other.folder, store);
+        if (device < 2) {
+            EXPECT_EQ(all_pass(judge_against_references(run.report.played[0], run.report.context, run.folder, store, "photometric", true)),
+                      false)
+                << "one class is no spread, and the spread of two is too little known";
+        }
+    }
+    StoredRun here = run;
+    const auto judged = [&](double reach_m, bool across) {
+        here.report.played[0].readings[0].value = reach_m;
+        return judge_against_references(here.report.played[0], here.report.context, here.folder, store, "photometric", across);
+    };
+    EXPECT_FALSE(all_pass(judged(60.0, false))) << "nothing is accepted here";
+    const auto within = judged(60.09, true);
+    EXPECT_TRUE(all_pass(within)) << texts(within);
+    EXPECT_THAT(within[0].text, HasSubstr("over 3 other classes of device"));
+    EXPECT_THAT(within[1].text, HasSubstr("4 pictures agree"));
+    EXPECT_FALSE(all_pass(judged(60.11, true)));
+    accept_run(run.folder, store);
+    EXPECT_FALSE(all_pass(judged(60.09, true))) << "accepted here: 60 m, and that alone decides";
 }
 
 // The second lamp set's last frame is missing: by then the first set is copied already.
@@ -234,7 +306,7 @@ TEST_F(References, AnAcceptanceThatFailsHalfWayLeavesTheOldOnes) {
     const auto before = state_of(store);
     const StoredRun brighter(temporary.path() / "brighter", 1.5);
     fs::remove(brighter.folder / brighter.report.played[1].frames[1].exr);
-    EXPECT_THROW(accept_run(brighter.folder, store), InputError);
+    EXPECT_THROW(accept_run(brighter.folder, store, Acceptance::replace), InputError);
     EXPECT_TRUE(all_pass(run.judged(store)));
     const auto index = content_of(store / "index.json");
     EXPECT_EQ(before.at("index.json"), content_hash(index.data(), index.size()));
@@ -251,7 +323,7 @@ TEST_F(References, AKilledAcceptanceLeavesOneOfTheTwoRunsWhole) {
         const pid_t child = ::fork();
         ASSERT_GE(child, 0);
         if (child == 0) {
-            accept_run(to_brighter ? brighter.folder : run.folder, store);
+            accept_run(to_brighter ? brighter.folder : run.folder, store, Acceptance::replace);
             ::_exit(0);
         }
         ::usleep(static_cast<useconds_t>(whole_us * round / 16.0)); // from at once to long after the end
@@ -266,10 +338,10 @@ TEST_F(References, AKilledAcceptanceLeavesOneOfTheTwoRunsWhole) {
                 whole == &run ? holds_old : holds_new)
                 << "round " << round;
     }
-    accept_run(run.folder, store);
+    accept_run(brighter.folder, store, Acceptance::replace);
+    accept_run(run.folder, store, Acceptance::replace);
     EXPECT_TRUE(all_pass(run.judged(store)));
-    for (const fs::directory_entry& entry : fs::directory_iterator(store))
-        EXPECT_NE(entry.path().filename().string().front(), '.') << "left behind: " << entry.path();
+    EXPECT_EQ(state_of(store).size(), 1U + 2U + 2U) << "index, results, and the frames that both share: nothing is left behind";
 }
 
 TEST_F(References, RefusesWhatIsNoCompleteRun) {
@@ -289,7 +361,9 @@ TEST_F(References, RefusesWhatIsNoCompleteRun) {
 TEST_F(References, TheCommandSaysWhatItTookAndFailsInOneSentence) {
     const Outcome taken = run_program("accept '" + run.folder.string() + "' --to '" + store.string() + "'");
     EXPECT_EQ(taken.exit_code, 0) << taken.output;
-    EXPECT_EQ(taken.output, "accepted into " + store.string() + ": 2 lamp sets with 4 frames and 4 readings\n");
+    EXPECT_EQ(taken.output, id_of("halogen") + "  straight/halogen/photometric: new\n" + id_of("xenon") +
+                                "  straight/xenon/photometric: new\naccepted into " + store.string() +
+                                ": 2 lamp sets with 4 frames and 4 readings\n");
     EXPECT_TRUE(all_pass(run.judged(store)));
     const Outcome refused = run_program("accept '" + (temporary / "nowhere") + "'");
     EXPECT_EQ(refused.exit_code, 2);

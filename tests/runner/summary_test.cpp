@@ -137,7 +137,7 @@ TEST(Summary, TimesOfPasses) {
     EXPECT_NEAR(value(readings, "frame_time_p95_ms"), 28.2, 1e-9);
     EXPECT_NEAR(value(readings, "frame_time_spread_ms"), 28.2 - 10.2, 1e-9);
     EXPECT_FALSE(find(readings, "shadow_time_median_ms").value);
-    EXPECT_TRUE(is_of_time(readings[0]));
+    EXPECT_TRUE(is_unit_of_time(readings[0].unit));
 }
 
 } // namespace

@@ -137,8 +137,8 @@ TEST(Seeing, LimitsKnowItsReadings) {
 }
 
 TEST(Seeing, SecondsOfADriveAreComparedAndMillisecondsOfAMachineNot) {
-    EXPECT_FALSE(is_of_time({"glare_eye_time_above_1lx_s", 1.0, "s", "", -1, ""}));
-    EXPECT_TRUE(is_of_time({"frame_time_median_ms", 1.0, "ms", "", -1, ""}));
+    EXPECT_FALSE(is_unit_of_time("s"));
+    EXPECT_TRUE(is_unit_of_time("ms"));
 }
 
 } // namespace

@@ -1,0 +1,104 @@
+#include "runner/accepted_reference.h"
+
+#include "runner/checked_json.h"
+#include "runner/reference_json.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* schema = "fernlicht accepted results";
+
+Json texts_json(const std::vector<std::pair<std::string, std::string>>& texts) {
+    Json json = Json::object();
+    for (const auto& [name, text] : texts)
+        json[name] = text;
+    return json;
+}
+
+Json reading_json(const AcceptedReading& reading) {
+    Json json{{"name", reading.name}, {"unit", reading.unit}, {"frame", reading.tick}, {"mean", nullptr}};
+    if (reading.mean)
+        json["mean"] = *reading.mean;
+    json["count"] = reading.count;
+    json["variance"] = reading.variance;
+    return json;
+}
+
+AcceptedReading read_reading(const CheckedJson& json) {
+    AcceptedReading reading{json.at("name").text(),           json.at("unit").text(),   json.at("frame").whole(),
+                            json.at("mean").number_or_null(), json.at("count").whole(), json.at("variance").number()};
+    if (reading.count < (reading.mean ? 1 : 0))
+        json.at("count").refuse("1 or more of what was measured");
+    if (reading.variance < 0.0)
+        json.at("variance").refuse("0 or more");
+    return reading;
+}
+
+} // namespace
+
+Json key_json(const ReferenceKey& key) {
+    return {{"drive", key.drive},     {"variant", key.variant},         {"technique", key.technique},
+            {"backend", key.backend}, {"gl_renderer", key.gl_renderer}, {"simd", key.simd},
+            {"inputs", key.inputs}};
+}
+
+ReferenceKey read_key(const CheckedJson& json) {
+    return {json.at("drive").text(),       json.at("variant").text(), json.at("technique").text(), json.at("backend").text(),
+            json.at("gl_renderer").text(), json.at("simd").text(),    json.at("inputs").text()};
+}
+
+std::string read_hash(const CheckedJson& json) {
+    const std::string hash = json.text();
+    if (hash.size() != 32 || hash.find_first_not_of("0123456789abcdef") != std::string::npos)
+        json.refuse("32 hexadecimal digits");
+    return hash;
+}
+
+bool same_results(const AcceptedReference& a, const AcceptedReference& b) {
+    const auto same = [](const ReferenceFrame& x, const ReferenceFrame& y) {
+        return x.tick == y.tick && x.view == y.view && x.xxh128 == y.xxh128;
+    };
+    return a.readings == b.readings && std::ranges::equal(a.frames, b.frames, same);
+}
+
+std::string reference_object(const AcceptedReference& reference) {
+    Json readings = Json::array(), frames = Json::array();
+    for (const AcceptedReading& reading : reference.readings)
+        readings.push_back(reading_json(reading));
+    for (const ReferenceFrame& frame : reference.frames)
+        frames.push_back({{"frame", frame.tick}, {"view", frame.view}, {"xxh128", frame.xxh128}});
+    const Producer& producer = reference.producer;
+    const Json json{{"schema", schema},
+                    {"schema_version", 1},
+                    {"key", key_json(reference.key)},
+                    {"producer",
+                     {{"versions", texts_json(producer.versions)},
+                      {"gl_version", producer.gl_version},
+                      {"cpu", producer.cpu},
+                      {"os", producer.os},
+                      {"inputs", texts_json(producer.inputs)}}},
+                    {"readings", readings},
+                    {"frames", frames}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+AcceptedReference read_reference_object(const std::filesystem::path& file) {
+    const CheckedJson json = CheckedJson::read(file);
+    json.expect_schema(schema, 1);
+    AcceptedReference reference;
+    reference.key = read_key(json.at("key"));
+    const CheckedJson producer = json.at("producer");
+    reference.producer = {producer.at("versions").texts(), producer.at("gl_version").text(), producer.at("cpu").text(),
+                          producer.at("os").text(), producer.at("inputs").texts()};
+    for (const CheckedJson& reading : json.at("readings").items())
+        reference.readings.push_back(read_reading(reading));
+    for (const CheckedJson& frame : json.at("frames").items())
+        reference.frames.push_back({frame.at("frame").whole(), frame.at("view").text(), {}, read_hash(frame.at("xxh128"))});
+    return reference;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,17 @@
+// What decides the results of one drive with one lamp set, as hashes: for the key of accepted results.
+#pragma once
+
+#include "scenarios/drives/drive.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fernlicht {
+
+/// "drive": the resolved drive with this lamp set alone and the moments first_tick..last_tick, "road", "lamp file 1" ...:
+/// contents. Neither paths nor what changes no result counts: title, limits, comments, other lamp sets, the program's version.
+std::vector<std::pair<std::string, std::string>> cell_inputs(const Drive& drive, const Variant& variant, const FilesRead& road,
+                                                             int first_tick, int last_tick);
+
+} // namespace fernlicht
