@@ -85,18 +85,30 @@ std::string variance_of(const std::string& channel) {
 /// Each pixel's variance comes from the spread of 16 means (docs/reference.md).
 constexpr int pixel_freedom = 15;
 
+/// A picture by rays: the light's channel, its variance, and which pixels are mixed.
+NoisyPicture noisy_picture(const std::vector<PictureChannel>& channels, const PictureChannel& light, const PictureChannel& variance) {
+    const PictureChannel* const mixed = find(channels, "mixed");
+    return {&light.values, &variance.values, mixed ? &mixed->values : nullptr, pixel_freedom};
+}
+
 ResultDifference compare_noise(const std::string& label, const std::string& channel, const NoisyPicture& tested,
                                const NoisyPicture& accepted, const ReferenceTolerance& tolerance) {
     const NoisyDifference found = compare_noisy(tested, accepted, tolerance.absolute, tolerance.relative, tolerance.false_alarm);
     if (found.identical)
         return {label, Agreement::agrees, channel + " identical", 0.0};
-    return {label, found.agrees() ? Agreement::agrees : Agreement::differs,
-            fmt::format(
-                "{}: z of the worst pixel {:.3g} at {}, {}, at most {:.3g} by chance in {} pixels; z of the sum {:.3g}, at most {:.3g}; "
-                "{:.4g} % of the accepted light; {} pixels without noise differ",
-                channel, found.worst_z, found.worst_x, found.worst_y, found.pixel_bound, found.compared, found.sum_z, found.sum_bound,
-                100.0 * found.sum_ratio, found.exact_over),
-            found.pixel_bound > 0.0 ? found.worst_z / found.pixel_bound : 0.0};
+    ResultDifference difference{label, found.differs() ? Agreement::differs : Agreement::agrees, "", 0.0};
+    difference.of_allowed = found.worst_bound > 0.0 ? found.worst_z / found.worst_bound : 0.0;
+    difference.text = fmt::format(
+        "{}: z of the worst of {} squares of {} pixels {:.3g} from pixel {}, {} on, at most {:.3g} by chance, {} beyond; z of their sum "
+        "{:.3g}, "
+        "at most {:.3g}; {:.4g} % of the accepted light; left out {} of {} pixels, which are mixed; {} pixels without noise differ",
+        channel, found.blocks, noise_block_px, found.worst_z, found.worst_x, found.worst_y, found.worst_bound, found.blocks_over,
+        found.sum_z, found.sum_bound, 100.0 * found.sum_ratio, found.left_out, found.left_out + found.compared, found.exact_over);
+    if (!found.differs() && !found.enough()) {
+        difference.agreement = Agreement::undecided;
+        difference.text += "; more are left out than are compared: accept a picture of more pixels";
+    }
+    return difference;
 }
 
 void compare_channels(std::vector<ResultDifference>& out, const std::string& label, const std::vector<PictureChannel>& tested,
@@ -115,8 +127,8 @@ void compare_channels(std::vector<ResultDifference>& out, const std::string& lab
         const PictureChannel *noise = find(tested, variance_of(reference.name)),
                              *noise_before = find(accepted, variance_of(reference.name));
         if (noise && noise_before) {
-            out.push_back(compare_noise(label, reference.name, {&channel->values, &noise->values, pixel_freedom},
-                                        {&reference.values, &noise_before->values, pixel_freedom}, tolerance));
+            out.push_back(compare_noise(label, reference.name, noisy_picture(tested, *channel, *noise),
+                                        noisy_picture(accepted, reference, *noise_before), tolerance));
             continue;
         }
         const ImageDifference difference = compare_images(channel->values, reference.values, tolerance.absolute, tolerance.relative);

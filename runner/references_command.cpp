@@ -157,9 +157,12 @@ int show(const Flags& flags) {
     return 0;
 }
 
-/// The same drive, lamp set and technique among a run's results.
+/// The same drive, lamp set and technique among a run's results; or its only result, whatever it is called: another lamp has another name.
 AcceptedReference counterpart(const std::string& folder, const ReferenceKey& key) {
-    for (AcceptedReference& results : read_run(folder).references)
+    std::vector<AcceptedReference> all = read_run(folder).references;
+    if (all.size() == 1)
+        return std::move(all.front());
+    for (AcceptedReference& results : all)
         if (results.key.drive == key.drive && results.key.variant == key.variant && results.key.technique == key.technique)
             return std::move(results);
     throw InputError({folder, 0, 0, {}}, "has no " + printable(cell_text(key), 200), "a run of what is compared");
