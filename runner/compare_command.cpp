@@ -1,6 +1,7 @@
 #include "runner/compare_command.h"
 
 #include "metrics/images/flip.h"
+#include "runner/compare/compare_runs.h"
 #include "runner/compare/comparison_writers.h"
 #include "runner/compare/strictness_file.h"
 #include "runner/output_folder.h"
@@ -8,7 +9,9 @@
 #include "scenarios/values/pose.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 
 namespace fernlicht {
@@ -16,10 +19,12 @@ namespace {
 
 struct Flags {
     std::filesystem::path reference, tested, out;
-    std::string strictness;
+    std::string strictness, pictures = "3";
     std::optional<double> pixels_per_degree, view_fov_deg;
     bool json = false;
 };
+
+enum class Kind { pictures, runs };
 
 double pixels_per_degree(const Flags& flags, int height_px) {
     const auto in_range = [](const char* flag, double value) {
@@ -60,28 +65,67 @@ int compare_two_pictures(const Flags& flags) {
     return comparison.passed() ? 0 : 1;
 }
 
-/// What A and B are decides how they are compared. Runs (folders with a report) and lamps would come here, before the pictures.
+std::size_t pictured_moments(const std::string& text) {
+    if (text == "all")
+        return std::numeric_limits<std::size_t>::max();
+    std::size_t moments = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), moments);
+    if (error != std::errc() || end != text.data() + text.size() || moments > 100000)
+        throw InputError({{}, 0, 0, "--pictures"}, "found '" + printable(text) + "'", "all, or a number of moments");
+    return moments;
+}
+
+int compare_runs_of(const Flags& flags) {
+    if (flags.view_fov_deg)
+        throw InputError({{}, 0, 0, "--view-fov"}, "found beside two runs", "none: the drives say what their views see");
+    CompareRunsRequest request;
+    request.before = flags.reference;
+    request.now = flags.tested;
+    request.out = flags.out;
+    request.strictness = flags.strictness;
+    if (flags.pixels_per_degree)
+        request.pixels_per_degree = pixels_per_degree(flags, 0);
+    request.pictured = pictured_moments(flags.pictures);
+    request.json = flags.json;
+    return compare_two_runs(request);
+}
+
+/// What a path is, by what lies there.
+Kind kind_of(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        return Kind::runs;
+    if (is_picture(path))
+        return Kind::pictures;
+    throw InputError({path, 0, 0, {}}, "is neither a run's folder nor a PNG or EXR picture", "two runs or two pictures");
+}
+
 int compare(const Flags& flags) {
-    for (const std::filesystem::path& file : {flags.reference, flags.tested})
-        if (!is_picture(file))
-            throw InputError({file, 0, 0, {}}, "is neither a PNG nor an EXR picture", "two pictures of one kind");
-    return compare_two_pictures(flags);
+    const Kind first = kind_of(flags.reference), second = kind_of(flags.tested);
+    if (first != second)
+        throw InputError({flags.tested, 0, 0, {}}, second == Kind::runs ? "is a folder" : "is a picture",
+                         first == Kind::runs ? "a run's folder as A" : "a picture as A");
+    return first == Kind::runs ? compare_runs_of(flags) : compare_two_pictures(flags);
 }
 
 } // namespace
 
 void add_compare_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();
-    CLI::App* sub =
-        app.add_subcommand("compare", "tells how two pictures differ: in numbers, in pictures, and whether they are alike enough");
-    sub->add_option("A", flags->reference, "the reference: PNG (display) or EXR (linear), as run writes them")->required();
-    sub->add_option("B", flags->tested, "what is compared with it: of the same kind and size")->required();
+    CLI::App* sub = app.add_subcommand(
+        "compare", "tells how two pictures or two runs differ: in numbers, in pictures, and whether they are alike enough");
+    sub->add_option("A", flags->reference, "the reference: PNG (display) or EXR (linear) as run writes them, or a run's folder")
+        ->required();
+    sub->add_option("B", flags->tested, "what is compared with it: of the same kind")->required();
     sub->add_option(
         "--strictness", flags->strictness,
         "identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md); exit code 1 when B does not keep it");
     CLI::Option* density = sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree, for FLIP; 67.02 when nothing is said");
     sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view in degrees, instead of --ppd")->excludes(density);
-    sub->add_option("--out", flags->out, "a new or empty folder for pictures of the difference and compare.json");
+    sub->add_option("--out", flags->out,
+                    "a new or empty folder for pictures of the difference and compare.json; of two runs for report.html, too");
+    sub->add_option("--pictures", flags->pictures, "of two runs: how many moments of each drive and view are drawn, or all")
+        ->capture_default_str();
     sub->add_flag("--json", flags->json, "prints JSON");
     sub->callback([flags, &chosen] { chosen = [flags] { return compare(*flags); }; });
 }

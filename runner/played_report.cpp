@@ -1,5 +1,8 @@
 #include "runner/played_report.h"
 
+#include "metrics/spread_test.h"
+
+#include <cmath>
 #include <limits>
 
 namespace fernlicht {
@@ -25,6 +28,15 @@ void read_rows(const CheckedJson& report, PlayedResult& result) {
             reading.why_not = row.at("not_measured").text();
         result.readings.emplace(reading.name, std::move(reading));
     }
+}
+
+/// Of one play: its standard deviation times Student's t, two-sided, 5 %.
+void read_repeats(const CheckedJson& played, PlayedResult& result) {
+    if (!played.has("repeats"))
+        return;
+    for (const CheckedJson& spread : played.at("repeats").at("spread").items())
+        if (const int count = spread.at("count").whole(); count > 1 && spread.at("frame").is_null())
+            result.by_repeats[spread.at("name").text()] = student_bound(count - 1, 0.05, 1) * std::sqrt(spread.at("variance").number());
 }
 
 void read_reaches(const CheckedJson& played, PlayedResult& result) {
@@ -91,6 +103,7 @@ PlayedResult read_played(const CheckedJson& report, const CheckedJson& played, c
         result.frames.push_back({frame.at("frame").whole(), frame.at("time_s").number(), frame.at("view").text(),
                                  file_below(folder, frame.at("png")), file_below(folder, frame.at("exr"))});
     read_rows(report, result);
+    read_repeats(played, result);
     read_reaches(played, result);
     read_glares(played, result);
     read_accuracy(report, played, result);

@@ -53,6 +53,13 @@ std::optional<double> uncertainty_of(const PlayedReadings& cell, const Reading& 
     return std::nullopt;
 }
 
+/// The spread between repeats on top of it, where they differ.
+std::optional<double> with_repeats(const PlayedReadings& cell, const Reading& reading) {
+    const std::optional<double> calculated = uncertainty_of(cell, reading);
+    const auto spread = cell.by_repeats.find(reading.name);
+    return spread == cell.by_repeats.end() ? calculated : std::hypot(calculated.value_or(0.0), spread->second);
+}
+
 std::optional<double> by_aim(const PlayedReadings& a, const PlayedReadings& b, const std::string& name) {
     if (!name.starts_with("reach_") || subject_of(name).empty())
         return std::nullopt;
@@ -123,7 +130,7 @@ ReadingChange change_of_reading(const std::string& name, const PlayedReadings& n
     change.why_not = tested.value ? against.why_not : tested.why_not;
     change.by_aim = by_aim(now, before, name);
     change.by_noise = by_noise(now, before, name, lamp_noise);
-    judge(change, uncertainty_of(now, tested), uncertainty_of(before, against));
+    judge(change, with_repeats(now, tested), with_repeats(before, against));
     return change;
 }
 

@@ -35,8 +35,9 @@ struct ReadingChange {
 
 /// What one side of a comparison read over a whole drive, rows that say how exact others are among it.
 struct PlayedReadings {
-    std::map<std::string, Reading> readings; ///< by name
-    double grid_cell_m = 0.5;                ///< of the extents' grid along the road; across it is a quarter of this
+    std::map<std::string, Reading> readings;  ///< by name
+    double grid_cell_m = 0.5;                 ///< of the extents' grid along the road; across it is a quarter of this
+    std::map<std::string, double> by_repeats; ///< of readings that differ between repeats: what chance reaches in 5 % of them
 };
 
 /// Whether a row tells how exact another reading is: such rows are not compared.

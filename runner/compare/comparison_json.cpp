@@ -1,4 +1,5 @@
 #include "runner/compare/comparison_writers.h"
+#include "runner/compare/layers_json.h"
 #include "runner/report/json_text.h"
 
 namespace fernlicht {
@@ -41,7 +42,7 @@ Json histogram_json(const ErrorHistogram& histogram) {
 
 } // namespace
 
-std::string comparison_json(const PictureComparison& comparison, const PicturePair& pair, const std::vector<std::string>& pictures) {
+nlohmann::ordered_json layers_json(const PictureComparison& comparison) {
     Json layers = Json::array();
     for (const LayerComparison& layer : comparison.layers) {
         Json values = Json::array();
@@ -53,6 +54,10 @@ std::string comparison_json(const PictureComparison& comparison, const PicturePa
                           {"strictness", layer.strictness ? strictness_json(*layer.strictness) : Json(nullptr)},
                           {"histogram", histogram_json(layer.histogram)}});
     }
+    return layers;
+}
+
+std::string comparison_json(const PictureComparison& comparison, const PicturePair& pair, const std::vector<std::string>& pictures) {
     return json_text({{"schema", "fernlicht comparison"},
                       {"schema_version", 1},
                       {"kind", "pictures"},
@@ -63,7 +68,7 @@ std::string comparison_json(const PictureComparison& comparison, const PicturePa
                       {"pixels_per_degree", comparison.pixels_per_degree},
                       {"strictness", comparison.strictness_name.empty() ? Json(nullptr) : Json(comparison.strictness_name)},
                       {"passed", comparison.strictness_name.empty() ? Json(nullptr) : Json(comparison.passed())},
-                      {"layers", layers},
+                      {"layers", layers_json(comparison)},
                       {"pictures", pictures}});
 }
 

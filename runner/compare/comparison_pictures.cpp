@@ -102,6 +102,12 @@ class PictureWriter {
         write_file(folder_ / (name + ".png"), png);
         written_.push_back(name + ".png");
     }
+    /// What is made of lines is kept as lines, too.
+    void write_lines(const std::string& name, const std::string& svg) {
+        write(name, plots::png_of_svg(svg));
+        write_file(folder_ / (name + ".svg"), svg);
+        written_.push_back(name + ".svg");
+    }
     void sheet(const std::string& name, const Sheet& sheet) { write(name, png_of_sheet(sheet)); }
 
     void beside(const std::string& prefix, const std::string& title, const Pixels& a, const Pixels& b, std::optional<SheetLegend> legend) {
@@ -140,8 +146,10 @@ class PictureWriter {
             drawn += any ? (drawn.empty() ? "" : ", ") + plots::number(level) : "";
         }
         panel.caption = drawn.empty() ? "no light reaches 0.25 lx" : "lines at " + drawn + " lx, over A in grey";
-        sheet(prefix + "isolux",
-              {"Isolux lines of " + pair.name, names_, {panel}, {}, {{"A", {{}, line_of_a, ""}}, {"B", {{}, line_of_b, "5 3"}}}});
+        write_lines(
+            prefix + "isolux",
+            svg_of_sheet(
+                {"Isolux lines of " + pair.name, names_, {panel}, {}, {{"A", {{}, line_of_a, ""}}, {"B", {{}, line_of_b, "5 3"}}}}));
     }
 
     static bool add_isolines(SheetPanel& panel, const Image<float>& values, double level, Colour colour, const std::string& dash) {
@@ -186,7 +194,7 @@ class PictureWriter {
                     .scale = plots::Scale::logarithmic};
         figure.y = {.label = "pixels", .unit = "%", .from = std::min(least, 0.1), .to = 100.0, .scale = plots::Scale::logarithmic};
         figure.series.push_back({.points = std::move(steps), .colour = plots::series_colour(0)});
-        write(prefix + "histogram", plots::png_of_svg(plots::svg_of(figure)));
+        write_lines(prefix + "histogram", plots::svg_of(figure));
     }
 
     std::filesystem::path folder_;

@@ -13,7 +13,8 @@ std::string comparison_text(const PictureComparison& comparison, const PicturePa
 /// `pictures`: names of the files beside it.
 std::string comparison_json(const PictureComparison& comparison, const PicturePair& pair, const std::vector<std::string>& pictures);
 
-/// PNG files that show the difference, in `folder`, which exists; their names. Throws DeviceError where they cannot be written.
+/// PNG files that show the difference, and SVG files of what is made of lines, in `folder`, which exists; their names. Throws DeviceError
+/// where they cannot be written.
 std::vector<std::string> write_comparison_pictures(const PictureComparison& comparison, const PicturePair& pair,
                                                    const std::filesystem::path& folder);
 

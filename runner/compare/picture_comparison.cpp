@@ -171,7 +171,7 @@ LayerComparison compare_linear(const LinearPair& pair, double pixels_per_degree,
     else
         for (const char* name : {"ssim", "ms_ssim"})
             add_not_measured(layer.values, name, "", "the reference has no light, so no range");
-    if (pair.unit == "cd/m2")
+    if (pair.unit == "cd/m2" && pixels_per_degree > 0.0)
         add_luminance_flip(layer, pair, pixels_per_degree);
     layer.histogram = error_histogram({pair.tested}, {pair.reference});
     if (strictness)

@@ -41,7 +41,7 @@ struct PictureComparison {
 /// Display pictures: levels, PSNR with peak 255, SSIM and MS-SSIM of luma (range 255), CIEDE2000, FLIP. Linear: in the unit, PSNR with the
 /// reference's largest value as peak, SSIM and MS-SSIM over four decades of light (light_decades.h), and, of luminance, FLIP for high
 /// dynamic range. What a picture cannot have (MS-SSIM of a small one, PSNR of two alike) is not measured, with the reason. Throws
-/// InputError where a mask does not fit.
+/// InputError where a mask does not fit. Linear pictures that nobody looks at (maps) have 0 pixels per degree and no FLIP.
 PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness);
 
 } // namespace fernlicht

@@ -73,7 +73,7 @@ void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double 
 
 } // namespace
 
-std::string png_of_sheet(const Sheet& sheet) {
+std::string svg_of_sheet(const Sheet& sheet) {
     const Image<Colour>& first = sheet.panels.at(0).pixels;
     const double scale = first.width() < least_width_px  ? std::ceil(static_cast<double>(least_width_px) / first.width())
                          : first.width() > most_width_px ? static_cast<double>(most_width_px) / first.width()
@@ -97,8 +97,10 @@ std::string png_of_sheet(const Sheet& sheet) {
         draw_panel(canvas, sheet.panels[i], edge_px + static_cast<double>(i) * (width + gap_px), top, scale);
     if (sheet.legend)
         draw_legend(canvas, *sheet.legend, edge_px + across + 14.0, top, height);
-    return plots::png_of_svg(canvas.finish());
+    return canvas.finish();
 }
+
+std::string png_of_sheet(const Sheet& sheet) { return plots::png_of_svg(svg_of_sheet(sheet)); }
 
 double rounded_up(double value) {
     if (!(value > 0.0))

@@ -1,4 +1,4 @@
-// Pictures beside each other with captions, lines over them and one legend: a sheet, drawn as PNG.
+// Pictures beside each other with captions, lines over them and one legend: a sheet, drawn as SVG or PNG.
 #pragma once
 
 #include "runner/plots/axes.h"
@@ -41,6 +41,7 @@ struct Sheet {
 };
 
 /// Small pictures are magnified by whole numbers without smoothing, large ones shrunk to 1024 pixels across.
+std::string svg_of_sheet(const Sheet& sheet);
 std::string png_of_sheet(const Sheet& sheet);
 
 /// The least of 1, 2, 5 times a power of ten that is at least `value`; 1 for 0.

@@ -158,7 +158,7 @@ class Inside {
             draw(b);
         for (const Isoline& i : f_.isolines)
             for (const Polyline& line : i.lines)
-                draw_line(line, {.colour = i.colour, .width_px = i.width_px});
+                draw_line(line, {.colour = i.colour, .width_px = i.width_px, .dash = i.dash});
         for (const Series& s : f_.series)
             draw(s);
         for (const Mark& m : f_.marks)

@@ -44,6 +44,7 @@ struct Isoline {
     std::vector<Polyline> lines = {};
     Colour colour{255, 255, 255};
     double width_px = 1.4;
+    std::string dash = {}; ///< as of a series
 };
 
 /// A straight line across the plot at a value of one axis: a limit, the horizon.

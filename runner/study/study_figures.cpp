@@ -131,19 +131,7 @@ std::optional<LuxMap> map_of(const StudyResult& result, std::size_t cell, const 
     if (maps.empty())
         return std::nullopt;
     const StoredFrame& frame = *maps[maps.size() / 2];
-    for (PictureChannel& channel : read_exr(folder / frame.exr))
-        if (channel.name == "illuminance.lx") {
-            const View& view = *view_of(frame);
-            return LuxMap{std::move(channel.values),
-                          view.map_ahead_m,
-                          view.map_behind_m,
-                          view.map_left_m,
-                          view.map_right_m,
-                          {},
-                          frame.tick,
-                          frame.time_s};
-        }
-    return std::nullopt;
+    return stored_lux_map(folder / frame.exr, frame, *view_of(frame));
 }
 
 void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, const std::filesystem::path& folder,

@@ -73,4 +73,7 @@ std::vector<StudyCell> cells_of(const Study& study);
 /// InputError for what the drive file or the lamp refuses, and for a drive with high beams where the lamp set has none.
 Drive cell_drive(const Study& study, const StudyCell& cell);
 
+/// The readings that decide where nobody names any.
+const std::vector<std::string>& usual_readings();
+
 } // namespace fernlicht

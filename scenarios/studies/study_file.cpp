@@ -15,8 +15,8 @@ constexpr int schema_version = 1;
 constexpr std::size_t most_bytes = std::size_t{1} << 20, most_entries = 100;
 
 /// What decides unless the study says otherwise: how far a target and the road are lit, how wide, how much.
-const std::vector<std::string> usual_readings{"reach_1lx_target_own_m",      "reach_5lx_target_own_m",      "reach_1lx_road_own_m",
-                                              "width_1lx_road_all_at_20m_m", "width_1lx_road_all_at_50m_m", "area_1lx_road_all_m2"};
+const std::vector<std::string> readings_that_decide{"reach_1lx_target_own_m",      "reach_5lx_target_own_m",      "reach_1lx_road_own_m",
+                                                    "width_1lx_road_all_at_20m_m", "width_1lx_road_all_at_50m_m", "area_1lx_road_all_m2"};
 
 std::filesystem::path existing(const YamlEntry& entry) {
     check_file(entry.path(), entry);
@@ -167,7 +167,7 @@ StudyLimit read_limit(const YamlEntry& entry, const std::vector<StudyLamp>& lamp
 void read_measuring(const YamlMap& keys, Study& study) {
     if (const auto measure = keys.find("measure"))
         study.measure = read_seeing(measure->map({"sensors", "glare", "visibility", "homogeneity", "places"}));
-    study.readings = usual_readings;
+    study.readings = usual_readings();
     if (const auto readings = keys.find("readings")) {
         study.readings.clear();
         for (const YamlEntry& entry : readings->list(1, most_entries))
@@ -198,6 +198,8 @@ void refuse_too_many(const Study& study, const YamlEntry& entry) {
 }
 
 } // namespace
+
+const std::vector<std::string>& usual_readings() { return readings_that_decide; }
 
 Study read_study(const std::filesystem::path& path) {
     Study study;

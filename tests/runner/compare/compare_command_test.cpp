@@ -120,10 +120,16 @@ TEST_F(CompareCommand, DrawsIntoANewFolderOnly) {
     const json found = json::parse(content_of(path("out/compare.json")));
     EXPECT_THAT(found.at("pictures").get<std::vector<std::string>>(),
                 ElementsAre("illuminance-side-by-side.png", "illuminance-split.png", "illuminance-difference.png", "illuminance-isolux.png",
-                            "illuminance-histogram.png", "luminance-side-by-side.png", "luminance-split.png", "luminance-difference.png",
-                            "luminance-flip.png", "luminance-histogram.png"));
-    for (const json& name : found.at("pictures"))
-        EXPECT_GT(read_png(path("out/" + name.get<std::string>())).size(), 10'000U);
+                            "illuminance-isolux.svg", "illuminance-histogram.png", "illuminance-histogram.svg",
+                            "luminance-side-by-side.png", "luminance-split.png", "luminance-difference.png", "luminance-flip.png",
+                            "luminance-histogram.png", "luminance-histogram.svg"));
+    for (const json& name : found.at("pictures")) {
+        const std::string file = path("out/" + name.get<std::string>());
+        if (file.ends_with(".svg"))
+            EXPECT_THAT(content_of(file), HasSubstr("</svg>"));
+        else
+            EXPECT_GT(read_png(file).size(), 10'000U);
+    }
     EXPECT_FALSE(std::filesystem::exists(path("out/INCOMPLETE")));
     // 5 % more light is orange, the dark keeps the colour of 0: 48 x 32 pixels, shown seven times as large from 16, 54 on.
     const Image<Rgb8> picture = read_png(path("out/illuminance-difference.png"));
@@ -135,8 +141,9 @@ TEST_F(CompareCommand, DrawsIntoANewFolderOnly) {
     EXPECT_EQ(again.exit_code, 2);
     EXPECT_THAT(again.output, HasSubstr("is not empty"));
     ASSERT_EQ(compare("a.png", "b.png", "--strictness same-light --out '" + path("shown") + "'").exit_code, 0);
-    EXPECT_THAT(json::parse(content_of(path("shown/compare.json"))).at("pictures").get<std::vector<std::string>>(),
-                ElementsAre("side-by-side.png", "split.png", "difference.png", "flip.png", "ciede2000.png", "histogram.png"));
+    EXPECT_THAT(
+        json::parse(content_of(path("shown/compare.json"))).at("pictures").get<std::vector<std::string>>(),
+        ElementsAre("side-by-side.png", "split.png", "difference.png", "flip.png", "ciede2000.png", "histogram.png", "histogram.svg"));
 }
 
 TEST_F(CompareCommand, PixelsPerDegree) {
