@@ -1,12 +1,14 @@
 #include "runner/aliasing_command.h"
 
 #include "runner/aliasing/aliasing_run.h"
+#include "runner/aliasing/sequence_run.h"
 #include "runner/flag_values.h"
 #include "runner/output_folder.h"
 #include "runner/run_context.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -22,7 +24,9 @@ struct Flags {
     std::vector<int> samples{1, 4};
     int supersample = 4;
     double level_lx = 1.0;
-    bool quiet = false;
+    bool quiet = false, flow = false;
+    std::filesystem::path sequence, against;
+    std::optional<double> rate_hz, pixels_per_degree, view_fov_deg;
 };
 
 SurfaceFilter filter_of(const std::string& text) {
@@ -80,19 +84,64 @@ AliasingRequest request_of(const Flags& flags) {
     request.level_lx = flags.level_lx;
     request.backend = flags.backend;
     request.quiet = flags.quiet;
+    request.flow = flags.flow;
     return request;
 }
 
-int aliasing(const Flags& flags, const std::vector<std::string>& command) {
+SequenceRequest sequence_request_of(const Flags& flags) {
+    SequenceRequest request;
+    request.sequence = flags.sequence;
+    if (!flags.against.empty())
+        request.against = flags.against;
+    if (!flags.frames.empty())
+        request.frames = two_numbers("--frames", flags.frames, ':', false, "FIRST:LAST, e.g. 60:75");
+    if (!flags.rate_hz)
+        throw InputError({{}, 0, 0, "--rate"}, "is missing", "frames per second of the sequence");
+    if (!(*flags.rate_hz >= 1.0 && *flags.rate_hz <= 10000.0))
+        refuse_flag("--rate", fmt::format("{:g}", *flags.rate_hz), "1 to 10000 frames per second");
+    request.rate_hz = *flags.rate_hz;
+    if (flags.pixels_per_degree.has_value() == flags.view_fov_deg.has_value())
+        throw InputError({{}, 0, 0, "--ppd"}, flags.pixels_per_degree ? "found --view-fov too" : "is missing",
+                         "either pixels per degree or --view-fov, the vertical angle of the view in degrees");
+    if (flags.pixels_per_degree && !(*flags.pixels_per_degree >= 1.0 && *flags.pixels_per_degree <= 1000.0))
+        refuse_flag("--ppd", fmt::format("{:g}", *flags.pixels_per_degree), "1 to 1000 pixels per degree");
+    if (flags.view_fov_deg && !(*flags.view_fov_deg > 0.0 && *flags.view_fov_deg < 180.0))
+        refuse_flag("--view-fov", fmt::format("{:g}", *flags.view_fov_deg), "degrees above 0 and below 180");
+    request.pixels_per_degree = flags.pixels_per_degree;
+    request.view_fov_deg = flags.view_fov_deg;
+    request.quiet = flags.quiet;
+    return request;
+}
+
+AliasingResult run(const Flags& flags, const std::vector<std::string>& command, std::filesystem::path& folder) {
+    const auto place = [&](const std::string& name) {
+        folder = flags.out.empty() ? default_output_folder(name + "-aliasing", utc_now()) : std::filesystem::path(flags.out);
+        return folder;
+    };
+    if (!flags.sequence.empty()) {
+        SequenceRequest request = sequence_request_of(flags);
+        request.command = command;
+        request.folder = place("sequence");
+        return run_sequence_aliasing(request);
+    }
     AliasingRequest request = request_of(flags);
     request.command = command;
-    request.folder =
-        flags.out.empty() ? default_output_folder(request.drive.name + "-aliasing", utc_now()) : std::filesystem::path(flags.out);
-    const AliasingResult result = run_aliasing(request);
-    fmt::print("{}{}\n", aliasing_text(result), (request.folder / "aliasing.html").string());
+    request.folder = place(request.drive.name);
+    return run_aliasing(request);
+}
+
+int aliasing(const Flags& flags, const std::vector<std::string>& command) {
+    if (flags.sequence.empty() == flags.drive.empty())
+        throw InputError({{}, 0, 0, "DRIVE"}, flags.drive.empty() ? "is missing" : "found --sequence too",
+                         "a drive file, or --sequence with a folder of frames");
+    std::filesystem::path folder;
+    const AliasingResult result = run(flags, command, folder);
+    fmt::print("{}{}\n", aliasing_text(result), (folder / "aliasing.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
-    return result.interrupted.empty() && !ranked(result).empty() ? 0 : 1;
+    const bool measured =
+        !ranked(result).empty() || std::ranges::any_of(result.rows, [](const AliasingRow& row) { return row.temporal.has_value(); });
+    return result.interrupted.empty() && measured ? 0 : 1;
 }
 
 } // namespace
@@ -100,9 +149,16 @@ int aliasing(const Flags& flags, const std::vector<std::string>& command) {
 void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub = app.add_subcommand("aliasing", "how much of what a picture shows is not there, by how it is drawn");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML)");
     sub->add_option("--moment", flags->moment_s, "seconds into the drive; the nearest moment is drawn; else its middle");
     sub->add_option("--frames", flags->frames, "FIRST:LAST, 8 to 64 frames in a row: measures flicker and crawl, too");
+    sub->add_flag("--flow", flags->flow, "with --frames: holds optical flow against the motion that is known, too");
+    CLI::Option* const sequence =
+        sub->add_option("--sequence", flags->sequence, "instead of a drive: a folder of frames that others drew, PNG or EXR with numbers");
+    sub->add_option("--against", flags->against, "the same frames drawn 4, 6 ... 16 times as fine each way")->needs(sequence);
+    sub->add_option("--rate", flags->rate_hz, "frames per second of the sequence")->needs(sequence);
+    sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree of the sequence")->needs(sequence);
+    sub->add_option("--view-fov", flags->view_fov_deg, "vertical angle of the sequence's view, degrees: instead of --ppd")->needs(sequence);
     sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
     const auto list = [&](const char* name, auto& values, const char* text) {
         return sub->add_option(name, values, text)->delimiter(',')->allow_extra_args(false);
@@ -123,6 +179,9 @@ void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
     sub->add_flag("--quiet", flags->quiet, "no progress");
+    for (const char* of_drives : {"--moment", "--variant", "--techniques", "--beams", "--samples", "--filter", "--supersample", "--picture",
+                                  "--level", "--resolution", "--backend", "--flow"})
+        sequence->excludes(of_drives);
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return aliasing(*flags, command); }; });
 }
 

@@ -7,6 +7,7 @@
 #include <librsvg/rsvg.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/version.h>
+#include <opencv2/core/version.hpp>
 #include <xxhash.h>
 
 namespace fernlicht {
@@ -28,6 +29,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
         {"librsvg", fmt::format("{}.{}.{}", rsvg_major_version, rsvg_minor_version, rsvg_micro_version)},
         {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
         {"oneTBB", TBB_runtime_version()},
+        {"OpenCV", CV_VERSION},
         {"OpenImageIO", OIIO_VERSION_STRING},
         {"xxHash", dotted(XXH_versionNumber(), 10000, 100)},
     };

@@ -67,28 +67,24 @@ class Periodogram {
     double weight_ = 0.0, squares_ = 0.0;
 };
 
-} // namespace
-
-TemporalAliasing measure_temporal_aliasing(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels,
-                                           const std::vector<Track>& tracks, double rate_hz, double pixels_per_degree) {
-    check(aliasing, levels, tracks, rate_hz, pixels_per_degree);
-    const std::size_t frames = aliasing.size();
+/// Sums of squared contrast over tracks, by frequency.
+std::vector<double> summed(const std::vector<TrackSamples>& tracks, std::size_t frames) {
     const Periodogram periodogram(frames);
-    std::vector<double> sums(frames / 2), values(frames);
-    for (const Track& track : tracks) {
-        double level = 0.0;
-        for (std::size_t t = 0; t < frames; ++t) {
-            values[t] = aliasing[t].pixels()[static_cast<std::size_t>(track[t])];
-            level += levels[t].pixels()[static_cast<std::size_t>(track[t])] / static_cast<double>(frames);
-        }
-        level = std::max(level, least_seen_cdm2);
-        const std::vector<double> powers = periodogram.of(values);
+    std::vector<double> sums(frames / 2);
+    for (const TrackSamples& track : tracks) {
+        const double level = std::max(track.level, least_seen_cdm2);
+        const std::vector<double> powers = periodogram.of(track.values);
         for (std::size_t k = 0; k < powers.size(); ++k)
             sums[k] += powers[k] / (level * level);
     }
+    return sums;
+}
+
+TemporalAliasing weighed(const std::vector<double>& sums, std::size_t tracks, std::size_t frames, double rate_hz,
+                         double pixels_per_degree) {
     TemporalAliasing result;
-    result.tracks = tracks.size();
-    const double count = std::max(1.0, static_cast<double>(tracks.size()));
+    result.tracks = tracks;
+    const double count = std::max(1.0, static_cast<double>(tracks));
     double crawl = 0.0, flicker = 0.0, visible = 0.0;
     for (std::size_t k = 0; k < sums.size(); ++k) {
         const double square = sums[k] / count, hertz = rate_hz * static_cast<double>(k + 1) / static_cast<double>(frames);
@@ -100,6 +96,76 @@ TemporalAliasing measure_temporal_aliasing(const std::vector<Image<double>>& ali
     result.crawl_percent = 100.0 * std::sqrt(crawl);
     result.flicker_percent = 100.0 * std::sqrt(flicker);
     result.visible = std::sqrt(visible);
+    return result;
+}
+
+std::vector<TrackSamples> sampled(const std::vector<Image<double>>& pictures, const std::vector<Image<double>>& levels,
+                                  const std::vector<Track>& tracks) {
+    std::vector<TrackSamples> samples;
+    for (const Track& track : tracks) {
+        TrackSamples& one = samples.emplace_back();
+        for (std::size_t t = 0; t < track.size(); ++t) {
+            const auto pixel = static_cast<std::size_t>(track[t]);
+            one.values.push_back(pictures[t].pixels()[pixel]);
+            one.level += levels[t].pixels()[pixel] / static_cast<double>(track.size());
+        }
+    }
+    return samples;
+}
+
+/// Each less the mean of the others, pixel by pixel.
+std::vector<Image<double>> without_standing(const std::vector<Image<double>>& pictures) {
+    std::vector<Image<double>> out = pictures;
+    const double others = static_cast<double>(pictures.size() - 1);
+    for (std::size_t i = 0; i < pictures.front().size(); ++i) {
+        double sum = 0.0;
+        for (const Image<double>& picture : pictures)
+            sum += picture.pixels()[i];
+        for (Image<double>& picture : out)
+            picture.pixels()[i] -= (sum - picture.pixels()[i]) / others;
+    }
+    return out;
+}
+
+void remove_line(std::vector<double>& values) {
+    const double count = static_cast<double>(values.size()), middle = 0.5 * (count - 1.0);
+    double mean = 0.0, slope = 0.0, squares = 0.0;
+    for (std::size_t t = 0; t < values.size(); ++t) {
+        const double at = static_cast<double>(t) - middle;
+        mean += values[t] / count;
+        slope += at * values[t];
+        squares += at * at;
+    }
+    for (std::size_t t = 0; t < values.size(); ++t)
+        values[t] -= mean + slope / squares * (static_cast<double>(t) - middle);
+}
+
+} // namespace
+
+TemporalAliasing measure_temporal_aliasing(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels,
+                                           const std::vector<Track>& tracks, double rate_hz, double pixels_per_degree) {
+    check(aliasing, levels, tracks, rate_hz, pixels_per_degree);
+    const std::size_t frames = aliasing.size();
+    TemporalAliasing result = weighed(summed(sampled(aliasing, levels, tracks), frames), tracks.size(), frames, rate_hz, pixels_per_degree);
+    const TemporalAliasing moves =
+        weighed(summed(sampled(without_standing(aliasing), levels, tracks), frames), tracks.size(), frames, rate_hz, pixels_per_degree);
+    const double all = result.flicker_percent * result.flicker_percent, others = static_cast<double>(frames - 1);
+    result.standing_percent = std::sqrt(std::max(0.0, all - moves.flicker_percent * moves.flicker_percent * others / (others + 1.0)));
+    return result;
+}
+
+TemporalAliasing measure_flicker(const std::vector<TrackSamples>& tracks, double rate_hz, double pixels_per_degree) {
+    const std::size_t frames = tracks.empty() ? fewest_frames : tracks.front().values.size();
+    if (frames < fewest_frames || !std::ranges::all_of(tracks, [&](const TrackSamples& t) { return t.values.size() == frames; }) ||
+        !(rate_hz > 0.0 && pixels_per_degree > 0.0))
+        throw std::invalid_argument(
+            fmt::format("flicker takes at least {} frames, a rate and a resolution above 0; found {} frames", fewest_frames, frames));
+    std::vector<TrackSamples> level = tracks;
+    for (TrackSamples& track : level)
+        if (std::ranges::any_of(track.values, [&](double v) { return v != track.values.front(); })) // equal values stay exactly that
+            remove_line(track.values);
+    TemporalAliasing result = weighed(summed(level, frames), tracks.size(), frames, rate_hz, pixels_per_degree);
+    result.crawl_percent.reset();
     return result;
 }
 

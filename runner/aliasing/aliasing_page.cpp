@@ -15,6 +15,10 @@ using List = data::type;
 
 std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
 
+std::string edge_text(const std::optional<EdgeJaggedness>& edge) {
+    return edge ? fmt::format("{:.3f} ± {:.3f}", edge->found.rms_px, edge->found.standard_error_px) : "not measured";
+}
+
 data row_part(const AliasingRow& row, std::size_t rank) {
     data part;
     part.set("label", clean_text(name_of(row.configuration)));
@@ -22,16 +26,33 @@ data row_part(const AliasingRow& row, std::size_t rank) {
         part.set("seen", "not measured");
         return part;
     }
-    part.set("rank", fmt::format("{}", rank + 1));
-    part.set("seen", three_digits(row.spatial.aliasing.visible));
-    part.set("aliasing", three_digits(row.spatial.aliasing.contrast_percent));
-    part.set("folded", three_digits(row.spatial.folded.contrast_percent));
-    part.set("rest", three_digits(row.spatial.rest.contrast_percent));
-    part.set("lost", three_digits(row.spatial.lost.contrast_percent));
-    part.set("jaggedness", row.jaggedness ? fmt::format("{:.3f}", row.jaggedness->rms_px) : "not measured");
+    part.set("rank", row.no_spatial.empty() ? fmt::format("{}", rank + 1) : "");
+    const SpatialAliasing& space = row.spatial;
+    const bool known = measured_over_space(row);
+    part.set("seen", known ? three_digits(space.aliasing.visible) : "not measured");
+    part.set("aliasing", known ? three_digits(space.aliasing.contrast_percent) : "");
+    part.set("folded", known ? three_digits(space.folded.contrast_percent) : "");
+    part.set("rest", known ? three_digits(space.rest.contrast_percent) : "");
+    part.set("lost", known ? three_digits(space.lost.contrast_percent) : "");
+    part.set("cut_off", edge_text(row.cut_off));
+    part.set("marks", edge_text(row.marks));
+    const auto optional = [](const std::optional<double>& value) { return value ? three_digits(*value) : std::string("not measured"); };
     part.set("flicker_seen", row.temporal ? three_digits(row.temporal->visible) : "not measured");
     part.set("flicker", row.temporal ? three_digits(row.temporal->flicker_percent) : "");
-    part.set("crawl", row.temporal ? three_digits(row.temporal->crawl_percent) : "");
+    part.set("standing", row.temporal ? optional(row.temporal->standing_percent) : "");
+    part.set("crawl", row.temporal ? optional(row.temporal->crawl_percent) : "");
+    return part;
+}
+
+data flow_part(const FlowComparison& flow) {
+    data part;
+    part.set("by", method_name(flow.method) + ", " + flow.pictures);
+    part.set("median", fmt::format("{:.3f}", flow.error.median_px));
+    part.set("mean", fmt::format("{:.3f}", flow.error.mean_px));
+    part.set("far", three_digits(flow.error.far_percent));
+    part.set("left_out", three_digits(flow.error.left_out_percent));
+    part.set("flicker", flow.temporal ? three_digits(flow.temporal->flicker_percent) : "not measured");
+    part.set("known", flow.known ? three_digits(flow.known->flicker_percent) : "not measured");
     return part;
 }
 
@@ -47,9 +68,17 @@ data notes_part(const AliasingResult& result) {
     };
     for (const AliasingRow& row : result.rows) {
         say(name_of(row.configuration), row.why_not);
-        say("Jaggedness of " + name_of(row.configuration), row.no_jaggedness);
+        say("Aliasing over space of " + name_of(row.configuration), row.no_spatial);
+        say("Jaggedness of the cut-off, " + name_of(row.configuration), row.no_cut_off);
+        say("Jaggedness of road marks, " + name_of(row.configuration), row.no_marks);
         say("Flicker", row.no_temporal);
     }
+    for (const AliasingRow& row : result.rows)
+        if (row.by_flow)
+            notes.push_back(
+                fmt::format("Motion by optical flow: {} of {} points followed, median motion {:.2f} pixels a frame; going there "
+                            "and back ends {:.3f} pixels from the start, as a median",
+                            row.by_flow->followed, row.by_flow->started, row.by_flow->median_motion_px, row.by_flow->median_return_px));
     return notes;
 }
 
@@ -58,7 +87,11 @@ data notes_part(const AliasingResult& result) {
 std::string aliasing_html(const AliasingResult& result) {
     data page, rows{List::list}, sheets{List::list};
     const std::vector<std::size_t> order = ranked(result);
-    for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    std::vector<std::size_t> shown = order; // least first, then what was not measured
+    for (std::size_t i = 0; i < result.rows.size(); ++i)
+        if (std::ranges::find(order, i) == order.end())
+            shown.push_back(i);
+    for (const std::size_t i : shown) {
         const auto at = std::ranges::find(order, i);
         rows.push_back(row_part(result.rows[i], static_cast<std::size_t>(at - order.begin())));
         if (at == order.end())
@@ -73,18 +106,28 @@ std::string aliasing_html(const AliasingResult& result) {
     page.set("interrupted", clean_text(result.interrupted));
     page.set("is_interrupted", !result.interrupted.empty());
     page.set("title", short_text(result.title, 160));
-    page.set("variant", short_text(result.variant, 40));
+    page.set("variant", result.variant.empty() ? "" : ", " + short_text(result.variant, 40));
     page.set("when", result.moments.size() == 1 ? fmt::format("Frame {} at {:.3f} s", tick, time_s)
                                                 : fmt::format("Frames {} to {}; pictures are of frame {} at {:.3f} s",
                                                               result.moments.front().first, result.moments.back().first, tick, time_s));
     page.set("size", fmt::format("{} x {}", result.view.width_px, result.view.height_px));
     page.set("supersample", fmt::format("{}", result.supersample));
+    page.set("has_reference", result.supersample > 0);
     page.set("quantity", result.displayed ? "the picture as displayed" : "the scene's luminance");
-    page.set("level", fmt::format("{}", result.level_lx));
+    page.set("level", result.level_lx > 0.0 ? fmt::format("{}", result.level_lx) : "a level in");
     page.set("rows", rows);
     page.set("notes", notes_part(result));
+    page.set("ranking", ranking_svg(result));
+    page.set("has_spatial", !order.empty());
     page.set("spatial", order.empty() ? "" : spatial_plot_svg(result));
     const std::string temporal = temporal_plot_svg(result);
+    data flows{List::list};
+    for (const FlowComparison& flow : result.flows)
+        flows.push_back(flow_part(flow));
+    page.set("has_flows", !result.flows.empty());
+    page.set("flows", flows);
+    if (!result.flows.empty())
+        page.set("known_motion", fmt::format("{:.2f}", result.flows.front().error.known_motion_px));
     page.set("has_temporal", !temporal.empty());
     page.set("temporal", temporal);
     page.set("sheets", sheets);

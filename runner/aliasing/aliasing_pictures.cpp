@@ -12,6 +12,7 @@ namespace {
 using plots::Colour;
 
 constexpr int crop_px = 48;
+constexpr std::size_t most_places = 4;
 constexpr double half_width_px = 560.0, gap_px = 16.0, lettering_px = 12.0;
 
 /// The value that only one pixel in `one_in` exceeds; above 0.
@@ -74,7 +75,7 @@ const AliasingRow& worst_row(const AliasingResult& result) {
 /// The first row that was measured, which the others of its technique are variations of.
 const AliasingRow& first_row(const AliasingResult& result, const AliasingRow& row) {
     return *std::ranges::find_if(result.rows, [&](const AliasingRow& other) {
-        return other.why_not.empty() && other.configuration.technique == row.configuration.technique;
+        return measured_over_space(other) && other.configuration.technique == row.configuration.technique;
     });
 }
 
@@ -150,6 +151,60 @@ std::string aliasing_sheet_svg(const AliasingResult& result, const AliasingRow& 
     return canvas.finish();
 }
 
+std::string ranking_svg(const AliasingResult& result) {
+    const std::vector<std::size_t> order = ranked(result);
+    if (order.size() < 2)
+        return {};
+    std::vector<Crop> places; // where each way differs most from the first, in the order they were asked for
+    for (const AliasingRow& row : result.rows) {
+        if (!measured_over_space(row) || &row == &first_row(result, row) || places.size() == most_places)
+            continue;
+        const Crop crop = crop_of(result, row);
+        if (std::ranges::none_of(places, [&](const Crop& other) { return other.left == crop.left && other.top == crop.top; }))
+            places.push_back(crop);
+        places.back().why = row.configuration.varied;
+    }
+    const double side = 208.0, left = 350.0, first_top = 84.0;
+    plots::Canvas canvas(left + static_cast<double>(places.size()) * (side + gap_px),
+                         first_top + static_cast<double>(order.size()) * (side + gap_px),
+                         "Ways to draw, by what an eye sees of their aliasing");
+    canvas.text(gap_px, 24.0, "Ways to draw, least aliasing first", {.size_px = 16.0, .bold = true});
+    canvas.text(gap_px, 46.0,
+                fmt::format("{} x {} pixels, at the places where each way differs most from the first", places.front().width,
+                            places.front().height),
+                {.size_px = lettering_px});
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        const double x = left + static_cast<double>(p) * (side + gap_px);
+        const double white = nearly_largest(cut(result.rows[order.front()].ideal, places[p]), 50);
+        canvas.text(x, first_top - 10.0,
+                    fmt::format("{}at {}, {}", places[p].why.empty() ? "" : places[p].why + ", ", places[p].left, places[p].top),
+                    {.size_px = lettering_px});
+        for (std::size_t i = 0; i < order.size(); ++i)
+            canvas.picture(x, first_top + static_cast<double>(i) * (side + gap_px), side, side * places[p].height / places[p].width,
+                           enlarged(grey(cut(result.rows[order[i]].picture, places[p]), white), 4));
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const AliasingRow& row = result.rows[order[i]];
+        const double y = first_top + static_cast<double>(i) * (side + gap_px) + 20.0;
+        canvas.text(gap_px, y, fmt::format("{}. {:.3g} times what an eye just sees", i + 1, row.spatial.aliasing.visible),
+                    {.size_px = 14.0, .bold = true});
+        canvas.text(gap_px, y + 22.0, name_of(row.configuration), {.size_px = lettering_px});
+        canvas.text(gap_px, y + 42.0,
+                    fmt::format("contrast {:.3g} %, of it folded back {:.3g} %", row.spatial.aliasing.contrast_percent,
+                                row.spatial.folded.contrast_percent),
+                    {.size_px = lettering_px});
+        if (row.cut_off)
+            canvas.text(gap_px, y + 62.0, fmt::format("stairs of the cut-off {:.2f} px", row.cut_off->found.rms_px),
+                        {.size_px = lettering_px});
+        if (row.marks)
+            canvas.text(gap_px, y + 82.0, fmt::format("stairs of road marks {:.2f} px", row.marks->found.rms_px),
+                        {.size_px = lettering_px});
+        if (row.temporal)
+            canvas.text(gap_px, y + 102.0, fmt::format("flicker {:.3g} %", row.temporal->flicker_percent), {.size_px = lettering_px});
+    }
+    return canvas.finish();
+}
+
 std::string spatial_plot_svg(const AliasingResult& result) {
     plots::Figure figure;
     figure.title = "Aliasing by spatial frequency";
@@ -181,7 +236,7 @@ std::string temporal_plot_svg(const AliasingResult& result) {
     figure.title = "Aliasing by temporal frequency";
     figure.subtitle = "along the paths of points of the scene, r.m.s. over them, each frequency alone";
     std::vector<double> values, frequencies;
-    for (const std::size_t i : ranked(result)) {
+    for (std::size_t i = 0; i < result.rows.size(); ++i) {
         if (!result.rows[i].temporal)
             continue;
         plots::Series series;

@@ -1,7 +1,8 @@
 // What `fernlicht aliasing` found: how much of what pictures show is not there, by how they are drawn. The writers only format it.
 #pragma once
 
-#include "metrics/aliasing/jaggedness.h"
+#include "metrics/aliasing/named_edges.h"
+#include "metrics/aliasing/optical_flow.h"
 #include "metrics/aliasing/spatial_aliasing.h"
 #include "metrics/aliasing/temporal_aliasing.h"
 #include "renderer/surface_filter.h"
@@ -17,20 +18,39 @@ struct AliasingConfiguration {
     SurfaceFilter filter = SurfaceFilter::mipmapped; ///< of surface textures
     int samples = 1;                                 ///< a pixel, 1, 4, 9 or 16: drawn so many times as large, averaged in linear light
     std::string varied;                              ///< what differs from the first way of this technique; "" for nothing
+    std::string others; ///< pictures that others drew, by name: nothing of the above is known of them; "" for our own
 };
 std::string filter_name(SurfaceFilter filter);                   ///< "mipmapped", "none", "trilinear"
 std::string name_of(const AliasingConfiguration& configuration); ///< "photometric, 512x128x8 beams"
 
+/// Motion that was estimated, and how well it agrees with itself.
+struct FollowedByFlow {
+    std::size_t started = 0, followed = 0;                 ///< points
+    double median_motion_px = 0.0, median_return_px = 0.0; ///< from frame to frame; how far from the start going there and back ends
+};
+
 struct AliasingRow {
     AliasingConfiguration configuration;
-    std::string why_not;                  ///< why nothing was measured; "" where it was
-    SpatialAliasing spatial;              ///< numbers: r.m.s. over the moments; pictures: of the one shown
-    std::optional<Jaggedness> jaggedness; ///< of the moment shown
-    std::string no_jaggedness;            ///< why there is none
+    std::string why_not;                          ///< why nothing was measured; "" where it was
+    std::string no_spatial;                       ///< why nothing was measured over space; "" where it was
+    SpatialAliasing spatial;                      ///< numbers: r.m.s. over the moments; pictures: of the one shown
+    std::optional<EdgeJaggedness> cut_off, marks; ///< of the moment shown
+    std::string no_cut_off, no_marks;             ///< why there is none
     std::optional<TemporalAliasing> temporal;
-    std::string no_temporal;     ///< why there is none
-    Image<float> picture, ideal; ///< of the moment shown, cd/m2
+    std::string no_temporal;               ///< why there is none
+    std::optional<FollowedByFlow> by_flow; ///< nullopt: motion is known
+    Image<float> picture, ideal;           ///< of the moment shown, cd/m2
 };
+
+/// Optical flow held against the motion that is known, on the first row's pictures.
+struct FlowComparison {
+    std::string pictures; ///< what it was given: "as drawn", "what the display could show"
+    FlowMethod method = FlowMethod::dis;
+    FlowError error;                          ///< of each frame to the next
+    std::optional<TemporalAliasing> temporal; ///< along its paths
+    std::optional<TemporalAliasing> known;    ///< of aliasing along the known paths of the same points, as far as those are known
+};
+std::string method_name(FlowMethod method); ///< "dense inverse search", "Farneback"
 
 struct AliasingResult {
     RunContext context;
@@ -44,20 +64,26 @@ struct AliasingResult {
     double pixels_per_degree = 0.0; ///< at the middle of the view
     double level_lx = 0.0;          ///< of the line whose jaggedness is measured
     std::vector<AliasingRow> rows;
-    std::string interrupted; ///< "" where all was measured
+    std::vector<FlowComparison> flows; ///< empty where not asked for
+    std::string interrupted;           ///< "" where all was measured
 };
 
 /// White of the reference display of sRGB (IEC 61966-2-1).
 inline constexpr double display_white_cdm2 = 80.0;
+/// Luminance of a pixel on it, cd/m2.
+float displayed_cdm2(const Rgb8& pixel);
 
 std::string aliasing_text(const AliasingResult& result);
 std::string aliasing_json(const AliasingResult& result);
 std::string aliasing_csv(const AliasingResult& result);
 std::string aliasing_html(const AliasingResult& result);
-/// Rows by what an eye sees of them, least first.
+bool measured_over_space(const AliasingRow& row);
+/// Rows measured over space, by what an eye sees of them, least first.
 std::vector<std::size_t> ranked(const AliasingResult& result);
 /// The picture, its aliasing in false colours, and where it is worst of all rows enlarged beside what should be there.
 std::string aliasing_sheet_svg(const AliasingResult& result, const AliasingRow& row);
+/// Ways to draw, least aliasing first, each at the places where one of them differs most; "" for fewer than two.
+std::string ranking_svg(const AliasingResult& result);
 std::string spatial_plot_svg(const AliasingResult& result);
 /// "" where nothing was measured over time.
 std::string temporal_plot_svg(const AliasingResult& result);

@@ -2,7 +2,10 @@
 
 #include "renderer/sanity.h"
 #include "runner/accuracy/technique_sweep.h"
+#include "runner/aliasing/flow_measures.h"
 #include "runner/aliasing/motion.h"
+#include "runner/aliasing/over_moments.h"
+#include "runner/aliasing/road_edges.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
 #include "runner/progress.h"
@@ -15,21 +18,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <numbers>
+#include <set>
 
 namespace fernlicht {
 namespace {
 
 constexpr int fewest_frames = 8, most_frames = 64, most_drawn_px = 16384, least_px = 32, track_stride_px = 2;
-
-/// Relative luminance of a displayed pixel (IEC 61966-2-1) in cd/m2.
-float displayed_cdm2(const Rgb8& pixel) {
-    const auto linear = [](std::uint8_t value) {
-        const double v = value / 255.0;
-        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    };
-    return static_cast<float>(display_white_cdm2 * (0.2126 * linear(pixel.r) + 0.7152 * linear(pixel.g) + 0.0722 * linear(pixel.b)));
-}
 
 /// The mean of each group of n x n pixels.
 Image<float> averaged(const Image<float>& fine, int n) {
@@ -82,7 +78,7 @@ RendererSettings settings_of(const Drive& drive, const AliasingConfiguration& co
 struct References {
     std::string technique;
     std::vector<BandSplit> splits; ///< by moment
-    Image<float> illuminance_lx;   ///< of the moment shown, as fine as drawn; empty where the technique computes none
+    EdgeReference edges;           ///< of the moment shown
 };
 
 struct Session {
@@ -91,6 +87,7 @@ struct Session {
     Device& device;
     std::vector<Moment> moments;
     AliasingResult& result;
+    std::vector<Frame> shapes; ///< depth and ids of each moment, where there are several
     std::vector<Track> tracks;
     References references;
     Progress& progress;
@@ -102,6 +99,19 @@ struct Session {
         return !Interruption::asked();
     }
 };
+
+/// What of the moment shown is road or mark, and its light without shadows: what tells edges apart by what they are.
+void draw_edges(Session& s, const Technique& technique, const AliasingConfiguration& finest) {
+    const Moment& moment = s.moments[s.result.shown];
+    const View fine =
+        resized(s.result.view, s.request.supersample * s.result.view.width_px, s.request.supersample * s.result.view.height_px);
+    s.references.edges.ground = ground_of(s.device, s.stage.scene, moment, fine);
+    if (!technique.illuminance)
+        return;
+    RendererSettings settings = settings_of(s.stage.drive, finest);
+    settings.shadows = false;
+    s.references.edges.unshadowed_lx = Renderer(s.device, s.stage.scene, settings).draw(moment, fine, {.illuminance = true}).illuminance_lx;
+}
 
 bool draw_references(Session& s, const Technique& technique) {
     if (s.references.technique == technique.name)
@@ -118,55 +128,63 @@ bool draw_references(Session& s, const Technique& technique) {
                                     technique.illuminance && m == s.result.shown, s.white_cdm2());
         s.references.splits.push_back(split_bands(fine.luminance_cdm2, s.request.supersample));
         if (m == s.result.shown)
-            s.references.illuminance_lx = std::move(fine.illuminance_lx);
+            s.references.edges = {s.request.supersample, std::move(fine.luminance_cdm2), std::move(fine.illuminance_lx), {}, {}};
     }
+    draw_edges(s, technique, finest);
     s.references.technique = technique.name;
     return true;
 }
 
-void add_squares(AliasingPart& sum, const AliasingPart& part) {
-    sum.rms += part.rms * part.rms;
-    sum.contrast_percent += part.contrast_percent * part.contrast_percent;
-    sum.visible += part.visible * part.visible;
-}
-
-void root(AliasingPart& sum, double count) {
-    for (double* value : {&sum.rms, &sum.contrast_percent, &sum.visible})
-        *value = std::sqrt(*value / count);
-}
-
-/// Numbers: r.m.s. over the moments. Pictures and the worst place: of the one shown.
-SpatialAliasing folded_over(std::vector<SpatialAliasing>& found, std::size_t shown) {
-    SpatialAliasing all = std::move(found[shown]);
-    const auto each = [&](auto use) {
-        use([](SpatialAliasing& a) -> AliasingPart& { return a.aliasing; });
-        use([](SpatialAliasing& a) -> AliasingPart& { return a.folded; });
-        use([](SpatialAliasing& a) -> AliasingPart& { return a.rest; });
-        use([](SpatialAliasing& a) -> AliasingPart& { return a.lost; });
-        for (std::size_t b = 0; b < all.bands.size(); ++b) {
-            use([b](SpatialAliasing& a) -> AliasingPart& { return a.bands[b].aliasing; });
-            use([b](SpatialAliasing& a) -> AliasingPart& { return a.bands[b].lost; });
-        }
-    };
-    found[shown].bands = all.bands;
-    each([&](auto part) {
-        AliasingPart sum;
-        for (SpatialAliasing& one : found)
-            add_squares(sum, part(one));
-        root(sum, static_cast<double>(found.size()));
-        part(all) = sum;
-    });
-    return all;
-}
-
-void measure_jaggedness_of(Session& s, AliasingRow& row, const Image<float>& illuminance_lx) {
-    if (illuminance_lx.empty()) {
-        row.no_jaggedness = fmt::format("technique {} computes no illuminance", row.configuration.technique);
-        return;
+void measure_jaggedness_of(Session& s, AliasingRow& row, const Pictures& drawn) {
+    const EdgeReference& edges = s.references.edges;
+    if (drawn.illuminance_lx.empty()) {
+        row.no_cut_off = fmt::format("technique {} computes no illuminance", row.configuration.technique);
+    } else {
+        row.cut_off = cut_off_jaggedness(drawn.illuminance_lx, edges, s.request.level_lx);
+        if (!row.cut_off)
+            row.no_cut_off = fmt::format("no line of {} lx on the road, or too short", s.request.level_lx);
     }
-    row.jaggedness = measure_jaggedness(illuminance_lx, s.references.illuminance_lx, s.request.supersample, s.request.level_lx);
-    if (!row.jaggedness)
-        row.no_jaggedness = fmt::format("no line of {} lx in the picture", s.request.level_lx);
+    row.marks = mark_jaggedness(drawn.luminance_cdm2, edges);
+    if (!row.marks)
+        row.no_marks = "no lit mark two pixels wide on the road, or too short";
+}
+
+/// Both methods on both pictures; false when interrupted.
+bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std::vector<Image<double>>& residues,
+                   const std::vector<Image<double>>& levels) {
+    std::vector<Image<float>> ideal;
+    for (const BandSplit& split : s.references.splits)
+        ideal.push_back(floats_of(split.ideal));
+    std::vector<KnownFlow> known;
+    for (std::size_t m = 0; m + 1 < s.moments.size(); ++m)
+        known.push_back(known_flow(s.moments, s.result.view, s.shapes, m, m + 1));
+    for (const bool as_drawn : {false, true})
+        for (const FlowMethod method : {FlowMethod::dis, FlowMethod::farneback}) {
+            if (Interruption::asked())
+                return false;
+            const std::vector<Image<float>>& pictures = as_drawn ? drawn : ideal;
+            FlowComparison compared{as_drawn ? "as drawn" : "what the display could show", method, {}, {}, {}};
+            std::vector<FlowPair> pairs;
+            for (std::size_t m = 0; m < known.size(); ++m) {
+                const Flow there = optical_flow(pictures[m], pictures[m + 1], method);
+                const Flow back = optical_flow(pictures[m + 1], pictures[m], method);
+                pairs.push_back({there, found_again(there, back, most_return_px), known[m].flow, known[m].known});
+            }
+            compared.error = flow_error(pairs);
+            const FlowPaths followed = paths_by_flow(pictures, s.result.shown, track_stride_px, method);
+            compared.temporal = as_drawn ? flicker_along(followed, pictures, s.result.rate_hz, s.result.pixels_per_degree)
+                                         : aliasing_along(followed, residues, levels, s.result.rate_hz, s.result.pixels_per_degree);
+            std::set<std::int32_t> starts;
+            for (const Path& path : followed.paths)
+                starts.insert(track_of(path, s.result.view.width_px, s.result.view.height_px)[s.result.shown]);
+            std::vector<Track> same;
+            std::ranges::copy_if(s.tracks, std::back_inserter(same),
+                                 [&](const Track& track) { return starts.contains(track[s.result.shown]); });
+            if (!same.empty())
+                compared.known = measure_temporal_aliasing(residues, levels, same, s.result.rate_hz, s.result.pixels_per_degree);
+            s.result.flows.push_back(std::move(compared));
+        }
+    return true;
 }
 
 /// False when interrupted: the row is then incomplete.
@@ -183,6 +201,8 @@ bool measure_row(Session& s, AliasingRow& row) {
     const int side = static_cast<int>(std::lround(std::sqrt(row.configuration.samples)));
     std::vector<SpatialAliasing> found;
     std::vector<Image<double>> residues, levels;
+    std::vector<Image<float>> drawn_pictures; // kept for optical flow alone
+    const bool flow = s.request.flow && s.result.flows.empty() && s.moments.size() > 1;
     for (std::size_t m = 0; m < s.moments.size(); ++m) {
         if (!s.step())
             return false;
@@ -191,28 +211,32 @@ bool measure_row(Session& s, AliasingRow& row) {
                                      s.white_cdm2());
         found.push_back(measure_spatial_aliasing(drawn.luminance_cdm2, s.references.splits[m], s.result.pixels_per_degree));
         if (shown) {
-            measure_jaggedness_of(s, row, drawn.illuminance_lx);
+            measure_jaggedness_of(s, row, drawn);
             row.picture = drawn.luminance_cdm2;
-            row.ideal = Image<float>(s.result.view.width_px, s.result.view.height_px);
-            std::ranges::transform(s.references.splits[m].ideal.pixels(), row.ideal.pixels().begin(),
-                                   [](double value) { return static_cast<float>(value); });
+            row.ideal = floats_of(s.references.splits[m].ideal);
         }
+        if (flow)
+            drawn_pictures.push_back(std::move(drawn.luminance_cdm2));
         if (s.moments.size() > 1) {
             residues.push_back(shown ? found.back().aliasing_picture : std::move(found.back().aliasing_picture));
             levels.push_back(shown ? found.back().level_picture : std::move(found.back().level_picture));
         }
     }
-    row.spatial = folded_over(found, s.result.shown);
+    row.spatial = over_moments(found, s.result.shown);
     if (s.moments.size() == 1)
         row.no_temporal = "one moment; --frames measures over time";
     else if (s.tracks.empty())
         row.no_temporal = "no point of the scene is seen in all frames";
     else
         row.temporal = measure_temporal_aliasing(residues, levels, s.tracks, s.result.rate_hz, s.result.pixels_per_degree);
+    if (flow && !compare_flows(s, drawn_pictures, residues, levels))
+        return false;
     return true;
 }
 
 std::vector<int> ticks_of(const AliasingRequest& request) {
+    if (request.flow && !request.frames)
+        throw InputError({request.drive.file, 0, 0, "--flow"}, "found no --frames", "frames to follow motion through");
     const int count = tick_count(request.drive);
     if (!request.frames) {
         const double time_s = request.moment_s.value_or(count / 2 * request.drive.step_s), tick = std::round(time_s / request.drive.step_s);
@@ -248,13 +272,12 @@ const View& checked_view(const AliasingRequest& request) {
     return *view;
 }
 
-/// Frames of geometry, and from them the tracks.
-std::vector<Track> tracks_over(const Stage& stage, Device& device, const std::vector<Moment>& moments, const View& view, std::size_t from) {
+std::vector<Frame> shapes_of(const Stage& stage, Device& device, const std::vector<Moment>& moments, const View& view) {
     Renderer renderer(device, stage.scene, {});
     std::vector<Frame> frames;
     for (const Moment& moment : moments)
         frames.push_back(renderer.draw(moment, view, {.depth = true, .ids = true}));
-    return tracks_of(moments, view, frames, from, track_stride_px);
+    return frames;
 }
 
 } // namespace
@@ -269,7 +292,7 @@ std::vector<AliasingConfiguration> aliasing_configurations(const AliasingRequest
         if (std::find(techniques.begin(), techniques.begin() + static_cast<std::ptrdiff_t>(i), techniques[i]) !=
             techniques.begin() + static_cast<std::ptrdiff_t>(i))
             throw InputError({{}, 0, 0, "--techniques"}, "found " + techniques[i] + " twice", "each technique once");
-        AliasingConfiguration base{techniques[i], request.beams.front(), request.filters.front(), request.samples.front(), ""};
+        AliasingConfiguration base{techniques[i], request.beams.front(), request.filters.front(), request.samples.front(), "", ""};
         all.push_back(base);
         const auto vary = [&](const char* what, auto member, const auto& values) {
             for (std::size_t v = 1; v < values.size(); ++v) {
@@ -309,12 +332,14 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
     const Interruption listening;
     Progress progress("aliasing of " + stage.drive.name, static_cast<int>(ticks.size() * (configurations.size() + 1)), request.quiet,
                       "pictures");
-    Session session{request, stage, device, moments_at(ticks, stage, variant), result, {}, {}, progress};
+    Session session{request, stage, device, moments_at(ticks, stage, variant), result, {}, {}, {}, progress};
     for (const Moment& moment : session.moments)
         result.moments.emplace_back(moment.tick, moment.time_s);
     result.shown = session.moments.size() / 2;
-    if (session.moments.size() > 1)
-        session.tracks = tracks_over(stage, device, session.moments, result.view, result.shown);
+    if (session.moments.size() > 1) {
+        session.shapes = shapes_of(stage, device, session.moments, result.view);
+        session.tracks = tracks_of(session.moments, result.view, session.shapes, result.shown, track_stride_px);
+    }
     for (const AliasingConfiguration& configuration : configurations) {
         AliasingRow row;
         row.configuration = configuration;

@@ -17,6 +17,7 @@ struct AliasingRequest {
     int supersample = 4;    ///< of the reference, each way; even, at least 4
     bool displayed = false; ///< measure the tone-mapped picture instead of the scene's luminance
     double level_lx = 1.0;
+    bool flow = false; ///< hold optical flow against the motion that is known, on the first way's pictures; with `frames`
     std::string backend = "auto";
     std::filesystem::path folder;
     std::vector<std::string> command;

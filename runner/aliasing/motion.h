@@ -2,6 +2,7 @@
 // estimate.
 #pragma once
 
+#include "metrics/aliasing/optical_flow.h"
 #include "metrics/aliasing/temporal_aliasing.h"
 #include "scenarios/drives/frame.h"
 
@@ -12,5 +13,13 @@ namespace fernlicht {
 /// ids.
 std::vector<Track> tracks_of(const std::vector<Moment>& moments, const View& view, const std::vector<Frame>& frames, std::size_t from,
                              int stride);
+
+struct KnownFlow {
+    Flow flow;
+    Image<std::uint8_t> known; ///< 1: shows something in frame `from` that is seen in `to`, too
+};
+/// For every pixel of frame `from`, where `to` shows the same point.
+KnownFlow known_flow(const std::vector<Moment>& moments, const View& view, const std::vector<Frame>& frames, std::size_t from,
+                     std::size_t to);
 
 } // namespace fernlicht

@@ -172,6 +172,27 @@ TEST(SpatialAliasing, ThreadsChangeNoBit) {
     EXPECT_EQ(found[0].folded_picture, found[1].folded_picture);
 }
 
+TEST(SpatialAliasing, OfAStepItsPartFoldedBackIsUnderstatedByWhatTheReferenceDoesNotKnow) {
+    const double angle = 23.0 * pi / 180.0;
+    const auto step = [nx = std::cos(angle), ny = std::sin(angle)](double x, double y) {
+        return 1.0 + ((x - 64.0) * nx + (y - 64.0) * ny > 0.0 ? 0.5 : 0.0);
+    };
+    double share_before = 0.0, whole_before = 0.0;
+    for (const auto& [fine, least] : {std::pair(4, 0.74), std::pair(8, 0.83), std::pair(16, 0.91)}) { // docs/aliasing.md tells these
+        const SpatialAliasing found =
+            measure_spatial_aliasing(drawn(128, 128, 1, step), split_bands(drawn(128, 128, fine, step), fine), 20.0);
+        const double share = found.folded.rms / found.aliasing.rms;
+        EXPECT_GT(share, least) << fine;
+        EXPECT_GT(share, share_before) << fine;
+        EXPECT_LT(share, 1.0) << fine;
+        if (share_before > 0.0) {
+            EXPECT_NEAR(found.aliasing.rms / whole_before, 1.0, 0.01) << fine; // the whole does not suffer
+        }
+        share_before = share;
+        whole_before = found.aliasing.rms;
+    }
+}
+
 TEST(SpatialAliasing, RefusesWhatDoesNotFit) {
     const BandSplit split = split_bands(Image<float>(32 * k, 32 * k, 1.0F), k);
     EXPECT_THROW(measure_spatial_aliasing(Image<float>(33, 32, 1.0F), split, ppd), std::invalid_argument);

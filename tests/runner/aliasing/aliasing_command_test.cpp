@@ -1,8 +1,12 @@
+#include "runner/picture_file.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace fernlicht {
 namespace {
@@ -44,10 +48,19 @@ TEST(AliasingCommand, RanksWhatIsKnown) {
     EXPECT_GT(seen(fine), 1.2 * seen(four));
     EXPECT_GT(contrast(fine), 1.05 * contrast(four));
     EXPECT_GT(eight_bit.at("rest").at("contrast_percent"), fine.at("rest").at("contrast_percent"));
+    // Stairs of edges that have a name: 8 bits along the cut-off, one sample along marks. Several standard errors, so that chance does not
+    // decide.
+    const auto stairs = [](const json& row, const char* edge, const char* value) -> double {
+        return row.at("jaggedness").at(edge).at(value);
+    };
+    EXPECT_GT(stairs(eight_bit, "cut_off", "rms_px"),
+              stairs(fine, "cut_off", "rms_px") + 5.0 * stairs(eight_bit, "cut_off", "standard_error_px"));
+    EXPECT_LT(stairs(fine, "cut_off", "rms_px"), stairs(fine, "cut_off", "floor_px") + 5.0 * stairs(fine, "cut_off", "standard_error_px"));
+    EXPECT_GT(stairs(fine, "marks", "rms_px"), stairs(four, "marks", "rms_px") + 2.0 * stairs(four, "marks", "standard_error_px"));
     EXPECT_EQ(found.at("least_to_most").at(0), four.at("label"));
     EXPECT_THAT(run.output, HasSubstr("least to most: photometric, float beams, trilinear, 4 samples < "));
     for (const char* name :
-         {"aliasing.csv", "aliasing.html", "bands.svg", "bands.png", "01-photometric__float_beams__trilinear__1_sample.png"})
+         {"aliasing.csv", "aliasing.html", "ranking.png", "bands.svg", "bands.png", "01-photometric__float_beams__trilinear__1_sample.png"})
         EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + std::string(name)))) << name;
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE"));
 }
@@ -93,10 +106,110 @@ TEST(AliasingCommand, RefusesWhatItCannotDoInOneSentence) {
           std::pair("--filter linear", "--filter: found 'linear', expected none, mipmapped or trilinear"),
           std::pair("--moment 1 --frames 1:9", "--moment: found --frames too, expected one of the two"),
           std::pair("--frames 1:3", "found 1:3, expected 8 to 64 frames in a row"), std::pair("--moment 1e9", "expected 0 to "),
-          std::pair("--level 0", "--level: found '0', expected lux above 0"),
+          std::pair("--flow", "--flow: found no --frames"), std::pair("--level 0", "--level: found '0', expected lux above 0"),
           std::pair("--resolution 4096x3072 --supersample 8", "expected at most 16384 pixels each way"),
           std::pair("--techniques photometric,photometric", "found photometric twice")}) {
         const Outcome run = run_program("aliasing --quiet " + std::string(flags) + drive);
+        EXPECT_EQ(run.exit_code, 2) << flags << run.output;
+        EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
+    }
+}
+
+/// Frames as another simulator would leave them: a ring that moves, drawn by its value at the pixels' centres.
+void write_ring(const std::string& folder, int frames, int k, bool png, double ramp_px) {
+    std::filesystem::create_directories(folder);
+    for (int t = 0; t < frames; ++t) {
+        Frame frame;
+        const int width = 96 * k, height = 80 * k;
+        frame.luminance_cdm2 = Image<float>(width, height);
+        frame.colour = Image<Rgb8>(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const double px = (x + 0.5) / k - 0.618 * t, py = (y + 0.5) / k, from_edge = 24.0 - std::hypot(px - 40.0, py - 40.0);
+                const double inside =
+                    ramp_px > 0.0 ? 0.5 + 0.5 * std::sin(std::numbers::pi * std::clamp(from_edge / ramp_px, -0.5, 0.5)) : from_edge > 0.0;
+                const double grain = 0.1 * (std::sin(0.5 * px) * std::cos(0.43 * py) + std::sin(0.31 * (px + py)));
+                const double value = (0.2 + 0.8 * inside) * (1.0 + grain);
+                frame.luminance_cdm2.at(x, y) = static_cast<float>(value);
+                const auto level = static_cast<std::uint8_t>(std::lround(200.0 * value / 1.2));
+                frame.colour.at(x, y) = {level, level, level};
+            }
+        const std::string name = folder + "/frame_" + std::to_string(1000 + t);
+        View view;
+        view.width_px = width;
+        view.height_px = height;
+        if (png)
+            write_png(frame.colour, name + ".png");
+        else
+            write_exr(frame, Moment{}, view, name + ".exr");
+    }
+}
+
+json sequence_found(const TemporaryFolder& folder, const std::string& flags, const std::string& out) {
+    const Outcome run = run_program("aliasing --quiet --rate 30 --ppd 20 " + flags + " --out " + (folder / out));
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    const json found = json::parse(content_of(folder / (out + "/aliasing.json")));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/aliasing/aliasing.schema.json")));
+    EXPECT_THAT(schema.check(found), IsEmpty());
+    EXPECT_TRUE(std::filesystem::exists(folder / (out + "/aliasing.html")));
+    return found.at("rows").at(0);
+}
+
+TEST(AliasingCommand, MeasuresFramesOfOthersByOpticalFlow) {
+    const TemporaryFolder folder;
+    write_ring(folder / "step", 10, 1, false, 0.0);
+    write_ring(folder / "fine", 10, 4, false, 0.0);
+    write_ring(folder / "ramp", 10, 1, false, 5.0);
+    const json alone = sequence_found(folder, "--sequence " + (folder / "step"), "alone");
+    const json smooth = sequence_found(folder, "--sequence " + (folder / "ramp"), "smooth");
+    const json against = sequence_found(folder, "--sequence " + (folder / "step") + " --against " + (folder / "fine"), "against");
+    EXPECT_TRUE(alone.at("aliasing").contains("not_measured"));
+    EXPECT_TRUE(alone.at("temporal").at("crawl_percent").is_null());
+    EXPECT_NEAR(alone.at("temporal").at("motion").at("median_motion_px"), 0.618, 0.05);
+    EXPECT_GT(alone.at("temporal").at("tracks"), 500);
+    EXPECT_LT(smooth.at("temporal").at("flicker_percent"), 0.5);
+    EXPECT_GT(alone.at("temporal").at("flicker_percent"), 1.0);
+    EXPECT_GT(against.at("aliasing").at("contrast_percent"), 1.0);
+    EXPECT_GT(against.at("temporal").at("flicker_percent"), 1.0);
+    // With and without a reference, the same edge flickers much the same; an edge's aliasing spreads further once the reference tells it.
+    EXPECT_NEAR(against.at("temporal").at("flicker_percent").get<double>() / alone.at("temporal").at("flicker_percent").get<double>(), 1.0,
+                0.5);
+    EXPECT_TRUE(against.at("technique").is_null());
+}
+
+TEST(AliasingCommand, RefusesFramesThatAreNoSequence) {
+    const TemporaryFolder folder;
+    for (const char* name : {"png", "gap", "mixed", "twice"})
+        write_ring(folder / name, 9, 1, true, 0.0);
+    std::filesystem::remove(folder / "gap/frame_1004.png");
+    write_ring(folder / "few", 7, 1, true, 0.0);
+    std::filesystem::copy_file(folder / "png/frame_1000.png", folder / "twice/other1003.png");
+    write_ring(folder / "exr", 9, 1, false, 0.0);
+    std::filesystem::rename(folder / "mixed/frame_1008.png", folder / "mixed/old.part");
+    std::filesystem::copy_file(folder / "exr/frame_1008.exr", folder / "mixed/frame_1008.exr");
+    std::filesystem::create_directories(folder / "broken");
+    for (int t = 0; t < 8; ++t)
+        std::ofstream(folder / ("broken/" + std::to_string(t) + ".png")) << "no picture";
+    const std::string rate = " --rate 30 --ppd 20";
+    for (const auto& [flags, sentence] :
+         {std::pair("--sequence " + (folder / "nowhere") + rate, std::string("is no folder, expected a folder of PNG or EXR files")),
+          std::pair("--sequence " + (folder / "gap") + rate, std::string("frame 1004 is missing")),
+          std::pair("--sequence " + (folder / "few") + rate, std::string("found 7 numbered frames, expected 8 to 64")),
+          std::pair("--sequence " + (folder / "twice") + rate, std::string("frame 1003 is there twice: frame_1003.png and other1003.png")),
+          std::pair("--sequence " + (folder / "mixed") + rate, std::string("is exr among others")),
+          std::pair("--sequence " + (folder / "broken") + rate, std::string("cannot be read")),
+          std::pair("--sequence " + (folder / "png") + " --ppd 20", std::string("--rate: is missing")),
+          std::pair("--sequence " + (folder / "png") + " --rate 0 --ppd 20", std::string("--rate: found '0'")),
+          std::pair("--sequence " + (folder / "png") + " --rate 30", std::string("--ppd: is missing")),
+          std::pair("--sequence " + (folder / "png") + rate + " --view-fov 30", std::string("--ppd: found --view-fov too")),
+          std::pair("--sequence " + (folder / "png") + rate + " --frames 1000:1020", std::string("has no frame 1009")),
+          std::pair("--sequence " + (folder / "png") + rate + " --against " + (folder / "png"),
+                    std::string("expected 4, 6, 8 ... or 16 times")),
+          std::pair("--sequence " + (folder / "png") + rate + " " + library_file("drives/straight.yaml"),
+                    std::string("DRIVE: found --sequence too")),
+          std::pair("--sequence " + (folder / "png") + rate + " --samples 4", std::string("--sequence excludes --samples")),
+          std::pair(std::string("--quiet"), std::string("DRIVE: is missing"))}) {
+        const Outcome run = run_program("aliasing --quiet " + flags);
         EXPECT_EQ(run.exit_code, 2) << flags << run.output;
         EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
     }

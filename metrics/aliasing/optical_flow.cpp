@@ -1,0 +1,148 @@
+#include "metrics/aliasing/optical_flow.h"
+
+#include "metrics/aliasing/spatial_aliasing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <stdexcept>
+#include <vector>
+
+namespace fernlicht {
+namespace {
+
+constexpr int least_px = 32;
+constexpr double structure_px = 4.0, full_rms = 4.0;
+
+void check(const Image<float>& from, const Image<float>& to) {
+    if (from.width() != to.width() || from.height() != to.height() || std::min(from.width(), from.height()) < least_px)
+        throw std::invalid_argument(fmt::format("motion from {}x{} to {}x{} pixels cannot be told; both must have one size of at least "
+                                                "{} each way",
+                                                from.width(), from.height(), to.width(), to.height(), least_px));
+    for (const Image<float>* picture : {&from, &to})
+        for (const float value : picture->pixels())
+            if (!std::isfinite(value))
+                throw std::invalid_argument(fmt::format("a pixel is {}", value));
+}
+
+double level_of(float luminance_cdm2) { return std::log1p(std::max(0.0, static_cast<double>(luminance_cdm2)) / least_seen_cdm2); }
+
+/// Headlamps light the road alike from frame to frame, so what they do to it stands on the screen while the road moves: taken out.
+cv::Mat structure_of(const Image<float>& picture) {
+    cv::Mat levels(picture.height(), picture.width(), CV_32FC1), slow;
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x)
+            levels.at<float>(y, x) = static_cast<float>(level_of(picture.at(x, y)));
+    cv::GaussianBlur(levels, slow, {0, 0}, structure_px);
+    return levels - slow;
+}
+
+cv::Mat bytes_of(const cv::Mat& structure, double full) {
+    cv::Mat bytes;
+    structure.convertTo(bytes, CV_8UC1, 127.0 / full, 128.0);
+    return bytes;
+}
+
+/// Of one value at least; the order is used up.
+double median_of(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+} // namespace
+
+Flow optical_flow(const Image<float>& from, const Image<float>& to, FlowMethod method) {
+    check(from, to);
+    const cv::Mat a = structure_of(from), b = structure_of(to);
+    const double full = std::max(1e-3, full_rms * std::sqrt(0.5 * (a.dot(a) + b.dot(b)) / static_cast<double>(from.size())));
+    const cv::Mat first = bytes_of(a, full), second = bytes_of(b, full);
+    cv::Mat flow;
+    if (method == FlowMethod::dis) {
+        const cv::Ptr<cv::DISOpticalFlow> search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
+        search->setFinestScale(0); // the preset's 1 stops at half the resolution
+        search->setPatchStride(3);
+        search->setGradientDescentIterations(50); // with the other two, half the error of the preset (docs/decisions/0006)
+        search->calc(first, second, flow);
+    } else {
+        constexpr int levels = 5, window_px = 15, rounds = 5, polynomial_px = 7;
+        constexpr double halved = 0.5, polynomial_sigma_px = 1.5;
+        cv::calcOpticalFlowFarneback(first, second, flow, halved, levels, window_px, rounds, polynomial_px, polynomial_sigma_px, 0);
+    }
+    Flow out{Image<float>(from.width(), from.height()), Image<float>(from.width(), from.height())};
+    for (int y = 0; y < from.height(); ++y)
+        for (int x = 0; x < from.width(); ++x) {
+            const cv::Vec2f& at = flow.at<cv::Vec2f>(y, x);
+            out.dx_px.at(x, y) = at[0];
+            out.dy_px.at(x, y) = at[1];
+        }
+    return out;
+}
+
+double between_pixels(const Image<float>& picture, double x, double y) {
+    x = std::clamp(x, 0.0, picture.width() - 1.0);
+    y = std::clamp(y, 0.0, picture.height() - 1.0);
+    const int left = static_cast<int>(x), upper = static_cast<int>(y);
+    const int right = std::min(left + 1, picture.width() - 1), lower = std::min(upper + 1, picture.height() - 1);
+    const auto value = [&](int i, int j) { return static_cast<double>(picture.at(i, j)); };
+    const double tx = x - left, ty = y - upper;
+    return (1.0 - ty) * ((1.0 - tx) * value(left, upper) + tx * value(right, upper)) +
+           ty * ((1.0 - tx) * value(left, lower) + tx * value(right, lower));
+}
+
+Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most_px) {
+    const int width = there.dx_px.width(), height = there.dx_px.height();
+    if (back.dx_px.width() != width || back.dx_px.height() != height)
+        throw std::invalid_argument("motion there and back is of pictures of one size");
+    Image<std::uint8_t> found(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double dx = static_cast<double>(there.dx_px.at(x, y)), dy = static_cast<double>(there.dy_px.at(x, y));
+            const double at_x = x + dx, at_y = y + dy;
+            if (!(at_x >= 0.0 && at_y >= 0.0 && at_x <= width - 1.0 && at_y <= height - 1.0))
+                continue;
+            const double off = std::hypot(dx + between_pixels(back.dx_px, at_x, at_y), dy + between_pixels(back.dy_px, at_x, at_y));
+            found.at(x, y) = off <= most_px ? 1 : 0;
+        }
+    return found;
+}
+
+FlowError flow_error(const std::vector<FlowPair>& pairs) {
+    FlowError error;
+    std::vector<double> off, lengths;
+    std::size_t far = 0;
+    for (const FlowPair& pair : pairs) {
+        const std::size_t size = pair.known_at.size();
+        for (const std::size_t other :
+             {pair.estimated.dx_px.size(), pair.estimated.dy_px.size(), pair.kept.size(), pair.known.dx_px.size(), pair.known.dy_px.size()})
+            if (other != size)
+                throw std::invalid_argument("motions of pictures of one size can be held against each other");
+        for (std::size_t i = 0; i < size; ++i) {
+            if (pair.known_at.pixels()[i] == 0)
+                continue;
+            ++error.points;
+            const double dx = static_cast<double>(pair.known.dx_px.pixels()[i]), dy = static_cast<double>(pair.known.dy_px.pixels()[i]);
+            lengths.push_back(std::hypot(dx, dy));
+            if (pair.kept.pixels()[i] == 0)
+                continue;
+            off.push_back(std::hypot(static_cast<double>(pair.estimated.dx_px.pixels()[i]) - dx,
+                                     static_cast<double>(pair.estimated.dy_px.pixels()[i]) - dy));
+            error.mean_px += off.back();
+            far += off.back() > 0.5 ? 1U : 0U;
+        }
+    }
+    if (error.points == 0)
+        return error;
+    error.left_out_percent = 100.0 * static_cast<double>(error.points - off.size()) / static_cast<double>(error.points);
+    error.known_motion_px = median_of(lengths);
+    if (off.empty())
+        return error;
+    error.mean_px /= static_cast<double>(off.size());
+    error.far_percent = 100.0 * static_cast<double>(far) / static_cast<double>(off.size());
+    error.median_px = median_of(off);
+    return error;
+}
+
+} // namespace fernlicht

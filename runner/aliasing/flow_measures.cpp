@@ -1,0 +1,39 @@
+#include "runner/aliasing/flow_measures.h"
+
+#include "metrics/images/srgb.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+
+Image<float> floats_of(const Image<double>& picture) {
+    Image<float> out(picture.width(), picture.height());
+    std::ranges::transform(picture.pixels(), out.pixels().begin(), [](double value) { return static_cast<float>(value); });
+    return out;
+}
+
+float displayed_cdm2(const Rgb8& pixel) {
+    const auto linear = [](std::uint8_t value) { return srgb_decoded(value / 255.0); };
+    return static_cast<float>(display_white_cdm2 * (0.2126 * linear(pixel.r) + 0.7152 * linear(pixel.g) + 0.0722 * linear(pixel.b)));
+}
+
+std::string method_name(FlowMethod method) { return method == FlowMethod::dis ? "dense inverse search" : "Farneback"; }
+
+std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const std::vector<Image<double>>& aliasing,
+                                               const std::vector<Image<double>>& levels, double rate_hz, double pixels_per_degree) {
+    if (followed.paths.empty())
+        return std::nullopt;
+    std::vector<Track> tracks;
+    for (const Path& path : followed.paths)
+        tracks.push_back(track_of(path, aliasing.front().width(), aliasing.front().height()));
+    return measure_temporal_aliasing(aliasing, levels, tracks, rate_hz, pixels_per_degree);
+}
+
+std::optional<TemporalAliasing> flicker_along(const FlowPaths& followed, const std::vector<Image<float>>& pictures, double rate_hz,
+                                              double pixels_per_degree) {
+    if (followed.paths.empty())
+        return std::nullopt;
+    return measure_flicker(samples_along(followed.paths, pictures), rate_hz, pixels_per_degree);
+}
+
+} // namespace fernlicht

@@ -1,0 +1,19 @@
+// What is measured over time along paths by optical flow: with a reference, or without.
+#pragma once
+
+#include "metrics/aliasing/flow_paths.h"
+#include "runner/aliasing/aliasing_result.h"
+
+namespace fernlicht {
+
+Image<float> floats_of(const Image<double>& picture);
+
+/// Aliasing that is known of each frame, at the pixels nearest to the paths. nullopt where no path was followed.
+std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const std::vector<Image<double>>& aliasing,
+                                               const std::vector<Image<double>>& levels, double rate_hz, double pixels_per_degree);
+
+/// Changes of brightness itself. nullopt where no path was followed.
+std::optional<TemporalAliasing> flicker_along(const FlowPaths& followed, const std::vector<Image<float>>& pictures, double rate_hz,
+                                              double pixels_per_degree);
+
+} // namespace fernlicht
