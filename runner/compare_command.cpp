@@ -1,9 +1,11 @@
 #include "runner/compare_command.h"
 
 #include "metrics/images/flip.h"
+#include "runner/compare/compare_lamps.h"
 #include "runner/compare/compare_runs.h"
 #include "runner/compare/comparison_writers.h"
 #include "runner/compare/strictness_file.h"
+#include "runner/flag_values.h"
 #include "runner/output_folder.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
@@ -19,12 +21,13 @@ namespace {
 
 struct Flags {
     std::filesystem::path reference, tested, out;
-    std::string strictness, pictures = "3";
+    std::string strictness, pictures = "3", regulation, noise;
+    bool lamps = false;
     std::optional<double> pixels_per_degree, view_fov_deg;
     bool json = false;
 };
 
-enum class Kind { pictures, runs };
+enum class Kind { pictures, runs, lamps };
 
 double pixels_per_degree(const Flags& flags, int height_px) {
     const auto in_range = [](const char* flag, double value) {
@@ -90,22 +93,46 @@ int compare_runs_of(const Flags& flags) {
     return compare_two_runs(request);
 }
 
-/// What a path is, by what lies there.
-Kind kind_of(const std::filesystem::path& path) {
+/// What a path is, by what lies there. Beam textures are pictures, too: --lamps says that they are meant as lamps.
+Kind kind_of(const std::filesystem::path& path, bool lamps) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored))
         return Kind::runs;
-    if (is_picture(path))
-        return Kind::pictures;
-    throw InputError({path, 0, 0, {}}, "is neither a run's folder nor a PNG or EXR picture", "two runs or two pictures");
+    return lamps || !is_picture(path) ? Kind::lamps : Kind::pictures;
+}
+
+const char* name_of(Kind kind) { return kind == Kind::runs ? "a folder" : kind == Kind::pictures ? "a picture" : "no picture"; }
+
+/// What belongs to another kind of comparison is refused rather than ignored.
+void refuse_foreign_flags(const Flags& flags, Kind kind) {
+    const auto refuse = [](bool given, const char* flag, const char* expected) {
+        if (given)
+            throw InputError({{}, 0, 0, flag}, "found beside what it says nothing of", expected);
+    };
+    if (kind != Kind::lamps) {
+        refuse(!flags.regulation.empty(), "--regulation", "two lamps");
+        refuse(!flags.noise.empty(), "--noise", "two lamps");
+        refuse(flags.lamps, "--lamps", "two lamps");
+        return;
+    }
+    refuse(!flags.strictness.empty(), "--strictness", "two pictures or two runs");
+    refuse(flags.pixels_per_degree.has_value(), "--ppd", "two pictures or two runs");
+    refuse(flags.view_fov_deg.has_value(), "--view-fov", "two pictures");
 }
 
 int compare(const Flags& flags) {
-    const Kind first = kind_of(flags.reference), second = kind_of(flags.tested);
+    const Kind first = kind_of(flags.reference, flags.lamps), second = kind_of(flags.tested, flags.lamps);
     if (first != second)
-        throw InputError({flags.tested, 0, 0, {}}, second == Kind::runs ? "is a folder" : "is a picture",
-                         first == Kind::runs ? "a run's folder as A" : "a picture as A");
-    return first == Kind::runs ? compare_runs_of(flags) : compare_two_pictures(flags);
+        throw InputError(
+            {flags.tested, 0, 0, {}}, fmt::format("is {}", name_of(second)),
+            fmt::format("{} as A is", first == Kind::lamps ? "a lamp file (--lamps takes pictures for beam textures)" : name_of(first)));
+    refuse_foreign_flags(flags, first);
+    if (first == Kind::runs)
+        return compare_runs_of(flags);
+    if (first == Kind::pictures)
+        return compare_two_pictures(flags);
+    return compare_two_lamps({flags.reference, flags.tested, flags.out, flags.regulation,
+                              flags.noise.empty() ? 0.0 : share_of("--noise", flags.noise), flags.json});
 }
 
 } // namespace
@@ -113,8 +140,9 @@ int compare(const Flags& flags) {
 void add_compare_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub = app.add_subcommand(
-        "compare", "tells how two pictures or two runs differ: in numbers, in pictures, and whether they are alike enough");
-    sub->add_option("A", flags->reference, "the reference: PNG (display) or EXR (linear) as run writes them, or a run's folder")
+        "compare", "tells how two pictures, two runs or two lamps differ: in numbers, in pictures, and whether they are alike enough");
+    sub->add_option("A", flags->reference,
+                    "the reference: PNG (display) or EXR (linear) as run writes them, a run's folder, or a lamp file")
         ->required();
     sub->add_option("B", flags->tested, "what is compared with it: of the same kind")->required();
     sub->add_option(
@@ -123,9 +151,13 @@ void add_compare_command(CLI::App& app, std::function<int()>& chosen) {
     CLI::Option* density = sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree, for FLIP; 67.02 when nothing is said");
     sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view in degrees, instead of --ppd")->excludes(density);
     sub->add_option("--out", flags->out,
-                    "a new or empty folder for pictures of the difference and compare.json; of two runs for report.html, too");
+                    "a new or empty folder for pictures of the difference and compare.json; of two runs or lamps for report.html, too");
     sub->add_option("--pictures", flags->pictures, "of two runs: how many moments of each drive and view are drawn, or all")
         ->capture_default_str();
+    sub->add_option("--regulation", flags->regulation, "of two lamps: each row's margin with both; exit code 1 when B does not pass")
+        ->option_text("ID");
+    sub->add_option("--noise", flags->noise, "of two lamps: standard deviation of an intensity, e.g. 1%");
+    sub->add_flag("--lamps", flags->lamps, "takes pictures for beam textures");
     sub->add_flag("--json", flags->json, "prints JSON");
     sub->callback([flags, &chosen] { chosen = [flags] { return compare(*flags); }; });
 }

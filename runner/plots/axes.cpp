@@ -50,7 +50,21 @@ std::vector<Tick> logarithmic_ticks(double low, double high, int most) {
     return ticks;
 }
 
-bool has_place(double value, Scale scale) { return std::isfinite(value) && (scale == Scale::linear || value > 0.0); }
+bool has_place(double value, Scale scale) { return std::isfinite(value) && (scale != Scale::logarithmic || value > 0.0); }
+
+constexpr double signed_decades = 3.0;
+
+/// The ends, a tenth and a hundredth of them, and 0.
+std::vector<Tick> signed_ticks(double top) {
+    std::vector<Tick> ticks;
+    for (const double share : {1.0, 0.1, 0.01}) {
+        ticks.push_back({-share * top, number(-share * top)});
+        ticks.push_back({share * top, "+" + number(share * top)});
+    }
+    ticks.push_back({0.0, "0 \u00b1 " + number(top * std::pow(10.0, -signed_decades))});
+    std::ranges::sort(ticks, {}, &Tick::value);
+    return ticks;
+}
 
 } // namespace
 
@@ -59,6 +73,11 @@ double position(const Axis& axis, double value) {
         return std::numeric_limits<double>::quiet_NaN();
     if (axis.scale == Scale::logarithmic)
         return std::log(value / axis.from) / std::log(axis.to / axis.from);
+    if (axis.scale == Scale::signed_logarithmic) {
+        const double size = std::abs(value / axis.to);
+        const double along = size > 0.0 ? std::clamp(1.0 + std::log10(size) / signed_decades, 0.0, 1.0) : 0.0;
+        return value / axis.to < 0.0 ? 0.5 - 0.5 * along : 0.5 + 0.5 * along;
+    }
     return (value - axis.from) / (axis.to - axis.from);
 }
 
@@ -71,6 +90,8 @@ std::vector<Tick> ticks_of(const Axis& axis, int most) {
                 given.push_back({value, number(value)});
         return given;
     }
+    if (axis.scale == Scale::signed_logarithmic)
+        return signed_ticks(high);
     most = std::max(most, 1);
     return axis.scale == Scale::logarithmic ? logarithmic_ticks(low, high, most) : linear_ticks(low, high, most);
 }

@@ -6,14 +6,16 @@
 
 namespace fernlicht::plots {
 
-enum class Scale { linear, logarithmic };
+/// signed_logarithmic: for differences, logarithmic to both sides of 0, with three decades below each end; smaller values stand at 0. The
+/// axis runs from -to to `to`.
+enum class Scale { linear, logarithmic, signed_logarithmic };
 
 struct Axis {
     std::string label; ///< "reach over the drive"
     std::string unit;  ///< "m"; "" for none
     double from = 0.0; ///< value at the left or bottom edge; above `to` the axis runs backwards
     double to = 1.0;
-    Scale scale = Scale::linear;    ///< logarithmic: both ends above 0
+    Scale scale = Scale::linear;    ///< logarithmic: both ends above 0; signed: from == -to
     std::vector<double> ticks = {}; ///< empty: chosen
 };
 

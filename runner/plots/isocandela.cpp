@@ -76,6 +76,8 @@ Image<float> image_of(const Grid& g) {
     return image;
 }
 
+} // namespace
+
 /// Degrees of H and V are shown equally long unless the picture would become a ribbon or a tower.
 void fit_height(Figure& f, const AngleWindow& w) {
     constexpr double beside_px = 160.0, around_px = 130.0;
@@ -84,9 +86,20 @@ void fit_height(Figure& f, const AngleWindow& w) {
     f.height_px = std::clamp(std::round(height), 260.0, 900.0);
 }
 
-} // namespace
+AngleWindow beam_window(const CandelaTable& table) { return window_of(table, 0.05 * peak_of(table).cd); }
 
-Figure isocandela_diagram(const CandelaTable& table, const std::string& title, const std::optional<AngleWindow>& window) {
+std::vector<double> isocandela_levels_lx(double peak_cd) {
+    return round_levels(peak_cd / cd_per_lx_at_25_m / 300.0, peak_cd / cd_per_lx_at_25_m);
+}
+
+Grid lux_over(const CandelaTable& table, const AngleWindow& w) {
+    const int columns = 880,
+              rows = std::clamp(static_cast<int>(columns * (w.top_deg - w.bottom_deg) / (w.right_deg - w.left_deg)), 400, 1200);
+    return sampled(table, w, columns, rows);
+}
+
+Figure isocandela_diagram(const CandelaTable& table, const std::string& title, const std::optional<AngleWindow>& window,
+                          double scale_peak_cd) {
     Figure f;
     f.title = title;
     f.width_px = 1040.0;
@@ -98,20 +111,19 @@ Figure isocandela_diagram(const CandelaTable& table, const std::string& title, c
         return f;
     }
     const double peak_lx = peak.cd / cd_per_lx_at_25_m;
-    const AngleWindow w = window ? *window : window_of(table, 0.05 * peak.cd);
+    const double scale_lx = scale_peak_cd > 0.0 ? scale_peak_cd / cd_per_lx_at_25_m : peak_lx;
+    const AngleWindow w = window ? *window : beam_window(table);
     f.subtitle = fmt::format("lux at 25 m on a target facing the lamp (1 lx = 625 cd); peak {:.3g} lx at H {:.2f}°, V {:.2f}°", peak_lx,
                              peak.h_deg, peak.v_deg);
     f.x = {"H, right positive", "°", w.left_deg, w.right_deg};
     f.y = {"V, up positive", "°", w.bottom_deg, w.top_deg};
     fit_height(f, w);
 
-    const double brightest = round_levels(peak_lx, 10.0 * peak_lx).front();
+    const double brightest = round_levels(scale_lx, 10.0 * scale_lx).front();
     f.colour_bar = ColourBar{{"E at 25 m", "lx", brightest / 1000.0, brightest, Scale::logarithmic}};
-    const int columns = 880,
-              rows = std::clamp(static_cast<int>(columns * (w.top_deg - w.bottom_deg) / (w.right_deg - w.left_deg)), 400, 1200);
-    const Grid grid = sampled(table, w, columns, rows);
+    const Grid grid = lux_over(table, w);
     f.rasters.push_back({heat_map(image_of(grid), f.colour_bar->axis, {225, 225, 225}), w.left_deg, w.right_deg, w.top_deg, w.bottom_deg});
-    for (const double level : round_levels(peak_lx / 300.0, peak_lx))
+    for (const double level : isocandela_levels_lx(scale_lx * cd_per_lx_at_25_m))
         f.isolines.push_back({number(level) + " lx", isolines(grid, level), {255, 255, 255}, 1.2});
     f.marks.push_back({Mark::Across::at_x, 0.0, "V-V", {235, 235, 235}});
     f.marks.push_back({Mark::Across::at_y, 0.0, "H-H", {235, 235, 235}});

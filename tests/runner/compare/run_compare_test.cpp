@@ -185,8 +185,8 @@ TEST_F(RunCompare, WrongInputIsOneSentenceAndTwo) {
     refused("halogen", "faster", "", "another speed in B");
     refused("halogen", "empty", "", "has no report.json");
     refused("halogen", "unfinished", "", "a run that did not end");
-    refused("halogen", "halogen/frames/straight-1-halogen-low/driver-000000.png", "", "is a picture, expected a run's folder as A");
-    refused("halogen/frames/straight-1-halogen-low/driver-000000.png", "halogen", "", "is a folder, expected a picture as A");
+    refused("halogen", "halogen/frames/straight-1-halogen-low/driver-000000.png", "", "is a picture, expected a folder as A is");
+    refused("halogen/frames/straight-1-halogen-low/driver-000000.png", "halogen", "", "is a folder, expected a picture as A is");
     refused("halogen", "xenon", "--view-fov 40", "the drives say what their views see");
     refused("halogen", "xenon", "--pictures some", "all, or a number of moments");
     EXPECT_EQ(run_program("compare " + at("halogen") + " " + library_file("lamps/halogen-low.ies")).exit_code, 2);

@@ -41,6 +41,23 @@ TEST(Axes, PositionIsAffineInTheValueOrInItsLogarithm) {
     EXPECT_TRUE(std::isnan(position({"", "", 0.1, 1000.0, Scale::logarithmic, {}}, 0.0)));
 }
 
+// Three decades to either side: 1000 at the end, 100 a third of the half nearer to the middle, 1 and less in it.
+TEST(Axes, SignedLogarithmsStandAlikeToBothSidesOfNothing) {
+    const Axis axis{.label = "d", .unit = "cd", .from = -1000.0, .to = 1000.0, .scale = Scale::signed_logarithmic};
+    EXPECT_DOUBLE_EQ(position(axis, 1000.0), 1.0);
+    EXPECT_NEAR(position(axis, 100.0), 0.5 + 0.5 * 2.0 / 3.0, 1e-12);
+    EXPECT_NEAR(position(axis, 1.0), 0.5, 1e-12);
+    EXPECT_DOUBLE_EQ(position(axis, 0.3), 0.5);
+    EXPECT_DOUBLE_EQ(position(axis, 0.0), 0.5);
+    for (const double value : {0.5, 2.0, 30.0, 700.0, 5000.0})
+        EXPECT_NEAR(position(axis, -value), 1.0 - position(axis, value), 1e-12);
+    const std::vector<Tick> ticks = ticks_of(axis, 4);
+    ASSERT_EQ(ticks.size(), 7U);
+    EXPECT_EQ(ticks.front().label, "-1000");
+    EXPECT_EQ(ticks.back().label, "+1000");
+    EXPECT_EQ(ticks[3].label, "0 \u00b1 1");
+}
+
 TEST(Axes, AxisAroundHoldsItsValues) {
     const Axis axis = axis_around("reach", "m", {61.3, std::nan(""), 94.0});
     EXPECT_EQ(axis.from, 60.0);
