@@ -97,8 +97,8 @@ SequenceRequest sequence_request_of(const Flags& flags) {
         request.frames = two_numbers("--frames", flags.frames, ':', false, "FIRST:LAST, e.g. 60:75");
     if (!flags.rate_hz)
         throw InputError({{}, 0, 0, "--rate"}, "is missing", "frames per second of the sequence");
-    if (!(*flags.rate_hz >= 1.0 && *flags.rate_hz <= 10000.0))
-        refuse_flag("--rate", fmt::format("{:g}", *flags.rate_hz), "1 to 10000 frames per second");
+    if (!(*flags.rate_hz >= 8.0 && *flags.rate_hz <= 10000.0)) // flicker begins at 4 Hz
+        refuse_flag("--rate", fmt::format("{:g}", *flags.rate_hz), "8 to 10000 frames per second");
     request.rate_hz = *flags.rate_hz;
     if (flags.pixels_per_degree.has_value() == flags.view_fov_deg.has_value())
         throw InputError({{}, 0, 0, "--ppd"}, flags.pixels_per_degree ? "found --view-fov too" : "is missing",
@@ -154,7 +154,8 @@ void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--frames", flags->frames, "FIRST:LAST, 8 to 64 frames in a row: measures flicker and crawl, too");
     sub->add_flag("--flow", flags->flow, "with --frames: holds optical flow against the motion that is known, too");
     CLI::Option* const sequence =
-        sub->add_option("--sequence", flags->sequence, "instead of a drive: a folder of frames that others drew, PNG or EXR with numbers");
+        sub->add_option("--sequence", flags->sequence,
+                        "instead of a drive: a folder of frames that others drew, PNG or EXR with numbers, or FOLDER/BEGIN*END");
     sub->add_option("--against", flags->against, "the same frames drawn 4, 6 ... 16 times as fine each way")->needs(sequence);
     sub->add_option("--rate", flags->rate_hz, "frames per second of the sequence")->needs(sequence);
     sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree of the sequence")->needs(sequence);

@@ -80,14 +80,17 @@ std::vector<double> summed(const std::vector<TrackSamples>& tracks, std::size_t 
     return sums;
 }
 
-TemporalAliasing weighed(const std::vector<double>& sums, std::size_t tracks, std::size_t frames, double rate_hz,
-                         double pixels_per_degree) {
+/// Frequencies below `from_hz` are left out.
+TemporalAliasing weighed(const std::vector<double>& sums, std::size_t tracks, std::size_t frames, double rate_hz, double pixels_per_degree,
+                         double from_hz = 0.0) {
     TemporalAliasing result;
     result.tracks = tracks;
     const double count = std::max(1.0, static_cast<double>(tracks));
     double crawl = 0.0, flicker = 0.0, visible = 0.0;
     for (std::size_t k = 0; k < sums.size(); ++k) {
         const double square = sums[k] / count, hertz = rate_hz * static_cast<double>(k + 1) / static_cast<double>(frames);
+        if (hertz < from_hz)
+            continue;
         const double sensitivity = flicker_sensitivity(0.25 * pixels_per_degree, hertz);
         (hertz < crawl_below_hz ? crawl : flicker) += square;
         visible += 2.0 * square * sensitivity * sensitivity; // a sine's modulation^2 is twice its mean square
@@ -164,7 +167,7 @@ TemporalAliasing measure_flicker(const std::vector<TrackSamples>& tracks, double
     for (TrackSamples& track : level)
         if (std::ranges::any_of(track.values, [&](double v) { return v != track.values.front(); })) // equal values stay exactly that
             remove_line(track.values);
-    TemporalAliasing result = weighed(summed(level, frames), tracks.size(), frames, rate_hz, pixels_per_degree);
+    TemporalAliasing result = weighed(summed(level, frames), tracks.size(), frames, rate_hz, pixels_per_degree, crawl_below_hz);
     result.crawl_percent.reset();
     return result;
 }

@@ -49,8 +49,8 @@ TemporalAliasing measure_temporal_aliasing(const std::vector<Image<double>>& ali
                                            const std::vector<Track>& tracks, double rate_hz, double pixels_per_degree);
 
 /// The same of brightness itself, without a reference: each track less its straight line over time, which light does that comes nearer.
-/// Slower changes of light are not told apart from crawl, so there is none; what stands on the screen is not told apart either. As many
-/// values in each, at least 8. Throws std::invalid_argument otherwise.
+/// Slower changes of light are not told apart from crawl, so there is none, and no spectrum below 4 Hz; what stands on the screen is not
+/// told apart either. As many values in each, at least 8. Throws std::invalid_argument otherwise.
 TemporalAliasing measure_flicker(const std::vector<TrackSamples>& tracks, double rate_hz, double pixels_per_degree);
 
 } // namespace fernlicht

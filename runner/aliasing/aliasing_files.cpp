@@ -199,6 +199,12 @@ std::vector<std::size_t> ranked(const AliasingResult& result) {
     return order;
 }
 
+std::string motion_text(const FollowedByFlow& flow) {
+    return fmt::format("motion by optical flow: {} of {} points followed, median motion {:.2f} px a frame, back to within {:.3f} px{}",
+                       flow.followed, flow.started, flow.median_motion_px, flow.median_return_px,
+                       2 * flow.followed < flow.started ? "; fewer than half, and flicker is known of those alone" : "");
+}
+
 std::string aliasing_text(const AliasingResult& result) {
     std::vector<std::vector<std::string>> rows;
     std::string out, why;
@@ -213,9 +219,7 @@ std::string aliasing_text(const AliasingResult& result) {
         if (row.why_not.empty() && !row.marks)
             why += name_of(row.configuration) + ": jaggedness of road marks not measured, " + row.no_marks + "\n";
         if (row.by_flow)
-            why +=
-                fmt::format("motion by optical flow: {} of {} points followed, median motion {:.2f} px a frame, back to within {:.3f} px\n",
-                            row.by_flow->followed, row.by_flow->started, row.by_flow->median_motion_px, row.by_flow->median_return_px);
+            why += motion_text(*row.by_flow) + "\n";
     }
     const auto& [first, first_s] = result.moments.front();
     const auto& [last, last_s] = result.moments.back();

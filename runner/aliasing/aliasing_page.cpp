@@ -75,10 +75,7 @@ data notes_part(const AliasingResult& result) {
     }
     for (const AliasingRow& row : result.rows)
         if (row.by_flow)
-            notes.push_back(
-                fmt::format("Motion by optical flow: {} of {} points followed, median motion {:.2f} pixels a frame; going there "
-                            "and back ends {:.3f} pixels from the start, as a median",
-                            row.by_flow->followed, row.by_flow->started, row.by_flow->median_motion_px, row.by_flow->median_return_px));
+            notes.push_back(motion_text(*row.by_flow));
     return notes;
 }
 
@@ -117,7 +114,10 @@ std::string aliasing_html(const AliasingResult& result) {
     page.set("level", result.level_lx > 0.0 ? fmt::format("{}", result.level_lx) : "a level in");
     page.set("rows", rows);
     page.set("notes", notes_part(result));
-    page.set("ranking", ranking_svg(result));
+    const std::string ranking = ranking_svg(result);
+    page.set("has_ranking", !ranking.empty());
+    page.set("ranking", ranking);
+    page.set("over_space", result.supersample > 0);
     page.set("has_spatial", !order.empty());
     page.set("spatial", order.empty() ? "" : spatial_plot_svg(result));
     const std::string temporal = temporal_plot_svg(result);

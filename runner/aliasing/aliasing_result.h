@@ -29,6 +29,9 @@ struct FollowedByFlow {
     double median_motion_px = 0.0, median_return_px = 0.0; ///< from frame to frame; how far from the start going there and back ends
 };
 
+/// One sentence, without its full stop.
+std::string motion_text(const FollowedByFlow& flow);
+
 struct AliasingRow {
     AliasingConfiguration configuration;
     std::string why_not;                          ///< why nothing was measured; "" where it was

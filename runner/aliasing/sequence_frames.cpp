@@ -25,14 +25,34 @@ std::optional<int> number_in(const std::string& stem) {
     return last - first < 9 ? std::optional(std::stoi(stem.substr(first, last - first + 1))) : std::nullopt;
 }
 
-std::map<int, std::filesystem::path> numbered_files(const std::filesystem::path& folder) {
+/// A folder, or in its last part a pattern with one '*'.
+struct Which {
+    std::filesystem::path folder;
+    std::string before, after; ///< how names begin and end
+
+    explicit Which(const std::filesystem::path& path) : folder(path) {
+        const std::string name = path.filename().string();
+        const std::size_t star = name.find('*');
+        if (star == std::string::npos)
+            return;
+        folder = path.has_parent_path() ? path.parent_path() : ".";
+        before = name.substr(0, star);
+        after = name.substr(star + 1);
+    }
+    bool takes(const std::string& name) const {
+        return name.size() >= before.size() + after.size() && name.starts_with(before) && name.ends_with(after);
+    }
+};
+
+std::map<int, std::filesystem::path> numbered_files(const Which& which) {
+    const std::filesystem::path& folder = which.folder;
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
         throw InputError({folder, 0, 0, {}}, "is no folder", std::string("a folder of ") + what_is_expected);
     std::map<int, std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         const std::filesystem::path& path = entry.path();
-        if (path.extension() != ".png" && path.extension() != ".exr")
+        if ((path.extension() != ".png" && path.extension() != ".exr") || !which.takes(path.filename().string()))
             continue;
         const auto number = number_in(path.stem().string());
         if (!number)
@@ -44,7 +64,7 @@ std::map<int, std::filesystem::path> numbered_files(const std::filesystem::path&
                              fmt::format("frame {} is there twice: {} and {}", *number,
                                          printable((later ? other->second : path).filename().string()),
                                          printable((later ? path : other->second).filename().string())),
-                             "each number once");
+                             "each number once; FOLDER/BEGIN*END takes those files alone");
         }
     }
     if (error)
@@ -72,7 +92,8 @@ void check_numbers(const std::filesystem::path& folder, std::map<int, std::files
             throw InputError({folder, 0, 0, {}}, fmt::format("frame {} is missing", expected - 1), "frames whose numbers rise by 1");
         if (path.extension() != files.begin()->second.extension())
             throw InputError({path, 0, 0, {}}, "is " + path.extension().string().substr(1) + " among others",
-                             "all frames PNG or all EXR, as " + printable(files.begin()->second.filename().string()));
+                             "all frames PNG or all EXR, as " + printable(files.begin()->second.filename().string()) +
+                                 "; FOLDER/BEGIN*END takes some files alone");
     }
 }
 
@@ -105,9 +126,9 @@ Image<float> linear_luminance(const std::filesystem::path& path) {
 
 } // namespace
 
-SequenceFrames read_sequence(const std::filesystem::path& folder, const std::optional<std::pair<int, int>>& range) {
-    std::map<int, std::filesystem::path> files = numbered_files(folder);
-    check_numbers(folder, files, range);
+SequenceFrames read_sequence(const std::filesystem::path& path_or_pattern, const std::optional<std::pair<int, int>>& range) {
+    std::map<int, std::filesystem::path> files = numbered_files(Which(path_or_pattern));
+    check_numbers(path_or_pattern, files, range);
     SequenceFrames frames;
     frames.displayed = files.begin()->second.extension() == ".png";
     for (const auto& [number, path] : files) {

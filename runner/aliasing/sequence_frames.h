@@ -20,10 +20,11 @@ struct SequenceFrames {
 
 inline constexpr int fewest_sequence_frames = 8, most_sequence_frames = 64;
 
-/// The frames of a folder from number `first` to `last`, nullopt: all. A file's number is the last run of digits before its extension;
+/// The frames of a folder, or of its files whose names fit a last part with one '*' (frames/driver-*.exr), from number `first` to `last`,
+/// nullopt: all. A file's number is the last run of digits before its extension;
 /// other files are left alone. PNG: 8 bits, grey or RGB, decoded by IEC 61966-2-1. EXR: luminance.cdm2, else Y, else R, G and B weighed by
 /// BT.709; below 0, which sharpening filters leave, counts as 0. Throws InputError: no such folder, PNG and EXR mixed, a number twice or
 /// missing, fewer than 8 or more than 64, other sizes, less than 32 pixels each way, no channel of brightness, values that are not finite.
-SequenceFrames read_sequence(const std::filesystem::path& folder, const std::optional<std::pair<int, int>>& range);
+SequenceFrames read_sequence(const std::filesystem::path& path_or_pattern, const std::optional<std::pair<int, int>>& range);
 
 } // namespace fernlicht

@@ -36,6 +36,14 @@ int factor_of(const std::filesystem::path& folder, const SequenceFrames& drawn, 
     return factor;
 }
 
+/// The folder's own; of a pattern with the folder before it.
+std::string sequence_name(std::filesystem::path path) {
+    if (path.filename().empty()) // a slash at the end
+        path = path.parent_path();
+    const std::string last = path.filename().string();
+    return last.find('*') == std::string::npos ? last : (path.parent_path().filename() / last).string();
+}
+
 struct Measured {
     std::vector<SpatialAliasing> spatial;
     std::vector<Image<double>> residues, levels;
@@ -75,8 +83,7 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
     result.context.backend = result.context.gl_renderer = result.context.gl_version = "none, nothing was drawn";
     add_inputs(result.context.inputs, drawn.opened);
     add_inputs(result.context.inputs, fine.opened);
-    const std::string name =
-        request.sequence.filename().empty() ? request.sequence.parent_path().filename().string() : request.sequence.filename().string();
+    const std::string name = sequence_name(request.sequence);
     result.drive = result.title = name;
     result.view.width_px = first.width();
     result.view.height_px = first.height();

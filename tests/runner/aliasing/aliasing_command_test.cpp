@@ -162,6 +162,10 @@ TEST(AliasingCommand, MeasuresFramesOfOthersByOpticalFlow) {
     write_ring(folder / "ramp", 10, 1, false, 5.0);
     const json alone = sequence_found(folder, "--sequence " + (folder / "step"), "alone");
     const json smooth = sequence_found(folder, "--sequence " + (folder / "ramp"), "smooth");
+    std::filesystem::copy_file(folder / "step/frame_1003.exr", folder / "step/other_1003.exr");
+    const json pattern = sequence_found(folder, "--sequence '" + (folder / "step/frame_*.exr") + "'", "pattern");
+    EXPECT_EQ(pattern.at("temporal"), alone.at("temporal")); // the same frames, the same bytes
+    std::filesystem::remove(folder / "step/other_1003.exr");
     const json against = sequence_found(folder, "--sequence " + (folder / "step") + " --against " + (folder / "fine"), "against");
     EXPECT_TRUE(alone.at("aliasing").contains("not_measured"));
     EXPECT_TRUE(alone.at("temporal").at("crawl_percent").is_null());
@@ -197,9 +201,10 @@ TEST(AliasingCommand, RefusesFramesThatAreNoSequence) {
           std::pair("--sequence " + (folder / "few") + rate, std::string("found 7 numbered frames, expected 8 to 64")),
           std::pair("--sequence " + (folder / "twice") + rate, std::string("frame 1003 is there twice: frame_1003.png and other1003.png")),
           std::pair("--sequence " + (folder / "mixed") + rate, std::string("is exr among others")),
+          std::pair("--sequence '" + (folder / "twice/other*.png") + "'" + rate, std::string("found 1 numbered frames")),
           std::pair("--sequence " + (folder / "broken") + rate, std::string("cannot be read")),
           std::pair("--sequence " + (folder / "png") + " --ppd 20", std::string("--rate: is missing")),
-          std::pair("--sequence " + (folder / "png") + " --rate 0 --ppd 20", std::string("--rate: found '0'")),
+          std::pair("--sequence " + (folder / "png") + " --rate 7 --ppd 20", std::string("--rate: found '7', expected 8 to 10000")),
           std::pair("--sequence " + (folder / "png") + " --rate 30", std::string("--ppd: is missing")),
           std::pair("--sequence " + (folder / "png") + rate + " --view-fov 30", std::string("--ppd: found --view-fov too")),
           std::pair("--sequence " + (folder / "png") + rate + " --frames 1000:1020", std::string("has no frame 1009")),
