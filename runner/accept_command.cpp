@@ -45,6 +45,9 @@ std::filesystem::path frame_file(const std::filesystem::path& run_folder, const 
 AcceptedReference reference_of(const CheckedJson& played, const RunContext& context, const std::filesystem::path& run_folder) {
     if (const CheckedJson done = played.at("ticks_done"); done.whole() != played.at("ticks_planned").whole())
         done.refuse("all moments that were planned: an incomplete run is no reference");
+    if (!played.has("inputs"))
+        throw InputError({run_folder / "report.json", 0, 0, {}}, "was written by a version that did not keep a run's inputs and repeats",
+                         "a run of this version: play it again");
     AcceptedReference reference;
     std::vector<std::pair<std::string, std::string>> inputs = played.at("inputs").texts();
     reference.key = reference_key(played.at("drive").text(), played.at("variant").text(), played.at("technique").text(), context, inputs);
@@ -87,7 +90,7 @@ std::string stored_text(const AcceptedReference& reference, const Stored& stored
 
 struct Flags {
     std::string run, to = "references", note;
-    bool add = false, replace = false;
+    bool add = false, replace = false, readings_only = false;
 };
 
 int accept(const Flags& flags) {
@@ -97,15 +100,38 @@ int accept(const Flags& flags) {
         throw InputError({{}, 0, 0, "--add"}, "found no --note",
                          "the reason why several results are right, e.g. --note \"two drivers round differently\"");
     const Acceptance how = flags.add ? Acceptance::add : flags.replace ? Acceptance::replace : Acceptance::first;
-    const Accepted accepted = accept_run(flags.run, flags.to, how, flags.note);
+    const Accepted accepted = accept_run(flags.run, flags.to, how, flags.note, flags.readings_only);
     std::size_t frames = 0, readings = 0;
     for (std::size_t i = 0; i < accepted.references.size(); ++i) {
         frames += accepted.references[i].frames.size();
         readings += accepted.references[i].readings.size();
         fmt::print("{}\n", stored_text(accepted.references[i], accepted.stored[i]));
     }
-    fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings\n", flags.to, accepted.references.size(), frames, readings);
+    fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings{}\n", flags.to, accepted.references.size(), frames, readings,
+               flags.readings_only ? "; frames were left out" : "");
     return 0;
+}
+
+/// A folder of `fernlicht study`: its cells are runs.
+bool is_study_folder(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    return std::filesystem::exists(folder / "study.json", ignored) && std::filesystem::is_directory(folder / "cells", ignored);
+}
+
+/// In the order of the cells' names; the time is the first one's.
+RunResults read_cells(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> cells;
+    for (const std::filesystem::directory_entry& cell : std::filesystem::directory_iterator(folder / "cells"))
+        cells.push_back(cell.path());
+    std::ranges::sort(cells);
+    RunResults all;
+    for (const std::filesystem::path& cell : cells) {
+        RunResults one = read_run(cell);
+        if (all.started_utc.empty())
+            all.started_utc = one.started_utc;
+        std::ranges::move(one.references, std::back_inserter(all.references));
+    }
+    return all;
 }
 
 } // namespace
@@ -115,6 +141,8 @@ RunResults read_run(const std::filesystem::path& run_folder) {
         return read_ray_folder(run_folder);
     if (is_marked_incomplete(run_folder))
         throw InputError({run_folder, 0, 0, {}}, "holds an incomplete run", "a complete one");
+    if (is_study_folder(run_folder))
+        return read_cells(run_folder);
     const CheckedJson report = CheckedJson::read(run_folder / "report.json");
     report.expect_schema("fernlicht report", 1);
     if (const CheckedJson complete = report.at("complete"); !complete.truth())
@@ -130,8 +158,16 @@ RunResults read_run(const std::filesystem::path& run_folder) {
 }
 
 Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder, Acceptance how,
-                    const std::string& note) {
+                    const std::string& note, bool readings_only) {
     RunResults results = read_run(run_folder);
+    if (readings_only)
+        for (AcceptedReference& reference : results.references) {
+            if (reference.readings.empty())
+                throw InputError({run_folder, 0, 0, "--readings-only"}, "found no readings in " + printable(cell_text(reference.key), 200),
+                                 "a run that measures");
+            reference.frames.clear();
+            reference.frames_left_out = true;
+        }
     Accepted accepted;
     accepted.stored = store_references(references_folder, results.references, how, note, results.started_utc);
     accepted.references = std::move(results.references);
@@ -141,10 +177,12 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
 void add_accept_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* command = app.add_subcommand("accept", "take a run's results as references for later runs; judges nothing");
-    command->add_option("RUN", flags->run, "folder of a complete run, or of a picture by `fernlicht reference`")->required();
+    command->add_option("RUN", flags->run, "folder of a complete run or study, or of a picture by `fernlicht reference`")->required();
     command->add_option("--to,--store", flags->to, "folder of references")->capture_default_str();
     command->add_flag("--replace", flags->replace, "these are right in place of what was accepted under the same keys");
     command->add_flag("--add", flags->add, "these are right as well: a run passes that agrees with either; needs --note");
+    command->add_flag("--readings-only", flags->readings_only,
+                      "leave the frames out: a thousandth of the size; pictures are then not compared");
     command->add_option("--note", flags->note, "why, in a sentence; `fernlicht references` shows it");
     command->callback([flags, &chosen] { chosen = [flags] { return accept(*flags); }; });
 }

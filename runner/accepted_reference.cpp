@@ -4,6 +4,7 @@
 #include "runner/reference_json.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
@@ -19,18 +20,27 @@ Json texts_json(const std::vector<std::pair<std::string, std::string>>& texts) {
     return json;
 }
 
+/// What goes without saying is left out: of the whole drive, played once, no variance.
 Json reading_json(const AcceptedReading& reading) {
-    Json json{{"name", reading.name}, {"unit", reading.unit}, {"frame", reading.tick}, {"mean", nullptr}};
+    Json json{{"name", reading.name}, {"unit", reading.unit}, {"mean", nullptr}};
     if (reading.mean)
         json["mean"] = *reading.mean;
-    json["count"] = reading.count;
-    json["variance"] = reading.variance;
+    if (reading.tick >= 0)
+        json["frame"] = reading.tick;
+    if (reading.count != (reading.mean ? 1 : 0))
+        json["count"] = reading.count;
+    if (reading.variance != 0.0)
+        json["variance"] = reading.variance;
     return json;
 }
 
+std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 AcceptedReading read_reading(const CheckedJson& json) {
-    AcceptedReading reading{json.at("name").text(),           json.at("unit").text(),   json.at("frame").whole(),
-                            json.at("mean").number_or_null(), json.at("count").whole(), json.at("variance").number()};
+    AcceptedReading reading{json.at("name").text(), json.at("unit").text(), -1, json.at("mean").number_or_null(), 0, 0.0};
+    reading.tick = json.has("frame") ? json.at("frame").whole() : -1;
+    reading.count = json.has("count") ? json.at("count").whole() : reading.mean ? 1 : 0;
+    reading.variance = json.has("variance") ? json.at("variance").number() : 0.0;
     if (reading.count < (reading.mean ? 1 : 0))
         json.at("count").refuse("1 or more of what was measured");
     if (reading.variance < 0.0)
@@ -62,28 +72,27 @@ bool same_results(const AcceptedReference& a, const AcceptedReference& b) {
     const auto same = [](const ReferenceFrame& x, const ReferenceFrame& y) {
         return x.tick == y.tick && x.view == y.view && x.xxh128 == y.xxh128;
     };
-    return a.readings == b.readings && std::ranges::equal(a.frames, b.frames, same);
+    return a.readings == b.readings && a.frames_left_out == b.frames_left_out && std::ranges::equal(a.frames, b.frames, same);
 }
 
 std::string reference_object(const AcceptedReference& reference) {
-    Json readings = Json::array(), frames = Json::array();
-    for (const AcceptedReading& reading : reference.readings)
-        readings.push_back(reading_json(reading));
+    const Producer& producer = reference.producer;
+    const Json made_by{{"versions", texts_json(producer.versions)},
+                       {"gl_version", producer.gl_version},
+                       {"cpu", producer.cpu},
+                       {"os", producer.os},
+                       {"inputs", texts_json(producer.inputs)}};
+    Json frames = Json::array();
     for (const ReferenceFrame& frame : reference.frames)
         frames.push_back({{"frame", frame.tick}, {"view", frame.view}, {"xxh128", frame.xxh128}});
-    const Producer& producer = reference.producer;
-    const Json json{{"schema", schema},
-                    {"schema_version", 1},
-                    {"key", key_json(reference.key)},
-                    {"producer",
-                     {{"versions", texts_json(producer.versions)},
-                      {"gl_version", producer.gl_version},
-                      {"cpu", producer.cpu},
-                      {"os", producer.os},
-                      {"inputs", texts_json(producer.inputs)}}},
-                    {"readings", readings},
-                    {"frames", frames}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (reference.frames_left_out)
+        frames = nullptr;
+    std::string text =
+        fmt::format("{{\"schema\": {},\n\"schema_version\": 1,\n\"key\": {},\n\"producer\": {},\n\"frames\": {},\n\"readings\": [",
+                    line_of(schema), line_of(key_json(reference.key)), line_of(made_by), line_of(frames));
+    for (std::size_t i = 0; i < reference.readings.size(); ++i) // one a line, so that version control shows which differ
+        text += (i == 0 ? "\n" : ",\n") + line_of(reading_json(reference.readings[i]));
+    return text + "\n]}\n";
 }
 
 AcceptedReference read_reference_object(const std::filesystem::path& file) {
@@ -96,7 +105,11 @@ AcceptedReference read_reference_object(const std::filesystem::path& file) {
                           producer.at("os").text(), producer.at("inputs").texts()};
     for (const CheckedJson& reading : json.at("readings").items())
         reference.readings.push_back(read_reading(reading));
-    for (const CheckedJson& frame : json.at("frames").items())
+    const CheckedJson frames = json.at("frames");
+    reference.frames_left_out = frames.is_null();
+    if (reference.frames_left_out)
+        return reference;
+    for (const CheckedJson& frame : frames.items())
         reference.frames.push_back({frame.at("frame").whole(), frame.at("view").text(), {}, read_hash(frame.at("xxh128"))});
     return reference;
 }

@@ -37,6 +37,7 @@ struct AcceptedReference {
     Producer producer;
     std::vector<AcceptedReading> readings; ///< times left out
     std::vector<ReferenceFrame> frames;
+    bool frames_left_out = false; ///< accepted without its frames: readings alone are compared
 };
 
 /// The same readings and the same bytes of frames, whoever made them.

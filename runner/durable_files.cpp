@@ -51,17 +51,23 @@ void make_folder(const std::filesystem::path& folder) {
         fail(folder, "cannot be created", error.value());
 }
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (file_ < 0)
+FolderLock::FolderLock(const std::filesystem::path& folder, For what) : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    const bool reading = what == For::reading;
+    if (file_ < 0 && !reading)
         fail(folder, "cannot be opened", errno);
-    while (::flock(file_, LOCK_EX) != 0)
+    while (file_ >= 0 && ::flock(file_, reading ? LOCK_SH : LOCK_EX) != 0)
         if (errno != EINTR) {
             const int error = errno;
+            if (reading)
+                return;
             ::close(file_);
             fail(folder, "cannot be locked", error);
         }
 }
 
-FolderLock::~FolderLock() { ::close(file_); }
+FolderLock::~FolderLock() {
+    if (file_ >= 0)
+        ::close(file_);
+}
 
 } // namespace fernlicht

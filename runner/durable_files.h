@@ -21,7 +21,11 @@ void make_folder(const std::filesystem::path& folder);
 /// Held while it lives; a second process waits. Throws DeviceError.
 class FolderLock {
   public:
-    explicit FolderLock(const std::filesystem::path& folder);
+    enum class For {
+        change, ///< nobody else holds it
+        reading ///< many may read, nobody changes. Where the folder is not there, or its file system has no locks, nothing is held
+    };
+    explicit FolderLock(const std::filesystem::path& folder, For what = For::change);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;

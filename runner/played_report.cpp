@@ -1,23 +1,13 @@
 #include "runner/played_report.h"
 
 #include "metrics/spread_test.h"
+#include "runner/report/verdict_json.h"
 
 #include <cmath>
 #include <limits>
 
 namespace fernlicht {
 namespace {
-
-VerdictKind kind_of(const CheckedJson& verdict) {
-    const std::string name = verdict.text();
-    if (name == "pass")
-        return VerdictKind::pass;
-    if (name == "fail")
-        return VerdictKind::fail;
-    if (name != "not_measured")
-        verdict.refuse("pass, fail or not_measured");
-    return VerdictKind::not_measured;
-}
 
 void read_rows(const CheckedJson& report, PlayedResult& result) {
     for (const CheckedJson& row : report.at("rows").items()) {
@@ -97,8 +87,7 @@ PlayedResult read_played(const CheckedJson& report, const CheckedJson& played, c
     result.drive = played.at("drive").text();
     result.variant = played.at("variant").text();
     for (const CheckedJson& verdict : played.at("verdicts").items())
-        result.verdicts.push_back(
-            {kind_of(verdict.at("verdict")), verdict.at("name").text(), verdict.at("text").text(), verdict.at("rerun").text()});
+        result.verdicts.push_back(read_verdict(verdict));
     for (const CheckedJson& frame : played.at("frames").items())
         result.frames.push_back({frame.at("frame").whole(), frame.at("time_s").number(), frame.at("view").text(),
                                  file_below(folder, frame.at("png")), file_below(folder, frame.at("exr"))});

@@ -8,13 +8,19 @@
 namespace fernlicht {
 namespace {
 
-/// A context's cpu is "model (simd class)"; the model does not decide over a bit of the results.
-std::string simd_of(const std::string& cpu) {
+/// A context's cpu is "model (simd class)"; the model does not decide over a bit of the results. Nor does AVX-512 beside AVX2, other than
+/// for Embree: Mesa's llvmpipe draws 256 bits wide with either, the C library takes the same functions (docs/references.md: measured).
+std::string simd_of(const RunContext& context) {
+    const std::string& cpu = context.cpu;
     const std::size_t open = cpu.rfind('(');
     if (open == std::string::npos || !cpu.ends_with(')'))
         return cpu;
-    return cpu.substr(open + 1, cpu.size() - open - 2);
+    const std::string simd = cpu.substr(open + 1, cpu.size() - open - 2);
+    return simd == "avx512" && context.backend != "rays" ? "avx2" : simd;
 }
+
+/// llvmpipe is the same code whether EGL or OSMesa hands out the context: the same bytes.
+std::string backend_of(const RunContext& context) { return context.gl_renderer.starts_with("llvmpipe") ? "software" : context.backend; }
 
 } // namespace
 
@@ -25,7 +31,7 @@ ReferenceKey reference_key(const std::string& drive, const std::string& variant,
     for (const auto& [name, hash] : by_name)
         hashes += hash + "\n";
     return {
-        drive, variant, technique, context.backend, context.gl_renderer, simd_of(context.cpu), content_hash(hashes.data(), hashes.size())};
+        drive, variant, technique, backend_of(context), context.gl_renderer, simd_of(context), content_hash(hashes.data(), hashes.size())};
 }
 
 bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b) {

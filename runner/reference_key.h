@@ -7,8 +7,8 @@ namespace fernlicht {
 
 struct ReferenceKey {
     std::string drive, variant, technique;
-    /// Class of device. Pictures of one class are the same bytes; llvmpipe's depend on the SIMD it finds, the twin's last digits on the
-    /// C library's choice by it.
+    /// Class of device. Pictures of one class are the same bytes; llvmpipe's depend on how wide it draws, which its name tells, the twin's
+    /// last digits on the C library's choice by the CPU's SIMD. backend: "software" for llvmpipe.
     std::string backend, gl_renderer, simd;
     std::string inputs; ///< XXH3-128 over the hashes of what decides the results (cell_inputs.h)
     bool operator==(const ReferenceKey&) const = default;
@@ -22,9 +22,9 @@ bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b);
 /// The same drive, lamp set, technique and inputs, whatever the device.
 bool same_but_device(const ReferenceKey& a, const ReferenceKey& b);
 
-/// "straight, halogen, photometric; egl, llvmpipe (LLVM 15.0.6, 256 bits), avx2".
+/// "straight, halogen, photometric; software, llvmpipe (LLVM 15.0.6, 256 bits), avx2".
 std::string key_text(const ReferenceKey& key);
-/// "egl, llvmpipe (LLVM 15.0.6, 256 bits), avx2".
+/// "software, llvmpipe (LLVM 15.0.6, 256 bits), avx2".
 std::string device_text(const ReferenceKey& key);
 /// "straight/halogen/photometric".
 std::string cell_text(const ReferenceKey& key);

@@ -1,6 +1,7 @@
 #include "runner/references.h"
 
 #include "runner/device_spread.h"
+#include "runner/durable_files.h"
 #include "runner/reference_store.h"
 #include "runner/summary.h"
 #include "scenarios/values/errors.h"
@@ -35,28 +36,51 @@ std::size_t count_of_not_green(const std::vector<Verdict>& verdicts) {
         std::ranges::count_if(verdicts, [](const Verdict& verdict) { return verdict.kind != VerdictKind::pass; }));
 }
 
+using Inputs = std::vector<std::pair<std::string, std::string>>;
+
 /// Which of a run's inputs are not those of accepted results.
-std::string other_inputs(const std::vector<std::pair<std::string, std::string>>& run,
-                         const std::vector<std::pair<std::string, std::string>>& accepted) {
-    std::string names;
-    const auto add = [&](const auto& some, const auto& others) {
-        for (const auto& [name, hash] : some)
-            if (std::ranges::find(others, std::pair(name, hash)) == others.end() && names.find(name) == std::string::npos)
-                names += (names.empty() ? "" : ", ") + name;
+std::vector<std::string> other_inputs(const Inputs& run, const Inputs& accepted) {
+    std::vector<std::string> names;
+    const auto add = [&](const Inputs& some, const Inputs& others) {
+        for (const auto& input : some)
+            if (std::ranges::find(others, input) == others.end() && std::ranges::find(names, input.first) == names.end())
+                names.push_back(input.first);
     };
     add(run, accepted);
     add(accepted, run);
     return names;
 }
 
-/// Why there is nothing to judge by.
-std::string nothing_accepted(const std::filesystem::path& store, const std::vector<StoredReference>& entries,
-                             const AcceptedReference& run) {
-    std::string text = fmt::format("nothing accepted in {} for {}", store.string(), key_text(run.key));
-    for (const StoredReference& entry : entries)
-        if (same_but_inputs(entry.key, run.key))
-            return text + fmt::format(" with these inputs; {} had another {}", short_id(entry.id),
-                                      other_inputs(run.producer.inputs, load_reference(store, entry).producer.inputs));
+/// What other inputs came to: "of 859 readings 312 differ, the farthest off: ...".
+std::string moved_readings(const AcceptedReference& run, const AcceptedReference& accepted, const ReferenceTolerance& tolerance) {
+    std::vector<ResultDifference> differences = compare_readings(run.readings, accepted.readings, tolerance);
+    const std::size_t all = differences.size();
+    std::erase_if(differences, [](const ResultDifference& difference) { return difference.agreement == Agreement::agrees; });
+    if (differences.empty())
+        return fmt::format("all {} readings agree", all);
+    const ResultDifference& farthest = *std::ranges::max_element(differences, {}, &ResultDifference::of_allowed);
+    return fmt::format("of {} readings {} differ, the farthest off: {}, {}", all, differences.size(), farthest.what, farthest.text);
+}
+
+/// Why there is nothing to judge by. Where all but the inputs is known, which of them are others, and what that came to.
+std::string nothing_accepted(const std::filesystem::path& store, const std::vector<StoredReference>& entries, const AcceptedReference& run,
+                             const ReferenceTolerance& tolerance) {
+    const std::string text = fmt::format("nothing accepted in {} for {}", store.string(), key_text(run.key));
+    std::string nearest;
+    std::size_t fewest = 0;
+    for (const StoredReference& entry : entries) {
+        if (!same_but_inputs(entry.key, run.key))
+            continue;
+        const AcceptedReference accepted = load_reference(store, entry);
+        const std::vector<std::string> others = other_inputs(run.producer.inputs, accepted.producer.inputs);
+        if (!nearest.empty() && others.size() >= fewest)
+            continue;
+        fewest = others.size();
+        nearest = fmt::format(" with these inputs; {} had another {}: {}", short_id(entry.id), fmt::join(others, ", "),
+                              moved_readings(run, accepted, tolerance));
+    }
+    if (!nearest.empty())
+        return text + nearest;
     for (const StoredReference& entry : entries)
         if (same_but_device(entry.key, run.key))
             return text + fmt::format("; {} is of {}", short_id(entry.id), device_text(entry.key));
@@ -70,6 +94,8 @@ std::vector<Verdict> judge_readings(const AcceptedReference& run, const std::vec
 
 std::vector<Verdict> judge_frames(const AcceptedReference& run, const AcceptedReference& accepted, const std::string& accepted_as,
                                   const std::string& rerun, const ReferenceTolerance& tolerance) {
+    if (accepted.frames_left_out)
+        return {};
     return verdicts_on(compare_frames(run.frames, accepted.frames, tolerance), "reference frame", "pictures", accepted_as, rerun);
 }
 
@@ -79,19 +105,34 @@ std::vector<Verdict> nearest(const std::filesystem::path& store, const std::vect
     std::vector<Verdict> best;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const std::string several = entries.size() > 1 ? fmt::format(", of {} accepted", entries.size()) : "";
-        std::vector<Verdict> verdicts = judge(load_reference(store, entries[i]), fmt::format(" ({}{})", short_id(entries[i].id), several));
+        const AcceptedReference accepted = load_reference(store, entries[i]);
+        const std::string pictures = accepted.frames_left_out ? ", accepted without pictures" : "";
+        std::vector<Verdict> verdicts = judge(accepted, fmt::format(" ({}{}{})", short_id(entries[i].id), several, pictures));
         if (i == 0 || count_of_not_green(verdicts) < count_of_not_green(best))
             best = std::move(verdicts);
     }
     return best;
 }
 
+/// The classes of device that results are of, each once.
+std::string devices_text(const std::vector<StoredReference>& entries) {
+    std::string text;
+    for (const StoredReference& entry : entries)
+        if (const std::string device = device_text(entry.key); text.find(device) == std::string::npos)
+            text += (text.empty() ? "" : "; ") + device;
+    return text;
+}
+
+/// What runs of other classes gave: one of them by the tolerance alone, several by their spread, too.
 std::vector<Verdict> judge_across(const std::filesystem::path& store, const DeviceSpread& others, const AcceptedReference& run,
                                   const std::string& rerun, const ReferenceTolerance& tolerance) {
     AcceptedReference measured = run; // what was measured on all of them; what was not has no spread
     std::erase_if(measured.readings, [](const AcceptedReading& reading) { return !reading.mean; });
-    std::vector<Verdict> verdicts =
-        judge_readings(measured, others.readings, fmt::format(" (over {} other classes of device)", others.devices), rerun, tolerance);
+    const std::string over = fmt::format(" (over {} other class{} of device)", others.devices, others.devices == 1 ? "" : "es");
+    std::vector<Verdict> verdicts = judge_readings(measured, others.readings, over, rerun, tolerance);
+    verdicts.push_back({VerdictKind::pass, other_device_verdict,
+                        fmt::format("nothing is accepted for {}; judged by {}", device_text(run.key), devices_text(others.entries)),
+                        rerun});
     std::ranges::move(nearest(store, others.entries,
                               [&](const AcceptedReference& accepted, const std::string& accepted_as) {
                                   return judge_frames(run, accepted, accepted_as, rerun, tolerance);
@@ -128,6 +169,7 @@ AcceptedReference results_of(const PlayedVariant& played, const RunContext& cont
 std::vector<Verdict> judge_against_references(const PlayedVariant& played, const RunContext& context,
                                               const std::filesystem::path& run_folder, const std::filesystem::path& references_folder,
                                               const std::string& technique, bool across_devices, const ReferenceTolerance& tolerance) {
+    const FolderLock lock(references_folder, FolderLock::For::reading);
     const AcceptedReference run = results_of(played, context, run_folder, technique);
     const auto failed = [&](const std::string& text) {
         return std::vector<Verdict>{{VerdictKind::fail, "reference", text, context.command}};
@@ -137,10 +179,10 @@ std::vector<Verdict> judge_against_references(const PlayedVariant& played, const
         std::vector<StoredReference> entries;
         std::ranges::copy_if(all, std::back_inserter(entries), [&](const StoredReference& entry) { return entry.key == run.key; });
         if (entries.empty() && across_devices)
-            if (const DeviceSpread others = spread_over_devices(references_folder, all, run.key); others.devices > 1)
+            if (const DeviceSpread others = spread_over_devices(references_folder, all, run.key); others.devices > 0)
                 return judge_across(references_folder, others, run, context.command, tolerance);
         if (entries.empty())
-            return failed(nothing_accepted(references_folder, all, run));
+            return failed(nothing_accepted(references_folder, all, run, tolerance));
         std::vector<Verdict> verdicts =
             nearest(references_folder, entries, [&](const AcceptedReference& accepted, const std::string& accepted_as) {
                 std::vector<Verdict> both = judge_readings(run, accepted.readings, accepted_as, context.command, tolerance);

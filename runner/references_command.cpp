@@ -2,6 +2,7 @@
 
 #include "runner/accept_command.h"
 #include "runner/device_spread.h"
+#include "runner/durable_files.h"
 #include "runner/reference_choice.h"
 #include "runner/reference_difference.h"
 #include "runner/reference_json.h"
@@ -57,7 +58,16 @@ Json texts_json(const std::vector<std::pair<std::string, std::string>>& texts) {
     return json;
 }
 
+/// A folder without references is one without; a folder that is none was misspelt.
+void refuse_missing(const std::string& store) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(store, ignored))
+        throw InputError({store, 0, 0, {}}, "is no folder", "one that `fernlicht accept` made, named by --store");
+}
+
 int list(const Flags& flags) {
+    refuse_missing(flags.store);
+    const FolderLock lock(flags.store, FolderLock::For::reading);
     const std::vector<StoredReference> entries = list_references(flags.store);
     if (flags.json) {
         Json out = Json::array();
@@ -97,7 +107,7 @@ Json reference_json(const StoredReference& entry, const AcceptedReference& refer
                        {"os", reference.producer.os},
                        {"inputs", texts_json(reference.producer.inputs)}};
     out["readings"] = readings;
-    out["frames"] = frames;
+    out["frames"] = reference.frames_left_out ? Json(nullptr) : frames;
     return out;
 }
 
@@ -135,6 +145,7 @@ void print_device_spread(const DeviceSpread& spread) {
 }
 
 int show(const Flags& flags) {
+    const FolderLock lock(flags.store, FolderLock::For::reading);
     const StoredReference entry = choose_reference(flags.store, flags.word);
     const AcceptedReference reference = load_reference(flags.store, entry);
     if (flags.json) {
@@ -154,6 +165,8 @@ int show(const Flags& flags) {
         frames.push_back({fmt::format("{}", frame.tick), printable(frame.view), frame.exr.string()});
     if (!reference.frames.empty())
         fmt::print("\n{}", table(frames));
+    if (reference.frames_left_out)
+        fmt::print("\naccepted without pictures\n");
     return 0;
 }
 
@@ -162,6 +175,9 @@ AcceptedReference counterpart(const std::string& folder, const ReferenceKey& key
     std::vector<AcceptedReference> all = read_run(folder).references;
     if (all.size() == 1)
         return std::move(all.front());
+    for (AcceptedReference& results : all) // one drive may be played under several conditions
+        if (results.key == key)
+            return std::move(results);
     for (AcceptedReference& results : all)
         if (results.key.drive == key.drive && results.key.variant == key.variant && results.key.technique == key.technique)
             return std::move(results);
@@ -196,6 +212,7 @@ void print_other_keys(const AcceptedReference& a, const AcceptedReference& b) {
 }
 
 int diff(const Flags& flags) {
+    const FolderLock lock(flags.store, FolderLock::For::reading);
     const StoredReference entry = choose_reference(flags.store, flags.word);
     const AcceptedReference accepted = load_reference(flags.store, entry);
     std::error_code ignored;
@@ -204,6 +221,10 @@ int diff(const Flags& flags) {
         is_run ? counterpart(flags.other, entry.key) : load_reference(flags.store, choose_reference(flags.store, flags.other));
     print_other_keys(accepted, tested);
     const std::size_t readings = print_differences(compare_readings(tested.readings, accepted.readings, {}), "readings", flags.all);
+    if (accepted.frames_left_out || tested.frames_left_out) {
+        fmt::print("pictures are not compared: {} was accepted without\n", accepted.frames_left_out ? short_id(entry.id) : flags.other);
+        return readings == 0 ? 0 : 1;
+    }
     const std::size_t frames = print_differences(compare_frames(tested.frames, accepted.frames, {}), "pictures", flags.all);
     return readings + frames == 0 ? 0 : 1;
 }

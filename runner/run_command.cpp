@@ -1,7 +1,9 @@
 #include "runner/run_command.h"
 
 #include "runner/flag_values.h"
+#include "runner/judging_flags.h"
 #include "runner/output_folder.h"
+#include "runner/report/verdict_line.h"
 #include "runner/run_context.h"
 #include "runner/run_drives.h"
 #include "scenarios/values/errors.h"
@@ -17,9 +19,9 @@ namespace {
 struct Flags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> lamps;
-    std::string road, technique, resolution, frames, capture, backend = "auto", out, references, known, today;
-    int repeats = 1;
-    bool across_devices = false, quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
+    std::string road, technique, resolution, frames, capture, backend = "auto", out;
+    JudgingFlags judging;
+    bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
 };
 
 DriveEdits edits_of(const Flags& flags) {
@@ -42,38 +44,13 @@ DriveEdits edits_of(const Flags& flags) {
     return edits;
 }
 
-/// The only place that asks the clock for the day.
-std::string today_of(const Flags& flags) {
-    if (flags.today.empty())
-        return utc_now().substr(0, 10);
-    if (!is_date(flags.today))
-        refuse_flag("--today", flags.today, "a date, e.g. 2026-12-31");
-    if (flags.known.empty())
-        refuse_flag("--today", flags.today, "--known beside it: nothing else asks for the day");
-    return flags.today;
-}
-
-const char* word_for(const Verdict& verdict) {
-    if (verdict.expectation == Expectation::unexpected_pass)
-        return "UNEXPECTED PASS";
-    if (verdict.expectation == Expectation::known)
-        return "known";
-    return verdict.kind == VerdictKind::fail ? "FAIL" : verdict.kind == VerdictKind::flaky ? "FLAKY" : "NOT MEASURED";
-}
-
-void print_verdict(const Verdict& verdict, const std::string& subject) {
-    if (verdict.kind != VerdictKind::pass || is_red(verdict))
-        fmt::print("{} {}{}: {}{}{}\n", word_for(verdict), subject, verdict.name, verdict.text, verdict.known.empty() ? "" : "; ",
-                   verdict.known);
-}
-
 /// What is not plainly green, one line each, and how many there are of each kind.
 void print_verdicts(const Report& report) {
     for (const PlayedVariant& played : report.played)
         for (const Verdict& verdict : played.verdicts)
-            print_verdict(verdict, fmt::format("{}, {}: ", played.drive, played.variant));
+            fmt::print("{}", verdict_line(verdict, fmt::format("{}, {}: ", played.drive, played.variant)));
     for (const Verdict& verdict : report.listed)
-        print_verdict(verdict, "known failures: ");
+        fmt::print("{}", verdict_line(verdict, "known failures: "));
     for (const std::string& warning : report.warnings)
         fmt::print("warning: {}\n", warning);
     const VerdictCounts counts = count_verdicts(report);
@@ -101,15 +78,8 @@ int run(const Flags& flags, const std::vector<std::string>& command) {
     options.profile = flags.profile;
     options.contact_sheet = flags.contact_sheet;
     options.accuracy = !flags.no_accuracy;
-    options.references = flags.references;
-    options.across_devices = flags.across_devices;
-    if (flags.across_devices && flags.references.empty())
-        throw InputError({{}, 0, 0, "--across-devices"}, "found no --references", "the folder of accepted results");
-    options.repeats = flags.repeats;
+    options.known = take(flags.judging, options);
     options.command = command;
-    if (!flags.known.empty())
-        options.known = read_known_failures(flags.known);
-    options.today = today_of(flags);
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;
     for (const std::filesystem::path& file : flags.drives)
@@ -151,14 +121,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
     sub->add_option("--frames", flags->frames, "FIRST:LAST moments to play, from 0");
     sub->add_option("--capture", flags->capture, "all: store every frame");
-    sub->add_option("--references", flags->references, "folder of accepted results to judge against");
-    sub->add_flag("--across-devices", flags->across_devices,
-                  "where nothing is accepted for this class of device, judge by the spread over two or more others");
-    sub->add_option("--repeat", flags->repeats, "plays of each lamp set; results that differ in a byte are flaky, which is red")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    sub->add_option("--known", flags->known, "YAML list of known failures and flakes, each with reason and expiry");
-    sub->add_option("--today", flags->today, "YYYY-MM-DD by which known failures expire; else the clock's day, UTC");
+    add_judging_flags(*sub, flags->judging);
     sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
     sub->add_flag("--profile", flags->profile, "time each pass (slows the frames down)");
     sub->add_flag("--contact-sheet", flags->contact_sheet, "add one moment drawn in every technique");

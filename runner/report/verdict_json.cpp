@@ -2,6 +2,9 @@
 
 #include "runner/report/extent_summary.h"
 
+#include <algorithm>
+#include <array>
+
 namespace fernlicht {
 namespace {
 
@@ -32,6 +35,27 @@ nlohmann::ordered_json verdicts_json(const std::vector<Verdict>& verdicts) {
         out.push_back(std::move(entry));
     }
     return out;
+}
+
+Verdict read_verdict(const CheckedJson& json) {
+    Verdict verdict{VerdictKind::pass, json.at("name").text(), json.at("text").text(), json.at("rerun").text()};
+    const auto choose = [](const CheckedJson& word, auto& value, const auto& all, const auto& name_of, const char* expected) {
+        const auto found = std::ranges::find_if(all, [&](const auto& one) { return word.text() == name_of(one); });
+        if (found == std::end(all))
+            word.refuse(expected);
+        value = *found;
+    };
+    choose(json.at("verdict"), verdict.kind,
+           std::array{VerdictKind::pass, VerdictKind::fail, VerdictKind::not_measured, VerdictKind::flaky}, verdict_name,
+           "pass, fail, not_measured or flaky");
+    if (!json.has("listed"))
+        return verdict;
+    const CheckedJson listed = json.at("listed");
+    choose(listed.at("as"), verdict.expectation,
+           std::array{Expectation::none, Expectation::known, Expectation::expired, Expectation::unexpected_pass}, expectation_name,
+           "known, expired, unexpected_pass or nothing");
+    verdict.known = listed.at("text").text();
+    return verdict;
 }
 
 nlohmann::ordered_json counts_json(const VerdictCounts& counts) {

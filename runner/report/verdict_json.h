@@ -1,6 +1,7 @@
 // Verdicts and repeats as parts of report.json.
 #pragma once
 
+#include "runner/checked_json.h"
 #include "runner/report/report.h"
 
 #include <nlohmann/json.hpp>
@@ -9,6 +10,8 @@ namespace fernlicht {
 
 /// `listed` stands only where the list of known failures names the verdict.
 nlohmann::ordered_json verdicts_json(const std::vector<Verdict>& verdicts);
+/// Back again. Throws InputError for what is none.
+Verdict read_verdict(const CheckedJson& json);
 nlohmann::ordered_json counts_json(const VerdictCounts& counts);
 nlohmann::ordered_json repeats_json(const Repeats& repeats);
 

@@ -1,5 +1,6 @@
 #include "runner/study/study_command.h"
 
+#include "runner/judging_flags.h"
 #include "runner/output_folder.h"
 #include "runner/run_command.h"
 #include "runner/run_context.h"
@@ -17,7 +18,8 @@ namespace {
 /// The flags as typed.
 struct Flags {
     std::filesystem::path file;
-    std::string backend = "auto", frames, out, references, only;
+    std::string backend = "auto", frames, out, only;
+    JudgingFlags judging;
     bool resume = false, quiet = false, no_accuracy = false, list = false;
 };
 
@@ -41,7 +43,7 @@ int study(const Flags& flags, const std::vector<std::string>& command) {
     options.run.ticks = tick_range(flags.frames);
     options.run.quiet = flags.quiet;
     options.run.accuracy = !flags.no_accuracy;
-    options.run.references = flags.references;
+    options.known = take(flags.judging, options.run);
     options.run.command = command;
     const StudyResult result = run_study(study, options);
     fmt::print("{}{}\n", study_text(result), (options.folder / "report.html").string());
@@ -58,7 +60,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_flag("--resume", flags->resume, "go on with a study that did not end, in its --out folder; finished cells are kept");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--frames", flags->frames, "FIRST:LAST moments of each drive to play, from 0");
-    sub->add_option("--references", flags->references, "folder of accepted results to judge each cell against");
+    add_judging_flags(*sub, flags->judging);
     sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments of each cell lie from the reference");
     sub->add_option("--only", flags->only, "play only cells whose name holds this");
     sub->add_flag("--list", flags->list, "only name the cells");

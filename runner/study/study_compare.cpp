@@ -109,22 +109,6 @@ bool StudyResult::complete() const {
     return interrupted.empty() && std::ranges::all_of(cells, [](const CellResult& cell) { return cell.failed.empty(); });
 }
 
-VerdictKind overall(const StudyResult& result) {
-    bool missing = !result.complete();
-    const auto count = [&](const std::vector<Verdict>& verdicts) {
-        bool failed = false;
-        for (const Verdict& verdict : verdicts) {
-            failed = failed || verdict.kind == VerdictKind::fail;
-            missing = missing || verdict.kind == VerdictKind::not_measured;
-        }
-        return failed;
-    };
-    bool failed = count(result.verdicts);
-    for (const CellResult& cell : result.cells)
-        failed = count(cell.verdicts) || failed;
-    return failed ? VerdictKind::fail : missing ? VerdictKind::not_measured : VerdictKind::pass;
-}
-
 void compare_cells(StudyResult& result) {
     for (const StudyComparison& comparison : result.study.comparisons)
         compare_pair(result, comparison);

@@ -1,6 +1,7 @@
 #include "runner/lamp_against.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
+#include "runner/report/verdict_json.h"
 #include "runner/study/lamp_verdict.h"
 #include "runner/study/study_writers.h"
 
@@ -12,13 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-Json verdicts_json(const std::vector<Verdict>& verdicts) {
-    Json out = Json::array();
-    for (const Verdict& verdict : verdicts)
-        out.push_back({{"name", verdict.name}, {"verdict", verdict_name(verdict.kind)}, {"text", verdict.text}, {"rerun", verdict.rerun}});
-    return out;
-}
 
 Json cell_json(const StudyResult& result, const CellResult& cell) {
     const StudyConditions& c = result.study.conditions;

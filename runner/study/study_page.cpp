@@ -87,12 +87,12 @@ data verdict_part(const StudyResult& result) {
     data part, failures{List::list};
     bool any = false;
     const auto add = [&](const std::string& where, const Verdict& verdict) {
-        if (verdict.kind == VerdictKind::pass)
+        if (verdict.kind == VerdictKind::pass && !is_red(verdict))
             return;
         data row;
         row.set("name", clean_text(verdict.name));
         row.set("where", clean_text(where));
-        row.set("text", clean_text(verdict.text));
+        row.set("text", clean_text(verdict.known.empty() ? verdict.text : verdict.text + "; " + verdict.known));
         row.set("rerun", clean_text(verdict.rerun));
         failures.push_back(row);
         any = true;
@@ -106,7 +106,10 @@ data verdict_part(const StudyResult& result) {
             add(cell.cell.name, verdict);
     }
     part.set("class", verdict_name(kind));
-    part.set("word", kind == VerdictKind::pass ? "Within limits" : kind == VerdictKind::fail ? "Limits exceeded" : "Not all was measured");
+    part.set("word", kind == VerdictKind::pass    ? "Within limits"
+                     : kind == VerdictKind::fail  ? "Limits exceeded"
+                     : kind == VerdictKind::flaky ? "Flaky"
+                                                  : "Not all was measured");
     part.set("mark", kind == VerdictKind::pass ? "✓" : kind == VerdictKind::fail ? "✗" : "?");
     part.set("sentence", sentence_of(result));
     part.set("has_failures", any);

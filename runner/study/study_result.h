@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/lamp_difference.h"
+#include "runner/known_failures.h"
 #include "runner/played_report.h"
 #include "runner/significance.h"
 #include "scenarios/studies/study.h"
@@ -46,12 +47,17 @@ struct StudyResult {
     std::vector<std::size_t> largest; ///< at most three of `changes`: the largest real ones, each reading once
     std::vector<Verdict> verdicts;    ///< the study's own limits
     std::vector<StudyFigure> figures;
-    std::string interrupted; ///< why not all cells were tried; "" when they were
+    std::vector<std::string> warnings; ///< of the list of known failures
+    std::string interrupted;           ///< why not all cells were tried; "" when they were
     bool complete() const;
 };
 
-/// fail if a limit was exceeded, else not_measured if anything is missing (a cell that failed, too), else pass.
+/// As of a run (report.h): fail if a limit or a reference was exceeded, flaky, not_measured if anything is missing (a cell that failed,
+/// too), else pass.
 VerdictKind overall(const StudyResult& result);
+
+/// As of a run, over all cells (known_failures.h); a cell's own report does not know of it.
+void apply_known_failures(StudyResult& result, const KnownFailures& known, const std::string& today);
 
 /// Fills a cell's result from the report in its folder. Throws InputError when that is no complete report of one drive.
 void read_cell_report(const std::filesystem::path& study_folder, CellResult& cell);

@@ -163,6 +163,8 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         result.cells.push_back(std::move(cell));
     }
     compare_cells(result);
+    if (options.known)
+        apply_known_failures(result, *options.known, options.run.today);
     write_study(result, options.folder);
     if (result.complete())
         folder.finish();

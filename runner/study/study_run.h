@@ -8,9 +8,10 @@ namespace fernlicht {
 
 struct StudyOptions {
     std::filesystem::path folder;
-    std::string only;    ///< cells whose name holds this; "" for all
-    bool resume = false; ///< go on in a folder whose study did not end; finished cells are kept
-    RunOptions run;      ///< backend, moments, references, quiet, accuracy, command; the folder is each cell's own
+    std::string only;                   ///< cells whose name holds this; "" for all
+    std::optional<KnownFailures> known; ///< over all cells
+    bool resume = false;                ///< go on in a folder whose study did not end; finished cells are kept
+    RunOptions run; ///< backend, moments, references, repeats, day, quiet, accuracy, command; the folder is each cell's own
 };
 
 /// Reads all drives and lamps first, plays the cells in the order of cells_of, reads their reports back, compares. A cell that fails is

@@ -1,6 +1,7 @@
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/report_writers.h"
+#include "runner/report/verdict_line.h"
 #include "runner/study/lamp_verdict.h"
 #include "runner/study/study_writers.h"
 
@@ -99,13 +100,13 @@ std::string study_text(const StudyResult& result) {
             text += fmt::format("NOT PLAYED {}: {}\n", cell.cell.name, clean_text(cell.failed));
     const auto add = [&](const std::string& where, const std::vector<Verdict>& verdicts) {
         for (const Verdict& verdict : verdicts)
-            if (verdict.kind != VerdictKind::pass)
-                text += fmt::format("{} {}{}: {}\n", verdict.kind == VerdictKind::fail ? "FAIL" : "NOT MEASURED", where, verdict.name,
-                                    verdict.text);
+            text += verdict_line(verdict, where);
     };
     add("", result.verdicts);
     for (const CellResult& cell : result.cells)
         add(cell.cell.name + ": ", cell.verdicts);
+    for (const std::string& warning : result.warnings)
+        text += "warning: " + warning + "\n";
     for (const LampComparison& lamps : result.lamps)
         text += clean_text(lamp_verdict(lamps)) + "\n";
     if (result.largest.empty())

@@ -9,12 +9,17 @@ failures=0
 mkdir -p "$tree"/{ci,bin,build/release}
 cp "$source_tree/ci/nightly" "$tree/ci/"
 printf '#!/bin/sh\n' | tee "$tree/ci/setup" >"$tree/bin/cmake"
-# Stands for `fernlicht study FILE --references FOLDER --quiet --out DIR`.
+# Stands for `fernlicht study FILE --references FOLDER --quiet --out DIR --across-devices --backend NAME --known LIST [FLAG...]`.
 cat >"$tree/build/release/fernlicht" <<'END'
 #!/bin/sh
-[ "$1 $3 $5 $6" = "study --references --quiet --out" ] && [ ! -e "$7" ] || exit 2
+[ "$1 $3 $5 $6 $8 $9" = "study --references --quiet --out --across-devices --backend" ] && [ ! -e "$7" ] || exit 2
+study=$2 references=$4 out=$7
+shift 9
+[ "$2" = --known ] || exit 2
 [ "$CODE" -lt 2 ] || exit "$CODE"
-mkdir -p "$7" && echo "$2 $4" | tee "$7/report.html" >"$7/junit.xml"
+backend=$1
+shift 3
+mkdir -p "$out" && echo "$study $references $backend $*" | tee "$out/report.html" >"$out/junit.xml"
 exit "$CODE"
 END
 chmod +x "$tree/ci/setup" "$tree/bin/cmake" "$tree/build/release/fernlicht"
@@ -35,9 +40,9 @@ expect() {
 
 export CODE=0
 expect 0 "nightly: JUnit  out/nightly-1/junit.xml"
-[[ $(<"$tree/out/nightly-1/report.html") == "scenarios/library/studies/standard.yaml references" ]] || { echo "played something else"; ((++failures)); }
-FERNLICHT_REFERENCES=/elsewhere expect 0 "out/mine/report.html" other.yaml out/mine
-[[ $(<"$tree/out/mine/report.html") == "other.yaml /elsewhere" ]] || { echo "took other files"; ((++failures)); }
+[[ $(<"$tree/out/nightly-1/report.html") == "scenarios/library/studies/standard.yaml references osmesa " ]] || { echo "played something else"; ((++failures)); }
+FERNLICHT_BACKEND=egl FERNLICHT_REFERENCES=/elsewhere expect 0 "out/mine/report.html" other.yaml out/mine --only straight
+[[ $(<"$tree/out/mine/report.html") == "other.yaml /elsewhere egl --only straight" ]] || { echo "took other files"; ((++failures)); }
 CODE=1 expect 1 "accept"
 CODE=3 expect 3 "left no report"
 ((failures == 0))

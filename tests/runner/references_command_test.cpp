@@ -44,13 +44,17 @@ class ReferencesCommand : public ::testing::Test {
 };
 
 TEST_F(ReferencesCommand, ListsWhatIsAccepted) {
+    EXPECT_EQ(references("list").exit_code, 2);
+    EXPECT_THAT(references("list").output, HasSubstr("is no folder, expected one that `fernlicht accept` made"));
+    fs::create_directories(store);
     EXPECT_EQ(references("list").output, "nothing is accepted in " + store + "\n");
+    EXPECT_EQ(references("list").exit_code, 0);
     ASSERT_EQ(accept(run, "--note 'the first ones'").exit_code, 0);
     const Outcome list = references("list");
     EXPECT_EQ(list.exit_code, 0);
     EXPECT_THAT(list.output, ContainsRegex("id +drive/lamp set/technique +device +played +note"));
     EXPECT_THAT(list.output, HasSubstr(id_of("halogen").substr(0, 12) + "  straight/halogen/photometric"));
-    EXPECT_THAT(list.output, HasSubstr("egl, llvmpipe (LLVM 15.0.6, 256 bits), avx2  2026-01-31T22:15:00Z  the first ones"));
+    EXPECT_THAT(list.output, HasSubstr("software, llvmpipe (LLVM 15.0.6, 256 bits), avx2  2026-01-31T22:15:00Z  the first ones"));
     EXPECT_EQ(std::ranges::count(list.output, '\n'), 3);
     EXPECT_EQ(listed().size(), 2U);
 }
@@ -109,6 +113,20 @@ TEST_F(ReferencesCommand, ComparesWithARunAndWithAnotherResult) {
     EXPECT_EQ(references("diff " + first + " " + first).exit_code, 0);
     EXPECT_THAT(references("diff " + first + " " + id_of("xenon")).output,
                 HasSubstr("straight/halogen/photometric against straight/xenon/photometric\n"));
+}
+
+TEST_F(ReferencesCommand, ReadingsAloneAreAThousandthOfTheSize) {
+    const Outcome accepted = accept(run, "--readings-only");
+    EXPECT_EQ(accepted.exit_code, 0);
+    EXPECT_THAT(accepted.output, HasSubstr("2 lamp sets with 0 frames and 4 readings; frames were left out\n"));
+    EXPECT_EQ(files(), 3U);
+    EXPECT_THAT(references("show straight/halogen").output, HasSubstr("accepted without pictures\n"));
+    EXPECT_TRUE(json::parse(references("show straight/halogen --json").output).at("frames").is_null());
+    const Outcome same = references("diff straight/halogen '" + run.folder.string() + "'");
+    EXPECT_EQ(same.exit_code, 0);
+    EXPECT_EQ(same.output,
+              "2 of 2 readings agree\npictures are not compared: " + id_of("halogen").substr(0, 12) + " was accepted without\n");
+    EXPECT_EQ(references("diff straight/halogen '" + brighter.folder.string() + "'").exit_code, 1);
 }
 
 TEST_F(ReferencesCommand, RemovesAResultAndTheFilesThatNothingElseNeeds) {

@@ -1,0 +1,99 @@
+// A study of two cells against accepted readings, as ci/nightly plays it: what moves turns it red, and is named.
+#include "tests/runner/program.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+class StudyAgainstReferences : public ::testing::Test {
+  protected:
+    /// Our low beams on the straight; `halogen` is the lamp file of the first.
+    std::string study(const std::string& name, const std::string& halogen) const {
+        std::ofstream(temporary / (name + ".yaml"))
+            << "fernlicht_study: 1\nname: two\ntitle: Two cells\nlamps:\n  halogen: {low: " << halogen
+            << ", source: filament}\n  xenon: {low: " << library_file("lamps/xenon-low.ies") << ", source: arc}\ndrives: ["
+            << library_file("drives/straight.yaml") << "]\ncompare:\n  - {new: xenon, against: halogen}\nresolution_px: [64, 48]\n";
+        return temporary / (name + ".yaml");
+    }
+    Outcome play(const std::string& file, const std::string& out, const std::string& arguments) const {
+        return run_program("study " + file + " --frames 0:1 --no-accuracy --quiet --out " + (temporary / out) + " " + arguments);
+    }
+    /// The cell's report with one reading 3 % up, as a program with a mistake would have written it.
+    void move_reading(const std::string& out, const std::string& name) const {
+        const std::string file = temporary / (out + "/cells/straight_halogen/report.json");
+        json report = json::parse(content_of(file));
+        for (json& row : report.at("rows"))
+            if (row.at("name") == name)
+                row["value"] = 1.03 * row.at("value").get<double>();
+        std::ofstream(file, std::ios::trunc) << report.dump();
+    }
+
+    TemporaryFolder temporary;
+    const std::string store = temporary / "references";
+    const std::string own = study("own", library_file("lamps/halogen-low.ies"));
+};
+
+TEST_F(StudyAgainstReferences, WhatMovesIsRedAndNamed) {
+    ASSERT_EQ(play(own, "first", "").exit_code, 0);
+    const Outcome accepted = run_program("accept " + (temporary / "first") + " --readings-only --to " + store);
+    ASSERT_EQ(accepted.exit_code, 0) << accepted.output;
+    EXPECT_THAT(accepted.output, HasSubstr("straight-1/halogen/photometric: new"));
+    EXPECT_THAT(accepted.output, HasSubstr("accepted into " + store + ": 2 lamp sets with 0 frames"));
+    const std::string against = "--references " + store;
+    const Outcome same = play(own, "same", against);
+    EXPECT_EQ(same.exit_code, 0) << same.output;
+
+    // The program's readings move.
+    move_reading("first", "reach_5lx_road_own_m");
+    ASSERT_EQ(run_program("accept " + (temporary / "first") + " --readings-only --to " + (temporary / "other")).exit_code, 0);
+    const Outcome moved = play(own, "moved", "--references " + (temporary / "other"));
+    EXPECT_EQ(moved.exit_code, 1);
+    EXPECT_THAT(moved.output, HasSubstr("Two cells: fail\n"));
+    EXPECT_THAT(moved.output, ContainsRegex("FAIL straight_halogen: reference reading reach_5lx_road_own_m: [0-9.]+ m, accepted [0-9.]+ m, "
+                                            "2.91 % off, at most 0.1 % for rounding \\([0-9a-f]+, accepted without pictures\\)"));
+    EXPECT_EQ(std::string::npos, moved.output.find("FAIL straight_xenon"));
+    EXPECT_THAT(content_of(temporary / "moved/junit.xml"), HasSubstr("reference reading reach_5lx_road_own_m"));
+    EXPECT_THAT(content_of(temporary / "moved/report.html"), HasSubstr("reference reading reach_5lx_road_own_m"));
+
+    // The same, listed as known; the xenon is listed wrongly.
+    std::ofstream(temporary / "known.yaml") << "known:\n  - {id: straight-1/halogen/photometric/reference reading reach_5lx_road_own_m, "
+                                               "kind: fails, reason: known, expires: 2026-12-31}\n";
+    const std::string listed = "--references " + (temporary / "other") + " --known " + (temporary / "known.yaml");
+    const Outcome known = play(own, "known", listed + " --today 2026-12-31");
+    EXPECT_EQ(known.exit_code, 0) << known.output;
+    EXPECT_THAT(known.output, HasSubstr("known straight_halogen: reference reading reach_5lx_road_own_m"));
+    const Outcome passes = play(own, "passes", against + " --known " + (temporary / "known.yaml") + " --today 2026-12-31");
+    EXPECT_EQ(passes.exit_code, 1) << "the entry names no verdict, since all readings agree in one";
+    EXPECT_THAT(passes.output, HasSubstr("FAIL known failure straight-1/halogen/"));
+
+    // The lamp moves.
+    ASSERT_EQ(
+        run_program("lamp " + library_file("lamps/halogen-low.ies") + " --scale 1.03 --convert " + (temporary / "brighter.ies")).exit_code,
+        0);
+    const Outcome lamp = play(study("brighter", temporary / "brighter.ies"), "lamp", against);
+    EXPECT_EQ(lamp.exit_code, 1);
+    EXPECT_THAT(lamp.output,
+                ContainsRegex("FAIL straight_halogen: reference: nothing accepted in .* with these inputs; [0-9a-f]+ had another "
+                              "lamp file 1: of [0-9]+ readings [1-9][0-9]+ differ, the farthest off: "));
+    EXPECT_EQ(std::string::npos, lamp.output.find("FAIL straight_xenon"));
+}
+
+TEST_F(StudyAgainstReferences, RefusesFlagsWithoutEffect) {
+    EXPECT_EQ(play(own, "a", "--across-devices").exit_code, 2);
+    EXPECT_EQ(play(own, "b", "--today 2026-12-31").exit_code, 2);
+    EXPECT_EQ(play(own, "c", "--known " + (temporary / "nowhere.yaml")).exit_code, 2);
+    EXPECT_EQ(run_program("accept " + (temporary / "a")).exit_code, 2) << "no study";
+}
+
+} // namespace
+} // namespace fernlicht
