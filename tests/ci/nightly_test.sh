@@ -45,4 +45,28 @@ FERNLICHT_BACKEND=egl FERNLICHT_REFERENCES=/elsewhere expect 0 "out/mine/report.
 [[ $(<"$tree/out/mine/report.html") == "other.yaml /elsewhere egl --only straight" ]] || { echo "took other files"; ((++failures)); }
 CODE=1 expect 1 "accept"
 CODE=3 expect 3 "left no report"
+
+# ci/accept-nightly: both parts into one new folder, in place of the old; nothing where the study is not green.
+cp "$source_tree/ci/accept-nightly" "$tree/ci/"
+cat >"$tree/build/release/fernlicht" <<'END'
+#!/bin/sh
+echo "$*" | sed 's/\.accept-nightly\.[^/]*/WORK/g' >>calls
+if [ "$1" = study ]; then exit "$CODE"; fi
+mkdir -p "$4" && echo "$7" >>"$4/index.json"
+END
+accept() { (cd / && PATH=$tree/bin:$PATH "$tree/ci/accept-nightly" "$@" >"$tree/said" 2>&1 </dev/null); }
+mkdir "$tree/references" && echo old >"$tree/references/index.json"
+if accept; then echo "accepted without a reason"; ((++failures)); fi
+if CODE=1 accept why; then echo "accepted what is not green"; ((++failures)); fi
+[[ $(<"$tree/references/index.json") == old ]] || { echo "touched what was accepted"; ((++failures)); }
+rm "$tree/calls"
+CODE=0 accept "a reason" || { echo "did not accept"; cat "$tree/said"; ((++failures)); }
+[[ $(<"$tree/references/index.json") == $'a reason\na reason' ]] || { echo "kept the old or lost a part"; ((++failures)); }
+diff - "$tree/calls" <<'END' || ((++failures))
+study scenarios/library/studies/standard.yaml --backend osmesa --no-accuracy --quiet --out WORK/whole
+study scenarios/library/studies/standard.yaml --backend osmesa --no-accuracy --quiet --out WORK/two --only straight --frames 0:4
+accept WORK/whole --to WORK/references --readings-only --note a reason
+accept WORK/two --to WORK/references --readings-only --note a reason
+END
+[[ -z $(compgen -G "$tree/.accept-nightly.*") ]] || { echo "left its scratch folder"; ((++failures)); }
 ((failures == 0))
