@@ -325,6 +325,7 @@ void write_aliasing(const AliasingResult& result, const std::filesystem::path& f
     if (!ranked(result).empty())
         write_svg(spatial_plot_svg(result), folder, "bands");
     write_svg(temporal_plot_svg(result), folder, "flicker");
+    write_svg(flow_svg(result), folder, "flow");
     write_file(folder / "aliasing.html", aliasing_html(result));
 }
 

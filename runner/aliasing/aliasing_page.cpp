@@ -126,6 +126,7 @@ std::string aliasing_html(const AliasingResult& result) {
         flows.push_back(flow_part(flow));
     page.set("has_flows", !result.flows.empty());
     page.set("flows", flows);
+    page.set("flow_picture", flow_svg(result));
     if (!result.flows.empty())
         page.set("known_motion", fmt::format("{:.2f}", result.flows.front().error.known_motion_px));
     page.set("has_temporal", !temporal.empty());

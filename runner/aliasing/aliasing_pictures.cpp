@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -201,6 +202,44 @@ std::string ranking_svg(const AliasingResult& result) {
                         {.size_px = lettering_px});
         if (row.temporal)
             canvas.text(gap_px, y + 102.0, fmt::format("flicker {:.3g} %", row.temporal->flicker_percent), {.size_px = lettering_px});
+    }
+    return canvas.finish();
+}
+
+std::string flow_svg(const AliasingResult& result) {
+    if (result.flows.empty())
+        return {};
+    const FlowComparison& flow = result.flows.front();
+    const double side = (2.0 * half_width_px - gap_px) / 3.0, height = side * result.view.height_px / result.view.width_px, top = 74.0;
+    const double most_motion = std::max(1.0, nearly_largest(flow.known_px, 20)), most_off = 2.0;
+    plots::Canvas canvas(3.0 * side + 4.0 * gap_px, top + height + 44.0, "Motion by optical flow");
+    canvas.text(gap_px, 24.0, fmt::format("Motion by optical flow: {}, of {}", method_name(flow.method), flow.pictures),
+                {.size_px = 16.0, .bold = true});
+    canvas.text(gap_px, 44.0,
+                "length from one frame to the next, pixels; grey: not known, or left out because going there and back ends elsewhere",
+                {.size_px = lettering_px});
+    const auto coloured = [](const Image<float>& picture, double most) {
+        Image<Colour> out(picture.width(), picture.height());
+        std::ranges::transform(picture.pixels(), out.pixels().begin(), [most](float value) {
+            return value < 0.0F ? Colour{170, 170, 170} : plots::sequential(static_cast<double>(value) / most);
+        });
+        return out;
+    };
+    const std::tuple<const char*, const Image<float>*, double> parts[] = {
+        {"Known, from depth and the car's path", &flow.known_px, most_motion},
+        {"Estimated", &flow.estimated_px, most_motion},
+        {"How far off", &flow.off_px, most_off}};
+    Image<Colour> strip(101, 1);
+    for (int i = 0; i < strip.width(); ++i)
+        strip.at(i, 0) = plots::sequential(i / 100.0);
+    double x = gap_px;
+    for (const auto& [name, picture, most] : parts) {
+        canvas.text(x, top - 8.0, name, {.size_px = lettering_px});
+        canvas.picture(x, top, side, height, coloured(*picture, most));
+        canvas.text(x, top + height + 22.0, "0", {.size_px = lettering_px});
+        canvas.picture(x + 16.0, top + height + 12.0, side - 130.0, 12.0, strip);
+        canvas.text(x + side - 106.0, top + height + 22.0, fmt::format("{:.3g} px and more", most), {.size_px = lettering_px});
+        x += side + gap_px;
     }
     return canvas.finish();
 }

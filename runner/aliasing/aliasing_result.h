@@ -52,6 +52,8 @@ struct FlowComparison {
     FlowError error;                          ///< of each frame to the next
     std::optional<TemporalAliasing> temporal; ///< along its paths
     std::optional<TemporalAliasing> known;    ///< of aliasing along the known paths of the same points, as far as those are known
+    /// From the frame shown to the next, length in pixels; below 0: not known, or left out by the estimate. Of the first comparison alone.
+    Image<float> known_px, estimated_px, off_px;
 };
 std::string method_name(FlowMethod method); ///< "dense inverse search", "Farneback"
 
@@ -87,6 +89,8 @@ std::vector<std::size_t> ranked(const AliasingResult& result);
 std::string aliasing_sheet_svg(const AliasingResult& result, const AliasingRow& row);
 /// Ways to draw, least aliasing first, each at the places where one of them differs most; "" for fewer than two.
 std::string ranking_svg(const AliasingResult& result);
+/// Motion that is known, as estimated, and how far that is off; "" where it was not asked for.
+std::string flow_svg(const AliasingResult& result);
 std::string spatial_plot_svg(const AliasingResult& result);
 /// "" where nothing was measured over time.
 std::string temporal_plot_svg(const AliasingResult& result);

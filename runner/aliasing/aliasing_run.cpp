@@ -149,6 +149,22 @@ void measure_jaggedness_of(Session& s, AliasingRow& row, const Pictures& drawn) 
         row.no_marks = "no lit mark two pixels wide on the road, or too short";
 }
 
+void keep_pictures(FlowComparison& compared, const FlowPair& pair) {
+    compared.known_px = Image<float>(pair.kept.width(), pair.kept.height(), -1.0F);
+    compared.estimated_px = compared.off_px = compared.known_px;
+    for (std::size_t i = 0; i < pair.kept.size(); ++i) {
+        const float dx = pair.estimated.dx_px.pixels()[i], dy = pair.estimated.dy_px.pixels()[i];
+        const float known_dx = pair.known.dx_px.pixels()[i], known_dy = pair.known.dy_px.pixels()[i];
+        const bool known = pair.known_at.pixels()[i] != 0, kept = pair.kept.pixels()[i] != 0;
+        if (known)
+            compared.known_px.pixels()[i] = std::hypot(known_dx, known_dy);
+        if (kept)
+            compared.estimated_px.pixels()[i] = std::hypot(dx, dy);
+        if (known && kept)
+            compared.off_px.pixels()[i] = std::hypot(dx - known_dx, dy - known_dy);
+    }
+}
+
 /// Both methods on both pictures; false when interrupted.
 bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std::vector<Image<double>>& residues,
                    const std::vector<Image<double>>& levels) {
@@ -163,7 +179,7 @@ bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std
             if (Interruption::asked())
                 return false;
             const std::vector<Image<float>>& pictures = as_drawn ? drawn : ideal;
-            FlowComparison compared{as_drawn ? "as drawn" : "what the display could show", method, {}, {}, {}};
+            FlowComparison compared{as_drawn ? "as drawn" : "what the display could show", method, {}, {}, {}, {}, {}, {}};
             std::vector<FlowPair> pairs;
             for (std::size_t m = 0; m < known.size(); ++m) {
                 const Flow there = optical_flow(pictures[m], pictures[m + 1], method);
@@ -171,6 +187,8 @@ bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std
                 pairs.push_back({there, found_again(there, back, most_return_px), known[m].flow, known[m].known});
             }
             compared.error = flow_error(pairs);
+            if (s.result.flows.empty())
+                keep_pictures(compared, pairs[std::min(s.result.shown, pairs.size() - 1)]);
             const FlowPaths followed = paths_by_flow(pictures, s.result.shown, track_stride_px, method);
             compared.temporal = as_drawn ? flicker_along(followed, pictures, s.result.rate_hz, s.result.pixels_per_degree)
                                          : aliasing_along(followed, residues, levels, s.result.rate_hz, s.result.pixels_per_degree);

@@ -79,15 +79,28 @@ json over_time(const TemporaryFolder& folder, const std::string& speed_kmh) {
             drive.replace(at, lamps.size(), library_file("lamps/"));
     std::ofstream(folder / (speed_kmh + ".yaml")) << drive;
     const Outcome run =
-        run_program("aliasing --quiet --frames 4:11 --resolution 96x72 --beams float --samples 1 --filter none,trilinear --out " +
+        run_program("aliasing --quiet --flow --frames 4:11 --resolution 96x72 --beams float --samples 1 --filter none,trilinear --out " +
                     (folder / speed_kmh) + " " + (folder / (speed_kmh + ".yaml")));
     EXPECT_EQ(run.exit_code, 0) << run.output;
-    return json::parse(content_of(folder / (speed_kmh + "/aliasing.json"))).at("rows").at(0).at("temporal");
+    const json found = json::parse(content_of(folder / (speed_kmh + "/aliasing.json")));
+    json row = found.at("rows").at(0).at("temporal");
+    row["flow"] = found.at("optical_flow");
+    EXPECT_TRUE(std::filesystem::exists(folder / (speed_kmh + "/flow.png")));
+    return row;
 }
 
 TEST(AliasingCommand, AStandingCarSeesNothingFlicker) {
     const TemporaryFolder folder;
     const json still = over_time(folder, "0"), moving = over_time(folder, "80");
+    ASSERT_EQ(still.at("flow").size(), 4U);
+    for (const json& flow : still.at("flow")) {                         // standing pictures move by nothing, known or estimated
+        const bool exact = flow.at("method") == "dense inverse search"; // Farnebäck's is off by rounding in single precision
+        EXPECT_LT(flow.at("known_motion_px"), 1e-4);
+        EXPECT_LT(flow.at("mean_error_px"), exact ? 1e-4 : 0.01);
+        EXPECT_LE(flow.at("temporal").at("flicker_percent"), exact ? 0.0 : 0.2);
+    }
+    EXPECT_GT(moving.at("flow").at(0).at("known_motion_px"), 0.1);
+    EXPECT_GT(moving.at("flow").at(0).at("points"), 1000);
     EXPECT_GT(still.at("tracks"), 500); // every second pixel each way of what is no sky
     EXPECT_EQ(still.at("thresholds"), 0.0);
     EXPECT_EQ(still.at("flicker_percent"), 0.0);
