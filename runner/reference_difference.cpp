@@ -14,7 +14,7 @@ namespace fernlicht {
 namespace {
 
 std::string value_text(const AcceptedReading& reading) {
-    return reading.mean ? fmt::format("{} {}", *reading.mean, reading.unit) : "not measured";
+    return reading.mean ? fmt::format("{:.7g} {}", *reading.mean, reading.unit) : "not measured";
 }
 
 std::string label_of(const AcceptedReading& reading) {

@@ -3,6 +3,7 @@
 #include "runner/device_spread.h"
 #include "runner/durable_files.h"
 #include "runner/reference_store.h"
+#include "runner/significance.h"
 #include "runner/summary.h"
 #include "scenarios/values/errors.h"
 
@@ -58,7 +59,9 @@ std::string moved_readings(const AcceptedReference& run, const AcceptedReference
     std::erase_if(differences, [](const ResultDifference& difference) { return difference.agreement == Agreement::agrees; });
     if (differences.empty())
         return fmt::format("all {} readings agree", all);
-    const ResultDifference& farthest = *std::ranges::max_element(differences, {}, &ResultDifference::of_allowed);
+    const ResultDifference& farthest = *std::ranges::max_element(differences, {}, [](const ResultDifference& difference) {
+        return std::pair(!says_how_exact(difference.what), difference.of_allowed); // readings before their errors
+    });
     return fmt::format("of {} readings {} differ, the farthest off: {}, {}", all, differences.size(), farthest.what, farthest.text);
 }
 

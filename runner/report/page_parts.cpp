@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <map>
+#include <utility>
 
 namespace fernlicht {
 
@@ -44,21 +46,34 @@ std::string signed_figure(double value, int decimals) {
     return negative || nothing ? text : "+" + text;
 }
 
+/// What turned a run red that failed.
+const char* failure_word(const Report& report) {
+    bool limits = false, references = false;
+    for (const PlayedVariant& played : report.played)
+        for (const Verdict& verdict : played.verdicts)
+            if (is_red(verdict) && verdict.kind == VerdictKind::fail)
+                (verdict.name.starts_with("reference") ? references : limits) = true;
+    return limits ? "Limits exceeded" : references ? "Differs from the references" : "The list of known failures is out of date";
+}
+
 data verdict_part(const Report& report) {
     data part;
     data failures{List::list}, flakes{List::list}, gaps{List::list}, known{List::list}, passes{List::list};
+    std::map<const data*, std::string> last_rerun; // by list: the same command once
     const auto add = [&](const Verdict& verdict, const std::string& drive, const std::string& variant) {
         data row;
         row.set("name", clean_text(verdict.name));
         row.set("text", clean_text(verdict.known.empty() ? verdict.text : verdict.text + "; " + verdict.known));
-        row.set("rerun", clean_text(verdict.rerun));
-        row.set("has_rerun", !verdict.rerun.empty());
         row.set("drive", clean_text(drive));
         row.set("variant", clean_text(variant));
         data& list = !is_red(verdict)                            ? (verdict.kind == VerdictKind::pass ? passes : known)
                      : verdict.kind == VerdictKind::flaky        ? flakes
                      : verdict.kind == VerdictKind::not_measured ? gaps
                                                                  : failures;
+        const bool as_above = !verdict.rerun.empty() && std::exchange(last_rerun[&list], verdict.rerun) == verdict.rerun;
+        row.set("rerun", clean_text(verdict.rerun));
+        row.set("has_rerun", !verdict.rerun.empty() && !as_above);
+        row.set("as_above", as_above);
         list.push_back(row);
     };
     for (const PlayedVariant& played : report.played)
@@ -69,7 +84,7 @@ data verdict_part(const Report& report) {
     const VerdictCounts counts = count_verdicts(report);
     const VerdictKind verdict = overall(report);
     const bool none = counts.all() == 0 && report.complete;
-    const char* const word = verdict == VerdictKind::fail           ? "Limits exceeded"
+    const char* const word = verdict == VerdictKind::fail           ? failure_word(report)
                              : verdict == VerdictKind::flaky        ? "Flaky"
                              : !report.complete                     ? "Incomplete"
                              : verdict == VerdictKind::not_measured ? "Not everything was measured"

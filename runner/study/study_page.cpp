@@ -85,7 +85,7 @@ bool has_several_conditions(const StudyResult& result) {
 data verdict_part(const StudyResult& result) {
     const VerdictKind kind = overall(result);
     data part, failures{List::list};
-    bool any = false;
+    bool any = false, limits = false;
     const auto add = [&](const std::string& where, const Verdict& verdict) {
         if (verdict.kind == VerdictKind::pass && !is_red(verdict))
             return;
@@ -96,6 +96,7 @@ data verdict_part(const StudyResult& result) {
         row.set("rerun", clean_text(verdict.rerun));
         failures.push_back(row);
         any = true;
+        limits = limits || (verdict.kind == VerdictKind::fail && !verdict.name.starts_with("reference"));
     };
     for (const Verdict& verdict : result.verdicts)
         add("study", verdict);
@@ -107,7 +108,7 @@ data verdict_part(const StudyResult& result) {
     }
     part.set("class", verdict_name(kind));
     part.set("word", kind == VerdictKind::pass    ? "Within limits"
-                     : kind == VerdictKind::fail  ? "Limits exceeded"
+                     : kind == VerdictKind::fail  ? (limits ? "Limits exceeded" : "Differs from the references")
                      : kind == VerdictKind::flaky ? "Flaky"
                                                   : "Not all was measured");
     part.set("mark", kind == VerdictKind::pass ? "✓" : kind == VerdictKind::fail ? "✗" : "?");
