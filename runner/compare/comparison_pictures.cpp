@@ -1,5 +1,6 @@
 #include "runner/compare/comparison_writers.h"
 #include "runner/compare/picture_sheet.h"
+#include "runner/plots/canvas.h"
 #include "runner/plots/png.h"
 #include "runner/plots/svg.h"
 #include "scenarios/values/errors.h"
@@ -184,8 +185,10 @@ class PictureWriter {
         }
         plots::Figure figure;
         figure.title = fmt::format("Pixels by size of the difference, {}", layer.name);
-        figure.subtitle = fmt::format("{:.4g} % of {} pixels do not differ; bins of a third of a decade. {}",
-                                      100.0 * static_cast<double>(h.equal) / all, h.pixels(), names_);
+        figure.subtitle = fmt::format("{:.4g} % of {} pixels do not differ; bins of a third of a decade",
+                                      100.0 * static_cast<double>(h.equal) / all, h.pixels());
+        if (const std::string whole = figure.subtitle + ". " + names_; plots::text_width(whole, 12.0) < figure.width_px - 90.0)
+            figure.subtitle = whole;
         const bool any = last >= 0;
         figure.x = {.label = "|B - A|",
                     .unit = layer.unit,

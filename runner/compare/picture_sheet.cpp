@@ -14,6 +14,8 @@ using plots::Colour;
 
 constexpr Colour ink{24, 24, 32}, faint{100, 100, 108};
 constexpr double edge_px = 16.0, gap_px = 12.0, caption_px = 26.0, head_px = 54.0, key_px = 22.0, legend_px = 112.0;
+/// Letters grow with wide panels: such sheets are shown smaller than they are.
+constexpr double plain_letters_px = 560.0, largest_letters = 1.8;
 constexpr int least_width_px = 320, most_width_px = 1024;
 constexpr double signed_decades = 3.0;
 
@@ -28,15 +30,17 @@ Image<Colour> magnified(const Image<Colour>& pixels, int factor) {
 }
 
 /// At the line's right end, of dashed ones at the left: of lines beside each other both can be read.
-void draw_label(Canvas& canvas, const SheetLine& line, double scale, double width) {
+void draw_label(Canvas& canvas, const SheetLine& line, double scale, double width, double letters) {
     const bool left = !line.dash.empty();
     const auto [leftmost, rightmost] = std::ranges::minmax_element(line.points, {}, &plots::Point::x);
     const plots::Point& end = left ? *leftmost : *rightmost;
-    canvas.text(std::clamp(end.x * scale + (left ? -3.0 : 3.0), left ? 26.0 : 2.0, left ? width : width - 26.0), end.y * scale + 4.0,
-                line.label, {.size_px = 11.0, .colour = line.colour, .anchor = left ? "end" : "start", .halo = "#000000"});
+    const double room = 26.0 * letters;
+    canvas.text(std::clamp(end.x * scale + (left ? -3.0 : 3.0), left ? room : 2.0, left ? width : width - room),
+                end.y * scale + 4.0 * letters, line.label,
+                {.size_px = 11.0 * letters, .colour = line.colour, .anchor = left ? "end" : "start", .halo = "#000000"});
 }
 
-void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top, double scale) {
+void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top, double scale, double letters) {
     const double width = panel.pixels.width() * scale, height = panel.pixels.height() * scale;
     canvas.picture(left, top, width, height, scale > 1.0 ? magnified(panel.pixels, static_cast<int>(scale)) : panel.pixels);
     canvas.begin_window(left, top, width, height);
@@ -44,16 +48,16 @@ void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top
         plots::Polyline points = line.points;
         for (plots::Point& p : points)
             p = {p.x * scale, p.y * scale};
-        canvas.line(points, {.colour = line.colour, .width_px = 1.3, .dash = line.dash});
+        canvas.line(points, {.colour = line.colour, .width_px = 1.3 * letters, .dash = line.dash});
     }
     for (const SheetLine& line : panel.lines)
         if (!line.label.empty() && !line.points.empty())
-            draw_label(canvas, line, scale, width);
+            draw_label(canvas, line, scale, width, letters);
     canvas.end_window();
-    canvas.text(left, top + height + 17.0, panel.caption, {.size_px = 13.0, .colour = ink});
+    canvas.text(left, top + height + 17.0 * letters, panel.caption, {.size_px = 13.0 * letters, .colour = ink});
 }
 
-void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double top, double height) {
+void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double top, double height, double letters) {
     constexpr int steps = 256;
     Image<Colour> bar(1, steps);
     for (int i = 0; i < steps; ++i)
@@ -64,11 +68,11 @@ void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double 
     for (const auto& [position, text] : legend.ticks) {
         const double y = top + height * (1.0 - position);
         canvas.line({{left + 14.0, y}, {left + (text.empty() ? 16.0 : 18.0), y}}, {.colour = ink});
-        canvas.text(left + 21.0, y + 4.0, text, {.size_px = 11.0, .colour = ink});
-        widest = std::max(widest, plots::text_width(text, 11.0));
+        canvas.text(left + 21.0, y + 4.0 * letters, text, {.size_px = 11.0 * letters, .colour = ink});
+        widest = std::max(widest, plots::text_width(text, 11.0 * letters));
     }
-    canvas.text(left + 46.0 + widest, top + 0.5 * height, legend.label,
-                {.size_px = 12.0, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
+    canvas.text(left + 30.0 + 16.0 * letters + widest, top + 0.5 * height, legend.label,
+                {.size_px = 12.0 * letters, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
 }
 
 } // namespace
@@ -79,24 +83,26 @@ std::string svg_of_sheet(const Sheet& sheet) {
                          : first.width() > most_width_px ? static_cast<double>(most_width_px) / first.width()
                                                          : 1.0;
     const double width = first.width() * scale, height = first.height() * scale;
-    const double top = head_px + (sheet.key.empty() ? 0.0 : key_px);
+    const double letters = std::clamp(0.5 * (width + std::max(width, height)) / plain_letters_px, 1.0, largest_letters);
+    const double top = letters * (head_px + (sheet.key.empty() ? 0.0 : key_px));
     const double across = static_cast<double>(sheet.panels.size()) * (width + gap_px) - gap_px;
-    const double heading = std::max(plots::text_width(sheet.title, 16.0), plots::text_width(sheet.subtitle, 12.0));
-    Canvas canvas(2.0 * edge_px + std::max(across + (sheet.legend ? legend_px : 0.0), heading), top + height + caption_px + 8.0,
-                  sheet.title);
-    canvas.text(edge_px, 24.0, sheet.title, {.size_px = 16.0, .colour = ink, .bold = true});
-    canvas.text(edge_px, 42.0, sheet.subtitle, {.size_px = 12.0, .colour = faint});
+    const double heading = std::max(plots::text_width(sheet.title, 16.0 * letters), plots::text_width(sheet.subtitle, 12.0 * letters));
+    Canvas canvas(2.0 * edge_px + std::max(across + (sheet.legend ? legend_px * letters : 0.0), heading),
+                  top + height + letters * caption_px + 8.0, sheet.title);
+    canvas.text(edge_px, 24.0 * letters, sheet.title, {.size_px = 16.0 * letters, .colour = ink, .bold = true});
+    canvas.text(edge_px, 42.0 * letters, sheet.subtitle, {.size_px = 12.0 * letters, .colour = faint});
     double at = edge_px;
     for (const auto& [name, line] : sheet.key) {
-        canvas.rectangle(at, head_px + 1.0, 30.0, 12.0, {.fill = "#333333"});
-        canvas.line({{at, head_px + 7.0}, {at + 30.0, head_px + 7.0}}, {.colour = line.colour, .width_px = 2.0, .dash = line.dash});
-        canvas.text(at + 36.0, head_px + 12.0, name, {.size_px = 12.0, .colour = ink});
-        at += 54.0 + plots::text_width(name, 12.0);
+        const double middle = letters * (head_px + 7.0), sample = 30.0 * letters;
+        canvas.rectangle(at, middle - 6.0 * letters, sample, 12.0 * letters, {.fill = "#333333"});
+        canvas.line({{at, middle}, {at + sample, middle}}, {.colour = line.colour, .width_px = 2.0 * letters, .dash = line.dash});
+        canvas.text(at + sample + 6.0, middle + 5.0 * letters, name, {.size_px = 12.0 * letters, .colour = ink});
+        at += sample + 24.0 + plots::text_width(name, 12.0 * letters);
     }
     for (std::size_t i = 0; i < sheet.panels.size(); ++i)
-        draw_panel(canvas, sheet.panels[i], edge_px + static_cast<double>(i) * (width + gap_px), top, scale);
+        draw_panel(canvas, sheet.panels[i], edge_px + static_cast<double>(i) * (width + gap_px), top, scale, letters);
     if (sheet.legend)
-        draw_legend(canvas, *sheet.legend, edge_px + across + 14.0, top, height);
+        draw_legend(canvas, *sheet.legend, edge_px + across + 14.0, top, height, letters);
     return canvas.finish();
 }
 

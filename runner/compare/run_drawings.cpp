@@ -104,8 +104,11 @@ std::set<int> drawn_moments(const DriveComparison& drive, const std::string& vie
             }
     }
     std::set<int> drawn;
-    for (const std::size_t i : spread_over(ticks.size(), pictured))
-        drawn.insert(ticks[i]);
+    if (pictured == 1 && !ticks.empty())
+        drawn.insert(worst_tick >= 0 ? worst_tick : ticks.front());
+    if (pictured > 1)
+        for (const std::size_t i : spread_over(ticks.size(), pictured))
+            drawn.insert(ticks[i]);
     if (worst_tick >= 0 && pictured > 0)
         drawn.insert(worst_tick);
     return drawn;

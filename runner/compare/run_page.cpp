@@ -24,6 +24,11 @@ constexpr std::size_t most_settings = 40;
 /// With as many digits as tell it apart: readings reach from thousandths of a lux to thousands of square metres.
 std::string number(double value) {
     const double size = std::abs(value);
+    if (size > 0.0 && size < 1e-3) { // "4.3e-7"
+        std::string text = fmt::format("{:.1e}", value);
+        const std::size_t e = text.find('e');
+        return text.substr(0, e + 1) + std::to_string(std::stoi(text.substr(e + 1)));
+    }
     return figure(value, size >= 1000.0 || size == 0.0 ? 0 : std::clamp(3 - static_cast<int>(std::ceil(std::log10(size))), 1, 6));
 }
 std::string signed_number(double value) { return value > 0.0 ? "+" + number(value) : number(value); }
@@ -155,6 +160,7 @@ data strips_part(const DriveComparison& drive, const RunComparison& runs, const 
         };
         add("illuminance-difference", "Illuminance, B − A");
         add("illuminance-isolux", "Isolux lines of both");
+        add("flip", "FLIP: what one sees who flips between both");
         part.set("pictures", pictures);
         list.push_back(part);
     }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -138,6 +139,22 @@ TEST_F(RunCompare, TheSameRunTwiceDiffersInNothing) {
     EXPECT_THAT(content_of(at("same/report.html")), HasSubstr("No pixel of any stored frame differs"));
 }
 
+TEST_F(RunCompare, DrawsAsManyMomentsAsAskedFor) {
+    const auto drawn = [&](const std::string& pictures) {
+        const std::string out = at("drawn-" + pictures);
+        EXPECT_EQ(compare("halogen", "xenon", "--pictures " + pictures + " --out " + out).exit_code, 0);
+        std::set<int> moments;
+        const json found = json::parse(content_of(out + "/compare.json"));
+        for (const json& frame : found.at("drives").at(0).at("frames"))
+            if (frame.at("view") == "driver" && !frame.at("pictures").empty())
+                moments.insert(frame.at("frame").get<int>());
+        return moments.size();
+    };
+    EXPECT_EQ(drawn("0"), 0U);
+    EXPECT_EQ(drawn("1"), 1U);
+    EXPECT_EQ(drawn("all"), 2U);
+}
+
 TEST_F(RunCompare, StrictnessHoldsForEveryFrame) {
     const Outcome outcome = compare("halogen", "xenon", "--strictness same-light");
     EXPECT_EQ(outcome.exit_code, 1);
@@ -242,7 +259,7 @@ document.title = [up, down, share, targets, pictures, document.images.length].jo
     std::istringstream title(browser.output.substr(from + 7, to - from - 7));
     std::string part;
     std::getline(title, part, '|');
-    EXPECT_EQ(part, "true true 20% true true 8") << "two moments: each two driver's views, difference and isolux lines";
+    EXPECT_EQ(part, "true true 20% true true 10") << "two moments: each two driver's views, difference, isolux lines and FLIP";
     while (std::getline(title, part, '|'))
         EXPECT_TRUE(std::filesystem::exists(at("out/" + part))) << part;
 }
