@@ -28,6 +28,8 @@ void check(const Channels& tested, const Channels& reference) {
 void check(const StrictnessNode& node, const Image<float>& picture) {
     if (!(node.bound.absolute >= 0.0 && node.bound.relative >= 0.0 && node.percent >= 0.0 && node.percent <= 100.0))
         throw std::invalid_argument("a bound is below 0 or a percentage outside 0 to 100");
+    if (!(node.figure >= 0.0 && node.figure <= 1.0))
+        throw std::invalid_argument("a figure is outside 0 to 1");
     if ((node.kind == Kind::all || node.kind == Kind::any) && node.children.empty())
         throw std::invalid_argument("all or any of nothing");
     if (!node.mask)
@@ -140,18 +142,43 @@ StrictnessResult judge_leaf(const StrictnessNode& node, const Channels& tested, 
     return leaf;
 }
 
+/// SSIM is at most 1: what it lacks to that is limited, so that a margin means the same in every leaf.
+StrictnessResult judge_whole(const StrictnessNode& node, const WholeFigures& whole, std::size_t pixels) {
+    const bool flip = node.kind == Kind::mean_flip;
+    StrictnessResult leaf;
+    leaf.statement = flip ? fmt::format("mean FLIP at most {:g}", node.figure) : fmt::format("SSIM at least {:g}", node.figure);
+    leaf.unit = flip ? "mean FLIP" : "of 1 - SSIM";
+    leaf.threshold = flip ? node.figure : 1.0 - node.figure;
+    leaf.pixels = pixels;
+    const std::optional<double>& found = flip ? whole.mean_flip : whole.ssim;
+    if (found) {
+        leaf.found = flip ? *found : 1.0 - *found;
+        set_margin(leaf);
+        return leaf;
+    }
+    const std::string& why = flip ? whole.no_flip : whole.no_ssim;
+    leaf.passed = flip && why.empty(); // what was not measured is not kept
+    if (leaf.passed)
+        leaf.margin = 1.0;
+    leaf.statement += leaf.passed ? ": asks nothing of what nobody sees" : ": not measured, " + why;
+    return leaf;
+}
+
 /// A failure without a margin is worse than any with one.
 double sortable(const StrictnessResult& r) { return r.margin.value_or(-std::numeric_limits<double>::infinity()); }
 
-StrictnessResult judge_node(const StrictnessNode& node, const Channels& tested, const Channels& reference, const std::string& unit) {
+StrictnessResult judge_node(const StrictnessNode& node, const Channels& tested, const Channels& reference, const std::string& unit,
+                            const WholeFigures& whole) {
     check(node, reference[0]);
+    if (node.kind == Kind::mean_flip || node.kind == Kind::ssim)
+        return judge_whole(node, whole, reference[0].size());
     if (node.kind != Kind::all && node.kind != Kind::any)
         return judge_leaf(node, tested, reference, unit);
     StrictnessResult result;
     const bool all = node.kind == Kind::all;
     result.statement = all ? "all of" : "any of";
     for (const StrictnessNode& child : node.children)
-        result.children.push_back(judge_node(child, tested, reference, unit));
+        result.children.push_back(judge_node(child, tested, reference, unit, whole));
     const auto passed = [](const StrictnessResult& child) { return child.passed; };
     result.passed = all ? std::ranges::all_of(result.children, passed) : std::ranges::any_of(result.children, passed);
     result.margin =
@@ -161,9 +188,14 @@ StrictnessResult judge_node(const StrictnessNode& node, const Channels& tested, 
 
 } // namespace
 
-StrictnessResult judge_strictness(const StrictnessNode& tree, const Channels& tested, const Channels& reference, const std::string& unit) {
+bool has_leaf(const StrictnessNode& tree, Kind kind) {
+    return tree.kind == kind || std::ranges::any_of(tree.children, [&](const StrictnessNode& child) { return has_leaf(child, kind); });
+}
+
+StrictnessResult judge_strictness(const StrictnessNode& tree, const Channels& tested, const Channels& reference, const std::string& unit,
+                                  const WholeFigures& whole) {
     check(tested, reference);
-    return judge_node(tree, tested, reference, unit);
+    return judge_node(tree, tested, reference, unit, whole);
 }
 
 } // namespace fernlicht

@@ -25,12 +25,15 @@ struct StrictnessNode {
         every,      ///< every pixel keeps `bound`
         percentage, ///< at most `percent` of the pixels do not keep `bound`
         hard_limit, ///< no pixel of the picture breaks `bound`, under the mask or not, shifted or not
+        mean_flip,  ///< the picture's mean FLIP is at most `figure`; of a quantity that has no FLIP it asks nothing
+        ssim,       ///< the picture's SSIM is at least `figure`
         all,        ///< every child passes
         any,        ///< at least one child passes
     };
     Kind kind = Kind::all;
     PixelBound bound = {};
     double percent = 0.0; ///< 0..100
+    double figure = 0.0;  ///< 0..1, of mean_flip and ssim
     /// A pixel is compared with the nearest value among the reference's 3 x 3 pixels around its place: what moved by one pixel has not
     /// changed.
     bool one_pixel_shift = false;
@@ -42,7 +45,8 @@ struct StrictnessNode {
 struct StrictnessResult {
     std::string statement; ///< "at most 0.1 % of the pixels differ by more than 1 level"
     bool passed = false;
-    // Of a leaf. What its statement limits: the difference of the pixel that is farthest from keeping its bound, or a percentage.
+    // Of a leaf. What its statement limits: the difference of the pixel that is farthest from keeping its bound, a percentage, the mean
+    // FLIP, or what SSIM lacks to 1.
     double found = 0.0;
     double threshold = 0.0; ///< it passes up to here, included
     std::string unit;
@@ -54,10 +58,19 @@ struct StrictnessResult {
     std::vector<StrictnessResult> children; ///< of all and any
 };
 
+/// What whole pictures are judged by.
+struct WholeFigures {
+    std::optional<double> mean_flip, ssim;
+    std::string no_flip, no_ssim; ///< why there is none; no_flip empty where the quantity has no FLIP
+};
+
 /// Channels in pairs, one for a linear picture, three for a display picture, all of one size. Throws std::invalid_argument for sizes that
-/// differ (masks too), empty pictures, values that are not finite, bounds below 0, a percentage outside 0..100, an all or any without
-/// children, and a mask that looks at no pixel.
+/// differ (masks too), empty pictures, values that are not finite, bounds below 0, a percentage outside 0..100, a figure outside 0..1, an
+/// all or any without children, and a mask that looks at no pixel.
 StrictnessResult judge_strictness(const StrictnessNode& tree, const std::vector<Image<float>>& tested,
-                                  const std::vector<Image<float>>& reference, const std::string& unit);
+                                  const std::vector<Image<float>>& reference, const std::string& unit, const WholeFigures& whole = {});
+
+/// Whether a tree has a leaf of this kind.
+bool has_leaf(const StrictnessNode& tree, StrictnessNode::Kind kind);
 
 } // namespace fernlicht

@@ -90,10 +90,28 @@ Image<float> largest_difference(const std::vector<Image<float>>& tested, const s
     return out;
 }
 
+const ComparedValue* find(const LayerComparison& layer, const std::string& name) {
+    const auto found = std::ranges::find(layer.values, name, &ComparedValue::name);
+    return found == layer.values.end() ? nullptr : &*found;
+}
+
+WholeFigures whole_figures(const LayerComparison& layer) {
+    WholeFigures whole;
+    if (const ComparedValue* flip = find(layer, "flip_mean")) {
+        whole.mean_flip = flip->value;
+        whole.no_flip = flip->why_not;
+    }
+    if (const ComparedValue* ssim = find(layer, "ssim")) {
+        whole.ssim = ssim->value;
+        whole.no_ssim = ssim->why_not;
+    }
+    return whole;
+}
+
 void judge(LayerComparison& layer, const StrictnessNode& tree, const std::vector<Image<float>>& tested,
            const std::vector<Image<float>>& reference) {
     try {
-        layer.strictness = judge_strictness(tree, tested, reference, layer.unit);
+        layer.strictness = judge_strictness(tree, tested, reference, layer.unit, whole_figures(layer));
     } catch (const std::invalid_argument& error) { // pictures are checked; what is left is the mask
         throw InputError({{}, 0, 0, "--strictness"}, error.what());
     }
@@ -191,6 +209,10 @@ PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_de
     comparison.strictness_name = strictness ? strictness->name : "";
     if (pair.is_display())
         comparison.layers.push_back(compare_display(pair, pixels_per_degree, strictness));
+    const bool has_luminance = std::ranges::any_of(pair.linear, [](const LinearPair& linear) { return linear.unit == "cd/m2"; });
+    if (strictness && !pair.is_display() && !has_luminance && has_leaf(strictness->linear, StrictnessNode::Kind::mean_flip))
+        throw InputError({pair.tested, 0, 0, {}}, "has no luminance",
+                         "a picture that has FLIP, as the class " + strictness->name + " asks for it");
     for (const LinearPair& linear : pair.linear)
         comparison.layers.push_back(compare_linear(linear, pixels_per_degree, strictness));
     return comparison;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 
 namespace fernlicht {
 namespace {
@@ -37,6 +38,11 @@ StrictnessNode read_leaf(Kind kind, const YamlEntry& entry) {
         node.bound = read_bound(entry.map({"absolute", "relative"}));
         return node;
     }
+    if (kind == Kind::mean_flip || kind == Kind::ssim) {
+        const char* key = kind == Kind::ssim ? "at_least" : "at_most";
+        node.figure = entry.map({key}).require(key).number(0.0, 1.0);
+        return node;
+    }
     const YamlMap leaf = kind == Kind::percentage ? entry.map({"percent", "absolute", "relative", "one_pixel_shift", "mask"})
                                                   : entry.map({"absolute", "relative", "one_pixel_shift", "mask"});
     node.bound = read_bound(leaf);
@@ -51,13 +57,18 @@ StrictnessNode read_leaf(Kind kind, const YamlEntry& entry) {
 }
 
 StrictnessNode read_node(const YamlEntry& entry) {
-    const YamlMap map = entry.map({"all", "any", "every", "percentage", "hard_limit"});
-    const auto chosen = map.one_of({"all", "any", "every", "percentage", "hard_limit"});
+    const YamlMap map = entry.map({"all", "any", "every", "percentage", "hard_limit", "mean_flip", "ssim"});
+    const auto chosen = map.one_of({"all", "any", "every", "percentage", "hard_limit", "mean_flip", "ssim"});
     if (!chosen)
-        entry.refuse("one of all, any, every, percentage, hard_limit");
+        entry.refuse("one of all, any, every, percentage, hard_limit, mean_flip, ssim");
     const auto& [word, value] = *chosen;
-    if (word == "every" || word == "percentage" || word == "hard_limit")
-        return read_leaf(word == "every" ? Kind::every : word == "percentage" ? Kind::percentage : Kind::hard_limit, value);
+    static const std::map<std::string_view, Kind> leaves{{"every", Kind::every},
+                                                         {"percentage", Kind::percentage},
+                                                         {"hard_limit", Kind::hard_limit},
+                                                         {"mean_flip", Kind::mean_flip},
+                                                         {"ssim", Kind::ssim}};
+    if (const auto leaf = leaves.find(word); leaf != leaves.end())
+        return read_leaf(leaf->second, value);
     StrictnessNode node{.kind = word == "all" ? Kind::all : Kind::any};
     for (const YamlEntry& child : value.list(1, most_children))
         node.children.push_back(read_node(child));

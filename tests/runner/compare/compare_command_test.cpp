@@ -5,6 +5,7 @@
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -198,6 +199,30 @@ TEST_F(CompareCommand, ClassesFromAFile) {
                 AllOf(HasSubstr("strictness mine: pass"), HasSubstr("10 of 12 levels, 16.7 % to spare"), HasSubstr("FAIL no pixel")));
     EXPECT_EQ(compare("a.exr", "b.exr", "--strictness '" + path("class.yaml") + "'").exit_code,
               1); // what it says nothing of must be the same
+}
+
+// The leaves say what the figures say: just kept at the figure itself, not at a thousandth less.
+TEST_F(CompareCommand, FlipAndSsimAsLeavesOfAClass) {
+    const json found = json::parse(compare("a.exr", "b.exr", "--json").output);
+    const json &lux = found.at("layers").at(0), &luminance = found.at("layers").at(1);
+    const double flip = *value(luminance, "flip_mean"), ssim = std::min(*value(lux, "ssim"), *value(luminance, "ssim"));
+    const auto judged = [&](double most_flip, double least_ssim) {
+        write_class(fmt::format("name: seen\nlinear:\n  all:\n    - mean_flip: {{at_most: {}}}\n    - ssim: {{at_least: {}}}\n", most_flip,
+                                least_ssim));
+        return compare("a.exr", "b.exr", "--strictness '" + path("class.yaml") + "'");
+    };
+    ASSERT_GT(flip, 0.002);
+    ASSERT_LT(ssim, 1.0);
+    EXPECT_EQ(judged(flip * 1.001, ssim - 1e-6).exit_code, 0);
+    const Outcome seen = judged(flip * 0.999, ssim - 1e-6);
+    EXPECT_EQ(seen.exit_code, 1);
+    EXPECT_THAT(seen.output, AllOf(HasSubstr("FAIL mean FLIP at most"), HasSubstr("pass mean FLIP"), HasSubstr("pass SSIM at least")))
+        << "lux has no FLIP, luminance has";
+    EXPECT_THAT(judged(1.0, ssim + 1e-6).output, HasSubstr("FAIL SSIM at least"));
+    write_class("name: seen\ndisplay:\n  mean_flip: {at_most: 0.5}\n");
+    EXPECT_EQ(compare("a.png", "b.png", "--strictness '" + path("class.yaml") + "'").exit_code, 0);
+    write_class("name: seen\ndisplay:\n  mean_flip: {at_least: 0.5}\n");
+    EXPECT_EQ(compare("a.png", "b.png", "--strictness '" + path("class.yaml") + "'").exit_code, 2);
 }
 
 TEST_F(CompareCommand, MasksOfAFile) {
