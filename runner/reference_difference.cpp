@@ -30,8 +30,8 @@ ResultDifference judge_by_spread(ResultDifference difference, double off, double
     difference.of_allowed = off / allowed;
     difference.text = fmt::format("{}, z = {:.3g}, at most {:.3g} by chance ({} repeats beyond the first), and {:.3g} for rounding",
                                   figures, off / test.standard_error, test.bound, test.freedom, rounding);
-    if (off <= rounding && test.standard_error <= rounding)
-        difference.agreement = Agreement::agrees; // the noise is below the tolerance, which decides as where nothing varies
+    if (off <= rounding && test.standard_error <= rounding / tolerance.negligible_noise)
+        difference.agreement = Agreement::agrees; // as where nothing varies
     else if (off > allowed)
         difference.agreement = Agreement::differs;
     else if (allowed > tolerance.most_allowed * rounding) {

@@ -17,6 +17,9 @@ struct ReferenceTolerance {
     /// A test that allows more than this many tolerances (1 % of the value) could no longer see 2 % of light with certainty:
     /// it is not measured then.
     double most_allowed = 10.0;
+    /// A standard error of so small a part of the tolerance does not matter, however few repeats it is known by: of two plays one in a
+    /// hundred pairs lies a hundred times closer than they spread, and then the tolerance is still as wide as the noise.
+    double negligible_noise = 100.0;
 };
 
 enum class Agreement { agrees, differs, undecided };

@@ -48,6 +48,11 @@ TEST(ReadingWithSpread, TooFewRepeatsAreNoGreen) {
     EXPECT_THAT(compared(reading(100.05), two).text, HasSubstr("accept a run with more repeats"));
     EXPECT_EQ(compared(reading(200.0), two).agreement, Agreement::differs);
     EXPECT_EQ(compared(reading(100.05), reading(100.0, 2, 1e-8)).agreement, Agreement::agrees) << "next to no spread needs no more";
+    // 0.0008 sqrt(3/2) = 0.00098 lx is within a hundredth of 0.1001 lx, 0.0009 sqrt(3/2) = 0.0011 lx is not; by chance among ten thousand
+    // readings either could reach some thousand lx.
+    EXPECT_EQ(compared(reading(100.05), reading(100.0, 2, 0.0008 * 0.0008), 10000).agreement, Agreement::agrees);
+    EXPECT_EQ(compared(reading(100.05), reading(100.0, 2, 0.0009 * 0.0009), 10000).agreement, Agreement::undecided);
+    EXPECT_EQ(compared(reading(100.11), reading(100.0, 2, 0.0008 * 0.0008), 10000).agreement, Agreement::undecided);
 }
 
 TEST(ReadingWithSpread, TheRunsOwnRepeatsCount) {
