@@ -66,24 +66,30 @@ std::string names_of(const std::vector<PictureChannel>& channels) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void read_linear(PicturePair& pair) {
+void read_linear(PicturePair& pair, bool common_alone) {
     std::vector<PictureChannel> reference = read_exr(pair.reference), tested = read_exr(pair.tested);
     pair.width = reference[0].values.width();
     pair.height = reference[0].values.height();
     check_sizes(pair, tested[0].values.width(), tested[0].values.height());
-    if (names_of(reference) != names_of(tested))
+    if (!common_alone && names_of(reference) != names_of(tested))
         throw InputError({pair.tested, 0, 0, {}}, "has the channels " + names_of(tested), names_of(reference) + " as the reference");
     for (PictureChannel& channel : reference) {
-        PictureChannel& other = *std::ranges::find(tested, channel.name, &PictureChannel::name);
+        const auto found = std::ranges::find(tested, channel.name, &PictureChannel::name);
+        if (found == tested.end()) {
+            pair.alone.push_back(channel.name);
+            continue;
+        }
+        PictureChannel& other = *found;
         check_finite(pair.reference, channel);
         check_finite(pair.tested, other);
         pair.linear.push_back({channel.name, unit_of(channel.name), std::move(channel.values), std::move(other.values)});
     }
+    for (const PictureChannel& channel : tested)
+        if (std::ranges::find(reference, channel.name, &PictureChannel::name) == reference.end())
+            pair.alone.push_back(channel.name);
 }
 
-} // namespace
-
-PicturePair read_picture_pair(const std::filesystem::path& reference, const std::filesystem::path& tested) {
+PicturePair read_pair(const std::filesystem::path& reference, const std::filesystem::path& tested, bool common_alone) {
     PicturePair pair;
     pair.reference = reference;
     pair.tested = tested;
@@ -92,7 +98,7 @@ PicturePair read_picture_pair(const std::filesystem::path& reference, const std:
         throw InputError({tested, 0, 0, {}}, format == Format::png ? "is an EXR picture" : "is a PNG picture",
                          format == Format::png ? "a PNG as the reference" : "an EXR as the reference");
     if (format == Format::exr) {
-        read_linear(pair);
+        read_linear(pair, common_alone);
         return pair;
     }
     pair.reference_display = read_png(reference);
@@ -101,6 +107,16 @@ PicturePair read_picture_pair(const std::filesystem::path& reference, const std:
     pair.height = pair.reference_display.height();
     check_sizes(pair, pair.tested_display.width(), pair.tested_display.height());
     return pair;
+}
+
+} // namespace
+
+PicturePair read_picture_pair(const std::filesystem::path& reference, const std::filesystem::path& tested) {
+    return read_pair(reference, tested, false);
+}
+
+PicturePair read_common_channels(const std::filesystem::path& reference, const std::filesystem::path& tested) {
+    return read_pair(reference, tested, true);
 }
 
 bool is_picture(const std::filesystem::path& path) { return format_of(path) != Format::other; }

@@ -23,12 +23,16 @@ struct PicturePair {
     int width = 0, height = 0;
     Image<Rgb8> reference_display, tested_display; ///< empty for linear pictures
     std::vector<LinearPair> linear;                ///< empty for display pictures
+    std::vector<std::string> alone;                ///< channels that one file alone has, where that is allowed
     bool is_display() const { return !reference_display.empty(); }
 };
 
 /// Told apart by their first bytes. Throws InputError naming the file: missing, neither PNG nor EXR, cut short, one of each, other sizes,
 /// other channels, values that are not finite.
 PicturePair read_picture_pair(const std::filesystem::path& reference, const std::filesystem::path& tested);
+
+/// The same, but channels that one EXR alone has are left out and named.
+PicturePair read_common_channels(const std::filesystem::path& reference, const std::filesystem::path& tested);
 
 /// Whether a file begins like a PNG or an EXR. Throws InputError where it cannot be read.
 bool is_picture(const std::filesystem::path& path);

@@ -156,11 +156,15 @@ void drop_maps(PictureComparison& comparison) {
 }
 
 void compare_frames(DriveComparison& drive, const RunComparison& runs, const RunCompareOptions& options) {
+    std::set<std::string> alone; // another technique computes other quantities
     for (FramePair& frame : drive.frames) {
         const PicturePair pair = frame_pictures(frame, runs);
         frame.comparison = compare_pictures(pair, frame_density(frame, options), options.strictness);
         drop_maps(frame.comparison);
+        alone.insert(pair.alone.begin(), pair.alone.end());
     }
+    for (const std::string& channel : alone)
+        drive.left_out.push_back(fmt::format("the channel {}, which one run's EXRs alone have", printable(channel)));
 }
 
 /// Of each deciding reading its largest real change, and of these the three largest.
@@ -196,7 +200,7 @@ void note_what_was_not_judged(RunComparison& runs) {
 } // namespace
 
 PicturePair frame_pictures(const FramePair& frame, const RunComparison& runs) {
-    return read_picture_pair(runs.before.folder / frame.file(frame.old_frame), runs.now.folder / frame.file(frame.new_frame));
+    return read_common_channels(runs.before.folder / frame.file(frame.old_frame), runs.now.folder / frame.file(frame.new_frame));
 }
 
 double frame_density(const FramePair& frame, const RunCompareOptions& options) {

@@ -206,6 +206,20 @@ TEST_F(RunCompare, WhatDoesNotBelongTogetherIsLeftOutAndNamed) {
         EXPECT_THAT(frame.at("new_file").get<std::string>(), HasSubstr(".exr"));
 }
 
+TEST_F(RunCompare, TechniquesThatComputeOtherThingsAreComparedInWhatBothHave) {
+    const Outcome run = run_program("run " + library_file("drives/straight.yaml") + " --lamp " + library_file("lamps/halogen-low.ies") +
+                                    " --technique full --resolution 96x72 --frames 0:5 --no-accuracy --quiet --out " + at("full"));
+    ASSERT_LE(run.exit_code, 1) << run.output; // what full does not compute is not measured
+    const json drive = json::parse(compare("halogen", "full", "--json").output).at("drives").at(0);
+    EXPECT_EQ(drive.at("new_technique"), "full");
+    EXPECT_THAT(joined(drive.at("left_out")), HasSubstr("the channel luminance.cdm2, which one run's EXRs alone have"));
+    bool lux = false;
+    for (const json& frame : drive.at("frames"))
+        for (const json& layer : frame.at("layers"))
+            lux = lux || layer.at("name") == "illuminance.lx";
+    EXPECT_TRUE(lux);
+}
+
 TEST_F(RunCompare, WrongInputIsOneSentenceAndTwo) {
     play("faster", edited("halogen", "speed_mps: ", "speed_mps: 1"), "", "--frames 0:5");
     std::filesystem::create_directories(at("empty"));
