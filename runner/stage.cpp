@@ -5,6 +5,7 @@
 #include "runner/seeing/seeing_fold.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/roads/mirrored_road.h"
 #include "scenarios/roads/road_mesh.h"
 #include "scenarios/values/errors.h"
 
@@ -12,8 +13,25 @@
 
 namespace fernlicht {
 
+namespace {
+
+RoadNetwork network_of(const Drive& drive) {
+    RoadNetwork network = read_opendrive(drive.road_file);
+    return drive.mirrored_road ? mirrored(std::move(network)) : network;
+}
+
+/// Lanes are named as the road's file has them.
+Route::Start start_of(const Drive& drive) {
+    Route::Start start = drive.start;
+    if (drive.mirrored_road)
+        start.lane = -start.lane;
+    return start;
+}
+
+} // namespace
+
 Stage::Stage(Drive d)
-    : drive(std::move(d)), network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via),
+    : drive(std::move(d)), network(network_of(drive)), route(network, start_of(drive), drive.via),
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     fit_to_route(drive, route);
     simulate(drive, route);

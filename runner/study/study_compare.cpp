@@ -31,7 +31,8 @@ Change change_of(const StudyResult& result, std::size_t tested, std::size_t agai
 
 /// Cells of everything but the lamp alike.
 bool is_same_place(const StudyCell& a, const StudyCell& b) {
-    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage;
+    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage &&
+           a.mirror == b.mirror;
 }
 
 void compare_pair(StudyResult& result, const StudyComparison& comparison) {

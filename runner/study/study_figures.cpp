@@ -19,7 +19,8 @@ namespace {
 
 /// Cells that differ in nothing but the lamp.
 bool is_beside(const StudyCell& a, const StudyCell& b) {
-    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage;
+    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage &&
+           a.mirror == b.mirror;
 }
 
 /// Groups of such cells, in order; cells that were not played are left out, and groups without any.

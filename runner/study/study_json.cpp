@@ -31,6 +31,7 @@ Json cell_json(const StudyResult& result, const CellResult& cell) {
             {"time_of_day", c.times_of_day[cell.cell.time_of_day].name},
             {"aim_percent", c.aim_percent[cell.cell.aim]},
             {"voltage_v", c.voltage_v[cell.cell.voltage]},
+            {"mirrored", static_cast<bool>(c.mirror[cell.cell.mirror])},
             {"failed", cell.failed.empty() ? Json(nullptr) : Json(cell.failed)},
             {"verdicts", verdicts_json(cell.verdicts)},
             {"error_share_p95", or_null(cell.error_share)},

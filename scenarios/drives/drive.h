@@ -115,6 +115,7 @@ struct Drive {
     std::string name, title;
     std::filesystem::path file; ///< the YAML it came from
     std::filesystem::path road_file;
+    bool mirrored_road = false; ///< the road of the file in a mirror, for the other side's traffic; lanes in `start` are the file's
     Route::Start start;
     std::vector<std::string> via;
     std::vector<SpeedPoint> speed;

@@ -61,6 +61,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     const YamlEntry road = keys.require("road");
     drive.road_file = road.path();
     check_file(drive.road_file, road);
+    drive.mirrored_road = keys.flag_or("mirrored_road", drive.mirrored_road);
     read_route(keys, drive);
     read_time(keys, drive);
     drive.daylight = read_daylight(keys);
@@ -92,9 +93,10 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht", "name",        "title",     "road",    "route",   "speed_kmh", "speed_mps", "speed",   "step_s",
-                        "rate_hz",   "duration_s",  "daylight",  "car",     "vehicle", "actuators", "variants",  "changes", "views",
-                        "capture",   "tone_mapper", "technique", "measure", "limits",  "shadows",   "textures",  "beams",   "seed"});
+                       {"fernlicht", "name",     "title",   "road",       "route",    "speed_kmh",   "speed_mps",
+                        "speed",     "step_s",   "rate_hz", "duration_s", "daylight", "car",         "vehicle",
+                        "actuators", "variants", "changes", "views",      "capture",  "tone_mapper", "technique",
+                        "measure",   "limits",   "shadows", "textures",   "beams",    "seed",        "mirrored_road"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;

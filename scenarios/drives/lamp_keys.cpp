@@ -35,6 +35,8 @@ LampReadOptions read_options(const Layers& layers) {
         options.type_c_axis = axes[axis->choice({"automatic", "horizontal", "nadir"})];
     if (const auto texture = find_in(layers, "texture"))
         read_texture(options, *texture);
+    if (const auto mirrored = find_in(layers, "mirrored"))
+        options.mirrored = mirrored->flag();
     return options;
 }
 

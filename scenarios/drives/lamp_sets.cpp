@@ -76,7 +76,7 @@ MountedLamp read_mounted_lamp(const std::string& name, const YamlEntry& entry, c
         return read_mounted_lamp(name, YamlEntry(with_file, entry.file(), entry.key_path()), variant, car, shelf);
     }
     Layers layers{entry.map({"file", "mount", "position_m", "aim", "level", "voltage_v", "reference_voltage_v", "source", "temperature_k",
-                             "spectrum", "colour", "photometric_distance_m", "between_samples", "type_c_axis", "texture"})};
+                             "spectrum", "colour", "photometric_distance_m", "between_samples", "type_c_axis", "texture", "mirrored"})};
     layers.insert(layers.end(), variant.begin(), variant.end());
     return build_lamp(name, layers, car, shelf, entry);
 }
@@ -110,7 +110,7 @@ std::vector<std::string> changed_lamps(const YamlMap& change, const Variant& var
 
 void read_change(const YamlEntry& entry, Variant& variant, LampShelf& shelf) {
     const YamlMap keys = entry.map({"at_s", "lamp", "lamps", "level", "aim", "file", "source", "temperature_k", "spectrum", "colour",
-                                    "between_samples", "type_c_axis", "texture"});
+                                    "between_samples", "type_c_axis", "texture", "mirrored"});
     const Layers layers{keys};
     LampChange change;
     change.time_s = keys.require("at_s").number(0.0, 1.0e6);
@@ -121,7 +121,7 @@ void read_change(const YamlEntry& entry, Variant& variant, LampShelf& shelf) {
     change.yaw_rad = aim.yaw_rad;
     change.roll_rad = aim.roll_rad;
     change.file = read_lamp_keys(layers, shelf);
-    for (const std::string_view key : {"between_samples", "type_c_axis", "texture"})
+    for (const std::string_view key : {"between_samples", "type_c_axis", "texture", "mirrored"})
         if (const auto option = keys.find(key); option && !change.file)
             option->refuse("a way to read a file without a file", "file beside it");
     change.source = read_source(layers);
@@ -196,9 +196,9 @@ std::vector<Variant> read_variants(const YamlMap& drive, const Car& car, LampShe
         drive.refuse_missing("variants", "named lamp sets, or car.lamps for just one");
     std::vector<Variant> variants;
     for (const auto& [name, entry] : named->named(most_variants)) {
-        const YamlMap keys =
-            entry.map({"lamps", "changes", "actuators", "file", "aim", "level", "voltage_v", "reference_voltage_v", "source",
-                       "temperature_k", "spectrum", "colour", "photometric_distance_m", "between_samples", "type_c_axis", "texture"});
+        const YamlMap keys = entry.map({"lamps", "changes", "actuators", "file", "aim", "level", "voltage_v", "reference_voltage_v",
+                                        "source", "temperature_k", "spectrum", "colour", "photometric_distance_m", "between_samples",
+                                        "type_c_axis", "texture", "mirrored"});
         variants.push_back(read_variant(name, keys, car, shelf));
         read_all_changes(drive, &keys, variants.back(), shelf);
         read_actuators(drive, &keys, variants.back());

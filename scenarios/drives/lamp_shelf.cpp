@@ -2,23 +2,10 @@
 
 #include "scenarios/values/errors.h"
 
-#include <algorithm>
-#include <cstring>
 #include <system_error>
 #include <unistd.h>
 
 namespace fernlicht {
-namespace {
-
-bool same_options(const LampReadOptions& a, const LampReadOptions& b) {
-    return a.rule == b.rule && a.type_c_axis == b.type_c_axis && a.texture_scale_lx == b.texture_scale_lx &&
-           a.texture_distance_m == b.texture_distance_m &&
-           std::equal(a.texture_h_extent_deg, a.texture_h_extent_deg + 2, b.texture_h_extent_deg) &&
-           std::equal(a.texture_v_extent_deg, a.texture_v_extent_deg + 2, b.texture_v_extent_deg);
-}
-
-} // namespace
-
 void check_file(const std::filesystem::path& path, const YamlEntry& asked_by) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
@@ -36,7 +23,7 @@ void check_file(const std::filesystem::path& path, const YamlEntry& asked_by) {
 std::shared_ptr<const LampFile> LampShelf::lamp(const std::filesystem::path& path, const LampReadOptions& options,
                                                 const YamlEntry* asked_by) {
     for (const LampSource& source : sources_)
-        if (source.path == path && same_options(source.options, options))
+        if (source.path == path && source.options == options)
             return source.file;
     if (asked_by)
         check_file(path, *asked_by);

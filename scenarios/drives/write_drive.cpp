@@ -78,6 +78,8 @@ void write_file_keys(Lines& out, int depth, const Drive& drive, const std::share
         out.add(depth, "between_samples: {}", word(source.options.rule));
         out.add(depth, "type_c_axis: {}", word(source.options.type_c_axis));
         write_texture(out, depth, source.options);
+        if (source.options.mirrored)
+            out.add(depth, "mirrored: true");
         return;
     }
     throw std::invalid_argument("write_drive: a lamp's file is not among the drive's lamp_sources");
@@ -205,6 +207,8 @@ void write_views(Lines& out, const Drive& drive) {
 
 void write_route(Lines& out, const Drive& drive) {
     out.add(0, "road: {}", quoted(drive.road_file.string()));
+    if (drive.mirrored_road)
+        out.add(0, "mirrored_road: true");
     out.add(0, "route:");
     if (!drive.start.road.empty())
         out.add(1, "road: {}", quoted(drive.start.road));

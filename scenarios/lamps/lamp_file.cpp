@@ -10,7 +10,9 @@
 
 namespace fernlicht {
 
-LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options) {
+namespace {
+
+LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions& options) {
     FilesRead opened;
     const std::string bytes = read_file(path, opened, max_lamp_text_bytes);
     LampFile lamp;
@@ -38,6 +40,15 @@ LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& opt
         throw InputError({path, 0, 0, {}}, "is no lamp file that we know",
                          "IES LM-63, EULUMDAT, a beam matrix or a beam texture (PNG, EXR)");
     check_invariants(lamp.table);
+    return lamp;
+}
+
+} // namespace
+
+LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options) {
+    LampFile lamp = read_as_it_is(path, options);
+    if (options.mirrored)
+        lamp.table = mirrored(lamp.table);
     return lamp;
 }
 

@@ -21,6 +21,9 @@ struct LampReadOptions {
     double texture_distance_m = 25.0;
     double texture_h_extent_deg[2] = {0.0, 0.0}; ///< left and right edge; equal: from the image's metadata
     double texture_v_extent_deg[2] = {0.0, 0.0}; ///< bottom and top edge
+    bool mirrored = false;                       ///< H and -H exchanged after reading: a lamp for the other side of the road
+
+    bool operator==(const LampReadOptions&) const = default;
 };
 
 struct LampFile {

@@ -14,6 +14,7 @@ struct StudyLamp {
     LampColour colour;
     /// The dip that the lamp's file already holds: files measured in regulation aim have their cut-off 1 % down.
     double file_aim_percent = -1.0;
+    bool mirrors = true; ///< false: its tables stay as the files have them where the condition mirrors
 };
 
 /// Values of each condition; every combination is played.
@@ -21,6 +22,7 @@ struct StudyConditions {
     std::vector<Daylight> times_of_day;
     std::vector<double> aim_percent{-1.0}; ///< of the cut-off: -1 is 1 cm down in 1 m
     std::vector<double> voltage_v{13.2};
+    std::vector<bool> mirror{false}; ///< true: drives, roads and lamps in a mirror, for the other side's traffic
 };
 
 struct StudyComparison {
@@ -57,8 +59,8 @@ inline constexpr std::size_t most_study_cells = 500;
 /// One thing that is played: a drive with one lamp set in one technique under one condition.
 struct StudyCell {
     std::string name; ///< its folder: "straight_xenon", with technique and conditions where the study has several
-    std::size_t drive = 0, lamp = 0, technique = 0, time_of_day = 0, aim = 0, voltage = 0; ///< indices into the study's lists
-    std::string condition;                                                                 ///< "night, aim -1 %, 13.2 V"; for people
+    std::size_t drive = 0, lamp = 0, technique = 0, time_of_day = 0, aim = 0, voltage = 0, mirror = 0; ///< indices into the study's lists
+    std::string condition; ///< "night, aim -1 %, 13.2 V, mirrored"; for people
 };
 
 /// Reads and checks a study file, version 1 (scenarios/study.example.yaml explains every key). Throws InputError with file, line, column
@@ -66,7 +68,8 @@ struct StudyCell {
 /// and drive files must exist; they are read by cell_drive.
 Study read_study(const std::filesystem::path& path);
 
-/// All cells: drives, then techniques, times of day, aims, voltages, and lamps innermost, so that what is compared lies side by side.
+/// All cells: drives, then techniques, times of day, aims, voltages, mirrors, and lamps innermost, so that what is compared lies side by
+/// side.
 std::vector<StudyCell> cells_of(const Study& study);
 
 /// The drive that plays a cell: the study's drive file with this lamp set alone, its aim, voltage and daylight, few stored moments. Throws

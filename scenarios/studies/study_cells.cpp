@@ -1,4 +1,5 @@
 #include "scenarios/drives/drive_keys.h"
+#include "scenarios/drives/mirrored_drive.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 
@@ -18,15 +19,15 @@ std::string condition_part(const Study& study, const StudyCell& cell) {
     const StudyConditions& c = study.conditions;
     return part(c.times_of_day.size() > 1, c.times_of_day[cell.time_of_day].name) +
            part(c.aim_percent.size() > 1, fmt::format("aim{:g}", c.aim_percent[cell.aim])) +
-           part(c.voltage_v.size() > 1, fmt::format("{:g}V", c.voltage_v[cell.voltage]));
+           part(c.voltage_v.size() > 1, fmt::format("{:g}V", c.voltage_v[cell.voltage])) + part(c.mirror[cell.mirror], "mirrored");
 }
 
 StudyCell named(const Study& study, StudyCell cell) {
     const StudyConditions& c = study.conditions;
     cell.name = fmt::format("{}_{}{}{}", name_from(study.drives[cell.drive]), study.lamps[cell.lamp].name,
                             part(study.techniques.size() > 1, study.techniques[cell.technique]), condition_part(study, cell));
-    cell.condition =
-        fmt::format("{}, aim {:g} %, {:g} V", c.times_of_day[cell.time_of_day].name, c.aim_percent[cell.aim], c.voltage_v[cell.voltage]);
+    cell.condition = fmt::format("{}, aim {:g} %, {:g} V{}", c.times_of_day[cell.time_of_day].name, c.aim_percent[cell.aim],
+                                 c.voltage_v[cell.voltage], c.mirror[cell.mirror] ? ", mirrored" : "");
     return cell;
 }
 
@@ -80,8 +81,9 @@ std::vector<StudyCell> cells_of(const Study& study) {
             for (cell.time_of_day = 0; cell.time_of_day < c.times_of_day.size(); ++cell.time_of_day)
                 for (cell.aim = 0; cell.aim < c.aim_percent.size(); ++cell.aim)
                     for (cell.voltage = 0; cell.voltage < c.voltage_v.size(); ++cell.voltage)
-                        for (cell.lamp = 0; cell.lamp < study.lamps.size(); ++cell.lamp)
-                            cells.push_back(named(study, cell));
+                        for (cell.mirror = 0; cell.mirror < c.mirror.size(); ++cell.mirror)
+                            for (cell.lamp = 0; cell.lamp < study.lamps.size(); ++cell.lamp)
+                                cells.push_back(named(study, cell));
     for (std::size_t i = 0; i < cells.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
             if (cells[i].name == cells[k].name)
@@ -109,6 +111,8 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
     for (LampChange& change : variant.changes)
         if (change.pitch_rad)
             *change.pitch_rad += pitch;
+    if (study.conditions.mirror[cell.mirror])
+        mirror_traffic(drive, lamp.mirrors);
     drive.capture.all = false;
     drive.capture.per_second = study.pictured_moments / drive.duration_s;
     // Of what the reader decided, that only one lamp set is left is the study's own doing.

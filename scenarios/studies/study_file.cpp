@@ -38,12 +38,14 @@ void read_beams(const YamlMap& keys, StudyLamp& lamp) {
 StudyLamp read_lamp(const std::string& name, const YamlEntry& entry, LampShelf& shelf) {
     StudyLamp lamp;
     lamp.name = name;
-    const YamlMap keys = entry.map({"low", "left", "right", "high", "source", "temperature_k", "spectrum", "colour", "file_aim_percent"});
+    const YamlMap keys =
+        entry.map({"low", "left", "right", "high", "source", "temperature_k", "spectrum", "colour", "file_aim_percent", "mirrors"});
     read_beams(keys, lamp);
     const Layers layers{keys};
     lamp.source = read_source(layers).value_or(SourceKind::filament);
     lamp.colour = read_colour(layers, lamp.source, shelf, entry);
     lamp.file_aim_percent = keys.number_or("file_aim_percent", lamp.file_aim_percent, -10.0, 10.0);
+    lamp.mirrors = keys.flag_or("mirrors", lamp.mirrors);
     return lamp;
 }
 
@@ -100,12 +102,12 @@ StudyConditions read_conditions(const YamlMap& study) {
     read_times_of_day(keys, conditions);
     conditions.aim_percent = read_values(keys, "aim_percent", conditions.aim_percent, -10.0, 10.0);
     conditions.voltage_v = read_values(keys, "voltage_v", conditions.voltage_v, 12.0, 13.8);
-    if (const auto mirror = keys.find("mirror"))
+    if (const auto mirror = keys.find("mirror")) {
+        conditions.mirror.clear();
         for (const YamlEntry& entry : mirror->is_list() ? mirror->list(1, 2) : std::vector{*mirror})
-            if (entry.flag())
-                entry.refuse("true",
-                             "false: roads cannot be mirrored to left-hand traffic yet, and a mirrored lamp on a road for the other side "
-                             "would measure nothing");
+            conditions.mirror.push_back(entry.flag());
+        refuse_repeats(conditions.mirror, *mirror);
+    }
     return conditions;
 }
 
@@ -190,8 +192,8 @@ void refuse_too_many(const Study& study, const YamlEntry& entry) {
     const StudyConditions& c = study.conditions;
     std::size_t cells = 1;
     for (const std::size_t values : {study.drives.size(), study.lamps.size(), study.techniques.size(), c.times_of_day.size(),
-                                     c.aim_percent.size(), c.voltage_v.size()})
-        cells *= values; // six factors of at most 100 each stay below 2^64
+                                     c.aim_percent.size(), c.voltage_v.size(), c.mirror.size()})
+        cells *= values; // seven factors of at most 100 each stay below 2^64
     if (cells > most_study_cells)
         entry.refuse(fmt::format("{} cells (drives x lamps x techniques x conditions)", cells),
                      fmt::format("at most {}", most_study_cells));

@@ -41,7 +41,7 @@ class StudyFile : public testing::Test {
 
 TEST_F(StudyFile, TheExampleAndTheStandardStudyAreRead) {
     const Study example = read_study(FERNLICHT_SOURCE_DIR "/scenarios/study.example.yaml");
-    EXPECT_EQ(cells_of(example).size(), 2U * 2U * 3U * 2U);
+    EXPECT_EQ(cells_of(example).size(), 2U * 2U * 3U * 2U * 2U);
     const Study standard = read_study(library + "studies/standard.yaml");
     EXPECT_EQ(standard.name, "standard-1");
     EXPECT_EQ(cells_of(standard).size(), 10U);
@@ -97,12 +97,28 @@ TEST_F(StudyFile, MeasuresReachEveryDriveThatDoesNotAskItself) {
     EXPECT_EQ(cell_drive(read(with("")), cells[0]).seeing, SeeingParameters{});
 }
 
+TEST_F(StudyFile, MirroredCellsHaveTheRoadInAMirror) {
+    const Study study = read(with("conditions: {mirror: [false, true]}\n"));
+    const std::vector<StudyCell> cells = cells_of(study);
+    ASSERT_EQ(cells.size(), 4U);
+    EXPECT_EQ(cells[1].name, "straight_b");
+    EXPECT_EQ(cells[3].name, "straight_b_mirrored");
+    EXPECT_EQ(cells[3].condition, "night, aim -1 %, 13.2 V, mirrored");
+    const Drive plain = cell_drive(study, cells[1]), mirrored = cell_drive(study, cells[3]);
+    EXPECT_FALSE(plain.mirrored_road);
+    EXPECT_TRUE(mirrored.mirrored_road);
+    // b has a xenon lamp on the left and a halogen lamp on the right.
+    for (const MountedLamp& lamp : mirrored.variants[0].lamps)
+        EXPECT_EQ(lamp.file->name, lamp.name == "right" ? "xenon low beam (model)" : "halogen low beam (model)") << lamp.name;
+}
+
 TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
     EXPECT_THAT(refusal(with("measure: {visibility: {level: 0}}\n")), HasSubstr("measure.visibility.level"));
     EXPECT_THAT(refusal(with("measure: {extent: true}\n")), HasSubstr("extent"));
     EXPECT_THAT(refusal(with("conditons: {}\n")), HasSubstr("conditions"));
     EXPECT_THAT(refusal(with("conditions: {time_of_day: dusk}\n")), HasSubstr("night"));
-    EXPECT_THAT(refusal(with("conditions: {mirror: true}\n")), HasSubstr("cannot be mirrored to left-hand traffic yet"));
+    EXPECT_THAT(refusal(with("conditions: {mirror: [true, true]}\n")), HasSubstr("a value given twice"));
+    EXPECT_THAT(refusal(with("conditions: {mirror: left}\n")), HasSubstr("conditions.mirror"));
     EXPECT_THAT(refusal(with("conditions: {weather: rain}\n")), HasSubstr("weather"));
     EXPECT_THAT(refusal(with("conditions: {voltage_v: 24}\n")), HasSubstr("13.8"));
     EXPECT_THAT(refusal(with("conditions: {aim_percent: [-1, -1]}\n")), HasSubstr("a value given twice"));
