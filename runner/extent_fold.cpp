@@ -121,8 +121,10 @@ ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
     row.rendered = rendered(drawing);
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
         const std::vector<double> truth = deciding_twin_lx(grid, moment, plane, p.limits_lx);
-        std::ranges::copy(measure_extent(grid, truth, plane, p.limits_lx, p.width_at_m), std::back_inserter(row.twin));
+        const std::vector<LaneExtent> measured = measure_extent(grid, truth, plane, p.limits_lx, p.width_at_m);
+        std::ranges::copy(measured, std::back_inserter(row.twin));
         std::ranges::copy(grid_error(grid, truth, plane, p.limits_lx), std::back_inserter(row.grid_errors));
+        std::ranges::copy(lane_grid_errors(grid, truth, plane, p.limits_lx, measured), std::back_inserter(row.lane_grid_errors));
     }
     row.sensitivity = reach_sensitivity(grid, moment, p.limits_lx);
     return row;

@@ -1,23 +1,21 @@
 #include "runner/moved_by_light.h"
 
+#include "runner/left_open.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 namespace fernlicht {
 namespace {
 
+constexpr double rating_by_light = 2.0 / 2.302585092994046; // de Boer: W = 5 - 2 lg (E ...), after ln E
+
 std::optional<double> value_of(const PlayedReadings& played, const std::string& name) {
     const auto found = played.readings.find(name);
     return found == played.readings.end() ? std::nullopt : found->second.value;
-}
-
-/// "reach_5lx_road_own" of "reach_5lx_road_own_left_edge_p05_m": the subject that trust rows are named by.
-std::string subject_of(const std::string& name) {
-    for (const char* lane : {"_own", "_all"})
-        if (const std::size_t at = name.find(lane); at != std::string::npos)
-            return name.substr(0, at + std::string(lane).size());
-    return {};
 }
 
 /// A reading's name round its limit: "reach", 5, "road_own_m" of "reach_5lx_road_own_m".
@@ -64,18 +62,68 @@ std::optional<double> slope_over_limits(const PlayedReadings& played, const Read
     return slope;
 }
 
+/// Times and lengths below a rating, over the ratings that have them: the steepest slope, by how the rating goes with the light.
+std::optional<double> slope_over_ratings(const PlayedReadings& played, const Reading& reading) {
+    const std::size_t begin = reading.name.find("_below_"), end = reading.name.find("_de_boer_");
+    if (begin == std::string::npos || end == std::string::npos || begin >= end)
+        return std::nullopt;
+    const std::string before = reading.name.substr(0, begin + 7), after = reading.name.substr(end);
+    std::map<double, double> by_rating;
+    for (const auto& [name, other] : played.readings)
+        if (double rating = 0.0; other.value && name.starts_with(before) && name.ends_with(after)) {
+            const char *first = name.data() + before.size(), *last = name.data() + name.size() - after.size();
+            if (std::from_chars(first, last, rating).ptr == last)
+                by_rating[rating] = *other.value;
+        }
+    std::optional<double> slope;
+    for (auto above = by_rating.begin(); above != by_rating.end(); ++above)
+        if (above != by_rating.begin()) {
+            const auto below = std::prev(above);
+            slope = std::max(slope.value_or(0.0), std::abs(above->second - below->second) / (above->first - below->first));
+        }
+    return slope ? std::optional(*slope * rating_by_light) : std::nullopt;
+}
+
+/// Detection: the level of a target goes with the light at most, so the distance moves no further than the steepest fall of the level over
+/// the distance lets it.
+std::optional<double> slope_over_distance(const PlayedReadings& played, const Reading& reading) {
+    std::map<double, double> levels;
+    for (const auto& [name, other] : played.readings)
+        if (double at_m = 0.0; other.value && *other.value > 0.0 && name.starts_with("visibility_level_own_at_")) {
+            const char* first = name.data() + std::string("visibility_level_own_at_").size();
+            if (std::from_chars(first, name.data() + name.size(), at_m).ec == std::errc{})
+                levels[at_m] = *other.value;
+        }
+    std::optional<double> slope;
+    for (auto far = levels.begin(); far != levels.end(); ++far)
+        if (far != levels.begin() && reading.value) {
+            const auto near = std::prev(far);
+            const double fall = std::abs(std::log(far->second / near->second));
+            if (fall > 0.0)
+                slope = std::max(slope.value_or(0.0), (far->first - near->first) / fall);
+        }
+    return slope;
+}
+
 } // namespace
 
 std::optional<double> moved_by_light(const PlayedReadings& played, const Reading& reading) {
     if (!reading.value)
         return std::nullopt;
-    if (reading.name.find("_de_boer_") != std::string::npos)
-        return 2.0 / std::log(10.0); // W = 5 - 2 lg E ...
+    const std::string& name = reading.name;
+    if (name.ends_with("_de_boer_min"))
+        return rating_by_light;
+    if (name.find("_de_boer_") != std::string::npos)
+        return slope_over_ratings(played, reading);
+    if (name.starts_with("detection_own_"))
+        return slope_over_distance(played, reading);
+    if (name.starts_with("foreground_ratio_"))
+        return 2.0 * std::abs(*reading.value); // one range up, the other down
     if (reading.unit == "lx" || reading.unit == "cd/m2" || reading.unit == "%")
         return std::abs(*reading.value); // illuminance, luminance and threshold increment go with the light
     const auto slope = slope_over_limits(played, reading);
-    if (const auto tenth = value_of(played, subject_of(reading.name) + "_per_tenth_flux_m");
-        tenth && reading.name.starts_with("reach_") && !subject_of(reading.name).empty())
+    if (const auto tenth = value_of(played, extent_subject(reading.name) + "_per_tenth_flux_m");
+        tenth && name.starts_with("reach_") && !extent_subject(reading.name).empty())
         return std::max(slope.value_or(0.0), std::abs(*tenth) / 0.1);
     return slope;
 }

@@ -1,7 +1,7 @@
 #include "runner/significance.h"
 
+#include "runner/left_open.h"
 #include "runner/moved_by_light.h"
-#include "runner/summary.h"
 
 #include <algorithm>
 
@@ -13,57 +13,17 @@ std::optional<double> value_of(const PlayedReadings& cell, const std::string& na
     return found == cell.readings.end() ? std::nullopt : found->second.value;
 }
 
-/// "reach_5lx_road_own" of "reach_5lx_road_own_left_edge_p05_m": the subject that trust rows are named by.
-std::string subject_of(const std::string& name) {
-    for (const char* lane : {"_own", "_all"})
-        if (const std::size_t at = name.find(lane); at != std::string::npos)
-            return name.substr(0, at + std::string(lane).size());
-    return {};
-}
-
-/// Without its unit: "probe_kerb" of "probe_kerb_lx".
-std::string without_unit(const Reading& reading) {
-    const std::string end = "_" + name_part(reading.unit);
-    return reading.name.ends_with(end) ? reading.name.substr(0, reading.name.size() - end.size()) : reading.name;
-}
-
-/// What calculation leaves open of one reading; nullopt when nothing tells. docs/studies.md explains each.
-std::optional<double> uncertainty_of(const PlayedReadings& cell, const Reading& reading) {
-    const std::string& name = reading.name;
-    if (const auto stated = value_of(cell, without_unit(reading) + "_standard_error_" + name_part(reading.unit)))
-        return stated;
-    if (name.starts_with("reach_") || name.starts_with("unlit_before_reach_")) {
-        const std::string subject = subject_of(name.starts_with("unlit_before_") ? name.substr(std::string("unlit_before_").size()) : name);
-        const auto grid = value_of(cell, subject + "_grid_error_m"), twin = value_of(cell, subject + "_twin_difference_m");
-        return grid && twin ? std::optional(*grid + *twin) : std::nullopt;
-    }
-    if (name.starts_with("area_")) {
-        const auto grid = value_of(cell, subject_of(name) + "_grid_error_m2");
-        return grid;
-    }
-    if (name.starts_with("width_"))
-        return 2.0 * cell.grid_cell_m / 4.0; // either edge to a column of the grid
-    if (name.starts_with("probe_"))
-        if (const auto twin = value_of(cell, without_unit(reading) + "_twin_lx"); twin && reading.value)
-            return std::abs(*twin - *reading.value);
-    for (const char* stem :
-         {"glare_", "sensor_", "mirror_"}) // from the tables in double precision; of lengths and times the moments' distance decides
-        if (name.starts_with(stem) && reading.unit != "m" && reading.unit != "s" && reading.value)
-            return 1e-6 * std::abs(*reading.value);
-    return std::nullopt;
-}
-
-/// The spread between repeats on top of it, where they differ.
+/// The spread between repeats on top of what calculation leaves open, where they differ.
 std::optional<double> with_repeats(const PlayedReadings& cell, const Reading& reading) {
-    const std::optional<double> calculated = uncertainty_of(cell, reading);
+    const std::optional<double> calculated = left_open(cell, reading);
     const auto spread = cell.by_repeats.find(reading.name);
     return spread == cell.by_repeats.end() ? calculated : std::hypot(calculated.value_or(0.0), spread->second);
 }
 
 std::optional<double> by_aim(const PlayedReadings& a, const PlayedReadings& b, const std::string& name) {
-    if (!name.starts_with("reach_") || subject_of(name).empty())
+    if (!name.starts_with("reach_") || extent_subject(name).empty())
         return std::nullopt;
-    const std::string row = subject_of(name) + "_per_tenth_degree_m";
+    const std::string row = extent_subject(name) + "_per_tenth_degree_m";
     const auto first = value_of(a, row), second = value_of(b, row);
     if (!first && !second)
         return std::nullopt;

@@ -33,10 +33,16 @@ struct ReadingChange {
     double size() const;
 };
 
+/// How fine a drive is looked at: what lies between is interpolated or not seen.
+struct Steps {
+    double grid_cell_m = 0.5;          ///< of the extents' grid along the road; across it is a quarter of this
+    double step_s = 0.0, step_m = 0.0; ///< between moments, at most; 0: not known
+    double look_step_m = 0.0;          ///< between places at which a small target is looked for; 0: not known
+};
+
 /// What one side of a comparison read over a whole drive, rows that say how exact others are among it.
-struct PlayedReadings {
+struct PlayedReadings : Steps {
     std::map<std::string, Reading> readings;  ///< by name
-    double grid_cell_m = 0.5;                 ///< of the extents' grid along the road; across it is a quarter of this
     std::map<std::string, double> by_repeats; ///< of readings that differ between repeats: what chance reaches in 5 % of them
 };
 

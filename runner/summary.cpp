@@ -149,6 +149,24 @@ void add_trust(Readings& readings, const PlayedVariant& played, const Subject& s
         ", grid of half the samples, median");
 }
 
+/// How far extents beside the own lane's reach and the whole width's area can be trusted: the grid's error in each of them.
+void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
+    const auto add = [&](const std::string& name, const std::string& unit, double LaneGridError::*figure) {
+        ManyMoments moments;
+        for (const ExtentRow& row : played.extents)
+            for (const LaneGridError& error : row.lane_grid_errors)
+                if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx && error.lane == subject.key.lane)
+                    moments.add(error.*figure);
+        add_quantile(readings, name, moments, median, unit, subject.where + ", grid of half the samples, median");
+    };
+    if (subject.key.lane != "own")
+        add("reach_" + subject.stem + "_grid_error_m", "m", &LaneGridError::reach_m);
+    add("reach_" + subject.stem + "_edge_grid_error_m", "m", &LaneGridError::edge_m);
+    add("unlit_before_reach_" + subject.stem + "_grid_error_m", "m", &LaneGridError::unlit_m);
+    if (subject.key.lane != "all")
+        add("area_" + subject.stem + "_grid_error_m2", "m2", &LaneGridError::area_m2);
+}
+
 void add_area_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
     add_quantile(readings, "area_" + subject.stem + "_grid_error_m2",
                  of_entries(played, subject.key, &ExtentRow::grid_errors, &GridError::area_m2), median, "m2",
@@ -180,6 +198,7 @@ Readings summarise(const PlayedVariant& played, const Drive& drive) {
                 add_trust(readings, played, subject);
             if (key.lane == "all")
                 add_area_trust(readings, played, subject);
+            add_lane_trust(readings, played, subject);
         }
     return readings;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/extent.h"
+#include "metrics/lane_grid_error.h"
 #include "metrics/paired_ratio.h"
 #include "metrics/pixel_errors.h"
 #include "metrics/statistics.h"
@@ -77,6 +78,7 @@ struct ExtentRow {
     std::vector<LaneExtent> rendered, twin;
     std::vector<ReachSensitivity> sensitivity;
     std::vector<GridError> grid_errors;
+    std::vector<LaneGridError> lane_grid_errors = {};
 };
 
 struct PassTime {

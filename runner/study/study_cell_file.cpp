@@ -12,9 +12,9 @@ void read_cell_report(const std::filesystem::path& study_folder, CellResult& cel
     const std::vector<CheckedJson> drives = report.at("drives").items();
     if (drives.size() != 1)
         report.at("drives").refuse("one drive with one lamp set");
-    const double grid_cell_m = cell.grid_cell_m; // the drive's, not the report's
-    static_cast<PlayedResult&>(cell) = read_played(report, drives.front(), folder);
-    cell.grid_cell_m = grid_cell_m;
+    PlayedResult played = read_played(report, drives.front(), folder);
+    static_cast<Steps&>(played) = cell; // the drive's, not the report's
+    static_cast<PlayedResult&>(cell) = std::move(played);
 }
 
 } // namespace fernlicht

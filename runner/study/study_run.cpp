@@ -142,6 +142,10 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         CellResult cell;
         cell.cell = planned[i].cell;
         cell.title = planned[i].drive.title;
+        cell.step_s = planned[i].drive.step_s;
+        for (const SpeedPoint& point : planned[i].drive.speed)
+            cell.step_m = std::max(cell.step_m, point.speed_mps * cell.step_s);
+        cell.look_step_m = planned[i].drive.seeing.visibility ? planned[i].drive.seeing.visibility->step_m : 0.0;
         cell.grid_cell_m = planned[i].drive.extent ? planned[i].drive.extent->cell_m : cell.grid_cell_m;
         std::ranges::copy_if(planned[i].drive.views, std::back_inserter(cell.maps),
                              [](const View& view) { return view.projection == Projection::map; });
