@@ -12,7 +12,7 @@ constexpr double edge_step_m = 2.0;
 
 } // namespace
 
-LuxMap lux_map_of(const Frame& frame, const Moment& moment, const View& view, const Route& route) {
+LuxMap lux_map_of(const Frame& frame, const Moment& moment, const View& view, const Route& route, double bumper_m) {
     LuxMap map;
     map.lx = frame.illuminance_lx;
     map.ahead_m = view.map_ahead_m;
@@ -21,11 +21,28 @@ LuxMap lux_map_of(const Frame& frame, const Moment& moment, const View& view, co
     map.right_m = view.map_right_m;
     map.tick = moment.tick;
     map.time_s = moment.time_s;
+    map.edges = edges_on_map(moment, view, route);
+    map.edges.push_back(car_outline(bumper_m));
+    return map;
+}
+
+LuxMap::Polyline car_outline(double bumper_m) {
+    constexpr double behind_m = 0.9, half_width_m = 0.9;
+    return {"car",
+            {{-behind_m, half_width_m},
+             {bumper_m, half_width_m},
+             {bumper_m, -half_width_m},
+             {-behind_m, -half_width_m},
+             {-behind_m, half_width_m}}};
+}
+
+std::vector<LuxMap::Polyline> edges_on_map(const Moment& moment, const View& view, const Route& route) {
     const Camera axes = camera_of(moment, view);
     const auto place = [&](double distance, double offset) {
         const glm::dvec3 p = route.pose(distance, offset).position_m - moment.ego.position_m;
         return std::pair(glm::dot(p, axes.up), -glm::dot(p, axes.right));
     };
+    std::vector<LuxMap::Polyline> edges;
     // One line for each side of each lane, followed while the lane exists.
     std::map<std::string, LuxMap::Polyline> open;
     const double from = std::max(0.0, moment.distance_m - view.map_behind_m),
@@ -44,7 +61,7 @@ LuxMap lux_map_of(const Frame& frame, const Moment& moment, const View& view, co
                 ++it;
                 continue;
             }
-            map.edges.push_back(std::move(it->second));
+            edges.push_back(std::move(it->second));
             it = open.erase(it);
         }
         for (const auto& [name, offset] : here) {
@@ -54,8 +71,8 @@ LuxMap lux_map_of(const Frame& frame, const Moment& moment, const View& view, co
         }
     }
     for (auto& [name, line] : open)
-        map.edges.push_back(std::move(line));
-    return map;
+        edges.push_back(std::move(line));
+    return edges;
 }
 
 LuxMaps::LuxMaps(std::size_t captured_moments) {

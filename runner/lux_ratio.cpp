@@ -2,6 +2,7 @@
 
 #include "runner/lamp_against.h"
 #include "runner/picture_file.h"
+#include "runner/report/page_plots.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -97,6 +98,7 @@ std::string lux_ratio_svg(const LuxMap& now, const LuxMap& before, const std::st
         fmt::format("after {:.2f} s; blue is less, orange more light; grey: below {:g} lx with both", now.time_s, faintest_lx);
     figure.colour_bar = plots::ColourBar{axis, true};
     figure.rasters.push_back({plots::difference_map(ratio, axis, {225, 225, 225}), -now.behind_m, now.ahead_m, now.left_m, -now.right_m});
+    add_edges(figure, now, {90, 95, 105});
     return plots::svg_of(figure);
 }
 

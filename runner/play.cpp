@@ -63,7 +63,7 @@ class Pictures {
 
     void keep_map(const Frame& frame, const Moment& moment, const View& view) {
         if (!frame.illuminance_lx.empty())
-            maps_.add(captured_, [&] { return lux_map_of(frame, moment, view, route_); });
+            maps_.add(captured_, [&] { return lux_map_of(frame, moment, view, route_, drive_.bumper_m); });
         else if (const std::string note = "lux maps are not measured: " + no_illuminance(drive_.technique);
                  std::ranges::find(played_.notes, note) == played_.notes.end())
             played_.notes.push_back(note);

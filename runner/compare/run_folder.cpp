@@ -33,10 +33,15 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
     const fs::path file = folder / (file_name_of(drive.drive) + ".yaml");
     FilesRead ignored;
     drive.resolved = parse_yaml(read_file(file, ignored, most_bytes), file);
-    const YamlValue part = only(drive.resolved, {"views", "tone_mapper"});
-    const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper"});
+    const YamlValue part = only(drive.resolved, {"views", "tone_mapper", "speed", "step_s"});
+    const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "speed", "step_s"});
     drive.views = read_views(keys);
     drive.tone_mapper = read_tone_mapper(keys);
+    if (member_of(drive.resolved, "speed") && member_of(drive.resolved, "step_s")) {
+        drive.step_s = read_step_s(keys);
+        for (const SpeedPoint& point : read_speed(keys))
+            drive.step_m = std::max(drive.step_m, point.speed_mps * drive.step_s);
+    }
     drive.grid_cell_m = grid_cell_m(drive.resolved, file, drive.grid_cell_m);
     if (const YamlValue* road = member_of(drive.resolved, "road"))
         if (const auto hash = drive.hashes.find(road->text); hash != drive.hashes.end())

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -33,24 +34,22 @@ plots::Grid grid_of(const LuxMap& map, const Image<float>& lx) {
     return grid;
 }
 
-void add_edges(plots::Figure& figure, const LuxMap& map) {
-    std::vector<std::string> named;
+} // namespace
+
+void add_edges(plots::Figure& figure, const LuxMap& map, plots::Colour colour) {
+    std::set<std::string> named;
     for (const LuxMap::Polyline& edge : map.edges) {
-        const bool first = std::find(named.begin(), named.end(), edge.kind) == named.end();
-        if (first)
-            named.push_back(edge.kind);
+        const bool car = edge.kind == "car";
         plots::Series line;
-        line.name = first ? short_text(edge.kind, 30) : "";
+        line.name = !car && named.insert(edge.kind).second ? short_text(edge.kind, 30) : "";
         for (const auto& [ahead_m, left_m] : edge.ahead_left_m)
             line.points.push_back({ahead_m, left_m});
-        line.colour = {205, 210, 218};
-        line.width_px = 1.2;
-        line.dash = edge.kind == "road edge" ? "" : "7 5";
+        line.colour = colour;
+        line.width_px = car ? 1.6 : edge.kind == "road edge" ? 1.1 : 0.8;
+        line.dash = edge.kind == "lane edge" ? "7 5" : "";
         figure.series.push_back(std::move(line));
     }
 }
-
-} // namespace
 
 std::string lux_map_svg(const LuxMap& map, const std::string& lamp) {
     if (map.lx.empty() || !(map.ahead_m > -map.behind_m) || !(map.left_m > -map.right_m))
@@ -72,8 +71,7 @@ std::string lux_map_svg(const LuxMap& map, const std::string& lamp) {
         const bool dark = plots::luminance(plots::sequential(plots::position(scale, level))) < 0.35;
         figure.isolines.push_back({fmt::format("{:g}", level), plots::isolines(grid, level), dark ? on_dark : on_light, 1.3});
     }
-    add_edges(figure, map);
-    figure.notes.push_back({0.0, 0.0, "car", on_dark, true});
+    add_edges(figure, map, {205, 210, 218});
     figure.colour_bar = plots::ColourBar{scale};
     return plots::svg_of(figure);
 }

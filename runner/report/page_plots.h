@@ -1,7 +1,7 @@
 // The figures of report.html as SVG, ready to stand in the page.
 #pragma once
 
-#include "runner/plots/colour.h"
+#include "runner/plots/svg.h"
 #include "runner/report/page_parts.h"
 
 namespace fernlicht {
@@ -9,6 +9,9 @@ namespace fernlicht {
 /// Lux on the road from above, ahead to the right: false colours on one fixed logarithmic scale (0.1 to 100 lx, so that any two maps
 /// compare), isolux lines at 1, 3, 5, 10, 30 and 50 lx, lane and road edges, metres from the car's origin. "" for an empty map.
 std::string lux_map_svg(const LuxMap& map, const std::string& lamp);
+
+/// A map's lanes and the car as lines, in one colour.
+void add_edges(plots::Figure& figure, const LuxMap& map, plots::Colour colour);
 
 /// Reach in the own lane over the drive, by distance or, where the car stands still or moves on springs, by time: a line per lamp set, the
 /// twin's as a thin dashed line, the band of +-0.1 degrees of aim. "" when nothing of that plane and limit was measured.

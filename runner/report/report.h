@@ -65,7 +65,7 @@ struct LuxMap {
     struct Polyline {
         std::string kind;
         std::vector<std::pair<double, double>> ahead_left_m;
-    }; ///< kind: "lane edge", "road edge"; straight map coordinates
+    }; ///< kind: "lane edge", "road edge", "car"; straight map coordinates
     std::vector<Polyline> edges;
     int tick = 0;
     double time_s = 0.0;

@@ -1,10 +1,11 @@
 #include "runner/capture.h"
 #include "runner/lamp_against.h"
 #include "runner/lux_ratio.h"
-#include "runner/picture_file.h"
+#include "runner/reading_words.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/page_plots.h"
+#include "runner/study/study_maps.h"
 #include "runner/study/study_writers.h"
 #include "scenarios/values/errors.h"
 
@@ -96,7 +97,7 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
 void add_glares(const StudyResult& result, const std::vector<std::size_t>& group, std::vector<StudyFigure>& figures) {
     for (const GlareOverDrive& first : result.cells[group.front()].glares) {
         plots::Figure figure;
-        figure.title = "Illuminance facing the lamps, " + short_text(first.subject, 40);
+        figure.title = "Illuminance facing the lamps, " + short_text(eyes_in_words(first.subject), 50);
         figure.subtitle = place_of(result, group);
         figure.width_px = 560.0;
         figure.height_px = 300.0;
@@ -119,27 +120,11 @@ void add_glares(const StudyResult& result, const std::vector<std::size_t>& group
     }
 }
 
-/// Lux from above at the middle stored moment of a cell. nullopt where there is no map, or no lux in it.
-std::optional<LuxMap> map_of(const StudyResult& result, std::size_t cell, const std::filesystem::path& folder) {
-    const auto view_of = [&](const StoredFrame& frame) {
-        const auto found = std::ranges::find(result.cells[cell].maps, frame.view, &View::name);
-        return found == result.cells[cell].maps.end() ? nullptr : &*found;
-    };
-    std::vector<const StoredFrame*> maps;
-    for (const StoredFrame& frame : result.cells[cell].frames)
-        if (!frame.exr.empty() && view_of(frame))
-            maps.push_back(&frame);
-    if (maps.empty())
-        return std::nullopt;
-    const StoredFrame& frame = *maps[maps.size() / 2];
-    return stored_lux_map(folder / frame.exr, frame, *view_of(frame));
-}
-
 void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, const std::filesystem::path& folder,
               std::vector<StudyFigure>& figures) {
     std::vector<std::optional<LuxMap>> maps;
     for (const std::size_t cell : group) {
-        maps.push_back(map_of(result, cell, folder));
+        maps.push_back(map_of(result.cells[cell], folder));
         if (maps.back())
             figures.push_back({fmt::format("lux_{}", result.cells[cell].cell.name),
                                fmt::format("{}: {}", lamp_of(result, cell), place_of(result, group)),

@@ -50,11 +50,11 @@ data change_part(const StudyResult& result, std::size_t index) {
     const double old_size = std::abs(change.old_value.value_or(0.0));
     part.set("percent", known && old_size > 0.0 ? signed_figure(100.0 * change.delta() / old_size, 1) : "");
     part.set("percent_key", known && old_size > 0.0 ? fmt::format("{}", 100.0 * change.delta() / old_size) : "");
-    part.set("uncertainty", change.uncertainty ? figure(*change.uncertainty, 2) : "");
+    part.set("uncertainty", change.uncertainty ? fmt::format("{:.2g}", *change.uncertainty) : "");
     part.set("uncertainty_key", sort_key(change.uncertainty));
     part.set("aim", change.by_aim ? figure(*change.by_aim, 2) : "");
     part.set("aim_key", sort_key(change.by_aim));
-    part.set("noise", change.by_noise ? figure(*change.by_noise, 2) : "");
+    part.set("noise", change.by_noise ? fmt::format("{:.2g}", *change.by_noise) : "");
     part.set("noise_key", sort_key(change.by_noise));
     part.set("has_noise", change.by_noise.value_or(0.0) > 0.0);
     part.set("has_aim", change.by_aim.has_value());
@@ -221,6 +221,9 @@ std::string study_html(const StudyResult& result, const std::filesystem::path& f
     page.set("has_largest", !result.largest.empty());
     page.set("rows", rows);
     page.set("several_conditions", has_several_conditions(result));
+    page.set("several_lamps", result.study.comparisons.size() > 1);
+    for (const StudyComparison& pair : result.study.comparisons)
+        page.set("only_lamps", clean_text(fmt::format("new: {}; old: {}", pair.tested, pair.against)));
     page.set("lamp_figures", figures_part(result, "lamps_"));
     page.set("reaches", figures_part(result, "reach-"));
     page.set("glares", figures_part(result, "glare-"));

@@ -11,11 +11,12 @@ namespace fernlicht {
 
 struct CellResult : PlayedResult {
     StudyCell cell;
-    std::string title;      ///< of the drive, for people
-    std::vector<View> maps; ///< the drive's views from above
-    std::string failed;     ///< why there is no report; "" when there is one
-    bool reused = false;    ///< played by an earlier call
-    std::string command;    ///< that repeats it
+    std::string title;                       ///< of the drive, for people
+    std::vector<View> maps;                  ///< the drive's views from above
+    std::vector<LuxMap::Polyline> map_edges; ///< lanes and car on the map that is shown
+    std::string failed;                      ///< why there is no report; "" when there is one
+    bool reused = false;                     ///< played by an earlier call
+    std::string command;                     ///< that repeats it
 };
 
 /// One reading of one drive under one condition: a lamp against another.

@@ -7,6 +7,7 @@
 #include "runner/output_folder.h"
 #include "runner/run_context.h"
 #include "runner/stage.h"
+#include "runner/study/study_maps.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ std::vector<Planned> plan(const Study& study, const std::string& only) {
         planned.push_back({cell, cell_drive(study, cell)});
     const StudyCell* last = nullptr;
     for (const Planned& one : planned) { // roads and techniques too, once each
-        if (!last || last->drive != one.cell.drive || last->technique != one.cell.technique)
+        if (!last || last->drive != one.cell.drive || last->technique != one.cell.technique || last->mirror != one.cell.mirror)
             const Stage stage(one.drive);
         last = &one.cell;
     }
@@ -127,6 +128,20 @@ bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& 
     return true;
 }
 
+/// To the maps of what was played, drive by drive.
+void add_lanes(const std::vector<Planned>& planned, StudyResult& result) {
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> alike;
+    for (std::size_t i = 0; i < result.cells.size(); ++i)
+        if (result.cells[i].failed.empty())
+            alike[{result.cells[i].cell.drive, result.cells[i].cell.mirror}].push_back(i);
+    for (const auto& [key, indices] : alike) {
+        std::vector<CellResult*> cells;
+        for (const std::size_t i : indices)
+            cells.push_back(&result.cells[i]);
+        add_map_edges(planned[indices.front()].drive, std::move(cells));
+    }
+}
+
 } // namespace
 
 StudyResult run_study(const Study& study, const StudyOptions& options) {
@@ -166,6 +181,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         }
         result.cells.push_back(std::move(cell));
     }
+    add_lanes(planned, result);
     compare_cells(result);
     if (options.known)
         apply_known_failures(result, *options.known, options.run.today);

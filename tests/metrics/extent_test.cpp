@@ -1,5 +1,6 @@
 #include "metrics/extent.h"
 
+#include "metrics/lane_grid_error.h"
 #include "tests/metrics/straight_grid.h"
 
 #include <cmath>
@@ -242,6 +243,32 @@ TEST(GridError, IsSmallForSmoothLightAndShrinksWithTheCell) {
     EXPECT_LT(fine.reach_m, 0.015);
     EXPECT_LT(fine.area_m2, 0.2 * coarse.area_m2);
     EXPECT_EQ(fine.limit_lx, 3.0);
+}
+
+// Of every lane what grid_error tells of the own lane's reach and of the whole width's area.
+TEST(LaneGridErrors, AgreeWithTheGridsErrorAndShrinkWithTheCell) {
+    const BareLamp lamp;
+    const auto errors_with = [&](double cell_m) {
+        const ExtentGrid grid = straight_grid({.ahead_m = 60.0, .along_m = cell_m, .across_m = cell_m / 4.0});
+        const std::vector<double> lx = lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); });
+        const std::vector<LaneExtent> measured = measure_extent(grid, lx, ExtentPlane::road, {3.0}, {});
+        const std::vector<LaneGridError> errors = lane_grid_errors(grid, lx, ExtentPlane::road, {3.0}, measured);
+        EXPECT_EQ(errors.size(), measured.size());
+        const GridError whole = grid_error(grid, lx, ExtentPlane::road, {3.0}).at(0);
+        for (const LaneGridError& error : errors) {
+            EXPECT_NEAR(error.lane == "own" ? error.reach_m : whole.reach_m, whole.reach_m, 1e-12);
+            EXPECT_NEAR(error.lane == "all" ? error.area_m2 : whole.area_m2, whole.area_m2, 1e-9);
+        }
+        return errors;
+    };
+    const auto coarse = errors_with(2.0), fine = errors_with(0.5);
+    ASSERT_EQ(coarse.size(), fine.size());
+    ASSERT_GT(fine.size(), 2U);
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+        EXPECT_LE(fine[i].reach_m, 0.3 * coarse[i].reach_m + 0.01) << fine[i].lane;
+        EXPECT_LE(fine[i].edge_m, 0.3 * coarse[i].edge_m + 0.01) << fine[i].lane;
+        EXPECT_LE(fine[i].area_m2, 0.3 * coarse[i].area_m2 + 0.05) << fine[i].lane;
+    }
 }
 
 TEST(GridError, EvenNumbersOfRowsCompareTheSameGround) {

@@ -2,6 +2,7 @@
 #include "runner/study/study_result.h"
 #include "runner/study/study_writers.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -109,6 +110,46 @@ TEST(StudyCompare, WhatNobodyVouchesForIsNotKnown) {
     EXPECT_EQ(change_in(result, "reach_10lx_road_own_m").why_not, "never lit");
 }
 
+/// Each kind of reading by what its calculation leaves open, both sides together: a row on trust, the distance of moments or of places, or
+/// the width of a double.
+TEST(StudyCompare, EachKindOfReadingHasItsOwnUncertainty) {
+    StudyResult result = two_cells(40.0, 40.0);
+    for (CellResult& cell : result.cells) {
+        const double more = cell.cell.lamp == 1 ? 1.0 : 0.0;
+        cell.step_s = 0.1;
+        cell.step_m = 2.0;
+        cell.look_step_m = 1.0;
+        put(cell, "reach_1lx_road_left_1_m", 20.0 + more, "m");
+        put(cell, "reach_1lx_road_left_1_grid_error_m", 0.2, "m");
+        put(cell, "reach_1lx_road_left_1_twin_difference_m", 0.1, "m");
+        put(cell, "reach_1lx_road_left_1_left_edge_m", 20.0 + more, "m");
+        put(cell, "reach_1lx_road_left_1_edge_grid_error_m", 0.9, "m");
+        put(cell, "unlit_before_reach_1lx_road_left_1_m", 5.0 + more, "m");
+        put(cell, "unlit_before_reach_1lx_road_left_1_grid_error_m", 0.4, "m");
+        put(cell, "area_1lx_road_right_12_min_m2", 9.0 + more, "m2");
+        put(cell, "area_1lx_road_right_12_grid_error_m2", 0.3, "m2");
+        put(cell, "glare_a_length_above_1lx_m", 20.0 + more, "m");
+        put(cell, "glare_a_time_above_1lx_s", 2.0 + more, "s");
+        put(cell, "sensor_a_reach_5lx_m", 20.0 + more, "m");
+        put(cell, "detection_own_m", 30.0 + more, "m");
+        put(cell, "patch_dark_own_m", 3.0 + more, "m");
+        put(cell, "board_left_at_50m_cdm2", 3.0 + more, "cd/m2");
+        put(cell, "foreground_ratio_own", 3.0 + more, "1");
+    }
+    compare_cells(result);
+    const double both = std::sqrt(2.0);
+    for (const auto& [name, open] :
+         {std::pair("reach_1lx_road_left_1_m", 0.3), std::pair("reach_1lx_road_left_1_left_edge_m", 1.0),
+          std::pair("unlit_before_reach_1lx_road_left_1_m", 0.5), std::pair("area_1lx_road_right_12_min_m2", 0.3),
+          std::pair("glare_a_length_above_1lx_m", 2.0), std::pair("glare_a_time_above_1lx_s", 0.1), std::pair("sensor_a_reach_5lx_m", 2.0),
+          std::pair("detection_own_m", 1.0), std::pair("patch_dark_own_m", 1.0)}) {
+        EXPECT_NEAR(change_in(result, name).uncertainty.value(), both * open, 1e-12) << name;
+        EXPECT_EQ(change_in(result, name).kind, 1.0 > both * open ? ChangeKind::real : ChangeKind::none) << name;
+    }
+    for (const char* name : {"board_left_at_50m_cdm2", "foreground_ratio_own"})
+        EXPECT_NEAR(change_in(result, name).uncertainty.value(), 5e-6, 1e-12) << name; // a millionth of 3 and of 4
+}
+
 /// Noise of 1 % in the difference of two intensities, three deviations of it: 3 % more or less light.
 TEST(StudyCompare, WhatNoiseOfTheTablesWouldDoIsNoDifference) {
     StudyResult result = two_cells(40.0, 40.0);
@@ -177,6 +218,12 @@ TEST(StudyText, SaysReadingsInWords) {
     EXPECT_EQ(reading_in_words("width_1lx_road_all_at_20m_m"), "width at 1 lx on the road, whole width, 20 m ahead");
     EXPECT_EQ(reading_in_words("area_1lx_road_all_m2"), "area at 1 lx on the road, whole width");
     EXPECT_EQ(reading_in_words("probe_kerb_lx"), "probe_kerb_lx");
+    EXPECT_EQ(reading_in_words("glare_oncoming_facing_max_lx"), "largest illuminance, eyes of an oncoming driver");
+    EXPECT_EQ(reading_in_words("glare_far_away_length_above_0.5lx_m"), "metres above 0.5 lx, eyes of oncoming driver far_away");
+    EXPECT_EQ(reading_in_words("glare_mirrors_at_15m_at_50m_lx"), "illuminance 50 m before it, mirrors of a car 15 m ahead");
+    EXPECT_EQ(reading_in_words("glare_mirrors_at_15m_de_boer_min"), "smallest de Boer rating, mirrors of a car 15 m ahead");
+    EXPECT_EQ(reading_in_words("detection_own_m"), "detection distance of a small target, own lane");
+    EXPECT_EQ(reading_in_words("board_left_at_50m_cdm2"), "luminance of a board, left, 50 m ahead");
 }
 
 TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {

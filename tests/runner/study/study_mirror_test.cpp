@@ -44,7 +44,7 @@ class StudyMirror : public testing::Test {
                 if (!row.at("value").is_null())
                     found.readings[row.at("name")] = row.at("value");
             for (const auto& entry :
-                 std::filesystem::directory_iterator(folder_ / ("out/cells/" + cell.at("name").get<std::string>() + "/frames")))
+                 std::filesystem::recursive_directory_iterator(folder_ / ("out/cells/" + cell.at("name").get<std::string>() + "/frames")))
                 if (entry.path().extension() == ".exr" && entry.path().string().find("driver") != std::string::npos)
                     found.picture = entry.path();
         }
@@ -70,12 +70,19 @@ TEST_F(StudyMirror, ReadsAsTheDriveInAMirror) {
         for (const auto& [name, value] : right.readings) {
             ASSERT_TRUE(left.readings.contains(other_side(name))) << name;
             sided += other_side(name) == name ? 0U : 1U;
-            // Calculated in double precision: poses of the mirrored road are the images to 1e-9 m. Drawn: single precision and a grid of
-            // pixels that is not the image of its own.
+            if (name.find("_grid_error") != std::string::npos || name.find("_twin_difference") != std::string::npos)
+                continue; // of every second sample, which are not the images of one another; of shadows, which the twin has not
+            // Calculated in double precision, or drawn: reaches along lines of the grid, which is its own image. Areas are summed over
+            // triangles whose diagonals are not, and in the village shadows of posts and trees end on other pixels.
             const bool drawn = !name.starts_with("glare_") && !name.starts_with("sensor_") && !name.starts_with("mirror_") &&
                                !name.starts_with("board_") && !name.starts_with("marking_");
-            const double off = std::abs(left.readings.at(other_side(name)) - value);
-            EXPECT_LE(off, drawn ? 2e-3 * std::abs(value) + 0.02 : 1e-6 * std::abs(value) + 1e-9) << name << " " << value;
+            const bool shadowed = drive == std::string("village");
+            const double off = std::abs(left.readings.at(other_side(name)) - value), size = std::abs(value);
+            const double allowed = !drawn                       ? 1e-9 * size
+                                   : name.starts_with("reach_") ? (shadowed ? 0.05 : 2e-3)
+                                   : shadowed                   ? 0.05 * size + 0.1
+                                                                : 2e-3 * size + 0.06;
+            EXPECT_LE(off, allowed) << name << " " << value;
             exact += drawn ? 0U : 1U;
         }
         EXPECT_GT(exact, 60U);
@@ -97,7 +104,7 @@ TEST_F(StudyMirror, ReadsAsTheDriveInAMirror) {
 
 TEST_F(StudyMirror, ALampForTheOtherSideGlares) {
     const std::map<std::string, Cell> cells = played("straight");
-    const auto largest = [&](const std::string& cell) { return cells.at("straight_" + cell).readings.at("glare_opposite_at_50m_lx"); };
+    const auto largest = [&](const std::string& cell) { return cells.at("straight_" + cell).readings.at("glare_opposite_facing_max_lx"); };
     EXPECT_EQ(largest("at-home"), largest("abroad")) << "the same lamp where nothing is mirrored";
     EXPECT_GT(largest("abroad_mirrored"), 3.0 * largest("at-home_mirrored")) << "its kink rises towards oncoming eyes";
     const auto reach = [&](const std::string& cell, const std::string& edge) {

@@ -153,6 +153,31 @@ TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
         EXPECT_EQ(content_of(folder / (std::string("out/") + name)), content_of(folder / (std::string("whole/") + name))) << name;
 }
 
+/// One cell's report is damaged when a study that did not end goes on: that cell is missing and named, all of the other is there.
+TEST_F(StudyProgram, ACellThatFailsLosesNothingOfTheOthers) {
+    const std::string file = write_study_file(folder, xenon), arguments = "study " + file + quick + "--out " + (folder / "out");
+    ASSERT_EQ(run_program(arguments).exit_code, 0);
+    const json whole = json::parse(content_of(folder / "out/study.json"));
+    std::ofstream(folder / "out/INCOMPLETE") << "as after a power failure\n";
+    std::ofstream(folder / "out/cells/straight_new/report.json") << "{\"schema\": ";
+    const Outcome run = run_program(arguments + " --resume");
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("NOT PLAYED straight_new: "));
+    const json study = json::parse(content_of(folder / "out/study.json"));
+    EXPECT_EQ(study.at("verdict"), "not_measured");
+    EXPECT_EQ(study.at("complete"), false);
+    ASSERT_EQ(study.at("cells").size(), 2U);
+    EXPECT_EQ(study.at("cells").at(0), whole.at("cells").at(0)) << "what was played stays, to the last digit";
+    EXPECT_THAT(study.at("cells").at(1).at("failed").get<std::string>(), HasSubstr("report.json"));
+    EXPECT_THAT(study.at("cells").at(1).at("readings"), IsEmpty());
+    EXPECT_THAT(study.at("changes"), IsEmpty());
+    EXPECT_EQ(study.at("lamps"), whole.at("lamps")) << "the lamps' tables are compared all the same";
+    EXPECT_THAT(content_of(folder / "out/report.html"), HasSubstr("not played: "));
+    EXPECT_THAT(content_of(folder / "out/junit.xml"), HasSubstr("straight_new"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/figures/lux_straight_old.svg"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/INCOMPLETE"));
+}
+
 TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
     const std::string file = write_study_file(folder, xenon, "techniques: [fotometric]\n");
     const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out"));

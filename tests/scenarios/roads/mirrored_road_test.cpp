@@ -40,7 +40,9 @@ void expect_mirrored(const RoadNetwork& network, const RoadNetwork& other, const
             for (const Lane& lane : section.lanes) {
                 const auto found = std::ranges::find(there.lanes, -lane.id, &Lane::id);
                 ASSERT_NE(found, there.lanes.end()) << where;
-                EXPECT_EQ(travels_with_s(road, lane), travels_with_s(turned, *found)) << where;
+                if (lane.id != 0) { // the centre has no traffic
+                    EXPECT_EQ(travels_with_s(road, lane), travels_with_s(turned, *found)) << where;
+                }
                 const LaneEdges edges = lane_edges(road, section, lane.id, s), mirrored = lane_edges(turned, there, -lane.id, s);
                 EXPECT_NEAR(mirrored.inner_t_m, -edges.inner_t_m, rounding_m) << where;
                 EXPECT_NEAR(mirrored.outer_t_m, -edges.outer_t_m, rounding_m) << where;
@@ -90,8 +92,8 @@ TEST(MirroredRoad, OfEveryKindOfGeometryIsItsImage) {
         <geometry s="80" x="73" y="31" hdg="0.4" length="20"><paramPoly3 aU="0" bU="20" cU="0" dU="0" aV="0" bV="0" cV="1.5" dV="-0.5"/></geometry>
         </planView><elevationProfile><elevation s="0" a="2" b="0.02" c="0" d="0"/></elevationProfile>
         <lateralProfile><superelevation s="0" a="0.02" b="0.0005" c="0" d="0"/>
-        <shape s="0" t="-3.5" a="0.1" b="-0.02" c="0.003" d="-0.0004"/><shape s="0" t="0" a="0" b="0.01" c="0.01" d="0.001"/>
-        <shape s="100" t="-3.5" a="0.3" b="-0.02" c="0" d="0"/><shape s="100" t="0" a="0" b="0" c="0.01" d="0"/></lateralProfile>
+        <shape s="0" t="-3.5" a="0.1" b="-0.02" c="0.003" d="-0.0004"/><shape s="0" t="0" a="0.0496" b="-0.0137" c="0.01" d="0.001"/>
+        <shape s="100" t="-3.5" a="0.3" b="-0.02" c="0" d="0"/><shape s="100" t="0" a="0.23" b="-0.02" c="0.01" d="0"/></lateralProfile>
         <lanes><laneOffset s="0" a="0.3" b="0.01" c="0" d="0"/><laneSection s="0">
         <left><lane id="1" type="driving"><border sOffset="0" a="3.4" b="0.01" c="0" d="0"/></lane></left>
         <center><lane id="0" type="none"><roadMark sOffset="0" type="solid broken" width="0.12"/></lane></center>
