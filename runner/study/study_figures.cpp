@@ -97,7 +97,7 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
 void add_glares(const StudyResult& result, const std::vector<std::size_t>& group, std::vector<StudyFigure>& figures) {
     for (const GlareOverDrive& first : result.cells[group.front()].glares) {
         plots::Figure figure;
-        figure.title = "Illuminance facing the lamps, " + short_text(eyes_in_words(first.subject), 50);
+        figure.title = "Glare: " + short_text(eyes_in_words(first.subject), 50);
         figure.subtitle = place_of(result, group);
         figure.width_px = 560.0;
         figure.height_px = 300.0;
@@ -114,7 +114,7 @@ void add_glares(const StudyResult& result, const std::vector<std::size_t>& group
                 figure.series.push_back(std::move(line));
             }
         figure.x = plots::axis_around(first.over, "m", xs);
-        figure.y = plots::axis_around("illuminance", "lx", ys, plots::Scale::logarithmic);
+        figure.y = plots::axis_around("illuminance facing the lamps", "lx", ys, plots::Scale::logarithmic);
         figures.push_back({fmt::format("glare-{}_{}", file_name_of(first.subject), group_name(result, group)),
                            figure.title + ": " + figure.subtitle, plots::svg_of(figure), group});
     }
