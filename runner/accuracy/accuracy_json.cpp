@@ -1,6 +1,7 @@
 #include "runner/accuracy/accuracy_result.h"
 #include "runner/accuracy/errors_json.h"
 #include "runner/accuracy/figures.h"
+#include "runner/context_json.h"
 #include "runner/report/json_text.h"
 
 #include <cmath>
@@ -115,25 +116,11 @@ Json diagram_json(const WorkPrecision& diagram) {
             {"notes", diagram.notes},      {"rows", rows}};
 }
 
-Json context_json(const AccuracyResult& result) {
-    const RunContext& context = result.context;
-    Json versions = Json::object(), inputs = Json::array();
-    for (const auto& [name, version] : context.versions)
-        versions[name] = version;
-    for (const FileRead& file : context.inputs)
-        inputs.push_back({{"path", file.path.string()}, {"bytes", file.bytes}, {"xxh128", file.xxh128}});
-    return {{"command", context.command},
-            {"started_utc", context.started_utc},
-            {"seed", context.seed},
-            {"backend", context.backend},
-            {"gl_renderer", context.gl_renderer},
-            {"gl_version", context.gl_version},
-            {"cpu", context.cpu},
-            {"cores", result.cores},
-            {"os", context.os},
-            {"other_cores", result.others.cores ? Json(*result.others.cores) : Json(nullptr)},
-            {"versions", versions},
-            {"inputs", inputs}};
+Json machine_json(const AccuracyResult& result) {
+    Json context = context_json(result.context);
+    context["cores"] = result.cores;
+    context["other_cores"] = result.others.cores ? Json(*result.others.cores) : Json(nullptr);
+    return context;
 }
 
 } // namespace
@@ -147,7 +134,7 @@ std::string accuracy_json(const AccuracyResult& result) {
     return json_text(
         Json{{"schema", "fernlicht accuracy"},
              {"schema_version", 1},
-             {"context", context_json(result)},
+             {"context", machine_json(result)},
              {"interrupted", text_or_null(result.interrupted)},
              {"missing", result.missing},
              {"settings", {{"rounds", result.rounds}, {"target_error", result.target_error}, {"most_samples", result.most_samples}}},

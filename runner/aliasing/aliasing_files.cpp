@@ -1,6 +1,7 @@
 #include "runner/aliasing/aliasing_result.h"
 #include "runner/bench/aligned_table.h"
 #include "runner/capture.h"
+#include "runner/context_json.h"
 #include "runner/plots/png.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/json_text.h"
@@ -247,12 +248,7 @@ std::string aliasing_text(const AliasingResult& result) {
 }
 
 std::string aliasing_json(const AliasingResult& result) {
-    const RunContext& context = result.context;
-    Json versions = Json::object(), inputs = Json::array(), moments = Json::array(), rows = Json::array(), order = Json::array();
-    for (const auto& [name, version] : context.versions)
-        versions[name] = version;
-    for (const FileRead& file : context.inputs)
-        inputs.push_back({{"path", file.path.string()}, {"bytes", file.bytes}, {"xxh128", file.xxh128}});
+    Json moments = Json::array(), rows = Json::array(), order = Json::array();
     for (const auto& [tick, time_s] : result.moments)
         moments.push_back({{"frame", tick}, {"time_s", time_s}});
     for (const AliasingRow& row : result.rows)
@@ -261,17 +257,7 @@ std::string aliasing_json(const AliasingResult& result) {
         order.push_back(name_of(result.rows[i].configuration));
     return json_text(Json{{"schema", "fernlicht aliasing"},
                           {"schema_version", 2},
-                          {"context",
-                           {{"command", context.command},
-                            {"started_utc", context.started_utc},
-                            {"seed", context.seed},
-                            {"backend", context.backend},
-                            {"gl_renderer", context.gl_renderer},
-                            {"gl_version", context.gl_version},
-                            {"cpu", context.cpu},
-                            {"os", context.os},
-                            {"versions", versions},
-                            {"inputs", inputs}}},
+                          {"context", context_json(result.context)},
                           {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
                           {"drive", result.drive},
                           {"title", result.title},

@@ -1,4 +1,5 @@
 #include "runner/bench/bench_result.h"
+#include "runner/context_json.h"
 #include "runner/report/json_text.h"
 
 namespace fernlicht {
@@ -14,31 +15,16 @@ Json spread_json(const Spread& spread) {
 
 Json load_json(const std::optional<std::array<double, 3>>& load) { return load ? Json(*load) : Json(nullptr); }
 
-Json context_json(const BenchResult& result) {
-    const RunContext& context = result.context;
-    Json versions = Json::object(), inputs = Json::array();
-    for (const auto& [name, version] : context.versions)
-        versions[name] = version;
-    for (const FileRead& file : context.inputs)
-        inputs.push_back({{"path", file.path.string()}, {"bytes", file.bytes}, {"xxh128", file.xxh128}});
-    return {{"command", context.command},
-            {"started_utc", context.started_utc},
-            {"seed", context.seed},
-            {"backend", context.backend},
-            {"gl_renderer", context.gl_renderer},
-            {"gl_version", context.gl_version},
-            {"gl_vendor", result.gl_vendor},
-            {"cpu", context.cpu},
-            {"cores", result.cores},
-            {"os", context.os},
-            {"load_average_before", load_json(result.load_before)},
-            {"load_average_after", load_json(result.load_after)},
-            {"other_cores", result.others.cores ? Json(*result.others.cores) : Json(nullptr)},
-            {"busiest_other", result.others.busiest.empty()
-                                  ? Json(nullptr)
-                                  : Json{{"process", result.others.busiest}, {"cores", result.others.busiest_cores}}},
-            {"versions", versions},
-            {"inputs", inputs}};
+Json machine_json(const BenchResult& result) {
+    Json context = context_json(result.context);
+    context["gl_vendor"] = result.gl_vendor;
+    context["cores"] = result.cores;
+    context["load_average_before"] = load_json(result.load_before);
+    context["load_average_after"] = load_json(result.load_after);
+    context["other_cores"] = result.others.cores ? Json(*result.others.cores) : Json(nullptr);
+    context["busiest_other"] =
+        result.others.busiest.empty() ? Json(nullptr) : Json{{"process", result.others.busiest}, {"cores", result.others.busiest_cores}};
+    return context;
 }
 
 Json settings_json(const BenchResult& result) {
@@ -130,7 +116,7 @@ std::string bench_json(const BenchResult& result) {
     }
     return json_text(Json{{"schema", "fernlicht bench"},
                           {"schema_version", 1},
-                          {"context", context_json(result)},
+                          {"context", machine_json(result)},
                           {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
                           {"warnings", bench_warnings(result)},
                           {"settings", settings_json(result)},

@@ -1,3 +1,4 @@
+#include "runner/context_json.h"
 #include "runner/picture_file.h"
 #include "runner/plots/png.h"
 #include "runner/plots/svg.h"
@@ -105,15 +106,10 @@ Json error_json(const std::optional<ErrorReached>& error) {
             {"share_reached", error->share_reached}};
 }
 
-Json context_json(const RunContext& context) {
-    Json versions = Json::object(), inputs = Json::array();
-    for (const auto& [name, version] : context.versions)
-        versions[name] = version;
-    for (const FileRead& file : context.inputs)
-        inputs.push_back({{"path", file.path.string()}, {"bytes", file.bytes}, {"xxh128", file.xxh128}});
-    return {{"command", context.command}, {"started_utc", context.started_utc},
-            {"cpu", context.cpu},         {"os", context.os},
-            {"versions", versions},       {"inputs", inputs}};
+/// No seed and no driver: rays need none of them.
+Json machine_json(const RunContext& context) {
+    return {{"command", context.command}, {"started_utc", context.started_utc}, {"cpu", context.cpu},
+            {"os", context.os},           {"versions", versions_json(context)}, {"inputs", inputs_json(context)}};
 }
 
 /// Of the method that was used alone.
@@ -181,7 +177,7 @@ Json reference_json(const ReferenceResult& r) {
             {"rays", r.image.rays},
             {"seconds", r.image.seconds},
             {"rays_per_second", static_cast<double>(r.image.rays) / std::max(r.image.seconds, 1e-9)},
-            {"context", context_json(r.context)}};
+            {"context", machine_json(r.context)}};
 }
 
 } // namespace

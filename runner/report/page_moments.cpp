@@ -166,6 +166,8 @@ std::vector<std::size_t> spread_over(std::size_t count, std::size_t most) {
     if (count <= most)
         for (std::size_t i = 0; i < count; ++i)
             out.push_back(i);
+    else if (most == 1)
+        out.push_back((count - 1) / 2);
     else
         for (std::size_t i = 0; i < most; ++i)
             out.push_back((i * (count - 1) + (most - 1) / 2) / (most - 1));

@@ -1,5 +1,6 @@
 #include "runner/accuracy/errors_json.h"
 #include "runner/bench/bench_result.h"
+#include "runner/context_json.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
@@ -47,22 +48,6 @@ Json spread_json(const std::optional<Spread>& spread) {
             {"maximum", finite(spread->maximum, "maximum")},
             {"mean", finite(spread->mean, "mean")},
             {"standard_deviation", finite(spread->standard_deviation, "standard deviation")}};
-}
-
-Json context_json(const RunContext& context) {
-    Json inputs = Json::array();
-    for (const FileRead& file : context.inputs)
-        inputs.push_back({{"path", file.path.string()}, {"bytes", file.bytes}, {"xxh128", file.xxh128}});
-    return {{"command", context.command},
-            {"started_utc", context.started_utc},
-            {"seed", context.seed},
-            {"backend", context.backend},
-            {"gl_renderer", context.gl_renderer},
-            {"gl_version", context.gl_version},
-            {"cpu", context.cpu},
-            {"os", context.os},
-            {"versions", pairs(context.versions)},
-            {"inputs", inputs}};
 }
 
 Json rows_json(const Report& report) {
