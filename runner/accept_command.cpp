@@ -143,6 +143,9 @@ RunResults read_run(const std::filesystem::path& run_folder) {
         throw InputError({run_folder, 0, 0, {}}, "holds an incomplete run", "a complete one");
     if (is_study_folder(run_folder))
         return read_cells(run_folder);
+    if (std::error_code ignored; !std::filesystem::exists(run_folder / "report.json", ignored))
+        throw InputError({run_folder, 0, 0, {}}, "is no folder of a run, a study or rays",
+                         "one that `fernlicht run`, `study` or `reference` wrote");
     const CheckedJson report = CheckedJson::read(run_folder / "report.json");
     report.expect_schema("fernlicht report", 1);
     if (const CheckedJson complete = report.at("complete"); !complete.truth())

@@ -40,6 +40,13 @@ bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b) {
     return a == other;
 }
 
+bool same_but_lamp_set(const ReferenceKey& a, const ReferenceKey& b) {
+    ReferenceKey other = b;
+    other.inputs = a.inputs;
+    other.variant = a.variant;
+    return a == other && a.variant != b.variant;
+}
+
 bool same_but_device(const ReferenceKey& a, const ReferenceKey& b) {
     return a.drive == b.drive && a.variant == b.variant && a.technique == b.technique && a.inputs == b.inputs;
 }

@@ -19,6 +19,8 @@ ReferenceKey reference_key(const std::string& drive, const std::string& variant,
 
 /// The same drive, lamp set and technique on the same class of device, whatever the inputs.
 bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b);
+/// The same drive and technique on the same class of device, another lamp set.
+bool same_but_lamp_set(const ReferenceKey& a, const ReferenceKey& b);
 /// The same drive, lamp set, technique and inputs, whatever the device.
 bool same_but_device(const ReferenceKey& a, const ReferenceKey& b);
 

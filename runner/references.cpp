@@ -5,10 +5,12 @@
 #include "runner/reference_store.h"
 #include "runner/significance.h"
 #include "runner/summary.h"
+#include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -52,7 +54,16 @@ std::vector<std::string> other_inputs(const Inputs& run, const Inputs& accepted)
     return names;
 }
 
-/// What other inputs came to: "of 859 readings 312 differ, the farthest off: ...".
+/// "lamp file 1" where there are several; of one alone "lamp file".
+std::string input_text(const std::string& name, const Inputs& of_run) {
+    const bool several = std::ranges::any_of(of_run, [](const auto& input) { return input.first == "lamp file 2"; });
+    return name == "lamp file 1" && !several ? "lamp file" : name;
+}
+
+bool usually_decides(const std::string& reading) { return std::ranges::find(usual_readings(), reading) != usual_readings().end(); }
+
+/// What other inputs came to: "of 859 readings 312 differ, the farthest off: ...". What usually decides goes before other readings, and
+/// all of these before their errors.
 std::string moved_readings(const AcceptedReference& run, const AcceptedReference& accepted, const ReferenceTolerance& tolerance) {
     std::vector<ResultDifference> differences = compare_readings(run.readings, accepted.readings, tolerance);
     const std::size_t all = differences.size();
@@ -60,9 +71,11 @@ std::string moved_readings(const AcceptedReference& run, const AcceptedReference
     if (differences.empty())
         return fmt::format("all {} readings agree", all);
     const ResultDifference& farthest = *std::ranges::max_element(differences, {}, [](const ResultDifference& difference) {
-        return std::pair(!says_how_exact(difference.what), difference.of_allowed); // readings before their errors
+        return std::tuple(usually_decides(difference.what), !says_how_exact(difference.what), difference.of_allowed);
     });
-    return fmt::format("of {} readings {} differ, the farthest off: {}, {}", all, differences.size(), farthest.what, farthest.text);
+    return fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
+                       usually_decides(farthest.what) ? "of those that usually decide the farthest off" : "the farthest off", farthest.what,
+                       farthest.text);
 }
 
 /// Why there is nothing to judge by. Where all but the inputs is known, which of them are others, and what that came to.
@@ -79,11 +92,18 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
         if (!nearest.empty() && others.size() >= fewest)
             continue;
         fewest = others.size();
-        nearest = fmt::format(" with these inputs; {} had another {}: {}", short_id(entry.id), fmt::join(others, ", "),
+        std::vector<std::string> texts;
+        for (const std::string& other : others)
+            texts.push_back(input_text(other, run.producer.inputs));
+        nearest = fmt::format(" with these inputs; {} had another {}: {}", short_id(entry.id), fmt::join(texts, ", "),
                               moved_readings(run, accepted, tolerance));
     }
     if (!nearest.empty())
         return text + nearest;
+    for (const StoredReference& entry : entries)
+        if (same_but_lamp_set(entry.key, run.key))
+            return text + fmt::format("; of this drive {} ({}) is accepted: {}", printable(entry.key.variant), short_id(entry.id),
+                                      moved_readings(run, load_reference(store, entry), tolerance));
     for (const StoredReference& entry : entries)
         if (same_but_device(entry.key, run.key))
             return text + fmt::format("; {} is of {}", short_id(entry.id), device_text(entry.key));
@@ -99,7 +119,8 @@ std::vector<Verdict> judge_frames(const AcceptedReference& run, const AcceptedRe
                                   const std::string& rerun, const ReferenceTolerance& tolerance) {
     if (accepted.frames_left_out)
         return {};
-    return verdicts_on(compare_frames(run.frames, accepted.frames, tolerance), "reference frame", "pictures", accepted_as, rerun);
+    return verdicts_on(compare_frames(run.frames, accepted.frames, tolerance), "reference frame", "channels of pictures", accepted_as,
+                       rerun);
 }
 
 /// Of the verdicts that each entry gives, those with the fewest that are not green. `judge` takes the results and how they are called.

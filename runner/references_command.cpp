@@ -225,7 +225,7 @@ int diff(const Flags& flags) {
         fmt::print("pictures are not compared: {} was accepted without\n", accepted.frames_left_out ? short_id(entry.id) : flags.other);
         return readings == 0 ? 0 : 1;
     }
-    const std::size_t frames = print_differences(compare_frames(tested.frames, accepted.frames, {}), "pictures", flags.all);
+    const std::size_t frames = print_differences(compare_frames(tested.frames, accepted.frames, {}), "channels of pictures", flags.all);
     return readings + frames == 0 ? 0 : 1;
 }
 

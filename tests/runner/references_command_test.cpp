@@ -95,14 +95,14 @@ TEST_F(ReferencesCommand, ComparesWithARunAndWithAnotherResult) {
     ASSERT_EQ(accept(run).exit_code, 0);
     const Outcome same = references("diff straight/halogen '" + run.folder.string() + "'");
     EXPECT_EQ(same.exit_code, 0) << same.output;
-    EXPECT_EQ(same.output, "2 of 2 readings agree\n4 of 4 pictures agree\n");
+    EXPECT_EQ(same.output, "2 of 2 readings agree\n4 of 4 channels of pictures agree\n");
     EXPECT_THAT(references("diff straight/halogen --all '" + run.folder.string() + "'").output, HasSubstr("illuminance.lx identical"));
     const Outcome other = references("diff straight/halogen '" + brighter.folder.string() + "'");
     EXPECT_EQ(other.exit_code, 1);
     EXPECT_THAT(other.output, HasSubstr("DIFFERS    reach_5lx_road_own_m: 61.2 m, accepted 60 m, 2 % off, at most 0.1 % for rounding\n"));
     EXPECT_THAT(other.output, HasSubstr("DIFFERS    10 driver: illuminance.lx: maximum 1.48 at pixel 63, 0"));
     EXPECT_THAT(other.output, HasSubstr("1 of 2 readings agree\n"));
-    EXPECT_THAT(other.output, HasSubstr("0 of 4 pictures agree\n"));
+    EXPECT_THAT(other.output, HasSubstr("0 of 4 channels of pictures agree\n"));
     ASSERT_EQ(accept(brighter, "--add --note 'another driver'").exit_code, 0);
     const std::string first = id_of("halogen");
     std::string second;

@@ -68,7 +68,7 @@ TEST_F(References, TheSameRunAgrees) {
     EXPECT_TRUE(all_pass(verdicts)) << texts(verdicts);
     ASSERT_EQ(verdicts.size(), 2U);
     EXPECT_THAT(verdicts[0].text, HasSubstr("2 readings agree"));
-    EXPECT_THAT(verdicts[1].text, HasSubstr("4 pictures agree"));
+    EXPECT_THAT(verdicts[1].text, HasSubstr("4 channels of pictures agree"));
     EXPECT_EQ(verdicts[0].rerun, "fernlicht run straight.yaml");
 }
 
@@ -275,6 +275,11 @@ TEST_F(References, OtherInputsAreAnotherKeyAndAreNamed) {
     other.report.played[0].readings[0].value = 61.8;
     EXPECT_THAT(other.judged(store)[0].text,
                 HasSubstr(": of 2 readings 1 differ, the farthest off: reach_5lx_road_own_m, 61.8 m, accepted 60 m, 3 % off"));
+    other = run;
+    other.report.played[0].variant = "h7-new";
+    other.report.played[0].readings[0].value = 61.8;
+    EXPECT_THAT(other.judged(store)[0].text,
+                HasSubstr("; of this drive halogen (" + id_of("halogen") + ") is accepted: of 2 readings 1 differ"));
     RunContext context = run.report.context;
     context.gl_renderer = "Some GPU";
     EXPECT_THAT(texts(judge_against_references(run.report.played[0], context, run.folder, store, "photometric")),
@@ -325,7 +330,7 @@ TEST_F(References, AcrossDevicesTheSpreadOverOthersDecides) {
     const auto within = judged(60.09, true);
     EXPECT_TRUE(all_pass(within)) << texts(within);
     EXPECT_THAT(within[0].text, HasSubstr("over 3 other classes of device"));
-    EXPECT_THAT(within[2].text, HasSubstr("4 pictures agree"));
+    EXPECT_THAT(within[2].text, HasSubstr("4 channels of pictures agree"));
     EXPECT_FALSE(all_pass(judged(60.11, true)));
     accept_run(run.folder, store);
     EXPECT_FALSE(all_pass(judged(60.09, true))) << "accepted here: 60 m, and that alone decides";
@@ -451,7 +456,7 @@ TEST_F(References, TheCommandSaysWhatItTookAndFailsInOneSentence) {
     EXPECT_TRUE(all_pass(run.judged(store)));
     const Outcome refused = run_program("accept '" + (temporary / "nowhere") + "'");
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_THAT(refused.output, HasSubstr("report.json"));
+    EXPECT_THAT(refused.output, HasSubstr("nowhere: is no folder of a run, a study or rays"));
     const Outcome unwritable = run_program("accept '" + run.folder.string() + "' --to /proc/references");
     EXPECT_EQ(unwritable.exit_code, 3) << unwritable.output;
     EXPECT_EQ(std::ranges::count(unwritable.output, '\n'), 1);
