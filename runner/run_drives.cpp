@@ -249,6 +249,14 @@ void repeat(const std::deque<Stage>& stages, Device& device, const RendererSetti
     }
 }
 
+/// So that nobody takes what is read of a part for the whole drive.
+void note_parts(const std::deque<Stage>& stages, const TickRange& ticks, Report& report) {
+    for (const Stage& stage : stages)
+        if (const int asked = ticks_to_play(stage.drive, ticks), all = tick_count(stage.drive); asked < all)
+            report.warnings.push_back(fmt::format("{}: {} of {} moments were to be played (--frames), and readings are of these alone",
+                                                  stage.drive.name, asked, all));
+}
+
 /// Verdicts that need all of the run.
 void judge(const RunOptions& options, Report& report) {
     if (!options.references.empty())
@@ -292,9 +300,11 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     } catch (const std::exception& error) {
         report.complete = false;
         report.interrupted = error.what();
+        note_parts(stages, options.ticks, report);
         write_report(report, options.folder);
         throw;
     }
+    note_parts(stages, options.ticks, report);
     write_report(report, options.folder);
     if (report.complete)
         folder.finish();

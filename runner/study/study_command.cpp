@@ -57,7 +57,8 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and tell what differs beyond noise");
     sub->add_option("FILE", flags->file, "study file (YAML)")->required();
     sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
-    sub->add_flag("--resume", flags->resume, "go on with a study that did not end, in its --out folder; finished cells are kept");
+    sub->add_flag("--resume", flags->resume,
+                  "go on in the --out folder of this study: finished cells are kept, others played, the report is written anew");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--frames", flags->frames, "FIRST:LAST moments of each drive to play, from 0");
     add_judging_flags(*sub, flags->judging);

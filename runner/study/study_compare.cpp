@@ -1,5 +1,6 @@
 #include "runner/study/study_result.h"
 #include "runner/summary.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,37 @@ Verdict verdict_on(const std::string& name, const std::optional<double>& value, 
     return {kept ? VerdictKind::pass : VerdictKind::fail, name, fmt::format("{:.4g} {}, limit {}", *value, unit, limits), rerun};
 }
 
+/// Of all cells that were played.
+std::set<std::string> names_in(const StudyResult& result) {
+    std::set<std::string> names;
+    for (const CellResult& cell : result.cells)
+        for (const auto& [name, reading] : cell.readings)
+            names.insert(name);
+    return names;
+}
+
+std::string no_such_reading(const std::string& name, const std::set<std::string>& names) {
+    const std::string nearest = nearest_name(name, names);
+    return "there is no reading of this name" + (nearest.empty() ? "" : "; the nearest name is " + nearest);
+}
+
+/// A reading that the study names and that nothing has decides nothing, and must not look as if it had not changed. Of the usual ones a
+/// drive need not have all.
+void judge_deciding(StudyResult& result) {
+    const std::set<std::string> names = names_in(result);
+    if (result.study.readings == usual_readings() || names.empty()) // cells that were not played say so themselves
+        return;
+    for (const std::string& name : result.study.readings) {
+        const auto missing = [&](const std::string& why) {
+            result.verdicts.push_back({VerdictKind::not_measured, "deciding reading " + name, why, result.context.command});
+        };
+        if (!names.contains(name))
+            missing(no_such_reading(name, names));
+        else if (!result.changes.empty() && std::ranges::find(result.changes, name, &ReadingChange::reading) == result.changes.end())
+            missing("no two cells were compared by it: it is a time, says how exact another is, or one lamp alone has it");
+    }
+}
+
 void judge_values(StudyResult& result, const StudyLimit& limit) {
     for (const CellResult& cell : result.cells) {
         if (!limit.lamp.empty() && result.study.lamps[cell.cell.lamp].name != limit.lamp)
@@ -81,7 +113,7 @@ void judge_values(StudyResult& result, const StudyLimit& limit) {
         result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, known ? found->second.value : std::nullopt,
                                              known ? found->second.unit : "",
                                              known                 ? found->second.why_not
-                                             : cell.failed.empty() ? "no reading of this name"
+                                             : cell.failed.empty() ? no_such_reading(limit.reading, names_in(result))
                                                                    : "the cell was not played: " + cell.failed,
                                              limit.at_least, limit.at_most, cell.command));
     }
@@ -99,9 +131,12 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
                                              known ? std::optional(change.delta()) : std::nullopt, change.unit, change.why_not,
                                              limit.change_at_least, limit.change_at_most, cell.command));
     }
+    const std::set<std::string> names = names_in(result);
     if (!found)
         result.verdicts.push_back(
-            {VerdictKind::not_measured, "change of " + limit.reading, "no comparison has this reading", result.context.command});
+            {VerdictKind::not_measured, "change of " + limit.reading,
+             names.empty() || names.contains(limit.reading) ? "no comparison has this reading" : no_such_reading(limit.reading, names),
+             result.context.command});
 }
 
 } // namespace
@@ -114,6 +149,7 @@ void compare_cells(StudyResult& result) {
     for (const StudyComparison& comparison : result.study.comparisons)
         compare_pair(result, comparison);
     rank(result);
+    judge_deciding(result);
     for (const StudyLimit& limit : result.study.limits)
         limit.change_at_least || limit.change_at_most ? judge_changes(result, limit) : judge_values(result, limit);
 }

@@ -3,6 +3,7 @@
 #include "runner/report/json_text.h"
 #include "runner/report/verdict_json.h"
 #include "runner/study/lamp_verdict.h"
+#include "runner/study/study_words.h"
 #include "runner/study/study_writers.h"
 
 #include <fmt/format.h>
@@ -112,6 +113,7 @@ std::string study_json(const StudyResult& result) {
                            {"title", figure.title},
                            {"cells", names}});
     }
+    const std::string part = played_in_part(result);
     return json_text({{"schema", "fernlicht study"},
                       {"schema_version", 1},
                       {"name", result.study.name},
@@ -119,6 +121,8 @@ std::string study_json(const StudyResult& result) {
                       {"verdict", verdict_name(overall(result))},
                       {"complete", result.complete()},
                       {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
+                      {"sentence", study_sentence(result)},
+                      {"played_in_part", part.empty() ? Json(nullptr) : Json(part)},
                       {"largest_changes", largest},
                       {"lamps", lamps_json(result)},
                       {"verdicts", verdicts_json(result.verdicts)},

@@ -4,7 +4,9 @@
 #include "runner/report/extent_summary.h"
 #include "runner/report/page_parts.h"
 #include "runner/study/lamp_verdict.h"
+#include "runner/study/study_words.h"
 #include "runner/study/study_writers.h"
+#include "runner/unit_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +42,7 @@ data change_part(const StudyResult& result, std::size_t index) {
     part.set("condition", clean_text(result.cells[change.tested].cell.condition));
     part.set("reading", clean_text(reading_in_words(change.reading)));
     part.set("name", clean_text(change.reading));
-    part.set("unit", clean_text(change.unit));
+    part.set("unit", clean_text(unit_in_words(change.unit)));
     part.set("old", value_text(change.old_value));
     part.set("new", value_text(change.new_value));
     part.set("old_key", sort_key(change.old_value));
@@ -62,19 +64,6 @@ data change_part(const StudyResult& result, std::size_t index) {
     part.set("kind", change_name(change.kind));
     part.set("class", change.kind == ChangeKind::real ? "real" : "quiet");
     return part;
-}
-
-/// What the study comes to, in one sentence.
-std::string sentence_of(const StudyResult& result) {
-    std::size_t decided = 0, real = 0, within = 0;
-    for (const Change& change : result.changes) {
-        decided += change.decides ? 1U : 0U;
-        real += change.decides && change.kind == ChangeKind::real ? 1U : 0U;
-        within += change.decides && change.kind == ChangeKind::within_aim ? 1U : 0U;
-    }
-    if (result.study.comparisons.empty())
-        return "Nothing was to be compared.";
-    return fmt::format("Of {} deciding readings {} changed for real, {} by less than 0.1° of aim would do.", decided, real, within);
 }
 
 bool has_several_conditions(const StudyResult& result) {
@@ -106,13 +95,17 @@ data verdict_part(const StudyResult& result) {
         for (const Verdict& verdict : cell.verdicts)
             add(cell.cell.name, verdict);
     }
-    part.set("class", verdict_name(kind));
-    part.set("word", kind == VerdictKind::pass    ? "Within limits"
+    const bool judged = was_judged(result);
+    part.set("class", judged ? verdict_name(kind) : "none");
+    part.set("word", !judged                      ? "No limits were set"
+                     : kind == VerdictKind::pass  ? "Within limits"
                      : kind == VerdictKind::fail  ? (limits ? "Limits exceeded" : "Differs from the references")
                      : kind == VerdictKind::flaky ? "Flaky"
                                                   : "Not all was measured");
-    part.set("mark", kind == VerdictKind::pass ? "✓" : kind == VerdictKind::fail ? "✗" : "?");
-    part.set("sentence", sentence_of(result));
+    part.set("mark", !judged ? "–" : kind == VerdictKind::pass ? "✓" : kind == VerdictKind::fail ? "✗" : "?");
+    part.set("sentence", study_sentence(result));
+    part.set("in_part", played_in_part(result));
+    part.set("is_in_part", !played_in_part(result).empty());
     part.set("has_failures", any);
     part.set("failures", failures);
     part.set("incomplete", !result.interrupted.empty());
@@ -218,6 +211,10 @@ std::string study_html(const StudyResult& result, const std::filesystem::path& f
     page.set("script", std::string(report_file("study.js")));
     page.set("verdict", verdict_part(result));
     page.set("largest", largest);
+    const std::string nothing = nothing_compared(result);
+    page.set("nothing", nothing.empty()
+                            ? "No deciding reading changed beyond what calculation, noise of the lamps' tables and 0.1° of aim leave open."
+                            : nothing);
     page.set("has_largest", !result.largest.empty());
     page.set("rows", rows);
     page.set("several_conditions", has_several_conditions(result));

@@ -17,6 +17,7 @@ struct CellResult : PlayedResult {
     std::string failed;                      ///< why there is no report; "" when there is one
     bool reused = false;                     ///< played by an earlier call
     std::string command;                     ///< that repeats it
+    int moments = 0, moments_of_drive = 0;   ///< that were to be played, and that the whole drive has
 };
 
 /// One reading of one drive under one condition: a lamp against another.
@@ -42,6 +43,7 @@ struct StudyFigure {
 struct StudyResult {
     Study study;
     RunContext context; ///< of this call
+    std::string frames; ///< "0:8": the moments asked for; "" for all
     std::vector<CellResult> cells;
     std::vector<LampComparison> lamps;
     std::vector<Change> changes;      ///< all readings, in the order of comparisons, cells and names

@@ -8,6 +8,7 @@
 #include "runner/run_context.h"
 #include "runner/stage.h"
 #include "runner/study/study_maps.h"
+#include "scenarios/drives/advance.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -98,12 +99,49 @@ bool is_finished(const fs::path& folder, const Planned& planned, const StudyOpti
     return true;
 }
 
+/// As `--frames` takes it; "" for all moments.
+std::string frames_text(const TickRange& ticks) {
+    if (ticks.last == TickRange{}.last)
+        return ticks.first > 0 ? fmt::format("{}:", ticks.first) : "";
+    return fmt::format("{}:{}", ticks.first, ticks.last);
+}
+
+/// A range that lies beyond some drives leaves their cells out; one that lies beyond all is a mistake.
+void refuse_no_moments(const Study& study, const std::vector<Planned>& planned, const TickRange& ticks) {
+    int most = 0;
+    for (const Planned& one : planned) {
+        if (ticks_to_play(one.drive, ticks) > 0)
+            return;
+        most = std::max(most, tick_count(one.drive));
+    }
+    throw InputError({study.file, 0, 0, "--frames"}, fmt::format("found a range from {} on", ticks.first),
+                     fmt::format("moments of a drive, the longest of which has 0 to {}", most - 1));
+}
+
+/// Before a study that ended is written anew: what it kept is what is asked for now.
+void refuse_other_cells(const std::vector<Planned>& planned, const StudyOptions& options) {
+    for (const Planned& one : planned)
+        if (const fs::path cell = options.folder / "cells" / one.cell.name; fs::exists(cell) && !is_marked_incomplete(cell))
+            is_finished(cell, one, options);
+}
+
+/// A new folder, or with --resume that of a study that was stopped, or of one that ended, whose report is then written anew.
+OutputFolder folder_for(const std::vector<Planned>& planned, const StudyOptions& options) {
+    if (!options.resume)
+        return OutputFolder(options.folder);
+    if (is_marked_incomplete(options.folder) || !fs::is_regular_file(options.folder / "study.json"))
+        return OutputFolder::left_incomplete(options.folder);
+    refuse_other_cells(planned, options);
+    write_file(options.folder / "INCOMPLETE", "This study's report is being written anew.\n");
+    return OutputFolder::left_incomplete(options.folder);
+}
+
 std::string repeating(const StudyOptions& options, const fs::path& folder, const Planned& planned) {
     std::vector<std::string> words{options.run.command.empty() ? "fernlicht" : options.run.command.front(), "run",
                                    (folder / resolved_name(planned.drive)).string()};
-    if (options.run.ticks.last != TickRange{}.last || options.run.ticks.first > 0) {
+    if (const std::string frames = frames_text(options.run.ticks); !frames.empty()) {
         words.emplace_back("--frames");
-        words.push_back(fmt::format("{}:{}", options.run.ticks.first, options.run.ticks.last));
+        words.push_back(frames);
     }
     words.emplace_back("--out");
     words.push_back("out/" + planned.cell.name);
@@ -148,16 +186,20 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     StudyResult result;
     result.study = study;
     const std::vector<Planned> planned = plan(study, options.only);
+    refuse_no_moments(study, planned, options.run.ticks);
+    result.frames = frames_text(options.run.ticks);
     result.lamps = compare_lamp_files(study);
     // A machine that cannot draw says so before there is a folder.
     result.context = make_context(open_device(options.run.backend).info(), options.run.command, planned.front().drive.seed);
-    OutputFolder folder = options.resume ? OutputFolder::left_incomplete(options.folder) : OutputFolder(options.folder);
+    OutputFolder folder = folder_for(planned, options);
     const Interruption listening;
     for (std::size_t i = 0; i < planned.size(); ++i) {
         CellResult cell;
         cell.cell = planned[i].cell;
         cell.title = planned[i].drive.title;
         cell.step_s = planned[i].drive.step_s;
+        cell.moments = ticks_to_play(planned[i].drive, options.run.ticks);
+        cell.moments_of_drive = tick_count(planned[i].drive);
         for (const SpeedPoint& point : planned[i].drive.speed)
             cell.step_m = std::max(cell.step_m, point.speed_mps * cell.step_s);
         cell.look_step_m = planned[i].drive.seeing.visibility ? planned[i].drive.seeing.visibility->step_m : 0.0;

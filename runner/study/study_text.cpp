@@ -3,7 +3,9 @@
 #include "runner/report/report_writers.h"
 #include "runner/report/verdict_line.h"
 #include "runner/study/lamp_verdict.h"
+#include "runner/study/study_words.h"
 #include "runner/study/study_writers.h"
+#include "runner/unit_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +16,7 @@ namespace fernlicht {
 namespace {
 
 std::string value_text(const std::optional<double>& value, const std::string& unit) {
-    return value ? fmt::format("{:.4g} {}", *value, unit) : "not measured";
+    return value ? fmt::format("{:.4g} {}", *value, unit_in_words(unit)) : "not measured";
 }
 
 /// "halogen -> xenon on straight-1 (night, aim -1 %, 13.2 V)"
@@ -22,6 +24,14 @@ std::string place_of(const StudyResult& result, const Change& change) {
     const CellResult &now = result.cells[change.tested], &before = result.cells[change.against];
     return fmt::format("{} against {} on {} ({})", result.study.lamps[now.cell.lamp].name, result.study.lamps[before.cell.lamp].name,
                        now.drive, now.cell.condition);
+}
+
+/// Of the characters beyond ASCII those of our own units.
+std::string latex_signs(std::string text) {
+    for (const auto& [from, to] : {std::pair("²", "$^2$"), std::pair("±", "$\\pm$"), std::pair("°", "$^\\circ$")})
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
+            text.replace(at, std::string(from).size(), to);
+    return text;
 }
 
 std::string latex_text(const std::string& text) {
@@ -49,7 +59,7 @@ std::string latex_text(const std::string& text) {
         default:
             out += c;
         }
-    return out;
+    return latex_signs(out);
 }
 
 /// `|` would end a cell.
@@ -73,7 +83,7 @@ std::vector<std::string> table_row(const StudyResult& result, const Change& chan
             change.new_value ? fmt::format("{:.2f}", *change.new_value) : "--",
             change.new_value && change.old_value ? fmt::format("{:+.2f}", change.delta()) : "--",
             change.uncertainty ? fmt::format("{:.2f}", change.unsure()) : "--",
-            escape(change.unit),
+            escape(unit_in_words(change.unit)),
             change_name(change.kind)};
 }
 
@@ -87,12 +97,15 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
 
 std::string delta_text(const Change& change) {
     const double old_size = std::abs(change.old_value.value_or(0.0));
-    return fmt::format("{:+.2f} {}{}", change.delta(), change.unit,
+    return fmt::format("{:+.2f} {}{}", change.delta(), unit_in_words(change.unit),
                        old_size > 0.0 ? fmt::format(" ({:+.1f} %)", 100.0 * change.delta() / old_size) : "");
 }
 
 std::string study_text(const StudyResult& result) {
-    std::string text = fmt::format("{}: {}\n", clean_text(result.study.title), verdict_name(overall(result)));
+    std::string text =
+        fmt::format("{}: {}\n", clean_text(result.study.title), was_judged(result) ? verdict_name(overall(result)) : "no limits were set");
+    if (const std::string part = played_in_part(result); !part.empty())
+        text += part + "\n";
     if (!result.interrupted.empty())
         text += "incomplete: " + result.interrupted + "\n";
     for (const CellResult& cell : result.cells)
@@ -109,11 +122,13 @@ std::string study_text(const StudyResult& result) {
         text += "warning: " + warning + "\n";
     for (const LampComparison& lamps : result.lamps)
         text += clean_text(lamp_verdict(lamps)) + "\n";
-    if (result.largest.empty())
+    if (const std::string nothing = nothing_compared(result); !nothing.empty())
+        text += nothing + "\n";
+    else if (result.largest.empty())
         text += "no deciding reading changed beyond what calculation, the tables' noise and 0.1 degrees of aim leave open\n";
     for (const std::size_t i : result.largest) {
         const Change& change = result.changes[i];
-        text += fmt::format("{}: {} -> {}, {} +-{:.2g}; {}\n", reading_in_words(change.reading), value_text(change.old_value, change.unit),
+        text += fmt::format("{}: {} -> {}, {} ±{:.2g}; {}\n", reading_in_words(change.reading), value_text(change.old_value, change.unit),
                             value_text(change.new_value, change.unit), delta_text(change), change.uncertainty.value_or(0.0),
                             place_of(result, change));
     }
@@ -159,13 +174,18 @@ std::string study_markdown(const StudyResult& result) {
     for (const Change& change : result.changes)
         if (change.decides)
             text += "| " + joined(table_row(result, change, markdown_text), " | ") + " |\n";
-    text += "\nMedians over the drive unless said otherwise. ± is what calculation and the noise of the lamps' tables leave open of the "
-            "change; *within aim* means that 0.1° of aim would do as much.\n";
+    const std::string part = played_in_part(result);
+    text += part.empty() ? "" : "\n**" + part + ".**\n";
+    text += "\nMedians over what was played of the drive unless said otherwise. ± is what calculation and the noise of the lamps' tables "
+            "leave open of the change; *within aim* means that 0.1° of aim would do as much.\n";
     return text;
 }
 
 std::string study_latex(const StudyResult& result) {
-    std::string text = "% \\usepackage{booktabs}\n\\begin{tabular}{llllrrrrll}\n\\toprule\n";
+    std::string text = "% \\usepackage{booktabs,graphicx}; the table is as wide as the text\n";
+    if (const std::string part = played_in_part(result); !part.empty())
+        text += "% " + part + "\n";
+    text += "\\resizebox{\\linewidth}{!}{%\n\\begin{tabular}{llllrrrrll}\n\\toprule\n";
     std::vector<std::string> titles = headings;
     std::ranges::replace(titles, std::string("±"), std::string("$\\pm$"));
     text += joined(titles, " & ") + " \\\\\n\\midrule\n";
@@ -176,7 +196,7 @@ std::string study_latex(const StudyResult& result) {
                 row[i] = "$" + row[i] + "$";
             text += joined(row, " & ") + " \\\\\n";
         }
-    return text + "\\bottomrule\n\\end{tabular}\n";
+    return text + "\\bottomrule\n\\end{tabular}}\n";
 }
 
 std::string study_junit(const StudyResult& result) {
@@ -187,7 +207,7 @@ std::string study_junit(const StudyResult& result) {
         suite.drive = cell.cell.name;
         suite.variant = cell.cell.condition;
         suite.technique = result.study.techniques[cell.cell.technique];
-        suite.verdicts.push_back(cell.failed.empty() ? Verdict{VerdictKind::pass, "played", "all moments", cell.command}
+        suite.verdicts.push_back(cell.failed.empty() ? Verdict{VerdictKind::pass, "played", moments_text(result, cell), cell.command}
                                                      : Verdict{VerdictKind::not_measured, "played", cell.failed, cell.command});
         suite.verdicts.insert(suite.verdicts.end(), cell.verdicts.begin(), cell.verdicts.end());
         report.played.push_back(std::move(suite));

@@ -8,6 +8,7 @@
 namespace fernlicht {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -25,7 +26,7 @@ StudyResult two_cells(double old_reach_m, double new_reach_m) {
     result.study.drives = {"one.yaml"};
     result.study.conditions.times_of_day = {{}};
     result.study.comparisons = {{"new", "old"}};
-    result.study.readings = {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "width_1lx_road_all_at_20m_m"};
+    result.study.readings = {"reach_5lx_target_own_m"};
     for (std::size_t lamp = 0; lamp < 2; ++lamp) {
         CellResult cell;
         cell.cell.lamp = lamp;
@@ -66,6 +67,7 @@ TEST(StudyCompare, AChangeIsRealBeyondCalculationAndAim) {
 
 TEST(StudyCompare, RanksByShareEachReadingOnce) {
     StudyResult result = two_cells(40.0, 50.0); // 20 % of the larger
+    result.study.readings = {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "width_1lx_road_all_at_20m_m"};
     for (CellResult& cell : result.cells) {
         put(cell, "reach_1lx_road_own_m", cell.cell.lamp == 0 ? 20.0 : 10.0, "m"); // 50 %
         put(cell, "reach_1lx_road_own_grid_error_m", 0.1, "m");
@@ -204,6 +206,67 @@ TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
     EXPECT_THAT(study_text(result), HasSubstr("FAIL one_new: change of reach_5lx_target_own_m: 10 m, limit at most 9 m"));
 }
 
+TEST(StudyCompare, ADecidingReadingThatNothingHasIsNotMeasured) {
+    StudyResult result = two_cells(40.0, 50.0);
+    result.study.readings = {"reach_5lx_tarket_own_m", "reach_5lx_target_own_grid_error_m"};
+    result.study.limits.resize(2);
+    result.study.limits[0].reading = result.study.limits[1].reading = "reach_5lx_tarket_own_m";
+    result.study.limits[0].lamp = "new";
+    result.study.limits[0].at_least = result.study.limits[1].change_at_least = 0.0;
+    compare_cells(result);
+    EXPECT_EQ(overall(result), VerdictKind::not_measured);
+    const std::string text = study_text(result), nearest = "there is no reading of this name; the nearest name is reach_5lx_target_own_m";
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED deciding reading reach_5lx_tarket_own_m: " + nearest));
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED deciding reading reach_5lx_target_own_grid_error_m: no two cells were compared by it"));
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED one_new: reach_5lx_tarket_own_m: " + nearest));
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED change of reach_5lx_tarket_own_m: " + nearest));
+    EXPECT_THAT(text, HasSubstr("Nothing could be compared: no deciding reading is in two cells that are compared."));
+    EXPECT_THAT(text, Not(HasSubstr("no deciding reading changed")));
+}
+
+TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
+    StudyResult result = two_cells(40.0, 40.0);
+    for (CellResult& cell : result.cells) {
+        cell.failed = "not reached";
+        cell.readings.clear();
+    }
+    compare_cells(result);
+    for (const std::string& text : {study_text(result), study_json(result), study_html(result, {})}) {
+        EXPECT_THAT(text, HasSubstr("Nothing could be compared: of no two lamps was the same cell played."));
+        EXPECT_THAT(text, Not(HasSubstr("deciding reading changed")));
+    }
+    StudyResult same = two_cells(40.0, 40.0);
+    compare_cells(same);
+    EXPECT_THAT(study_text(same), HasSubstr("no deciding reading changed"));
+    EXPECT_THAT(study_html(same, {}), HasSubstr("No deciding reading changed"));
+}
+
+TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
+    StudyResult result = two_cells(40.0, 50.0);
+    compare_cells(result);
+    EXPECT_THAT(study_text(result), HasSubstr("by hand: no limits were set\n"));
+    EXPECT_THAT(study_html(result, {}), AllOf(HasSubstr("No limits were set"), Not(HasSubstr("Within limits"))));
+    EXPECT_THAT(study_junit(result), HasSubstr("all moments"));
+    EXPECT_THAT(study_markdown(result), Not(HasSubstr("--frames")));
+    for (CellResult& cell : result.cells) {
+        cell.moments = 9;
+        cell.moments_of_drive = 660;
+    }
+    result.frames = "0:8";
+    result.study.limits.resize(1);
+    result.study.limits[0].reading = "reach_5lx_target_own_m";
+    result.study.limits[0].at_least = 1.0;
+    compare_cells(result);
+    const std::string part = "9 of 660 moments of each drive were played (--frames 0:8)";
+    for (const std::string& text :
+         {study_text(result), study_json(result), study_markdown(result), study_latex(result), study_html(result, {})})
+        EXPECT_THAT(text, HasSubstr(part));
+    EXPECT_THAT(study_junit(result), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
+    EXPECT_THAT(study_html(result, {}), HasSubstr("Within limits"));
+    result.cells[1].moments_of_drive = 900;
+    EXPECT_THAT(study_text(result), HasSubstr("9 of 660 to 900 moments of each drive"));
+}
+
 TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
     StudyResult result = two_cells(40.0, 40.0);
     compare_cells(result);
@@ -234,6 +297,14 @@ TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
     EXPECT_THAT(study_latex(result), HasSubstr("$40.00$ & $50.00$ & $+10.00$ & $0.57$"));
     EXPECT_THAT(study_markdown(result), HasSubstr("a_b\\|c% / old"));
     EXPECT_THAT(study_csv(result), HasSubstr("c0,a_b|c%,old,one-1"));
+    for (CellResult& cell : result.cells)
+        put(cell, "area_1lx_road_all_m2", cell.cell.lamp == 0 ? 10.0 : 90.0, "m2");
+    result.study.readings = {"area_1lx_road_all_m2"};
+    result.changes.clear();
+    compare_cells(result);
+    EXPECT_THAT(study_latex(result), AllOf(HasSubstr("& m$^2$ &"), HasSubstr("\\resizebox{\\linewidth}"), Not(HasSubstr("²"))));
+    EXPECT_THAT(study_markdown(result), HasSubstr("| m² |"));
+    EXPECT_THAT(study_csv(result), HasSubstr(",m2,"));
 }
 
 } // namespace

@@ -178,12 +178,39 @@ TEST_F(StudyProgram, ACellThatFailsLosesNothingOfTheOthers) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out/INCOMPLETE"));
 }
 
+TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
+    const std::string out = " --out " + (folder / "out");
+    ASSERT_EQ(run_program("study " + write_study_file(folder, xenon) + quick + out).exit_code, 0);
+    const std::string page = content_of(folder / "out/report.html");
+    EXPECT_THAT(page, HasSubstr("No limits were set"));
+    EXPECT_THAT(page, HasSubstr("6 of 100 moments of each drive were played (--frames 0:5)"));
+    EXPECT_THAT(content_of(folder / "out/cells/straight_old/report.html"), HasSubstr("6 of 100 moments were to be played"));
+    const std::string first = content_of(folder / "out/study.csv"), cell = content_of(folder / "out/cells/straight_old/report.json");
+    const Outcome again = run_program("study " + (folder / "study.yaml") + quick + out + " --resume");
+    EXPECT_EQ(again.exit_code, 0) << again.output;
+    EXPECT_EQ(content_of(folder / "out/study.csv"), first);
+    // Judged anew: a deciding reading that is misspelt, over the same cells.
+    const std::string misspelt = write_study_file(folder, xenon, "readings: [reach_1lx_tarket_own_m]\n");
+    const Outcome red = run_program("study " + misspelt + quick + out + " --resume");
+    EXPECT_EQ(red.exit_code, 1);
+    EXPECT_THAT(red.output, HasSubstr("NOT MEASURED deciding reading reach_1lx_tarket_own_m: there is no reading of this name; the "
+                                      "nearest name is reach_1lx_target_own_m"));
+    EXPECT_EQ(content_of(folder / "out/cells/straight_old/report.json"), cell) << "played again";
+    const Outcome other = run_program("study " + misspelt + " --frames 0:4 --quiet --no-accuracy --resume" + out);
+    EXPECT_EQ(other.exit_code, 2) << "other moments are another study";
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE")) << "nothing was begun";
+}
+
 TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
     const std::string file = write_study_file(folder, xenon, "techniques: [fotometric]\n");
     const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out"));
     EXPECT_EQ(run.exit_code, 2) << run.output;
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
     EXPECT_EQ(run_program("study " + file + " --resume").exit_code, 2);
+    const Outcome beyond = run_program("study " + write_study_file(folder, xenon) + " --frames 100000:100001 --out " + (folder / "out"));
+    EXPECT_EQ(beyond.exit_code, 2) << beyond.output;
+    EXPECT_THAT(beyond.output, HasSubstr("expected moments of a drive, the longest of which has 0 to 99"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
     const Outcome none = run_program("study " + library_file("studies/standard.yaml") + " --only moon --out " + (folder / "out"));
     EXPECT_EQ(none.exit_code, 2);
     EXPECT_THAT(none.output, HasSubstr("no cell whose name holds 'moon'"));
