@@ -313,20 +313,20 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
         return fmt::format("{:.3f} degrees {}", std::abs(deg), deg < 0.0 ? less : more);
     };
     if (difference.aim_up_deg)
-        out.push_back(fmt::format("aimed {} and {}: the whole beam (+-{:.3f} and +-{:.3f})",
+        out.push_back(fmt::format("aimed {} and {}: the whole beam (±{:.3f} and ±{:.3f})",
                                   turned(difference.aim_up_deg->value, "higher", "lower"),
                                   turned(difference.aim_right_deg->value, "to the right", "to the left"),
                                   difference.aim_up_deg->uncertainty, difference.aim_right_deg->uncertainty));
     if (difference.cut_off_up_deg)
-        out.push_back(fmt::format("cut-off {} (+-{:.3f}), over the light below it",
+        out.push_back(fmt::format("cut-off {} (±{:.3f}), over the light below it",
                                   turned(difference.cut_off_up_deg->value, "higher", "lower"), difference.cut_off_up_deg->uncertainty));
     const auto changed = [](double share) {
         return fmt::format("{:.2f} % {}", 100.0 * std::abs(share), share < 0.0 ? "dimmer" : "brighter");
     };
     if (difference.level)
-        out.push_back(fmt::format("{} all over (+-{:.3f} %)", changed(difference.level->value), 100.0 * difference.level->uncertainty));
+        out.push_back(fmt::format("{} all over (±{:.3f} %)", changed(difference.level->value), 100.0 * difference.level->uncertainty));
     for (const BeamZone& zone : difference.zones)
-        out.push_back(fmt::format("{} within H {:.2f}..{:.2f}, V {:.2f}..{:.2f} degrees (+-{:.2f} %, {} directions)", changed(zone.share),
+        out.push_back(fmt::format("{} within H {:.2f}..{:.2f}, V {:.2f}..{:.2f} degrees (±{:.2f} %, {} directions)", changed(zone.share),
                                   zone.h_from_deg, zone.h_to_deg, zone.v_from_deg, zone.v_to_deg, 100.0 * zone.uncertainty, zone.samples));
     if (out.empty())
         out.push_back("no difference beyond noise");

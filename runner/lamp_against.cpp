@@ -1,5 +1,6 @@
 #include "runner/lamp_against.h"
 
+#include "runner/name_beside.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -89,7 +90,8 @@ LampDifference difference_of(const LampFile& tested, const LampFile& against, do
 }
 
 std::string difference_text(const LampFile& tested, const LampFile& against, const LampDifference& difference) {
-    std::string text = fmt::format("lamp           {}\nagainst        {}\n", printable(tested.name), printable(against.name));
+    std::string text = fmt::format("lamp           {}\nagainst        {}\n", printable(name_beside(tested, against), 400),
+                                   printable(name_beside(against, tested), 400));
     constexpr std::size_t most_told = 8; // lamps of two makes differ in dozens of zones
     const std::vector<std::string> sentences = sentences_of(difference);
     for (std::size_t i = 0; i < std::min(most_told, sentences.size()); ++i)
@@ -128,7 +130,7 @@ Json difference_json(const LampDifference& difference) {
 
 plots::Figure difference_figure(const LampFile& tested, const LampFile& against, const LampDifference& difference) {
     plots::Figure figure;
-    figure.title = printable(tested.name) + " against " + printable(against.name);
+    figure.title = printable(name_beside(tested, against)) + " against " + printable(name_beside(against, tested));
     figure.subtitle = sentences_of(difference).front();
     figure.height_px = 420.0;
     show_beam(figure, against.table);

@@ -1,5 +1,6 @@
 #include "runner/bench/aligned_table.h"
 #include "runner/compare/comparison_writers.h"
+#include "runner/compare/strictness_failures.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>
@@ -28,12 +29,22 @@ std::string margin_text(const StrictnessResult& r) {
     return fmt::format("{:.3g} % {}", 100.0 * std::abs(*r.margin), *r.margin >= 0.0 ? "to spare" : "too much");
 }
 
-void append_strictness(std::string& text, const StrictnessResult& r, std::size_t depth) {
-    text += fmt::format("{:{}}{} {}", "", 2 * depth + 2, r.passed ? "pass" : "FAIL", r.statement);
+std::string leaf_text(const StrictnessResult& r) {
+    return fmt::format("{}: {} of {} {}, {}, farthest at {}, {}", r.statement, number(r.found), number(r.threshold), r.unit, margin_text(r),
+                       r.worst_x, r.worst_y);
+}
+
+void collect_failures(const std::string& layer, const StrictnessResult& r, std::vector<std::string>& failures) {
+    if (r.passed)
+        return;
     if (r.children.empty())
-        text += fmt::format(": {} of {} {}, {}, farthest at {}, {}", number(r.found), number(r.threshold), r.unit, margin_text(r),
-                            r.worst_x, r.worst_y);
-    text += '\n';
+        failures.push_back(layer + ": " + leaf_text(r));
+    for (const StrictnessResult& child : r.children)
+        collect_failures(layer, child, failures);
+}
+
+void append_strictness(std::string& text, const StrictnessResult& r, std::size_t depth) {
+    text += fmt::format("{:{}}{} {}\n", "", 2 * depth + 2, r.passed ? "pass" : "FAIL", r.children.empty() ? leaf_text(r) : r.statement);
     for (const StrictnessResult& child : r.children)
         append_strictness(text, child, depth + 1);
 }
@@ -52,6 +63,14 @@ void append_histogram(std::string& text, const LayerComparison& layer) {
 }
 
 } // namespace
+
+std::vector<std::string> strictness_failures(const PictureComparison& comparison) {
+    std::vector<std::string> failures;
+    for (const LayerComparison& layer : comparison.layers)
+        if (layer.strictness)
+            collect_failures(layer.name, *layer.strictness, failures);
+    return failures;
+}
 
 std::string comparison_text(const PictureComparison& comparison, const PicturePair& pair) {
     std::string text = fmt::format("reference A  {}\ntested B     {}\n{} x {} pixels, {:.4f} pixels per degree; differences are B - A\n",

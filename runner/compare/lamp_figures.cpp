@@ -1,6 +1,7 @@
 #include "runner/compare/lamp_comparison.h"
 #include "runner/compare/picture_sheet.h"
 #include "runner/lamp_against.h"
+#include "runner/name_beside.h"
 #include "runner/plots/canvas.h"
 #include "runner/plots/isocandela.h"
 #include "runner/plots/svg.h"
@@ -16,7 +17,8 @@ namespace {
 using plots::AngleWindow;
 using plots::Figure;
 
-std::string label(const char* side, const ComparedLamp& lamp) { return fmt::format("{}: {}", side, short_text(lamp.file.name, 48)); }
+std::string old_label(const LampPairComparison& lamps) { return "A: " + short_text(name_beside(lamps.before.file, lamps.now.file), 60); }
+std::string new_label(const LampPairComparison& lamps) { return "B: " + short_text(name_beside(lamps.now.file, lamps.before.file), 60); }
 
 AngleWindow common_window(const LampPairComparison& lamps) {
     const AngleWindow a = plots::beam_window(lamps.before.file.table), b = plots::beam_window(lamps.now.file.table);
@@ -42,8 +44,8 @@ std::string beside(const Figure& left, const Figure& right) {
 ComparedFigure side_by_side(const LampPairComparison& lamps) {
     const AngleWindow window = common_window(lamps);
     const double peak_cd = common_peak_cd(lamps);
-    Figure a = plots::isocandela_diagram(lamps.before.file.table, label("A", lamps.before), window, peak_cd);
-    Figure b = plots::isocandela_diagram(lamps.now.file.table, label("B", lamps.now), window, peak_cd);
+    Figure a = plots::isocandela_diagram(lamps.before.file.table, old_label(lamps), window, peak_cd);
+    Figure b = plots::isocandela_diagram(lamps.now.file.table, new_label(lamps), window, peak_cd);
     for (Figure* figure : {&a, &b}) {
         figure->width_px = 760.0;
         plots::fit_height(*figure, window);
@@ -71,8 +73,7 @@ ComparedFigure overlay(const LampPairComparison& lamps) {
     Figure figure = over_window(window, "Isocandela lines of both");
     figure.subtitle = "lux at 25 m on a target facing the lamp (1 lx = 625 cd); crosses: peaks";
     const plots::Colour old_colour = plots::series_colour(0), new_colour = plots::series_colour(1);
-    figure.series = {{.name = label("A", lamps.before), .colour = old_colour},
-                     {.name = label("B", lamps.now), .colour = new_colour, .dash = "6 3"}};
+    figure.series = {{.name = old_label(lamps), .colour = old_colour}, {.name = new_label(lamps), .colour = new_colour, .dash = "6 3"}};
     const plots::Grid a = plots::lux_over(lamps.before.file.table, window), b = plots::lux_over(lamps.now.file.table, window);
     for (const double level : plots::isocandela_levels_lx(common_peak_cd(lamps))) {
         figure.isolines.push_back({plots::number(level) + " lx", plots::isolines(a, level), old_colour, 1.3, ""});
@@ -102,8 +103,8 @@ ComparedFigure difference(const LampPairComparison& lamps) {
         }
     const double top = rounded_up(largest);
     Figure figure = over_window(window, "Difference, B - A");
-    figure.subtitle = fmt::format("{} less {}; orange: B is brighter, blue: A is brighter, grey: outside a table", label("B", lamps.now),
-                                  label("A", lamps.before));
+    figure.subtitle =
+        fmt::format("{} less {}; orange: B is brighter, blue: A is brighter, grey: outside a table", new_label(lamps), old_label(lamps));
     figure.colour_bar = plots::ColourBar{{"B - A", "cd", -top, top, plots::Scale::signed_logarithmic}, true};
     figure.rasters.push_back({plots::difference_map(values, figure.colour_bar->axis, {200, 200, 200}), window.left_deg, window.right_deg,
                               window.top_deg, window.bottom_deg});
@@ -140,8 +141,8 @@ std::optional<ComparedFigure> cut_offs(const LampPairComparison& lamps) {
     figure.subtitle = "the steepest fall of log E in vertical scans, detector of 30 mm at 25 m; missing where there is no edge";
     figure.width_px = 1040.0;
     figure.height_px = 380.0;
-    figure.series = {{label("A", lamps.before), cut_off_line(lamps.before), plots::series_colour(0), 2.4, ""},
-                     {label("B", lamps.now), cut_off_line(lamps.now), plots::series_colour(1), 1.8, "6 3"}};
+    figure.series = {{old_label(lamps), cut_off_line(lamps.before), plots::series_colour(0), 2.4, ""},
+                     {new_label(lamps), cut_off_line(lamps.now), plots::series_colour(1), 1.8, "6 3"}};
     std::vector<double> ys;
     for (const plots::Series& series : figure.series)
         for (const plots::Point& point : series.points)

@@ -1,5 +1,6 @@
 #include "report_files.h"
 #include "runner/compare/lamp_comparison.h"
+#include "runner/name_beside.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/page_parts.h"
 
@@ -136,7 +137,8 @@ std::string lamps_html(const LampPairComparison& lamps) {
         part.set("format", clean_text(lamp->file.format));
         files.push_back(part);
     }
-    page.set("title", short_text(lamps.now.file.name, 80) + " against " + short_text(lamps.before.file.name, 80));
+    page.set("title", short_text(name_beside(lamps.now.file, lamps.before.file), 80) + " against " +
+                          short_text(name_beside(lamps.before.file, lamps.now.file), 80));
     page.set("style",
              std::string(report_file("report.css")) + std::string(report_file("study.css")) + std::string(report_file("compare.css")));
     page.set("script", std::string(report_file("study.js")));

@@ -68,7 +68,7 @@ std::string lamps_text(const LampPairComparison& lamps) {
         const bool known = fact.before && fact.now;
         rows.push_back({fact.words, number(fact.before), number(fact.now),
                         known ? fmt::format("{:+.5g}", *fact.now - *fact.before + 0.0) : "",
-                        fact.uncertainty ? fmt::format("+-{:.2g}", *fact.uncertainty) : "", fact.unit, fact.why_not});
+                        fact.uncertainty ? fmt::format("±{:.2g}", *fact.uncertainty) : "", fact.unit, fact.why_not});
     }
     text += aligned_table("<>>>><<", {"figure", "A", "B", "B - A", "", "", ""}, rows);
     if (!lamps.regulation)

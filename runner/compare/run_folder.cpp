@@ -70,6 +70,9 @@ RunDrive read_drive_of(const fs::path& folder, const CheckedJson& report, const 
 
 RunFolder read_run_folder(const fs::path& folder) {
     std::error_code ignored;
+    if (fs::is_directory(folder / "cells", ignored))
+        throw InputError({folder, 0, 0, {}}, "is a study's folder",
+                         "one of its cells, " + (folder / "cells" / "NAME").string() + ", or a run's folder");
     if (is_marked_incomplete(folder))
         throw InputError({folder, 0, 0, {}}, "holds a run that did not end", "the folder of a run that was played to its end");
     if (!fs::is_regular_file(folder / "report.json", ignored))

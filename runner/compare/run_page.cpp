@@ -1,13 +1,16 @@
 #include "report_files.h"
 #include "runner/compare/run_writers.h"
+#include "runner/compare/strictness_failures.h"
 #include "runner/plots/png.h"
 #include "runner/reading_words.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/page_parts.h"
+#include "runner/unit_words.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <kainjow/mustache.hpp>
 #include <stdexcept>
 
@@ -46,7 +49,7 @@ data change_part(const DriveComparison& drive, const ReadingChange& change, cons
                                                                              : drive.now->variant + " / " + drive.before->variant));
     part.set("reading", clean_text(reading_in_words(change.reading)));
     part.set("name", clean_text(change.reading));
-    part.set("unit", clean_text(change.unit));
+    part.set("unit", clean_text(unit_in_words(change.unit)));
     part.set("old", optional_number(change.old_value, "not measured"));
     part.set("new", optional_number(change.new_value, "not measured"));
     part.set("old_key", sort_key(change.old_value));
@@ -83,7 +86,8 @@ data verdict_part(const RunComparison& runs) {
     for (const DriveComparison& drive : runs.drives)
         for (const FramePair& frame : drive.frames)
             if (!frame.comparison.passed())
-                failures.push_back(clean_text(fmt::format("{}: {} does not keep it", drive.name, frame.file(frame.new_frame))));
+                failures.push_back(clean_text(fmt::format("{}: {} does not keep it: {}", drive.name, frame.file(frame.new_frame),
+                                                          fmt::join(strictness_failures(frame.comparison), "; "))));
     for (const std::string& why : runs.not_judged)
         failures.push_back(clean_text("not held to it: " + why));
     const std::size_t real = runs.count(ChangeKind::real);
@@ -175,7 +179,7 @@ data frames_part(const DriveComparison& drive) {
             row.set("view", clean_text(frame.new_frame.view));
             row.set("time", figure(frame.new_frame.time_s, 2));
             row.set("channel", clean_text(layer.name));
-            row.set("unit", clean_text(layer.unit));
+            row.set("unit", clean_text(unit_in_words(layer.unit)));
             for (const char* name : {"max_error", "rmse", "psnr_db", "percent_different", "ssim", "flip_mean"}) {
                 row.set(name, optional_number(value_in(layer, name)));
                 row.set(name + std::string("_key"), sort_key(value_in(layer, name)));

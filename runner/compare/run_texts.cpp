@@ -1,7 +1,9 @@
 #include "runner/bench/aligned_table.h"
 #include "runner/compare/run_writers.h"
+#include "runner/compare/strictness_failures.h"
 #include "runner/reading_words.h"
 #include "runner/report/clean_text.h"
+#include "runner/unit_words.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -41,11 +43,11 @@ std::vector<std::string> change_line(const std::string& id, const DriveCompariso
 
 std::string change_text(const ReadingChange& c) {
     std::string text = fmt::format("{}: {} -> {} {}, {:+.4g}", reading_in_words(c.reading), short_number(c.old_value),
-                                   short_number(c.new_value), c.unit, c.delta());
+                                   short_number(c.new_value), unit_in_words(c.unit), c.delta());
     if (*c.old_value != 0.0)
         text += fmt::format(" ({:+.1f} %)", 100.0 * c.delta() / std::abs(*c.old_value));
     if (c.uncertainty)
-        text += fmt::format(", +-{:.2g}", *c.uncertainty);
+        text += fmt::format(", ±{:.2g}", *c.uncertainty);
     return text;
 }
 
@@ -73,7 +75,7 @@ void append_frames(std::string& text, const DriveComparison& drive) {
                 }
             }
         rows.push_back({"  " + clean_text(channel), std::to_string(frames), std::to_string(equal), short_number(value_in(*worst, "rmse")),
-                        short_number(value_in(*worst, "max_error")), worst->unit, short_number(value_in(*worst, "ssim")),
+                        short_number(value_in(*worst, "max_error")), unit_in_words(worst->unit), short_number(value_in(*worst, "ssim")),
                         fmt::format("{:.2f} s", worst_s)});
     }
     if (!rows.empty())
@@ -102,9 +104,12 @@ void append_drive(std::string& text, const RunComparison& runs, const DriveCompa
     if (runs.strictness_name.empty())
         return;
     for (const FramePair& frame : drive.frames)
-        if (!frame.comparison.passed())
+        if (!frame.comparison.passed()) {
             text += fmt::format("  FAIL {}: {} does not keep {}\n", clean_text(frame.new_frame.view),
                                 clean_text(frame.file(frame.new_frame)), runs.strictness_name);
+            for (const std::string& failure : strictness_failures(frame.comparison))
+                text += "    " + clean_text(failure) + "\n";
+        }
 }
 
 } // namespace

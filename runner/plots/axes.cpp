@@ -113,7 +113,7 @@ Axis axis_around(std::string label, std::string unit, const std::vector<double>&
     }
     if (include_zero || low > high) {
         low = std::min(low, 0.0);
-        high = std::max(high, 0.0);
+        high = std::max(1.05 * high, 0.0); // a line must not lie on the frame
     }
     if (!(high > low)) // one value only: some room round it
         high = low + std::max(std::abs(low) * 0.1, 1.0);

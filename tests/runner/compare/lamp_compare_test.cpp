@@ -56,6 +56,19 @@ TEST_F(LampCompare, SaysWhatTheCommandsOfOneLampSay) {
     EXPECT_EQ(found.at("passed"), true);
 }
 
+/// Our halogen lamp made brighter keeps its own name: the files tell them apart.
+TEST_F(LampCompare, CallsLampsByTheirFiles) {
+    const std::string brighter = folder / "brighter.ies";
+    ASSERT_EQ(run_program("lamp " + halogen + " --scale 1.05 --convert " + brighter).exit_code, 0);
+    const std::string old_name = "halogen-low.ies (halogen low beam (model))", new_name = "brighter.ies (halogen low beam (model))";
+    const Outcome outcome = run_program("compare " + halogen + " " + brighter + " --out " + (folder / "named"));
+    for (const std::string& text :
+         {outcome.output, content_of(folder / "named/report.html"), content_of(folder / "named/figures/isocandela-overlay.svg")})
+        EXPECT_THAT(text, AllOf(HasSubstr(old_name), HasSubstr(new_name)));
+    EXPECT_THAT(run_program("lamp " + brighter + " --against " + halogen).output,
+                AllOf(HasSubstr("lamp           " + new_name), HasSubstr("against        " + old_name), HasSubstr("±")));
+}
+
 TEST_F(LampCompare, ALampIsLikeItself) {
     const json found = json_of("compare " + xenon + " " + xenon);
     EXPECT_EQ(found.at("difference").at("differs"), false);

@@ -14,6 +14,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -177,6 +178,7 @@ TEST_F(RunCompare, StrictnessHoldsForEveryFrame) {
     const Outcome outcome = compare("halogen", "xenon", "--strictness same-light");
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.output, AllOf(HasSubstr("FAIL driver"), HasSubstr("strictness same-light: FAIL")));
+    EXPECT_THAT(outcome.output, ContainsRegex("    illuminance.lx: .*: [0-9.e+-]+ of [0-9.e+-]+ .*too much, farthest at [0-9]+, [0-9]+"));
 }
 
 TEST_F(RunCompare, WhatDoesNotBelongTogetherIsLeftOutAndNamed) {
@@ -233,6 +235,8 @@ TEST_F(RunCompare, WrongInputIsOneSentenceAndTwo) {
     };
     refused("halogen", "faster", "", "another speed in B");
     refused("halogen", "empty", "", "has no report.json");
+    std::filesystem::create_directories(at("study/cells/straight_new"));
+    refused("halogen", "study", "", "is a study's folder, expected one of its cells");
     refused("halogen", "unfinished", "", "a run that did not end");
     refused("halogen", "halogen/frames/straight-1-halogen-low/driver-000000.png", "", "is a picture, expected a folder as A is");
     refused("halogen/frames/straight-1-halogen-low/driver-000000.png", "halogen", "", "is a folder, expected a picture as A is");

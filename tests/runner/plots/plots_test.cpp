@@ -62,6 +62,9 @@ TEST(Axes, AxisAroundHoldsItsValues) {
     const Axis axis = axis_around("reach", "m", {61.3, std::nan(""), 94.0});
     EXPECT_EQ(axis.from, 60.0);
     EXPECT_EQ(axis.to, 95.0);
+    const Axis from_zero = axis_around("reach", "m", {40.0, 100.0}, Scale::linear, true);
+    EXPECT_EQ(from_zero.from, 0.0);
+    EXPECT_GE(from_zero.to, 105.0) << "a line on the frame cannot be seen";
     const Axis log = axis_around("E", "lx", {0.0, 0.3, 42.0}, Scale::logarithmic);
     EXPECT_NEAR(log.from, 0.1, 1e-15);
     EXPECT_NEAR(log.to, 100.0, 1e-12);
