@@ -62,10 +62,20 @@ Measured value_at(const Approach& approach, double distance_m) {
     return {{}, fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m)};
 }
 
-Measured reached_from_m(const Approach& approach, double limit) {
+std::string cut_short(const Approach& approach, bool passed) {
+    if (passed || approach.empty() || approach.back().distance_m <= near_enough_m)
+        return {};
+    return fmt::format("the drive comes from {:.1f} m to {:.1f} m before it", approach.front().distance_m, approach.back().distance_m);
+}
+
+Measured reached_from_m(const Approach& approach, double limit, bool passed) {
     const LitLine line = lit_line(by_distance(approach), limit);
-    if (!largest(approach))
+    const std::optional<double> most = largest(approach);
+    if (!most)
         return {{}, nothing};
+    const std::string cut = cut_short(approach, passed);
+    if (*most < limit && !cut.empty())
+        return {{}, fmt::format("{} and sees {:.3g} at most; what is nearer was not driven", cut, *most)};
     if (line.lit_at_end)
         return {{}, fmt::format("{:g} is reached from the drive's first moment on, {:.1f} m away", limit, approach.front().distance_m)};
     return {line.last_m, {}};

@@ -4,6 +4,7 @@
 
 #include "metrics/measured.h"
 
+#include <string>
 #include <vector>
 
 namespace fernlicht {
@@ -18,8 +19,16 @@ using Approach = std::vector<ApproachSample>;
 /// With distances to go: the value where so many metres are left. Not measured where the drive comes from nearer or ends farther away.
 Measured value_at(const Approach& approach, double distance_m);
 
-/// With distances to go: farthest at which the value reaches the limit; 0: nowhere. Not measured where it does so from the first moment on.
-Measured reached_from_m(const Approach& approach, double limit);
+/// An approach that comes so near is finished though the place is not passed: a lamp is hardly a point of light from there on.
+inline constexpr double near_enough_m = 10.0;
+
+/// With distances to go, of a drive that did not pass the place: "the drive comes from 246.2 m to 210.4 m before it"; "" where it passed,
+/// came within near_enough_m, or no moment was before the place.
+std::string cut_short(const Approach& approach, bool passed);
+
+/// With distances to go: farthest at which the value reaches the limit; 0: nowhere. Not measured where it does so from the first moment on,
+/// and where it does so nowhere though the approach was cut short.
+Measured reached_from_m(const Approach& approach, double limit, bool passed);
 
 /// Seconds and metres of the drive at or above the limit.
 struct Stretch {

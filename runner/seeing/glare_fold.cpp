@@ -135,6 +135,7 @@ void OncomingFold::add(const Moment& moment) {
         Eye& eye = eyes_[i];
         const GlareObserver& observer = parameters.oncoming[i];
         const double to_go_m = observer.at_m - moment.distance_m - drive_.bumper_m;
+        eye.passed = eye.passed || to_go_m < 0.0;
         if (!eye.place_m || to_go_m < 0.0)
             continue;
         std::vector<GlareSource> sources;
@@ -155,8 +156,9 @@ Readings OncomingFold::readings() const {
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
         const GlareObserver& observer = parameters.oncoming[i];
         const std::string stem = "glare_" + observer.name;
-        const std::string where =
-            fmt::format("oncoming driver {} m along the route, eyes {} m above the road", observer.at_m, observer.eye_height_m);
+        const std::string cut = cut_short(eyes_[i].followed.facing, eyes_[i].passed);
+        const std::string where = fmt::format("oncoming driver {} m along the route, eyes {} m above the road{}", observer.at_m,
+                                              observer.eye_height_m, cut.empty() ? "" : " (" + cut + ")");
         const std::string none = eyes_[i].place_m ? "" : fmt::format("there is no oncoming lane at {} m", observer.at_m);
         eyes_[i].followed.say(readings, stem, where, none, parameters);
         for (const double distance_m : parameters.distances_m) {

@@ -46,6 +46,7 @@ class OncomingFold {
         std::optional<glm::dvec3> place_m; ///< nullopt: there is no oncoming lane
         glm::dvec3 gaze{0.0};
         GlareFollowed followed;
+        bool passed = false; ///< some moment is beyond it
     };
     const Drive& drive_;
     const Route& route_;

@@ -23,6 +23,7 @@ void SensorFold::add(const Moment& moment) {
         Followed& here = followed_[i];
         const Sensor& sensor = drive_.seeing.sensors->points[i];
         const double to_go_m = sensor.at_m - moment.distance_m - drive_.bumper_m;
+        here.passed = here.passed || to_go_m < 0.0;
         if (!here.point_m || to_go_m < 0.0)
             continue;
         double lx = 0.0;
@@ -42,16 +43,17 @@ Readings SensorFold::readings() const {
     for (std::size_t i = 0; i < followed_.size(); ++i) {
         const Sensor& sensor = parameters.points[i];
         const Followed& here = followed_[i];
-        const std::string where =
-            fmt::format("{}, {} m along the route, {} m above the road, facing the lamps{}", place_name(sensor.across), sensor.at_m,
-                        sensor.above_m, here.near_field ? ", near-field: nearer than a lamp's photometric distance" : "");
+        const std::string cut = cut_short(here.approach, here.passed);
+        const std::string where = fmt::format(
+            "{}, {} m along the route, {} m above the road, facing the lamps{}{}", place_name(sensor.across), sensor.at_m, sensor.above_m,
+            here.near_field ? ", near-field: nearer than a lamp's photometric distance" : "", cut.empty() ? "" : "; " + cut);
         const auto say = [&](const std::string& suffix, const char* unit, Measured found) {
             if (!here.point_m)
                 found = {{}, fmt::format("there is no {} at {} m", place_name(sensor.across), sensor.at_m)};
             readings.push_back({fmt::format("sensor_{}_{}", sensor.name, suffix), found.value, unit, where, -1, found.why_not});
         };
         for (const double limit : parameters.limits_lx)
-            say(fmt::format("reach_{}lx_m", limit), "m", reached_from_m(here.approach, limit));
+            say(fmt::format("reach_{}lx_m", limit), "m", reached_from_m(here.approach, limit, here.passed));
         for (const double distance_m : parameters.distances_m)
             say(fmt::format("at_{}m_lx", distance_m), "lx", value_at(here.approach, distance_m));
         const std::optional<double> most = largest(here.approach);

@@ -26,6 +26,7 @@ class SensorFold {
         Approach approach;
         std::vector<int> ticks;
         bool near_field = false;
+        bool passed = false; ///< some moment is beyond it
     };
     const Drive& drive_;
     const Route& route_;

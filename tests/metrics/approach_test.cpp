@@ -1,5 +1,6 @@
 #include "metrics/approach.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -20,11 +21,21 @@ TEST(Approach, RunsStraightInTheLogarithm) {
 }
 
 TEST(Approach, IsReachedFromFarthestAway) {
-    EXPECT_NEAR(reached_from_m(course, 4.0).value.value(), 25.0, 1e-12); // between 2 and 8
-    EXPECT_NEAR(reached_from_m(course, 2.0).value.value(), 30.0, 1e-12);
-    EXPECT_EQ(reached_from_m(course, 9.0).value.value(), 0.0) << "nowhere";
-    EXPECT_THAT(reached_from_m(course, 1.0).why_not, HasSubstr("first moment on, 40.0 m away"));
-    EXPECT_FALSE(reached_from_m({}, 1.0).value);
+    EXPECT_NEAR(reached_from_m(course, 4.0, false).value.value(), 25.0, 1e-12); // between 2 and 8
+    EXPECT_NEAR(reached_from_m(course, 2.0, false).value.value(), 30.0, 1e-12);
+    EXPECT_EQ(reached_from_m(course, 9.0, false).value.value(), 0.0) << "nowhere";
+    EXPECT_THAT(reached_from_m(course, 1.0, false).why_not, HasSubstr("first moment on, 40.0 m away"));
+    EXPECT_FALSE(reached_from_m({}, 1.0, false).value);
+}
+
+TEST(Approach, WhatWasNotDrivenIsNotDark) {
+    const Approach cut(course.begin(), course.begin() + 2); // ends 30 m before the place with 2 lx
+    EXPECT_EQ(cut_short(cut, false), "the drive comes from 40.0 m to 30.0 m before it");
+    EXPECT_THAT(reached_from_m(cut, 9.0, false).why_not, HasSubstr("from 40.0 m to 30.0 m before it and sees 2 at most"));
+    EXPECT_EQ(reached_from_m(cut, 9.0, true).value, 0.0) << "the next moment was beyond the place";
+    EXPECT_NEAR(reached_from_m(cut, std::sqrt(2.0), false).value.value(), 35.0, 1e-12) << "it came far enough to know this";
+    EXPECT_EQ(cut_short(Approach(course.begin(), course.begin() + 4), false), "") << "10 m are near enough";
+    EXPECT_EQ(cut_short({}, false), "");
 }
 
 TEST(Approach, CountsTimeAndLengthOnBothSides) {

@@ -68,6 +68,24 @@ TEST(SeeingRun, FiguresByHandAtFiftyMetres) {
     EXPECT_GT(value("foreground_ratio_own"), 50.0) << "1/d^3 from 10 to 50 m alone is 125";
 }
 
+// 0.4 s at 36 km/h are 4 m: 6 m from the route's start the bumper passes, 200 m are far beyond the drive's end.
+TEST(SeeingRun, AnApproachCutShortSaysSo) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        play(folder, "  sensors:\n    limits_lx: [1000]\n    points:\n      far: {at_m: 200, across: right-edge, above_m: 0.25}\n"
+                     "      passed: {at_m: 6, across: right-edge, above_m: 0.25}\n"
+                     "  glare: {oncoming: {beyond: {at_m: 200, eye_height_m: 1.1}, by: {at_m: 6, eye_height_m: 1.1}}}\n");
+    ASSERT_NE(outcome.exit_code, 2) << outcome.output;
+    const std::map<std::string, json> readings = readings_of(folder);
+    EXPECT_TRUE(readings.at("sensor_far_reach_1000lx_m").at("value").is_null());
+    EXPECT_THAT(readings.at("sensor_far_reach_1000lx_m").at("not_measured").get<std::string>(), HasSubstr("m before it and sees"));
+    EXPECT_THAT(readings.at("sensor_far_max_lx").at("where").get<std::string>(), HasSubstr("; the drive comes from 1"));
+    EXPECT_THAT(readings.at("glare_beyond_facing_max_lx").at("where").get<std::string>(), HasSubstr("(the drive comes from 1"));
+    EXPECT_EQ(readings.at("sensor_passed_reach_1000lx_m").at("value"), 0.0);
+    EXPECT_THAT(readings.at("sensor_passed_max_lx").at("where").get<std::string>(), testing::Not(HasSubstr("the drive comes")));
+    EXPECT_THAT(readings.at("glare_by_facing_max_lx").at("where").get<std::string>(), testing::Not(HasSubstr("the drive comes")));
+}
+
 TEST(SeeingRun, NobodyAskedNothingStands) {
     const TemporaryFolder folder;
     ASSERT_EQ(play(folder, "  probes: {kerb: {ahead_m: 33.6, left_m: -1.75}}\n").exit_code, 0);
