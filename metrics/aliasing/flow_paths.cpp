@@ -106,10 +106,15 @@ FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t f
         earlier.push_back(std::move(back));
     }
     FlowPaths found;
+    const Image<std::uint8_t> contrast = has_contrast(pictures[from]);
     std::vector<double> motions, returns;
     for (int y = stride / 2; y < pictures[from].height(); y += stride)
         for (int x = stride / 2; x < pictures[from].width(); x += stride) {
             ++found.started;
+            if (contrast.at(x, y) == 0) {
+                ++found.flat;
+                continue;
+            }
             Path path(pictures.size(), Place{static_cast<double>(x), static_cast<double>(y)});
             std::vector<double> path_motions, path_returns;
             const auto follow = [&](const Step& there, const Step& back, std::size_t start, std::size_t end) {

@@ -16,6 +16,7 @@ using Path = std::vector<Place>;
 struct FlowPaths {
     std::vector<Path> paths;
     std::size_t started = 0;       ///< points that were to be followed
+    std::size_t flat = 0;          ///< of them, those without contrast, which cannot be
     double median_motion_px = 0.0; ///< from one picture to the next, of the points followed
     double median_return_px = 0.0; ///< how far from the start going there and back ends, of the same
 };
@@ -24,7 +25,8 @@ struct FlowPaths {
 inline constexpr double most_return_px = 0.5;
 
 /// Every `stride`-th pixel each way of picture `from`, followed from one picture to the next in both directions of time. Left out is what
-/// found_again() does not find within most_return_px at any step, and what leaves the picture: hidden, lit too little to be told, or wrong.
+/// has_contrast() does not tell in picture `from`, what found_again() does not find within most_return_px at any step, and what leaves the
+/// picture: dark, hidden or wrong.
 /// Errors of the steps add up along a path. Throws std::invalid_argument as optical_flow() and for `from` beyond the pictures.
 FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t from, int stride, FlowMethod method = FlowMethod::dis);
 

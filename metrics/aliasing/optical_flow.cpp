@@ -15,6 +15,9 @@ namespace {
 
 constexpr int least_px = 32;
 constexpr double structure_px = 4.0, full_rms = 4.0;
+constexpr int contrast_window_px = 9;
+/// Of pixels that are off by rounding alone, 1/12 each in the square: their difference over two pixels, halved.
+constexpr double rounding_eigenvalue = 1.0 / 24.0;
 
 void check(const Image<float>& from, const Image<float>& to) {
     if (from.width() != to.width() || from.height() != to.height() || std::min(from.width(), from.height()) < least_px)
@@ -39,6 +42,11 @@ cv::Mat structure_of(const Image<float>& picture) {
     return levels - slow;
 }
 
+/// The contrast that fills a byte.
+double full_of(const cv::Mat& a, const cv::Mat& b) {
+    return std::max(1e-3, full_rms * std::sqrt(0.5 * (a.dot(a) + b.dot(b)) / static_cast<double>(a.total())));
+}
+
 cv::Mat bytes_of(const cv::Mat& structure, double full) {
     cv::Mat bytes;
     structure.convertTo(bytes, CV_8UC1, 127.0 / full, 128.0);
@@ -57,7 +65,7 @@ double median_of(std::vector<double>& values) {
 Flow optical_flow(const Image<float>& from, const Image<float>& to, FlowMethod method) {
     check(from, to);
     const cv::Mat a = structure_of(from), b = structure_of(to);
-    const double full = std::max(1e-3, full_rms * std::sqrt(0.5 * (a.dot(a) + b.dot(b)) / static_cast<double>(from.size())));
+    const double full = full_of(a, b);
     const cv::Mat first = bytes_of(a, full), second = bytes_of(b, full);
     cv::Mat flow;
     if (method == FlowMethod::dis) {
@@ -79,6 +87,30 @@ Flow optical_flow(const Image<float>& from, const Image<float>& to, FlowMethod m
             out.dy_px.at(x, y) = at[1];
         }
     return out;
+}
+
+Image<std::uint8_t> has_contrast(const Image<float>& picture) {
+    check(picture, picture);
+    const cv::Mat structure = structure_of(picture);
+    cv::Mat bytes;
+    bytes_of(structure, full_of(structure, structure)).convertTo(bytes, CV_32FC1);
+    cv::Mat along_x, along_y;
+    cv::Sobel(bytes, along_x, CV_32F, 1, 0, 1, 0.5, 0.0, cv::BORDER_REFLECT); // (right - left) / 2
+    cv::Sobel(bytes, along_y, CV_32F, 0, 1, 1, 0.5, 0.0, cv::BORDER_REFLECT);
+    const auto mean = [](const cv::Mat& product) {
+        cv::Mat out;
+        cv::boxFilter(product, out, CV_32F, {contrast_window_px, contrast_window_px}, {-1, -1}, true, cv::BORDER_REFLECT);
+        return out;
+    };
+    const cv::Mat xx = mean(along_x.mul(along_x)), yy = mean(along_y.mul(along_y)), xy = mean(along_x.mul(along_y));
+    Image<std::uint8_t> found(picture.width(), picture.height());
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) {
+            const double a = static_cast<double>(xx.at<float>(y, x)), b = static_cast<double>(yy.at<float>(y, x));
+            const double eigenvalue = 0.5 * (a + b) - std::hypot(0.5 * (a - b), static_cast<double>(xy.at<float>(y, x)));
+            found.at(x, y) = eigenvalue > 4.0 * rounding_eigenvalue ? 1 : 0;
+        }
+    return found;
 }
 
 double between_pixels(const Image<float>& picture, double x, double y) {

@@ -61,6 +61,7 @@ Json temporal_json(const AliasingRow& row) {
     found["motion"] = row.by_flow ? Json{{"by", "optical flow"},
                                          {"started", row.by_flow->started},
                                          {"followed", row.by_flow->followed},
+                                         {"without_contrast", row.by_flow->flat},
                                          {"median_motion_px", row.by_flow->median_motion_px},
                                          {"median_return_px", row.by_flow->median_return_px}}
                                   : Json{{"by", "depth and the car's path"}};
@@ -201,8 +202,9 @@ std::vector<std::size_t> ranked(const AliasingResult& result) {
 }
 
 std::string motion_text(const FollowedByFlow& flow) {
-    return fmt::format("motion by optical flow: {} of {} points followed, median motion {:.2f} px a frame, back to within {:.3f} px{}",
-                       flow.followed, flow.started, flow.median_motion_px, flow.median_return_px,
+    return fmt::format("motion by optical flow: {} of {} points followed, {} without contrast, median motion {:.2f} px a frame, back to "
+                       "within {:.3f} px{}",
+                       flow.followed, flow.started, flow.flat, flow.median_motion_px, flow.median_return_px,
                        2 * flow.followed < flow.started ? "; fewer than half, and flicker is known of those alone" : "");
 }
 
@@ -220,7 +222,8 @@ std::string aliasing_text(const AliasingResult& result) {
         if (row.why_not.empty() && !row.marks)
             why += name_of(row.configuration) + ": jaggedness of road marks not measured, " + row.no_marks + "\n";
         if (row.by_flow)
-            why += motion_text(*row.by_flow) + "\n";
+            why += row.temporal ? motion_text(*row.by_flow) + "\n"
+                                : name_of(row.configuration) + ": flicker not measured, " + row.no_temporal + "\n";
     }
     const auto& [first, first_s] = result.moments.front();
     const auto& [last, last_s] = result.moments.back();

@@ -74,7 +74,7 @@ data notes_part(const AliasingResult& result) {
         say("Flicker", row.no_temporal);
     }
     for (const AliasingRow& row : result.rows)
-        if (row.by_flow)
+        if (row.by_flow && row.temporal)
             notes.push_back(motion_text(*row.by_flow));
     return notes;
 }

@@ -26,6 +26,7 @@ std::string name_of(const AliasingConfiguration& configuration); ///< "photometr
 /// Motion that was estimated, and how well it agrees with itself.
 struct FollowedByFlow {
     std::size_t started = 0, followed = 0;                 ///< points
+    std::size_t flat = 0;                                  ///< of those started, without contrast
     double median_motion_px = 0.0, median_return_px = 0.0; ///< from frame to frame; how far from the start going there and back ends
 };
 

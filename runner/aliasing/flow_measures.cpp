@@ -5,6 +5,13 @@
 #include <algorithm>
 
 namespace fernlicht {
+namespace {
+
+bool too_few(const FlowPaths& followed) {
+    return followed.paths.empty() || static_cast<double>(followed.paths.size()) < least_followed * static_cast<double>(followed.started);
+}
+
+} // namespace
 
 Image<float> floats_of(const Image<double>& picture) {
     Image<float> out(picture.width(), picture.height());
@@ -21,7 +28,7 @@ std::string method_name(FlowMethod method) { return method == FlowMethod::dis ? 
 
 std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const std::vector<Image<double>>& aliasing,
                                                const std::vector<Image<double>>& levels, double rate_hz, double pixels_per_degree) {
-    if (followed.paths.empty())
+    if (too_few(followed))
         return std::nullopt;
     std::vector<Track> tracks;
     for (const Path& path : followed.paths)
@@ -31,7 +38,7 @@ std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const 
 
 std::optional<TemporalAliasing> flicker_along(const FlowPaths& followed, const std::vector<Image<float>>& pictures, double rate_hz,
                                               double pixels_per_degree) {
-    if (followed.paths.empty())
+    if (too_few(followed))
         return std::nullopt;
     return measure_flicker(samples_along(followed.paths, pictures), rate_hz, pixels_per_degree);
 }

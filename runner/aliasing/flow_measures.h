@@ -8,11 +8,14 @@ namespace fernlicht {
 
 Image<float> floats_of(const Image<double>& picture);
 
-/// Aliasing that is known of each frame, at the pixels nearest to the paths. nullopt where no path was followed.
+/// The share of points that must be followed: flicker of fewer says nothing of the picture.
+inline constexpr double least_followed = 0.05;
+
+/// Aliasing that is known of each frame, at the pixels nearest to the paths. nullopt where too few were followed.
 std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const std::vector<Image<double>>& aliasing,
                                                const std::vector<Image<double>>& levels, double rate_hz, double pixels_per_degree);
 
-/// Changes of brightness itself. nullopt where no path was followed.
+/// Changes of brightness itself. nullopt where too few paths were followed.
 std::optional<TemporalAliasing> flicker_along(const FlowPaths& followed, const std::vector<Image<float>>& pictures, double rate_hz,
                                               double pixels_per_degree);
 

@@ -109,11 +109,14 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
     if (result.interrupted.empty()) {
         const std::vector<Image<float>>& pictures = measured ? measured->ideal : drawn.luminance_cdm2;
         const FlowPaths followed = paths_by_flow(pictures, result.shown, stride_px);
-        row.by_flow = {followed.started, followed.paths.size(), followed.median_motion_px, followed.median_return_px};
+        row.by_flow = {followed.started, followed.paths.size(), followed.flat, followed.median_motion_px, followed.median_return_px};
         row.temporal = measured ? aliasing_along(followed, measured->residues, measured->levels, result.rate_hz, result.pixels_per_degree)
                                 : flicker_along(followed, pictures, result.rate_hz, result.pixels_per_degree);
         if (!row.temporal)
-            row.no_temporal = "optical flow follows no point of the scene through all frames";
+            row.no_temporal =
+                fmt::format("optical flow follows {} of {} points through all frames, and {:.0f} % at least are needed; {} have "
+                            "no contrast to tell motion by",
+                            followed.paths.size(), followed.started, 100.0 * least_followed, followed.flat);
         if (measured) {
             row.ideal = measured->ideal[result.shown];
             row.spatial = over_moments(measured->spatial, result.shown);

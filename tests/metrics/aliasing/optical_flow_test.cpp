@@ -83,6 +83,23 @@ TEST(OpticalFlow, WhatIsHiddenIsNotFoundAgain) {
     EXPECT_GT(ground, 28 * 6 * 9 / 10);
 }
 
+TEST(OpticalFlow, TheDarkHalfOfAPictureIsNotFollowed) {
+    // Above row 64 a black sky, without and with a slow glow; below, waves that move.
+    for (const double glow : {0.0, 1e-3}) {
+        std::vector<Image<float>> frames;
+        for (int t = 0; t < 3; ++t)
+            frames.push_back(
+                drawn(160, 128, 1, [&](double x, double y) { return y < 64.0 ? glow * y / 64.0 : waves(x - 1.2 * t, y - 0.4 * t); }));
+        const FlowPaths found = paths_by_flow(frames, 1, 2);
+        EXPECT_EQ(found.started, 80U * 64U);
+        EXPECT_NEAR(static_cast<double>(found.flat), 30.0 * 80, 80.0) << "32 rows, without those two whose 9 x 9 pixels see the ground";
+        EXPECT_GT(found.paths.size(), 80U * 64U * 2 / 5);
+        for (const Path& path : found.paths)
+            EXPECT_GT(path[1].y, 59.0);
+        EXPECT_NEAR(found.median_motion_px, std::hypot(1.2, 0.4), 0.1) << "the ground's, not the sky's";
+    }
+}
+
 /// Sixteen frames, followed by flow; measured without a reference.
 TemporalAliasing flicker_of(const std::vector<Image<float>>& frames) {
     return measure_flicker(samples_along(paths_by_flow(frames, frames.size() / 2, 2).paths, frames), rate_hz, ppd);

@@ -158,9 +158,9 @@ void write_ring(const std::string& folder, int frames, int k, bool png, double r
     }
 }
 
-json sequence_found(const TemporaryFolder& folder, const std::string& flags, const std::string& out) {
+json sequence_found(const TemporaryFolder& folder, const std::string& flags, const std::string& out, int exit_code = 0) {
     const Outcome run = run_program("aliasing --quiet --rate 30 --ppd 20 " + flags + " --out " + (folder / out));
-    EXPECT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_EQ(run.exit_code, exit_code) << run.output;
     const json found = json::parse(content_of(folder / (out + "/aliasing.json")));
     tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/aliasing/aliasing.schema.json")));
     EXPECT_THAT(schema.check(found), IsEmpty());
@@ -192,6 +192,25 @@ TEST(AliasingCommand, MeasuresFramesOfOthersByOpticalFlow) {
     EXPECT_NEAR(against.at("temporal").at("flicker_percent").get<double>() / alone.at("temporal").at("flicker_percent").get<double>(), 1.0,
                 0.5);
     EXPECT_TRUE(against.at("technique").is_null());
+}
+
+TEST(AliasingCommand, ASkyIsNoSceneToFollow) {
+    // A black sky with one small lit patch, 1 % of the picture, in which something moves.
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "night");
+    for (int t = 0; t < 9; ++t) {
+        Image<Rgb8> picture(320, 256);
+        for (int y = 60; y < 84; ++y)
+            for (int x = 60; x < 84; ++x) {
+                const double wave = std::sin(0.6 * (x - 0.3 * t)) * std::cos(0.5 * y) + std::sin(0.4 * (x - 0.3 * t + y));
+                const auto level = static_cast<std::uint8_t>(std::lround(120.0 + 40.0 * wave));
+                picture.at(x, y) = {level, level, level};
+            }
+        write_png(picture, folder / ("night/frame_" + std::to_string(1000 + t) + ".png"));
+    }
+    const json row = sequence_found(folder, "--sequence " + (folder / "night"), "sky", 1);
+    EXPECT_THAT(row.at("temporal").at("not_measured").get<std::string>(),
+                HasSubstr("of 20480 points through all frames, and 5 % at least"));
 }
 
 TEST(AliasingCommand, RefusesFramesThatAreNoSequence) {
