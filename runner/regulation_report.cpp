@@ -80,6 +80,18 @@ std::string turned_text(Direction turned) {
                        turned.v_deg < 0.0 ? "D" : "U");
 }
 
+/// What a cut-off says of the lamp as it was mounted; "" within 0.1 degrees, which is what hands aim to, or where it was not aimed by one.
+std::string as_found_text(const Aim& aim) {
+    const bool by_cut_off = aim.rule != AimRule::as_is && aim.rule != AimRule::maximum;
+    if (!by_cut_off || std::abs(aim.turned.v_deg) <= 0.1)
+        return {};
+    return fmt::format("as the file has it, the cut-off lies {:.2f} degrees too {}", std::abs(aim.turned.v_deg),
+                       aim.turned.v_deg < 0.0 ? "high" : "low");
+}
+
+/// Of G, which has none.
+std::string unit_text(const std::string& unit) { return unit.empty() ? "1" : unit; }
+
 std::string remark(const RowResult& row) {
     std::string text = row.verdict == RowVerdict::not_measured ? row.reason : row.note;
     if (row.re_aimed != Direction{})
@@ -91,11 +103,11 @@ std::string remark(const RowResult& row) {
 
 std::string row_line(const RowResult& row, std::size_t width) {
     if (row.verdict == RowVerdict::not_measured)
-        return fmt::format("{:<{}} {:>9} {:>17} {:>8} {:>15}  not_measured: {}\n", row.id, width, "-", limits_text(row), "-", "",
-                           remark(row));
+        return fmt::format("{:<{}} {:>9} {:>17} {:<3} {:>8} {:>15}  not_measured: {}\n", row.id, width, "-", limits_text(row),
+                           unit_text(row.unit), "-", "", remark(row));
     const std::string where = fmt::format("{:.2f}, {:.2f}", row.where.h_deg + 0.0, row.where.v_deg + 0.0);
-    std::string line = fmt::format("{:<{}} {:>9} {:>17} {:>+7.1f}% {:>15}  {}", row.id, width, number(row.found, row.unit),
-                                   limits_text(row), 100.0 * row.margin, where, word(row.verdict));
+    std::string line = fmt::format("{:<{}} {:>9} {:>17} {:<3} {:>+7.1f}% {:>15}  {}", row.id, width, number(row.found, row.unit),
+                                   limits_text(row), unit_text(row.unit), 100.0 * row.margin, where, word(row.verdict));
     if (const std::string text = remark(row); !text.empty())
         line += " (" + text + ")";
     return line + "\n";
@@ -203,9 +215,12 @@ std::string text_of(const Regulation& r, const RegulationCheck& check, const std
     add_line(out, "edition", "per our table of " + r.edition);
     add_line(out, "source", r.source);
     add_line(out, "judged", judged_text(r, lamps) + "; " + receiver_text(r.receiver));
-    for (std::size_t i = 0; i < check.aims.size(); ++i)
+    for (std::size_t i = 0; i < check.aims.size(); ++i) {
         add_line(out, check.aims.size() > 1 ? (i == 0 ? "aim, lamp 1" : "aim, lamp 2") : "aim",
                  fmt::format("{}: {} ({})", word(check.aims[i].rule), check.aims[i].how, turned_text(check.aims[i].turned)));
+        if (const std::string found = as_found_text(check.aims[i]); !found.empty())
+            add_line(out, "mounted", found);
+    }
     if (check.was_re_aimed)
         add_line(out, "re-aimed", turned_text(check.re_aimed) + " more, within what the edition allows a lamp that fails");
     for (const std::string& note : r.notes)
@@ -213,7 +228,7 @@ std::string text_of(const Regulation& r, const RegulationCheck& check, const std
     std::size_t width = 3;
     for (const RowResult& row : check.rows)
         width = std::max(width, row.id.size());
-    out += fmt::format("\n{:<{}} {:>9} {:>17} {:>8} {:>15}  \n", "row", width, "found", "limit in cd", "margin", "at H, V");
+    out += fmt::format("\n{:<{}} {:>9} {:>17} {:<3} {:>8} {:>15}  \n", "row", width, "found", "limit", "in", "margin", "at H, V");
     for (const RowResult& row : check.rows)
         out += row_line(row, width);
     out += "\n";
@@ -300,8 +315,11 @@ std::string regulation_list_text() {
         if (r.edition != edition)
             out += fmt::format("{}{}\n  source: {}\n", edition.empty() ? "" : "\n", r.edition, r.source);
         edition = r.edition;
-        out += fmt::format("  {:<26} {}: {} rows, aim {}\n", r.id, r.title, r.rows.size(), word(r.aim));
+        out += fmt::format("  {:<26} {}: {} rows in the text, aim {}\n", r.id, r.title, r.rows.size(), word(r.aim));
     }
+    out += "\nA lamp's table has more rows where it is aimed by its cut-off (sharpness, linearity or level of the cut-off), and fewer "
+           "where one\n"
+           "file is given and rows are for two lamps.\n";
     return out;
 }
 

@@ -86,7 +86,7 @@ struct Regulation {
 /// All tables, in the order of `regulation_ids()`.
 const std::vector<Regulation>& regulations();
 std::vector<std::string> regulation_ids();
-/// Throws InputError with the nearest known id.
-const Regulation& regulation(const std::string& id);
+/// In capitals or small letters. Throws InputError with the known ids that begin so, or the nearest one.
+const Regulation& regulation(const std::string& asked);
 
 } // namespace fernlicht

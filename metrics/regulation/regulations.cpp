@@ -1,6 +1,7 @@
 #include "metrics/regulation/rows.h"
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace fernlicht {
@@ -25,12 +26,20 @@ std::vector<std::string> regulation_ids() {
     return ids;
 }
 
-const Regulation& regulation(const std::string& id) {
+const Regulation& regulation(const std::string& asked) {
+    std::string id = asked;
+    std::ranges::transform(id, id.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     for (const Regulation& one : regulations())
         if (one.id == id)
             return one;
+    std::string beginning;
+    for (const std::string& known : regulation_ids())
+        if (id.size() >= 3 && known.starts_with(id))
+            beginning += (beginning.empty() ? "'" : ", '") + known + "'";
+    if (!beginning.empty())
+        throw InputError({{}, 0, 0, "--regulation"}, "found '" + printable(asked) + "'", "one of " + beginning);
     const std::string nearest = nearest_name(id, regulation_ids());
-    throw InputError({{}, 0, 0, "--regulation"}, "found '" + printable(id) + "'",
+    throw InputError({{}, 0, 0, "--regulation"}, "found '" + printable(asked) + "'",
                      nearest.empty() ? "an id of `--regulation list`" : "'" + nearest + "' or another id of `--regulation list`");
 }
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace fernlicht {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string lamp(const std::string& name) { return "lamp '" + library_file("lamps/" + name + ".ies") + "' "; }
 
@@ -22,6 +24,45 @@ TEST(RegulationCommand, PrintsRowsVerdictAndTheNarrowest) {
                       HasSubstr("narrowest    75R +26."), HasSubstr("pass: meets all 18 rows of our table; no approval")));
     EXPECT_LT(o.output.find("\nB50L "), o.output.find("\nzone III ")); // in the regulation's order
     EXPECT_LT(o.output.find("\nzone III "), o.output.find("\n75R "));
+}
+
+TEST(RegulationCommand, IdsAreTakenInCapitalsAndTheirBeginningsAreCompleted) {
+    EXPECT_EQ(run_program(lamp("halogen-low") + "--regulation R112-B").output,
+              run_program(lamp("halogen-low") + "--regulation r112-b").output);
+    const Outcome begun = run_program(lamp("halogen-low") + "--regulation R112");
+    EXPECT_EQ(begun.exit_code, 2);
+    EXPECT_THAT(begun.output, AllOf(HasSubstr("found 'R112', expected one of 'r112-a', 'r112-b'"), Not(HasSubstr("r98"))));
+}
+
+TEST(RegulationCommand, EachRowHasItsUnit) {
+    const std::string text = run_program(lamp("halogen-low") + "--regulation r112-b").output;
+    const auto row = [&](const std::string& id) {
+        const std::size_t at = text.find("\n" + id);
+        return text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    };
+    EXPECT_THAT(row("cut-off sharpness G"), HasSubstr(" 0.13 to 0.4 1 "));
+    EXPECT_THAT(row("cut-off linearity"), HasSubstr(" <= 0.2 deg "));
+    EXPECT_THAT(row("B50L"), HasSubstr(" <= 350 cd "));
+    EXPECT_THAT(text, AllOf(Not(HasSubstr("limit in cd")), Not(HasSubstr("\nmounted "))));
+}
+
+TEST(RegulationCommand, AMisaimedLampIsNamed) {
+    // The beam as a matrix, its vertical angles raised by 0.3 degrees; the model's cut-off lies at 0.57 to 0.58 D.
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_program(lamp("halogen-low") + "--convert " + (folder / "low.csv")).exit_code, 0);
+    std::istringstream lines(content_of(folder / "low.csv"));
+    std::ofstream raised(folder / "raised.csv");
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t comma = line.find(',');
+        if (line.starts_with('#') || comma == 0 || comma == std::string::npos || line.find_first_not_of("-.0123456789") != comma)
+            raised << line << '\n';
+        else
+            raised << std::stod(line.substr(0, comma)) + 0.3 << line.substr(comma) << '\n';
+    }
+    raised.close();
+    const Outcome o = run_program("lamp " + (folder / "raised.csv") + " --regulation r112-b");
+    EXPECT_EQ(o.exit_code, 0) << o.output;
+    EXPECT_THAT(o.output, HasSubstr("\nmounted      as the file has it, the cut-off lies 0.29 degrees too high\n"));
 }
 
 TEST(RegulationCommand, AFailedRowIsExitCode1AndNamed) {
@@ -89,6 +130,8 @@ TEST(RegulationCommand, ListNamesEveryTableAndItsRows) {
     for (const std::string& id : regulation_ids())
         EXPECT_THAT(text.output, HasSubstr("  " + id + " "));
     EXPECT_GT(list[0]["rows"].size(), 20u);
+    EXPECT_THAT(text.output,
+                AllOf(HasSubstr("class B (HC): 16 rows in the text"), HasSubstr("more rows where it is aimed by its cut-off")));
 }
 
 TEST(RegulationCommand, CutOffTellsItsFigures) {
