@@ -29,8 +29,8 @@ LampFile modelled(const std::string& name) {
 }
 
 void scale(LampFile& lamp, double factor) {
-    if (!(factor >= 0.0) || !(factor <= 1e6))
-        throw InputError({{}, 0, 0, "--scale"}, fmt::format("found {}", factor), "a number from 0 to 1000000");
+    if (!(factor > 0.0) || !(factor <= 1e6))
+        throw InputError({{}, 0, 0, "--scale"}, fmt::format("found {}", factor), "a number above 0, up to 1000000");
     lamp.table = scaled(std::move(lamp.table), factor);
     if (lamp.declared_flux_lm)
         *lamp.declared_flux_lm *= factor;
@@ -52,6 +52,12 @@ void subtract(LampFile& lamp, const LampFile& other) {
     lamp.declared_flux_lm.reset();
     lamp.notes.push_back(
         fmt::format("subtracted: {}; {} of {} samples would be negative and were set to 0", other.name, clamped, lamp.table.cd.size()));
+}
+
+/// What was done to a lamp, for files that are written of it. What its labels say is of the lamp before.
+void label_changes(LampFile& lamp, const std::vector<std::string>& changes) {
+    if (!changes.empty())
+        lamp.labels.emplace_back("OTHER", fmt::format("changed, other texts are of the lamp before: {}", fmt::join(changes, "; ")));
 }
 
 LampFile read_other(const std::filesystem::path& path, const LampReadOptions& reading, LampFile& lamp) {
@@ -167,16 +173,27 @@ LampFile lamp_of(const LampRequest& request) {
     LampFile lamp = request.model.empty() ? read_lamp(request.file, request.reading) : modelled(request.model);
     if (!request.model.empty())
         lamp.table.rule = request.reading.rule;
-    if (request.scale != 1.0)
+    std::vector<std::string> changes;
+    if (request.scale != 1.0) {
         scale(lamp, request.scale);
+        changes.push_back(fmt::format("scaled by {}", request.scale));
+    }
     if (request.mirror) {
         lamp.table = mirrored(lamp.table);
         lamp.notes.emplace_back("mirrored: left and right exchanged");
+        changes.emplace_back("mirrored, left and right traffic exchanged");
     }
-    for (const auto& path : request.add)
-        add(lamp, read_other(path, request.reading, lamp));
-    for (const auto& path : request.subtract)
-        subtract(lamp, read_other(path, request.reading, lamp));
+    for (const auto& path : request.add) {
+        const LampFile other = read_other(path, request.reading, lamp);
+        add(lamp, other);
+        changes.push_back("added " + other.name);
+    }
+    for (const auto& path : request.subtract) {
+        const LampFile other = read_other(path, request.reading, lamp);
+        subtract(lamp, other);
+        changes.push_back("subtracted " + other.name);
+    }
+    label_changes(lamp, changes);
     return lamp;
 }
 

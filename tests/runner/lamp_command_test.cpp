@@ -116,6 +116,27 @@ TEST_F(LampCommand, ScaleMirrorAddAndSubtractComeInThisOrder) {
     EXPECT_THAT(changed.notes.back(), HasSubstr("would be negative"));
 }
 
+TEST_F(LampCommand, WhatWasChangedIsSaidInTheFileWritten) {
+    for (const char* name : {"changed.ies", "changed.csv"}) {
+        LampRequest request = shipped("halogen-low");
+        request.scale = 1.05;
+        request.mirror = true;
+        request.add = {shipped("halogen-high").file};
+        request.convert = folder_ / name;
+        printed(request);
+        LampRequest again;
+        again.file = request.convert;
+        const LampFile lamp = lamp_of(again);
+        ASSERT_FALSE(lamp.labels.empty());
+        std::size_t said = 0;
+        for (const auto& [key, value] : lamp.labels)
+            said += key == "OTHER" && value ==
+                                          "changed, other texts are of the lamp before: scaled by 1.05; mirrored, left and right traffic "
+                                          "exchanged; added halogen high beam (model)";
+        EXPECT_EQ(said, 1U) << content(request.convert).substr(0, 1500);
+    }
+}
+
 TEST_F(LampCommand, SubtractedFromItselfALampIsDarkAndStillPrintsAndPictures) {
     LampRequest request = shipped("halogen-low");
     request.subtract = {request.file};
@@ -153,6 +174,8 @@ TEST_F(LampCommand, WhatCannotBeDoneIsRefusedInOneSentence) {
     request = shipped("halogen-low");
     request.scale = -1.0;
     EXPECT_THAT(refusal(request), HasSubstr("--scale: found -1"));
+    request.scale = 0.0;
+    EXPECT_THAT(refusal(request), HasSubstr("--scale: found 0, expected a number above 0"));
     request = shipped("halogen-low");
     request.picture = folder_ / "lamp.svg";
     request.window = {5, -5, -3, 3};
@@ -211,7 +234,7 @@ TEST_F(LampCommand, TellsWhatDiffersFromAnotherLamp) {
 TEST_F(LampCommand, RefusesToCompareWithDarkness) {
     LampRequest request = shipped("halogen-low");
     request.against = request.file;
-    request.scale = 0.0;
+    request.subtract = {request.file};
     EXPECT_THAT(refusal(request), HasSubstr("found no light in it"));
 }
 
