@@ -112,10 +112,14 @@ ExtentFold fold_of(const PlayedVariant& played, const Subject& subject, const Ex
 void add_extent(Readings& readings, const Subject& subject, const ExtentFold& fold) {
     const std::string& stem = subject.stem;
     const std::string& where = subject.where;
-    add_quantiles(readings, "reach_" + stem, fold.centre, "m", where + ", centre");
-    add_quantile(readings, "reach_" + stem + "_left_edge_m", fold.left_edge, median, "m", where + ", left edge, median");
-    add_quantile(readings, "reach_" + stem + "_right_edge_m", fold.right_edge, median, "m", where + ", right edge, median");
-    add_quantile(readings, "unlit_before_reach_" + stem + "_m", fold.unlit, median, "m", where + ", centre, median");
+    const bool all = subject.key.lane == "all"; // has no centre line and no edges of its own
+    const char* const centre = all ? ", line that reaches farthest" : ", centre";
+    const char *const left = all ? ", leftmost line looked at" : ", left edge", *const right =
+                                                                                    all ? ", rightmost line looked at" : ", right edge";
+    add_quantiles(readings, "reach_" + stem, fold.centre, "m", where + centre);
+    add_quantile(readings, "reach_" + stem + "_left_edge_m", fold.left_edge, median, "m", fmt::format("{}{}, median", where, left));
+    add_quantile(readings, "reach_" + stem + "_right_edge_m", fold.right_edge, median, "m", fmt::format("{}{}, median", where, right));
+    add_quantile(readings, "unlit_before_reach_" + stem + "_m", fold.unlit, median, "m", fmt::format("{}{}, median", where, centre));
     for (const auto& [at_m, width] : fold.widths)
         add_quantiles(readings, fmt::format("width_{}_at_{}m", stem, at_m), width, "m", fmt::format("{}, {} m ahead", where, at_m));
     add_quantiles(readings, "area_" + stem, fold.area, "m2", where);

@@ -115,6 +115,16 @@ TEST(Summary, TheRoadsEndIsNotAShortReach) {
     EXPECT_EQ(find(none, "reach_5lx_road_own_m").why_not, "cut off by the end of the road or lane in every moment");
 }
 
+TEST(Summary, TheWholeWidthHasNoCentre) {
+    const Readings all = summarise(played({reaching(60.0, "all")}), looking_200_m()),
+                   own = summarise(played({reaching(60.0)}), looking_200_m());
+    EXPECT_THAT(find(all, "reach_5lx_road_all_m").where, HasSubstr("whole width, on the road, line that reaches farthest, median"));
+    EXPECT_THAT(find(all, "reach_5lx_road_all_left_edge_m").where, HasSubstr("leftmost line looked at, median"));
+    EXPECT_THAT(find(all, "reach_5lx_road_all_right_edge_m").where, HasSubstr("rightmost line looked at, median"));
+    EXPECT_THAT(find(own, "reach_5lx_road_own_m").where, HasSubstr("own lane, on the road, centre, median"));
+    EXPECT_THAT(find(own, "reach_5lx_road_own_left_edge_m").where, HasSubstr("own lane, on the road, left edge, median"));
+}
+
 TEST(Summary, WidthsThatWereNeverLookedAtAreNotMeasured) {
     Drive drive = looking_200_m();
     drive.extent->width_at_m = {20.0, 300.0};
