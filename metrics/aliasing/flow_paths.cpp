@@ -96,7 +96,8 @@ cv::Mat levels_of(const Image<float>& picture) {
 
 } // namespace
 
-FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t from, int stride, FlowMethod method) {
+FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t from, int stride, FlowMethod method,
+                        const Image<float>& step_cdm2) {
     if (from >= pictures.size() || stride < 1)
         throw std::invalid_argument(fmt::format("picture {} of {} is not there to start from", from, pictures.size()));
     std::vector<Step> later, earlier; // from picture t to t + 1, and from t + 1 to t
@@ -106,7 +107,7 @@ FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t f
         earlier.push_back(std::move(back));
     }
     FlowPaths found;
-    const Image<std::uint8_t> contrast = has_contrast(pictures[from]);
+    const Image<std::uint8_t> contrast = has_contrast(pictures[from], step_cdm2);
     std::vector<double> motions, returns;
     for (int y = stride / 2; y < pictures[from].height(); y += stride)
         for (int x = stride / 2; x < pictures[from].width(); x += stride) {

@@ -25,10 +25,11 @@ struct FlowPaths {
 inline constexpr double most_return_px = 0.5;
 
 /// Every `stride`-th pixel each way of picture `from`, followed from one picture to the next in both directions of time. Left out is what
-/// has_contrast() does not tell in picture `from`, what found_again() does not find within most_return_px at any step, and what leaves the
-/// picture: dark, hidden or wrong.
-/// Errors of the steps add up along a path. Throws std::invalid_argument as optical_flow() and for `from` beyond the pictures.
-FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t from, int stride, FlowMethod method = FlowMethod::dis);
+/// has_contrast() does not tell in picture `from`, which was rounded by `step_cdm2`, what found_again() does not find within most_return_px
+/// at any step, and what leaves the picture: dark, hidden or wrong. Errors of the steps add up along a path. Throws std::invalid_argument
+/// as optical_flow() and for `from` beyond the pictures.
+FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t from, int stride, FlowMethod method = FlowMethod::dis,
+                        const Image<float>& step_cdm2 = {});
 
 /// The pixels nearest to a path's places in pictures of that size, which it stays in.
 Track track_of(const Path& path, int width, int height);

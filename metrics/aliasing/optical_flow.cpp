@@ -89,11 +89,15 @@ Flow optical_flow(const Image<float>& from, const Image<float>& to, FlowMethod m
     return out;
 }
 
-Image<std::uint8_t> has_contrast(const Image<float>& picture) {
+Image<std::uint8_t> has_contrast(const Image<float>& picture, const Image<float>& step_cdm2) {
     check(picture, picture);
+    const bool rounded = step_cdm2.size() != 0;
+    if (rounded && (step_cdm2.width() != picture.width() || step_cdm2.height() != picture.height()))
+        throw std::invalid_argument("a picture and its steps have one size");
     const cv::Mat structure = structure_of(picture);
     cv::Mat bytes;
-    bytes_of(structure, full_of(structure, structure)).convertTo(bytes, CV_32FC1);
+    const double full = full_of(structure, structure);
+    bytes_of(structure, full).convertTo(bytes, CV_32FC1);
     cv::Mat along_x, along_y;
     cv::Sobel(bytes, along_x, CV_32F, 1, 0, 1, 0.5, 0.0, cv::BORDER_REFLECT); // (right - left) / 2
     cv::Sobel(bytes, along_y, CV_32F, 0, 1, 1, 0.5, 0.0, cv::BORDER_REFLECT);
@@ -103,12 +107,21 @@ Image<std::uint8_t> has_contrast(const Image<float>& picture) {
         return out;
     };
     const cv::Mat xx = mean(along_x.mul(along_x)), yy = mean(along_y.mul(along_y)), xy = mean(along_x.mul(along_y));
+    cv::Mat steps(picture.height(), picture.width(), CV_32FC1, cv::Scalar(0.0)); // of the picture's own rounding, in bytes, squared
+    for (int y = 0; rounded && y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) {
+            const double from = static_cast<double>(picture.at(x, y)), to = from + static_cast<double>(step_cdm2.at(x, y));
+            const double step = (level_of(static_cast<float>(to)) - level_of(picture.at(x, y))) * 127.0 / full;
+            steps.at<float>(y, x) = static_cast<float>(step * step);
+        }
+    steps = mean(steps);
     Image<std::uint8_t> found(picture.width(), picture.height());
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 0; x < picture.width(); ++x) {
+            const double explained = rounding_eigenvalue * (1.0 + static_cast<double>(steps.at<float>(y, x)));
             const double a = static_cast<double>(xx.at<float>(y, x)), b = static_cast<double>(yy.at<float>(y, x));
             const double eigenvalue = 0.5 * (a + b) - std::hypot(0.5 * (a - b), static_cast<double>(xy.at<float>(y, x)));
-            found.at(x, y) = eigenvalue > 4.0 * rounding_eigenvalue ? 1 : 0;
+            found.at(x, y) = eigenvalue > 4.0 * explained ? 1 : 0;
         }
     return found;
 }

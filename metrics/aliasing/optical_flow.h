@@ -32,7 +32,7 @@ Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most
 /// 1 where a picture has contrast in two directions, without which no motion can be told: the smaller eigenvalue of its structure tensor
 /// over 9 x 9 pixels (Shi and Tomasi 1994) is above four times what rounding to the 8 bits that the search sees puts there. Same demands on
 /// the picture as of optical_flow().
-Image<std::uint8_t> has_contrast(const Image<float>& picture);
+Image<std::uint8_t> has_contrast(const Image<float>& picture, const Image<float>& step_cdm2 = {});
 
 /// Between pixels' centres, linear; (x, y) are pixels with centres at whole numbers, clamped to the picture.
 double between_pixels(const Image<float>& picture, double x, double y);

@@ -24,6 +24,17 @@ float displayed_cdm2(const Rgb8& pixel) {
     return static_cast<float>(display_white_cdm2 * (0.2126 * linear(pixel.r) + 0.7152 * linear(pixel.g) + 0.0722 * linear(pixel.b)));
 }
 
+Image<float> display_step_cdm2(const Image<float>& displayed) {
+    Image<float> steps(displayed.width(), displayed.height());
+    std::ranges::transform(displayed.pixels(), steps.pixels().begin(), [](float cdm2) {
+        const std::array<float, 256>& decoded = srgb_table();
+        const auto above = std::ranges::lower_bound(decoded, cdm2 / static_cast<float>(display_white_cdm2));
+        const auto code = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - decoded.begin(), 0, 254));
+        return static_cast<float>(display_white_cdm2) * (decoded[code + 1] - decoded[code]);
+    });
+    return steps;
+}
+
 std::string method_name(FlowMethod method) { return method == FlowMethod::dis ? "dense inverse search" : "Farneback"; }
 
 std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const std::vector<Image<double>>& aliasing,

@@ -8,6 +8,9 @@ namespace fernlicht {
 
 Image<float> floats_of(const Image<double>& picture);
 
+/// What one step of an 8-bit picture's values is worth at these luminances.
+Image<float> display_step_cdm2(const Image<float>& displayed);
+
 /// The share of points that must be followed: flicker of fewer says nothing of the picture.
 inline constexpr double least_followed = 0.05;
 

@@ -108,7 +108,9 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
     }
     if (result.interrupted.empty()) {
         const std::vector<Image<float>>& pictures = measured ? measured->ideal : drawn.luminance_cdm2;
-        const FlowPaths followed = paths_by_flow(pictures, result.shown, stride_px);
+        const FlowPaths followed = paths_by_flow(pictures, result.shown, stride_px, FlowMethod::dis,
+                                                 drawn.displayed && !measured ? display_step_cdm2(pictures[result.shown])
+                                                                              : Image<float>{}); // the finer frames' mean has no steps
         row.by_flow = {followed.started, followed.paths.size(), followed.flat, followed.median_motion_px, followed.median_return_px};
         row.temporal = measured ? aliasing_along(followed, measured->residues, measured->levels, result.rate_hz, result.pixels_per_degree)
                                 : flicker_along(followed, pictures, result.rate_hz, result.pixels_per_degree);

@@ -1,6 +1,7 @@
 #include "metrics/aliasing/flow_paths.h"
 #include "tests/metrics/aliasing/analytic_pictures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -98,6 +99,22 @@ TEST(OpticalFlow, TheDarkHalfOfAPictureIsNotFollowed) {
             EXPECT_GT(path[1].y, 59.0);
         EXPECT_NEAR(found.median_motion_px, std::hypot(1.2, 0.4), 0.1) << "the ground's, not the sky's";
     }
+}
+
+TEST(OpticalFlow, StepsOfRoundingAreNoContrast) {
+    // A slow slope in both directions, rounded to steps of 0.01 cd/m2, has edges that stand; waves of six steps have contrast of their own.
+    const auto rounded = [](double value) { return 0.01 * std::round(value / 0.01); };
+    const Image<float> steps(160, 128, 0.01F);
+    const Image<float> slope = drawn(160, 128, 1, [&](double x, double y) {
+        return rounded(0.05 + 2e-4 * x + 1e-4 * y + 0.004 * std::sin(0.09 * x) * std::cos(0.11 * y));
+    });
+    const Image<float> lit = drawn(160, 128, 1, [&](double x, double y) { return rounded(waves(x, y)); });
+    const auto share = [](const Image<std::uint8_t>& found) {
+        return static_cast<double>(std::ranges::count(found.pixels(), 1)) / static_cast<double>(found.size());
+    };
+    EXPECT_GT(share(has_contrast(slope)), 0.1);
+    EXPECT_LT(share(has_contrast(slope, steps)), 0.02);
+    EXPECT_GT(share(has_contrast(lit, steps)), 0.9);
 }
 
 /// Sixteen frames, followed by flow; measured without a reference.
