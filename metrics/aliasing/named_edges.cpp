@@ -11,6 +11,8 @@
 namespace fernlicht {
 namespace {
 
+// How far a drawn line may lie from the true one and still be the same line: texels of a coarse beam are many pixels wide, a mark's border
+// is drawn within one. The others stand in the header.
 constexpr int reach_px = 2;
 constexpr double shadow_share = 0.02, least_contrast = 2.0, around_px = 4.0, straight_px = 2.0, cut_off_search_px = 16.0,
                  mark_search_px = 1.0;

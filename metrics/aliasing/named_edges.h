@@ -27,9 +27,10 @@ struct EdgeJaggedness {
 /// fewer than 16 points. Throws std::invalid_argument for sizes that do not fit.
 std::optional<EdgeJaggedness> cut_off_jaggedness(const Image<float>& tested_lx, const EdgeReference& reference, double level_lx);
 
-/// The line half way from road to mark where both fill a pixel within 2 pixels, nothing else does, and the mark is at least 1.2 times as
-/// bright as the road. Brightness of road and of mark are the reference's own, means under a Gaussian of 4 pixels; the line that should be
-/// there is where a mark covers half of a pixel's area. nullopt and throws as above.
+/// Of straight borders (a Gaussian of 2 pixels is half mark, within 0.2), the line half way from road to mark where both fill a pixel
+/// within 2 pixels, nothing else does, and the mark is at least twice as bright as the road. Brightness of road and of mark are the
+/// reference's own, means under a Gaussian of 4 pixels; the line that should be there is where a mark covers half of a pixel's area.
+/// nullopt and throws as above.
 std::optional<EdgeJaggedness> mark_jaggedness(const Image<float>& tested_cdm2, const EdgeReference& reference);
 
 } // namespace fernlicht

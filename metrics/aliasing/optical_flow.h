@@ -30,8 +30,9 @@ Flow optical_flow(const Image<float>& from, const Image<float>& to, FlowMethod m
 Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most_px);
 
 /// 1 where a picture has contrast in two directions, without which no motion can be told: the smaller eigenvalue of its structure tensor
-/// over 9 x 9 pixels (Shi and Tomasi 1994) is above four times what rounding to the 8 bits that the search sees puts there. Same demands on
-/// the picture as of optical_flow().
+/// over 9 x 9 pixels (Shi and Tomasi 1994) is above four times what rounding to the 8 bits that the search sees puts there, and the
+/// picture's own rounding: `step_cdm2`, the size of one step at each pixel, as large as the picture; empty where it is not rounded. Same
+/// demands on the picture as of optical_flow(), and std::invalid_argument for steps of another size.
 Image<std::uint8_t> has_contrast(const Image<float>& picture, const Image<float>& step_cdm2 = {});
 
 /// Between pixels' centres, linear; (x, y) are pixels with centres at whole numbers, clamped to the picture.

@@ -1,5 +1,5 @@
 // Two runs' folders against each other, through the program.
-#include "tests/runner/program.h"
+#include "tests/runner/opened_page.h"
 #include "tests/runner/schema_check.h"
 
 #include <algorithm>
@@ -249,7 +249,7 @@ TEST_F(RunCompare, WrongInputIsOneSentenceAndTwo) {
 TEST_F(RunCompare, ThePageSortsSlidesAndLinks) {
     ASSERT_EQ(compare("halogen", "xenon", "--out " + at("out")).exit_code, 0);
     const json found = json::parse(content_of(at("out/compare.json")));
-    std::string page = content_of(at("out/report.html"));
+    const std::string page = content_of(at("out/report.html"));
     for (const json& id : found.at("largest_changes"))
         EXPECT_THAT(page, HasSubstr("data-row=\"" + id.get<std::string>() + "\""));
     for (const json& change : found.at("drives").at(0).at("changes"))
@@ -269,35 +269,10 @@ TEST_F(RunCompare, ThePageSortsSlidesAndLinks) {
     EXPECT_FALSE(std::filesystem::exists(at("out/INCOMPLETE")));
     if (run_shell("command -v chromium").exit_code != 0)
         GTEST_SKIP() << "no Chromium on this machine: the page is not opened";
-    page.insert(page.rfind("</body>"), R"(<script>
-const table = document.querySelector('table.sortable'), heads = Array.from(table.tHead.rows[0].cells);
-const column = heads.findIndex((head) => head.textContent === 'change');
-const keys = () => Array.from(table.tBodies[0].rows, (row) => Number(row.cells[column].dataset.key));
-const inOrder = (sign) => keys().every((key, i, all) => i === 0 || sign * (key - all[i - 1]) >= 0);
-const button = heads[column].querySelector('button');
-button.click(); const up = inOrder(1); button.click(); const down = inOrder(-1);
-const slider = document.querySelector('.strip input');
-slider.value = '20'; slider.dispatchEvent(new Event('input'));
-const share = document.querySelector('.stack').style.getPropertyValue('--share');
-const targets = Array.from(document.querySelectorAll('a[href^="#"]')).every((a) => document.getElementById(a.getAttribute('href').slice(1)));
-const links = Array.from(document.querySelectorAll('a[href^="."]'), (a) => a.getAttribute('href'));
-const pictures = Array.from(document.images).every((image) => image.complete && image.naturalWidth > 0);
-document.title = [up, down, share, targets, pictures, document.images.length].join(' ') + '|' + links.join('|');
-</script>)");
-    std::ofstream(at("out/opened.html")) << page;
-    const Outcome browser =
-        run_shell(fmt::format("timeout 120 chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr --user-data-dir={} "
-                              "--dump-dom file://{}",
-                              at("browser"), at("out/opened.html")));
-    EXPECT_THAT(browser.output, Not(HasSubstr("CONSOLE"))) << "the browser complained";
-    const std::size_t from = browser.output.find("<title>"), to = browser.output.find("</title>");
-    ASSERT_LT(from, to) << browser.output.substr(0, 2000);
-    std::istringstream title(browser.output.substr(from + 7, to - from - 7));
-    std::string part;
-    std::getline(title, part, '|');
-    EXPECT_EQ(part, "true true 20% true true 10") << "two moments: each two driver's views, difference, isolux lines and FLIP";
-    while (std::getline(title, part, '|'))
-        EXPECT_TRUE(std::filesystem::exists(at("out/" + part))) << part;
+    const OpenedPage opened = opened_page(*folder_, "out", "image.naturalWidth > 0");
+    EXPECT_EQ(opened.said, "true true 20% true true 10") << "two moments: each two driver's views, difference, isolux lines and FLIP";
+    for (const std::string& link : opened.links)
+        EXPECT_TRUE(std::filesystem::exists(at("out/" + link))) << link;
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // Whole studies through the program.
-#include "tests/runner/program.h"
+#include "tests/runner/opened_page.h"
 #include "tests/runner/schema_check.h"
 
 #include <fmt/format.h>
@@ -24,42 +24,13 @@ std::string write_study_file(const TemporaryFolder& folder, const std::string& s
     return file;
 }
 
-/// The page as a browser sees it. Without Chromium it is not opened.
+/// The page as a browser sees it.
 void open_page(const TemporaryFolder& folder) {
-    std::string page = content_of(folder / "out/report.html");
-    page.insert(page.rfind("</body>"), R"(<script>
-const table = document.querySelector('table.sortable'), heads = Array.from(table.tHead.rows[0].cells);
-const column = heads.findIndex((head) => head.textContent === 'change');
-const keys = () => Array.from(table.tBodies[0].rows, (row) => Number(row.cells[column].dataset.key));
-const inOrder = (sign) => keys().every((key, i, all) => i === 0 || sign * (key - all[i - 1]) >= 0);
-const button = heads[column].querySelector('button');
-button.click(); const up = inOrder(1); button.click(); const down = inOrder(-1);
-const slider = document.querySelector('.strip input');
-slider.value = '20'; slider.dispatchEvent(new Event('input'));
-const share = document.querySelector('.stack').style.getPropertyValue('--share');
-const targets = Array.from(document.querySelectorAll('a[href^="#"]')).every((a) => document.getElementById(a.getAttribute('href').slice(1)));
-const links = Array.from(document.querySelectorAll('a[href^="."]'), (a) => a.getAttribute('href'));
-const pictures = Array.from(document.images).every((image) => image.complete && image.naturalWidth === 96);
-document.title = [up, down, share, targets, pictures, document.images.length].join(' ') + '|' + links.join('|');
-</script>)");
-    std::ofstream(folder / "out/opened.html") << page;
-    const Outcome browser =
-        run_shell(fmt::format("timeout 120 chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr --user-data-dir={} "
-                              "--dump-dom file://{}",
-                              folder / "browser", folder / "out/opened.html"));
-    EXPECT_THAT(browser.output, Not(HasSubstr("CONSOLE"))) << "the browser complained";
-    const std::size_t from = browser.output.find("<title>"), to = browser.output.find("</title>");
-    ASSERT_LT(from, to) << browser.output.substr(0, 2000);
-    std::istringstream title(browser.output.substr(from + 7, to - from - 7));
-    std::string part;
-    std::getline(title, part, '|');
-    EXPECT_EQ(part, "true true 20% true true 2") << "one moment within the first six, two lamps";
-    std::size_t links = 0;
-    while (std::getline(title, part, '|')) {
-        ++links;
-        EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + part))) << part;
-    }
-    EXPECT_GT(links, 10U);
+    const OpenedPage opened = opened_page(folder, "out", "image.naturalWidth === 96");
+    EXPECT_EQ(opened.said, "true true 20% true true 2") << "one moment within the first six, two lamps";
+    for (const std::string& link : opened.links)
+        EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + link))) << link;
+    EXPECT_GT(opened.links.size(), 10U);
 }
 
 json without_times(json study) {
