@@ -59,6 +59,7 @@ struct LampChange {
     std::optional<SourceKind> source;
 };
 
+struct ControlParameters;
 struct Motion;
 
 /// One lamp set under comparison: the whole drive is played once with each.
@@ -68,7 +69,8 @@ struct Variant {
     std::vector<LampChange> changes;
     std::optional<LevellingParameters> levelling = std::nullopt; ///< only in a drive with a vehicle, as the next
     std::optional<SwivelParameters> swivel = std::nullopt;
-    std::shared_ptr<const Motion> motion = nullptr; ///< what simulate() made of them (motion.h); not part of the file
+    std::shared_ptr<const ControlParameters> control = nullptr; ///< laws that move and dim the lamps (control_parameters.h); nullptr: none
+    std::shared_ptr<const Motion> motion = nullptr;             ///< what simulate() made of them (motion.h); not part of the file
 };
 
 struct Probe {
