@@ -13,8 +13,7 @@ SurfaceLuminance surface_luminance(const Moment& moment, const glm::dvec3& point
                                    const glm::dvec3& eye_m) {
     const double albedo = reflectance_of(material.albedo);
     SurfaceLuminance result;
-    result.photopic_cdm2 = photometry::diffuse_luminance(albedo, moment.daylight.horizontal_illuminance_lx * 0.5 *
-                                                                     (1.0 + normal.z)); // as in scenarios/light.cpp
+    result.photopic_cdm2 = photometry::diffuse_luminance(albedo, daylight_illuminance_lx(moment.daylight, normal));
     for (const LitLamp& lamp : moment.lamps) {
         const glm::dvec3 to_lamp = lamp.pose.position_m - point_m;
         const double cosine = photometry::incidence(normal, to_lamp), cd = intensity_towards_cd(lamp, point_m);

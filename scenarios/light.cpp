@@ -3,13 +3,6 @@
 #include "scenarios/photometry.h"
 
 namespace fernlicht {
-namespace {
-
-/// Share of the sky that a surface of this normal sees, for a uniform sky over a black ground: (1 + cos(slope)) / 2.
-double sky_share(const glm::dvec3& normal) { return 0.5 * (1.0 + normal.z); }
-
-} // namespace
-
 double intensity_towards_cd(const LitLamp& lamp, const glm::dvec3& point_m) {
     if (lamp.intensity_factor == 0.0)
         return 0.0;
@@ -20,8 +13,14 @@ double intensity_towards_cd(const LitLamp& lamp, const glm::dvec3& point_m) {
     return lamp.intensity_factor * intensity_cd(lamp.file->table, degrees(angles.x), degrees(angles.y));
 }
 
+double daylight_illuminance_lx(const Daylight& daylight, const glm::dvec3& normal) {
+    const double sky = photometry::sky_illuminance(daylight.horizontal_illuminance_lx, normal);
+    const DirectLight* direct = daylight.direct();
+    return direct ? sky + photometry::directional_illuminance(direct->illuminance_lx, normal, direct->towards()) : sky;
+}
+
 double surface_illuminance_lx(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal) {
-    double e = moment.daylight.horizontal_illuminance_lx * sky_share(normal);
+    double e = daylight_illuminance_lx(moment.daylight, normal);
     for (const LitLamp& lamp : moment.lamps) {
         const glm::dvec3 to_lamp = lamp.pose.position_m - point_m;
         const double cosine = photometry::incidence(normal, to_lamp);

@@ -104,6 +104,20 @@ FN real incidence(vec3 normal, vec3 to_lamp) {
     return max(c, 0.0);
 }
 
+// E of parallel light (sun, moon) on a surface: `perpendicular_lx` on a plane across it, `towards` the unit direction it comes from.
+// Float: 4e-07 of perpendicular_lx, condition 1.
+FN real directional_illuminance(real perpendicular_lx, vec3 normal, vec3 towards) {
+    PRECISE real e = perpendicular_lx * max(dot(normal, towards), 0.0);
+    return e;
+}
+
+// E of a uniform sky over black ground on a surface of this unit normal: (1 + cos(slope)) / 2 of the horizontal.
+// Float: 3e-07 of horizontal_lx, condition 1.
+FN real sky_illuminance(real horizontal_lx, vec3 normal) {
+    PRECISE real e = horizontal_lx * 0.5 * (1.0 + normal.z);
+    return e;
+}
+
 // Diffuse (Lambert): L = rho E / pi.
 // Float: 2e-07 relative, condition 1.
 FN real diffuse_luminance(real albedo, real illuminance_lx) {

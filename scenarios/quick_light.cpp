@@ -1,5 +1,6 @@
 #include "scenarios/quick_light.h"
 
+#include "scenarios/light.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ double QuickLight::Table::linear_cd(double h_deg, double v_deg) const {
     return lower + (upper - lower) * fv;
 }
 
-QuickLight::QuickLight(const Moment& moment) : sky_lx_(moment.daylight.horizontal_illuminance_lx) {
+QuickLight::QuickLight(const Moment& moment) : daylight_(moment.daylight) {
     std::map<const LampFile*, std::size_t> known;
     for (const LitLamp& lamp : moment.lamps) {
         if (lamp.intensity_factor == 0.0)
@@ -106,7 +107,7 @@ QuickLight::Intensity QuickLight::towards(const Lamp& lamp, const glm::dvec3& fr
 }
 
 LuxBounds QuickLight::surface_lx(const glm::dvec3& point_m, const glm::dvec3& normal, double enough_lx) const {
-    const double sky_lx = sky_lx_ * 0.5 * (1.0 + normal.z);
+    const double sky_lx = daylight_illuminance_lx(daylight_, normal);
     double most_lx = sky_lx;
     for (const Lamp& lamp : lamps_) {
         const glm::dvec3 to_lamp = lamp.position_m - point_m;

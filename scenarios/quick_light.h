@@ -60,7 +60,7 @@ class QuickLight {
 
     std::vector<Table> tables_; ///< one per lamp file
     std::vector<Lamp> lamps_;   ///< those that are on
-    double sky_lx_ = 0.0;
+    Daylight daylight_;
 };
 
 } // namespace fernlicht

@@ -62,5 +62,9 @@ FN vec4 equation_value(int equation, vec4 a, vec4 b, vec4 c, vec4 d) {
         return vec4(tone_logarithmic(a.x, a.y, a.z), 0.0, 0.0, 0.0);
     if (equation == 27)
         return vec4(srgb_encoded(a.x), 0.0, 0.0, 0.0);
+    if (equation == 29)
+        return vec4(directional_illuminance(a.x, first_three(b), first_three(c)), 0.0, 0.0, 0.0);
+    if (equation == 30)
+        return vec4(sky_illuminance(a.x, first_three(b)), 0.0, 0.0, 0.0);
     return vec4(quick_srgb_encoded(a.x), 0.0, 0.0, 0.0);
 }

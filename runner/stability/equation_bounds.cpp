@@ -39,6 +39,8 @@ constexpr EquationBound bounds[] = {
     {"tone_logarithmic", 2e-6, "of 1", 1.0, "GLSL's log is exact to 2^-21 near 1, over log(2) at least, twice"},
     {"srgb_encoded", 1e-6, "of 1", 0.5, "GLSL's pow by way of log2 and exp2: 2^-21 / 2.4, and 3 units"},
     {"quick_srgb_encoded", 1e-6, "of 1", 0.5, "GLSL's roots 4.5 units each, in terms whose sizes add up to 1.8"},
+    {"directional_illuminance", 4e-7, "of perpendicular_lx", 1.0, "a dot product of unit vectors 3 u and their own rounding, a product"},
+    {"sky_illuminance", 3e-7, "of horizontal_lx", 1.0, "a sum and two products: 3 u"},
 };
 
 } // namespace

@@ -33,6 +33,7 @@ double one(const EquationDoubles&, double) { return 1.0; }
 
 std::vector<Equation> make() {
     const auto any = [](const EquationDoubles&, const std::array<double, 4>&) { return true; };
+    const auto first = [](const EquationDoubles& x, double) { return x[0]; };
     const auto place = three(either_sign(0, 1e-3, 1e4)), to_lamp = three(either_sign(4, 1e-3, 1e4));
     const auto colour = [](std::size_t slot) { return three(logarithmic(slot, 1e-4, 1.0)); };
     const auto reflectances = colour(0) + colour(4) + std::vector{linear(7, 0.0, 1.0)} + colour(8);
@@ -139,7 +140,11 @@ std::vector<Equation> make() {
          one,
          any},
         {27, "srgb_encoded", "", "0 to 1", {logarithmic(0, 1e-9, 1.0)}, 1, one, any},
-        {28, "quick_srgb_encoded", "", "0 to 1", {logarithmic(0, 1e-9, 1.0)}, 1, one, any}};
+        {28, "quick_srgb_encoded", "", "0 to 1", {logarithmic(0, 1e-9, 1.0)}, 1, one, any},
+        {29, "directional_illuminance", "", "1e-6 to 150 000 lx, all round",
+         std::vector{logarithmic(0, 1e-6, 1.5e5), direction(4), direction(8)}, 1, first, any},
+        {30, "sky_illuminance", "", "1e-6 to 150 000 lx, all slopes", std::vector{logarithmic(0, 1e-6, 1.5e5), direction(4)}, 1, first,
+         any}};
     // Each position by its own angle, first angle and step; one scale for both is the larger one's.
     all[7].scale = [](const EquationDoubles& x, double) {
         return std::max((std::abs(x[0]) + std::abs(x[4])) * x[6], (std::abs(x[1]) + std::abs(x[5])) * x[7]);

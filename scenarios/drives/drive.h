@@ -5,6 +5,9 @@
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/roads/route.h"
+#include "scenarios/sky/daylight.h"
+#include "scenarios/sky/street_lamps.h"
+#include "scenarios/sky/weather.h"
 #include "scenarios/vehicle/vehicle_parameters.h"
 
 #include <map>
@@ -24,13 +27,6 @@ struct View {
     double map_ahead_m = 0.0, map_behind_m = 0.0, map_left_m = 0.0, map_right_m = 0.0; ///< map only; from the car's origin
 
     bool operator==(const View&) const = default;
-};
-
-struct Daylight {
-    std::string name = "night";
-    double horizontal_illuminance_lx = 0.0; ///< diffuse, from a uniform sky
-
-    bool operator==(const Daylight&) const = default;
 };
 
 enum class ToneMapperKind { linear, rational, logarithmic };
@@ -123,6 +119,8 @@ struct Drive {
     std::vector<SpeedPoint> speed;
     double duration_s = 0.0, step_s = 0.0;
     Daylight daylight;
+    Weather weather;
+    std::vector<StreetLampRow> street_lamps;  ///< beside the route
     double bumper_m = 0.0;                    ///< x of the front bumper in the car's frame; reach is measured from it
     double wheelbase_m = 2.7;                 ///< from the rear axle to the front axle
     std::optional<VehicleParameters> vehicle; ///< none: the car follows its lane as on rails

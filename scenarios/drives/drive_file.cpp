@@ -1,5 +1,6 @@
 #include "scenarios/drives/drive.h"
 
+#include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/drive_edits.h"
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/drives/vehicle_keys.h"
@@ -65,6 +66,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     read_route(keys, drive);
     read_time(keys, drive);
     drive.daylight = read_daylight(keys);
+    drive.weather = read_weather(keys);
     const Car car = read_car(keys);
     drive.bumper_m = car.bumper_m;
     drive.wheelbase_m = car.wheelbase_m;
@@ -93,10 +95,10 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht", "name",     "title",   "road",       "route",    "speed_kmh",   "speed_mps",
-                        "speed",     "step_s",   "rate_hz", "duration_s", "daylight", "car",         "vehicle",
-                        "actuators", "variants", "changes", "views",      "capture",  "tone_mapper", "technique",
-                        "measure",   "limits",   "shadows", "textures",   "beams",    "seed",        "mirrored_road"});
+                       {"fernlicht", "name",    "title",      "road",          "route",     "speed_kmh", "speed_mps", "speed",
+                        "step_s",    "rate_hz", "duration_s", "daylight",      "car",       "vehicle",   "actuators", "variants",
+                        "changes",   "views",   "capture",    "tone_mapper",   "technique", "measure",   "limits",    "shadows",
+                        "textures",  "beams",   "seed",       "mirrored_road", "weather"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;

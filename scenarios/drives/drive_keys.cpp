@@ -102,24 +102,6 @@ double read_step_s(const YamlMap& drive) {
     return given->first == "step_s" ? given->second.number_above(0.0, 3600.0) : 1.0 / given->second.number_above(0.0, 1.0e6);
 }
 
-Daylight read_daylight(const YamlMap& drive) {
-    const auto given = drive.find("daylight");
-    if (!given)
-        return {};
-    if (given->is_scalar()) {
-        // Night: no moon, no sky; the full moon would be 0.2 lx. Twilight: clear sky at the end of civil twilight, sun 6 degrees down,
-        // 2 to 3.5 lx (AMS Glossary of Meteorology). Day: overcast to bright daylight without direct sun, 27 000 lx.
-        static const Daylight known[] = {{"night", 0.0}, {"twilight", 3.4}, {"day", 27000.0}};
-        return known[given->choice({"night", "twilight", "day"})];
-    }
-    const YamlMap keys = given->map({"name", "horizontal_illuminance_lx"});
-    Daylight daylight;
-    daylight.horizontal_illuminance_lx = keys.require("horizontal_illuminance_lx").number(0.0, 150'000.0);
-    const auto name = keys.find("name");
-    daylight.name = name ? name->name() : "custom";
-    return daylight;
-}
-
 Capture read_capture(const YamlMap& drive) {
     Capture capture;
     const auto given = drive.find("capture");

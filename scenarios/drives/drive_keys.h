@@ -12,8 +12,6 @@ inline constexpr int largest_view_px = 16384; ///< to a side; the least that Ope
 std::vector<SpeedPoint> read_speed(const YamlMap& drive);
 /// `step_s` or `rate_hz`; 30 per second by default.
 double read_step_s(const YamlMap& drive);
-/// "night", "twilight", "day", or {name, horizontal_illuminance_lx}.
-Daylight read_daylight(const YamlMap& drive);
 /// Named views; a driver's view and a map by default.
 std::vector<View> read_views(const YamlMap& drive);
 Capture read_capture(const YamlMap& drive);

@@ -25,10 +25,11 @@ void read_texture(LampReadOptions& options, const YamlEntry& entry) {
     extent("v_extent_deg", 90.0, options.texture_v_extent_deg);
 }
 
-LampReadOptions read_options(const Layers& layers) {
+LampReadOptions read_options(const Layers& layers, TypeCAxis axis_otherwise) {
     static constexpr BetweenSamples rules[] = {BetweenSamples::linear_cd, BetweenSamples::log_cd};
     static constexpr TypeCAxis axes[] = {TypeCAxis::automatic, TypeCAxis::horizontal, TypeCAxis::nadir};
     LampReadOptions options;
+    options.type_c_axis = axis_otherwise;
     if (const auto rule = find_in(layers, "between_samples"))
         options.rule = rules[rule->choice({"linear_cd", "log_cd"})];
     if (const auto axis = find_in(layers, "type_c_axis"))
@@ -59,11 +60,11 @@ std::optional<YamlEntry> find_in(const Layers& layers, std::string_view key) {
     return std::nullopt;
 }
 
-std::shared_ptr<const LampFile> read_lamp_keys(const Layers& layers, LampShelf& shelf) {
+std::shared_ptr<const LampFile> read_lamp_keys(const Layers& layers, LampShelf& shelf, TypeCAxis axis) {
     const auto file = find_in(layers, "file");
     if (!file)
         return nullptr;
-    return shelf.lamp(file->path(), read_options(layers), &*file);
+    return shelf.lamp(file->path(), read_options(layers, axis), &*file);
 }
 
 Aim read_aim(const Layers& layers) {

@@ -9,8 +9,8 @@ namespace fernlicht {
 using Layers = std::vector<YamlMap>;
 std::optional<YamlEntry> find_in(const Layers& layers, std::string_view key);
 
-/// `file` with the keys that say how it is read; nullptr when no layer names one.
-std::shared_ptr<const LampFile> read_lamp_keys(const Layers& layers, LampShelf& shelf);
+/// `file` with the keys that say how it is read; nullptr when no layer names one. `axis`: of a Type C file where no layer gives it.
+std::shared_ptr<const LampFile> read_lamp_keys(const Layers& layers, LampShelf& shelf, TypeCAxis axis = TypeCAxis::automatic);
 
 struct Aim {
     std::optional<double> pitch_rad, yaw_rad, roll_rad;

@@ -64,7 +64,8 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     moment.time_s = state.time_s;
     moment.distance_m = state.distance_m;
     moment.speed_mps = state.speed_mps;
-    moment.daylight = drive.daylight;
+    moment.daylight = daylight_at(drive.daylight, state.time_s);
+    moment.weather = drive.weather;
     if (!drive.vehicle) {
         moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
     } else {

@@ -22,6 +22,7 @@ struct Moment {
     Pose ego; ///< the car's frame in the world: on the road's surface under the rear axle
     std::vector<LitLamp> lamps;
     Daylight daylight;
+    Weather weather;
 };
 
 } // namespace fernlicht

@@ -1,5 +1,6 @@
 #include "scenarios/drives/drive.h"
 
+#include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/seeing_keys.h"
 
 #include <cmath>
@@ -100,6 +101,25 @@ void write_lamp_keys(Lines& out, const Drive& drive, const MountedLamp& lamp) {
     out.add(4, "reference_voltage_v: {}", lamp.reference_voltage_v);
     write_colour(out, 4, lamp.colour);
     out.add(4, "photometric_distance_m: {}", lamp.photometric_distance_m);
+}
+
+void write_street_lamps(Lines& out, const Drive& drive) {
+    if (drive.street_lamps.empty())
+        return;
+    out.add(0, "street_lamps:");
+    for (const StreetLampRow& row : drive.street_lamps) {
+        out.add(1, "{}:", quoted(row.name));
+        write_file_keys(out, 2, drive, row.file);
+        out.add(2, "first_m: {}", row.first_m);
+        out.add(2, "last_m: {}", row.last_m);
+        out.add(2, "every_m: {}", row.every_m);
+        out.add(2, "beside_m: {}", row.beside_m);
+        out.add(2, "height_m: {}", row.height_m);
+        out.add(2, "arm_m: {}", row.arm_m);
+        out.add(2, "{}", angle("tilt", row.tilt_rad));
+        out.add(2, "level: {}", row.level);
+        write_colour(out, 2, row.colour);
+    }
 }
 
 void write_change(Lines& out, const Drive& drive, const LampChange& change) {
@@ -264,8 +284,8 @@ std::string write_drive(const Drive& drive) {
     out.add(0, "title: {}", quoted(drive.title));
     write_route(out, drive);
     write_time(out, drive);
-    out.add(0, "daylight: {{name: {}, horizontal_illuminance_lx: {}}}", quoted(drive.daylight.name),
-            drive.daylight.horizontal_illuminance_lx);
+    out.add_all(write_daylight(drive.daylight) + write_weather(drive.weather));
+    write_street_lamps(out, drive);
     out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}}}", drive.bumper_m, drive.wheelbase_m);
     if (drive.vehicle)
         write_vehicle(out, *drive.vehicle);

@@ -17,6 +17,11 @@ inline bool is_ground(SurfaceKind kind) {
     return kind == SurfaceKind::road || kind == SurfaceKind::marking || kind == SurfaceKind::verge || kind == SurfaceKind::terrain;
 }
 
+/// What rain puts a film of water on. Grass and upright things stay as they are.
+inline bool gets_wet(SurfaceKind kind) { return kind == SurfaceKind::road || kind == SurfaceKind::marking; }
+/// Roughness (GGX alpha) of that film on asphalt: 0.15, between a smooth road under standing water and a drained one. Ours, not measured.
+inline constexpr double wet_roughness = 0.15;
+
 /// How a texture's colour Ct and opacity At meet the material's own colour Cf, as OpenGL 1.x's texture environments name them (OpenGL 1.5,
 /// table 3.22). modulate: Cf Ct. replace: Ct. decal: Cf (1 - At) + Ct At. blend: Cf (1 - Ct) + Cc Ct. What comes out is the reflectance.
 /// Retroreflection goes with it: retro_rl is multiplied by the ratio of its luminance to the own colour's (photometry.glsl: textured_rl).

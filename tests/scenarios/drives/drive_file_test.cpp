@@ -113,6 +113,14 @@ TEST_F(DriveFile, DaylightStepSpeedAndTheRest) {
     EXPECT_EQ(read(minimal + "daylight: twilight").daylight.horizontal_illuminance_lx, 3.4);
     EXPECT_EQ(read(minimal + "daylight: day").daylight.horizontal_illuminance_lx, 27000.0);
     EXPECT_EQ(read(minimal + "daylight: {name: moon, horizontal_illuminance_lx: 0.2}").daylight, (Daylight{"moon", 0.2}));
+    const Daylight noon =
+        read(minimal + "daylight: {date: 2026-06-21, time: 13:14, utc_offset_h: 2, latitude_deg: 48.14, longitude_deg: 11.58, rate: 2}")
+            .daylight;
+    EXPECT_NEAR(degrees(noon.sun.elevation_rad), 65.3, 0.1);
+    EXPECT_EQ(noon.clock->rate, 2.0);
+    EXPECT_EQ(read(minimal + "weather: {fog: {visibility_m: 100, contrast: 0.02}}").weather.extinction_per_m,
+              extinction_of_range_per_m(100.0, 0.02));
+    EXPECT_EQ(read(minimal + "weather: {rain: heavy, wetness: 0.2}").weather.wetness, 0.2);
     EXPECT_EQ(read(minimal + "rate_hz: 60").step_s, 1.0 / 60.0);
     EXPECT_EQ(read(minimal + "step_s: 0.25").step_s, 0.25);
     EXPECT_TRUE(read(minimal).textured);

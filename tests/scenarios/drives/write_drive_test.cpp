@@ -74,6 +74,7 @@ void expect_same(const Drive& a, const Drive& b) {
     EXPECT_EQ(a.duration_s, b.duration_s);
     EXPECT_EQ(a.step_s, b.step_s);
     EXPECT_EQ(a.daylight, b.daylight);
+    EXPECT_EQ(a.weather, b.weather);
     EXPECT_EQ(a.bumper_m, b.bumper_m);
     EXPECT_EQ(a.wheelbase_m, b.wheelbase_m);
     EXPECT_EQ(a.vehicle, b.vehicle);
@@ -112,6 +113,22 @@ class AnyDrive {
         drive.duration_s = number(0.5, 100.0);
         drive.step_s = number(0.001, 1.0);
         drive.daylight = {name(), number(0.0, 27000.0)};
+        if (coin())
+            (coin() ? drive.daylight.sun : drive.daylight.moon) = {number(-6.0, 6.0), number(-1.5, 1.5), number(0.0, 1e5)};
+        if (coin()) {
+            drive.daylight.clock = SkyClock{2026,
+                                            whole(1, 12),
+                                            whole(1, 28),
+                                            whole(0, 86399),
+                                            2.0,
+                                            number(-90.0, 90.0),
+                                            number(-180.0, 180.0),
+                                            SkyCover::overcast,
+                                            number(0.0, 60.0)};
+            drive.daylight = daylight_at({drive.daylight.name, 0.0, {}, {}, drive.daylight.clock}, 0.0);
+        }
+        if (coin())
+            drive.weather = {number(0.0, 1.0), number(0.0, 1.0), number(-0.9, 0.9), number(0.0, 1.0)};
         drive.bumper_m = number(2.0, 5.0);
         drive.wheelbase_m = number(2.0, 4.0);
         for (int i = 0; i <= whole(0, 2); ++i)
