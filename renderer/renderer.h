@@ -21,6 +21,8 @@ struct RendererSettings {
     int shadow_width = 1024, shadow_height = 512;
     double shadow_tolerance_m = 0.03; ///< shadows are looked up from points at least this far above a surface
     double target_height_m = 0.25;
+    bool traffic_levels =
+        true; ///< lamps of others are drawn as coarsely as their light allows (docs/traffic.md); false: each with its beam
     ReadBack read_back = ReadBack::plain;
     bool profile = false;   ///< finish after each pass and time it; slower, so never together with frame times
     bool gpu_clock = false; ///< time passes by GL_TIME_ELAPSED; only where check_timer() has found it right
@@ -37,6 +39,8 @@ struct Work {
     int features = 0;    ///< compiled into the variants used, summed: lamps, their shadows, sky, retroreflection, emission, textures
     std::uint64_t triangles = 0, fragments = 0; ///< over all passes; fragments: those shaded, where count() asked for them
     std::uint64_t texture_bytes = 0;            ///< beams, shadow and light maps, surface textures
+    /// Lamps of others on pieces in view, by how they are drawn, and their faces seen.
+    int traffic_full = 0, traffic_merged = 0, traffic_by_vertex = 0, traffic_point = 0, traffic_faces = 0;
 
     bool operator==(const Work&) const = default;
 };

@@ -7,6 +7,8 @@
 #include "scenarios/drives/motion.h"
 #include "scenarios/roads/mirrored_road.h"
 #include "scenarios/roads/road_mesh.h"
+#include "scenarios/traffic/place_traffic.h"
+#include "scenarios/traffic/road_user_mesh.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -35,6 +37,8 @@ Stage::Stage(Drive d)
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     fit_to_route(drive, route);
     simulate(drive, route);
+    place_traffic(drive, network, route);
+    add_road_users(scene, drive.traffic);
     check_limit_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);
 }

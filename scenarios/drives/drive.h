@@ -8,6 +8,7 @@
 #include "scenarios/sky/daylight.h"
 #include "scenarios/sky/street_lamps.h"
 #include "scenarios/sky/weather.h"
+#include "scenarios/traffic/traffic_row.h"
 #include "scenarios/vehicle/vehicle_parameters.h"
 
 #include <map>
@@ -36,23 +37,6 @@ struct ToneMapper {
     double l_max_cdm2 = 100.0; ///< luminance that becomes white
 
     bool operator==(const ToneMapper&) const = default;
-};
-
-struct SpeedPoint {
-    double time_s = 0.0, speed_mps = 0.0; ///< linear between points, constant before the first and after the last
-
-    bool operator==(const SpeedPoint&) const = default;
-};
-
-/// At `time_s` the named lamps change; what is not given stays.
-struct LampChange {
-    double time_s = 0.0;
-    std::string lamp; ///< name of a mounted lamp
-    std::optional<double> level;
-    std::optional<double> pitch_rad, yaw_rad, roll_rad;
-    std::shared_ptr<const LampFile> file;
-    std::optional<LampColour> colour;
-    std::optional<SourceKind> source;
 };
 
 struct ControlParameters;
@@ -125,6 +109,10 @@ struct Drive {
     double wheelbase_m = 2.7;                 ///< from the rear axle to the front axle
     std::optional<VehicleParameters> vehicle; ///< none: the car follows its lane as on rails
     std::vector<Variant> variants;            ///< at least one
+    std::vector<TrafficRow> traffic_rows;     ///< road users as the file asks for them
+    double least_traffic_lx = 0.02;           ///< light of others below this is left out, from any one lamp (docs/traffic.md); > 0
+    std::vector<RoadUser> traffic;            ///< what place_traffic() made of them; not part of the file
+    std::shared_ptr<const Track> ego_track;   ///< the own car's way where a log or a storyboard says it; nullptr: the route's
     std::vector<View> views;                  ///< first is the driver's
     Capture capture;
     ToneMapper tone_mapper;

@@ -3,6 +3,7 @@
 #include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/drive_edits.h"
 #include "scenarios/drives/drive_keys.h"
+#include "scenarios/drives/traffic_keys.h"
 #include "scenarios/drives/vehicle_keys.h"
 #include "scenarios/values/errors.h"
 
@@ -72,6 +73,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     drive.wheelbase_m = car.wheelbase_m;
     drive.vehicle = read_vehicle(keys);
     drive.variants = read_variants(keys, car, shelf);
+    read_traffic(keys, shelf, drive);
     drive.views = read_views(keys);
     drive.capture = read_capture(keys);
     drive.tone_mapper = read_tone_mapper(keys);
@@ -95,10 +97,10 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht", "name",    "title",      "road",          "route",     "speed_kmh", "speed_mps", "speed",
-                        "step_s",    "rate_hz", "duration_s", "daylight",      "car",       "vehicle",   "actuators", "variants",
-                        "changes",   "views",   "capture",    "tone_mapper",   "technique", "measure",   "limits",    "shadows",
-                        "textures",  "beams",   "seed",       "mirrored_road", "weather"});
+                       {"fernlicht", "name",    "title",      "road",          "route",     "speed_kmh", "speed_mps",    "speed",
+                        "step_s",    "rate_hz", "duration_s", "daylight",      "car",       "vehicle",   "actuators",    "variants",
+                        "changes",   "views",   "capture",    "tone_mapper",   "technique", "measure",   "limits",       "shadows",
+                        "textures",  "beams",   "seed",       "mirrored_road", "weather",   "traffic",   "traffic_light"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;

@@ -163,6 +163,13 @@ Variant read_variant(const std::string& name, const YamlMap& keys, const Car& ca
 
 } // namespace
 
+Variant read_lamp_set(const std::string& name, const YamlMap& keys, const Car& car, LampShelf& shelf) {
+    Variant variant = read_variant(name, keys, car, shelf);
+    read_changes(keys, variant, shelf);
+    std::ranges::stable_sort(variant.changes, {}, &LampChange::time_s);
+    return variant;
+}
+
 Car read_car(const YamlMap& drive) {
     Car car;
     // A compact car: lamps 1.2 m apart, 0.65 m above the road, 0.2 m behind the bumper.

@@ -34,6 +34,9 @@ struct Car {
     std::optional<YamlEntry> lamps;                         ///< `car.lamps`: the one lamp set of a drive without variants
 };
 
+/// `lamps`, or one lamp on each mount with the `file` of `keys`; then their `changes`, sorted by time.
+Variant read_lamp_set(const std::string& name, const YamlMap& keys, const Car& car, LampShelf& shelf);
+
 Car read_car(const YamlMap& drive);
 /// `variants`, or `car.lamps` as the one variant; then `changes`, of the drive first and of each variant after it, sorted by time.
 std::vector<Variant> read_variants(const YamlMap& drive, const Car& car, LampShelf& shelf);

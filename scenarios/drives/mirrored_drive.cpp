@@ -63,21 +63,25 @@ std::shared_ptr<const LampFile> other_lamp(Drive& drive, const std::shared_ptr<c
     return file;
 }
 
-void mirror(Variant& variant, Drive& drive) {
-    for (MountedLamp& lamp : variant.lamps) {
+void mirror(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, Drive& drive) {
+    for (MountedLamp& lamp : lamps) {
         lamp.name = other_side(lamp.name);
         flip(lamp.position_m.y);
         flip(lamp.yaw_rad);
         flip(lamp.roll_rad);
         lamp.file = other_lamp(drive, lamp.file);
     }
-    for (LampChange& change : variant.changes) {
+    for (LampChange& change : changes) {
         change.lamp = other_side(change.lamp);
         flip(change.yaw_rad);
         flip(change.roll_rad);
         if (change.file)
             change.file = other_lamp(drive, change.file);
     }
+}
+
+void mirror(Variant& variant, Drive& drive) {
+    mirror(variant.lamps, variant.changes, drive);
     if (!variant.swivel)
         return;
     ActuatorParameters& actuator = variant.swivel->actuator;
@@ -116,6 +120,8 @@ void mirror_traffic(Drive& drive, bool lamps) {
     if (lamps)
         for (Variant& variant : drive.variants)
             mirror(variant, drive);
+    for (TrafficRow& row : drive.traffic_rows)
+        mirror(row.lamps, row.changes, drive);
     for (Limit& limit : drive.limits)
         limit.reading = other_side(limit.reading);
 }

@@ -7,7 +7,8 @@ namespace fernlicht {
 
 /// Mirrors the drive's road and all that the drive places to the left or the right: views, probes, sensors, mirrors. With `lamps` the car's
 /// lamps too: tables, mounts, how they are turned aside, ranges of bend lighting; without, the car keeps the lamps that it has, made for
-/// the other side. "left" and "right" change places in names and in readings that have limits.
+/// the other side. Other road users go on the mirrored road with mirrored lamps. "left" and "right" change places in names and in readings
+/// that have limits.
 void mirror_traffic(Drive& drive, bool lamps);
 
 /// "high-left" of "high-right"; within longer words they stay ("bright").

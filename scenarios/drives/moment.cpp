@@ -1,5 +1,6 @@
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/traffic/moment_traffic.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -13,16 +14,6 @@ Pose contact(const Route& route, double distance_m, double offset_left_m) {
     Pose pose = route.pose(std::min(distance_m, route.length_m()), offset_left_m);
     pose.position_m += pose.forward() * std::max(distance_m - route.length_m(), 0.0);
     return pose;
-}
-
-void apply(const LampChange& change, MountedLamp& lamp) {
-    lamp.level = change.level.value_or(lamp.level);
-    lamp.pitch_rad = change.pitch_rad.value_or(lamp.pitch_rad);
-    lamp.yaw_rad = change.yaw_rad.value_or(lamp.yaw_rad);
-    lamp.roll_rad = change.roll_rad.value_or(lamp.roll_rad);
-    lamp.file = change.file ? change.file : lamp.file;
-    lamp.colour = change.colour.value_or(lamp.colour);
-    lamp.source = change.source.value_or(lamp.source);
 }
 
 /// The body on its springs and beside its lane: over the rear axle lifted, turned about it.
@@ -66,7 +57,11 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     moment.speed_mps = state.speed_mps;
     moment.daylight = daylight_at(drive.daylight, state.time_s);
     moment.weather = drive.weather;
-    if (!drive.vehicle) {
+    if (drive.ego_track) {
+        const TrackPoint at = drive.ego_track->at(state.time_s);
+        moment.ego = at.pose;
+        moment.speed_mps = at.speed_mps;
+    } else if (!drive.vehicle) {
         moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
     } else {
         if (!variant.motion)
@@ -80,6 +75,7 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     }
     for (const MountedLamp& lamp : lamps)
         moment.lamps.push_back(lit(lamp, moment.ego));
+    add_traffic(drive, moment);
     return moment;
 }
 

@@ -12,6 +12,16 @@ struct LitLamp {
     double intensity_factor = 1.0; ///< 0: off
     LampColour colour;
     double photometric_distance_m = 0.0;
+    int body = -1;          ///< into Moment::bodies; -1: on the own car; -2: fixed in the world
+    glm::dvec2 face_m{0.0}; ///< width and height of the luminous face; 0: a point that is not seen
+};
+
+/// Something that moves, as it stands at the moment; what belongs to it is in this frame (Mesh::body).
+struct Body {
+    std::string name;
+    Pose pose;
+    bool visible = true;
+    double speed_mps = 0.0;
 };
 
 struct Moment {
@@ -19,8 +29,11 @@ struct Moment {
     double time_s = 0.0;
     double distance_m = 0.0; ///< along the route
     double speed_mps = 0.0;
-    Pose ego; ///< the car's frame in the world: on the road's surface under the rear axle
-    std::vector<LitLamp> lamps;
+    Pose ego;                         ///< the car's frame in the world: on the road's surface under the rear axle
+    std::vector<LitLamp> lamps;       ///< of the own car
+    std::vector<LitLamp> other_lamps; ///< of other road users and along the road; all shine
+    std::vector<Body> bodies;         ///< other road users, as in Drive::traffic
+    double least_traffic_lx = 0.02;   ///< light of other_lamps fainter than this is left out (Drive)
     Daylight daylight;
     Weather weather;
 };

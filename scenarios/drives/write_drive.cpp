@@ -207,6 +207,42 @@ void write_variants(Lines& out, const Drive& drive) {
     }
 }
 
+std::string traffic_place(const TrafficRow& row) {
+    if (row.place == TrafficPlace::lane)
+        return fmt::format("lane: {{{}lane: {}, s_m: {}}}", row.start.road.empty() ? "" : fmt::format("road: {}, ", quoted(row.start.road)),
+                           row.start.lane, row.start.s_m);
+    return fmt::format("{}: {{gap_m: {}}}", row.place == TrafficPlace::ahead ? "ahead" : "oncoming", row.gap_m);
+}
+
+void write_traffic(Lines& out, const Drive& drive) {
+    if (drive.traffic_rows.empty())
+        return;
+    out.add(0, "traffic_light: {{least_lx: {}}}", drive.least_traffic_lx);
+    out.add(0, "traffic:");
+    for (const TrafficRow& row : drive.traffic_rows) {
+        out.add(1, "{}:", quoted(row.name));
+        out.add(2, "kind: {}", road_user_kinds[static_cast<std::size_t>(row.kind)]);
+        if (row.size_m)
+            out.add(2, "size_m: {}", list(*row.size_m));
+        out.add(2, "{}", traffic_place(row));
+        out.add(2, "speed:");
+        for (const SpeedPoint& point : row.speed)
+            out.add(3, "- {{at_s: {}, speed_mps: {}}}", point.time_s, point.speed_mps);
+        if (!row.lamps.empty())
+            out.add(2, "lamps:");
+        for (const MountedLamp& lamp : row.lamps)
+            write_lamp_keys(out, drive, lamp);
+        if (!row.changes.empty())
+            out.add(2, "changes:");
+        for (const LampChange& change : row.changes)
+            write_change(out, drive, change);
+        out.add(2, "face_m: [{}, {}]", row.face_m.x, row.face_m.y);
+        out.add(2, "tail_cd: {}", row.tail_cd);
+        out.add(2, "brake_cd: {}", row.brake_cd);
+        out.add(2, "repeat: {{count: {}, every_m: {}}}", row.count, row.every_m);
+    }
+}
+
 void write_views(Lines& out, const Drive& drive) {
     out.add(0, "views:");
     for (const View& view : drive.views) {
@@ -290,6 +326,7 @@ std::string write_drive(const Drive& drive) {
     if (drive.vehicle)
         write_vehicle(out, *drive.vehicle);
     write_variants(out, drive);
+    write_traffic(out, drive);
     write_views(out, drive);
     out.add(0, "capture: {{per_second: {}, all: {}, exr: {}, png: {}}}", drive.capture.per_second, drive.capture.all, drive.capture.exr,
             drive.capture.png);

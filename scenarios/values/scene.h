@@ -76,6 +76,7 @@ struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Batch> batches;
+    int body = -1; ///< -1: stands in the world; else in the frame of Moment::bodies[body], with its origin, and moves with it
 };
 
 struct Scene {

@@ -1,0 +1,108 @@
+#include "scenarios/traffic/road_user.h"
+
+#include <array>
+#include <cmath>
+
+namespace fernlicht {
+namespace {
+
+struct UsualBody {
+    glm::dvec3 size_m;
+    double rear_m;
+};
+
+// Middle-class vehicles of each kind [estimate].
+constexpr std::array bodies{UsualBody{{4.5, 1.8, 1.45}, -0.9}, UsualBody{{5.5, 2.0, 2.4}, -1.1}, UsualBody{{12.0, 2.5, 3.8}, -3.5},
+                            UsualBody{{12.0, 2.5, 3.1}, -3.4}, UsualBody{{2.1, 0.8, 1.3}, -0.4}, UsualBody{{1.8, 0.6, 1.6}, -0.35},
+                            UsualBody{{0.4, 0.6, 1.75}, -0.2}, UsualBody{{2.0, 2.0, 1.5}, -1.0}};
+
+/// exp(-x^2 ln 2): a half at 1.
+double bell(double x) { return std::exp2(-x * x); }
+
+std::shared_ptr<const LampFile> rear_lamp_file(double cd) {
+    static const CandelaTable shape = [] {
+        CandelaTable table;
+        for (int h = -80; h <= 80; h += 2)
+            table.h_deg.push_back(h);
+        for (int v = -30; v <= 30; v += 2)
+            table.v_deg.push_back(v);
+        for (const double v : table.v_deg)
+            for (const double h : table.h_deg)
+                table.cd.push_back(bell(h / 15.0) * bell(v / 6.0));
+        return table;
+    }();
+    auto file = std::make_shared<LampFile>();
+    file->name = "rear lamp";
+    file->format = "model";
+    file->table = scaled(shape, cd);
+    return file;
+}
+
+TrafficLamp rear_lamp(const char* name, LampFunction function, const std::shared_ptr<const LampFile>& file, const glm::dvec3& at_m) {
+    TrafficLamp out;
+    out.lamp.name = name;
+    out.lamp.file = file;
+    out.lamp.position_m = at_m;
+    out.lamp.yaw_rad = pi;
+    out.lamp.source = SourceKind::led;
+    out.lamp.colour.linear_srgb = {1.0 / 0.2126, 0.0, 0.0}; // the display's red, of luminance 1
+    out.lamp.colour.sp_ratio = 0.1;
+    out.lamp.level = function == LampFunction::brake ? 0.0 : 1.0;
+    out.function = function;
+    out.face_m = {0.12, 0.08};
+    return out;
+}
+
+} // namespace
+
+bool RoadUser::visible_at(double time_s) const {
+    if (!track || (only_on_track && (time_s < track->first_s() || time_s > track->last_s())))
+        return false;
+    bool visible = true;
+    for (const auto& [from_s, seen] : visibility)
+        if (from_s <= time_s)
+            visible = seen;
+    return visible;
+}
+
+glm::dvec3 usual_size_m(RoadUserKind kind) { return bodies.at(static_cast<std::size_t>(kind)).size_m; }
+double usual_rear_m(RoadUserKind kind) { return bodies.at(static_cast<std::size_t>(kind)).rear_m; }
+
+LampFunction function_of(std::string_view name) {
+    struct Row {
+        std::string_view word;
+        LampFunction function;
+    };
+    static constexpr std::array rows{
+        Row{"high", LampFunction::high},       Row{"rear-fog", LampFunction::rear_fog},
+        Row{"fog", LampFunction::fog},         Row{"tail", LampFunction::tail},
+        Row{"brake", LampFunction::brake},     Row{"position", LampFunction::position},
+        Row{"daytime", LampFunction::daytime}, Row{"indicator-left", LampFunction::indicator_left},
+        Row{"reverse", LampFunction::reverse}, Row{"indicator-right", LampFunction::indicator_right},
+    };
+    for (const Row& row : rows)
+        if (name.find(row.word) != std::string_view::npos)
+            return row.function;
+    return LampFunction::low;
+}
+
+std::vector<TrafficLamp> rear_lamps(const glm::dvec3& size_m, double rear_m, double tail_cd, double brake_cd) {
+    std::vector<TrafficLamp> lamps;
+    const double y = 0.5 * size_m.y - 0.15, z = std::min(0.85, 0.6 * size_m.z), x = rear_m - 0.02;
+    const bool narrow = size_m.y < 1.0;
+    if (tail_cd > 0.0) {
+        const auto file = rear_lamp_file(tail_cd);
+        lamps.push_back(rear_lamp("tail-left", LampFunction::tail, file, {x, narrow ? 0.0 : y, z}));
+        if (!narrow)
+            lamps.push_back(rear_lamp("tail-right", LampFunction::tail, file, {x, -y, z}));
+    }
+    if (brake_cd > 0.0) {
+        const auto file = rear_lamp_file(brake_cd);
+        lamps.push_back(rear_lamp("brake-left", LampFunction::brake, file, {x, narrow ? 0.0 : y - 0.15, z}));
+        if (!narrow)
+            lamps.push_back(rear_lamp("brake-right", LampFunction::brake, file, {x, -y + 0.15, z}));
+    }
+    return lamps;
+}
+
+} // namespace fernlicht

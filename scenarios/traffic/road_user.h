@@ -1,0 +1,52 @@
+// Another user of the road: what it is, where it goes, what shines on it.
+#pragma once
+
+#include "scenarios/lamps/lamp_change.h"
+#include "scenarios/traffic/track.h"
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+
+namespace fernlicht {
+
+enum class RoadUserKind { car, van, truck, bus, motorcycle, bicycle, pedestrian, other };
+
+enum class LampFunction { low, high, daytime, position, fog, tail, brake, rear_fog, reverse, indicator_left, indicator_right, other };
+
+struct TrafficLamp {
+    MountedLamp lamp; ///< in the road user's frame; always with a file
+    LampFunction function = LampFunction::low;
+    glm::dvec2 face_m{0.16, 0.12}; ///< width and height of the luminous face, each > 0
+};
+
+struct RoadUser {
+    std::string name;
+    RoadUserKind kind = RoadUserKind::car;
+    glm::dvec3 size_m{4.5, 1.8, 1.45}; ///< length, width, height
+    double rear_m = -0.9;              ///< x of its rear end in its frame
+    std::filesystem::path model;       ///< "": a body of our own by kind and size
+    std::vector<TrafficLamp> lamps;
+    std::vector<LampChange> changes; ///< of its lamps by name, by time
+    std::shared_ptr<const Track> track;
+    std::vector<std::pair<double, bool>> visibility; ///< from these times on, ascending; seen before the first
+    bool only_on_track = true;                       ///< not there before the track's first and after its last point
+
+    bool visible_at(double time_s) const;
+};
+
+/// Length, width and height of the kind's usual body, and the x of its rear end.
+glm::dvec3 usual_size_m(RoadUserKind kind);
+double usual_rear_m(RoadUserKind kind);
+
+/// "car", "van" ...; the index of a word is the kind's.
+inline constexpr const char* road_user_kinds[] = {"car", "van", "truck", "bus", "motorcycle", "bicycle", "pedestrian", "other"};
+
+/// By a lamp's name: what contains "high", "fog", "tail", "brake", "position", "daytime", "reverse", "indicator-left" (-right) is that; all
+/// else is a low beam.
+LampFunction function_of(std::string_view lamp_name);
+
+/// Red lamps at the rear: two tail lamps of tail_cd and two brake lamps of brake_cd on their axes (each >= 0; 0: none), the latter off
+/// until a change lights them. Our own beam shape: full on the axis, a half at 15 degrees to the side or 6 degrees up or down.
+std::vector<TrafficLamp> rear_lamps(const glm::dvec3& size_m, double rear_m, double tail_cd, double brake_cd);
+
+} // namespace fernlicht
