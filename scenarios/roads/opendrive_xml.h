@@ -1,59 +1,14 @@
-// An OpenDRIVE file as an XML tree whose every node knows its line: typed attributes, refusals, warnings.
+// An OpenDRIVE file as XML.
 #pragma once
 
-#include "scenarios/values/files.h"
-
-#include <map>
-#include <optional>
-#include <pugixml.hpp>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "scenarios/values/xml_file.h"
 
 namespace fernlicht {
 
-class OpenDriveXml {
+class OpenDriveXml : public XmlFile {
   public:
-    /// Reads and parses. Namespace prefixes of elements are dropped. Throws InputError: unreadable, not XML, nested deeper than
-    /// `max_depth`, root not OpenDRIVE.
+    /// Throws InputError (xml_file.h), and where the root is not OpenDRIVE.
     OpenDriveXml(const std::filesystem::path& path, FilesRead& opened);
-
-    pugi::xml_node root() const { return root_; }
-    std::size_t line(pugi::xml_node node) const;
-
-    /// Ends the reading: what stands at `node` cannot be meant.
-    [[noreturn]] void refuse(pugi::xml_node node, std::string_view attribute, const std::string& found,
-                             const std::string& expected = {}) const;
-    /// Notes what is odd at `node` and how it was taken. Only the first 1000 are kept.
-    void warn(pugi::xml_node node, const std::string& what);
-    /// As warn(), but of one `kind` only the first is kept, with the number of the others behind it.
-    void warn_once(pugi::xml_node node, const std::string& kind, const std::string& what);
-    std::vector<std::string> take_warnings();
-
-    /// Finite and at most 1e9 in size; refuses anything else. Without a fallback the attribute must be there.
-    double number(pugi::xml_node node, const char* attribute, std::optional<double> fallback = {}) const;
-    /// As number(), and not below zero.
-    double length(pugi::xml_node node, const char* attribute, std::optional<double> fallback = {}) const;
-    int integer(pugi::xml_node node, const char* attribute, std::optional<int> fallback = {}) const;
-    std::string text(pugi::xml_node node, const char* attribute, const std::string& fallback = {}) const;
-
-    static constexpr int max_depth = 64;
-
-  private:
-    void parse();
-    void simplify();
-
-    std::filesystem::path path_;
-    std::string text_;
-    std::vector<std::size_t> line_starts_;
-    pugi::xml_document document_;
-    pugi::xml_node root_;
-    std::vector<std::string> warnings_;
-    std::size_t warnings_left_out_ = 0;
-    struct Kind {
-        std::size_t warning, more;
-    };
-    std::map<std::string, Kind> kinds_;
 };
 
 /// Words for messages: "road '12'".

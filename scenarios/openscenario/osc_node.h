@@ -1,0 +1,100 @@
+// An element of an OpenSCENARIO file with the parameters that hold there: typed attributes, refusals, and what is not supported.
+#pragma once
+
+#include "scenarios/openscenario/storyboard.h"
+#include "scenarios/values/xml_file.h"
+
+#include <utility>
+
+namespace fernlicht::osc {
+
+/// Names and values, inner ones before outer ones.
+struct Scope {
+    std::map<std::string, std::string> values;
+    std::shared_ptr<const Scope> outer;
+
+    std::optional<std::string> find(const std::string& name) const;
+};
+
+/// What all nodes of one reading share.
+struct Reading {
+    struct Unsupported {
+        std::filesystem::path file;
+        std::size_t line;
+        std::string element, what;
+    };
+    std::vector<Unsupported> unsupported;
+    std::vector<std::string> notes;
+    FilesRead opened;
+    std::vector<std::shared_ptr<XmlFile>> files; ///< nodes point into them
+    /// Catalogs: folders not read yet, and the entries known by the names of catalog and entry.
+    struct Entry {
+        XmlFile* file;
+        pugi::xml_node node;
+    };
+    std::vector<std::filesystem::path> catalog_folders;
+    std::map<std::pair<std::string, std::string>, Entry> entries;
+    std::vector<std::string> catalog_notes; ///< files that could not be read
+    std::vector<std::string> entities;      ///< names that may be referred to
+    std::shared_ptr<const Scope> global = std::make_shared<Scope>();
+};
+
+class OscNode {
+  public:
+    OscNode(XmlFile& file, pugi::xml_node node, std::shared_ptr<const Scope> scope, Reading& reading)
+        : file_(&file), node_(node), scope_(std::move(scope)), reading_(&reading) {}
+
+    std::string element() const { return node_.name(); }
+    std::size_t line() const { return file_->line(node_); }
+    const std::filesystem::path& file() const { return file_->path(); }
+    Reading& reading() const { return *reading_; }
+    const std::shared_ptr<const Scope>& scope() const { return scope_; }
+    OscNode with(std::shared_ptr<const Scope> scope) const { return {*file_, node_, std::move(scope), *reading_}; }
+    /// The same element with its own ParameterDeclarations in scope.
+    OscNode with_declared() const;
+
+    [[noreturn]] void refuse(const std::string& attribute, const std::string& found, const std::string& expected = {}) const;
+    /// To be refused before the run, or left out with --lenient.
+    void unsupported(const std::string& what) const;
+    void note(const std::string& what) const;
+
+    bool has(const char* attribute) const { return static_cast<bool>(node_.attribute(attribute)); }
+    /// Parameters put in.
+    std::string text(const char* attribute) const;
+    std::string text_or(const char* attribute, const std::string& otherwise) const;
+    /// Of an element: text that no reference hangs on; what cannot be resolved stays as it is.
+    std::string name() const;
+    /// Name of an entity of the scenario; refuses others, naming the nearest.
+    std::string entity(const char* attribute) const;
+    double number(const char* attribute) const;
+    double number_or(const char* attribute, double otherwise) const;
+    std::optional<double> number_if(const char* attribute) const;
+    int whole(const char* attribute) const;
+    bool flag_or(const char* attribute, bool otherwise) const;
+    /// Index among `choices`; refuses others.
+    std::size_t choice(const char* attribute, std::initializer_list<std::string_view> choices) const;
+    /// Text between the tags, parameters put in.
+    std::string content() const;
+
+    std::optional<OscNode> find(const char* element) const;
+    OscNode require(const char* element) const;
+    std::vector<OscNode> children(const char* element) const;
+    std::vector<OscNode> children() const;
+    /// The one child element; refuses none. `what` is expected.
+    OscNode only(const std::string& what) const;
+
+    std::map<std::string, std::string> declared() const; ///< of its ParameterDeclarations
+    pugi::xml_node node() const { return node_; }
+    XmlFile& xml() const { return *file_; }
+
+  private:
+    std::string resolved(const char* attribute, const char* written) const;
+    std::optional<std::string> if_given(const char* attribute) const;
+
+    XmlFile* file_;
+    pugi::xml_node node_;
+    std::shared_ptr<const Scope> scope_;
+    Reading* reading_;
+};
+
+} // namespace fernlicht::osc

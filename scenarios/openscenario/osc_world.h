@@ -1,0 +1,94 @@
+// The storyboard's world at one moment: where every entity is, on road and lane, and how positions of the file become places.
+#pragma once
+
+#include "scenarios/openscenario/storyboard.h"
+#include "scenarios/roads/road_finder.h"
+#include "scenarios/roads/route_links.h"
+
+namespace fernlicht::osc {
+
+/// A position of the file that is nowhere on the network; who asked for it knows the line. Fragments as InputError takes them.
+struct PlaceError {
+    std::string found, expected;
+};
+
+/// Where something stands, in the world and on the network.
+struct Spot {
+    Pose pose; ///< x forward, z the surface's normal
+    bool on_network = false;
+    std::size_t road = 0;                        ///< the nearest one
+    int lane = 0;                                ///< the lane that offset counts from; 0: the reference line with its lane offset
+    double s_m = 0.0, t_m = 0.0, offset_m = 0.0; ///< offset from the lane's centre, to the left of the reference line
+    double relative_heading_rad = 0.0;           ///< to the reference line's direction
+
+    double heading_rad() const;
+    /// Looks towards growing s.
+    bool with_s() const;
+};
+
+/// Roads to follow, each with the direction of travel and the lane to leave it on; from where the entity was when it was planned.
+struct RoadPath {
+    struct Step {
+        std::size_t road;
+        bool with_s;
+        int lane;
+        double length_m;
+    };
+    std::vector<Step> steps;
+    std::size_t at = 0; ///< step that the entity is on
+    Spot goal;
+};
+
+struct EntityState {
+    const Entity* entity = nullptr;
+    bool present = false, visible = true;
+    Spot spot;
+    double speed_mps = 0.0; ///< along its heading; negative backwards
+    double travelled_m = 0.0;
+    glm::dvec3 velocity_mps{0.0}, acceleration{0.0}; ///< over the step before
+    bool end_of_road = false;
+    std::optional<double> end_of_road_since_s, offroad_since_s, still_since_s;
+    std::optional<RoadPath> path;      ///< of AssignRoute or AcquirePosition
+    std::optional<double> settle_to_m; ///< offset that it glides to beside its way: a lane left for its route's sake
+};
+
+class World {
+  public:
+    World(const Storyboard& storyboard, const RoadNetwork& network);
+
+    const std::filesystem::path& file() const { return storyboard_->file; }
+    const RoadNetwork& network() const { return *network_; }
+    const RoadFinder& finder() const { return finder_; }
+    std::vector<EntityState>& entities() { return entities_; }
+    const std::vector<EntityState>& entities() const { return entities_; }
+    EntityState& entity(const std::string& name);
+    const EntityState& entity(const std::string& name) const;
+    std::size_t index_of(const std::string& name) const;
+
+    /// On a lane, heading relative to the reference line. Throws PlaceError where the road has no such lane. s is clamped to the road.
+    Spot on_lane(std::size_t road, int lane, double s_m, double offset_m, double relative_heading_rad) const;
+    /// At a point of the world; without z on the road's surface, without pitch and roll as it lies there.
+    Spot at_point(const glm::dvec3& position_m, bool has_z, double heading_rad, std::optional<double> pitch_rad = {},
+                  std::optional<double> roll_rad = {}, std::optional<std::size_t> preferred = {}) const;
+    /// A position of the file. `self`: whose position it becomes, for what is relative to it. Throws PlaceError.
+    Spot spot(const Position& position) const;
+
+    std::map<std::string, std::string> parameters, variables, signals, phases;
+    double time_s = 0.0;
+    std::optional<Environment> environment;
+    double environment_since_s = 0.0; ///< when its time of day was given
+
+  private:
+    const Storyboard* storyboard_;
+    const RoadNetwork* network_;
+    RoadFinder finder_;
+    std::vector<EntityState> entities_;
+    std::map<std::string, std::size_t> index_;
+};
+
+/// The lane nearest to t that has width, on either side; 0 where there is none.
+int nearest_lane(const Road& road, double s_m, double t_m);
+/// Heading of travel of a lane, relative to the reference line: 0 or pi.
+double lane_direction_rad(const Road& road, int lane, double s_m);
+
+} // namespace fernlicht::osc

@@ -1,0 +1,382 @@
+#include "scenarios/openscenario/story_tree.h"
+
+#include "scenarios/values/errors.h"
+#include "scenarios/values/xml_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht::osc {
+namespace {
+
+const char* word(ElementState state) {
+    static constexpr const char* words[] = {"initState", "standbyState", "runningState", "completeState"};
+    return words[static_cast<int>(state)];
+}
+
+bool running(const Element& element) { return element.state == ElementState::running; }
+bool complete(const Element& element) { return element.state == ElementState::complete; }
+
+std::optional<Level> level_of(const std::string& type) {
+    static constexpr std::pair<std::string_view, Level> known[] = {{"story", Level::story},         {"act", Level::act},
+                                                                   {"maneuverGroup", Level::group}, {"maneuver", Level::maneuver},
+                                                                   {"event", Level::event},         {"action", Level::action}};
+    for (const auto& [name, level] : known)
+        if (name == type)
+            return level;
+    return {};
+}
+
+template <class Visit> void walk(Element& element, const Visit& visit) {
+    visit(element);
+    for (const auto& child : element.children)
+        walk(*child, visit);
+}
+
+} // namespace
+
+StoryTree::StoryTree(const Storyboard& storyboard, World& world, PlayedStory& played)
+    : storyboard_(&storyboard), world_(&world), played_(&played) {
+    build();
+    build_triggers();
+}
+
+void StoryTree::add(Element& parent, Level level, const std::string& name) {
+    auto child = std::make_unique<Element>();
+    child->level = level;
+    child->name = name;
+    child->path = parent.path.empty() ? name : parent.path + "::" + name;
+    child->parent = &parent;
+    parent.children.push_back(std::move(child));
+}
+
+void StoryTree::build() {
+    for (const Story& story : storyboard_->stories) {
+        add(root_, Level::story, story.name);
+        Element& in_story = *root_.children.back();
+        for (const Act& act : story.acts) {
+            add(in_story, Level::act, act.name);
+            Element& in_act = *in_story.children.back();
+            for (const ManeuverGroup& group : act.groups) {
+                add(in_act, Level::group, group.name);
+                Element& in_group = *in_act.children.back();
+                in_group.group = &group;
+                in_group.most_executions = group.executions;
+                for (const Maneuver& maneuver : group.maneuvers) {
+                    add(in_group, Level::maneuver, maneuver.name);
+                    Element& in_maneuver = *in_group.children.back();
+                    for (const Event& event : maneuver.events) {
+                        add(in_maneuver, Level::event, event.name);
+                        Element& in_event = *in_maneuver.children.back();
+                        in_event.event = &event;
+                        in_event.group = &group;
+                        in_event.most_executions = event.executions;
+                        for (const Action& action : event.actions) {
+                            add(in_event, Level::action, action.name);
+                            in_event.children.back()->action = &action;
+                            actions_.push_back(in_event.children.back().get());
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+void StoryTree::build_triggers() {
+    const FindElement by_name = [this](const ElementStateCondition& condition) { return find(condition); };
+    const auto judged = [&](const std::optional<Trigger>& trigger) {
+        return trigger ? std::optional(JudgedTrigger(*trigger, by_name)) : std::nullopt;
+    };
+    root_.stop = judged(storyboard_->stop);
+    for (std::size_t s = 0; s < storyboard_->stories.size(); ++s)
+        for (std::size_t a = 0; a < storyboard_->stories[s].acts.size(); ++a) {
+            Element& act = *root_.children[s]->children[a];
+            act.start = judged(storyboard_->stories[s].acts[a].start);
+            act.stop = judged(storyboard_->stories[s].acts[a].stop);
+            walk(act, [&](Element& element) {
+                if (element.event)
+                    element.start = judged(element.event->start);
+            });
+        }
+}
+
+std::vector<const ElementChanges*> StoryTree::find(const ElementStateCondition& condition) const {
+    const auto level = level_of(condition.type);
+    std::vector<const ElementChanges*> found;
+    const std::string tail = "::" + condition.element;
+    walk(const_cast<Element&>(root_), [&](const Element& element) { // NOLINT(cppcoreguidelines-pro-type-const-cast)
+        if (level && element.level == *level && (element.path == condition.element || element.path.ends_with(tail)))
+            found.push_back(&element.changes);
+    });
+    if (found.empty())
+        played_->notes.push_back(fmt::format("{}: a condition waits for {} '{}', which the storyboard does not have: it stays false",
+                                             storyboard_->file.string(), printable(condition.type), printable(condition.element)));
+    return found;
+}
+
+void StoryTree::set(Element& element, ElementState state, const char* transition) {
+    if (element.state == state)
+        return;
+    element.changes.push_back({word(state), transition});
+    element.state = state;
+}
+
+void StoryTree::run(RunningAction& run, const Action& action) {
+    try {
+        run.begin(*world_, *played_);
+    } catch (const PlaceError& error) {
+        throw InputError({storyboard_->file, action.line, 0, action.name}, error.found, error.expected);
+    }
+}
+
+bool StoryTree::step_run(RunningAction& run, const Action& action, double dt_s, std::vector<unsigned>& moved) {
+    try {
+        return run.step(*world_, dt_s, moved[run.entity()]);
+    } catch (const PlaceError& error) {
+        throw InputError({storyboard_->file, action.line, 0, action.name}, error.found, error.expected);
+    }
+}
+
+void StoryTree::start() {
+    for (const bool global : {true, false})
+        for (const InitAction& init : storyboard_->init) {
+            if (init.entity.empty() != global)
+                continue;
+            if (global) {
+                act_on_world(std::get<GlobalAction>(init.action.what));
+                continue;
+            }
+            init_.push_back(
+                {&init.action, {RunningAction(std::get<PrivateAction>(init.action.what), world_->index_of(init.entity)), false}});
+            run(init_.back().run.action, init.action);
+        }
+    root_.state = ElementState::running;
+    for (const auto& story : root_.children)
+        start(*story);
+}
+
+void StoryTree::start(Element& element) {
+    if (element.level == Level::event) {
+        start_event(element);
+        return;
+    }
+    if (element.state == ElementState::init && element.start) {
+        set(element, ElementState::standby, "");
+        return;
+    }
+    set(element, ElementState::running, "startTransition");
+    ++element.executions;
+    for (const auto& child : element.children)
+        start(*child);
+    if (element.children.empty())
+        end(element);
+}
+
+void StoryTree::start_event(Element& element) {
+    if (element.state == ElementState::init && element.start) {
+        set(element, ElementState::standby, "");
+        return;
+    }
+    if (running(element))
+        return;
+    auto& siblings = element.parent->children;
+    if (element.event->priority == Priority::overwrite) {
+        for (const auto& sibling : siblings)
+            if (sibling.get() != &element && running(*sibling))
+                end(*sibling);
+    } else if (element.event->priority == Priority::skip &&
+               std::any_of(siblings.begin(), siblings.end(), [](const auto& sibling) { return running(*sibling); })) {
+        element.changes.push_back({word(element.state), "skipTransition"});
+        return;
+    }
+    std::vector<std::size_t> actors;
+    if (element.group->select_triggering && element.start)
+        actors = element.start->triggered_by();
+    for (const std::string& name : element.group->actors)
+        if (const std::size_t at = world_->index_of(name); std::find(actors.begin(), actors.end(), at) == actors.end())
+            actors.push_back(at);
+    set(element, ElementState::running, "startTransition");
+    ++element.executions;
+    if (element.children.empty()) {
+        end(element);
+        return;
+    }
+    for (const auto& action : element.children)
+        start_action(*action, actors);
+}
+
+void StoryTree::end_conflicting(const RunningAction& fresh, const Element* of) {
+    for (InitRun& init : init_)
+        if (!init.run.over && init.run.action.conflicts(fresh))
+            init.run.over = true;
+    for (Element* other : actions_) {
+        if (other == of || !running(*other))
+            continue;
+        bool any = false;
+        for (Element::Run& run : other->runs)
+            if (!run.over && run.action.conflicts(fresh))
+                any = run.over = true;
+        if (any && std::all_of(other->runs.begin(), other->runs.end(), [](const Element::Run& run) { return run.over; }))
+            end(*other);
+    }
+}
+
+void StoryTree::start_action(Element& element, const std::vector<std::size_t>& actors) {
+    element.runs.clear();
+    set(element, ElementState::running, "startTransition");
+    ++element.executions;
+    if (const auto* global = std::get_if<GlobalAction>(&element.action->what)) {
+        act_on_world(*global);
+        return;
+    }
+    const auto& what = std::get<PrivateAction>(element.action->what);
+    for (const std::size_t actor : actors) {
+        element.runs.push_back({RunningAction(what, actor), false});
+        end_conflicting(element.runs.back().action, &element);
+        run(element.runs.back().action, *element.action);
+    }
+}
+
+void StoryTree::judge(Element& element) {
+    if (running(element) && element.stop && element.stop->judge(*world_)) {
+        stop(element);
+        return;
+    }
+    if (element.state == ElementState::standby && (!element.start || element.start->judge(*world_)))
+        start(element);
+    if (running(element))
+        for (const auto& child : element.children)
+            judge(*child);
+}
+
+void StoryTree::step(Element& element, double dt_s, std::vector<unsigned>& moved) {
+    if (!running(element))
+        return;
+    for (const auto& child : element.children)
+        step(*child, dt_s, moved);
+    if (element.level != Level::action)
+        return;
+    bool all = true;
+    for (Element::Run& run : element.runs) {
+        run.over = run.over || step_run(run.action, *element.action, dt_s, moved);
+        all = all && run.over;
+    }
+    if (all)
+        end(element);
+}
+
+void StoryTree::step(double dt_s, std::vector<unsigned>& moved) {
+    judge(root_);
+    if (stopped())
+        return;
+    for (InitRun& init : init_)
+        init.run.over = init.run.over || step_run(init.run.action, *init.action, dt_s, moved);
+    step(root_, dt_s, moved);
+}
+
+void StoryTree::stop(Element& element) {
+    for (const auto& child : element.children)
+        stop(*child);
+    if (element.state == ElementState::init || complete(element))
+        return;
+    set(element, ElementState::complete, "stopTransition");
+    if (element.parent)
+        propagate(*element.parent);
+}
+
+void StoryTree::propagate(Element& element) {
+    if (element.level != Level::storyboard && !complete(element) &&
+        std::all_of(element.children.begin(), element.children.end(), [](const auto& child) { return complete(*child); }))
+        end(element);
+}
+
+void StoryTree::end(Element& element) {
+    if (complete(element))
+        return;
+    for (const auto& child : element.children)
+        if (running(*child))
+            end(*child);
+    if (complete(element))
+        return;
+    const bool repeats = element.level == Level::group || element.level == Level::event;
+    if (repeats && (element.most_executions < 0 || element.executions < element.most_executions)) {
+        if (element.start)
+            element.start->reset();
+        set(element, ElementState::standby, "endTransition");
+        for (const auto& child : element.children)
+            reset(*child);
+    } else {
+        set(element, ElementState::complete, "endTransition");
+    }
+    if (element.parent)
+        propagate(*element.parent);
+}
+
+void StoryTree::reset(Element& element) {
+    for (const auto& child : element.children)
+        reset(*child);
+    element.state = ElementState::init;
+    element.executions = 0;
+    if (element.start)
+        element.start->reset();
+    if (element.stop)
+        element.stop->reset();
+}
+
+bool StoryTree::all_over() const {
+    return !root_.children.empty() &&
+           std::all_of(root_.children.begin(), root_.children.end(), [](const auto& story) { return complete(*story); });
+}
+
+void StoryTree::act_on_world(const GlobalAction& action) {
+    if (const auto* environment = std::get_if<EnvironmentAction>(&action)) {
+        Environment merged = world_->environment.value_or(Environment{});
+        const Environment& by = environment->environment;
+        const auto take = [](auto& into, const auto& from) {
+            if (from)
+                into = from;
+        };
+        merged.name = by.name;
+        if (by.date_time) {
+            merged.time_runs = by.time_runs;
+            world_->environment_since_s = world_->time_s;
+        }
+        take(merged.date_time, by.date_time);
+        take(merged.cloud_state, by.cloud_state);
+        take(merged.sun_azimuth_rad, by.sun_azimuth_rad);
+        take(merged.sun_elevation_rad, by.sun_elevation_rad);
+        take(merged.sun_illuminance_lx, by.sun_illuminance_lx);
+        take(merged.fog_visual_range_m, by.fog_visual_range_m);
+        take(merged.precipitation, by.precipitation);
+        take(merged.precipitation_mm_per_h, by.precipitation_mm_per_h);
+        take(merged.friction_scale, by.friction_scale);
+        take(merged.wetness, by.wetness);
+        world_->environment = merged;
+        played_->environment.push_back({world_->time_s, merged});
+    } else if (const auto* entity = std::get_if<EntityAction>(&action)) {
+        EntityState& state = world_->entity(entity->entity);
+        state.present = entity->add_at.has_value();
+        if (entity->add_at) {
+            try {
+                state.spot = world_->spot(*entity->add_at);
+            } catch (const PlaceError& error) {
+                throw InputError({storyboard_->file, 0, 0, "AddEntityAction"}, error.found, error.expected);
+            }
+        }
+    } else if (const auto* value = std::get_if<SetValueAction>(&action)) {
+        auto& values = value->variable ? world_->variables : world_->parameters;
+        std::string& known = values[value->name];
+        if (value->how == SetValueAction::How::set) {
+            known = value->value;
+        } else {
+            const double now = to_number(known).value_or(0.0), by = to_number(value->value).value_or(0.0);
+            known = fmt::format("{}", value->how == SetValueAction::How::add ? now + by : now * by);
+        }
+    } else {
+        const auto& signal = std::get<TrafficSignalAction>(action);
+        (signal.controller ? world_->phases : world_->signals)[signal.name] = signal.state;
+    }
+}
+
+} // namespace fernlicht::osc

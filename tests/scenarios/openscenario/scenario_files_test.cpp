@@ -1,0 +1,101 @@
+#include "scenarios/openscenario/play_story.h"
+#include "scenarios/openscenario/read_storyboard.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <sstream>
+
+namespace fernlicht::osc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> scenario_files(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code failed;
+    for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+        if (entry->path().extension() == ".xosc")
+            files.push_back(entry->path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::string content(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+/// What the file says it is, by its own elements.
+bool is_scenario(const std::string& text) { return text.find("<Storyboard") != std::string::npos; }
+
+struct Counts {
+    int files = 0, scenarios = 0, read = 0, played = 0;
+    int files_missing = 0; ///< a road or catalog that the scenario names is not there
+    int broken = 0;        ///< made to be refused, by its name
+};
+
+/// Every scenario is played to its end, or refused by one sentence that names file and line.
+TEST(ScenarioFiles, ArePlayedToTheirEndOrRefusedWithFileAndLine) {
+    const fs::path shared = FERNLICHT_SHARED_DATA;
+    const auto files = scenario_files(shared / "scenarios");
+    if (files.empty())
+        GTEST_SKIP() << "no scenarios in " << shared;
+    Counts counts;
+    std::map<std::string, RoadNetwork> roads;
+    for (const fs::path& file : files) {
+        ++counts.files;
+        const bool scenario = is_scenario(content(file));
+        counts.scenarios += scenario ? 1 : 0;
+        const std::string name = fs::relative(file, shared).string();
+        const auto refused = [&](const InputError& error) {
+            EXPECT_FALSE(error.where().file.empty()) << name << ": " << error.what();
+            EXPECT_TRUE(error.where().line > 0) << name << ": " << error.what();
+            const std::string& key = error.where().key;
+            if (scenario && (key == "LogicFile@filepath" || key == "CatalogReference@catalogName"))
+                ++counts.files_missing;
+            else if (scenario && name.find("negative") != std::string::npos)
+                ++counts.broken;
+            if (std::getenv("FERNLICHT_STORY_TABLE")) // for docs/openscenario.md
+                std::printf("REFUSED %s\n", error.what());
+        };
+        Storyboard story;
+        try {
+            story = read_storyboard(file,
+                                    {.road_folders = {shared / "roads", shared / "roads/carla-simulator__opendrive-test-files/OpenDrive"}});
+            ++counts.read;
+        } catch (const InputError& error) {
+            refused(error);
+            continue;
+        }
+        try {
+            RoadNetwork none;
+            const std::string road = story.road_file.string();
+            if (!road.empty() && !roads.contains(road))
+                roads[road] = read_opendrive(road);
+            const PlayedStory played = play_story(story, road.empty() ? none : roads[road], {.step_s = 0.05, .most_s = 30.0});
+            ++counts.played;
+            for (const PlayedEntity& entity : played.entities)
+                for (const EntitySample& at : entity.samples)
+                    ASSERT_TRUE(std::isfinite(at.position_m.x + at.position_m.y + at.position_m.z + at.heading_rad + at.speed_mps)) << name;
+            if (std::getenv("FERNLICHT_STORY_TABLE"))
+                std::printf("PLAYED %s %zu ticks: %s\n", name.c_str(), played.ticks(), played.end.c_str());
+        } catch (const InputError& error) {
+            refused(error);
+        }
+    }
+    std::printf("%d files, %d scenarios, %d name roads or catalogs that are not there, %d made to be refused, %d read, %d played\n",
+                counts.files, counts.scenarios, counts.files_missing, counts.broken, counts.read, counts.played);
+    const int valid = counts.scenarios - counts.files_missing - counts.broken;
+    EXPECT_GE(counts.played, 0.8 * valid);
+    EXPECT_GE(counts.played, 240); // as many as when this was written
+}
+
+} // namespace
+} // namespace fernlicht::osc
