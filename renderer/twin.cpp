@@ -3,6 +3,7 @@
 #include "scenarios/light.h"
 #include "scenarios/photometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -61,8 +62,15 @@ std::optional<Twin::Hit> Twin::cast(const Moment& moment, const Ray& ray, double
         const Mesh& mesh = scene_.meshes[m];
         if (ground_only && stands_on_ground(scene_, mesh))
             continue;
-        const glm::dvec3 offset = mesh.origin_m - moment.ego.position_m;
-        const auto corner = [&](std::uint32_t index) { return offset + glm::dvec3(mesh.vertices[index].position_m); };
+        if (mesh.body >= 0 && (static_cast<std::size_t>(mesh.body) >= moment.bodies.size() || ground_only ||
+                               !moment.bodies[static_cast<std::size_t>(mesh.body)].visible))
+            continue;
+        const Pose body = mesh.body >= 0 ? moment.bodies[static_cast<std::size_t>(mesh.body)].pose : Pose{};
+        const glm::dvec3 offset = (mesh.body >= 0 ? to_parent(body, mesh.origin_m) : mesh.origin_m) - moment.ego.position_m;
+        const auto corner = [&](std::uint32_t index) {
+            const glm::dvec3 p(mesh.vertices[index].position_m);
+            return offset + (mesh.body >= 0 ? body.axes * p : p);
+        };
         for (const Batch& batch : mesh.batches)
             for (std::uint32_t k = batch.first; k + 2 < batch.first + batch.count; k += 3) {
                 const std::uint32_t* i = &mesh.indices[k];
@@ -71,7 +79,8 @@ std::optional<Twin::Hit> Twin::cast(const Moment& moment, const Ray& ray, double
                     continue;
                 const glm::dvec3 normal = glm::dvec3(mesh.vertices[i[0]].normal) * (1.0 - hit->y - hit->z) +
                                           glm::dvec3(mesh.vertices[i[1]].normal) * hit->y + glm::dvec3(mesh.vertices[i[2]].normal) * hit->z;
-                nearest = Hit{hit->x, static_cast<std::uint32_t>(m), batch.material, glm::normalize(normal)};
+                nearest = Hit{hit->x, static_cast<std::uint32_t>(m), batch.material,
+                              glm::normalize(mesh.body >= 0 ? body.axes * normal : normal)};
             }
     }
     return nearest;
@@ -95,11 +104,11 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
     const glm::dvec3 to_eye = camera.is_map ? -camera.axis : camera.eye_m - pixel.point_m;
     const glm::dvec3 albedo(material.albedo), weights(0.2126, 0.7152, 0.0722);
     glm::dvec3 light(0.0);
-    for (const LitLamp& lamp : moment.lamps) {
+    const auto add_light = [&](const LitLamp& lamp) {
         const glm::dvec3 lamp_m = lamp.pose.position_m - moment.ego.position_m, to_lamp = lamp_m - pixel.point_m;
         const double cosine = photometry::incidence(pixel.normal, to_lamp);
         if (!(cosine > 0.0)) // NaN at the lamp itself
-            continue;
+            return;
         double e_perp = photometry::facing_illuminance(intensity_towards_cd(lamp, moment.ego.position_m + pixel.point_m), to_lamp);
         if (shadows_ && e_perp > 0.0) {
             const double distance = glm::length(to_lamp);
@@ -118,7 +127,9 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
                                                                            photometry::observation_angle(to_lamp, to_eye),
                                                                            static_cast<double>(material.retro_reference_rad),
                                                                            1.0 / static_cast<double>(material.retro_falloff_rad));
-    }
+    };
+    std::ranges::for_each(moment.lamps, add_light);
+    std::ranges::for_each(moment.other_lamps, add_light);
     const double e_sky = sky_lx * 0.5 * (1.0 + pixel.normal.z);
     pixel.illuminance_lx += e_sky;
     pixel.bound_lx += e_sky * operations * half_ulp;

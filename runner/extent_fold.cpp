@@ -93,7 +93,9 @@ View map_over(const ExtentGrid& grid, const Moment& moment) {
 ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
     ExtentDrawing drawing{moment, make_extent_grid(route_, moment, drive_.bumper_m, *drive_.extent), {}, {}};
     drawing.view = map_over(drawing.grid, moment);
-    drawing.frame = draw(moment, drawing.view, {.illuminance = true, .target = true})();
+    if (!moment.other_lamps.empty())
+        drawing.moment.other_lamps.clear(); // reach is the own lamps'
+    drawing.frame = draw(drawing.moment, drawing.view, {.illuminance = true, .target = true})();
     return drawing;
 }
 

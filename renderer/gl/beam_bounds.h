@@ -15,6 +15,8 @@ class BeamBounds {
     /// No direction towards the sphere has more, in cd. `centre` in lamp space. 0 only where the beam is exactly dark.
     double most_towards(const glm::dvec3& centre, double radius) const;
 
+    double most() const { return most_; } ///< cd, in any direction
+
   private:
     double h_first_ = 0.0, v_first_ = 0.0, h_cell_ = 1.0, v_cell_ = 1.0, most_ = 0.0;
     int columns_ = 0, rows_ = 0;

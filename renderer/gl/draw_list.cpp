@@ -29,7 +29,11 @@ DrawList::DrawList(Context& context, const SceneBuffers& scene)
       place_buffer_(make_buffer(context, std::vector<glm::vec4>(scene.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT)),
       command_buffer_(make_buffer(context, std::vector<Command>(scene.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT)) {}
 
-void DrawList::start(const glm::dvec3& ego_m) {
+void DrawList::start(const glm::dvec3& ego_m, bool extras) {
+    with_extras_ = extras;
+    extras_.clear();
+    if (extras && extra_buffer_ == 0)
+        extra_buffer_ = make_buffer(context_, std::vector<PieceExtra>(scene_.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT);
     ego_m_ = ego_m;
     places_.clear();
     commands_.clear();
@@ -37,7 +41,7 @@ void DrawList::start(const glm::dvec3& ego_m) {
     triangles_ = 0;
 }
 
-int DrawList::add(std::span<const std::uint32_t> pieces) {
+int DrawList::add(std::span<const std::uint32_t> pieces, const std::vector<PieceExtra>* traffic) {
     calls_.push_back({commands_.size(), pieces.size()});
     for (const std::uint32_t index : pieces) {
         const Piece& piece = scene_.pieces()[index];
@@ -45,6 +49,10 @@ int DrawList::add(std::span<const std::uint32_t> pieces) {
         // The id that a pixel shows is the mesh's place in the scene + 1, exact in a float up to 16 million meshes.
         places_.emplace_back(glm::vec3(piece.origin_m - ego_m_), static_cast<float>(piece.mesh + 1));
         triangles_ += piece.index_count / 3;
+        if (with_extras_) {
+            extras_.push_back(traffic != nullptr ? (*traffic)[index] : PieceExtra{});
+            extras_.back().turn = piece.turn;
+        }
     }
     return static_cast<int>(calls_.size()) - 1;
 }
@@ -53,19 +61,23 @@ int DrawList::add_nothing() {
     calls_.push_back({commands_.size(), 1});
     commands_.push_back({3, 1, 0, 0, static_cast<GLuint>(places_.size())});
     places_.emplace_back(0.0F);
+    if (with_extras_)
+        extras_.emplace_back();
     return static_cast<int>(calls_.size()) - 1;
 }
 
 void DrawList::upload() {
     update_buffer(context_, place_buffer_, places_);
     update_buffer(context_, command_buffer_, commands_);
+    if (with_extras_)
+        update_buffer(context_, extra_buffer_, extras_);
 }
 
 void DrawList::draw(int call) const {
     const Call& c = calls_[static_cast<std::size_t>(call)];
     if (c.count == 0)
         return;
-    scene_.bind(place_buffer_);
+    scene_.bind(place_buffer_, with_extras_ ? static_cast<GLuint>(extra_buffer_) : 0);
     context_.gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_);
     context_.gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(c.first * sizeof(Command)),
                                           static_cast<GLsizei>(c.count), 0);

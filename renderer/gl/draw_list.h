@@ -19,9 +19,11 @@ class DrawList {
     DrawList(Context& context, const SceneBuffers& scene);
 
     /// Empties the list; positions from now on are relative to the car at `ego_m`.
-    void start(const glm::dvec3& ego_m);
+    /// `extras`: what moves is among them, or lists of lamps go with them.
+    void start(const glm::dvec3& ego_m, bool extras = false);
     /// Appends one call that draws these pieces (indices in SceneBuffers::pieces()); returns its number.
-    int add(std::span<const std::uint32_t> pieces);
+    /// `traffic`: lists by piece of the scene.
+    int add(std::span<const std::uint32_t> pieces, const std::vector<PieceExtra>* traffic = nullptr);
     /// Appends a call that draws the scene's first triangle into targets that nobody reads: it makes the driver compile what it compiles
     /// late. The scene must have one.
     int add_nothing();
@@ -45,8 +47,10 @@ class DrawList {
     glm::dvec3 ego_m_{0.0};
     std::vector<glm::vec4> places_;
     std::vector<Command> commands_;
+    std::vector<PieceExtra> extras_;
+    bool with_extras_ = false;
     std::vector<Call> calls_;
-    Buffer place_buffer_, command_buffer_;
+    Buffer place_buffer_, command_buffer_, extra_buffer_;
     std::uint64_t triangles_ = 0;
 };
 

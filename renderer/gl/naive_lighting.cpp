@@ -13,8 +13,9 @@ glm::vec4 four(const glm::dvec3& v) { return {glm::vec3(v), 0.0F}; }
 
 NaiveLighting::NaiveLighting(Context& context, const Scene& scene, const RendererSettings& settings)
     : context_(context), settings_(settings), scene_(context, scene, false), beams_(context, settings.beams), list_(context, scene_),
-      depth_(context, "depth.vert.glsl", "", {}), block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
-      shadow_target_(make_framebuffer(context)) {}
+      depth_(context, "depth.vert.glsl", "",
+             scene_.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
+      block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)), shadow_target_(make_framebuffer(context)) {}
 
 const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
     std::vector<Program::Define> d = Targets::defines(shot.wanted);
@@ -22,6 +23,8 @@ const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
     d.push_back({"LAMP_COUNT", std::to_string(lamps)});
     d.push_back({"SHADOWS", flag(settings_.shadows)});
     d.push_back({"SKY", "1"});
+    if (scene_.moves())
+        d.push_back({"MOVING", "1"});
     d.push_back({"RETRO", "1"});
     d.push_back({"TEXTURED", flag(scene_.texture_bytes() > 0)});
     std::string key;
@@ -59,7 +62,7 @@ void NaiveLighting::draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m,
             !frustum.outside(centre, piece.radius_m))
             seen.push_back(i);
     }
-    list_.start(ego_m);
+    list_.start(ego_m, scene_.moves());
     list_.add(seen);
     list_.upload();
     list_.draw(0);
@@ -94,6 +97,7 @@ void NaiveLighting::draw_shadow_maps(const Shot& shot) {
 void NaiveLighting::draw(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
     set_lamps(shot.moment);
+    scene_.place(shot.moment.bodies);
     if (settings_.shadows && !lamps_.empty()) {
         shot.clock.begin("shadow maps");
         draw_shadow_maps(shot);

@@ -33,13 +33,14 @@ glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), stat
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, settings.beams),
-      shadows_(context, scene_, {settings.shadow_width, settings.shadow_height}), list_(context, scene_),
+      shadows_(context, scene_, {settings.shadow_width, settings.shadow_height}),
+      traffic_(context, scene_, beams_, settings.traffic_levels, pruned), faces_(context, settings.tone_mapper), list_(context, scene_),
       block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
 
 void PhotometricLighting::set_lamps(const Shot& shot) {
     lamps_ = shining(shot.moment, !pruned_);
     // By what is mounted, not by what is on: pruning must not change how a pixel is computed.
-    by_vertex_ = shot.moment.lamps.size() <= most_lamps_by_vertex;
+    by_vertex_ = shot.moment.lamps.size() <= (shot.moment.other_lamps.empty() ? most_lamps_by_vertex : most_lamps_by_vertex / 2);
     lamp_beams_.clear();
     packed_.clear();
     for (const LitLamp& lamp : lamps_) {
@@ -54,22 +55,24 @@ void PhotometricLighting::set_lamps(const Shot& shot) {
     update_buffer(context_, block_, packed_);
 }
 
-PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot, const SurfaceClass& surface, bool lit,
-                                                               bool shadowed) const {
+PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed,
+                                                               bool traffic) const {
     Features f;
     f.everything = !pruned_;
     f.by_vertex = by_vertex_;
     f.sky = !pruned_ || shot.moment.daylight.horizontal_illuminance_lx > 0.0;
     f.wanted = bits(shot.wanted);
+    f.traffic = traffic || (!pruned_ && !shot.moment.other_lamps.empty());
     if (lit || !pruned_)
         for (const Beam* beam : lamp_beams_)
             f.beams.push_back(beam->id);
     f.shadows = !f.beams.empty() && (shadowed || !pruned_) && settings_.shadows;
     const bool reflects = shot.wanted.colour || shot.wanted.luminance;
     if (pruned_ && reflects)
-        f.surface = {surface.texture, surface.retroreflecting && !f.beams.empty(), surface.emissive};
+        f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive, surface.moving};
     else if (!pruned_)
-        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0, true, true};
+        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0, true, true, surface.moving};
+    f.surface.moving = surface.moving;
     return f;
 }
 
@@ -88,6 +91,14 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("SHADOWS", flag(f.shadows));
     define("SKY", flag(f.sky));
     define("RETRO", flag(f.surface.retroreflecting));
+    define("TRAFFIC", flag(f.traffic));
+    if (f.traffic) {
+        define("TRAFFIC_CELLS_A_METRE", literal(1.0 / traffic_cell_m));
+        define("TRAFFIC_CELLS_AHEAD", std::to_string(traffic_cells_ahead));
+        define("TRAFFIC_CELLS_ACROSS", std::to_string(traffic_cells_across));
+    }
+    if (f.surface.moving)
+        define("MOVING", "1");
     define("EMISSIVE", flag(f.surface.emissive));
     define("TEXTURED", f.surface.texture == 0 ? "0" : (f.everything ? "2" : "1"));
     define("TEXTURE_MODE", std::to_string(f.surface.texture - 1));
@@ -116,8 +127,8 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
            }));
     Program program(context_, "photometric.vert.glsl", "photometric.frag.glsl", d);
     const GLint clip = program.uniform("clip_from_ego"), eye = program.uniform("eye_m"), axis = program.uniform("eye_axis"),
-                sky = program.uniform("sky_lx");
-    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky}).first->second;
+                sky = program.uniform("sky_lx"), grid = f.traffic ? program.uniform("traffic_grid") : -1;
+    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid}).first->second;
 }
 
 void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
@@ -128,6 +139,10 @@ void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
     gl.UniformMatrix4fv(v.clip, 1, GL_FALSE, &clip[0][0]);
     gl.Uniform3fv(v.eye, 1, &eye[0]);
     gl.Uniform4f(v.axis, axis.x, axis.y, axis.z, shot.camera.is_map ? 0.0F : 1.0F);
+    if (v.traffic_grid >= 0) {
+        const glm::vec4 grid = traffic_.grid();
+        gl.Uniform4fv(v.traffic_grid, 1, &grid[0]);
+    }
     gl.Uniform1f(v.sky, static_cast<float>(shot.moment.daylight.horizontal_illuminance_lx));
 }
 
@@ -135,8 +150,9 @@ void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
 std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Shot& shot) {
     const glm::dvec3 ego_m = shot.moment.ego.position_m;
     const Frustum frustum(shot.camera.clip_from_ego);
-    std::map<std::tuple<SurfaceClass, bool, bool>, std::vector<std::pair<double, std::uint32_t>>> sorted;
-    std::vector<std::uint32_t> unseen;
+    std::map<std::tuple<SurfaceClass, bool, bool, bool>, std::vector<std::pair<double, std::uint32_t>>> sorted;
+    std::vector<std::uint32_t> unseen, unseen_moving, seen;
+    std::vector<double> distances;
     for (const std::uint32_t i : scene_.near(ego_m)) {
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m);
@@ -146,31 +162,42 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
         if (distance > farthest_drawn_m)
             continue;
         if (frustum.outside(centre, piece.radius_m)) {
-            unseen.push_back(i);
+            (piece.surface.moving ? unseen_moving : unseen).push_back(i);
             continue;
         }
+        seen.push_back(i);
+        distances.push_back(distance);
+    }
+    traffic_.set(shot.moment, seen, shot.work);
+    for (std::size_t s = 0; s < seen.size(); ++s) {
+        const std::uint32_t i = seen[s];
+        const Piece& piece = scene_.pieces()[i];
+        const glm::dvec3 centre = centre_of(piece, ego_m);
         bool lit = false;
         for (std::size_t k = 0; k < lamps_.size() && !lit; ++k)
             lit = lamps_[k].intensity_factor > 0.0 &&
                   lamp_beams_[k]->bounds.most_towards(to_lamp_space(lamps_[k], centre - (lamps_[k].pose.position_m - ego_m)),
                                                       piece.radius_m + (shot.wanted.target ? settings_.target_height_m : 0.0)) > 0.0;
         const bool shadowed = lit && settings_.shadows && shadows_.reach(piece, shot.wanted.target ? settings_.target_height_m : 0.0);
-        sorted[{piece.surface, lit, shadowed}].emplace_back(distance, i);
+        sorted[{piece.surface, lit, shadowed, traffic_.any() && traffic_.reach(i)}].emplace_back(distances[s], i);
     }
     std::vector<Group> groups;
     for (auto& [key, pieces] : sorted) {
         std::ranges::sort(pieces);
-        Group group{std::get<0>(key), std::get<1>(key), std::get<2>(key), {}};
+        Group group{std::get<0>(key), std::get<1>(key), std::get<2>(key), std::get<3>(key), {}};
         std::ranges::transform(pieces, std::back_inserter(group.pieces), [](const auto& p) { return p.second; });
         groups.push_back(std::move(group));
     }
     if (!pruned_ && !unseen.empty())
-        groups.push_back({{}, true, true, std::move(unseen)}); // culled by nothing but the rasteriser
+        groups.push_back({{}, true, true, true, std::move(unseen)}); // culled by nothing but the rasteriser
+    if (!pruned_ && !unseen_moving.empty())
+        groups.push_back({{.moving = true}, true, true, true, std::move(unseen_moving)});
     return groups;
 }
 
 void PhotometricLighting::draw(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
+    scene_.place(shot.moment.bodies);
     set_lamps(shot);
     const bool shadows = settings_.shadows && !lamps_.empty();
     if (shadows) {
@@ -186,15 +213,17 @@ void PhotometricLighting::draw(const Shot& shot) {
     shot.clock.begin("scene");
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     const std::vector<Group> groups = groups_for(shot);
-    list_.start(shot.moment.ego.position_m);
+    list_.start(shot.moment.ego.position_m, scene_.moves() || traffic_.any());
     for (const Group& group : groups)
-        list_.add(group.pieces);
+        list_.add(group.pieces, traffic_.any() ? &traffic_.lists() : nullptr);
     list_.upload();
+    if (traffic_.any())
+        traffic_.bind();
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
     for (std::size_t i = 0; i < lamp_beams_.size(); ++i)
         gl.BindTextureUnit(static_cast<GLuint>(i), lamp_beams_[i]->texture);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const Features f = features_of(shot, groups[g].surface, groups[g].lit, groups[g].shadowed);
+        const Features f = features_of(shot, groups[g].surface, groups[g].lit, groups[g].shadowed, groups[g].traffic && traffic_.any());
         use(variant(f, shot.wanted), shot);
         list_.draw(static_cast<int>(g));
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
@@ -204,6 +233,7 @@ void PhotometricLighting::draw(const Shot& shot) {
         const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0);
         shot.work.samplers = std::max(shot.work.samplers, textures);
     }
+    faces_.draw(shot);
     context_.check("drawing the scene");
     shot.clock.end();
     ++shot.work.passes;
@@ -214,6 +244,7 @@ void PhotometricLighting::draw(const Shot& shot) {
 }
 
 void PhotometricLighting::prepare(const Shot& shot) {
+    scene_.place(shot.moment.bodies);
     set_lamps(shot);
     const GladGLContext& gl = context_.gl;
     if (scene_.pieces().empty())
@@ -221,13 +252,23 @@ void PhotometricLighting::prepare(const Shot& shot) {
     shadows_.compile();
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
+    const bool others = !shot.moment.other_lamps.empty();
+    if (others) {
+        traffic_.set(shot.moment, {}, shot.work);
+        traffic_.bind();
+        faces_.compile(shot);
+    }
     for (const SurfaceClass& surface : scene_.classes())
-        for (const auto& [lit, shadowed] : {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
-            const Features f = features_of(shot, surface, lit, shadowed);
+        for (const auto& [lit, shadowed, traffic] :
+             {std::tuple(false, false, false), std::tuple(true, false, false), std::tuple(true, true, false),
+              std::tuple(false, false, true), std::tuple(true, false, true), std::tuple(true, true, true)}) {
+            if (traffic && !others)
+                continue;
+            const Features f = features_of(shot, surface, lit, shadowed, traffic);
             if (variants_.contains(f))
                 continue;
             use(variant(f, shot.wanted), shot);
-            list_.start(shot.moment.ego.position_m);
+            list_.start(shot.moment.ego.position_m, scene_.moves() || others);
             const int call = list_.add_nothing();
             list_.upload();
             list_.draw(call);
@@ -242,6 +283,11 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
     const auto say = [&](std::string what, std::string why) { left_out_.push_back({std::move(what), std::move(why)}); };
     if (const std::size_t off = shot.moment.lamps.size() - lamps_.size(); off > 0)
         say(fmt::format("{} of {} lamps", off, shot.moment.lamps.size()), "switched off");
+    if (traffic_.left_out() > 0)
+        say(fmt::format("lamps of others: {} of {}", traffic_.left_out(), traffic_.units()),
+            fmt::format("bring less than {} lx to anything in view", shot.moment.least_traffic_lx));
+    if (shot.moment.other_lamps.empty())
+        say("lamps of others", "there are none");
     if (!settings_.shadows)
         say("shadow maps", "the drive switches them off");
     else if (!shadows_.needed())

@@ -1,8 +1,10 @@
 // The technique `photometric`: variants compiled for what a moment needs, and drawn group by group.
 #pragma once
 
+#include "renderer/gl/lamp_faces.h"
 #include "renderer/gl/lighting.h"
 #include "renderer/gl/shadow_maps.h"
+#include "renderer/gl/traffic_lights.h"
 
 #include <memory>
 #include <tuple>
@@ -24,18 +26,18 @@ class PhotometricLighting : public Lighting {
     struct Features {
         std::vector<int> beams; ///< one a lamp
         SurfaceClass surface;
-        bool shadows = false, sky = false, everything = false, by_vertex = true;
+        bool shadows = false, sky = false, everything = false, by_vertex = true, traffic = false;
         int wanted = 0;
         auto operator<=>(const Features&) const = default;
     };
     struct Compiled {
         Program program;
-        GLint clip, eye, axis, sky;
+        GLint clip, eye, axis, sky, traffic_grid;
     };
     /// Pieces that one variant draws.
     struct Group {
         SurfaceClass surface;
-        bool lit = true, shadowed = true;
+        bool lit = true, shadowed = true, traffic = true;
         std::vector<std::uint32_t> pieces;
     };
     struct Packed { // std140, as in photometric_lamps.glsl
@@ -44,7 +46,7 @@ class PhotometricLighting : public Lighting {
 
     void set_lamps(const Shot& shot);
     std::vector<Group> groups_for(const Shot& shot);
-    Features features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed) const;
+    Features features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed, bool traffic) const;
     const Compiled& variant(const Features& features, const Wanted& wanted);
     void use(const Compiled& v, const Shot& shot) const;
     void note_what_is_left_out(const Shot& shot, const std::vector<Group>& groups);
@@ -55,6 +57,8 @@ class PhotometricLighting : public Lighting {
     SceneBuffers scene_;
     Beams beams_;
     ShadowMaps shadows_;
+    TrafficLights traffic_;
+    LampFaces faces_;
     DrawList list_;
     std::map<Features, Compiled> variants_;
     std::vector<LitLamp> lamps_;

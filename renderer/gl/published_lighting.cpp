@@ -124,6 +124,8 @@ const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wis
         return known->second;
     std::vector<Program::Define> d = Targets::defines(wanted);
     const auto define = [&](const char* name, std::string value) { d.push_back({name, std::move(value)}); };
+    if (scene_.moves())
+        define("MOVING", "1");
     for (const auto& [name, value] : features_)
         d.push_back({name, name == "EMISSIVE" && wish.pass == 2 ? "NONE" : value}); // once is enough
     define("LAMP_COUNT", std::to_string(wish.lamps));
@@ -220,11 +222,12 @@ std::vector<PublishedLighting::Group> PublishedLighting::groups_for(const Shot& 
 }
 
 void PublishedLighting::draw(const Shot& shot) {
+    scene_.place(shot.moment.bodies);
     set_lamps(shot);
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     std::size_t pieces = 0;
     const std::vector<Group> groups = groups_for(shot, pieces);
-    list_.start(shot.moment.ego.position_m);
+    list_.start(shot.moment.ego.position_m, scene_.moves());
     for (const Group& group : groups)
         list_.add(group.pieces);
     list_.upload();
@@ -280,7 +283,7 @@ void PublishedLighting::prepare(const Shot& shot) {
             if (variants_.contains(wish))
                 continue;
             use(variant(wish, shot.wanted), shot);
-            list_.start(shot.moment.ego.position_m);
+            list_.start(shot.moment.ego.position_m, scene_.moves());
             const int call = list_.add_nothing();
             list_.upload();
             list_.draw(call);

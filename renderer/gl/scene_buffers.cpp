@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <map>
 #include <unordered_map>
@@ -63,10 +64,13 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
         for (const Batch& batch : mesh.batches) {
             const Material& material = scene.materials.at(batch.material);
             ground = ground && is_ground(material.kind);
-            Gathered& gathered = by_class[class_of(material)];
+            SurfaceClass surface = class_of(material);
+            surface.moving = mesh.body >= 0;
+            Gathered& gathered = by_class[surface];
             for (std::uint32_t k = batch.first; k < batch.first + batch.count; ++k)
                 gathered.corners.emplace_back(mesh.indices.at(k), batch.material);
         }
+        ground = ground && mesh.body < 0;
         for (const auto& [surface, gathered] : by_class) {
             if (gathered.corners.empty())
                 continue;
@@ -74,6 +78,7 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             piece.origin_m = mesh.origin_m;
             piece.surface = surface;
             piece.ground = ground;
+            piece.body = mesh.body;
             piece.mesh = static_cast<std::uint32_t>(&mesh - scene.meshes.data());
             piece.first_index = static_cast<GLuint>(indices.size());
             piece.index_count = static_cast<GLuint>(gathered.corners.size());
@@ -86,6 +91,7 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
                 if (fresh) {
                     const Vertex& vertex = mesh.vertices.at(corner.first);
                     vertices.push_back({vertex.position_m, vertex.normal, corner.second, vertex.uv});
+                    piece.least_up = std::min(piece.least_up, static_cast<double>(vertex.normal.z));
                     low = glm::min(low, glm::dvec3(vertex.position_m));
                     high = glm::max(high, glm::dvec3(vertex.position_m));
                 }
@@ -113,12 +119,16 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             if (std::find(classes_.begin(), classes_.end(), surface) == classes_.end())
                 classes_.push_back(surface);
             const glm::dvec3 centre = piece.origin_m + piece.centre_m;
-            cells_[{cell_of(centre.x), cell_of(centre.y)}].push_back(static_cast<std::uint32_t>(pieces_.size()));
-            largest_radius_m_ = std::max(largest_radius_m_, piece.radius_m);
+            if (piece.body >= 0) {
+                resting_.emplace_back(static_cast<std::uint32_t>(pieces_.size()), piece);
+            } else {
+                cells_[{cell_of(centre.x), cell_of(centre.y)}].push_back(static_cast<std::uint32_t>(pieces_.size()));
+                largest_radius_m_ = std::max(largest_radius_m_, piece.radius_m);
+            }
             pieces_.push_back(piece);
         }
     }
-    flat_ = pieces_.empty() || highest - lowest < flat_within_m;
+    flat_ = resting_.empty() && (pieces_.empty() || highest - lowest < flat_within_m);
     triangles_ = indices.size() / 3;
     find_bridges();
     std::vector<GpuMaterial> materials;
@@ -143,6 +153,11 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
     attribute(3, 4, 0, 1);
     attribute(4, 2, offsetof(GpuVertex, uv), 0);
     gl.EnableVertexArrayAttrib(layout_, 2);
+    gl.VertexArrayBindingDivisor(layout_, 2, 1);
+    gl.VertexArrayAttribFormat(layout_, 5, 4, GL_FLOAT, GL_FALSE, offsetof(PieceExtra, turn));
+    gl.VertexArrayAttribBinding(layout_, 5, 2);
+    gl.VertexArrayAttribIFormat(layout_, 6, 4, GL_UNSIGNED_INT, offsetof(PieceExtra, traffic));
+    gl.VertexArrayAttribBinding(layout_, 6, 2);
     gl.VertexArrayAttribIFormat(layout_, 2, 1, GL_UNSIGNED_INT, offsetof(GpuVertex, material));
     gl.VertexArrayAttribBinding(layout_, 2, 0);
     textures_ = upload_surface_textures(context, scene.textures, encoded, texture_bytes_);
@@ -163,12 +178,49 @@ const std::vector<std::uint32_t>& SceneBuffers::near(const glm::dvec3& ego_m) co
         if (std::abs(column->first.second - here.second) <= cells)
             near_.insert(near_.end(), column->second.begin(), column->second.end());
     std::ranges::sort(near_);
+    for (const auto& [index, piece] : resting_)
+        if (static_cast<std::size_t>(piece.body) < bodies_.size() && bodies_[static_cast<std::size_t>(piece.body)].visible)
+            near_.push_back(index);
     return near_;
 }
 
-void SceneBuffers::bind(GLuint places) const {
+void SceneBuffers::place(const std::vector<Body>& bodies) {
+    if (resting_.empty())
+        return;
+    const auto same = [](const Body& a, const Body& b) { return a.pose == b.pose && a.visible == b.visible; };
+    if (bodies_.size() == bodies.size() && std::ranges::equal(bodies_, bodies, same))
+        return;
+    bodies_ = bodies;
+    near_cell_.reset();
+    ++placed_;
+    for (const auto& [index, resting] : resting_) {
+        if (static_cast<std::size_t>(resting.body) >= bodies.size())
+            continue;
+        const Pose& pose = bodies[static_cast<std::size_t>(resting.body)].pose;
+        Piece& piece = pieces_[index];
+        const auto turn = [&](Corners& corners, const Corners& from) {
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                corners[i] = pose.axes * from[i];
+        };
+        piece.origin_m = to_parent(pose, resting.origin_m);
+        piece.centre_m = pose.axes * resting.centre_m;
+        piece.lowest_m = piece.origin_m.z + piece.centre_m.z - piece.radius_m;
+        piece.highest_m = piece.origin_m.z + piece.centre_m.z + piece.radius_m;
+        turn(piece.corners_m, resting.corners_m);
+        for (std::size_t i = 0; i < resting.bodies_m.size(); ++i)
+            turn(piece.bodies_m[i], resting.bodies_m[i]);
+        const glm::dquat q = glm::quat_cast(pose.axes);
+        piece.turn = glm::vec4(q.x, q.y, q.z, q.w);
+    }
+}
+
+void SceneBuffers::bind(GLuint places, GLuint extras) const {
     const GladGLContext& gl = context_.gl;
     gl.VertexArrayVertexBuffer(layout_, 1, places, 0, sizeof(glm::vec4));
+    for (const GLuint location : {5U, 6U})
+        extras != 0 ? gl.EnableVertexArrayAttrib(layout_, location) : gl.DisableVertexArrayAttrib(layout_, location);
+    if (extras != 0)
+        gl.VertexArrayVertexBuffer(layout_, 2, extras, 0, sizeof(PieceExtra));
     gl.BindVertexArray(layout_);
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, materials_);
     if (textures_ != 0)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/gl/objects.h"
+#include "scenarios/drives/moment.h"
 #include "scenarios/values/scene.h"
 
 #include <array>
@@ -16,6 +17,7 @@ namespace fernlicht::gl {
 struct SurfaceClass {
     int texture = 0; ///< 0: none, else 1 + TextureMode
     bool retroreflecting = false, emissive = false;
+    bool moving = false; ///< turned and placed by its body
 
     auto operator<=>(const SurfaceClass&) const = default;
 };
@@ -36,7 +38,16 @@ struct Piece {
     GLint base_vertex = 0;
     std::size_t first_plane = 0, planes = 0; ///< ground only: of its triangles, in SceneBuffers::planes()
     Corners corners_m;                       ///< of a box round it that lies along its longest extent; relative to the origin
+    int body = -1;                           ///< of its mesh
+    glm::vec4 turn{0.0F, 0.0F, 0.0F, 1.0F};  ///< quaternion of its body
+    double least_up = 1.0;                   ///< ground only: the least z of its normals
     std::vector<Corners> bodies_m;           ///< what stands on the ground: a box round each body; else the one round all
+};
+
+/// What goes with a piece that moves or that lamps of others light: the instance's attributes 5 and 6.
+struct PieceExtra {
+    glm::vec4 turn{0.0F, 0.0F, 0.0F, 1.0F};
+    std::uint32_t traffic[4] = {0, 0, 0, 0}; ///< entries by fragment: first, count; by vertex: first, count (traffic_lights.h)
 };
 
 /// Pieces farther than this from the car are not drawn.
@@ -48,14 +59,20 @@ class SceneBuffers {
     SceneBuffers(Context& context, const Scene& scene, bool encoded);
 
     const std::vector<Piece>& pieces() const { return pieces_; }
+    /// Puts the pieces of bodies where the moment has them; what is not visible or not there is left out of near().
+    void place(const std::vector<Body>& bodies);
+    bool moves() const { return !resting_.empty(); }
+    /// Changes with every place() that moved something.
+    std::uint64_t placed() const { return placed_; }
     /// Indices of all pieces that may lie within farthest_drawn_m of the car, ascending: what a frame looks through, however long the road.
     const std::vector<std::uint32_t>& near(const glm::dvec3& ego_m) const;
     /// (unit normal, -normal . vertex) of ground triangles, relative to their piece's origin.
     const std::vector<glm::vec4>& planes() const { return planes_; }
     /// Each class of the scene once.
     const std::vector<SurfaceClass>& classes() const { return classes_; }
-    /// Binds vertices, materials (storage block 1) and textures (unit 15), with the places of the pieces to be drawn.
-    void bind(GLuint places) const;
+    /// Binds vertices, materials (storage block 1) and textures (unit 15), with the places of the pieces to be drawn and, where it is not
+    /// 0, what else goes with them (DrawList::Extra).
+    void bind(GLuint places, GLuint extras = 0) const;
     bool has(bool (*property)(const SurfaceClass&)) const;
 
     /// All vertices lie in one horizontal plane, so that nothing can stand in a beam.
@@ -69,6 +86,9 @@ class SceneBuffers {
 
     Context& context_;
     std::vector<Piece> pieces_;
+    std::vector<std::pair<std::uint32_t, Piece>> resting_; ///< those of bodies, in their frames
+    std::vector<Body> bodies_;                             ///< as placed last
+    std::uint64_t placed_ = 0;
     std::vector<glm::vec4> planes_;
     std::vector<SurfaceClass> classes_;
     std::map<Cell, std::vector<std::uint32_t>> cells_; ///< pieces by where their centre is

@@ -37,7 +37,9 @@ double texel_tangent(const ShadowWindow& window, const ShadowSize& size) {
 }
 
 ShadowMaps::ShadowMaps(Context& context, const SceneBuffers& scene, ShadowSize size)
-    : context_(context), scene_(scene), size_(size), program_(context, "depth.vert.glsl", "", {}),
+    : context_(context), scene_(scene), size_(size),
+      program_(context, "depth.vert.glsl", "",
+               scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
       matrix_(program_.uniform("clip_from_ego")), list_(context, scene), target_(make_framebuffer(context)) {}
 
 bool ShadowMaps::faces_lamp(const Piece& piece, const glm::dvec3& lamp_m) const {
@@ -152,7 +154,7 @@ void ShadowMaps::draw(Work& work) {
         pieces.push_back(map.pieces);
     }
     work.shadow_maps += static_cast<int>(maps_.size());
-    if (clips != drawn_clips_ || pieces != drawn_pieces_ || ego_m_ != drawn_ego_m_) {
+    if (clips != drawn_clips_ || pieces != drawn_pieces_ || ego_m_ != drawn_ego_m_ || scene_.placed() != drawn_placed_) {
         program_.use();
         // The outermost texels stay empty: what lies outside the window is lit.
         gl.Viewport(1, 1, size_.width - 2, size_.height - 2);
@@ -168,7 +170,7 @@ void ShadowMaps::draw(Work& work) {
             gl.Scissor(1, 1, size_.width - 2, size_.height - 2);
             const glm::mat4 clip(maps_[i].clip);
             gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip[0][0]);
-            list_.start(ego_m_);
+            list_.start(ego_m_, scene_.moves());
             list_.add(maps_[i].pieces);
             list_.upload();
             list_.draw(0);
@@ -182,6 +184,7 @@ void ShadowMaps::draw(Work& work) {
         drawn_clips_ = std::move(clips);
         drawn_pieces_ = std::move(pieces);
         drawn_ego_m_ = ego_m_;
+        drawn_placed_ = scene_.placed();
     }
     for (std::size_t i = 0; i < maps_.size(); ++i)
         gl.BindTextureUnit(first_shadow_unit + static_cast<GLuint>(i), textures_[i]);
@@ -194,7 +197,7 @@ void ShadowMaps::compile() {
     gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
     gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
     program_.use();
-    list_.start(glm::dvec3(0.0));
+    list_.start(glm::dvec3(0.0), scene_.moves());
     list_.add_nothing();
     list_.upload();
     list_.draw(0);

@@ -75,6 +75,7 @@ class ShadowMaps {
     std::vector<glm::dmat4> drawn_clips_; ///< what the textures hold
     std::vector<std::vector<std::uint32_t>> drawn_pieces_;
     glm::dvec3 drawn_ego_m_{0.0};
+    std::uint64_t drawn_placed_ = 0;
 };
 
 } // namespace fernlicht::gl

@@ -169,7 +169,7 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
                 lamp_m[i] = lamp_point_m(shot, shot.moment.lamps[index], points[i], 1 + index);
         if (shot.wanted.illuminance || shot.wanted.luminance)
             add_lamp(shot, index, lamp_m, colour, light, edges);
-        if (shot.wanted.target)
+        if (shot.wanted.target && shot.moment.lamps[index].body == -1) // targets are about the own lamps
             add_target(shot, index, lamp_m, light, edges);
     }
     for (std::size_t i = 0; i < packet_size; ++i) {

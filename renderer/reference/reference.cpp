@@ -1,5 +1,7 @@
 #include "renderer/reference/reference.h"
 
+#include "renderer/posed_scene.h"
+
 #include "renderer/reference/solved_light.h"
 #include "renderer/reference/tile.h"
 
@@ -121,6 +123,8 @@ std::size_t pixels_done(const ReferenceImage& image) {
 struct Reference::State {
     std::mutex mutex;
     std::shared_ptr<const reference::EmbreeScene> geometry;
+    std::shared_ptr<const Scene> posed; ///< where bodies move: the scene with them where they are
+    std::vector<Body> bodies;
 };
 
 Reference::Reference(const Scene& scene) : scene_(scene), state_(std::make_unique<State>()) {}
@@ -129,8 +133,21 @@ Reference::~Reference() = default;
 std::shared_ptr<const reference::EmbreeScene> Reference::geometry(const Moment& moment) const {
     const glm::dvec3 origin_m = glm::round(moment.ego.position_m / origin_grid_m) * origin_grid_m;
     const std::lock_guard lock(state_->mutex);
-    if (!state_->geometry || state_->geometry->origin_m() != origin_m)
-        state_->geometry = std::make_shared<const reference::EmbreeScene>(scene_, origin_m);
+    const bool moves = std::ranges::any_of(scene_.meshes, [](const Mesh& mesh) { return mesh.body >= 0; });
+    const auto same = [](const Body& a, const Body& b) { return a.pose == b.pose && a.visible == b.visible; };
+    const bool moved = moves && (!state_->posed || !std::ranges::equal(state_->bodies, moment.bodies, same));
+    if (!state_->geometry || state_->geometry->origin_m() != origin_m || moved) {
+        state_->geometry.reset();
+        if (moved) {
+            state_->posed = std::make_shared<const Scene>(posed_scene(scene_, moment.bodies));
+            state_->bodies = moment.bodies;
+        }
+        if (moves) // rays' geometry holds on to the scene that it points into
+            state_->geometry = std::shared_ptr<const reference::EmbreeScene>(new reference::EmbreeScene(*state_->posed, origin_m),
+                                                                             [posed = state_->posed](const auto* made) { delete made; });
+        else
+            state_->geometry = std::make_shared<const reference::EmbreeScene>(scene_, origin_m);
+    }
     return state_->geometry;
 }
 
@@ -140,7 +157,9 @@ ReferenceImage Reference::render(const Moment& moment, const View& view, const W
     check_materials(scene_);
     const auto start = std::chrono::steady_clock::now();
     const auto embree = geometry(moment);
-    reference::Shot shot(*embree, moment, view, wanted, settings);
+    Moment lit = moment; // lamps of others light as the own do
+    lit.lamps.insert(lit.lamps.end(), moment.other_lamps.begin(), moment.other_lamps.end());
+    reference::Shot shot(*embree, lit, view, wanted, settings);
     shot.stop_asked = stop_asked;
     ReferenceImage image = empty_image(view, wanted);
     if (!from.samples.empty()) {

@@ -11,9 +11,9 @@ flat out uint v_material;
 flat out uint v_mesh;
 
 void main() {
-    vec3 p = mesh_offset_m.xyz + position_m;
+    vec3 p = mesh_offset_m.xyz + turned(position_m);
     v_position_m = p;
-    v_normal = normal;
+    v_normal = turned(normal);
     v_uv = uv;
     v_material = material;
     v_mesh = uint(mesh_offset_m.w);

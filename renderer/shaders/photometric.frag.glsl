@@ -65,6 +65,10 @@ float toned(float l) {
     return TONE_KIND == 1 ? tone_rational(l, TONE_L_MAX, TONE_S) : tone_logarithmic(l, TONE_L_MAX, TONE_S);
 }
 
+#if TRAFFIC
+#include "traffic_lamps.glsl"
+#endif
+
 PRECISE float illuminance = 0.0;
 PRECISE float target = 0.0;
 PRECISE vec3 light = vec3(0.0);
@@ -171,6 +175,33 @@ void main() {
 #if LAMP_COUNT > 7
     LIGHT(7, beam_7, shadow_7)
 #endif
+#endif
+
+#if TRAFFIC
+    {
+        vec3 n = normalize(v_traffic_n);
+        uvec2 list = v_traffic_list & 0x7fffffffu;
+        ivec2 cell = ivec2(floor(v_traffic_cell));
+        if ((v_traffic_list.y >> 31) != 0u && cell.x >= 0 && cell.y >= 0 && cell.x < TRAFFIC_CELLS_AHEAD && cell.y < TRAFFIC_CELLS_ACROSS)
+            list = traffic_cells[cell.y * TRAFFIC_CELLS_AHEAD + cell.x];
+        PRECISE vec4 others = v_traffic_light;
+        PRECISE vec3 returned = vec3(0.0);
+        for (uint k = 0u; k < list.y; ++k) {
+            vec4 entry = traffic_entries[list.x + k];
+            float e_perp;
+            float e = traffic_lx(entry, v_traffic_p, n, e_perp);
+            others += vec4(traffic_lamps[int(entry.x)].colour.rgb * e, e);
+#if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
+            vec3 to_lamp = traffic_lamps[int(entry.x)].position_m.xyz - v_traffic_p;
+            returned += traffic_lamps[int(entry.x)].colour.rgb *
+                        retro_luminance(rl, e_perp, e, quick_observation_angle(to_lamp, v_traffic_eye.xyz - v_traffic_eye.w * v_traffic_p), v_retro.x, v_retro.y);
+#endif
+        }
+        illuminance += others.w;
+#if WANT_COLOUR || WANT_LUMINANCE
+        light += vec3(diffuse_luminance(albedo.r, others.r), diffuse_luminance(albedo.g, others.g), diffuse_luminance(albedo.b, others.b)) + returned;
+#endif
+    }
 #endif
 
 #if SKY

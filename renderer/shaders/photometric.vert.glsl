@@ -12,8 +12,15 @@ invariant gl_Position;
 
 #include "photometric_varyings.glsl"
 
+#if TRAFFIC
+layout(location = 6) in uvec4 traffic_lists;
+uniform vec4 traffic_grid; // ahead x, y of the car; corner ahead, left
+#include "traffic_lamps.glsl"
+#endif
+
 void main() {
-    vec3 p = mesh_offset_m.xyz + position_m;
+    vec3 p = mesh_offset_m.xyz + turned(position_m);
+    vec3 n = turned(normal);
     Material m = materials[material];
 #if WANT_COLOUR || WANT_LUMINANCE
     v_albedo = m.albedo;
@@ -32,7 +39,7 @@ void main() {
 #endif
 #endif
 #if SKY
-    v_normal = normal;
+    v_normal = n;
     v_sky_lx = sky_lx;
 #endif
 #if WANT_DEPTH
@@ -45,7 +52,7 @@ void main() {
     for (int i = 0; i < LAMP_COUNT; ++i) {
         Lamp lamp = lamps[i];
         v_w[i] = lamp_space(p - lamp.position_m.xyz, lamp.right.xyz, lamp.up.xyz, lamp.forward.xyz);
-        v_n[i] = lamp_space(normal, lamp.right.xyz, lamp.up.xyz, lamp.forward.xyz);
+        v_n[i] = lamp_space(n, lamp.right.xyz, lamp.up.xyz, lamp.forward.xyz);
 #if LAMPS_BY_VERTEX
         v_colour[i] = lamp.colour;
 #if WANT_TARGET
@@ -56,6 +63,22 @@ void main() {
 #endif
 #endif
     }
+#endif
+#if TRAFFIC
+    v_traffic_p = p;
+    v_traffic_n = n;
+    v_traffic_list = traffic_lists.xy;
+    v_traffic_eye = eye_axis.w > 0.0 ? vec4(eye_m, 1.0) : vec4(-eye_axis.xyz, 0.0);
+    PRECISE vec2 ahead_left = vec2(p.x * traffic_grid.x + p.y * traffic_grid.y, p.y * traffic_grid.x - p.x * traffic_grid.y);
+    v_traffic_cell = (ahead_left - traffic_grid.zw) * TRAFFIC_CELLS_A_METRE;
+    PRECISE vec4 by_vertex = vec4(0.0);
+    for (uint k = 0u; k < traffic_lists.w; ++k) {
+        vec4 entry = traffic_entries[traffic_lists.z + k];
+        float e_perp;
+        float e = traffic_lx(entry, p, normalize(n), e_perp);
+        by_vertex += vec4(traffic_lamps[int(entry.x)].colour.rgb * e, e);
+    }
+    v_traffic_light = by_vertex;
 #endif
     gl_Position = clip_from_ego * vec4(p, 1.0);
 }

@@ -14,6 +14,14 @@ flat STAGE_IO vec3 v_emission;
 flat STAGE_IO vec2 v_retro; // reference angle, 1 / fall-off
 #endif
 #endif
+#if TRAFFIC
+STAGE_IO vec3 v_traffic_p; // relative to the car
+STAGE_IO vec3 v_traffic_n; // not yet of unit length
+STAGE_IO vec4 v_traffic_light; // of what is drawn by vertex: colour times lux, lux
+STAGE_IO vec2 v_traffic_cell;  // in cells from the grid's corner
+flat STAGE_IO uvec2 v_traffic_list;
+flat STAGE_IO vec4 v_traffic_eye; // as eye of a lamp, along the world's axes
+#endif
 #if SKY
 STAGE_IO vec3 v_normal;
 flat STAGE_IO float v_sky_lx;

@@ -52,7 +52,7 @@ vec4 place_of(int i, vec3 p) {
 #endif
 
 void main() {
-    vec3 p = mesh_offset_m.xyz + position_m;
+    vec3 p = mesh_offset_m.xyz + turned(position_m);
     Material m = materials[material];
 #if WANT_COLOUR
     v_own = m.albedo.rgb;
@@ -98,7 +98,7 @@ void main() {
     float lux = 0.0;
 #if LIGHT == SPOTS
     for (int i = 0; i < LAMP_COUNT; ++i)
-        lux += lamps[i].position_m.w * spots_lux(i, lamps[i].position_m.xyz - p, normal);
+        lux += lamps[i].position_m.w * spots_lux(i, lamps[i].position_m.xyz - p, turned(normal));
 #else
 #define SAMPLE(i) \
     { \

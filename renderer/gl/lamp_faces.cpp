@@ -1,0 +1,125 @@
+#include "renderer/gl/lamp_faces.h"
+
+#include "scenarios/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace fernlicht::gl {
+namespace {
+
+constexpr double before_body_m = 0.25; // nearer than the lamp's place: its own body does not hide it
+constexpr double grazing = 0.1;        // least cosine that the face is seen under
+constexpr double least_share = 1e-7;   // of a pixel's area that is still drawn
+
+int bits(const Wanted& w) {
+    return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) |
+           (w.ids ? 32 : 0);
+}
+
+} // namespace
+
+std::vector<LampFaces::Face> LampFaces::seen(const Shot& shot) const {
+    std::vector<Face> faces;
+    const glm::dvec3 eye_m = shot.moment.ego.position_m + shot.camera.eye_m;
+    const glm::dvec2 picture(shot.view.width_px, shot.view.height_px);
+    for (const LitLamp& lamp : shot.moment.other_lamps) {
+        const double area = lamp.face_m.x * lamp.face_m.y;
+        if (!(area > 0.0))
+            continue;
+        const glm::dvec3 to_eye = eye_m - lamp.pose.position_m;
+        const double d = glm::length(to_eye), cd = intensity_towards_cd(lamp, eye_m);
+        if (!(cd > 0.0) || d < 2.0 * before_body_m)
+            continue;
+        const double depth = glm::dot(-to_eye, shot.camera.axis);
+        if (depth < 0.1)
+            continue;
+        const glm::dvec4 clip = shot.camera.clip_from_ego * glm::dvec4(lamp.pose.position_m - shot.moment.ego.position_m, 1.0);
+        const glm::dvec3 nearer = lamp.pose.position_m + to_eye * (before_body_m / d) - shot.moment.ego.position_m;
+        const glm::dvec4 before = shot.camera.clip_from_ego * glm::dvec4(nearer, 1.0);
+        const glm::dvec2 at_px = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * picture;
+        const double seen_under = std::max(glm::dot(lamp.pose.forward(), to_eye) / d, grazing);
+        const double wider = std::sqrt(seen_under * d / depth); // of both sides, so that the solid angle is right in the picture's plane
+        const glm::dvec2 a_metre = 0.5 * picture / shot.camera.half_extent / depth, size_px = lamp.face_m * wider * a_metre;
+        if (at_px.x + size_px.x < -1.0 || at_px.y + size_px.y < -1.0 || at_px.x - size_px.x > picture.x + 1.0 ||
+            at_px.y - size_px.y > picture.y + 1.0 || size_px.x * size_px.y < least_share)
+            continue;
+        const glm::dvec3 light = lamp.colour.linear_srgb * (cd / (area * seen_under));
+        faces.push_back({glm::vec4(glm::vec2(at_px), glm::vec2(size_px)), glm::vec4(glm::vec3(light), before.z / before.w)});
+    }
+    return faces;
+}
+
+const Program& LampFaces::program(const Wanted& wanted) {
+    if (const auto known = programs_.find(bits(wanted)); known != programs_.end())
+        return known->second;
+    std::vector<Program::Define> d = Targets::defines(wanted);
+    const auto literal = [](double value) { return fmt::format("{:.9e}", static_cast<float>(value)); };
+    d.push_back({"TONE_KIND", std::to_string(static_cast<int>(tone_.kind))});
+    d.push_back({"TONE_S", literal(tone_.s)});
+    d.push_back({"TONE_L_MAX", literal(tone_.l_max_cdm2)});
+    return programs_.emplace(bits(wanted), Program(context_, "lamp_face.vert.glsl", "lamp_face.frag.glsl", d)).first->second;
+}
+
+void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
+    const GladGLContext& gl = context_.gl;
+    const Program& p = program(shot.wanted);
+    if (layout_ == 0)
+        layout_ = make_vertex_array(context_);
+    if (room_ < faces.size()) {
+        room_ = 2 * faces.size();
+        buffer_ = make_buffer(context_, std::vector<Face>(room_), GL_DYNAMIC_STORAGE_BIT);
+    }
+    update_buffer(context_, buffer_, faces);
+    p.use();
+    gl.Uniform2f(p.uniform("picture_px"), static_cast<float>(shot.view.width_px), static_cast<float>(shot.view.height_px));
+    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, buffer_);
+    gl.BindVertexArray(layout_);
+    // Luminance adds up, the shown colour takes the brighter, and the rest is the surface's.
+    gl.DepthMask(GL_FALSE);
+    GLuint slot = 0;
+    const auto set = [&](bool wanted, int how) {
+        if (!wanted)
+            return;
+        if (how == 0) {
+            gl.ColorMaski(slot, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        } else {
+            gl.Enablei(GL_BLEND, slot);
+            gl.BlendEquationi(slot, how == 1 ? GL_MAX : GL_FUNC_ADD);
+            gl.BlendFunci(slot, GL_ONE, GL_ONE);
+        }
+        ++slot;
+    };
+    set(shot.wanted.colour, 1);
+    set(shot.wanted.illuminance, 0);
+    set(shot.wanted.target, 0);
+    set(shot.wanted.luminance, 2);
+    set(shot.wanted.depth, 0);
+    set(shot.wanted.ids, 0);
+    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(faces.size()));
+    for (GLuint i = 0; i < slot; ++i) {
+        gl.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        gl.Disablei(GL_BLEND, i);
+        gl.BlendEquationi(i, GL_FUNC_ADD);
+    }
+    gl.DepthMask(GL_TRUE);
+}
+
+void LampFaces::draw(const Shot& shot) {
+    if (shot.camera.is_map || shot.moment.other_lamps.empty() || !(shot.wanted.colour || shot.wanted.luminance))
+        return;
+    const std::vector<Face> faces = seen(shot);
+    shot.work.traffic_faces += static_cast<int>(faces.size());
+    if (!faces.empty())
+        draw_faces(shot, faces);
+}
+
+void LampFaces::compile(const Shot& shot) {
+    if (shot.camera.is_map || !(shot.wanted.colour || shot.wanted.luminance))
+        return;
+    draw_faces(shot, {Face{glm::vec4(-10.0F, -10.0F, 1.0F, 1.0F), glm::vec4(0.0F, 0.0F, 0.0F, 0.5F)}});
+}
+
+} // namespace fernlicht::gl

@@ -1,0 +1,240 @@
+// Lamps and bodies of others, drawn: against double precision, against finer levels, over time, and as sources that are seen.
+#include "renderer/posed_scene.h"
+#include "renderer/renderer.h"
+#include "renderer/twin.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/light.h"
+#include "scenarios/roads/road_mesh.h"
+#include "scenarios/traffic/place_traffic.h"
+#include "scenarios/traffic/road_user_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr Wanted everything{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+constexpr const char* low_beam = FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/halogen-low.ies";
+
+/// The shipped straight with these road users.
+struct Street {
+    explicit Street(const std::string& traffic, const std::string& road = "straight") : drive(read(traffic, road)) {
+        place_traffic(drive, network, route);
+        scene = build_scene(network, {.textures = false});
+        add_road_users(scene, drive.traffic);
+    }
+    static Drive read(const std::string& traffic, const std::string& road) {
+        const auto file = std::filesystem::temp_directory_path() / fmt::format("fernlicht-traffic-test-{}.yaml", ::getpid());
+        std::ofstream(file) << fmt::format("fernlicht: 1\nroad: {}/scenarios/library/roads/{}.xodr\nroute: {{s_m: 20}}\nspeed_mps: 20\n"
+                                           "duration_s: 4\nvariants: {{one: {{file: {}}}}}\n{}",
+                                           FERNLICHT_SOURCE_DIR, road, low_beam, traffic);
+        Drive drive = read_drive(file);
+        std::filesystem::remove(file);
+        return drive;
+    }
+    Moment at(double time_s) const {
+        return moment_at({0, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants[0]);
+    }
+
+    Drive drive;
+    RoadNetwork network = read_opendrive(drive.road_file);
+    Route route{network, drive.start, drive.via};
+    Scene scene;
+};
+
+std::string oncoming(double gap_m, int count = 1, double every_m = 25.0, const char* more = "") {
+    return fmt::format("traffic: {{other: {{file: {}, oncoming: {{gap_m: {}}}, speed_mps: 10, repeat: {{count: {}, every_m: {}}}{}}}}}\n",
+                       low_beam, gap_m, count, every_m, more);
+}
+
+View driver(int width = 240, int height = 160, double fov_deg = 30.0) {
+    View view;
+    view.position_m = {1.3, 0.35, 1.2};
+    view.pitch_rad = radians(-1.0);
+    view.vertical_fov_rad = radians(fov_deg);
+    view.width_px = width;
+    view.height_px = height;
+    return view;
+}
+
+class Traffic : public testing::Test {
+  protected:
+    RendererSettings settings(const char* technique = "photometric") {
+        RendererSettings s;
+        s.technique = technique;
+        return s;
+    }
+    Frame draw(const Street& street, const Moment& moment, const View& view, const RendererSettings& s) {
+        Renderer renderer(device_, street.scene, s);
+        return renderer.draw(moment, view, everything);
+    }
+    Device device_ = open_device("auto");
+};
+
+double most_difference(const Image<float>& a, const Image<float>& b) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, std::abs(static_cast<double>(a.pixels()[i]) - static_cast<double>(b.pixels()[i])));
+    return most;
+}
+
+TEST_F(Traffic, PrunedAndUnprunedGiveTheSameBytes) {
+    for (const char* road : {"s-bend"}) {
+        const Street street(oncoming(30.0, 4, 15.0), road);
+        Renderer pruned(device_, street.scene, settings()), unpruned(device_, street.scene, settings("photometric-unpruned"));
+        for (const double time_s : {0.0, 1.3, 3.0}) {
+            const Moment moment = street.at(time_s);
+            const Frame a = pruned.draw(moment, driver(), everything), b = unpruned.draw(moment, driver(), everything);
+            EXPECT_EQ(a.colour, b.colour) << road << time_s;
+            EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << road << time_s;
+            EXPECT_EQ(a.target_lx, b.target_lx) << road << time_s;
+            EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << road << time_s;
+            EXPECT_EQ(a.depth_m, b.depth_m) << road << time_s;
+            EXPECT_EQ(a.ids, b.ids) << road << time_s;
+        }
+    }
+}
+
+/// Off by rounding and by what the levels may leave out: 4 times the least lux of each unit that reaches the pixel, 2 on the ground.
+TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
+    const Street street(oncoming(40.0, 2, 30.0));
+    Moment moment = street.at(0.5);
+    moment.lamps.clear();
+    RendererSettings s = settings();
+    s.shadows = false;
+    const View view = driver(48, 32);
+    const Twin twin(street.scene, false);
+    for (const double least : {0.02, 1e-6}) {
+        moment.least_traffic_lx = least;
+        const Frame frame = draw(street, moment, view, s);
+        double brightest = 0.0, worst = 0.0;
+        int others = 0;
+        for (int y = 0; y < view.height_px; ++y)
+            for (int x = 0; x < view.width_px; ++x) {
+                const TwinPixel pixel = twin.pixel(moment, view, x + 0.5, y + 0.5);
+                if (pixel.id != frame.ids.at(x, y)) {
+                    ++others;
+                    continue;
+                }
+                const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - pixel.illuminance_lx);
+                EXPECT_LE(off, 2.0 * 4.0 * least + 4.0 * pixel.bound_lx + 1e-5 * pixel.illuminance_lx + 1e-9) << x << " " << y;
+                worst = std::max(worst, off);
+                brightest = std::max(brightest, pixel.illuminance_lx);
+            }
+        EXPECT_GT(brightest, 5.0);
+        EXPECT_LT(others, 4) << "edges";
+        RecordProperty(fmt::format("worst_lx_at_{}", least), fmt::format("{}", worst));
+    }
+}
+
+/// What levels cost in lux against every lamp with its own beam, and that they save lamps.
+TEST_F(Traffic, LevelsStayWithinTheirBound) {
+    const Street street(oncoming(30.0, 20, 25.0));
+    const Moment moment = street.at(0.3);
+    RendererSettings all = settings();
+    all.traffic_levels = false;
+    Renderer coarse(device_, street.scene, settings()), fine(device_, street.scene, all);
+    const Frame a = coarse.draw(moment, driver(), everything), b = fine.draw(moment, driver(), everything);
+    const double worst = most_difference(a.illuminance_lx, b.illuminance_lx);
+    EXPECT_GT(worst, 0.0) << "levels are in use";
+    EXPECT_LE(worst, 4.0 * moment.least_traffic_lx * 3.0) << "of at most three units that are drawn coarsely at one place";
+    RecordProperty("worst_lx", fmt::format("{}", worst));
+    const Work coarsely = coarse.count(moment, driver(), everything), finely = fine.count(moment, driver(), everything);
+    EXPECT_LT(coarsely.traffic_full, finely.traffic_full);
+    EXPECT_GT(coarsely.traffic_merged, 0);
+    EXPECT_GT(coarsely.traffic_by_vertex + coarsely.traffic_point, 0);
+}
+
+/// A car that comes nearer by 1 cm a frame changes no pixel by more than its light does and what the levels may be off.
+TEST_F(Traffic, NothingPops) {
+    const Street street(oncoming(90.0));
+    Renderer renderer(device_, street.scene, settings());
+    RendererSettings all = settings();
+    all.traffic_levels = false;
+    Renderer fine(device_, street.scene, all);
+    Image<float> before, fine_before;
+    double most = 0.0;
+    for (int i = 0; i < 12; ++i) {
+        Moment moment = street.at(0.0);
+        for (LitLamp& lamp : moment.other_lamps)
+            lamp.pose.position_m += 0.01 * i * lamp.pose.forward();
+        const Frame frame = renderer.draw(moment, driver(), {.illuminance = true}),
+                    exact = fine.draw(moment, driver(), {.illuminance = true});
+        for (std::size_t k = 0; i > 0 && k < before.size(); ++k) {
+            const auto change = [&](const Image<float>& now, const Image<float>& then) {
+                return static_cast<double>(now.pixels()[k]) - static_cast<double>(then.pixels()[k]);
+            };
+            most = std::max(most, std::abs(change(frame.illuminance_lx, before) - change(exact.illuminance_lx, fine_before)));
+        }
+        before = frame.illuminance_lx;
+        fine_before = exact.illuminance_lx;
+    }
+    EXPECT_LE(most, 0.02) << "the least lux";
+    RecordProperty("most_lx_a_frame", fmt::format("{}", most));
+}
+
+/// Integral of luminance over solid angle = I / d^2, from many pixels to a hundredth of one.
+TEST_F(Traffic, ALampThatIsSeenBringsItsLightToTheEye) {
+    for (const double gap_m : {18.0, 120.0, 600.0}) {
+        const Street street(oncoming(gap_m, 1, 25.0, ", tail_cd: 0, brake_cd: 0"));
+        Moment moment = street.at(0.0);
+        moment.lamps.clear();
+        moment.other_lamps.resize(1);
+        const View view = driver(480, 320);
+        Renderer renderer(device_, street.scene, settings());
+        const Frame with = renderer.draw(moment, view, {.luminance = true});
+        double expected = 0.0;
+        const Camera camera = camera_of(moment, view);
+        const glm::dvec3 eye_m = moment.ego.position_m + camera.eye_m, to = moment.other_lamps[0].pose.position_m - eye_m;
+        expected = intensity_towards_cd(moment.other_lamps[0], eye_m) / glm::dot(to, to);
+        moment.other_lamps[0].face_m = glm::dvec2(0.0);
+        const Frame without = renderer.draw(moment, view, {.luminance = true});
+        double seen = 0.0;
+        const glm::dvec2 px = 2.0 * camera.half_extent / glm::dvec2(view.width_px, view.height_px);
+        for (int y = 0; y < view.height_px; ++y)
+            for (int x = 0; x < view.width_px; ++x) {
+                const double cosine = glm::dot(pixel_ray(camera, view, x + 0.5, y + 0.5).direction, camera.axis);
+                seen += (static_cast<double>(with.luminance_cdm2.at(x, y)) - static_cast<double>(without.luminance_cdm2.at(x, y))) * px.x *
+                        px.y * cosine * cosine * cosine;
+            }
+        EXPECT_GT(expected, 0.0) << gap_m;
+        EXPECT_NEAR(seen / expected, 1.0, 2e-3) << gap_m << " m";
+    }
+}
+
+TEST_F(Traffic, BodiesStandWhereTheyWouldStandAsPartOfTheWorld) {
+    const Street street(oncoming(25.0, 2, 10.0));
+    const Moment moment = street.at(0.4);
+    const Frame moving = draw(street, moment, driver(), settings());
+    const Scene posed = posed_scene(street.scene, moment.bodies);
+    Renderer renderer(device_, posed, settings());
+    const Frame fixed = renderer.draw(moment, driver(), everything);
+    std::size_t cars = 0, differ = 0;
+    for (std::size_t i = 0; i < moving.ids.size(); ++i) {
+        cars += moving.ids.pixels()[i] > street.scene.meshes.size() - 2 ? 1U : 0U;
+        differ += moving.ids.pixels()[i] != fixed.ids.pixels()[i] ? 1U : 0U;
+    }
+    EXPECT_GT(cars, 200U);
+    EXPECT_LE(differ, 3U);
+    EXPECT_LT(most_difference(moving.depth_m, fixed.depth_m), 200.0) << "edges apart";
+}
+
+TEST_F(Traffic, NothingCompilesOnceItIsPrepared) {
+    const Street street(oncoming(60.0, 5, 20.0));
+    Renderer renderer(device_, street.scene, settings());
+    renderer.prepare({street.at(0.0)}, driver(), everything);
+    const int compiled = renderer.compiled_programs();
+    for (const double t : {0.0, 1.0, 2.0, 3.0})
+        renderer.draw(street.at(t), driver(), everything);
+    EXPECT_EQ(renderer.compiled_programs(), compiled);
+}
+
+} // namespace
+} // namespace fernlicht
