@@ -60,7 +60,7 @@ Camera camera_of(const Moment& moment, const View& view) {
     Camera camera;
     const glm::dmat3 axes = moment.ego.axes * axes_from_angles(view.yaw_rad, view.pitch_rad, view.roll_rad);
     camera.axis = axes[0];
-    camera.right = -axes[1];
+    camera.right = view.mirrored ? axes[1] : -axes[1];
     camera.up = axes[2];
     camera.eye_m = moment.ego.axes * view.position_m;
     const double tangent = std::tan(0.5 * view.vertical_fov_rad);

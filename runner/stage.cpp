@@ -35,10 +35,11 @@ Route::Start start_of(const Drive& drive) {
 Stage::Stage(Drive d)
     : drive(std::move(d)), network(network_of(drive)), route(network, start_of(drive), drive.via),
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
+    add_scenery(scene, drive.scenery, route);
     fit_to_route(drive, route);
     simulate(drive, route);
     place_traffic(drive, network, route);
-    add_road_users(scene, drive.traffic);
+    add_road_users(scene, drive.traffic, drive.opened);
     check_limit_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);
 }

@@ -4,6 +4,7 @@
 #include "scenarios/drives/seeing_parameters.h"
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
+#include "scenarios/models/placed_model.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/sky/daylight.h"
 #include "scenarios/sky/street_lamps.h"
@@ -24,6 +25,7 @@ struct View {
     glm::dvec3 position_m{0.0};                            ///< in the car's frame
     double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0; ///< perspective only
     double vertical_fov_rad = 0.7;                         ///< perspective only; 0 < fov < pi
+    bool mirrored = false;                                 ///< left and right exchanged, as a mirror shows it; perspective only
     int width_px = 1024, height_px = 768;
     double map_ahead_m = 0.0, map_behind_m = 0.0, map_left_m = 0.0, map_right_m = 0.0; ///< map only; from the car's origin
 
@@ -120,6 +122,7 @@ struct Drive {
     std::optional<ExtentParameters> extent;
     std::vector<Probe> probes;
     SeeingParameters seeing; ///< sensors and glare
+    std::vector<PlacedModel> scenery;
     std::vector<Limit> limits;
     bool shadows = true;
     std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float

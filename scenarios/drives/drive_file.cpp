@@ -3,6 +3,7 @@
 #include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/drive_edits.h"
 #include "scenarios/drives/drive_keys.h"
+#include "scenarios/drives/scenery_keys.h"
 #include "scenarios/drives/traffic_keys.h"
 #include "scenarios/drives/vehicle_keys.h"
 #include "scenarios/values/errors.h"
@@ -74,11 +75,12 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     drive.vehicle = read_vehicle(keys);
     drive.variants = read_variants(keys, car, shelf);
     read_traffic(keys, shelf, drive);
-    drive.views = read_views(keys);
+    drive.views = read_views(keys, drive.opened);
     drive.capture = read_capture(keys);
     drive.tone_mapper = read_tone_mapper(keys);
     if (const auto technique = keys.find("technique"))
         drive.technique = technique->name();
+    read_scenery(keys, drive);
     read_measure(keys, drive);
     drive.limits = read_limits(keys);
     drive.shadows = keys.flag_or("shadows", drive.shadows);
@@ -97,17 +99,18 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht", "name",    "title",      "road",          "route",     "speed_kmh", "speed_mps",    "speed",
-                        "step_s",    "rate_hz", "duration_s", "daylight",      "car",       "vehicle",   "actuators",    "variants",
-                        "changes",   "views",   "capture",    "tone_mapper",   "technique", "measure",   "limits",       "shadows",
-                        "textures",  "beams",   "seed",       "mirrored_road", "weather",   "traffic",   "traffic_light"});
+                       {"fernlicht", "name",     "title",         "road",       "route",    "speed_kmh",   "speed_mps",
+                        "speed",     "step_s",   "rate_hz",       "duration_s", "daylight", "car",         "vehicle",
+                        "actuators", "variants", "changes",       "views",      "capture",  "tone_mapper", "technique",
+                        "measure",   "limits",   "shadows",       "textures",   "beams",    "seed",        "mirrored_road",
+                        "weather",   "traffic",  "traffic_light", "scenery",    "view_set"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;
     Drive drive = read_all(keys, path, shelf);
     apply_edits(drive, edits, shelf);
     drive.lamp_sources = shelf.sources();
-    drive.opened = std::move(opened);
+    drive.opened.insert(drive.opened.begin(), opened.begin(), opened.end());
     drive.opened.insert(drive.opened.end(), shelf.opened().begin(), shelf.opened().end());
     return drive;
 }

@@ -12,8 +12,9 @@ inline constexpr int largest_view_px = 16384; ///< to a side; the least that Ope
 std::vector<SpeedPoint> read_speed(const YamlMap& drive);
 /// `step_s` or `rate_hz`; 30 per second by default.
 double read_step_s(const YamlMap& drive);
-/// Named views; a driver's view and a map by default.
-std::vector<View> read_views(const YamlMap& drive);
+/// `view_set`, a file of views, and named `views` that come after it or take the place of its own; a map where neither has one; a
+/// driver's view and a map by default. `opened` gets the file.
+std::vector<View> read_views(const YamlMap& drive, FilesRead& opened);
 Capture read_capture(const YamlMap& drive);
 ToneMapper read_tone_mapper(const YamlMap& drive);
 /// `measure`: extent (nullopt for `extent: false`), probes, sensors and glare.

@@ -117,6 +117,11 @@ void mirror_traffic(Drive& drive, bool lamps) {
         flip(probe.left_m);
     }
     mirror(drive.seeing);
+    for (PlacedModel& placed : drive.scenery) { // the model itself keeps its sides
+        flip(placed.position_m.y);
+        flip(placed.yaw_rad);
+        flip(placed.roll_rad);
+    }
     if (lamps)
         for (Variant& variant : drive.variants)
             mirror(variant, drive);

@@ -1,12 +1,16 @@
 #include "scenarios/drives/drive_keys.h"
 
+#include "scenarios/drives/lamp_sets.h"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
 
 constexpr double map_px_per_m = 4.0;
+constexpr std::size_t most_views = 64, most_set_bytes = std::size_t{1} << 20;
 
 View driver_view() {
     View view;
@@ -56,6 +60,7 @@ void read_perspective(View& view, const YamlMap& keys) {
     view.yaw_rad = keys.angle_rad("yaw", 360.0).value_or(0.0);
     view.pitch_rad = keys.angle_rad("pitch", 90.0).value_or(0.0);
     view.roll_rad = keys.angle_rad("roll", 360.0).value_or(0.0);
+    view.mirrored = keys.flag_or("mirrored", false);
     view.vertical_fov_rad = keys.angle_rad("vertical_fov", 179.0).value_or(standard.vertical_fov_rad);
     if (view.vertical_fov_rad < radians(0.01))
         keys.entry().refuse("a vertical field of view below 0.01 degrees", "0.01 to 179 degrees");
@@ -63,12 +68,12 @@ void read_perspective(View& view, const YamlMap& keys) {
 
 View read_view(const std::string& name, const YamlEntry& entry) {
     const YamlMap keys = entry.map({"position_m", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad",
-                                    "vertical_fov_deg", "vertical_fov_rad", "resolution_px", "map"});
+                                    "vertical_fov_deg", "vertical_fov_rad", "resolution_px", "map", "mirrored"});
     View view;
     view.name = name;
     if (const auto map = keys.find("map")) {
-        for (const std::string_view key :
-             {"position_m", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad", "vertical_fov_deg", "vertical_fov_rad"})
+        for (const std::string_view key : {"position_m", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad",
+                                           "vertical_fov_deg", "vertical_fov_rad", "mirrored"})
             if (const auto camera = keys.find(key))
                 camera->refuse("a camera's key in a map", "only map and resolution_px here");
         read_map(view, *map);
@@ -83,6 +88,19 @@ View read_view(const std::string& name, const YamlEntry& entry) {
     return view;
 }
 
+/// The views of a file that holds nothing else.
+std::vector<View> read_view_set(const YamlEntry& set, FilesRead& opened) {
+    const std::filesystem::path path = set.path();
+    check_file(path, set);
+    const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_set_bytes)), path);
+    const YamlMap keys(YamlEntry(document, path, ""), {"fernlicht_views", "views"});
+    keys.require("fernlicht_views").whole(1, 1);
+    std::vector<View> views;
+    for (const auto& [name, entry] : keys.require("views").named(most_views))
+        views.push_back(read_view(name, entry));
+    return views;
+}
+
 } // namespace
 
 glm::dvec3 read_position(const YamlEntry& entry) {
@@ -90,13 +108,23 @@ glm::dvec3 read_position(const YamlEntry& entry) {
     return {xyz[0], xyz[1], xyz[2]};
 }
 
-std::vector<View> read_views(const YamlMap& drive) {
-    const auto given = drive.find("views");
-    if (!given)
+std::vector<View> read_views(const YamlMap& drive, FilesRead& opened) {
+    const auto given = drive.find("views"), set = drive.find("view_set");
+    if (!given && !set)
         return {driver_view(), map_view()};
     std::vector<View> views;
-    for (const auto& [name, entry] : given->named(64))
-        views.push_back(read_view(name, entry));
+    if (set)
+        views = read_view_set(*set, opened);
+    if (given)
+        for (const auto& [name, entry] : given->named(most_views)) {
+            View view = read_view(name, entry);
+            const auto known = std::ranges::find(views, view.name, &View::name);
+            known == views.end() ? views.push_back(std::move(view)) : void(*known = std::move(view));
+        }
+    if (set && std::ranges::find(views, Projection::map, &View::projection) == views.end())
+        views.push_back(map_view());
+    if (views.size() > most_views)
+        set->refuse(fmt::format("{} views", views.size()), fmt::format("at most {}", most_views));
     return views;
 }
 

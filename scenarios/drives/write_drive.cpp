@@ -256,8 +256,28 @@ void write_views(Lines& out, const Drive& drive) {
             out.add(2, "{}", angle("pitch", view.pitch_rad));
             out.add(2, "{}", angle("roll", view.roll_rad));
             out.add(2, "{}", angle("vertical_fov", view.vertical_fov_rad));
+            if (view.mirrored)
+                out.add(2, "mirrored: true");
         }
         out.add(2, "resolution_px: [{}, {}]", view.width_px, view.height_px);
+    }
+}
+
+void write_scenery(Lines& out, const Drive& drive) {
+    if (!drive.scenery.empty())
+        out.add(0, "scenery:");
+    for (const PlacedModel& placed : drive.scenery) {
+        const glm::dvec3& p = placed.position_m;
+        out.add(1, "- model: {}", quoted(placed.file.string()));
+        if (placed.along_route)
+            out.add(2, "along: {{distance_m: {}, left_m: {}, above_m: {}}}", p.x, p.y, p.z);
+        else
+            out.add(2, "position_m: {}", list(p));
+        for (const auto& [key, value] :
+             {std::pair("yaw", placed.yaw_rad), std::pair("pitch", placed.pitch_rad), std::pair("roll", placed.roll_rad)})
+            out.add(2, "{}", angle(key, value));
+        out.add(2, "scale: {}", placed.scale);
+        out.add(2, "ground: {}", placed.ground);
     }
 }
 
@@ -328,6 +348,7 @@ std::string write_drive(const Drive& drive) {
     write_variants(out, drive);
     write_traffic(out, drive);
     write_views(out, drive);
+    write_scenery(out, drive);
     out.add(0, "capture: {{per_second: {}, all: {}, exr: {}, png: {}}}", drive.capture.per_second, drive.capture.all, drive.capture.exr,
             drive.capture.png);
     out.add(0, "tone_mapper: {{kind: {}, s: {}, l_max_cdm2: {}}}", word(drive.tone_mapper.kind), drive.tone_mapper.s,

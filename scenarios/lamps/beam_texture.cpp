@@ -1,9 +1,9 @@
 #include "scenarios/lamps/beam_texture.h"
 
-#include "scenarios/lamps/beam_texture_image.h"
 #include "scenarios/lamps/lamp_text.h"
 #include "scenarios/lamps/measured_grid.h"
 #include "scenarios/lamps/written_gaps.h"
+#include "scenarios/values/picture_decoding.h"
 
 #include <algorithm>
 #include <cmath>

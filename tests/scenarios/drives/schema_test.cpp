@@ -220,6 +220,9 @@ TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
     write_file(folder / "library/roads/country.xodr", "<OpenDRIVE/>");
     for (const char* lamp : {"halogen-low", "halogen-high", "xenon-low", "xenon-high"})
         write_file(folder / "library/lamps" / (std::string(lamp) + ".ies"), ies_text(1.0));
+    std::filesystem::create_directories(folder / "library/models");
+    std::filesystem::copy_file(scenarios / "library/models/shelter.gltf", folder / "library/models/shelter.gltf",
+                               std::filesystem::copy_options::overwrite_existing);
     const std::string example = content(scenarios / "drive.example.yaml");
     ASSERT_EQ(refusal(example), "not refused");
     const std::regex key(R"(\b([a-z_]{4,})(: ))");
@@ -231,7 +234,7 @@ TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
             continue; // a comment
         const std::string name = match->str(1);
         if (name == "left" || name == "right" || name == "halogen" || name == "xenon" || name == "driver" || name == "opposite" ||
-            name == "inside")
+            name == "inside" || name == "rear")
             continue; // names are the user's
         std::string misspelt = example;
         misspelt.insert(at + 2, "q");

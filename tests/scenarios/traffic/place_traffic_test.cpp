@@ -101,7 +101,8 @@ TEST_F(PlacedTraffic, EachHasABodyInItsOwnFrame) {
     Drive drive = read(row("ahead: {gap_m: 30}, speed_mps: 20, repeat: {count: 2, every_m: 20}"));
     moment(drive, 0.0);
     Scene scene;
-    add_road_users(scene, drive.traffic);
+    FilesRead opened;
+    add_road_users(scene, drive.traffic, opened);
     ASSERT_EQ(scene.meshes.size(), 2U);
     EXPECT_EQ(scene.meshes[1].body, 1);
     glm::dvec3 low(1e9), high(-1e9);

@@ -1,4 +1,4 @@
-#include "scenarios/lamps/beam_texture_image.h"
+#include "scenarios/values/picture_decoding.h"
 
 #include "scenarios/values/errors.h"
 
@@ -39,6 +39,35 @@ bool whole_png(const std::string& bytes) {
 }
 
 } // namespace
+
+DecodedPicture decode_picture(const std::filesystem::path& file, const std::string& key, const std::string& bytes, std::size_t max_pixels) {
+    const auto fail = [&](const std::string& found, const std::string& expected) { throw InputError({file, 0, 0, key}, found, expected); };
+    const bool png = bytes.starts_with("\x89PNG"), jpeg = bytes.starts_with("\xFF\xD8\xFF");
+    if (!png && !jpeg)
+        fail("a picture that is neither PNG nor JPEG", "one of them");
+    if (png ? !whole_png(bytes) : bytes.rfind("\xFF\xD9") == std::string::npos)
+        fail("a picture that ends early or is damaged", "a whole one");
+    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
+    OIIO::ImageSpec config, spec;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    const auto in = OIIO::ImageInput::create(png ? "png" : "jpeg");
+    if (!in || !in->set_ioproxy(&memory) || !in->open(png ? "picture.png" : "picture.jpg", spec, config))
+        fail("a picture that cannot be decoded: " + printable(in ? in->geterror() : OIIO::geterror(), 200), "PNG or JPEG");
+    const auto width = static_cast<std::size_t>(spec.width), height = static_cast<std::size_t>(spec.height);
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.nchannels > 4 || width * height > max_pixels)
+        fail(fmt::format("a picture of {} x {} pixels and {} channels", spec.width, spec.height, spec.nchannels),
+             fmt::format("1 to 4 channels and at most {} pixels", max_pixels));
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    std::vector<std::uint8_t> pixels(width * height * channels);
+    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, pixels.data()))
+        fail("a picture that cannot be decoded: " + printable(in->geterror(), 200), "a whole one");
+    DecodedPicture out{spec.width, spec.height, std::vector<std::uint8_t>(width * height * 4, 255)};
+    for (std::size_t i = 0; i < width * height; ++i)
+        for (std::size_t c = 0; c < 4; ++c)
+            if (channels >= 3 ? c < channels : c < 3 || channels == 2)
+                out.rgba[4 * i + c] = pixels[i * channels + (channels >= 3 ? c : c < 3 ? 0 : 1)];
+    return out;
+}
 
 TextureImage decode_texture(const std::filesystem::path& path, const std::string& bytes, std::size_t max_pixels) {
     const auto fail = [&](const std::string& found) { throw InputError({path, 0, 0, {}}, found, "a PNG or EXR picture"); };

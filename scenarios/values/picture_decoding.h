@@ -1,11 +1,13 @@
-// Pictures in memory as PNG or EXR bytes: the only door to OpenImageIO for lamps.
+// Pictures in memory as PNG, JPEG or EXR bytes: the only door to OpenImageIO for lamps and models.
 #pragma once
 
 #include "scenarios/values/image.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace fernlicht {
 
@@ -15,6 +17,14 @@ struct TextureImage {
     std::string pixel_type;                        ///< "uint8", "half" ...
     std::map<std::string, std::string> attributes; ///< string metadata
 };
+
+/// Eight bits a channel as they stand in the file; grey as colour, opaque where there is no alpha (which is not multiplied in).
+struct DecodedPicture {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba; ///< rows from the top
+};
+/// PNG or JPEG within a file; `key` says where in it. Throws InputError: not decodable, or more than `max_pixels`.
+DecodedPicture decode_picture(const std::filesystem::path& file, const std::string& key, const std::string& bytes, std::size_t max_pixels);
 
 /// Throws InputError: not decodable, or more than `max_pixels`.
 TextureImage decode_texture(const std::filesystem::path& path, const std::string& bytes, std::size_t max_pixels);

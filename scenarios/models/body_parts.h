@@ -1,0 +1,56 @@
+// Parts that the bodies of road users have in common.
+#pragma once
+
+#include "scenarios/models/body_shapes.h"
+#include "scenarios/models/road_user_bodies.h"
+
+namespace fernlicht {
+
+/// Positions in body_materials().
+enum class BodyMaterial : std::uint32_t { paint, glass, trim, tyre, rim, lens, red_lens, amber_lens, plate, reflector, cloth, skin, count };
+constexpr std::uint32_t index_of(BodyMaterial material) { return static_cast<std::uint32_t>(material); }
+std::vector<Material> body_materials(const glm::vec3& paint);
+
+/// A section across a motor vehicle's body, in shares of its length, half width and height.
+struct BodySection {
+    double along = 0.0;      ///< 0 at the rear, 1 at the front
+    double half_width = 1.0; ///< of the body below the windows
+    double bottom = 0.12, belt = 0.65, top = 1.0;
+    double half_roof = 0.66; ///< half width of the roof
+};
+
+/// What lies between two sections: by strip from the underside (0) over sill, flank, shoulder (3), window (4), edge of the roof (5) to roof
+/// (6).
+using SectionMaterial = std::function<BodyMaterial(std::size_t section, std::size_t strip)>;
+
+class BodyBuilder {
+  public:
+    BodyBuilder(std::string name, const BodySize& size);
+
+    double x(double along) const { return size_.rear_m + along * size_.size_m.x; }
+    double y(double of_half_width) const { return 0.5 * of_half_width * size_.size_m.y; }
+    double z(double of_height) const { return of_height * size_.size_m.z; }
+    double front_m() const { return x(1.0); }
+    double rear_m() const { return size_.rear_m; }
+    TriangleSoup& soup() { return soup_; }
+
+    void hull(const std::vector<BodySection>& sections, const SectionMaterial& material);
+    void box(const glm::dvec3& low_m, const glm::dvec3& high_m, BodyMaterial material);
+    /// Two wheels on an axle, flush with the width.
+    void axle(double x_m, double radius_m, double width_m);
+    /// Plates on both sides of the middle, at so far to each.
+    void pair(double x_m, double beside_m, double z_m, double width_m, double height_m, bool faces_forward, BodyMaterial material);
+    void plate(double x_m, double z_m, double width_m, double height_m, bool faces_forward, BodyMaterial material);
+    /// lamp.FUNCTION.left and .right, looking forward or back; only .centre when `beside_m` is 0.
+    void mounts(const std::string& function, double x_m, double beside_m, double z_m, bool forward);
+    /// Front lamps, tail lamps, indicators, number plates and reflectors of a motor vehicle with four wheels.
+    void lights(double front_z_m, double rear_z_m, double beside_m, double lens_width_m, double lens_height_m);
+    Model take() &&;
+
+  private:
+    BodySize size_;
+    Model model_;
+    TriangleSoup soup_;
+};
+
+} // namespace fernlicht

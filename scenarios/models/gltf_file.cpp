@@ -1,0 +1,180 @@
+#include "scenarios/models/gltf_file.h"
+
+#include "scenarios/values/errors.h"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr int deepest_json = 64;
+constexpr std::size_t most_json_values = 4'000'000;
+constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
+
+nlohmann::json parsed(const std::string& text, const std::filesystem::path& path) {
+    std::size_t values = 0;
+    const auto watch = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+        if (depth > deepest_json)
+            throw InputError({path, 0, 0, {}}, fmt::format("nested deeper than {} levels", deepest_json), "a glTF model");
+        if (++values > most_json_values)
+            throw InputError({path, 0, 0, {}}, fmt::format("more than {} values of JSON", most_json_values), "a glTF model");
+        return true;
+    };
+    try {
+        nlohmann::json json = nlohmann::json::parse(text, watch);
+        if (!json.is_object())
+            throw InputError({path, 0, 0, {}}, "found JSON that is no object", "a glTF model");
+        return json;
+    } catch (const nlohmann::json::parse_error& error) {
+        const std::size_t at = std::min(error.byte, text.size());
+        const auto line = static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
+        throw InputError({path, line, 0, {}}, fmt::format("no JSON at byte {}", at), "a glTF model");
+    }
+}
+
+std::uint32_t little_endian(const std::string& bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+    return value;
+}
+
+/// The JSON of a .glb; its binary chunk goes to the file.
+std::string unpacked_glb(const std::string& bytes, GltfFile& file) {
+    const auto fail = [&](const std::string& found, const std::string& expected) {
+        throw InputError({file.path, 0, 0, {}}, found, expected);
+    };
+    if (bytes.size() < 20)
+        fail(fmt::format("{} bytes", bytes.size()), "a .glb with its header");
+    if (const std::uint32_t version = little_endian(bytes, 4); version != 2)
+        fail(fmt::format("a .glb of version {}", version), "version 2");
+    if (const std::uint32_t length = little_endian(bytes, 8); length > bytes.size())
+        fail(fmt::format("{} bytes where the header says {}", bytes.size(), length), "the whole file");
+    std::string json;
+    bool first = true;
+    for (std::size_t at = 12; at + 8 <= bytes.size(); first = false) {
+        const std::uint32_t length = little_endian(bytes, at), type = little_endian(bytes, at + 4);
+        at += 8;
+        if (length > bytes.size() - at)
+            fail(fmt::format("a chunk of {} bytes at byte {} of {}", length, at, bytes.size()), "a chunk that ends within the file");
+        if (first != (type == json_chunk))
+            fail(first ? "a first chunk that is no JSON" : "a second chunk of JSON", "JSON first, and once");
+        if (first)
+            json = bytes.substr(at, length);
+        else if (type == binary_chunk && file.binary.empty())
+            file.binary = bytes.substr(at, length);
+        at += (std::size_t{length} + 3) / 4 * 4;
+    }
+    return json;
+}
+
+std::string from_base64(std::string_view text, const GltfEntry& asked_by) {
+    std::string out;
+    out.reserve(text.size() / 4 * 3);
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        std::uint32_t value = 0;
+        if (c >= 'A' && c <= 'Z')
+            value = static_cast<std::uint32_t>(c - 'A');
+        else if (c >= 'a' && c <= 'z')
+            value = static_cast<std::uint32_t>(c - 'a') + 26;
+        else if (c >= '0' && c <= '9')
+            value = static_cast<std::uint32_t>(c - '0') + 52;
+        else if (c == '+' || c == '-')
+            value = 62;
+        else if (c == '/' || c == '_')
+            value = 63;
+        else if (c == '=')
+            break;
+        else
+            asked_by.refuse(fmt::format("found '{}' in base64", printable(std::string(1, c))), "base64");
+        bits = bits << 6 | value;
+        count += 6;
+        if (count >= 8) {
+            count -= 8;
+            out += static_cast<char>(bits >> count & 0xFF);
+        }
+    }
+    return out;
+}
+
+/// %20 as a space. A percent sign that is followed by no such digits stays.
+std::string percent_decoded(const std::string& text) {
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+    };
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0) {
+            out += static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2]));
+            i += 2;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
+void read_buffers(GltfFile& file) {
+    std::size_t index = 0;
+    for (const GltfEntry& buffer : file.root().list("buffers")) {
+        const std::size_t length = buffer.require("byteLength").whole(std::size_t{1} << 31);
+        const auto uri = buffer.find("uri");
+        if (!uri && index > 0)
+            buffer.refuse("has no uri", "one: only the first buffer can be the .glb's own");
+        std::string bytes = uri ? file.at_uri(*uri) : std::move(file.binary);
+        if (bytes.size() < length)
+            buffer.refuse(fmt::format("{} bytes where byteLength says {}", bytes.size(), length), "all of them");
+        file.buffers.push_back(std::move(bytes));
+        ++index;
+    }
+}
+
+} // namespace
+
+std::string GltfFile::at_uri(const GltfEntry& uri) {
+    const std::string text = uri.text();
+    if (text.starts_with("data:")) {
+        const std::size_t comma = text.find(',');
+        if (comma == std::string::npos || !std::string_view(text).substr(0, comma).ends_with(";base64"))
+            uri.refuse("found a data URI without base64", "base64");
+        return from_base64(std::string_view(text).substr(comma + 1), uri);
+    }
+    const std::filesystem::path folder = path.parent_path();
+    std::error_code error;
+    std::filesystem::path relative(text);
+    if (!std::filesystem::exists(folder / relative, error))
+        relative = percent_decoded(text);
+    const std::filesystem::path normal = relative.lexically_normal();
+    if (text.empty() || text.find("://") != std::string::npos || normal.is_absolute() || normal.string().starts_with(".."))
+        uri.refuse("a file beside or below the model's");
+    if (!std::filesystem::exists(folder / normal, error))
+        uri.refuse("there is no file " + printable((folder / normal).string(), 400), "a file beside or below the model's");
+    return read_file(folder / normal, opened);
+}
+
+GltfFile open_gltf(const std::filesystem::path& path) {
+    GltfFile file;
+    file.path = path;
+    const std::string bytes = read_file(path, file.opened);
+    const bool packed = bytes.starts_with("glTF");
+    file.json = parsed(packed ? unpacked_glb(bytes, file) : bytes, path);
+    const GltfEntry root = file.root();
+    const auto asset = root.find("asset");
+    const auto version_entry = asset ? asset->find("version") : std::nullopt;
+    const std::string version = !version_entry                       ? ""
+                                : version_entry->value().is_string() ? version_entry->text()
+                                                                     : version_entry->value().dump();
+    const bool named_parts = root.find("meshes") && root.require("meshes").is_object();
+    if (version.starts_with("1") || (version.empty() && named_parts))
+        file.json = upgraded_gltf1(file.json, path, file.notes);
+    else if (!version.starts_with("2"))
+        throw InputError({path, 0, 0, "asset.version"}, version.empty() ? "no version" : fmt::format("version '{}'", printable(version)),
+                         "glTF 2.0, or 1.0");
+    read_buffers(file);
+    return file;
+}
+
+} // namespace fernlicht

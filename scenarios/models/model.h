@@ -1,0 +1,48 @@
+// A model of a car or of scenery: triangles, materials and the places of its lamps, read from a file of another tool.
+#pragma once
+
+#include "scenarios/values/files.h"
+#include "scenarios/values/scene.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace fernlicht {
+
+/// A place on a model where a lamp can be: "lamp.low.left". Frame: x forward along the beam axis, y left, z up.
+struct Mount {
+    std::string name;
+    Pose pose; ///< in the model's frame
+
+    bool operator==(const Mount&) const = default;
+};
+
+/// In the model's own frame: x forward, y left, z up, metres. For a car: on the road's surface under the rear axle.
+struct Model {
+    std::string name;
+    std::vector<Material> materials;
+    std::vector<SurfaceTexture> textures; ///< powers of two, at most most_texture_px to a side, each of its own size
+    std::vector<Mesh> meshes;             ///< one, or one a cell of 64 m where the model is larger than 128 m
+    std::vector<Mount> mounts;            ///< by name
+    glm::dvec3 low_m{0.0}, high_m{0.0};   ///< the box round it
+    std::vector<std::string> notes;       ///< what of the file was left out or changed, one sentence each
+    FilesRead opened;
+
+    std::size_t triangles() const;
+};
+
+inline constexpr int most_texture_px = 512;
+inline constexpr std::size_t most_model_triangles = 4'000'000;
+inline constexpr double farthest_model_m = 100'000.0; ///< coordinates of a model
+
+/// Reads glTF 2.0 (.gltf, .glb), or 1.0 as far as it can be said in 2.0. The file's axes (y up, z forward) become ours. Nodes whose name
+/// starts with "lamp." become mounts. Throws InputError with the way to the value (meshes[2].primitives[0].indices) for files that are
+/// broken, that name files elsewhere than beside or below them, that need an extension which is not known, or that exceed the limits
+/// above, 256 MiB a file, 256 pictures of 4096 x 4096 pixels.
+Model read_model(const std::filesystem::path& path);
+
+/// A position in glTF's axes (y up, z forward, x left) in ours.
+inline glm::dvec3 from_gltf_axes(const glm::dvec3& v) { return {v.z, v.x, v.y}; }
+inline glm::dvec3 to_gltf_axes(const glm::dvec3& v) { return {v.y, v.z, v.x}; }
+
+} // namespace fernlicht
