@@ -6,6 +6,8 @@
 #include "runner/compare_command.h"
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
+#include "runner/models/import_command.h"
+#include "runner/models/model_command.h"
 #include "runner/reference_command.h"
 #include "runner/references_command.h"
 #include "runner/run_command.h"
@@ -43,6 +45,8 @@ int main(int argc, char** argv) {
     fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);
+    fernlicht::add_model_command(app, chosen);
+    fernlicht::add_import_command(app, chosen);
     fernlicht::add_doctor_command(app, chosen);
     fernlicht::add_stability_command(app, chosen);
     fernlicht::add_accept_command(app, chosen);

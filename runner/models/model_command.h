@@ -1,0 +1,40 @@
+// `fernlicht model FILE`: what a model holds, and how it looks in our lamps at night.
+#pragma once
+
+#include "scenarios/models/model.h"
+
+#include <functional>
+#include <optional>
+
+namespace CLI {
+class App;
+}
+
+namespace fernlicht {
+
+struct ModelRequest {
+    std::filesystem::path file;
+    std::string body;              ///< one of our own bodies in place of a file: "car", "van" ...
+    std::filesystem::path picture; ///< PNG; empty: none
+    std::filesystem::path write;   ///< GLB; empty: none
+    double distance_m = 25.0;      ///< from the lamps to the model's nearest point, >= 1
+    double yaw_deg = 0.0;          ///< of the model: 0 drives away from us, 180 comes towards us
+    double scale = 1.0;
+    std::string lamp = "halogen-low"; ///< one of our lamp models, on both sides
+    std::string technique = "photometric", backend = "auto";
+    int width_px = 960, height_px = 540;
+    bool json = false, force = false;
+};
+
+/// The model of the file or the body. Throws InputError.
+Model model_of(const ModelRequest& request);
+/// What a model is, for people or for programs.
+std::string model_text(const Model& model, double scale);
+std::string model_json(const Model& model, double scale);
+
+/// All that the request asks for; text or JSON goes to standard output. Returns 0. Throws InputError, DeviceError.
+int model_command(const ModelRequest& request);
+
+void add_model_command(CLI::App& app, std::function<int()>& chosen);
+
+} // namespace fernlicht
