@@ -1,0 +1,198 @@
+// Views of one moment: the light is the same in all of them, a mirror exchanges left and right, and shadow maps are drawn once.
+#include "renderer/camera.h"
+#include "renderer/renderer.h"
+#include "scenarios/drives/drive.h"
+#include "scenarios/lamps/lamp_model.h"
+#include "scenarios/models/placed_model.h"
+#include "scenarios/models/road_user_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+/// A road 160 m long to the front and the rear, and a car 20 m ahead that casts shadows.
+Scene road_with_car() {
+    Scene scene;
+    scene.materials.push_back({.name = "road", .kind = SurfaceKind::road});
+    Mesh road;
+    road.name = "road";
+    for (const auto& [x, y] : {std::pair(-160.0F, -40.0F), std::pair(160.0F, -40.0F), std::pair(160.0F, 40.0F), std::pair(-160.0F, 40.0F)})
+        road.vertices.push_back({{x, y, 0.0F}, {0.0F, 0.0F, 1.0F}});
+    road.indices = {0, 1, 2, 0, 2, 3};
+    road.batches.push_back({0, 0, 6});
+    scene.meshes.push_back(std::move(road));
+    add_model(scene, car_body({}), {{24.0, 1.5, 0.0}, glm::dmat3(1.0)}, 1.0, SurfaceKind::vehicle);
+    return scene;
+}
+
+Moment lit() {
+    static const auto file = std::make_shared<const LampFile>(lamp_of_model(lamp_models().at(0)));
+    Moment moment;
+    for (const double side : {0.6, -0.6}) {
+        LitLamp lamp;
+        lamp.file = file;
+        lamp.pose = {{3.6, side, 0.65}, glm::dmat3(1.0)};
+        moment.lamps.push_back(std::move(lamp));
+    }
+    moment.daylight.horizontal_illuminance_lx = 0.2; // so that mirrors see something
+    return moment;
+}
+
+std::vector<View> six() {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "six_views";
+    std::filesystem::create_directories(folder);
+    const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
+    write_file(folder / "drive.yaml",
+               "fernlicht: 1\nroad: " + library + "roads/straight.xodr\nspeed_mps: 10\nduration_s: 1\nview_set: " + library +
+                   "views/six.yaml\nvariants: {a: {source: filament, file: " + library + "lamps/halogen-low.ies}}\n");
+    std::vector<View> views = read_drive(folder / "drive.yaml").views;
+    std::filesystem::remove_all(folder);
+    return views;
+}
+
+glm::dvec2 pixel_of(const Camera& camera, const View& view, const glm::dvec3& point_m) {
+    const glm::dvec4 clip = camera.clip_from_ego * glm::dvec4(point_m, 1.0);
+    if (clip.w <= 0.0)
+        return {-1.0, -1.0};
+    return {(clip.x / clip.w + 1.0) * 0.5 * view.width_px, (clip.y / clip.w + 1.0) * 0.5 * view.height_px};
+}
+
+TEST(Views, TheShippedSetShowsWhatMirrorsMust) {
+    const std::vector<View> views = six();
+    ASSERT_EQ(views.size(), 7U) << "six and the map";
+    const auto sees = [&](const char* name, const glm::dvec3& point_m) {
+        const auto view = std::ranges::find(views, name, &View::name);
+        EXPECT_NE(view, views.end()) << name;
+        const glm::dvec2 at = pixel_of(camera_of(Moment{}, *view), *view, point_m);
+        return at.x >= 0.0 && at.x <= view->width_px && at.y >= 0.0 && at.y <= view->height_px;
+    };
+    const double eye_x = 1.3;
+    // UN R46, class I: the road from 60 m behind the eye to the horizon, 20 m wide.
+    for (const double y : {-10.0, 0.0, 10.0})
+        EXPECT_TRUE(sees("mirror-inside", {eye_x - 60.0, y, 0.0})) << y;
+    EXPECT_TRUE(sees("mirror-inside", {-2000.0, 0.0, 1.0}));
+    // Class III: from 30 m behind the eye 5 m wide beside the car, from 4 m behind 1 m wide.
+    for (const double side : {1.0, -1.0}) {
+        const char* name = side > 0.0 ? "mirror-left" : "mirror-right";
+        for (const auto& [behind, wide] : {std::pair(30.0, 5.0), std::pair(4.0, 1.0)})
+            for (const double y : {0.9, 0.9 + wide})
+                EXPECT_TRUE(sees(name, {eye_x - behind, side * y, 0.0})) << name << " " << behind << " " << y;
+        EXPECT_TRUE(sees(name, {-2000.0, side * 20.0, 1.0})) << name;
+        EXPECT_FALSE(sees(name, {20.0, side * 2.0, 0.0})) << name << " looks back";
+    }
+    // The fronts join: a point at the edge of one is at the other's.
+    for (const double h : {20.0, -20.0}) {
+        const glm::dvec3 edge = views[0].position_m + 50.0 * glm::dvec3(std::cos(radians(h)), std::sin(radians(h)), 0.0);
+        const View& beside = *std::ranges::find(views, h > 0.0 ? "front-left" : "front-right", &View::name);
+        const double x0 = pixel_of(camera_of(Moment{}, views[0]), views[0], edge).x,
+                     x1 = pixel_of(camera_of(Moment{}, beside), beside, edge).x;
+        EXPECT_NEAR(std::min(x0, views[0].width_px - x0), 0.0, 0.5);
+        EXPECT_NEAR(std::min(x1, beside.width_px - x1), 0.0, 0.5);
+    }
+}
+
+TEST(Views, AMirrorExchangesLeftAndRight) {
+    Device device = open_device("auto");
+    const Scene scene = road_with_car();
+    Renderer renderer(device, scene, {});
+    View view;
+    view.position_m = {1.3, 0.35, 1.2};
+    view.yaw_rad = 0.05;
+    view.width_px = 160;
+    view.height_px = 120;
+    const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
+    const Frame plain = renderer.draw(lit(), view, wanted);
+    view.mirrored = true;
+    const Frame mirror = renderer.draw(lit(), view, wanted);
+    int differ = 0, seen = 0, changed = 0;
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x) {
+            const int other = view.width_px - 1 - x;
+            differ += plain.ids.at(x, y) != mirror.ids.at(other, y) ||
+                              std::abs(plain.illuminance_lx.at(x, y) - mirror.illuminance_lx.at(other, y)) >
+                                  1e-3F * (1.0F + plain.illuminance_lx.at(x, y))
+                          ? 1
+                          : 0;
+            changed += plain.ids.at(x, y) != mirror.ids.at(x, y) ? 1 : 0;
+            seen += plain.ids.at(x, y) == 2 ? 1 : 0;
+        }
+    EXPECT_GT(seen, 100) << "the car";
+    EXPECT_GT(changed, 100) << "it stands on the other side";
+    EXPECT_LT(differ, 60) << "pixels on edges alone"; // of 19 200
+}
+
+/// What a pixel of one view shows lies in another view among the pixels round its place there: same point, same light.
+TEST(Views, TheLightIsTheSameInAll) {
+    Device device = open_device("auto");
+    const Scene scene = road_with_car();
+    Renderer renderer(device, scene, {});
+    const Moment moment = lit();
+    std::vector<View> views = six();
+    views.pop_back(); // the map
+    View wide;        // sees what all of the front ones see
+    wide.position_m = {1.8, 0.0, 1.5};
+    wide.vertical_fov_rad = radians(60.0);
+    wide.width_px = 1200;
+    wide.height_px = 600;
+    View back = wide;
+    back.position_m = {2.0, 0.2, 1.4};
+    back.yaw_rad = pi;
+    const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
+    for (View view : views) {
+        const View& reference = view.mirrored ? back : wide;
+        const Frame all = renderer.draw(moment, reference, wanted);
+        const Frame frame = renderer.draw(moment, view, wanted);
+        const Camera camera = camera_of(moment, view), other = camera_of(moment, reference);
+        int compared = 0, outside = 0;
+        double worst = 0.0;
+        for (int y = 1; y < view.height_px; y += 5)
+            for (int x = 1; x < view.width_px; x += 5) {
+                if (frame.ids.at(x, y) == 0)
+                    continue;
+                const Ray ray = pixel_ray(camera, view, x + 0.5, y + 0.5);
+                const glm::dvec3 point =
+                    ray.origin_m + ray.direction * (static_cast<double>(frame.depth_m.at(x, y)) / glm::dot(ray.direction, camera.axis));
+                const glm::dvec2 at = pixel_of(other, reference, point);
+                if (at.x < 2.0 || at.y < 2.0 || at.x > reference.width_px - 2.0 || at.y > reference.height_px - 2.0)
+                    continue;
+                const int cx = static_cast<int>(at.x), cy = static_cast<int>(at.y);
+                double least = 1e30, most = -1e30;
+                bool same_body = true;
+                for (int dy = -1; dy <= 1; ++dy)
+                    for (int dx = -1; dx <= 1; ++dx) {
+                        same_body = same_body && all.ids.at(cx + dx, cy + dy) == frame.ids.at(x, y);
+                        least = std::min(least, static_cast<double>(all.illuminance_lx.at(cx + dx, cy + dy)));
+                        most = std::max(most, static_cast<double>(all.illuminance_lx.at(cx + dx, cy + dy)));
+                    }
+                const double depth = static_cast<double>(all.depth_m.at(cx, cy)), here = glm::dot(point - other.eye_m, other.axis);
+                if (!same_body || std::abs(depth - here) > 0.05 * here)
+                    continue; // another thing stands before it there
+                ++compared;
+                const double lx = static_cast<double>(frame.illuminance_lx.at(x, y));
+                const double off = std::max({0.0, least - lx, lx - most}) / std::max(lx, 0.05);
+                worst = std::max(worst, off);
+                outside += off > 0.01 ? 1 : 0;
+            }
+        EXPECT_GT(compared, 300) << view.name;
+        EXPECT_LE(outside, compared / 500) << view.name << ": worst " << worst << " of " << compared;
+    }
+}
+
+TEST(Views, ShadowMapsAreDrawnOnceForAllViewsOfAMoment) {
+    Device device = open_device("auto");
+    const Scene scene = road_with_car();
+    Renderer renderer(device, scene, {});
+    std::vector<View> views = six();
+    const Moment moment = lit();
+    int passes = 0;
+    for (const View& view : views)
+        passes += renderer.count(moment, view, {.colour = true}).passes;
+    EXPECT_EQ(passes, static_cast<int>(views.size()) + 2) << "a pass for each view and for the shadow map of each lamp";
+}
+
+} // namespace
+} // namespace fernlicht
