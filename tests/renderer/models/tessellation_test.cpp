@@ -98,12 +98,13 @@ TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
     RecordProperty("photometric_most_difference_lx", fmt::format("{:.3g}", most));
     // What vertices light depends on where they are: told, and that it is so.
     for (const std::string technique : {"vertex-spots", "vertex-projective"}) {
-        const double few = error_of(drawn(coarse, technique), truth), lot = error_of(drawn(fine, technique), truth);
-        RecordProperty(technique, fmt::format("rms error {:.3g} with 2 triangles, {:.3g} with 20000", few, lot));
-        fmt::print(
-            "{}: rms error {:.3g} with 2 triangles, {:.3g} with 20 000 (photometric {:.2g} and {:.2g}, apart by at most {:.2g} lx)\n",
-            technique, few, lot, error_of(two, truth), error_of(many, truth), most);
-        EXPECT_GT(few, 100.0 * error_of(two, truth)) << technique;
+        const Frame few = drawn(coarse, technique), lot = drawn(fine, technique);
+        std::vector<double> own;
+        for (const float lx : lot.illuminance_lx.pixels())
+            own.push_back(static_cast<double>(lx));
+        const double apart = error_of(few, own);
+        RecordProperty(technique, fmt::format("2 triangles are {:.3g} (rms) from 20000", apart));
+        EXPECT_GT(apart, 0.5) << technique;
     }
 }
 

@@ -58,7 +58,7 @@ glm::dvec2 pixel_of(const Camera& camera, const View& view, const glm::dvec3& po
     const glm::dvec4 clip = camera.clip_from_ego * glm::dvec4(point_m, 1.0);
     if (clip.w <= 0.0)
         return {-1.0, -1.0};
-    return {(clip.x / clip.w + 1.0) * 0.5 * view.width_px, (clip.y / clip.w + 1.0) * 0.5 * view.height_px};
+    return {(clip.x / clip.w + 1.0) * 0.5 * view.width_px, (1.0 - clip.y / clip.w) * 0.5 * view.height_px};
 }
 
 TEST(Views, TheShippedSetShowsWhatMirrorsMust) {
@@ -101,7 +101,7 @@ TEST(Views, AMirrorExchangesLeftAndRight) {
     Renderer renderer(device, scene, {});
     View view;
     view.position_m = {1.3, 0.35, 1.2};
-    view.yaw_rad = 0.05;
+    view.yaw_rad = 0.15;
     view.width_px = 160;
     view.height_px = 120;
     const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
