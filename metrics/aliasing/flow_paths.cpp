@@ -143,8 +143,8 @@ FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t f
     return found;
 }
 
-Track track_of(const Path& path, int width, int height) {
-    Track track;
+PixelTrack track_of(const Path& path, int width, int height) {
+    PixelTrack track;
     for (const Place& at : path) {
         const int x = std::clamp(static_cast<int>(std::lround(at.x)), 0, width - 1);
         const int y = std::clamp(static_cast<int>(std::lround(at.y)), 0, height - 1);

@@ -32,7 +32,7 @@ FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t f
                         const Image<float>& step_cdm2 = {});
 
 /// The pixels nearest to a path's places in pictures of that size, which it stays in.
-Track track_of(const Path& path, int width, int height);
+PixelTrack track_of(const Path& path, int width, int height);
 
 /// Brightness along each path at its places between pixels, by a sinc under a Hann window of 8 pixels to each side, which is within 1 % of
 /// what a picture holds up to 0.4 cycles per pixel; the level is the r.m.s. over the 33 x 33 pixels around. Beyond its edges a picture is

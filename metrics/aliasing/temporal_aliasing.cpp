@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t fewest_frames = 8;
 
-void check(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels, const std::vector<Track>& tracks,
+void check(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels, const std::vector<PixelTrack>& tracks,
            double rate_hz, double pixels_per_degree) {
     const bool fits = aliasing.size() >= fewest_frames && levels.size() == aliasing.size() && rate_hz > 0.0 && pixels_per_degree > 0.0;
     const auto pixels = fits ? static_cast<std::int64_t>(aliasing.front().size()) : 0;
     const bool one_size = fits && std::ranges::all_of(aliasing, [&](const auto& a) { return a.size() == aliasing.front().size(); }) &&
                           std::ranges::all_of(levels, [&](const auto& a) { return a.size() == aliasing.front().size(); });
-    const bool within = std::ranges::all_of(tracks, [&](const Track& track) {
+    const bool within = std::ranges::all_of(tracks, [&](const PixelTrack& track) {
         return track.size() == aliasing.size() && std::ranges::all_of(track, [&](std::int32_t p) { return p >= 0 && p < pixels; });
     });
     if (!one_size || !within)
@@ -103,9 +103,9 @@ TemporalAliasing weighed(const std::vector<double>& sums, std::size_t tracks, st
 }
 
 std::vector<TrackSamples> sampled(const std::vector<Image<double>>& pictures, const std::vector<Image<double>>& levels,
-                                  const std::vector<Track>& tracks) {
+                                  const std::vector<PixelTrack>& tracks) {
     std::vector<TrackSamples> samples;
-    for (const Track& track : tracks) {
+    for (const PixelTrack& track : tracks) {
         TrackSamples& one = samples.emplace_back();
         for (std::size_t t = 0; t < track.size(); ++t) {
             const auto pixel = static_cast<std::size_t>(track[t]);
@@ -146,7 +146,7 @@ void remove_line(std::vector<double>& values) {
 } // namespace
 
 TemporalAliasing measure_temporal_aliasing(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels,
-                                           const std::vector<Track>& tracks, double rate_hz, double pixels_per_degree) {
+                                           const std::vector<PixelTrack>& tracks, double rate_hz, double pixels_per_degree) {
     check(aliasing, levels, tracks, rate_hz, pixels_per_degree);
     const std::size_t frames = aliasing.size();
     TemporalAliasing result = weighed(summed(sampled(aliasing, levels, tracks), frames), tracks.size(), frames, rate_hz, pixels_per_degree);

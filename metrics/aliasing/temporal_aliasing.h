@@ -11,7 +11,7 @@
 namespace fernlicht {
 
 /// Where a point of the scene is seen: the pixel (y * width + x) that shows it in each frame, one entry a frame.
-using Track = std::vector<std::int32_t>;
+using PixelTrack = std::vector<std::int32_t>;
 
 struct FlickerBand {
     double hertz = 0.0;
@@ -46,7 +46,7 @@ inline constexpr double crawl_below_hz = 4.0;
 /// over the other frames: what is left of flicker, 1 + 1 / (frames - 1) times as strong in its square, is what does not stand. At least 8
 /// frames of one size, tracks of as many entries within them. Throws std::invalid_argument otherwise.
 TemporalAliasing measure_temporal_aliasing(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels,
-                                           const std::vector<Track>& tracks, double rate_hz, double pixels_per_degree);
+                                           const std::vector<PixelTrack>& tracks, double rate_hz, double pixels_per_degree);
 
 /// The same of brightness itself, without a reference: each track less its straight line over time, which light does that comes nearer.
 /// Slower changes of light are not told apart from crawl, so there is none, and no spectrum below 4 Hz; what stands on the screen is not

@@ -88,7 +88,7 @@ struct Session {
     std::vector<Moment> moments;
     AliasingResult& result;
     std::vector<Frame> shapes; ///< depth and ids of each moment, where there are several
-    std::vector<Track> tracks;
+    std::vector<PixelTrack> tracks;
     References references;
     Progress& progress;
     int done = 0;
@@ -195,9 +195,9 @@ bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std
             std::set<std::int32_t> starts;
             for (const Path& path : followed.paths)
                 starts.insert(track_of(path, s.result.view.width_px, s.result.view.height_px)[s.result.shown]);
-            std::vector<Track> same;
+            std::vector<PixelTrack> same;
             std::ranges::copy_if(s.tracks, std::back_inserter(same),
-                                 [&](const Track& track) { return starts.contains(track[s.result.shown]); });
+                                 [&](const PixelTrack& track) { return starts.contains(track[s.result.shown]); });
             if (!same.empty())
                 compared.known = measure_temporal_aliasing(residues, levels, same, s.result.rate_hz, s.result.pixels_per_degree);
             s.result.flows.push_back(std::move(compared));

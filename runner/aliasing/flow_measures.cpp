@@ -41,7 +41,7 @@ std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const 
                                                const std::vector<Image<double>>& levels, double rate_hz, double pixels_per_degree) {
     if (too_few(followed))
         return std::nullopt;
-    std::vector<Track> tracks;
+    std::vector<PixelTrack> tracks;
     for (const Path& path : followed.paths)
         tracks.push_back(track_of(path, aliasing.front().width(), aliasing.front().height()));
     return measure_temporal_aliasing(aliasing, levels, tracks, rate_hz, pixels_per_degree);

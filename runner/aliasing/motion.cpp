@@ -51,19 +51,19 @@ std::optional<Seen> found_in(const Shot& from, const Shot& to, const View& view,
 
 } // namespace
 
-std::vector<Track> tracks_of(const std::vector<Moment>& moments, const View& view, const std::vector<Frame>& frames, std::size_t from,
-                             int stride) {
+std::vector<PixelTrack> tracks_of(const std::vector<Moment>& moments, const View& view, const std::vector<Frame>& frames, std::size_t from,
+                                  int stride) {
     std::vector<Shot> shots;
     for (std::size_t i = 0; i < moments.size(); ++i)
         shots.push_back({moments[i], frames[i], camera_of(moments[i], view)});
-    std::vector<Track> tracks;
+    std::vector<PixelTrack> tracks;
     for (int y = stride / 2; y < view.height_px; y += stride)
         for (int x = stride / 2; x < view.width_px; x += stride) {
             const std::uint32_t id = frames[from].ids.at(x, y);
             if (id == 0)
                 continue;
             const glm::dvec3 point_m = point_at(shots[from], view, x, y);
-            Track track;
+            PixelTrack track;
             for (const Shot& shot : shots) {
                 const auto seen = found_in(shots[from], shot, view, point_m, id);
                 if (!seen)

@@ -11,8 +11,8 @@ namespace fernlicht {
 /// For every `stride`-th pixel each way of frame `from` that shows something: the pixels that show the same point in all frames. Points
 /// that leave the picture or are hidden (another mesh, or depth off by more than a tenth) in any frame are left out. Frames have depth and
 /// ids.
-std::vector<Track> tracks_of(const std::vector<Moment>& moments, const View& view, const std::vector<Frame>& frames, std::size_t from,
-                             int stride);
+std::vector<PixelTrack> tracks_of(const std::vector<Moment>& moments, const View& view, const std::vector<Frame>& frames, std::size_t from,
+                                  int stride);
 
 struct KnownFlow {
     Flow flow;

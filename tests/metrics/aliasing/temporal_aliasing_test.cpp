@@ -14,10 +14,10 @@ namespace {
 constexpr double pi = std::numbers::pi, ppd = 20.0, rate_hz = 32.0;
 
 /// One track for each pixel of a row of `width`, moving by `speed_px` a frame where it stays within.
-std::vector<Track> tracks_along_x(int width, int frames, double speed_px) {
-    std::vector<Track> tracks;
+std::vector<PixelTrack> tracks_along_x(int width, int frames, double speed_px) {
+    std::vector<PixelTrack> tracks;
     for (int x = 0; x < width; ++x) {
-        Track track;
+        PixelTrack track;
         for (int t = 0; t < frames; ++t)
             track.push_back(static_cast<std::int32_t>(std::floor(x + 0.5 + speed_px * t)));
         if (track.back() < width)
@@ -91,7 +91,7 @@ TEST(TemporalAliasing, AMovingStepFlickersByItsClosedForm) {
             residues.back().at(x, 0) = (from_edge > 0.0 ? 1.0 : 0.0) - 0.5 - sine_integral(pi * from_edge) / pi;
         }
     }
-    const std::vector<Track> tracks = tracks_along_x(width, frames, speed_px);
+    const std::vector<PixelTrack> tracks = tracks_along_x(width, frames, speed_px);
     const TemporalAliasing found =
         measure_temporal_aliasing(residues, std::vector(frames, Image<double>(width, 1, 1.0F)), tracks, rate_hz, ppd);
     // A step less its part below 1/2 cycle per pixel has the spectrum 1 / (2 pi i f) beyond. A point at a distance from it is seen in
@@ -120,7 +120,7 @@ TEST(TemporalAliasing, AMovingPictureThatTheDisplayCanShowReadsNothing) {
         residues.push_back(found.aliasing_picture);
         levels.push_back(found.level_picture);
     }
-    std::vector<Track> tracks;
+    std::vector<PixelTrack> tracks;
     for (std::int32_t y = 32; y < 64; ++y) // away from the edges, where the picture is mirrored
         for (int x = 32; x < 60; ++x) {
             tracks.emplace_back();
@@ -143,7 +143,7 @@ double noise(std::uint64_t seed) {
 TEST(TemporalAliasing, WhatStandsOnTheScreenIsToldApart) {
     constexpr int width = 4000, frames = 16;
     const std::vector<Image<double>> levels(frames, Image<double>(width, 1, 1.0));
-    const std::vector<Track> tracks = tracks_along_x(width, frames, 1.37);
+    const std::vector<PixelTrack> tracks = tracks_along_x(width, frames, 1.37);
     const auto found = [&](double stands, double changes) {
         std::vector<Image<double>> residues;
         for (std::uint64_t t = 0; t < frames; ++t) {
@@ -164,12 +164,12 @@ TEST(TemporalAliasing, WhatStandsOnTheScreenIsToldApart) {
 TEST(TemporalAliasing, RefusesWhatDoesNotFit) {
     const std::vector<Image<double>> residues(8, Image<double>(4, 4));
     const std::vector<Image<double>> levels(8, Image<double>(4, 4));
-    const auto measured = [&](const std::vector<Track>& tracks, double rate) {
+    const auto measured = [&](const std::vector<PixelTrack>& tracks, double rate) {
         return measure_temporal_aliasing(residues, levels, tracks, rate, ppd);
     };
     EXPECT_EQ(measured({}, 30.0).tracks, 0U);
-    EXPECT_THROW(measured({Track(7, 0)}, 30.0), std::invalid_argument);
-    EXPECT_THROW(measured({Track(8, 16)}, 30.0), std::invalid_argument);
+    EXPECT_THROW(measured({PixelTrack(7, 0)}, 30.0), std::invalid_argument);
+    EXPECT_THROW(measured({PixelTrack(8, 16)}, 30.0), std::invalid_argument);
     EXPECT_THROW(measured({}, 0.0), std::invalid_argument);
     EXPECT_THROW(measure_temporal_aliasing({}, {}, {}, 30.0, ppd), std::invalid_argument);
 }
