@@ -8,6 +8,8 @@
 namespace fernlicht {
 namespace {
 
+constexpr double open_from_share = 0.85;
+
 using Key = std::array<long, 3>;
 Key key_of(const glm::dvec3& v, double step) { return {std::lround(v.x / step), std::lround(v.y / step), std::lround(v.z / step)}; }
 
@@ -60,6 +62,10 @@ void append_wheel(TriangleSoup& soup, const glm::dvec3& c, double radius_m, doub
         append_quad(soup, {at(s, radius_m, half), at(s + 1, radius_m, half), at(s + 1, radius_m, -half), at(s, radius_m, -half)}, tyre);
         append_quad(soup, {at(s, inner, half), at(s + 1, inner, half), at(s + 1, radius_m, half), at(s, radius_m, half)}, tyre);
         append_quad(soup, {at(s + 1, inner, -half), at(s, inner, -half), at(s, radius_m, -half), at(s + 1, radius_m, -half)}, tyre);
+        if (rim_share > open_from_share) { // spokes too thin to be seen: a ring
+            append_quad(soup, {at(s + 1, inner, half), at(s, inner, half), at(s, inner, -half), at(s + 1, inner, -half)}, rim);
+            continue;
+        }
         soup.add({c + glm::dvec3(0.0, 0.8 * half, 0.0), at(s + 1, inner, half), at(s, inner, half)}, rim);
         soup.add({c - glm::dvec3(0.0, 0.8 * half, 0.0), at(s, inner, -half), at(s + 1, inner, -half)}, rim);
     }

@@ -19,7 +19,8 @@ void append_loft(TriangleSoup& soup, const std::vector<Outline>& stations,
 /// Faces of a box between two corners.
 void append_box(TriangleSoup& soup, const glm::dvec3& low_m, const glm::dvec3& high_m, std::uint32_t material);
 
-/// A cylinder along y with tread and, at a part of its radius, another material on both sides: a wheel. `sides` >= 3.
+/// A cylinder along y with tread and, at a part of its radius, another material on both sides: a wheel; a ring where the
+/// rim has more than 0.85 of the radius. `sides` >= 3.
 void append_wheel(TriangleSoup& soup, const glm::dvec3& centre_m, double radius_m, double width_m, double rim_share, int sides,
                   std::uint32_t tyre, std::uint32_t rim);
 

@@ -86,9 +86,9 @@ Model pedestrian_body(const BodySize& size) {
                  step = std::min(0.18, 0.3 * size.size_m.x);
     limb(body, {x, 0.0, 0.90 * h}, {x, 0.0, 0.935 * h}, 0.062 * h, 0.062 * h, BodyMaterial::skin, 10);
     limb(body, {x, 0.0, 0.82 * h}, {x, 0.0, 0.86 * h}, 0.03 * h, 0.03 * h, BodyMaterial::skin);
+    for (const double beside : {-0.05, -0.025, 0.0, 0.025, 0.05}) // trunk
+        limb(body, {x, beside * h, 0.54 * h}, {x, 1.5 * beside * h, 0.765 * h}, 0.07 * h, 0.068 * h, BodyMaterial::paint, 10);
     for (const double side : {-1.0, 1.0}) {
-        limb(body, {x, side * 0.055 * h, 0.55 * h}, {x, side * 0.075 * h, 0.76 * h}, 0.075 * h, 0.075 * h, BodyMaterial::paint,
-             10); // trunk
         limb(body, {x, side * (half - 0.03 * h), 0.78 * h}, {x - side * 0.5 * step, side * (half - 0.02 * h), 0.46 * h}, 0.034 * h,
              0.026 * h, BodyMaterial::paint);
         const glm::dvec3 foot(x + side * step, side * 0.055 * h, 0.035 * h);
