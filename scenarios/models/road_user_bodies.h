@@ -14,7 +14,7 @@ struct BodySize {
 
 /// Each closes at its box: from rear_m to rear_m + length, half the width to each side, from the road to its height. Motor vehicles have
 /// glass, wheels, faces of lamps, number plates (as EN 12899-1 class RA1 returns light) and red retroreflectors (UN R3 class IA: 300 mcd/lx
-/// at 20', 5 mcd/lx at 1.5 degrees), and mounts named lamp.low.left, lamp.tail.right and so on. Some 200 to 1200 triangles.
+/// at 20', 5 mcd/lx at 1.5 degrees), and mounts named lamp.low.left, lamp.tail.right and so on. Some 600 to 1900 triangles.
 Model car_body(const BodySize& size);
 Model van_body(const BodySize& size);
 Model truck_body(const BodySize& size);
