@@ -11,6 +11,7 @@
 #include "runner/reference_command.h"
 #include "runner/references_command.h"
 #include "runner/run_command.h"
+#include "runner/signals_command.h"
 #include "runner/stability_command.h"
 #include "runner/study/study_command.h"
 #include "runner/techniques_command.h"
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
     fernlicht::add_aliasing_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);
+    fernlicht::add_signals_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_model_command(app, chosen);
     fernlicht::add_import_command(app, chosen);

@@ -180,12 +180,12 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
         }
         probes.add(moment, draw);
         times.end_moment();
-        seeing.add(moment);
+        seeing.add(moment, variant);
         pictures.store(moment);
         if (drawn)
             measuring.add(std::move(*drawn));
         played.speed_mps.emplace_back(moment.time_s, moment.speed_mps);
-        if (variant.motion)
+        if (variant.motion && variant.motion->car)
             played.car.push_back(car_row(*variant.motion, moment.time_s));
         ++played.ticks_done;
         if (!options.go_on(played.ticks_done))

@@ -6,6 +6,7 @@
 #include "runner/accuracy/drive_error.h"
 #include "runner/cell_inputs.h"
 #include "runner/contact_sheet.h"
+#include "runner/control/signals_csv.h"
 #include "runner/interruption.h"
 #include "runner/limits.h"
 #include "runner/output_folder.h"
@@ -179,6 +180,9 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
     const std::size_t before = report.played.size();
     for (const Variant& variant : stage.drive.variants) {
         report.played.push_back(play_variant(stage, variant, renderer, options, writers));
+        if (variant.motion && variant.motion->control)
+            write_file(options.folder / ("signals-" + file_name_of(stage.drive.name + "-" + variant.name) + ".csv"),
+                       signals_csv(*variant.motion->control, options.ticks.first, options.ticks.last));
         if (Interruption::asked()) {
             report.complete = false;
             report.interrupted = "interrupted by the user";

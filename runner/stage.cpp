@@ -4,6 +4,7 @@
 #include "runner/limits.h"
 #include "runner/seeing/seeing_fold.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/control_world.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/roads/mirrored_road.h"
 #include "scenarios/roads/road_mesh.h"
@@ -39,6 +40,7 @@ Stage::Stage(Drive d)
     fit_to_route(drive, route);
     simulate(drive, route);
     place_traffic(drive, network, route);
+    simulate_control(drive, route);
     add_road_users(scene, drive.traffic, drive.opened);
     check_limit_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);

@@ -79,7 +79,7 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
 } // namespace
 
 std::vector<std::string> diagram_names() {
-    return {"techniques", "reference", "classical", "solvers", "extent", "beam", "metrics", "step"};
+    return {"techniques", "reference", "classical", "solvers", "control", "extent", "beam", "metrics", "step"};
 }
 
 AccuracyResult run_accuracy(const AccuracyRequest& request) {
@@ -115,6 +115,11 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
             std::ranges::move(solver_diagrams(study_solvers()), std::back_inserter(result.diagrams));
         else
             result.missing.emplace_back("diagram solvers: not begun");
+    }
+    if (asked_for(request, "control")) {
+        result.diagrams.push_back(control_study([] { return !Interruption::asked(); }));
+        if (Interruption::asked())
+            result.missing.emplace_back("diagram control: ended before its last row");
     }
     for (const DriveAccuracy& drive : result.drives)
         for (const std::string& missing : drive.missing)

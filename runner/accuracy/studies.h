@@ -28,6 +28,9 @@ std::vector<WorkPrecision> reference_study(const Stage& stage, const Variant& va
 /// Comparing pictures on every n-th pixel: error of root mean square and of the share of pixels beyond 1 %, over the time.
 WorkPrecision metrics_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on);
 
+/// Period of lamp control: error of the swivel against a period of 0.25 ms, over the time of the run. Of no drive.
+WorkPrecision control_study(const StudyGoesOn& go_on);
+
 /// Times `work` so often that it takes a tenth of a second, at least three and at most 25 times.
 Interval timed(const std::function<void()>& work);
 

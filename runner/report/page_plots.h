@@ -19,6 +19,8 @@ std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limi
 
 /// What the drive asks of glare and seeing: for each subject its drawn columns over the distance, a line per lamp set.
 std::vector<std::string> seeing_svgs(const ComparedDrive& drive);
+/// The same of lamp control. Empty where the drive has none.
+std::vector<std::string> control_svgs(const ComparedDrive& drive);
 
 /// A lamp set's colour in every plot.
 plots::Colour colour_of(std::size_t variant);

@@ -58,16 +58,21 @@ std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, s
     return plots::svg_of(figure);
 }
 
-} // namespace
+bool is_of_control(const SeeingSeries& series) { return series.subject == "control"; }
 
-std::vector<std::string> seeing_svgs(const ComparedDrive& drive) {
+std::vector<std::string> figures_of(const ComparedDrive& drive, bool control) {
     std::vector<std::string> figures;
     for (const SeeingSeries& subject : drive.variants.front()->seeing)
-        for (std::size_t column = 0; column < subject.columns.size(); ++column)
+        for (std::size_t column = 0; is_of_control(subject) == control && column < subject.columns.size(); ++column)
             if (subject.columns[column].drawn)
                 if (std::string svg = figure_of(drive, subject, column); !svg.empty())
                     figures.push_back(std::move(svg));
     return figures;
 }
+
+} // namespace
+
+std::vector<std::string> seeing_svgs(const ComparedDrive& drive) { return figures_of(drive, false); }
+std::vector<std::string> control_svgs(const ComparedDrive& drive) { return figures_of(drive, true); }
 
 } // namespace fernlicht

@@ -53,6 +53,12 @@ data plots_part(const ComparedDrive& drive) {
     bool has_seen = false;
     for (const std::string& svg : seeing_svgs(drive))
         has_seen = add(seen, svg) || has_seen;
+    data controlled{List::list};
+    bool has_controlled = false;
+    for (const std::string& svg : control_svgs(drive))
+        has_controlled = add(controlled, svg) || has_controlled;
+    part.set("has_controlled", has_controlled);
+    part.set("controlled", controlled);
     part.set("has_seen", has_seen);
     part.set("seen", seen);
     part.set("has_timing", add(timings, timing_svg(drive)));

@@ -46,23 +46,27 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
         homogeneity_.emplace(drive, route);
     if (asked.places)
         places_.emplace(drive, route);
+    if (std::ranges::any_of(drive.variants, [](const Variant& variant) { return variant.control != nullptr; }))
+        control_.emplace(drive, route);
 }
 
-void SeeingFold::add(const Moment& moment) {
+void SeeingFold::add(const Moment& moment, const Variant& variant) {
     each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, visibility_, homogeneity_, places_);
+    if (control_)
+        control_->add(moment, variant);
 }
 
 Readings SeeingFold::readings() const {
     Readings all;
     each_asked([&](const auto& fold) { std::ranges::copy(fold.readings(), std::back_inserter(all)); }, sensors_, oncoming_, mirrors_,
-               visibility_, homogeneity_, places_);
+               visibility_, homogeneity_, places_, control_);
     return all;
 }
 
 std::vector<SeeingSeries> SeeingFold::series() const {
     std::vector<SeeingSeries> all; // places are told at distances ahead, not over the drive
     each_asked([&](const auto& fold) { std::ranges::copy(fold.series(), std::back_inserter(all)); }, sensors_, oncoming_, mirrors_,
-               visibility_, homogeneity_);
+               visibility_, homogeneity_, control_);
     return all;
 }
 

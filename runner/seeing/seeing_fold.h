@@ -1,7 +1,8 @@
-// All that a drive measures of seeing and glare, folded over its moments. By the twin alone: nothing is drawn for it.
+// All that a drive measures of seeing, glare and lamp control, folded over its moments. By the twin alone: nothing is drawn for it.
 #pragma once
 
 #include "metrics/readings.h"
+#include "runner/control/control_fold.h"
 #include "runner/seeing/homogeneity_fold.h"
 #include "runner/seeing/mirror_fold.h"
 #include "runner/seeing/place_fold.h"
@@ -15,7 +16,8 @@ class SeeingFold {
     /// Drive and route must outlive the fold. Throws InputError for places beyond the route's end.
     SeeingFold(const Drive& drive, const Route& route);
 
-    void add(const Moment& moment);
+    /// `variant`: the one that the moment is of; only lamp control asks for it.
+    void add(const Moment& moment, const Variant& variant);
     /// Nothing where the drive asks for nothing. Names do not depend on what was added.
     Readings readings() const;
     std::vector<SeeingSeries> series() const;
@@ -27,6 +29,7 @@ class SeeingFold {
     std::optional<VisibilityFold> visibility_;
     std::optional<HomogeneityFold> homogeneity_;
     std::optional<PlaceFold> places_;
+    std::optional<ControlFold> control_; ///< where some variant has lamp control
 };
 
 } // namespace fernlicht

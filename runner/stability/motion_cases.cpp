@@ -1,5 +1,6 @@
 // What moves car and lamps: stiff and extreme cases of its equations. scenarios/vehicle/stability_study.h has the measuring.
 #include "runner/stability/stability_case.h"
+#include "scenarios/control/control_stability.h"
 #include "scenarios/vehicle/stability_study.h"
 
 namespace fernlicht {
@@ -27,6 +28,13 @@ std::vector<StabilityCase> motion_cases() {
          "some roundings of 1, and of 1 / h in the implicit method", worst_of(steps_of_a_microsecond_and_of_ten_seconds)},
         {"motion", "largest-stable-step", "a solver is not the one of the books", 1e-9, "of the step by theory; unstable steps",
          "2000 steps, judged to 1e-9, tell growth from decay more finely still", worst_of(largest_stable_steps)},
+        {"motion", "lamp-control-actuators", "commands every tick to a stiff or slow actuator, late or rare, drive it beyond its limits",
+         1e-6, "rad beyond stops and rate limit", "limits are events located within 1e-9 s; the solver's tolerance is a milliradian's 1e-6",
+         worst_of(control_of_extreme_actuators)},
+        {"motion", "lamp-control-signals", "signals that no car has reach the lamps", 1e-6, "rad beyond stops and rate limit", "as before",
+         worst_of(control_with_extreme_signals)},
+        {"motion", "lamp-control-mirrored", "a law or an actuator has a preferred side", 1e-12, "rad", "signs change, roundings do not",
+         worst_of(control_mirrored)},
     };
 }
 

@@ -99,11 +99,11 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht", "name",     "title",         "road",       "route",    "speed_kmh",   "speed_mps",
-                        "speed",     "step_s",   "rate_hz",       "duration_s", "daylight", "car",         "vehicle",
-                        "actuators", "variants", "changes",       "views",      "capture",  "tone_mapper", "technique",
-                        "measure",   "limits",   "shadows",       "textures",   "beams",    "seed",        "mirrored_road",
-                        "weather",   "traffic",  "traffic_light", "scenery",    "view_set"});
+                       {"fernlicht",     "name",    "title",    "road",          "route",    "speed_kmh", "speed_mps",
+                        "speed",         "step_s",  "rate_hz",  "duration_s",    "daylight", "car",       "vehicle",
+                        "actuators",     "control", "variants", "changes",       "views",    "capture",   "tone_mapper",
+                        "technique",     "measure", "limits",   "shadows",       "textures", "beams",     "seed",
+                        "mirrored_road", "weather", "traffic",  "traffic_light", "scenery",  "view_set"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;

@@ -1,5 +1,6 @@
 #include "scenarios/drives/lamp_sets.h"
 
+#include "scenarios/drives/control_keys.h"
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/drives/lamp_keys.h"
 #include "scenarios/drives/vehicle_keys.h"
@@ -197,18 +198,20 @@ std::vector<Variant> read_variants(const YamlMap& drive, const Car& car, LampShe
         Variant variant{"lamps", read_lamps(*car.lamps, {}, car, shelf), {}};
         read_all_changes(drive, nullptr, variant, shelf);
         read_actuators(drive, nullptr, variant);
+        read_control(drive, nullptr, variant, shelf);
         return {variant};
     }
     if (!named)
         drive.refuse_missing("variants", "named lamp sets, or car.lamps for just one");
     std::vector<Variant> variants;
     for (const auto& [name, entry] : named->named(most_variants)) {
-        const YamlMap keys = entry.map({"lamps", "changes", "actuators", "file", "aim", "level", "voltage_v", "reference_voltage_v",
-                                        "source", "temperature_k", "spectrum", "colour", "photometric_distance_m", "between_samples",
-                                        "type_c_axis", "texture", "mirrored"});
+        const YamlMap keys = entry.map({"lamps", "changes", "actuators", "control", "file", "aim", "level", "voltage_v",
+                                        "reference_voltage_v", "source", "temperature_k", "spectrum", "colour", "photometric_distance_m",
+                                        "between_samples", "type_c_axis", "texture", "mirrored"});
         variants.push_back(read_variant(name, keys, car, shelf));
         read_all_changes(drive, &keys, variants.back(), shelf);
         read_actuators(drive, &keys, variants.back());
+        read_control(drive, &keys, variants.back(), shelf);
     }
     return variants;
 }

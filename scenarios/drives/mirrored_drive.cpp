@@ -1,5 +1,7 @@
 #include "scenarios/drives/mirrored_drive.h"
 
+#include "scenarios/drives/mirrored_control.h"
+
 #include <cctype>
 #include <utility>
 
@@ -82,6 +84,8 @@ void mirror(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, D
 
 void mirror(Variant& variant, Drive& drive) {
     mirror(variant.lamps, variant.changes, drive);
+    if (variant.control)
+        variant.control = std::make_shared<const ControlParameters>(mirrored(*variant.control));
     if (!variant.swivel)
         return;
     ActuatorParameters& actuator = variant.swivel->actuator;

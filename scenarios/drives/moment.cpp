@@ -23,6 +23,15 @@ Pose moved(Pose ego, const CarPlace& place) {
     return ego;
 }
 
+/// False where nothing is loaded.
+bool rest_on_load(CarPlace& place, const Motion& motion) {
+    if (!motion.control || (motion.control->body_pitch_rad == 0.0 && motion.control->rear_lift_m == 0.0))
+        return false;
+    place.pitch_rad += motion.control->body_pitch_rad;
+    place.rear_lift_m += motion.control->rear_lift_m;
+    return true;
+}
+
 LitLamp lit(const MountedLamp& lamp, const Pose& ego) {
     return {lamp.name, lamp.file, compose(ego, lamp.pose()), lamp.intensity_factor(), lamp.colour, lamp.photometric_distance_m};
 }
@@ -63,16 +72,22 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
         moment.speed_mps = at.speed_mps;
     } else if (!drive.vehicle) {
         moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
+        if (CarPlace place; variant.motion && rest_on_load(place, *variant.motion))
+            moment.ego = moved(moment.ego, place);
     } else {
         if (!variant.motion)
             throw std::logic_error("moment_at: a drive with a vehicle that was not simulated");
-        const CarPlace place = variant.motion->car->at(state.time_s);
+        CarPlace place = variant.motion->car->at(state.time_s);
+        rest_on_load(place, *variant.motion);
         moment.distance_m = std::max(place.distance_m, 0.0);
         moment.speed_mps = place.speed_mps;
         moment.ego = moved(ego_pose(route, moment.distance_m, drive.wheelbase_m, place.offset_left_m), place);
+    }
+    if (variant.motion)
         for (MountedLamp& lamp : lamps)
             turn(lamp, *variant.motion, state.time_s);
-    }
+    else if (variant.control)
+        throw std::logic_error("moment_at: a drive with lamp control that was not simulated");
     for (const MountedLamp& lamp : lamps)
         moment.lamps.push_back(lit(lamp, moment.ego));
     add_traffic(drive, moment);

@@ -138,7 +138,7 @@ void simulate_vehicle(Drive& drive, const Route& route) {
     check_validity(drive, *car);
     drive.notes.push_back(fmt::format("vehicle: {}; {}", solved(car->work()), strayed(*car, drive.speed)));
     for (Variant& variant : drive.variants) {
-        auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt, {}});
+        auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt, std::nullopt, {}});
         if (variant.levelling) {
             motion->levelling = run_levelling(drive, variant, *car);
             motion->notes.push_back(actuator_note("levelling", *motion->levelling));
@@ -170,6 +170,18 @@ void turn(MountedLamp& lamp, const Motion& motion, double time_s) {
         lamp.pitch_rad += motion.levelling->angle_rad(time_s);
     if (motion.swivel)
         lamp.yaw_rad += motion.swivel->angle_rad(time_s);
+    if (!motion.control)
+        return;
+    const ControlRun& control = *motion.control;
+    const std::size_t controlled = control.lamp(lamp.name);
+    if (controlled == control.lamps.size())
+        return;
+    lamp.pitch_rad += control.pitch_rad(controlled, time_s);
+    lamp.yaw_rad += control.swivel_rad(controlled, time_s);
+    lamp.level *= control.level(controlled, time_s);
+    lamp.pitch_rad += control.mode(controlled, time_s).pitch_rad;
+    if (const auto file = control.file(controlled, time_s))
+        lamp.file = file;
 }
 
 } // namespace fernlicht

@@ -50,6 +50,20 @@ std::vector<RoadStep> read_road_steps(const YamlMap& keys) {
     return steps;
 }
 
+std::optional<SwivelParameters> read_swivel(const YamlMap& keys) {
+    const auto given = keys.find("swivel");
+    SwivelParameters swivel;
+    if (!given || given->is_scalar())
+        return given && given->flag() ? std::optional(swivel) : std::nullopt;
+    const YamlMap of = given->map({"preview_s", "natural_frequency_hz", "damping", "rate_limit_deg_s", "rate_limit_rad_s", "least_deg",
+                                   "least_rad", "greatest_deg", "greatest_rad", "control_period_s", "dead_time_s"});
+    swivel.preview_s = of.number_or("preview_s", swivel.preview_s, 0.0, 10.0);
+    swivel.actuator = read_actuator(of, swivel.actuator);
+    return swivel;
+}
+
+} // namespace
+
 ActuatorParameters read_actuator(const YamlMap& keys, ActuatorParameters actuator) {
     actuator.natural_frequency_hz = keys.number_or("natural_frequency_hz", actuator.natural_frequency_hz, 1.0e-3, 1.0e6);
     actuator.damping = keys.number_or("damping", actuator.damping, 0.0, 1.0e6);
@@ -66,7 +80,7 @@ ActuatorParameters read_actuator(const YamlMap& keys, ActuatorParameters actuato
     return actuator;
 }
 
-std::optional<LevellingParameters> read_levelling(const YamlMap& keys) {
+std::optional<LevellingParameters> read_levelling(const YamlMap& keys, bool own_period) {
     const auto given = keys.find("levelling");
     if (!given)
         return std::nullopt;
@@ -80,24 +94,12 @@ std::optional<LevellingParameters> read_levelling(const YamlMap& keys) {
         return control(*given, levelling) ? std::optional(levelling) : std::nullopt;
     const YamlMap of = given->map({"control", "natural_frequency_hz", "damping", "rate_limit_deg_s", "rate_limit_rad_s", "least_deg",
                                    "least_rad", "greatest_deg", "greatest_rad", "control_period_s", "dead_time_s"});
+    if (const auto period = of.find("control_period_s"); period && !own_period)
+        period->refuse("a period of the levelling alone", "control.period_s, which holds for all laws");
     levelling.actuator = read_actuator(of, levelling.actuator);
     const auto word = of.find("control");
     return !word || control(*word, levelling) ? std::optional(levelling) : std::nullopt;
 }
-
-std::optional<SwivelParameters> read_swivel(const YamlMap& keys) {
-    const auto given = keys.find("swivel");
-    SwivelParameters swivel;
-    if (!given || given->is_scalar())
-        return given && given->flag() ? std::optional(swivel) : std::nullopt;
-    const YamlMap of = given->map({"preview_s", "natural_frequency_hz", "damping", "rate_limit_deg_s", "rate_limit_rad_s", "least_deg",
-                                   "least_rad", "greatest_deg", "greatest_rad", "control_period_s", "dead_time_s"});
-    swivel.preview_s = of.number_or("preview_s", swivel.preview_s, 0.0, 10.0);
-    swivel.actuator = read_actuator(of, swivel.actuator);
-    return swivel;
-}
-
-} // namespace
 
 std::optional<VehicleParameters> read_vehicle(const YamlMap& drive) {
     static constexpr Solver solvers[] = {Solver::automatic, Solver::dormand_prince, Solver::rosenbrock};

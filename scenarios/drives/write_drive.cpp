@@ -1,5 +1,6 @@
 #include "scenarios/drives/drive.h"
 
+#include "scenarios/drives/control_keys.h"
 #include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/seeing_keys.h"
 
@@ -204,6 +205,7 @@ void write_variants(Lines& out, const Drive& drive) {
         for (const LampChange& change : variant.changes)
             write_change(out, drive, change);
         write_actuators(out, variant);
+        out.add_all(write_control(drive, variant));
     }
 }
 

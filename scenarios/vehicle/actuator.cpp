@@ -83,31 +83,78 @@ std::vector<Watch> watches_for(const Law& law, const ActuatorParameters& limits)
 
 } // namespace
 
+struct Actuator::Parts {
+    Parts(const ActuatorParameters& limits, const SolverOptions& options)
+        : actuator(limits), law{limits.frequency_rad_s(), limits.damping, limits.rate_limit_rad_s}, problem(problem_of(law)),
+          integrator(problem, options) {}
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+
+    static OdeProblem problem_of(const Law& law) {
+        OdeProblem problem;
+        problem.derivative = [&law](double, const double* x, double* dxdt) { law.rates(x, dxdt); };
+        problem.jacobian = [&law](double, const double*, double* rows, double* dfdt) { law.jacobian(rows, dfdt); };
+        problem.scale = {1.0e-3, 1.0e-3 * std::max(1.0, law.w)}; // a milliradian, and as fast as it swings
+        return problem;
+    }
+
+    ActuatorParameters actuator;
+    Law law;
+    OdeProblem problem;
+    Integrator integrator;
+    std::vector<double> x{0.0, 0.0};
+    double time_s = 0.0;
+    bool jammed = false;
+    ActuatorRun run;
+};
+
+Actuator::Actuator(const ActuatorParameters& actuator, double angle_rad, const SolverOptions& options)
+    : parts_(std::make_unique<Parts>(actuator, options)) {
+    parts_->x[0] = parts_->law.command = std::clamp(angle_rad, actuator.least_rad, actuator.greatest_rad);
+}
+Actuator::Actuator(Actuator&&) noexcept = default;
+Actuator::~Actuator() = default;
+
+double Actuator::angle_rad() const { return parts_->x[0]; }
+double Actuator::time_s() const { return parts_->time_s; }
+void Actuator::command(double angle_rad) {
+    parts_->law.command = std::clamp(angle_rad, parts_->actuator.least_rad, parts_->actuator.greatest_rad);
+}
+
+void Actuator::jam(bool jammed) {
+    parts_->jammed = jammed;
+    if (jammed)
+        parts_->x[1] = 0.0;
+}
+
+void Actuator::advance(double until_s) {
+    Parts& p = *parts_;
+    if (p.jammed && p.time_s < until_s) {
+        p.law.mode = Mode::at_stop;
+        p.time_s = p.integrator.integrate(p.time_s, until_s, p.x, {}, &p.run.path).time_s;
+    }
+    while (p.time_s < until_s) {
+        p.law.mode = mode_at(p.law, p.actuator, p.x);
+        p.run.rate_limited += p.law.mode == Mode::slewing_up || p.law.mode == Mode::slewing_down ? 1U : 0U;
+        p.run.at_stop += p.law.mode == Mode::at_stop ? 1U : 0U;
+        p.time_s = p.integrator.integrate(p.time_s, until_s, p.x, watches_for(p.law, p.actuator), &p.run.path).time_s;
+    }
+}
+
+ActuatorRun Actuator::take() {
+    parts_->run.work = parts_->integrator.work();
+    return std::move(parts_->run);
+}
+
 ActuatorRun run_actuator(const ActuatorParameters& actuator, const std::function<double(double tick_s)>& command,
                          const std::vector<double>& switches_s, double end_s, const SolverOptions& options) {
-    ActuatorRun run;
-    Law law{actuator.frequency_rad_s(), actuator.damping, actuator.rate_limit_rad_s};
-    OdeProblem problem;
-    problem.derivative = [&](double, const double* x, double* dxdt) { law.rates(x, dxdt); };
-    problem.jacobian = [&](double, const double*, double* rows, double* dfdt) { law.jacobian(rows, dfdt); };
-    problem.scale = {1.0e-3, 1.0e-3 * std::max(1.0, law.w)}; // a milliradian, and as fast as it swings
-    Integrator integrator(problem, options);
-
     const auto changes = commands(actuator, command, switches_s, end_s);
-    std::vector<double> x{changes.empty() ? 0.0 : changes.front().second, 0.0};
-    double t_s = 0.0;
+    Actuator moving(actuator, changes.empty() ? 0.0 : changes.front().second, options);
     for (std::size_t i = 0; i < changes.size(); ++i) {
-        law.command = changes[i].second;
-        const double until_s = i + 1 < changes.size() ? changes[i + 1].first : end_s;
-        while (t_s < until_s) {
-            law.mode = mode_at(law, actuator, x);
-            run.rate_limited += law.mode == Mode::slewing_up || law.mode == Mode::slewing_down ? 1U : 0U;
-            run.at_stop += law.mode == Mode::at_stop ? 1U : 0U;
-            t_s = integrator.integrate(t_s, until_s, x, watches_for(law, actuator), &run.path).time_s;
-        }
+        moving.command(changes[i].second);
+        moving.advance(i + 1 < changes.size() ? changes[i + 1].first : end_s);
     }
-    run.work = integrator.work();
-    return run;
+    return moving.take();
 }
 
 } // namespace fernlicht

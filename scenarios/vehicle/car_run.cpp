@@ -8,7 +8,8 @@ namespace {
 
 using namespace car_state;
 
-constexpr std::size_t kept[] = {distance, offset, heading, forward_speed, front_body, rear_body, front_wheel, rear_wheel, steering};
+constexpr std::size_t kept[] = {distance,  offset,      heading,    forward_speed, front_body,
+                                rear_body, front_wheel, rear_wheel, steering,      yaw_rate};
 
 /// Watches for the next step in the road under each axle, in this order.
 struct RoadSteps {
@@ -59,6 +60,7 @@ CarPlace CarRun::at(double time_s) const {
     const double front_wheel_m = value(front_wheel), rear_wheel_m = value(rear_wheel);
     place.spring_pitch_rad = (front_lift_m - front_wheel_m - place.rear_lift_m + rear_wheel_m) / wheelbase_m_;
     place.steering_rad = value(steering);
+    place.yaw_rate_rad_s = value(yaw_rate);
     place.front_load_n = std::max(front_rest_n_ - front_tyre_n_per_m_ * front_wheel_m, 0.0);
     place.rear_load_n = std::max(rear_rest_n_ - rear_tyre_n_per_m_ * rear_wheel_m, 0.0);
     return place;

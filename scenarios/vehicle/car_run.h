@@ -16,6 +16,7 @@ struct CarPlace {
     double pitch_rad = 0.0;        ///< of the body against the road under its axles, nose up positive
     double spring_pitch_rad = 0.0; ///< what sensors at both axles' springs see of it: without the tyres
     double steering_rad = 0.0;
+    double yaw_rate_rad_s = 0.0;                  ///< to the left positive
     double front_load_n = 0.0, rear_load_n = 0.0; ///< of the axles' tyres on the road; 0: in the air
 };
 

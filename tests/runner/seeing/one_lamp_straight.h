@@ -34,7 +34,7 @@ struct OneLampStraight {
         SeeingFold fold(drive, route);
         State state = start(drive);
         for (int tick = 0; tick < tick_count(drive); ++tick, state = advance(state, drive))
-            fold.add(moment_at(state, drive, route, drive.variants.front()));
+            fold.add(moment_at(state, drive, route, drive.variants.front()), drive.variants.front());
         return fold;
     }
 };

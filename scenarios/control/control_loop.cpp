@@ -1,0 +1,220 @@
+#include "scenarios/control/control_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<ControlledLamp>& lamps) {
+    std::vector<std::string> names;
+    for (const ControlledLamp& lamp : lamps)
+        names.push_back(lamp.name);
+    return names;
+}
+
+std::size_t lamp_named(const std::vector<ControlledLamp>& lamps, const std::string& name) {
+    const auto found = std::ranges::find(lamps, name, &ControlledLamp::name);
+    if (found == lamps.end())
+        throw std::invalid_argument(fmt::format("no lamp '{}'", name));
+    return static_cast<std::size_t>(found - lamps.begin());
+}
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
+ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
+                         const SolverOptions& options)
+    : parameters_(parameters), options_(options), table_(names_of(lamps)), controller_(parameters, lamps, car), runs_(lamps.size()),
+      out_of_range_(table_.size(), 0) {
+    for (const ControlledLamp& lamp : lamps)
+        segments_.emplace_back(lamp.windows_deg.size(), 1.0);
+    for (const PluginParameters& plugin : parameters_.plugins)
+        plugins_.emplace_back(plugin, lamps, parameters_.period_s);
+    std::set<std::size_t> swivelling, levelled;
+    if (parameters_.bend)
+        for (const std::string& name : parameters_.bend->lamps)
+            swivelling.insert(lamp_named(lamps, name));
+    for (std::size_t lamp = 0; parameters_.levelling && lamp < lamps.size(); ++lamp)
+        levelled.insert(lamp);
+    for (const PluginParameters& plugin : parameters_.plugins)
+        for (const std::string& name : plugin.lamps) {
+            swivelling.insert(lamp_named(lamps, name));
+            levelled.insert(lamp_named(lamps, name));
+        }
+    const ActuatorParameters swivel = parameters_.bend ? parameters_.bend->actuator : SwivelParameters{}.actuator;
+    const ActuatorParameters level = parameters_.levelling ? parameters_.levelling->actuator : LevellingParameters{}.actuator;
+    for (const std::size_t lamp : swivelling)
+        driven_.push_back({lamp, lamp_signal::swivel_command, lamp_signal::swivel, swivel, {}, {}});
+    for (const std::size_t lamp : levelled)
+        driven_.push_back({lamp, lamp_signal::pitch_command, lamp_signal::pitch, level, {}, {}});
+    if (parameters_.modes)
+        for (const std::string& name : parameters_.modes->lamps)
+            mode_lamps_.push_back(lamp_named(lamps, name));
+    for (const ScriptedSignal& input : parameters_.inputs)
+        scripted_.push_back(table_.find(input.name));
+    for (const ControlFailure& failure : parameters_.failures)
+        failing_.push_back(failure.kind == ControlFailure::Kind::lost_signal ? table_.find(failure.what) : lamp_named(lamps, failure.what));
+}
+
+void ControlLoop::read(const ControlInputs& in) {
+    for (const std::size_t scripted_only :
+         {std::size_t{signal::ego_indicator}, std::size_t{signal::ego_wipers}, std::size_t{signal::road_motorway}})
+        table_[scripted_only] = 0.0;
+    table_[signal::time] = in.time_s;
+    table_[signal::ego_distance] = in.distance_m;
+    table_[signal::ego_speed] = in.speed_mps;
+    table_[signal::ego_acceleration] = in.acceleration_mps2;
+    table_[signal::ego_yaw_rate] = in.yaw_rate_rad_s;
+    table_[signal::ego_steering] = in.steering_rad;
+    table_[signal::ego_spring_pitch] = in.spring_pitch_rad;
+    table_[signal::ego_load_pitch] = in.load_pitch_rad;
+    table_[signal::road_curvature] = in.curvature_per_m;
+    table_[signal::road_curvature_25m] = in.curvature_25m_per_m;
+    table_[signal::road_curvature_50m] = in.curvature_50m_per_m;
+    table_[signal::road_curvature_100m] = in.curvature_100m_per_m;
+    table_[signal::road_bearing_ahead] = in.bearing_ahead_rad;
+    table_[signal::environment_illuminance] = in.illuminance_lx;
+    table_[signal::environment_wetness] = in.wetness;
+    double oncoming_m = std::numeric_limits<double>::infinity(), preceding_m = oncoming_m, count = 0.0;
+    for (const OtherUser& other : in.surroundings.others) {
+        if (!other.lamps_on || other.ahead_m <= 0.0)
+            continue;
+        double& nearest_m = other.oncoming() ? oncoming_m : preceding_m;
+        nearest_m = std::min(nearest_m, std::hypot(other.ahead_m, other.left_m));
+        ++count;
+    }
+    table_[signal::others_nearest_oncoming] = oncoming_m;
+    table_[signal::others_nearest_preceding] = preceding_m;
+    table_[signal::others_count] = count;
+    for (std::size_t i = 0; i < scripted_.size(); ++i)
+        for (const auto& [from_s, value] : parameters_.inputs[i].values)
+            if (from_s <= in.time_s)
+                table_[scripted_[i]] = value;
+}
+
+void ControlLoop::fail(double time_s) {
+    const auto holds = [&](const ControlFailure& failure) { return time_s >= failure.at_s && time_s < failure.until_s; };
+    for (std::size_t i = 0; i < failing_.size(); ++i)
+        if (const ControlFailure& failure = parameters_.failures[i]; failure.kind == ControlFailure::Kind::lost_signal && holds(failure))
+            table_[failing_[i]] = not_a_number;
+    for (Driven& driven : driven_) {
+        const auto kind = driven.actual == lamp_signal::swivel ? ControlFailure::Kind::stuck_swivel : ControlFailure::Kind::stuck_levelling;
+        bool stuck = false;
+        for (std::size_t i = 0; i < failing_.size(); ++i)
+            stuck = stuck || (parameters_.failures[i].kind == kind && failing_[i] == driven.lamp && holds(parameters_.failures[i]));
+        if (driven.actuator)
+            driven.actuator->jam(stuck);
+    }
+}
+
+/// A value that no car or road has is a lost signal.
+void ControlLoop::check() {
+    for (std::size_t place = 1; place < table_.size(); ++place) {
+        const SignalKind& kind = table_.kind(place);
+        if (table_[place] >= kind.least && table_[place] <= kind.greatest)
+            continue;
+        out_of_range_[place] += std::isnan(table_[place]) ? 0U : 1U;
+        table_[place] = not_a_number;
+    }
+}
+
+void ControlLoop::advance(Driven& driven, double until_s) {
+    while (!driven.commands.empty() && driven.commands.front().first <= until_s) {
+        driven.actuator->advance(driven.commands.front().first);
+        driven.actuator->command(driven.commands.front().second);
+        driven.commands.pop_front();
+    }
+    driven.actuator->advance(until_s);
+}
+
+/// Commands go out, to arrive after the dead time. A command that is no number keeps the last one.
+void ControlLoop::order(double time_s) {
+    for (Driven& driven : driven_) {
+        const double command_rad = table_.of(driven.lamp, driven.command);
+        if (!std::isfinite(command_rad))
+            continue;
+        if (!driven.actuator)
+            driven.actuator.emplace(driven.parameters, command_rad, options_);
+        else if (driven.parameters.dead_time_s > 0.0)
+            driven.commands.emplace_back(time_s + driven.parameters.dead_time_s, command_rad);
+        else
+            driven.actuator->command(command_rad);
+    }
+}
+
+/// What follows at once is kept where it changes.
+void ControlLoop::keep(double time_s) {
+    const auto changed = [&](auto& kept, const auto& now, const auto& at_first) {
+        if (kept.empty() ? now != at_first : kept.back().second != now)
+            kept.emplace_back(time_s, now);
+    };
+    for (std::size_t lamp = 0; lamp < runs_.size(); ++lamp) {
+        double& level = table_.of(lamp, lamp_signal::level);
+        if (!std::isfinite(level)) // as it was
+            level = runs_[lamp].levels.empty() ? 1.0 : runs_[lamp].levels.back().second;
+        double lit = 0.0;
+        for (const double segment : segments_[lamp])
+            lit += segment;
+        table_.of(lamp, lamp_signal::segments_lit) = lit;
+        if (segments_[lamp].size() == 1)
+            level *= segments_[lamp].front();
+        else
+            changed(runs_[lamp].segments, segments_[lamp], std::vector<double>(segments_[lamp].size(), 1.0));
+        changed(runs_[lamp].levels, level, 1.0);
+    }
+    const auto mode = static_cast<BeamMode>(static_cast<int>(table_[signal::control_mode]));
+    for (const std::size_t lamp : mode_lamps_)
+        changed(runs_[lamp].modes, mode, BeamMode::c);
+}
+
+void ControlLoop::step(const ControlInputs& inputs) {
+    for (Driven& driven : driven_)
+        if (driven.actuator) {
+            advance(driven, inputs.time_s);
+            table_.of(driven.lamp, driven.actual) = driven.actuator->angle_rad();
+        }
+    read(inputs);
+    check();
+    fail(inputs.time_s);
+    controller_.step(table_, segments_, inputs.surroundings, started_ ? inputs.time_s - last_s_ : 0.0);
+    for (ControlPlugin& plugin : plugins_)
+        plugin.step(table_, segments_, inputs.surroundings);
+    check();
+    order(inputs.time_s);
+    keep(inputs.time_s);
+    if (!started_)
+        for (const Driven& driven : driven_)
+            table_.of(driven.lamp, driven.actual) = driven.actuator ? driven.actuator->angle_rad() : 0.0;
+    last_s_ = inputs.time_s;
+    started_ = true;
+}
+
+std::vector<LampRun> ControlLoop::finish(double end_s) {
+    for (Driven& driven : driven_) {
+        if (!driven.actuator)
+            continue;
+        advance(driven, end_s);
+        (driven.actual == lamp_signal::swivel ? runs_[driven.lamp].swivel : runs_[driven.lamp].pitch) = driven.actuator->take();
+    }
+    return std::move(runs_);
+}
+
+std::vector<std::string> ControlLoop::notes() const {
+    std::vector<std::string> notes;
+    for (std::size_t place = 0; place < out_of_range_.size(); ++place)
+        if (out_of_range_[place] > 0)
+            notes.push_back(fmt::format("signal {} was outside {:g} to {:g} {} at {} ticks, and taken for lost there", table_.name(place),
+                                        table_.kind(place).least, table_.kind(place).greatest, table_.kind(place).unit,
+                                        out_of_range_[place]));
+    for (const ControlPlugin& plugin : plugins_)
+        std::ranges::copy(plugin.notes(), std::back_inserter(notes));
+    return notes;
+}
+
+} // namespace fernlicht

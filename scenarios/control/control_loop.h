@@ -1,0 +1,76 @@
+// Lamp control as it runs in a car: at each tick signals come in, laws decide, actuators follow. The same for a drive played ahead and for
+// one that is still happening.
+#pragma once
+
+#include "scenarios/control/plugin.h"
+#include "scenarios/vehicle/actuator.h"
+
+#include <deque>
+
+namespace fernlicht {
+
+/// What the loop is told at a tick. What it has no name for stands in `signals`: scripted, or from a bus.
+struct ControlInputs {
+    double time_s = 0.0;
+    double distance_m = 0.0, speed_mps = 0.0, acceleration_mps2 = 0.0, yaw_rate_rad_s = 0.0, steering_rad = 0.0;
+    double spring_pitch_rad = 0.0, load_pitch_rad = 0.0;
+    double curvature_per_m = 0.0, curvature_25m_per_m = 0.0, curvature_50m_per_m = 0.0, curvature_100m_per_m = 0.0;
+    double bearing_ahead_rad = 0.0;
+    double illuminance_lx = 0.0, wetness = 0.0;
+    Surroundings surroundings;
+};
+
+/// What a lamp did until now.
+struct LampRun {
+    std::optional<ActuatorRun> swivel, pitch;
+    std::vector<std::pair<double, double>> levels;                ///< from when, which
+    std::vector<std::pair<double, BeamMode>> modes;               ///< from when, which; of lamps that have them
+    std::vector<std::pair<double, std::vector<double>>> segments; ///< from when, levels of its windows
+};
+
+class ControlLoop {
+  public:
+    /// Throws std::invalid_argument for a lamp or a signal that is not there, InputError for a plug-in that cannot be used.
+    ControlLoop(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
+                const SolverOptions& options = {});
+
+    /// Moves everything on to `inputs.time_s`, which is not before the last one. Throws InputError when an actuator's solver gives up or a
+    /// plug-in fails.
+    void step(const ControlInputs& inputs);
+    const SignalTable& signals() const { return table_; }
+
+    /// Lets the actuators come to `end_s` and hands over what the lamps did, in the order of the lamps. The loop is used up.
+    std::vector<LampRun> finish(double end_s);
+    /// What was odd: signals out of range, calls of plug-ins; one sentence each.
+    std::vector<std::string> notes() const;
+
+  private:
+    struct Driven {
+        std::size_t lamp = 0, command = 0, actual = 0; ///< into the lamps; lamp_signal
+        ActuatorParameters parameters;
+        std::optional<Actuator> actuator;               ///< from the first tick on
+        std::deque<std::pair<double, double>> commands; ///< on their way: when they arrive, rad
+    };
+    void read(const ControlInputs& inputs);
+    void fail(double time_s);
+    void check();
+    void advance(Driven& driven, double until_s);
+    void order(double time_s);
+    void keep(double time_s);
+
+    ControlParameters parameters_;
+    SolverOptions options_;
+    SignalTable table_;
+    std::vector<std::vector<double>> segments_; ///< by lamp: levels of its windows
+    LampController controller_;
+    std::vector<ControlPlugin> plugins_;
+    std::vector<Driven> driven_;
+    std::vector<LampRun> runs_;
+    std::vector<std::size_t> mode_lamps_;
+    std::vector<std::size_t> scripted_, failing_; ///< places of their signals, or the lamps that they are about
+    std::vector<std::size_t> out_of_range_;       ///< how often, by signal
+    double last_s_ = 0.0;
+    bool started_ = false;
+};
+
+} // namespace fernlicht

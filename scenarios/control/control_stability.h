@@ -1,0 +1,31 @@
+// Extremes of lamp control: how far beyond what they may do lamps get. Seconds together, so for commands and tests, not for a run.
+#pragma once
+
+#include "scenarios/control/control_run.h"
+#include "scenarios/vehicle/stability_study.h"
+
+namespace fernlicht {
+
+/// A course of bends made up for studies: 20 m/s, yaw rate 0.2 rad/s times sin(2 pi t / 4 s), its steering and bearing; `side` -1:
+/// mirrored.
+ControlInputs weaving(double time_s, double side = 1.0);
+/// Bend light by `law` for two lamps, with this period.
+ControlParameters plain_bend_light(BendLaw law, double period_s);
+
+/// Actuators from 0.1 Hz to 1 MHz, dead times from 0 to 5 s, periods from 0.1 ms to 1 s, each with each. Error: rad beyond the stops, or
+/// moved in 1 ms beyond what the rate limit allows; a value that is not finite is infinite.
+std::vector<ExtremeTrial> control_of_extreme_actuators();
+
+/// Signals that are NaN, infinite, 1e300, denormal, that change sign every tick, cars that stand, reverse, and take a hairpin at 80 m/s.
+/// Error as above.
+std::vector<ExtremeTrial> control_with_extreme_signals();
+
+/// The same course mirrored. Error: the sum of both angles where it should be 0, rad.
+std::vector<ExtremeTrial> control_mirrored();
+
+/// Bend light while weaving.
+ControlRun weave(BendLaw law, double period_s, double end_s);
+/// Error of the swivel over 4 s of weaving against a period of 0.25 ms, the largest at 997 moments, rad.
+double control_period_error_rad(BendLaw law, double period_s);
+
+} // namespace fernlicht

@@ -1,0 +1,51 @@
+// Automatic high beam, and its glare-free form: which windows meet others.
+#pragma once
+
+#include "scenarios/control/control_parameters.h"
+#include "scenarios/control/signals.h"
+#include "scenarios/control/surroundings.h"
+
+#include <glm/vec3.hpp>
+
+namespace fernlicht {
+
+/// On when the car is fast enough, the road dark and nobody near; each with a hysteresis of its own. Dips after `dip_delay_s`, comes after
+/// `on_delay_s`, fades in `fade_s`. A lost signal dips.
+class HighBeam {
+  public:
+    /// `dips`: others have it dipped; false where windows go dark instead.
+    HighBeam(const HighBeamParameters& parameters, bool dips) : parameters_(parameters), dips_(dips) {}
+    /// Its level, 0 to 1.
+    double step(const SignalTable& table, double dt_s);
+
+  private:
+    bool wanted(const SignalTable& table);
+
+    HighBeamParameters parameters_;
+    bool dips_, fast_ = false, dark_ = false, on_ = false, started_ = false;
+    double other_s_ = 0.0, level_ = 0.0;
+};
+
+/// Dark windows of one lamp.
+class LampWindows {
+  public:
+    LampWindows(SegmentedLamp lamp, const GlareFreeParameters& parameters)
+        : lamp_(std::move(lamp)), parameters_(parameters), levels_(lamp_.windows_deg.size(), 1.0), since_s_(levels_.size(), 0.0) {}
+
+    /// Level of each window. `position_m`: of the lamp in the car's frame; `yaw_rad`: where it points now, left positive. A window goes
+    /// dark `mask_delay_s` after some other user, with the margin to each side, is in it, and lights up `relight_delay_s` after the last.
+    const std::vector<double>& step(const std::vector<OtherUser>& others, const HighBeamParameters& reach, const glm::dvec3& position_m,
+                                    double yaw_rad, double dt_s);
+
+  private:
+    SegmentedLamp lamp_;
+    GlareFreeParameters parameters_;
+    std::vector<double> levels_;
+    std::vector<double> since_s_; ///< how long each has been asked to be otherwise
+    bool started_ = false;
+};
+
+/// The angles that a road user takes up, seen from a lamp: from, to, degrees, right positive; from > to: none, it is not before the lamp.
+std::pair<double, double> seen_deg(const OtherUser& other, const glm::dvec3& position_m, double yaw_rad);
+
+} // namespace fernlicht

@@ -1,0 +1,90 @@
+#include "scenarios/control/lamp_controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fernlicht {
+
+LampController::LampController(const ControlParameters& parameters, std::vector<ControlledLamp> lamps, const ControlledCar& car)
+    : parameters_(parameters), lamps_(std::move(lamps)) {
+    if (parameters_.bend) {
+        bend_.emplace(*parameters_.bend, car);
+        swivelling_ = places(parameters_.bend->lamps);
+    }
+    if (parameters_.cornering) {
+        cornering_.emplace(*parameters_.cornering);
+        left_corner_ = places(parameters_.cornering->left);
+        right_corner_ = places(parameters_.cornering->right);
+    }
+    if (parameters_.modes) {
+        modes_.emplace(*parameters_.modes);
+        mode_lamps_ = places(parameters_.modes->lamps);
+    }
+    if (parameters_.high_beam) {
+        high_beam_.emplace(*parameters_.high_beam, !parameters_.glare_free);
+        high_lamps_ = places(parameters_.high_beam->lamps);
+    }
+    if (parameters_.glare_free)
+        for (const SegmentedLamp& lamp : parameters_.glare_free->lamps)
+            windows_.emplace_back(places({lamp.name}).front(), LampWindows(lamp, *parameters_.glare_free));
+}
+
+std::vector<std::size_t> LampController::places(const std::vector<std::string>& names) const {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < lamps_.size(); ++i)
+        if (std::ranges::find(names, lamps_[i].name) != names.end())
+            places.push_back(i);
+    return places;
+}
+
+void LampController::step(SignalTable& table, std::vector<std::vector<double>>& segments, const Surroundings& surroundings, double dt_s) {
+    for (std::size_t lamp = 0; lamp < lamps_.size(); ++lamp)
+        table.of(lamp, lamp_signal::level) = 1.0;
+    if (bend_)
+        bend(table, dt_s);
+    if (parameters_.levelling)
+        level(table, dt_s);
+    if (cornering_) {
+        const CorneringLight::Levels levels = cornering_->step(table, dt_s);
+        for (const std::size_t lamp : left_corner_)
+            table.of(lamp, lamp_signal::level) = levels.left;
+        for (const std::size_t lamp : right_corner_)
+            table.of(lamp, lamp_signal::level) = levels.right;
+    }
+    if (modes_) {
+        const auto mode = static_cast<std::size_t>(modes_->step(table, dt_s));
+        table[signal::control_mode] = static_cast<double>(mode);
+        for (const std::size_t lamp : mode_lamps_)
+            table.of(lamp, lamp_signal::level) = parameters_.modes->settings[mode].level;
+    }
+    if (high_beam_) {
+        const double level = table[signal::control_high_beam] = high_beam_->step(table, dt_s);
+        for (const std::size_t lamp : high_lamps_)
+            table.of(lamp, lamp_signal::level) = level;
+    }
+    glare_free(table, segments, surroundings, dt_s);
+}
+
+void LampController::bend(SignalTable& table, double dt_s) {
+    const double bend_rad = table[signal::control_bend] = bend_->step(table, dt_s);
+    for (const std::size_t lamp : swivelling_)
+        table.of(lamp, lamp_signal::swivel_command) = bend_of_lamp_rad(*parameters_.bend, bend_rad, lamps_[lamp].position_m.y);
+}
+
+void LampController::level(SignalTable& table, double dt_s) {
+    const double pitch_rad = table[signal::ego_spring_pitch] + table[signal::ego_load_pitch];
+    const bool lost = !std::isfinite(pitch_rad), slow = parameters_.levelling->control == LevellingControl::slow;
+    const double seen_rad = slow && !lost ? mean_pitch_.step(pitch_rad, dt_s) : pitch_rad;
+    for (std::size_t lamp = 0; lamp < lamps_.size(); ++lamp)
+        table.of(lamp, lamp_signal::pitch_command) = lost ? parameters_.safe_pitch_rad : -seen_rad;
+}
+
+void LampController::glare_free(SignalTable& table, std::vector<std::vector<double>>& segments, const Surroundings& surroundings,
+                                double dt_s) {
+    for (auto& [lamp, windows] : windows_) {
+        const double yaw_rad = lamps_[lamp].yaw_rad + table.of(lamp, lamp_signal::swivel);
+        segments[lamp] = windows.step(surroundings.others, *parameters_.high_beam, lamps_[lamp].position_m, yaw_rad, dt_s);
+    }
+}
+
+} // namespace fernlicht

@@ -1,0 +1,199 @@
+#include "scenarios/control/plugin.h"
+
+#include "scenarios/control/fernlicht_control.h"
+#include "scenarios/control/guarded_call.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+namespace fernlicht {
+
+struct ControlPlugin::Parts {
+    PluginParameters parameters;
+    std::vector<ControlledLamp> lamps;
+    std::vector<bool> may_move;
+    void* library = nullptr;
+    const fernlicht_control_plugin_info* info = nullptr;
+    std::string name;
+    void* state = nullptr;
+    bool failed = false; ///< it must not be called any more
+    std::uint64_t every = 1, ticks = 0, calls = 0, over_budget = 0, left_out = 0;
+    double slowest_s = 0.0, last_s = 0.0;
+    /// Its last commands, that hold between calls.
+    std::vector<fernlicht_lamp_command> commands;
+    std::vector<std::vector<double>> segments;
+    std::vector<std::vector<double>> from_deg, to_deg; ///< by lamp
+    std::vector<std::string> names;
+    std::vector<const char*> name_pointers;
+
+    [[noreturn]] void refuse(const std::string& found, const std::string& expected = {}) const {
+        throw InputError({parameters.library, 0, 0, {}}, found, expected);
+    }
+    void call(const std::string& what, const std::function<void()>& work) {
+        const CallOutcome outcome = guarded_call(work, parameters.give_up_s);
+        failed = failed || !outcome.failed.empty();
+        if (failed)
+            refuse(fmt::format("{} in {}", printable(outcome.failed, 200), what), "a control law that comes back");
+        slowest_s = std::max(slowest_s, outcome.seconds);
+        over_budget += outcome.seconds > parameters.budget_s ? 1U : 0U;
+    }
+    void load();
+    void keep(SignalTable& table, std::vector<std::vector<double>>& all_segments) const;
+};
+
+void ControlPlugin::Parts::load() {
+    library = ::dlopen(parameters.library.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        refuse(fmt::format("cannot be loaded: {}", printable(::dlerror(), 200)), "a shared library for this machine");
+    using Entry = const fernlicht_control_plugin_info* (*)();
+    const auto entry = reinterpret_cast<Entry>(::dlsym(library, "fernlicht_control_plugin"));
+    if (!entry)
+        refuse("no function fernlicht_control_plugin()", "a library built against fernlicht_control.h");
+    call("fernlicht_control_plugin()", [&] { info = entry(); });
+    if (!info)
+        refuse("fernlicht_control_plugin() returned nothing");
+    if (info->version != FERNLICHT_CONTROL_VERSION)
+        refuse(fmt::format("version {} of the interface", info->version), fmt::format("version {}", FERNLICHT_CONTROL_VERSION));
+    if (info->size < sizeof(fernlicht_control_plugin_info) || !info->step)
+        refuse(fmt::format("a description of {} bytes{}", info->size, info->step ? "" : " without step()"),
+               fmt::format("at least {} bytes, with step()", sizeof(fernlicht_control_plugin_info)));
+    name = printable(info->name ? info->name : parameters.library.filename().string());
+    if (info->create)
+        call("create()", [&] { state = info->create(parameters.parameters.c_str()); });
+    over_budget = 0; // only steps have a budget
+    slowest_s = 0.0;
+}
+
+ControlPlugin::ControlPlugin(const PluginParameters& parameters, const std::vector<ControlledLamp>& lamps, double control_period_s)
+    : parts_(std::make_unique<Parts>()) {
+    Parts& p = *parts_;
+    p.parameters = parameters;
+    p.lamps = lamps;
+    p.every = static_cast<std::uint64_t>(std::max(1.0, std::ceil(parameters.period_s / control_period_s - 1.0e-6)));
+    for (const ControlledLamp& lamp : lamps) {
+        p.may_move.push_back(std::ranges::find(parameters.lamps, lamp.name) != parameters.lamps.end());
+        p.from_deg.emplace_back();
+        p.to_deg.emplace_back();
+        for (const auto& [from, to] : lamp.windows_deg) {
+            p.from_deg.back().push_back(from);
+            p.to_deg.back().push_back(to);
+        }
+    }
+    p.load();
+}
+
+ControlPlugin::ControlPlugin(ControlPlugin&&) noexcept = default;
+
+ControlPlugin::~ControlPlugin() {
+    if (!parts_ || !parts_->library)
+        return;
+    if (parts_->failed)
+        return; // its code is in an unknown state: neither called nor unloaded
+    if (parts_->info && parts_->info->destroy)
+        guarded_call([&] { parts_->info->destroy(parts_->state); }, parts_->parameters.give_up_s);
+    ::dlclose(parts_->library);
+}
+
+void ControlPlugin::Parts::keep(SignalTable& table, std::vector<std::vector<double>>& all_segments) const {
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        if (!may_move[i])
+            continue;
+        table.of(i, lamp_signal::swivel_command) = commands[i].swivel_rad;
+        table.of(i, lamp_signal::pitch_command) = commands[i].pitch_rad;
+        table.of(i, lamp_signal::level) = commands[i].level;
+        all_segments[i] = segments[i];
+    }
+}
+
+void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& all_segments, const Surroundings& surroundings) {
+    Parts& p = *parts_;
+    if (p.ticks++ % p.every != 0)
+        return p.keep(table, all_segments);
+
+    std::vector<fernlicht_road_point> road;
+    for (const RoadPoint& point : surroundings.road)
+        road.push_back({point.along_m, point.ahead_m, point.left_m, point.curvature_per_m});
+    std::vector<fernlicht_other> others;
+    for (const OtherUser& other : surroundings.others)
+        others.push_back(
+            {other.ahead_m, other.left_m, other.heading_rad, other.speed_mps, other.width_m, other.height_m, other.lamps_on ? 1 : 0});
+    if (p.names.empty()) {
+        for (std::size_t place = 0; place < table.size(); ++place)
+            p.names.push_back(table.name(place));
+        for (const std::string& name : p.names)
+            p.name_pointers.push_back(name.c_str());
+    }
+    std::vector<fernlicht_lamp> lamps;
+    std::vector<fernlicht_lamp_command> commands;
+    std::vector<std::vector<double>> segments = all_segments;
+    for (std::size_t i = 0; i < p.lamps.size(); ++i) {
+        const ControlledLamp& lamp = p.lamps[i];
+        lamps.push_back({lamp.name.c_str(), lamp.position_m.x, lamp.position_m.y, lamp.position_m.z, lamp.yaw_rad,
+                         table.of(i, lamp_signal::swivel), table.of(i, lamp_signal::pitch), p.may_move[i] ? 1 : 0, lamp.windows_deg.size(),
+                         p.from_deg[i].data(), p.to_deg[i].data()});
+        commands.push_back({table.of(i, lamp_signal::swivel_command), table.of(i, lamp_signal::pitch_command),
+                            table.of(i, lamp_signal::level), segments[i].data()});
+    }
+    const std::vector<double> values = table.values(); // a copy: the library may write where it should not
+    fernlicht_control_input in{};
+    in.size = sizeof in;
+    in.time_s = table[signal::time];
+    in.dt_s = p.calls > 0 ? in.time_s - p.last_s : 0.0;
+    in.ego = {table[signal::ego_distance], table[signal::ego_speed],    table[signal::ego_acceleration],
+              table[signal::ego_yaw_rate], table[signal::ego_steering], table[signal::ego_spring_pitch] + table[signal::ego_load_pitch]};
+    in.illuminance_lx = table[signal::environment_illuminance];
+    in.wetness = table[signal::environment_wetness];
+    in.road_count = road.size();
+    in.other_count = others.size();
+    in.lamp_count = lamps.size();
+    in.signal_count = values.size();
+    in.road = road.data();
+    in.others = others.data();
+    in.lamps = lamps.data();
+    in.signal_names = p.name_pointers.data();
+    in.signal_values = values.data();
+    fernlicht_control_output out{sizeof(fernlicht_control_output), commands.size(), commands.data()};
+    const std::vector<fernlicht_lamp_command> before = commands;
+    int answer = 0;
+    p.call(fmt::format("step() of '{}' at {:g} s", p.name, in.time_s), [&] { answer = p.info->step(p.state, &in, &out); });
+    if (answer != 0)
+        p.refuse(fmt::format("step() of '{}' failed with {} at {:g} s", p.name, answer, in.time_s), "0");
+    p.last_s = in.time_s;
+    ++p.calls;
+
+    const bool first = p.commands.empty();
+    const auto taken = [&](double value, double least, double greatest, double otherwise) {
+        const bool good = value >= least && value <= greatest;
+        p.left_out += good ? 0U : 1U;
+        return good ? value : otherwise;
+    };
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        if (!p.may_move[i])
+            continue;
+        const fernlicht_lamp_command& held = first ? before[i] : p.commands[i];
+        commands[i].swivel_rad = taken(commands[i].swivel_rad, -1.6, 1.6, held.swivel_rad);
+        commands[i].pitch_rad = taken(commands[i].pitch_rad, -0.3, 0.3, held.pitch_rad);
+        commands[i].level = taken(commands[i].level, 0.0, 1.0, held.level);
+        for (std::size_t k = 0; k < segments[i].size(); ++k)
+            segments[i][k] = taken(segments[i][k], 0.0, 1.0, first ? all_segments[i][k] : p.segments[i][k]);
+    }
+    p.commands = std::move(commands);
+    p.segments = std::move(segments);
+    p.keep(table, all_segments);
+}
+
+std::vector<std::string> ControlPlugin::notes() const {
+    const Parts& p = *parts_;
+    std::vector<std::string> notes{fmt::format("control law '{}': {} calls", p.name, p.calls)};
+    if (p.over_budget > 0)
+        notes.push_back(
+            fmt::format("control law '{}': some calls took longer than their budget of {:g} ms", p.name, 1e3 * p.parameters.budget_s));
+    if (p.left_out > 0)
+        notes.push_back(fmt::format("control law '{}': {} commands were no numbers or out of range, and left out", p.name, p.left_out));
+    return notes;
+}
+
+} // namespace fernlicht

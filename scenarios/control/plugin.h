@@ -1,0 +1,29 @@
+// A control law from a shared library (fernlicht_control.h), called and watched.
+#pragma once
+
+#include "scenarios/control/lamp_controller.h"
+
+namespace fernlicht {
+
+class ControlPlugin {
+  public:
+    /// Loads the library and makes the law's state. Throws InputError naming the library for a file that is none, a missing function, a
+    /// wrong version, and a state that could not be made.
+    ControlPlugin(const PluginParameters& parameters, const std::vector<ControlledLamp>& lamps, double control_period_s);
+    ControlPlugin(ControlPlugin&&) noexcept;
+    ~ControlPlugin();
+
+    /// Calls the law when its period is over, with the table as the laws before left it, and takes its commands into table and segments.
+    /// Between calls its last commands hold. A command that is no number or out of range is left out and counted. Throws InputError when
+    /// the law crashes, throws, reports a failure, or takes longer than `give_up_s`.
+    void step(SignalTable& table, std::vector<std::vector<double>>& segments, const Surroundings& surroundings);
+
+    /// How it went: calls, time over the budget, commands left out. Times are the machine's: they go into notes and nowhere else.
+    std::vector<std::string> notes() const;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+} // namespace fernlicht

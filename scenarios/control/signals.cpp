@@ -1,0 +1,83 @@
+#include "scenarios/control/signals.h"
+
+#include "scenarios/values/errors.h"
+
+#include <fmt/format.h>
+#include <limits>
+
+namespace fernlicht {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+// Ranges are generous: what lies beyond them no road and no car does, so that it is a fault of a sensor, a script or a plug-in.
+constexpr std::array<SignalKind, std::size_t{signal::count} + std::size_t{lamp_signal::count}> kinds{{
+    {"time_s", "s", 0.0, 1.0e6, "drive", "of the drive, from its start"},
+    {"ego.distance_m", "m", -1.0e7, 1.0e7, "car", "of the rear axle along the route"},
+    {"ego.speed_mps", "m/s", -60.0, 150.0, "car", "along the car; below 0: backwards"},
+    {"ego.acceleration_mps2", "m/s2", -50.0, 50.0, "car", "along the car, over the last control period"},
+    {"ego.yaw_rate_rad_s", "rad/s", -6.3, 6.3, "car", "to the left positive; without a vehicle: speed times the lane's curvature"},
+    {"ego.steering_rad", "rad", -1.6, 1.6, "car", "of the front wheels, to the left positive; without a vehicle: as the lane's bend asks"},
+    {"ego.spring_pitch_rad", "rad", -0.5, 0.5, "car",
+     "of the body as sensors at the springs see it, nose up positive; without a vehicle: 0"},
+    {"ego.load_pitch_rad", "rad", -0.2, 0.2, "drive", "the part of the pitch that the load makes, nose up positive"},
+    {"ego.indicator", "1", -1.0, 1.0, "drive", "1 left, -1 right, 0 none"},
+    {"ego.wipers", "1", 0.0, 1.0, "drive", "1: they wipe all the time"},
+    {"road.curvature_per_m", "1/m", -1.0, 1.0, "road", "of the own lane at the rear axle, left bends positive"},
+    {"road.curvature_ahead_25m_per_m", "1/m", -1.0, 1.0, "road", "the same, 25 m ahead"},
+    {"road.curvature_ahead_50m_per_m", "1/m", -1.0, 1.0, "road", "50 m ahead"},
+    {"road.curvature_ahead_100m_per_m", "1/m", -1.0, 1.0, "road", "100 m ahead"},
+    {"road.bearing_ahead_rad", "rad", -3.2, 3.2, "road",
+     "of the lane's centre where the car will be after the bend light's preview, seen from the car, left positive"},
+    {"road.motorway", "1", 0.0, 1.0, "drive", "1: lanes of both directions lie apart"},
+    {"environment.illuminance_lx", "lx", 0.0, 2.0e5, "drive", "horizontal, of sky and street lamps"},
+    {"environment.wetness", "1", 0.0, 1.0, "drive", "of the road: 0 dry, 1 under water"},
+    {"others.nearest_oncoming_m", "m", 0.0, none, "traffic", "to the nearest with lamps on that faces this car; inf: none"},
+    {"others.nearest_preceding_m", "m", 0.0, none, "traffic", "to the nearest ahead with lamps on that drives the same way; inf: none"},
+    {"others.count", "1", 0.0, 1.0e6, "traffic", "with lamps on, ahead and within reach of the camera"},
+    {"control.bend_rad", "rad", -1.6, 1.6, "laws", "where the bend light's law looks, left positive"},
+    {"control.mode", "1", 0.0, 3.0, "laws", "of the passing beam: 0 C, 1 V, 2 E, 3 W"},
+    {"control.high_beam", "1", 0.0, 1.0, "laws", "1: on; between: fading"},
+    {"lamp.*.swivel_command_rad", "rad", -1.6, 1.6, "laws", "asked of the lamp's actuator, left positive"},
+    {"lamp.*.swivel_rad", "rad", -1.6, 1.6, "actuators", "what it has done"},
+    {"lamp.*.pitch_command_rad", "rad", -0.3, 0.3, "laws", "asked of the levelling, up positive"},
+    {"lamp.*.pitch_rad", "rad", -0.3, 0.3, "actuators", "what it has done"},
+    {"lamp.*.level", "1", 0.0, 1.0, "laws", "times the level that the drive gives the lamp"},
+    {"lamp.*.segments_lit", "1", 0.0, 64.0, "laws", "of a lamp in segments: the sum of their levels"},
+}};
+
+} // namespace
+
+std::span<const SignalKind> known_signals() { return kinds; }
+
+SignalTable::SignalTable(std::vector<std::string> lamps)
+    : lamps_(std::move(lamps)), values_(std::size_t{signal::count} + lamps_.size() * lamp_signal::count, 0.0) {
+    values_[signal::others_nearest_oncoming] = values_[signal::others_nearest_preceding] = none;
+    for (std::size_t lamp = 0; lamp < lamps_.size(); ++lamp)
+        of(lamp, lamp_signal::level) = 1.0;
+}
+
+const SignalKind& SignalTable::kind(std::size_t place) const {
+    return kinds[place < signal::count ? place : std::size_t{signal::count} + (place - signal::count) % lamp_signal::count];
+}
+
+std::string SignalTable::name(std::size_t place) const {
+    const std::string_view pattern = kind(place).name;
+    if (place < signal::count)
+        return std::string(pattern);
+    const std::size_t star = pattern.find('*');
+    return fmt::format("{}{}{}", pattern.substr(0, star), lamps_[(place - signal::count) / lamp_signal::count], pattern.substr(star + 1));
+}
+
+std::size_t SignalTable::find(const std::string& wanted) const {
+    std::vector<std::string> names;
+    for (std::size_t place = 0; place < size(); ++place) {
+        names.push_back(name(place));
+        if (names.back() == wanted)
+            return place;
+    }
+    const std::string near = nearest_name(wanted, names);
+    throw std::invalid_argument(near.empty() ? "a signal that 'fernlicht signals' lists" : fmt::format("'{}', the nearest signal", near));
+}
+
+} // namespace fernlicht

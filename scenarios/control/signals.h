@@ -1,0 +1,86 @@
+// The table that inputs, laws, plug-ins and outputs of lamp control share: values by name and unit, one row per control tick.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fernlicht {
+
+struct SignalKind {
+    std::string_view name; ///< "ego.speed_mps"; "lamp.*.swivel_rad" stands for one signal of each lamp, its name in place of the star
+    std::string_view unit;
+    double least = 0.0, greatest = 0.0; ///< beyond them a value is taken for wrong
+    std::string_view writer;            ///< "car", "road", "drive", "traffic", "laws", "actuators"
+    std::string_view meaning;
+};
+
+/// Places of the signals that are there once.
+namespace signal {
+enum : std::size_t {
+    time,
+    ego_distance,
+    ego_speed,
+    ego_acceleration,
+    ego_yaw_rate,
+    ego_steering,
+    ego_spring_pitch,
+    ego_load_pitch,
+    ego_indicator,
+    ego_wipers,
+    road_curvature,
+    road_curvature_25m,
+    road_curvature_50m,
+    road_curvature_100m,
+    road_bearing_ahead,
+    road_motorway,
+    environment_illuminance,
+    environment_wetness,
+    others_nearest_oncoming,
+    others_nearest_preceding,
+    others_count,
+    control_bend,
+    control_mode,
+    control_high_beam,
+    count
+};
+}
+
+/// Places of a lamp's signals.
+namespace lamp_signal {
+enum : std::size_t { swivel_command, swivel, pitch_command, pitch, level, segments_lit, count };
+}
+
+/// Those that are there once, by their places; then those of each lamp, by theirs.
+std::span<const SignalKind> known_signals();
+
+/// A value that is not a number says that the signal is lost; infinity is a distance to nothing.
+class SignalTable {
+  public:
+    explicit SignalTable(std::vector<std::string> lamps = {});
+
+    const std::vector<std::string>& lamps() const { return lamps_; }
+    double& operator[](std::size_t place) { return values_[place]; }
+    double operator[](std::size_t place) const { return values_[place]; }
+    std::size_t place(std::size_t lamp, std::size_t of_lamp) const {
+        return std::size_t{signal::count} + lamp * lamp_signal::count + of_lamp;
+    }
+    double& of(std::size_t lamp, std::size_t of_lamp) { return values_[place(lamp, of_lamp)]; }
+    double of(std::size_t lamp, std::size_t of_lamp) const { return values_[place(lamp, of_lamp)]; }
+
+    std::size_t size() const { return values_.size(); }
+    const std::vector<double>& values() const { return values_; }
+    std::string name(std::size_t place) const;
+    const SignalKind& kind(std::size_t place) const;
+    /// Throws std::invalid_argument, whose text names the nearest, for a name that no signal of these lamps has.
+    std::size_t find(const std::string& name) const;
+
+  private:
+    std::vector<std::string> lamps_;
+    std::vector<double> values_;
+};
+
+} // namespace fernlicht

@@ -1,0 +1,301 @@
+#include "scenarios/drives/control_world.h"
+
+#include "scenarios/control/control_run.h"
+#include "scenarios/control/masked_beam.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/drives/motion.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace fernlicht {
+namespace {
+
+constexpr double road_ahead_m = 200.0, road_step_m = 5.0; ///< what plug-ins are shown (fernlicht_control.h)
+constexpr double mask_steps = 16.0; ///< levels of a file's windows are rounded to this part: each is a beam of its own
+constexpr std::size_t most_masks = 2000;
+constexpr double shortest_bearing_m = 5.0; ///< nearer, the direction to a place on the lane says nothing of the bend
+
+/// All that control reads, as a function of time alone.
+class ControlWorld {
+  public:
+    ControlWorld(const Drive& drive, const Route& route, const CarRun* car)
+        : drive_(drive), route_(route), car_(car),
+          course_(road_course(route, std::min(route.length_m(), distance_m(drive.speed, drive.duration_s) + 320.0))) {}
+
+    ControlInputs at(double time_s, const ControlParameters& control) const {
+        ControlInputs in;
+        in.time_s = time_s;
+        drive_.ego_track ? on_track(in, control) : car_ ? on_springs(in) : on_rails(in);
+        in.acceleration_mps2 = acceleration_mps2(time_s, control.period_s);
+        if (!drive_.ego_track)
+            see_lane(in, control);
+        if (!control.plugins.empty())
+            in.surroundings.road = road_ahead(in);
+        if (!drive_.traffic.empty() && (control.high_beam || !control.plugins.empty()))
+            see_others(in);
+        in.load_pitch_rad = load_on_springs(control.load).spring_pitch_rad;
+        in.illuminance_lx = horizontal_lx(time_s);
+        in.wetness = drive_.weather.wetness;
+        return in;
+    }
+
+    struct Resting {
+        double spring_pitch_rad = 0.0, body_pitch_rad = 0.0, rear_lift_m = 0.0;
+    };
+    /// Springs and tyres of the vehicle, else of the middle-class car; each axle goes down by its load over its stiffness.
+    Resting load_on_springs(const AxleLoad& load) const {
+        const VehicleParameters car = drive_.vehicle.value_or(VehicleParameters{});
+        const auto springs_m = [](double n, const AxleParameters& axle) { return -n / axle.spring_n_per_m; };
+        const auto tyres_m = [](double n, const AxleParameters& axle) { return -n / axle.tyre_spring_n_per_m; };
+        const double front_m = springs_m(load.front_n, car.front), rear_m = springs_m(load.rear_n, car.rear);
+        const double front_tyre_m = tyres_m(load.front_n, car.front), rear_tyre_m = tyres_m(load.rear_n, car.rear);
+        return {(front_m - rear_m) / drive_.wheelbase_m, (front_m + front_tyre_m - rear_m - rear_tyre_m) / drive_.wheelbase_m,
+                rear_m + rear_tyre_m};
+    }
+
+  private:
+    double curvature_per_m(double distance_m) const {
+        double derivative = 0.0;
+        return RoadCourse::at(course_.curvature_per_m, distance_m, derivative);
+    }
+
+    /// The rear axle follows the lane's centre: it turns by the lane's curvature, and the front wheels stand as the lane's bend asks.
+    void on_rails(ControlInputs& in) const {
+        in.distance_m = distance_m(drive_.speed, in.time_s);
+        in.speed_mps = speed_mps(drive_.speed, in.time_s);
+        const double k = curvature_per_m(in.distance_m);
+        in.yaw_rate_rad_s = k * in.speed_mps;
+        in.steering_rad = std::atan(k * drive_.wheelbase_m);
+    }
+
+    void on_springs(ControlInputs& in) const {
+        const CarPlace place = car_->at(in.time_s);
+        in.distance_m = std::max(place.distance_m, 0.0);
+        in.speed_mps = place.speed_mps;
+        in.yaw_rate_rad_s = place.yaw_rate_rad_s;
+        in.steering_rad = place.steering_rad;
+        in.spring_pitch_rad = place.spring_pitch_rad;
+    }
+
+    /// A track knows where the car will be: that is the lane ahead. Rates are differences over 10 ms to each side.
+    void on_track(ControlInputs& in, const ControlParameters& control) const {
+        const double t_s = in.time_s;
+        in.distance_m = distance_m(drive_.speed, t_s);
+        in.speed_mps = drive_.ego_track->at(t_s).speed_mps;
+        in.yaw_rate_rad_s = track_yaw_rate_rad_s(t_s);
+        in.curvature_per_m = track_curvature_per_m(t_s);
+        in.steering_rad = std::atan(in.curvature_per_m * drive_.wheelbase_m);
+        const double v = std::max(in.speed_mps, 1.0);
+        in.curvature_25m_per_m = track_curvature_per_m(t_s + 25.0 / v);
+        in.curvature_50m_per_m = track_curvature_per_m(t_s + 50.0 / v);
+        in.curvature_100m_per_m = track_curvature_per_m(t_s + 100.0 / v);
+        const double preview_s = control.bend ? control.bend->preview_s : 0.0;
+        const glm::dvec3 there = to_local(ego(in), drive_.ego_track->at(t_s + preview_s).pose.position_m);
+        in.bearing_ahead_rad = std::hypot(there.x, there.y) > 1.0 ? std::atan2(there.y, there.x) : 0.0;
+    }
+
+    double track_yaw_rate_rad_s(double time_s) const {
+        constexpr double beside_s = 0.01;
+        const glm::dvec3 before = drive_.ego_track->at(time_s - beside_s).pose.forward();
+        const glm::dvec3 after = drive_.ego_track->at(time_s + beside_s).pose.forward();
+        return std::remainder(std::atan2(after.y, after.x) - std::atan2(before.y, before.x), 2.0 * pi) / (2.0 * beside_s);
+    }
+
+    double track_curvature_per_m(double time_s) const {
+        const double v = drive_.ego_track->at(time_s).speed_mps;
+        return std::abs(v) > 0.5 ? std::clamp(track_yaw_rate_rad_s(time_s) / v, -1.0, 1.0) : 0.0;
+    }
+
+    void see_lane(ControlInputs& in, const ControlParameters& control) const {
+        in.curvature_per_m = curvature_per_m(in.distance_m);
+        in.curvature_25m_per_m = curvature_per_m(in.distance_m + 25.0);
+        in.curvature_50m_per_m = curvature_per_m(in.distance_m + 50.0);
+        in.curvature_100m_per_m = curvature_per_m(in.distance_m + 100.0);
+        if (control.bend && control.bend->law == BendLaw::route)
+            in.bearing_ahead_rad = bearing_rad(in, std::max(in.speed_mps * control.bend->preview_s, shortest_bearing_m));
+    }
+
+    /// Road users as a camera without faults has them: those ahead, nothing hides them.
+    void see_others(ControlInputs& in) const {
+        const Pose from = ego(in);
+        for (const RoadUser& user : drive_.traffic) {
+            if (!user.track || !user.visible_at(in.time_s))
+                continue;
+            const TrackPoint at = user.track->at(in.time_s);
+            const glm::dvec3 forward = at.pose.forward() * from.axes; // in the car's frame
+            OtherUser other;
+            other.name = user.name;
+            other.heading_rad = std::atan2(forward.y, forward.x);
+            const double near_x_m = other.oncoming() ? user.rear_m + user.size_m.x : user.rear_m;
+            const glm::dvec3 near_end = to_local(from, to_parent(at.pose, {near_x_m, 0.0, 0.0}));
+            other.ahead_m = near_end.x;
+            other.left_m = near_end.y;
+            other.speed_mps = at.speed_mps;
+            other.width_m = user.size_m.y;
+            other.height_m = user.size_m.z;
+            other.lamps_on = shines(user, in.time_s);
+            if (other.ahead_m > 0.0)
+                in.surroundings.others.push_back(std::move(other));
+        }
+    }
+
+    static bool shines(const RoadUser& user, double time_s) {
+        return std::ranges::any_of(user.lamps, [&](const TrafficLamp& mounted) {
+            MountedLamp lamp = mounted.lamp;
+            for (const LampChange& change : user.changes)
+                if (change.time_s <= time_s && change.lamp == lamp.name)
+                    apply(change, lamp);
+            return lamp.intensity_factor() > 0.0;
+        });
+    }
+
+    /// Diffuse, and of the sun or the moon on a level plane.
+    double horizontal_lx(double time_s) const {
+        const Daylight daylight = drive_.daylight.clock ? daylight_at(drive_.daylight, time_s) : drive_.daylight;
+        const DirectLight* const direct = daylight.direct();
+        return daylight.horizontal_illuminance_lx +
+               (direct ? direct->illuminance_lx * std::max(std::sin(direct->elevation_rad), 0.0) : 0.0);
+    }
+
+    double acceleration_mps2(double time_s, double period_s) const {
+        const double before_s = std::max(time_s - period_s, 0.0), span_s = time_s - before_s;
+        const auto speed = [&](double t_s) {
+            return drive_.ego_track ? drive_.ego_track->at(t_s).speed_mps : car_ ? car_->at(t_s).speed_mps : speed_mps(drive_.speed, t_s);
+        };
+        return span_s > 0.0 ? (speed(time_s) - speed(before_s)) / span_s : 0.0;
+    }
+
+    /// Without pitch and roll.
+    Pose ego(const ControlInputs& in) const {
+        if (drive_.ego_track)
+            return drive_.ego_track->at(in.time_s).pose;
+        const CarPlace place = car_ ? car_->at(in.time_s) : CarPlace{};
+        Pose pose = route_.pose(std::min(in.distance_m, route_.length_m()), place.offset_left_m);
+        pose.axes = pose.axes * axes_from_angles(place.heading_rad, 0.0, 0.0);
+        return pose;
+    }
+
+    /// A place on the lane's centre; beyond the route's end the lane goes on straight.
+    glm::dvec3 lane_m(double at_m) const {
+        const Pose pose = route_.pose(std::min(at_m, route_.length_m()));
+        return pose.position_m + std::max(at_m - route_.length_m(), 0.0) * pose.forward();
+    }
+
+    double bearing_rad(const ControlInputs& in, double ahead_m) const {
+        const glm::dvec3 there = to_local(ego(in), lane_m(in.distance_m + ahead_m));
+        return std::atan2(there.y, there.x);
+    }
+
+    std::vector<RoadPoint> road_ahead(const ControlInputs& in) const {
+        const Pose from = ego(in);
+        std::vector<RoadPoint> road;
+        if (drive_.ego_track)
+            return road; // the track is no road
+        for (double along_m = 0.0; along_m <= road_ahead_m; along_m += road_step_m) {
+            const glm::dvec3 there = to_local(from, lane_m(in.distance_m + along_m));
+            road.push_back({along_m, there.x, there.y, curvature_per_m(in.distance_m + along_m)});
+        }
+        return road;
+    }
+
+    const Drive& drive_;
+    const Route& route_;
+    const CarRun* car_;
+    RoadCourse course_;
+};
+
+ControlledCar controlled_car(const Drive& drive) {
+    ControlledCar car{drive.wheelbase_m, 0.0};
+    if (drive.vehicle) {
+        CarModel model;
+        model.car = *drive.vehicle;
+        model.wheelbase_m = drive.wheelbase_m;
+        car.self_steering_s2_per_m = model.self_steering_gradient();
+    }
+    return car;
+}
+
+std::vector<std::string> notes_of(const ControlRun& run) {
+    std::vector<std::string> notes{fmt::format("lamp control: {} ticks of {:g} ms", run.ticks, 1e3 * run.period_s)};
+    notes.insert(notes.end(), run.notes.begin(), run.notes.end());
+    return notes;
+}
+
+/// The file of each lamp that is cut into windows, for each state of them that comes; the same state is the same file.
+void mask_files(const Variant& variant, const ControlParameters& control, ControlRun& run) {
+    if (!control.glare_free)
+        return;
+    run.masks.resize(run.lamps.size());
+    std::map<std::pair<std::size_t, std::vector<double>>, std::shared_ptr<const LampFile>> known;
+    for (const SegmentedLamp& segmented : control.glare_free->lamps) {
+        const std::size_t lamp = run.lamp(segmented.name);
+        for (const auto& [from_s, exact] : run.runs[lamp].segments) {
+            std::vector<double> levels;
+            for (const double level : exact)
+                levels.push_back(std::round(level * mask_steps) / mask_steps);
+            std::shared_ptr<const LampFile>& file = known[{lamp, levels}];
+            if (!file && std::ranges::any_of(levels, [](double level) { return level != 1.0; })) {
+                LampFile dark = *variant.lamps[lamp].file;
+                dark.table = masked(dark.table, segmented.windows_deg, levels);
+                file = std::make_shared<const LampFile>(std::move(dark));
+            }
+            run.masks[lamp].emplace_back(from_s, file);
+            if (known.size() > most_masks)
+                throw InputError({}, fmt::format("more than {} states of the glare-free beam's windows", most_masks),
+                                 "fewer windows, or fades that are shorter");
+        }
+    }
+}
+
+std::vector<ControlledLamp> controlled_lamps(const Variant& variant) {
+    std::vector<ControlledLamp> lamps;
+    for (const MountedLamp& lamp : variant.lamps) {
+        lamps.push_back({lamp.name, lamp.position_m, lamp.yaw_rad, {}});
+        if (variant.control->glare_free)
+            for (const SegmentedLamp& segmented : variant.control->glare_free->lamps)
+                if (segmented.name == lamp.name)
+                    lamps.back().windows_deg = segmented.windows_deg;
+    }
+    return lamps;
+}
+
+void simulate_control(const Drive& drive, Variant& variant, const ControlWorld& world) {
+    const ControlParameters& control = *variant.control;
+    Motion motion = variant.motion ? *variant.motion : Motion{};
+    try {
+        const SolverOptions options =
+            drive.vehicle ? SolverOptions{.solver = drive.vehicle->solver, .tolerance = drive.vehicle->tolerance} : SolverOptions{};
+        motion.control = run_control(
+            control, controlled_lamps(variant), controlled_car(drive), [&](double time_s) { return world.at(time_s, control); },
+            {drive.duration_s, drive.step_s}, options);
+        const ControlWorld::Resting resting = world.load_on_springs(control.load);
+        motion.control->body_pitch_rad = resting.body_pitch_rad;
+        motion.control->rear_lift_m = resting.rear_lift_m;
+        mask_files(variant, control, *motion.control);
+    } catch (const InputError& error) {
+        if (!error.where().file.empty())
+            throw;
+        throw InputError({drive.file, 0, 0, fmt::format("control of '{}'", variant.name)}, error.what());
+    }
+    const std::vector<std::string> notes = notes_of(*motion.control);
+    motion.notes.insert(motion.notes.end(), notes.begin(), notes.end());
+    variant.motion = std::make_shared<const Motion>(std::move(motion));
+}
+
+} // namespace
+
+void simulate_control(Drive& drive, const Route& route) {
+    if (std::ranges::none_of(drive.variants, [](const Variant& variant) { return variant.control != nullptr; }))
+        return;
+    const std::shared_ptr<const CarRun> car = drive.vehicle ? drive.variants.front().motion->car : nullptr;
+    const ControlWorld world(drive, route, car.get());
+    for (Variant& variant : drive.variants)
+        if (variant.control)
+            simulate_control(drive, variant, world);
+}
+
+} // namespace fernlicht

@@ -1,0 +1,168 @@
+// Lamp control in drives: what is read is written back, what is wrong is refused, and moments have what the laws did.
+#include "scenarios/control/control_parameters.h"
+#include "scenarios/drives/advance.h"
+#include "scenarios/drives/control_world.h"
+#include "scenarios/drives/motion.h"
+#include "scenarios/traffic/place_traffic.h"
+#include "scenarios/values/errors.h"
+#include "tests/scenarios/drives/drive_fixture.h"
+
+#include <cmath>
+#include <fstream>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path library = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
+
+struct Played {
+    Drive drive;
+    RoadNetwork network = read_opendrive(drive.road_file);
+    Route route{network, drive.start, drive.via};
+
+    explicit Played(Drive d) : drive(std::move(d)) {
+        fit_to_route(drive, route);
+        simulate(drive, route);
+        place_traffic(drive, network, route);
+        simulate_control(drive, route);
+    }
+    Moment at(double time_s, std::size_t variant = 0) const {
+        const int tick = static_cast<int>(std::lround(time_s / drive.step_s));
+        return moment_at({tick, time_s, distance_m(drive.speed, time_s), speed_mps(drive.speed, time_s)}, drive, route,
+                         drive.variants.at(variant));
+    }
+};
+
+/// Angle of a lamp to the left of the car.
+double swivel_deg(const Moment& moment, std::size_t lamp) {
+    const glm::dvec3 in_car = moment.lamps[lamp].pose.forward() * moment.ego.axes;
+    return degrees(std::atan2(in_car.y, in_car.x));
+}
+
+class ControlDrive : public DriveFixture {};
+
+TEST_F(ControlDrive, ShippedBendLightLooksIntoTheBend) {
+    const Played played(read_drive(library / "s-bend-alc.yaml"));
+    // 64.4 km/h = 17.9 m/s, 150 m, 1.5 s: 17.9 * 1.5 / 300 rad = 5.1 degrees inside, 0.6 of it outside.
+    double left = 0.0, right = 0.0;
+    for (double t = 0.0; t < 30.0; t += 0.5) {
+        const Moment moment = played.at(t, 1);
+        left = std::max(left, swivel_deg(moment, 0));
+        right = std::min(right, swivel_deg(moment, 1));
+        EXPECT_NEAR(swivel_deg(played.at(t, 0), 0), 0.0, 1e-9);
+        EXPECT_EQ(moment.ego, played.at(t, 0).ego) << "lamps do not act on the car";
+    }
+    EXPECT_NEAR(left, 5.1, 0.5);
+    EXPECT_NEAR(right, -5.1, 0.5) << "and a little more where the bend begins";
+    const Moment bend = played.at(12.0, 1);
+    const double inner = std::max(std::abs(swivel_deg(bend, 0)), std::abs(swivel_deg(bend, 1)));
+    const double outer = std::min(std::abs(swivel_deg(bend, 0)), std::abs(swivel_deg(bend, 1)));
+    EXPECT_NEAR(outer, 0.6 * inner, 0.02 * inner + 0.01);
+}
+
+const std::string everything = R"(    control:
+      period_s: 0.01
+      bend: {law: route, lamps: [left], gain: 0.9, dead_band_deg: 0.2, outer_share: 0.5, least_deg: -10, greatest_deg: 8, dead_time_s: 0.1}
+      cornering: {left: [right], until_kmh: 41, on_deg: 3}
+      levelling: {control: static, natural_frequency_hz: 2}
+      load: {front_kg: 10, rear_n: 2000}
+      modes: {lamps: [left], e: {level: 0.5, pitch_deg: 0.3, file: low.ies}, v_below_kmh: 51, delay_s: 1}
+      high_beam: {lamps: [right], oncoming_m: 300}
+      glare_free: {windows_deg: {right: [-3, 0, 2.5]}, margin_deg: 1}
+      failures: [{at_s: 1, stuck_swivel: left}, {at_s: 0, until_s: 2, lost_signal: road.motorway}]
+      inputs: {ego.indicator: [{at_s: 0, value: 1}, {at_s: 1, value: 0}], road.motorway: 1}
+)";
+
+TEST_F(ControlDrive, ResolvedDrivesReadBackToTheSame) {
+    const std::string with =
+        "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nvariants:\n  one:\n    file: low.ies\n" + everything;
+    const Drive drive = read(with);
+    ASSERT_NE(drive.variants[0].control, nullptr);
+    const std::string written = write_drive(drive);
+    const Drive again = read(written);
+    EXPECT_EQ(write_drive(again), written);
+    ControlParameters a = *drive.variants[0].control, b = *again.variants[0].control;
+    EXPECT_NE(a.modes->settings[2].file, nullptr);
+    a.modes->settings[2].file = b.modes->settings[2].file = nullptr; // read once by each
+    a.bend->actuator.control_period_s = b.bend->actuator.control_period_s;
+    EXPECT_TRUE(a == b);
+    EXPECT_EQ(a.glare_free->lamps[0].windows_deg.size(), 2U);
+}
+
+TEST_F(ControlDrive, WhatIsWrongIsRefusedWithTheNearest) {
+    const auto with = [&](const std::string& control) { return refusal(minimal + "control: " + control + "\n"); };
+    EXPECT_EQ(with("none"), "not refused");
+    EXPECT_EQ(with("{}"), "not refused");
+    EXPECT_THAT(with("{bend: yaw}"), HasSubstr("one of steering, yaw-rate, route"));
+    EXPECT_THAT(with("{bend: {lamps: [lift]}}"),
+                HasSubstr("no lamp 'lift' in variant 'one', expected one of left, right (nearest: 'left')"));
+    EXPECT_THAT(with("{bends: route}"), HasSubstr("'bend', the nearest known key"));
+    EXPECT_THAT(with("{inputs: {ego.sped_mps: 3}}"), HasSubstr("no signal 'ego.sped_mps', expected 'ego.speed_mps', the nearest signal"));
+    EXPECT_THAT(with("{inputs: {control.mode: 1}}"), HasSubstr("which the laws write"));
+    EXPECT_THAT(with("{inputs: {ego.indicator: 2}}"), HasSubstr("a number from -1 to 1"));
+    EXPECT_THAT(with("{failures: [{at_s: 1}]}"), HasSubstr("stuck_swivel, stuck_levelling (a lamp) or lost_signal (a signal)"));
+    EXPECT_THAT(with("{high_beam: automatic}"), HasSubstr("no lamp of variant 'one' has a name with 'high'"));
+    EXPECT_THAT(with("{glare_free: {windows_deg: {left: [0, 1]}}}"), HasSubstr("high_beam beside it"));
+    EXPECT_THAT(with("{high_beam: {lamps: [left]}, glare_free: {windows_deg: {left: [2, 1]}}}"), HasSubstr("edges that do not ascend"));
+    EXPECT_THAT(with("{plugins: [{library: law.so}]}"), HasSubstr("there is no file"));
+    EXPECT_THAT(with("{cornering: {left: [left], again_below_kmh: 50}}"), HasSubstr("a hysteresis upside down"));
+    EXPECT_THAT(with("{levelling: {control_period_s: 1}}"), HasSubstr("control.period_s"));
+    EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {swivel: true}\ncontrol: {bend: route}\n"), HasSubstr("one of them"));
+}
+
+Drive straight(const std::string& variants, const std::string& more = "") {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "control-drive.yaml";
+    std::ofstream(file) << "fernlicht: 1\nroad: " << (library.parent_path() / "roads/straight.xodr").string()
+                        << "\nroute: {s_m: 20}\nspeed_kmh: 80\nduration_s: 6\nrate_hz: 10\n"
+                        << more << "variants:\n"
+                        << variants;
+    return read_drive(file);
+}
+const std::string xenon_high = "file: " + (library.parent_path() / "lamps/xenon-high.ies").string();
+
+/// 200 kg on the rear axle: springs of 43 kN/m go down by 45.6 mm, tyres of 400 kN/m by 4.9 mm; over 2.7 m the springs' part is 0.968
+/// degrees.
+TEST(ControlLoad, LevellingTakesOutTheSpringsPartOfALoad) {
+    const Played played(straight("  loaded: {source: arc, " + xenon_high +
+                                 ", control: {load: {rear_kg: 200}}}\n  levelled: {source: arc, " + xenon_high +
+                                 ", control: {load: {rear_kg: 200}, levelling: static}}\n"));
+    const auto pitch_deg = [](const Pose& pose) { return degrees(std::asin(pose.forward().z)); };
+    EXPECT_NEAR(pitch_deg(played.at(3.0).ego), 1.072, 0.001);
+    EXPECT_NEAR(pitch_deg(played.at(3.0).lamps[0].pose), 1.072, 0.001);
+    EXPECT_NEAR(pitch_deg(played.at(3.0, 1).lamps[0].pose), 1.072 - 0.968, 0.001);
+}
+
+/// Both at 80 km/h = 22.2 m/s: 500 m apart they come within 400 m after 2.3 s.
+TEST(ControlTraffic, OncomingCarsDipTheBeamOrDarkenItsWindows) {
+    const std::string lamps = "source: arc, lamps: {left: LOW, high-left: {file: HIGH, position_m: [3.4, 0.5, 0.65]}}";
+    const auto with_files = [](std::string text) {
+        for (const auto& [word, file] : {std::pair("LOW", "xenon-low.ies"), std::pair("HIGH", "xenon-high.ies")})
+            for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word))
+                text.replace(at, std::string(word).size(), (library.parent_path() / "lamps" / file).string());
+        return text;
+    };
+    Drive drive =
+        straight(with_files("  dips: {" + lamps + ", control: {high_beam: automatic}}\n  masks: {" + lamps +
+                            ", control: {high_beam: automatic, glare_free: {windows_deg: {high-left: [-8, -3, -1, 0, 1, 8]}}}}\n"),
+                 with_files("traffic: {other: {oncoming: {gap_m: 500}, speed_kmh: 80, file: LOW, source: arc}}\n"));
+    const Played played(std::move(drive));
+    const auto high = [&](double t, std::size_t variant) { return played.at(t, variant).lamps[1]; };
+    EXPECT_EQ(high(0.5, 0).intensity_factor, 1.0);
+    EXPECT_EQ(high(4.0, 0).intensity_factor, 0.0) << "dipped";
+    EXPECT_EQ(high(4.0, 1).intensity_factor, 1.0) << "masked instead";
+    EXPECT_EQ(high(0.5, 1).file, played.drive.variants[1].lamps[1].file) << "nobody there: the file itself";
+    const CandelaTable& dark = high(4.0, 1).file->table;
+    const CandelaTable& whole = high(0.5, 1).file->table;
+    int dark_windows = 0;
+    for (const double h : {-5.0, -2.0, -0.5, 0.5, 4.0})
+        dark_windows += intensity_cd(dark, h, 0.0) == 0.0 && intensity_cd(whole, h, 0.0) > 0.0 ? 1 : 0;
+    EXPECT_GE(dark_windows, 1);
+    EXPECT_LE(dark_windows, 3);
+    EXPECT_EQ(intensity_cd(dark, 4.0, 0.0), intensity_cd(whole, 4.0, 0.0)) << "it comes on the left";
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,169 @@
+// The laws beside the bend light, each step by step: thresholds, hysteresis, delays, what a lost signal does.
+#include "scenarios/control/beam_modes.h"
+#include "scenarios/control/control_stability.h"
+#include "scenarios/control/cornering_light.h"
+#include "scenarios/control/high_beam.h"
+#include "scenarios/control/masked_beam.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+SignalTable at_kmh(double speed_kmh) {
+    SignalTable table({"left"});
+    table[signal::ego_speed] = speed_kmh / 3.6;
+    return table;
+}
+
+TEST(BeamModes, SpeedChoosesWithHysteresisAndDelay) {
+    BeamModes modes(ModeParameters{});
+    const auto after = [&](double kmh, double s) {
+        BeamMode mode = BeamMode::c;
+        for (int k = 0; k < std::lround(s / 0.1); ++k)
+            mode = modes.step(at_kmh(kmh), 0.1);
+        return mode;
+    };
+    EXPECT_EQ(after(80, 0.1), BeamMode::c);
+    EXPECT_EQ(after(49, 1.9), BeamMode::c) << "asked for, but not long enough";
+    EXPECT_EQ(after(49, 0.3), BeamMode::v);
+    EXPECT_EQ(after(54, 5.0), BeamMode::v) << "inside the hysteresis";
+    EXPECT_EQ(after(56, 2.2), BeamMode::c);
+    EXPECT_EQ(after(111, 2.2), BeamMode::e);
+    EXPECT_EQ(after(106, 5.0), BeamMode::e);
+    EXPECT_EQ(after(104, 2.2), BeamMode::c);
+}
+
+TEST(BeamModes, MotorwayLightWetnessAndWipers) {
+    const auto first = [](double kmh, std::size_t place, double value) {
+        SignalTable table = at_kmh(kmh);
+        table[place] = value;
+        return BeamModes(ModeParameters{}).step(table, 0.0);
+    };
+    EXPECT_EQ(first(80, signal::road_motorway, 1.0), BeamMode::e);
+    EXPECT_EQ(first(58, signal::environment_illuminance, 12.0), BeamMode::v);
+    EXPECT_EQ(first(58, signal::environment_illuminance, 8.0), BeamMode::c);
+    EXPECT_EQ(first(120, signal::environment_wetness, 0.6), BeamMode::w) << "wet comes before fast";
+    EXPECT_EQ(first(30, signal::ego_wipers, nan), BeamMode::c);
+    BeamModes modes(ModeParameters{});
+    SignalTable wiping = at_kmh(80);
+    wiping[signal::ego_wipers] = 1.0;
+    for (int k = 0; k < 1200; ++k)
+        EXPECT_EQ(modes.step(wiping, 0.1), BeamMode::c) << k;
+    for (int k = 0; k < 30; ++k)
+        modes.step(wiping, 0.1);
+    EXPECT_EQ(modes.step(wiping, 0.1), BeamMode::w) << "two minutes, and the delay";
+}
+
+TEST(CorneringLight, TurnsOnBySteeringAndIndicatorWhileSlow) {
+    CorneringParameters parameters;
+    parameters.fade_s = 0.0;
+    CorneringLight light(parameters);
+    const auto left = [&](double kmh, double steering_rad, double indicator = 0.0) {
+        SignalTable table = at_kmh(kmh);
+        table[signal::ego_steering] = steering_rad;
+        table[signal::ego_indicator] = indicator;
+        const CorneringLight::Levels levels = light.step(table, 0.02);
+        return std::pair(levels.left, levels.right);
+    };
+    EXPECT_EQ(left(20, 0.05), std::pair(0.0, 0.0));
+    EXPECT_EQ(left(20, 0.07), std::pair(1.0, 0.0));
+    EXPECT_EQ(left(20, 0.05), std::pair(1.0, 0.0)) << "hysteresis";
+    EXPECT_EQ(left(20, 0.03), std::pair(0.0, 0.0));
+    EXPECT_EQ(left(20, -0.07), std::pair(0.0, 1.0));
+    EXPECT_EQ(left(41, -0.07), std::pair(0.0, 0.0));
+    EXPECT_EQ(left(38, -0.07), std::pair(0.0, 0.0)) << "not again before it is slower still";
+    EXPECT_EQ(left(34, -0.07), std::pair(0.0, 1.0));
+    EXPECT_EQ(left(10, 0.0, 1.0), std::pair(1.0, 0.0));
+    EXPECT_EQ(left(10, nan), std::pair(0.0, 0.0));
+}
+
+TEST(CorneringLight, Fades) {
+    CorneringLight light(CorneringParameters{});
+    SignalTable table = at_kmh(10);
+    table[signal::ego_steering] = 0.3;
+    EXPECT_NEAR(light.step(table, 0.1).left, 0.2, 1e-12) << "0.5 s for all of it";
+}
+
+TEST(HighBeam, DipsForOthersAfterItsDelaysAndStaysOffInTown) {
+    HighBeam beam(HighBeamParameters{}, true);
+    SignalTable table = at_kmh(80);
+    EXPECT_EQ(beam.step(table, 0.0), 1.0) << "starts as it would be";
+    table[signal::others_nearest_oncoming] = 399.0;
+    EXPECT_EQ(beam.step(table, 0.1), 1.0);
+    EXPECT_EQ(beam.step(table, 0.1), 0.0) << "0.2 s, then 0.1 s of fading";
+    table[signal::others_nearest_oncoming] = 401.0;
+    for (int k = 0; k < 14; ++k)
+        EXPECT_EQ(beam.step(table, 0.1), 0.0);
+    EXPECT_EQ(beam.step(table, 0.1), 1.0);
+    table[signal::others_nearest_preceding] = 150.0;
+    for (int k = 0; k < 5; ++k)
+        beam.step(table, 0.1);
+    EXPECT_EQ(beam.step(table, 0.1), 0.0);
+    for (const auto& [place, value] : std::initializer_list<std::pair<std::size_t, double>>{{signal::environment_illuminance, 11.0},
+                                                                                            {signal::ego_speed, 5.0},
+                                                                                            {signal::ego_speed, nan},
+                                                                                            {signal::others_nearest_oncoming, nan}}) {
+        SignalTable lit = at_kmh(80);
+        lit[place] = value;
+        EXPECT_EQ(HighBeam(HighBeamParameters{}, true).step(lit, 0.0), 0.0) << place << ' ' << value;
+    }
+}
+
+/// 50 m before the lamp, 2 m wide, 3 m to the left of it: atan(2/50) to atan(4/50).
+TEST(GlareFree, WindowsKnowWhereOthersAre) {
+    const OtherUser other{"car", 53.4, 3.6, 3.14, 20.0, 2.0, 1.5, true};
+    const auto [from, to] = seen_deg(other, {3.4, 0.6, 0.65}, 0.0);
+    EXPECT_NEAR(from, -4.5739, 1e-4);
+    EXPECT_NEAR(to, -2.2906, 1e-4);
+    const auto [turned, unused] = seen_deg(other, {3.4, 0.6, 0.65}, 0.1);
+    EXPECT_NEAR(turned, from + 5.7296, 1e-4) << "a lamp that looks to the left has it farther to the right";
+    EXPECT_GT(seen_deg({"behind", 3.0, 0.0}, {3.4, 0.6, 0.65}, 0.0).first, 0.0);
+
+    GlareFreeParameters parameters;
+    LampWindows windows({"high", {{-9, -5.2}, {-5.2, -2}, {-2, -1.9}, {-1.9, 3}}}, parameters);
+    const HighBeamParameters reach;
+    EXPECT_THAT(windows.step({other}, reach, {3.4, 0.6, 0.65}, 0.0, 0.0), testing::ElementsAre(1, 0, 0, 0)) << "half a degree of margin";
+    EXPECT_THAT(windows.step({}, reach, {3.4, 0.6, 0.65}, 0.0, 0.4), testing::ElementsAre(1, 0, 0, 0)) << "not lit again at once";
+    EXPECT_THAT(windows.step({}, reach, {3.4, 0.6, 0.65}, 0.0, 0.2), testing::ElementsAre(1, 1, 1, 1));
+}
+
+TEST(GlareFree, AMaskedBeamIsDarkInItsWindowsAndWholeBesideThem) {
+    const CandelaTable table{{-10, 0, 10}, {-5, 5}, {100, 200, 300, 100, 200, 300}, {}, BetweenSamples::linear_cd};
+    const CandelaTable dark = masked(table, {{-4, -2}, {-2, 3}, {3, 6}}, {1.0, 0.0, 0.5});
+    check_invariants(dark);
+    for (const auto& [h, share] : {std::pair(-7.0, 1.0),
+                                   {-3.0, 1.0},
+                                   {-2.2, 1.0},
+                                   {-2.0, 0.0},
+                                   {0.0, 0.0},
+                                   {2.9, 0.0},
+                                   {3.0, 0.0},
+                                   {5.0, 0.5},
+                                   {6.0, 0.5},
+                                   {6.2, 1.0}})
+        EXPECT_NEAR(intensity_cd(dark, h, 0.0), share * intensity_cd(table, h, 0.0), 1e-9) << h;
+    EXPECT_NEAR(intensity_cd(dark, -2.05, 0.0), 0.5 * intensity_cd(table, -2.1, 0.0), 1e-9) << "the edge rises inside the lit neighbour";
+    EXPECT_THROW(masked(table, {{0, 1}}, {}), std::invalid_argument);
+}
+
+TEST(ControlStability, ExtremesStayInsideStopsAndRateLimit) {
+    for (const ExtremeTrial& trial : control_with_extreme_signals())
+        EXPECT_LT(trial.error, 1e-6) << trial.what;
+    for (const ExtremeTrial& trial : control_mirrored())
+        EXPECT_LT(trial.error, 1e-12) << trial.what;
+}
+
+/// The filter takes a tick's input for all of the period before it, half a period early; holding the command is half a period late. What is
+/// left goes with the square.
+TEST(ControlStability, ErrorGoesWithTheSquareOfThePeriod) {
+    const double coarse = control_period_error_rad(BendLaw::yaw_rate, 0.02), fine = control_period_error_rad(BendLaw::yaw_rate, 0.01);
+    EXPECT_GT(coarse, 1e-5);
+    EXPECT_NEAR(coarse / fine, 4.0, 0.5);
+}
+
+} // namespace
+} // namespace fernlicht
