@@ -1,8 +1,10 @@
 // Leaving out what a moment does not need must not change a bit; switching it on must change a pixel, and off must save work.
 #include "renderer/renderer.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/control_world.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/roads/road_mesh.h"
+#include "scenarios/traffic/place_traffic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -200,6 +202,8 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
     const Scene scene = build_scene(network);
     fit_to_route(drive, route);
     simulate(drive, route);
+    place_traffic(drive, network, route);
+    simulate_control(drive, route);
     Device device = open_device("auto");
     RendererSettings settings;
     settings.tone_mapper = drive.tone_mapper;
