@@ -1,6 +1,7 @@
 #include "scenarios/drives/traffic_keys.h"
 
 #include "scenarios/drives/drive_keys.h"
+#include "scenarios/models/model.h"
 
 #include <fmt/format.h>
 
@@ -33,6 +34,12 @@ Car front_of(const TrafficRow& row) {
     const double x = usual_rear_m(row.kind) * size.x / usual_size_m(row.kind).x + size.x - 0.2;
     const double z = std::min(row.kind == RoadUserKind::truck || row.kind == RoadUserKind::bus ? 0.9 : 0.65, 0.6 * size.z);
     Car car;
+    if (!row.model.empty()) // where the model has its low beams
+        for (const Mount& mount : read_model(row.model).mounts)
+            if (const std::string low = "lamp.low."; mount.name.starts_with(low))
+                car.mounts.emplace_back(mount.name.substr(low.size()), mount.pose.position_m);
+    if (!car.mounts.empty())
+        return car;
     if (size.y < 1.0)
         car.mounts = {{"left", {x, 0.0, 0.75}}};
     else
@@ -43,6 +50,7 @@ Car front_of(const TrafficRow& row) {
 TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& shelf) {
     const YamlMap keys = entry.map({"kind",
                                     "size_m",
+                                    "model",
                                     "oncoming",
                                     "ahead",
                                     "lane",
@@ -76,6 +84,10 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& 
     if (const auto size = keys.find("size_m")) {
         const std::vector<double> m = size->numbers(3, 3, 0.1, 50.0);
         row.size_m = {m[0], m[1], m[2]};
+    }
+    if (const auto model = keys.find("model")) {
+        row.model = model->path();
+        check_file(row.model, *model);
     }
     read_place(keys, row);
     row.speed = read_speed(keys);

@@ -226,6 +226,8 @@ void write_traffic(Lines& out, const Drive& drive) {
         out.add(2, "kind: {}", road_user_kinds[static_cast<std::size_t>(row.kind)]);
         if (row.size_m)
             out.add(2, "size_m: {}", list(*row.size_m));
+        if (!row.model.empty())
+            out.add(2, "model: {}", quoted(row.model.string()));
         out.add(2, "{}", traffic_place(row));
         out.add(2, "speed:");
         for (const SpeedPoint& point : row.speed)

@@ -88,6 +88,7 @@ RoadUser user_of(const TrafficRow& row, int number) {
     RoadUser user;
     user.name = row.count == 1 ? row.name : fmt::format("{}-{}", row.name, number + 1);
     user.kind = row.kind;
+    user.model = row.model;
     user.size_m = row.size_m.value_or(usual_size_m(row.kind));
     user.rear_m = usual_rear_m(row.kind) * user.size_m.x / usual_size_m(row.kind).x;
     for (const MountedLamp& lamp : row.lamps)

@@ -22,6 +22,7 @@ struct TrafficRow {
     std::string name;
     RoadUserKind kind = RoadUserKind::car;
     std::optional<glm::dvec3> size_m; ///< nullopt: the kind's usual size
+    std::filesystem::path model;      ///< glTF; "": a body of our own
     TrafficPlace place = TrafficPlace::oncoming;
     double gap_m = 0.0;             ///< ahead and oncoming; may be negative for ahead: behind
     Route::Start start;             ///< lane only

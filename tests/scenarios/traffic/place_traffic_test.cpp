@@ -2,6 +2,8 @@
 #include "scenarios/traffic/place_traffic.h"
 
 #include "scenarios/drives/advance.h"
+#include "scenarios/models/glb_writer.h"
+#include "scenarios/models/road_user_bodies.h"
 #include "scenarios/traffic/road_user_mesh.h"
 #include "scenarios/values/errors.h"
 
@@ -114,6 +116,28 @@ TEST_F(PlacedTraffic, EachHasABodyInItsOwnFrame) {
     EXPECT_NEAR(high.y - low.y, 1.8, 0.02);
     EXPECT_NEAR(high.z, 1.45, 0.01);
     EXPECT_NEAR(low.z, 0.0, 0.01);
+}
+
+TEST_F(PlacedTraffic, AModelBringsItsMeshAndItsMounts) {
+    const Model car = car_body({{4.2, 1.7, 1.5}, -0.8, glm::vec3(0.3F)});
+    const std::filesystem::path model = file.parent_path() / (file.stem().string() + ".glb");
+    write_file(model, glb_of(car));
+    Drive drive = read(row("model: " + model.filename().string() + ", ahead: {gap_m: 30}, speed_mps: 20"));
+    moment(drive, 0.0);
+    Scene scene;
+    FilesRead opened;
+    add_road_users(scene, drive.traffic, opened);
+    ASSERT_EQ(scene.meshes.size(), 1U);
+    EXPECT_EQ(scene.meshes[0].indices.size() / 3, car.triangles());
+    EXPECT_EQ(opened.size(), 1U);
+    for (const TrafficLamp& lamp : drive.traffic.at(0).lamps)
+        for (const Mount& mount : car.mounts)
+            if (lamp.function == LampFunction::low && mount.name == "lamp.low." + lamp.lamp.name) {
+                EXPECT_LT(glm::length(lamp.lamp.position_m - mount.pose.position_m), 1e-5) << mount.name;
+            }
+    EXPECT_NE(write_drive(drive).find(model.string()), std::string::npos);
+    std::filesystem::remove(model);
+    EXPECT_THROW(read(row("model: absent.glb, ahead: {gap_m: 30}, speed_mps: 20")), InputError);
 }
 
 } // namespace
