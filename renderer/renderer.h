@@ -26,6 +26,7 @@ struct RendererSettings {
     ReadBack read_back = ReadBack::plain;
     bool profile = false;   ///< finish after each pass and time it; slower, so never together with frame times
     bool gpu_clock = false; ///< time passes by GL_TIME_ELAPSED; only where check_timer() has found it right
+    int fog_samples = 32;   ///< along a ray and for each lamp, where there is fog (docs/daylight.md: error and run time)
 };
 
 /// What drawing took, counted.

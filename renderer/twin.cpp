@@ -1,7 +1,9 @@
 #include "renderer/twin.h"
 
+#include "scenarios/fog_light.h"
 #include "scenarios/light.h"
 #include "scenarios/photometry.h"
+#include "scenarios/wet_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,7 @@
 namespace fernlicht {
 namespace {
 
+constexpr double sky_m = 5000.0; // as far as the air before the sky is drawn
 constexpr double angle_error_rad = 6e-6, position_error = 1e-6, operations = 24.0, half_ulp = 6e-8;
 
 bool stands_on_ground(const Scene& scene, const Mesh& mesh) {
@@ -92,8 +95,18 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
     TwinPixel pixel;
     const std::optional<Hit> hit = cast(moment, ray, 0.0, camera.is_map);
     const double sky_lx = moment.daylight.horizontal_illuminance_lx;
+    const Weather& weather = moment.weather;
+    const bool through_air = weather.extinction_per_m > 0.0 && !camera.is_map; // maps show the ground without the air above it
+    const glm::dvec3 ego_m = moment.ego.position_m, weights(0.2126, 0.7152, 0.0722);
+    const auto airlight = [&](const glm::dvec3& end_m) {
+        glm::dvec3 sum(0.0);
+        if (through_air)
+            for (const LitLamp& lamp : moment.lamps)
+                sum += lamp.colour.linear_srgb * airlight_cdm2(lamp, weather, ego_m + camera.eye_m, ego_m + end_m);
+        return sum;
+    };
     if (!hit) {
-        pixel.luminance_cdm2 = sky_lx / pi;
+        pixel.luminance_cdm2 = sky_lx / pi + glm::dot(weights, airlight(ray.origin_m + ray.direction * sky_m));
         return pixel;
     }
     const Material& material = scene_.materials[hit->material];
@@ -102,7 +115,8 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
     pixel.normal = hit->normal;
     pixel.depth_m = glm::dot(pixel.point_m - camera.eye_m, camera.axis);
     const glm::dvec3 to_eye = camera.is_map ? -camera.axis : camera.eye_m - pixel.point_m;
-    const glm::dvec3 albedo(material.albedo), weights(0.2126, 0.7152, 0.0722);
+    const glm::dvec3 albedo(material.albedo), eye_direction = glm::normalize(to_eye);
+    const double wet = gets_wet(material.kind) ? weather.wetness : 0.0;
     glm::dvec3 light(0.0);
     const auto add_light = [&](const LitLamp& lamp) {
         const glm::dvec3 lamp_m = lamp.pose.position_m - moment.ego.position_m, to_lamp = lamp_m - pixel.point_m;
@@ -116,24 +130,48 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
             if (blocker && blocker->distance_m < distance)
                 e_perp = 0.0;
         }
+        e_perp *= air_transmittance(weather, glm::length(to_lamp));
         const double e = e_perp * cosine;
         pixel.illuminance_lx += e;
         const glm::dvec2 angles =
             photometry::goniometer_angles(photometry::lamp_space(-to_lamp, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()));
         pixel.bound_lx += float_bound_lx(e, cosine, log_gradient_per_rad(lamp.file->table, degrees(angles.x), degrees(angles.y)));
-        light += lamp.colour.linear_srgb * (albedo * e / pi);
+        glm::dvec3 returned = albedo * e / pi;
         if (material.retro_rl > 0.0F)
-            light += lamp.colour.linear_srgb * photometry::retro_luminance(static_cast<double>(material.retro_rl), e_perp, cosine,
-                                                                           photometry::observation_angle(to_lamp, to_eye),
-                                                                           static_cast<double>(material.retro_reference_rad),
-                                                                           1.0 / static_cast<double>(material.retro_falloff_rad));
+            returned += photometry::retro_luminance(
+                static_cast<double>(material.retro_rl), e_perp, cosine, photometry::observation_angle(to_lamp, to_eye),
+                static_cast<double>(material.retro_reference_rad), 1.0 / static_cast<double>(material.retro_falloff_rad));
+        if (wet > 0.0)
+            returned = partly_wet(returned, wet_light(albedo, pixel.normal, glm::normalize(to_lamp), eye_direction, e_perp), wet);
+        light += lamp.colour.linear_srgb * returned;
     };
     std::ranges::for_each(moment.lamps, add_light);
     std::ranges::for_each(moment.other_lamps, add_light);
     const double e_sky = sky_lx * 0.5 * (1.0 + pixel.normal.z);
     pixel.illuminance_lx += e_sky;
     pixel.bound_lx += e_sky * operations * half_ulp;
-    light += albedo * e_sky / pi + glm::dvec3(material.emission_cdm2);
+    glm::dvec3 returned = albedo * e_sky / pi;
+    if (wet > 0.0)
+        returned = partly_wet(returned, wet_sky_light(albedo, pixel.normal, eye_direction, e_sky, sky_lx / pi), wet);
+    light += returned;
+    if (const DirectLight* direct = moment.daylight.direct()) {
+        const glm::dvec3 towards = direct->towards();
+        double e_sun = photometry::directional_illuminance(direct->illuminance_lx, pixel.normal, towards);
+        if (e_sun > 0.0 && shadows_ && cast(moment, {pixel.point_m + pixel.normal * 1e-3, towards}, 1e-3, false))
+            e_sun = 0.0;
+        pixel.illuminance_lx += e_sun;
+        pixel.bound_lx += direct->illuminance_lx * operations * half_ulp;
+        returned = albedo * e_sun / pi;
+        if (wet > 0.0)
+            returned = partly_wet(returned,
+                                  wet_light(albedo, pixel.normal, towards, eye_direction, e_sun > 0.0 ? direct->illuminance_lx : 0.0), wet);
+        light += returned;
+    }
+    light += glm::dvec3(material.emission_cdm2);
+    if (through_air) {
+        const double way = glm::length(camera.eye_m - pixel.point_m);
+        light = light * air_transmittance(weather, way) + sky_airlight_cdm2(moment.daylight, weather, way) + airlight(pixel.point_m);
+    }
     pixel.luminance_cdm2 = glm::dot(weights, light);
     return pixel;
 }

@@ -26,8 +26,8 @@ std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive) {
 }
 
 std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const Variant& variant, TickRange ticks) {
-    // Sky, lamps of others, and the own lamps with whether they shine.
-    std::set<std::tuple<bool, bool, std::vector<std::pair<const LampFile*, bool>>>> seen;
+    // Light and weather, lamps of others, and the own lamps with whether they shine.
+    std::set<std::tuple<int, bool, std::vector<std::pair<const LampFile*, bool>>>> seen;
     std::vector<Moment> moments;
     State state = start(drive);
     for (int tick = 0; tick <= std::min(ticks.last, tick_count(drive) - 1); ++tick, state = advance(state, drive)) {
@@ -37,7 +37,9 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
         std::vector<std::pair<const LampFile*, bool>> lamps;
         for (const LitLamp& lamp : moment.lamps)
             lamps.emplace_back(lamp.file.get(), lamp.intensity_factor > 0.0);
-        if (seen.emplace(moment.daylight.horizontal_illuminance_lx > 0.0, !moment.other_lamps.empty(), std::move(lamps)).second)
+        const int around = (moment.daylight.horizontal_illuminance_lx > 0.0 ? 1 : 0) + (moment.daylight.direct() ? 2 : 0) +
+                           (moment.weather.extinction_per_m > 0.0 ? 4 : 0) + (moment.weather.wetness > 0.0 ? 8 : 0);
+        if (seen.emplace(around, !moment.other_lamps.empty(), std::move(lamps)).second)
             moments.push_back(std::move(moment));
     }
     for (std::size_t i = 0, count = moments.size(); i < count; ++i) // reach is measured without lamps of others

@@ -8,6 +8,7 @@
 #include "scenarios/drives/motion.h"
 #include "scenarios/roads/mirrored_road.h"
 #include "scenarios/roads/road_mesh.h"
+#include "scenarios/sky/place_street_lamps.h"
 #include "scenarios/traffic/place_traffic.h"
 #include "scenarios/traffic/road_user_mesh.h"
 #include "scenarios/values/errors.h"
@@ -37,6 +38,7 @@ Stage::Stage(Drive d)
     : drive(std::move(d)), network(network_of(drive)), route(network, start_of(drive), drive.via),
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     add_scenery(scene, drive.scenery, route);
+    add_street_lamp_poles(drive, route, scene);
     fit_to_route(drive, route);
     simulate(drive, route);
     place_traffic(drive, network, route);

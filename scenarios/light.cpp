@@ -1,5 +1,6 @@
 #include "scenarios/light.h"
 
+#include "scenarios/fog_light.h"
 #include "scenarios/photometry.h"
 
 namespace fernlicht {
@@ -25,7 +26,8 @@ double surface_illuminance_lx(const Moment& moment, const glm::dvec3& point_m, c
         const glm::dvec3 to_lamp = lamp.pose.position_m - point_m;
         const double cosine = photometry::incidence(normal, to_lamp);
         if (cosine > 0.0)
-            e += photometry::facing_illuminance(intensity_towards_cd(lamp, point_m), to_lamp) * cosine;
+            e += photometry::facing_illuminance(intensity_towards_cd(lamp, point_m), to_lamp) * cosine *
+                 air_transmittance(moment.weather, glm::length(to_lamp));
     }
     return e;
 }
@@ -34,7 +36,8 @@ double target_illuminance_lx(const Moment& moment, const glm::dvec3& point_m) {
     double e = 0.0;
     for (const LitLamp& lamp : moment.lamps)
         if (const double cd = intensity_towards_cd(lamp, point_m); cd > 0.0) // in the lamp itself: no light, not 0 / 0
-            e += photometry::facing_illuminance(cd, lamp.pose.position_m - point_m);
+            e += photometry::facing_illuminance(cd, lamp.pose.position_m - point_m) *
+                 air_transmittance(moment.weather, glm::length(lamp.pose.position_m - point_m));
     return e;
 }
 

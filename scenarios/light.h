@@ -1,5 +1,6 @@
 // Illuminance at a point by the lamps of a moment, from the candela tables themselves, in double: the ground that rendered
-// lux images are measured against. Knows no shadows; callers that need them bring their own visibility.
+// lux images are measured against. The air takes its part. Knows no shadows;
+// callers that need them bring their own visibility.
 #pragma once
 
 #include "scenarios/drives/moment.h"

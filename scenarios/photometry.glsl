@@ -187,6 +187,79 @@ FN real height_above_plane(vec3 occluder, vec3 point, vec3 normal) {
     return dot(normal, occluder - point);
 }
 
+// Share of light left after a way through a homogeneous medium (Bouguer). distance_m >= 0.
+// Float: 3e-05 relative while exp is above 1e-35, condition 80.
+FN real transmittance(real extinction_per_m, real distance_m) {
+    PRECISE real t = exp(-extinction_per_m * distance_m);
+    return t;
+}
+
+// Phase function of Henyey and Greenstein 1941, 1/sr: `cosine` of the angle by which light is turned, -1 < g < 1. The sum below cannot
+// cancel. Integral over the sphere: 1.
+// Float: 3e-06 relative, condition 271.
+FN real henyey_greenstein(real cosine, real g) {
+    real b = (1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - cosine);
+    PRECISE real p = 0.25 * photometry_inverse_pi * (1.0 - g * g) / (b * sqrt(b));
+    return p;
+}
+
+// Integrand of single scattering along a ray past a lamp, over the angle at the lamp from its nearest point on the ray (equi-angular:
+// Kulla and Fajardo 2012), where dt / r^2 = d angle / nearest_m: cd of the lamp times phase function times what both ways leave. `sine`
+// and `cosine` of the angle, positive away from the eye; the nearest point lies `along_m` from the eye. The lamp's light there is turned by
+// an angle of cosine -sine.
+// Float: 2e-05 relative to optical depths of 10, condition 500.
+FN real scattered_towards_eye(real cd, real sine, real cosine, real nearest_m, real along_m, real extinction_per_m, real g) {
+    real from_lamp = nearest_m / cosine;
+    PRECISE real way = from_lamp + max(along_m + from_lamp * sine, 0.0);
+    return cd * henyey_greenstein(-sine, g) * transmittance(extinction_per_m, way);
+}
+
+// Refractive index of water and its film's reflectance for diffuse light from within (Fresnel, integrated).
+const real water_index = 1.333;
+const real water_inner_reflectance = 0.4745;
+
+// Mean cosine between a direction and the facets of a rough surface that are seen from it; alpha is GGX's roughness.
+// Float: 3e-07 of 1, condition 1.
+FN real facet_cosine(real cosine, real alpha) {
+    return sqrt(cosine * cosine + alpha * alpha * (1.0 - cosine * cosine));
+}
+
+// Fresnel's reflectance of water in air for unpolarised light, 0 <= cosine <= 1.
+// Float: 3e-06 of 1, condition 2.
+FN real water_reflectance(real cosine) {
+    real g = sqrt(water_index * water_index - 1.0 + cosine * cosine);
+    real across = (cosine - g) / (cosine + g);
+    real along = (water_index * water_index * cosine - g) / (water_index * water_index * cosine + g);
+    return 0.5 * (across * across + along * along);
+}
+
+// Diffuse reflectance of a surface under a film of water towards one direction (Lekner and Dorf 1988, for given directions): light enters
+// by 1 - F, is reflected to and fro under the film, and leaves by (1 - F) / n^2. Cosines as of facet_cosine.
+// Float: 3e-05 relative, condition 4.
+FN real wet_albedo(real albedo, real cosine_in, real cosine_out) {
+    real through = (1.0 - water_reflectance(cosine_in)) * (1.0 - water_reflectance(cosine_out));
+    return albedo * through / (water_index * water_index * (1.0 - water_inner_reflectance * albedo));
+}
+
+// Luminance by mirroring in the film for each lux on a plane across the light, 1/sr: facets of GGX (Walter et al. 2007) with Smith's
+// correlated shadowing and Fresnel's reflectance. Unit vectors. 0 where either direction lies below the surface.
+// Float: 0.0005 relative, condition 1000.
+FN real wet_mirrored(vec3 normal, vec3 to_light, vec3 to_eye, real alpha) {
+    real c_in = dot(normal, to_light);
+    real c_out = dot(normal, to_eye);
+    vec3 h = to_light + to_eye;
+    real length_h = length(h);
+    h = h / max(length_h, 1e-20);
+    vec3 across = cross(normal, h);
+    real c_h = dot(normal, h);
+    real a2 = alpha * alpha;
+    real spread = a2 * c_h * c_h + dot(across, across);
+    real density = a2 / (3.14159265358979323846 * spread * spread);
+    real seen = 0.5 / (c_out * sqrt(a2 + (1.0 - a2) * c_in * c_in) + c_in * sqrt(a2 + (1.0 - a2) * c_out * c_out));
+    real mirrored = c_in * density * seen * water_reflectance(0.5 * length_h);
+    return c_in > 0.0 && c_out > 0.0 ? mirrored : 0.0;
+}
+
 // Tone mappers: luminance -> 0..1, monotone, l_max -> 1. l >= 0, l_max > 0.
 // Float: 3.1e-07 relative, condition 1.
 FN real tone_linear(real l, real l_max) {

@@ -1,5 +1,6 @@
 #include "renderer/gl/lamp_faces.h"
 
+#include "scenarios/fog_light.h"
 #include "scenarios/light.h"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ std::vector<LampFaces::Face> LampFaces::seen(const Shot& shot) const {
         if (at_px.x + size_px.x < -1.0 || at_px.y + size_px.y < -1.0 || at_px.x - size_px.x > picture.x + 1.0 ||
             at_px.y - size_px.y > picture.y + 1.0 || size_px.x * size_px.y < least_share)
             continue;
-        const glm::dvec3 light = lamp.colour.linear_srgb * (cd / (area * seen_under));
+        const glm::dvec3 light = lamp.colour.linear_srgb * (cd * air_transmittance(shot.moment.weather, d) / (area * seen_under));
         faces.push_back({glm::vec4(glm::vec2(at_px), glm::vec2(size_px)), glm::vec4(glm::vec3(light), before.z / before.w)});
     }
     return faces;

@@ -10,6 +10,8 @@ namespace {
 
 /// More lamps than this have their constants in the uniform block instead of in the limited number of a vertex's outputs.
 constexpr std::size_t most_lamps_by_vertex = 4;
+/// Of the sky behind fog: beyond all that is drawn.
+constexpr double background_m = 5000.0;
 
 int bits(const Wanted& w) {
     return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) |
@@ -25,6 +27,34 @@ template <class One> std::string list(const std::vector<const Beam*>& beams, One
     for (const Beam* beam : beams)
         text += (text.empty() ? "" : ", ") + one(*beam);
     return text;
+}
+
+/// Without any of it, unpruned drawing leaves all of it out too: its shaders take seconds to compile on a CPU.
+bool has_weather(const Moment& moment) {
+    return moment.daylight.direct() != nullptr || moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0;
+}
+
+bool fog_before_sky(const Shot& shot) {
+    return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && (shot.wanted.colour || shot.wanted.luminance);
+}
+
+void set_weather_uniforms(const GladGLContext& gl, const Program& program, const Shot& shot) {
+    const Weather& weather = shot.moment.weather;
+    const auto extinction = static_cast<float>(weather.extinction_per_m);
+    const auto scattering = static_cast<float>(weather.extinction_per_m * weather.scattering_albedo);
+    const bool seen_through = !shot.camera.is_map; // maps show the ground without the air above it
+    gl.Uniform4f(program.uniform("fog"), extinction, seen_through ? extinction : 0.0F, seen_through ? scattering : 0.0F,
+                 static_cast<float>(weather.asymmetry));
+    gl.Uniform1f(program.uniform("wetness"), static_cast<float>(weather.wetness));
+    gl.Uniform1f(program.uniform("sky_cdm2"), shot.sky_luminance_cdm2);
+    const Camera& camera = shot.camera;
+    glm::vec3 corners[3];
+    for (int i = 0; i < 3; ++i) {
+        const double across = i == 1 ? 3.0 : -1.0, up = i == 2 ? 3.0 : -1.0;
+        corners[i] = glm::vec3(camera.eye_m + background_m * (camera.axis + across * camera.half_extent.x * camera.right +
+                                                              up * camera.half_extent.y * camera.up));
+    }
+    gl.Uniform3fv(program.uniform("background_m"), 3, &corners[0][0]);
 }
 
 glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), static_cast<float>(w)}; }
@@ -55,19 +85,33 @@ void PhotometricLighting::set_lamps(const Shot& shot) {
     update_buffer(context_, block_, packed_);
 }
 
+void PhotometricLighting::set_sun(const Shot& shot) {
+    const bool everything = !pruned_ && has_weather(shot.moment);
+    if (!sun_ && (everything || shot.moment.daylight.direct() != nullptr))
+        sun_ = std::make_unique<SunLight>(context_, scene_);
+    if (sun_)
+        sun_->set(shot.moment, settings_.shadows && !scene_.flat());
+    const bool shines = sun_ && sun_->shines();
+    sun_needs_ = everything ? 1 + (settings_.shadows ? 1 : 0) : !shines ? 0 : sun_->casts() ? 2 : 1;
+}
+
 PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed,
-                                                               bool traffic) const {
+                                                               bool traffic, int sun) const {
     Features f;
+    f.sun = sun;
     f.everything = !pruned_;
     f.by_vertex = by_vertex_;
     f.sky = !pruned_ || shot.moment.daylight.horizontal_illuminance_lx > 0.0;
+    const bool reflects = shot.wanted.colour || shot.wanted.luminance;
+    const bool everything = !pruned_ && has_weather(shot.moment);
+    f.fog = everything || shot.moment.weather.extinction_per_m > 0.0;
+    f.wet = reflects && (everything || shot.moment.weather.wetness > 0.0);
     f.wanted = bits(shot.wanted);
     f.traffic = traffic || (!pruned_ && !shot.moment.other_lamps.empty());
-    if (lit || !pruned_)
+    if (lit || !pruned_ || (f.fog && reflects && !shot.camera.is_map)) // in fog, beams are seen from beside
         for (const Beam* beam : lamp_beams_)
             f.beams.push_back(beam->id);
     f.shadows = !f.beams.empty() && (shadowed || !pruned_) && settings_.shadows;
-    const bool reflects = shot.wanted.colour || shot.wanted.luminance;
     if (pruned_ && reflects)
         f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive, surface.moving};
     else if (!pruned_)
@@ -90,6 +134,13 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("LAMPS_BY_VERTEX", flag(f.by_vertex));
     define("SHADOWS", flag(f.shadows));
     define("SKY", flag(f.sky));
+    define("SUN", flag(f.sun > 0));
+    define("SUN_SHADOWS", flag(f.sun > 1));
+    define("FOG", flag(f.fog));
+    define("FOG_SAMPLES", std::to_string(settings_.fog_samples));
+    define("WET", flag(f.wet));
+    define("WET_ALPHA", literal(wet_roughness));
+    define("BACKGROUND", flag(f.background));
     define("RETRO", flag(f.surface.retroreflecting));
     define("TRAFFIC", flag(f.traffic));
     if (f.traffic) {
@@ -128,7 +179,7 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     Program program(context_, "photometric.vert.glsl", "photometric.frag.glsl", d);
     const GLint clip = program.uniform("clip_from_ego"), eye = program.uniform("eye_m"), axis = program.uniform("eye_axis"),
                 sky = program.uniform("sky_lx"), grid = f.traffic ? program.uniform("traffic_grid") : -1;
-    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid}).first->second;
+    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid, f.sun > 0, f.fog || f.wet}).first->second;
 }
 
 void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
@@ -144,6 +195,38 @@ void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
         gl.Uniform4fv(v.traffic_grid, 1, &grid[0]);
     }
     gl.Uniform1f(v.sky, static_cast<float>(shot.moment.daylight.horizontal_illuminance_lx));
+    if (v.sun)
+        sun_->set_uniforms(v.program);
+    if (v.weather)
+        set_weather_uniforms(gl, v.program, shot);
+}
+
+void PhotometricLighting::compile(const Features& features, const Shot& shot) {
+    if (variants_.contains(features))
+        return;
+    use(variant(features, shot.wanted), shot);
+    list_.start(shot.moment.ego.position_m, scene_.moves() || !shot.moment.other_lamps.empty());
+    const int call = list_.add_nothing();
+    list_.upload();
+    list_.draw(call);
+}
+
+PhotometricLighting::Features PhotometricLighting::background_features(const Shot& shot) const {
+    Features f = features_of(shot, {}, true, false, false, 0);
+    f.background = true;
+    f.shadows = f.sky = f.wet = f.traffic = false;
+    f.surface = {};
+    return f;
+}
+
+/// In fog the lamps are seen before the sky too.
+void PhotometricLighting::draw_background(const Shot& shot) {
+    if (!fog_before_sky(shot) || lamps_.empty() || scene_.pieces().empty())
+        return;
+    scene_.bind(0);
+    use(variant(background_features(shot), shot.wanted), shot);
+    context_.gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    ++shot.work.calls;
 }
 
 /// The pieces in view by what lighting them takes, near ones first, in an order that pruning does not change.
@@ -210,6 +293,12 @@ void PhotometricLighting::draw(const Shot& shot) {
     } else {
         shadows_.set({}, {}, shot.moment.ego.position_m);
     }
+    set_sun(shot);
+    if (sun_needs_ > 1) {
+        shot.clock.begin("sun's shadow map");
+        sun_->draw(shot.work);
+        shot.clock.end();
+    }
     shot.clock.begin("scene");
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     const std::vector<Group> groups = groups_for(shot);
@@ -223,23 +312,27 @@ void PhotometricLighting::draw(const Shot& shot) {
     for (std::size_t i = 0; i < lamp_beams_.size(); ++i)
         gl.BindTextureUnit(static_cast<GLuint>(i), lamp_beams_[i]->texture);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const Features f = features_of(shot, groups[g].surface, groups[g].lit, groups[g].shadowed, groups[g].traffic && traffic_.any());
+        const Features f =
+            features_of(shot, groups[g].surface, groups[g].lit, groups[g].shadowed, groups[g].traffic && traffic_.any(), sun_needs_);
         use(variant(f, shot.wanted), shot);
         list_.draw(static_cast<int>(g));
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
-        shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) +
-                              (f.surface.retroreflecting ? 1 : 0) + (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
-        const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0);
+        shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) + f.sun + (f.fog ? 1 : 0) +
+                              (f.wet ? 1 : 0) + (f.surface.retroreflecting ? 1 : 0) + (f.surface.emissive ? 1 : 0) +
+                              (f.surface.texture > 0 ? 1 : 0);
+        const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0) + (f.sun > 1 ? 1 : 0);
         shot.work.samplers = std::max(shot.work.samplers, textures);
     }
+    draw_background(shot);
     faces_.draw(shot);
     context_.check("drawing the scene");
     shot.clock.end();
     ++shot.work.passes;
     shot.work.calls += static_cast<int>(groups.size());
     shot.work.triangles += list_.triangles();
-    shot.work.texture_bytes = beams_.texture_bytes() + shadows_.texture_bytes() + scene_.texture_bytes();
+    shot.work.texture_bytes =
+        beams_.texture_bytes() + shadows_.texture_bytes() + scene_.texture_bytes() + (sun_ ? sun_->texture_bytes() : 0);
     note_what_is_left_out(shot, groups);
 }
 
@@ -250,6 +343,9 @@ void PhotometricLighting::prepare(const Shot& shot) {
     if (scene_.pieces().empty())
         return;
     shadows_.compile();
+    set_sun(shot);
+    if (sun_ && settings_.shadows)
+        sun_->compile();
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
     const bool others = !shot.moment.other_lamps.empty();
@@ -258,21 +354,16 @@ void PhotometricLighting::prepare(const Shot& shot) {
         traffic_.bind();
         faces_.compile(shot);
     }
+    const int most_sun = sun_needs_ == 0 ? 0 : settings_.shadows && (!scene_.flat() || !pruned_) ? 2 : 1;
     for (const SurfaceClass& surface : scene_.classes())
         for (const auto& [lit, shadowed, traffic] :
              {std::tuple(false, false, false), std::tuple(true, false, false), std::tuple(true, true, false),
-              std::tuple(false, false, true), std::tuple(true, false, true), std::tuple(true, true, true)}) {
-            if (traffic && !others)
-                continue;
-            const Features f = features_of(shot, surface, lit, shadowed, traffic);
-            if (variants_.contains(f))
-                continue;
-            use(variant(f, shot.wanted), shot);
-            list_.start(shot.moment.ego.position_m, scene_.moves() || others);
-            const int call = list_.add_nothing();
-            list_.upload();
-            list_.draw(call);
-        }
+              std::tuple(false, false, true), std::tuple(true, false, true), std::tuple(true, true, true)})
+            for (int sun = std::min(sun_needs_, 1); sun <= most_sun; ++sun)
+                if (!traffic || others)
+                    compile(features_of(shot, surface, lit, shadowed, traffic, sun), shot);
+    if (fog_before_sky(shot) && !lamps_.empty())
+        compile(background_features(shot), shot);
     context_.check("compiling variants");
 }
 
@@ -294,6 +385,12 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
         say("shadow maps", scene_.flat() ? "the scene is flat, nothing stands in a beam" : "nothing stands in a beam");
     if (shot.moment.daylight.horizontal_illuminance_lx == 0.0)
         say("sky light", "it is night");
+    if (shot.moment.weather.extinction_per_m == 0.0)
+        say("fog", "the air is clear");
+    if (shot.moment.weather.wetness == 0.0)
+        say("water on the road", "it is dry");
+    if (shot.moment.daylight.direct() == nullptr)
+        say("sun and moon", "neither shines");
     std::size_t drawn = 0, dark = 0, unshaded = 0;
     for (const Group& group : groups) {
         drawn += group.pieces.size();

@@ -4,6 +4,7 @@
 #include "renderer/gl/lamp_faces.h"
 #include "renderer/gl/lighting.h"
 #include "renderer/gl/shadow_maps.h"
+#include "renderer/gl/sun_light.h"
 #include "renderer/gl/traffic_lights.h"
 
 #include <memory>
@@ -27,12 +28,15 @@ class PhotometricLighting : public Lighting {
         std::vector<int> beams; ///< one a lamp
         SurfaceClass surface;
         bool shadows = false, sky = false, everything = false, by_vertex = true, traffic = false;
+        int sun = 0; ///< 0: neither sun nor moon, 1: shines, 2: casts shadows
+        bool fog = false, wet = false, background = false;
         int wanted = 0;
         auto operator<=>(const Features&) const = default;
     };
     struct Compiled {
         Program program;
         GLint clip, eye, axis, sky, traffic_grid;
+        bool sun, weather;
     };
     /// Pieces that one variant draws.
     struct Group {
@@ -45,10 +49,14 @@ class PhotometricLighting : public Lighting {
     };
 
     void set_lamps(const Shot& shot);
+    void set_sun(const Shot& shot);
     std::vector<Group> groups_for(const Shot& shot);
-    Features features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed, bool traffic) const;
+    Features features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed, bool traffic, int sun) const;
     const Compiled& variant(const Features& features, const Wanted& wanted);
     void use(const Compiled& v, const Shot& shot) const;
+    void compile(const Features& features, const Shot& shot);
+    Features background_features(const Shot& shot) const;
+    void draw_background(const Shot& shot);
     void note_what_is_left_out(const Shot& shot, const std::vector<Group>& groups);
 
     Context& context_;
@@ -59,6 +67,8 @@ class PhotometricLighting : public Lighting {
     ShadowMaps shadows_;
     TrafficLights traffic_;
     LampFaces faces_;
+    std::unique_ptr<SunLight> sun_; ///< from the first moment on in which sun or moon shines
+    int sun_needs_ = 0;             ///< as Features::sun
     DrawList list_;
     std::map<Features, Compiled> variants_;
     std::vector<LitLamp> lamps_;

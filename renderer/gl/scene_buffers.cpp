@@ -37,7 +37,8 @@ glm::vec3 shown(const glm::vec3& c, bool encoded) {
 GpuMaterial packed(const Material& m, bool encoded) {
     return {{shown(m.albedo, encoded), m.retro_rl},
             {m.emission_cdm2, static_cast<float>(std::max(m.texture, 0))},
-            {m.retro_reference_rad, 1.0F / m.retro_falloff_rad, m.texture < 0 ? 0.0F : 1.0F + static_cast<float>(m.texture_mode), 0.0F},
+            {m.retro_reference_rad, 1.0F / m.retro_falloff_rad, m.texture < 0 ? 0.0F : 1.0F + static_cast<float>(m.texture_mode),
+             gets_wet(m.kind) ? 1.0F : 0.0F},
             {shown(m.blend_colour, encoded), 0.0F}};
 }
 

@@ -1,7 +1,9 @@
 #include "renderer/reference/lanes.h"
 #include "renderer/reference/shot.h"
 
+#include "scenarios/fog_light.h"
 #include "scenarios/photometry.h"
+#include "scenarios/wet_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +45,8 @@ double facing_lx(const LitLamp& lamp, const glm::dvec3& lamp_m, const glm::dvec3
 
 namespace {
 
+constexpr double sky_air_m = 5000.0; // of the air before the sky, as it is drawn
+
 using Points = std::array<glm::dvec3, packet_size>;
 
 /// Lanes among `lanes` from whose points the lamp is seen; all of them without shadows.
@@ -58,7 +62,8 @@ void tally(ShadowTally& tally, std::size_t lamp, LaneMask asked, LaneMask seen) 
 }
 
 /// I / d^2 in each lane of `asked`, as facing_lx; returns the lanes where it is above 0.
-LaneMask facing_lanes(const LitLamp& lamp, const Points& lamp_m, const Points& point_m, LaneMask asked, Lanes& e_perp_lx) {
+LaneMask facing_lanes(const LitLamp& lamp, const Weather& weather, const Points& lamp_m, const Points& point_m, LaneMask asked,
+                      Lanes& e_perp_lx) {
     Points in_lamp;
     Lanes across{}, up{}, ahead{}, level{}, h_rad, v_rad;
     for (std::size_t i = 0; i < packet_size; ++i) {
@@ -75,7 +80,7 @@ LaneMask facing_lanes(const LitLamp& lamp, const Points& lamp_m, const Points& p
         if (!in_mask(asked, i) || ahead[i] <= 0.0)
             continue;
         const double cd = lamp.intensity_factor * intensity_cd(lamp.file->table, degrees(h_rad[i]), degrees(v_rad[i]));
-        e_perp_lx[i] = photometry::facing_illuminance(cd, in_lamp[i]);
+        e_perp_lx[i] = photometry::facing_illuminance(cd, in_lamp[i]) * air_transmittance(weather, glm::length(in_lamp[i]));
         lit |= e_perp_lx[i] > 0.0 ? 1U << i : 0U;
     }
     return lit;
@@ -93,6 +98,8 @@ void observation_lanes(const Shot& shot, const PacketLight& light, const Points&
     angles(sine, cosine, angle_rad);
 }
 
+double wetness_of(const Shot& shot, const SurfaceResponse& response) { return response.gets_wet ? shot.moment.weather.wetness : 0.0; }
+
 void add_luminance(const Shot& shot, const LitLamp& lamp, const Points& lamp_m, const Lanes& e_perp, const Lanes& cosine, LaneMask seen,
                    const PacketLight& light, Points& colour) {
     Lanes angle_rad;
@@ -101,11 +108,17 @@ void add_luminance(const Shot& shot, const LitLamp& lamp, const Points& lamp_m, 
         if (!in_mask(seen, i))
             continue;
         const SurfaceResponse& response = light.responses[i];
-        colour[i] += lamp.colour.linear_srgb * (response.albedo * (e_perp[i] * cosine[i] / pi));
+        glm::dvec3 returned = response.albedo * (e_perp[i] * cosine[i] / pi);
         if (response.retro_rl > 0.0)
-            colour[i] +=
-                lamp.colour.linear_srgb * photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle_rad[i],
-                                                                      response.retro_reference_rad, response.retro_inverse_falloff);
+            returned += photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle_rad[i], response.retro_reference_rad,
+                                                    response.retro_inverse_falloff);
+        const glm::dvec3& p = light.hits[i].point_m;
+        if (const double wet = wetness_of(shot, response); wet > 0.0)
+            returned = partly_wet(
+                returned,
+                wet_light(response.albedo, light.hits[i].normal, glm::normalize(lamp_m[i] - p), glm::normalize(shot.to_eye(p)), e_perp[i]),
+                wet);
+        colour[i] += lamp.colour.linear_srgb * returned;
     }
 }
 
@@ -125,7 +138,7 @@ void add_lamp(const Shot& shot, std::size_t index, const Points& lamp_m, Points&
         if (shot.settings.shadows && glm::dot(hit.facet_normal, to_lamp) <= 0.0)
             behind |= 1U << i; // the flat triangle itself stands in the way
     }
-    const LaneMask asked = facing_lanes(lamp, lamp_m, point_m, facing, e_perp);
+    const LaneMask asked = facing_lanes(lamp, shot.moment.weather, lamp_m, point_m, facing, e_perp);
     for (std::size_t i = 0; i < packet_size; ++i)
         if (in_mask(asked, i))
             point_m[i] = EmbreeScene::raised(light.hits[i]);
@@ -137,13 +150,64 @@ void add_lamp(const Shot& shot, std::size_t index, const Points& lamp_m, Points&
         add_luminance(shot, lamp, lamp_m, e_perp, cosine, seen, light, colour);
 }
 
+/// Parallel light; its shadows have no edge that a lamp's radius would soften, so that they are not tallied.
+void add_sun(const Shot& shot, const DirectLight& sun, Points& colour, PacketLight& light) {
+    const glm::dvec3 towards = sun.towards();
+    Lanes e{};
+    Points from_m, to_m;
+    LaneMask facing = 0;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (!in_mask(light.hit, i))
+            continue;
+        const SurfaceHit& hit = light.hits[i];
+        e[i] = photometry::directional_illuminance(sun.illuminance_lx, hit.normal, towards);
+        from_m[i] = EmbreeScene::raised(hit);
+        to_m[i] = from_m[i] + towards * sun_distance_m;
+        if (e[i] > 0.0 && (!shot.settings.shadows || glm::dot(hit.facet_normal, towards) > 0.0))
+            facing |= 1U << i;
+    }
+    const LaneMask seen = seen_lanes(shot, from_m, to_m, facing, light);
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        light.illuminance_lx[i] += in_mask(seen, i) ? e[i] : 0.0;
+        if (!in_mask(seen, i) || !shot.wanted.luminance)
+            continue;
+        const SurfaceResponse& response = light.responses[i];
+        glm::dvec3 returned = response.albedo * (e[i] / pi);
+        if (const double wet = wetness_of(shot, response); wet > 0.0)
+            returned = partly_wet(returned,
+                                  wet_light(response.albedo, light.hits[i].normal, towards,
+                                            glm::normalize(shot.to_eye(light.hits[i].point_m)), sun.illuminance_lx),
+                                  wet);
+        colour[i] += returned;
+    }
+}
+
+/// Of the lamps, by the air between the eye and a point.
+glm::dvec3 airlight(const Shot& shot, const glm::dvec3& eye_m, const glm::dvec3& end_m) {
+    glm::dvec3 sum(0.0);
+    const glm::dvec3& origin_m = shot.embree.origin_m();
+    for (const LitLamp& lamp : shot.moment.lamps)
+        sum += lamp.colour.linear_srgb * airlight_cdm2(lamp, shot.moment.weather, origin_m + eye_m, origin_m + end_m);
+    return sum;
+}
+
+/// Luminance of what a ray meets, behind the air before it; maps are seen without.
+glm::dvec3 through_air(const Shot& shot, const Ray& ray, const glm::dvec3& end_m, const glm::dvec3& light) {
+    const Weather& weather = shot.moment.weather;
+    if (weather.extinction_per_m <= 0.0 || shot.camera.is_map)
+        return light;
+    const double way = glm::length(end_m - ray.origin_m);
+    return light * air_transmittance(weather, way) + sky_airlight_cdm2(shot.moment.daylight, weather, way) +
+           airlight(shot, ray.origin_m, end_m);
+}
+
 void add_target(const Shot& shot, std::size_t index, const Points& lamp_m, PacketLight& light, ShadowTally& edges) {
     Lanes e_perp{};
     Points target_m;
     for (std::size_t i = 0; i < packet_size; ++i)
         if (in_mask(light.hit, i))
             target_m[i] = light.hits[i].point_m + glm::dvec3(0.0, 0.0, shot.settings.target_height_m);
-    const LaneMask asked = facing_lanes(shot.moment.lamps[index], lamp_m, target_m, light.hit, e_perp);
+    const LaneMask asked = facing_lanes(shot.moment.lamps[index], shot.moment.weather, lamp_m, target_m, light.hit, e_perp);
     const LaneMask seen = seen_lanes(shot, target_m, lamp_m, asked, light);
     tally(edges, shot.moment.lamps.size() + index, asked, seen);
     for (std::size_t i = 0; i < packet_size; ++i)
@@ -172,15 +236,27 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
         if (shot.wanted.target && shot.moment.lamps[index].body == -1) // targets are about the own lamps
             add_target(shot, index, lamp_m, light, edges);
     }
+    if (const DirectLight* direct = shot.moment.daylight.direct())
+        add_sun(shot, *direct, colour, light);
     for (std::size_t i = 0; i < packet_size; ++i) {
         if (!in_mask(light.hit, i)) {
             light.luminance_cdm2[i] = in_mask(lanes, i) ? sky_lx / pi : 0.0;
+            if (in_mask(lanes, i) && shot.wanted.luminance && shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map)
+                light.luminance_cdm2[i] += luminance(airlight(shot, rays[i].origin_m, rays[i].origin_m + rays[i].direction * sky_air_m));
             continue;
         }
         const double e_sky = sky ? sky_lx * 0.5 * (1.0 + light.hits[i].normal.z) : 0.0;
         light.illuminance_lx[i] += e_sky;
-        if (shot.wanted.luminance)
-            light.luminance_cdm2[i] = luminance(colour[i] + light.responses[i].albedo * e_sky / pi + light.responses[i].emission_cdm2);
+        if (!shot.wanted.luminance)
+            continue;
+        const SurfaceResponse& response = light.responses[i];
+        glm::dvec3 of_sky = response.albedo * e_sky / pi;
+        if (const double wet = wetness_of(shot, response); wet > 0.0 && sky)
+            of_sky = partly_wet(of_sky,
+                                wet_sky_light(response.albedo, light.hits[i].normal, glm::normalize(shot.to_eye(light.hits[i].point_m)),
+                                              e_sky, sky_lx / pi),
+                                wet);
+        light.luminance_cdm2[i] = luminance(through_air(shot, rays[i], light.hits[i].point_m, colour[i] + of_sky + response.emission_cdm2));
     }
 }
 

@@ -80,6 +80,13 @@ glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint&
                                             glm::dot(surface.hit.normal, surface.out));
         sum += lamp.colour.linear_srgb * reflected * e_perp;
     }
+    if (const DirectLight* sun = shot.moment.daylight.direct()) {
+        const double e = photometry::directional_illuminance(sun->illuminance_lx, surface.hit.normal, sun->towards());
+        if (e > 0.0 && shot.settings.shadows)
+            ++rays;
+        if (e > 0.0 && (!shot.settings.shadows || shot.embree.visible(surface.hit, surface.hit.point_m + sun->towards() * sun_distance_m)))
+            sum += surface.response.albedo * (e / pi);
+    }
     return sum;
 }
 

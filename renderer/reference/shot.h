@@ -15,6 +15,9 @@ class SolvedLight;
 /// Thrown where the work at hand is to be left (StopAsked).
 struct Stopped {};
 
+/// As far away as parallel light is taken to come from when a ray asks whether anything stands in its way.
+inline constexpr double sun_distance_m = 1.0e4;
+
 /// What all rays of a picture share.
 struct Shot {
     Shot(const EmbreeScene& embree, const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings);

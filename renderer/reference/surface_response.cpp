@@ -34,9 +34,12 @@ glm::dvec4 texel_at(const SurfaceTexture& texture, const glm::dvec2& uv) {
 
 SurfaceResponse response_at(const Scene& scene, const SurfaceHit& hit) {
     const Material& material = scene.materials[hit.material];
-    SurfaceResponse response{glm::dvec3(material.albedo), static_cast<double>(material.retro_rl),
-                             static_cast<double>(material.retro_reference_rad), 1.0 / static_cast<double>(material.retro_falloff_rad),
-                             glm::dvec3(material.emission_cdm2)};
+    SurfaceResponse response{glm::dvec3(material.albedo),
+                             static_cast<double>(material.retro_rl),
+                             static_cast<double>(material.retro_reference_rad),
+                             1.0 / static_cast<double>(material.retro_falloff_rad),
+                             glm::dvec3(material.emission_cdm2),
+                             gets_wet(material.kind)};
     if (material.texture < 0)
         return response;
     const glm::dvec4 texel = texel_at(scene.textures[static_cast<std::size_t>(material.texture)], hit.uv);

@@ -12,6 +12,7 @@ struct SurfaceResponse {
     double retro_rl = 0.0;  ///< cd/(m2 lx) at the reference observation angle
     double retro_reference_rad = 0.0, retro_inverse_falloff = 0.0;
     glm::dvec3 emission_cdm2{0.0};
+    bool gets_wet = false;
 };
 
 /// A texture between its texels: bilinear, repeating, texel centres at (i + 0.5) / width, as OpenGL's GL_LINEAR. No mipmaps: the average

@@ -66,5 +66,19 @@ FN vec4 equation_value(int equation, vec4 a, vec4 b, vec4 c, vec4 d) {
         return vec4(directional_illuminance(a.x, first_three(b), first_three(c)), 0.0, 0.0, 0.0);
     if (equation == 30)
         return vec4(sky_illuminance(a.x, first_three(b)), 0.0, 0.0, 0.0);
+    if (equation == 31)
+        return vec4(transmittance(a.x, a.y), 0.0, 0.0, 0.0);
+    if (equation == 32)
+        return vec4(henyey_greenstein(a.x, a.y), 0.0, 0.0, 0.0);
+    if (equation == 33)
+        return vec4(scattered_towards_eye(a.x, a.y, sqrt(1.0 - a.y * a.y), a.z, a.w, b.x, b.y), 0.0, 0.0, 0.0);
+    if (equation == 34)
+        return vec4(facet_cosine(a.x, a.y), 0.0, 0.0, 0.0);
+    if (equation == 35)
+        return vec4(water_reflectance(a.x), 0.0, 0.0, 0.0);
+    if (equation == 36)
+        return vec4(wet_albedo(a.x, a.y, a.z), 0.0, 0.0, 0.0);
+    if (equation == 37)
+        return vec4(wet_mirrored(first_three(a), first_three(b), first_three(c), a.w), 0.0, 0.0, 0.0);
     return vec4(quick_srgb_encoded(a.x), 0.0, 0.0, 0.0);
 }

@@ -1,7 +1,7 @@
 // Technique `photometric`: exact distance and cosine per fragment, intensity from the candela table, one shadow map per lamp,
 // diffuse and retroreflecting surfaces with their textures, uniform sky.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, RETRO, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
+// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, FOG, WET, BACKGROUND, RETRO, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
 // results are wanted (WANT_*). What is left out adds exactly +0 or multiplies by exactly 1.
 #include "photometric_lamps.glsl"
 #include "photometric_varyings.glsl"
@@ -12,6 +12,10 @@ const vec3 luminance_weights = vec3(0.2126, 0.7152, 0.0722);
 
 #if TEXTURED
 layout(binding = 15) uniform sampler2DArray surface_textures;
+#endif
+
+#if SUN_SHADOWS
+layout(binding = 17) uniform sampler2DShadow sun_shadow; // 1 towards the light; 0: nothing
 #endif
 
 #if LAMP_COUNT > 0
@@ -59,6 +63,33 @@ float visibility(vec3 w, sampler2DShadow map, vec4 window) {
 
 #endif
 
+#if LAMP_COUNT > 0 && FOG && (WANT_COLOUR || WANT_LUMINANCE)
+// Light of one lamp that the medium turns towards the eye between eye and w (both in lamp space), cd/m2: midpoints over the angle at the
+// lamp, drawn together towards the far end with the power 3/2, where beams are narrow (docs/daylight.md has the errors).
+float scattered_on_the_way(vec3 eye, vec3 w, float factor, sampler2D beam, vec4 grid, vec2 count, vec2 per_count, bool steep) {
+    float way = length(w - eye);
+    vec3 along = (w - eye) / way;
+    float begin = eye.z > 0.0 ? 0.0 : (along.z > 0.0 ? -eye.z / along.z : way); // only what lies before the lamp is lit
+    float end = along.z < 0.0 ? min(way, -eye.z / along.z) : way;
+    float nearest_along = -dot(eye, along);
+    vec3 nearest = eye + nearest_along * along;
+    float apart = max(length(nearest), 1e-3);
+    nearest /= apart;
+    float first = atan((begin - nearest_along) / apart);
+    float last = atan((end - nearest_along) / apart);
+    float sum = 0.0;
+    for (int k = 0; k < FOG_SAMPLES; ++k) {
+        float x = 1.0 - (float(k) + 0.5) / float(FOG_SAMPLES);
+        float angle = last - (last - first) * x * sqrt(x);
+        float s = sin(angle);
+        float c = max(cos(angle), 1e-6);
+        float cd = intensity_towards(nearest * c + along * s, 1.0, factor, beam, grid, count, per_count, steep);
+        sum += sqrt(x) * scattered_towards_eye(cd, s, c, apart, nearest_along, v_fog.x, v_fog.w);
+    }
+    return end > begin ? v_fog.z * sum * (1.5 * (last - first) / (float(FOG_SAMPLES) * apart)) : 0.0;
+}
+#endif
+
 float toned(float l) {
     if (TONE_KIND == 0)
         return tone_linear(l, TONE_L_MAX);
@@ -93,11 +124,45 @@ PRECISE vec3 light = vec3(0.0);
 #define SEEN_TARGET(i, map, w) 1.0
 #endif
 
+#if FOG
+#define THROUGH_AIR(e, inverse_d) ((e) * transmittance(v_fog.x, 1.0 / (inverse_d)))
+#else
+#define THROUGH_AIR(e, inverse_d) (e)
+#endif
+
+#if (WANT_COLOUR || WANT_LUMINANCE) && WET
+// What a wet surface adds to the light of one source, beside `1 - v_wet` of what it would send dry.
+vec3 wet_light(vec3 albedo, vec3 n, vec3 to_light, vec3 to_eye, float e_perp) {
+    float c_in = max(dot(n, to_light), 0.0);
+    float c_out = max(dot(n, to_eye), 0.0);
+    float f_in = facet_cosine(c_in, WET_ALPHA);
+    float f_out = facet_cosine(c_out, WET_ALPHA);
+    float e = e_perp * c_in;
+    vec3 under = vec3(wet_albedo(albedo.r, f_in, f_out), wet_albedo(albedo.g, f_in, f_out), wet_albedo(albedo.b, f_in, f_out));
+    vec3 diffuse = vec3(diffuse_luminance(under.r, e), diffuse_luminance(under.g, e), diffuse_luminance(under.b, e));
+    float mirrored = e_perp > 0.0 ? e_perp * wet_mirrored(n, to_light, to_eye, WET_ALPHA) : 0.0;
+    return diffuse + vec3(mirrored);
+}
+// And under the sky: diffuse as it enters from all sides and leaves towards the eye; mirrored, the sky's own luminance.
+vec3 wet_sky_light(vec3 albedo, vec3 n, float e_sky) {
+    float out_cosine = facet_cosine(max(-dot(n, normalize(v_from_eye)), 0.0), WET_ALPHA);
+    vec3 under = vec3(wet_albedo(albedo.r, 0.5, out_cosine), wet_albedo(albedo.g, 0.5, out_cosine), wet_albedo(albedo.b, 0.5, out_cosine));
+    return vec3(diffuse_luminance(under.r, e_sky), diffuse_luminance(under.g, e_sky), diffuse_luminance(under.b, e_sky)) +
+           vec3(v_sky_cdm2 * water_reflectance(out_cosine));
+}
+#define DRY(x) ((1.0 - v_wet) * (x))
+#define REFLECT_WET(i, e_perp, inverse_d) \
+    light += COLOUR(i).rgb * (v_wet * wet_light(albedo, v_n[i] * inverse_n, -v_w[i] * inverse_d, normalize(EYE(i).xyz - EYE(i).w * v_w[i]), e_perp));
+#else
+#define DRY(x) (x)
+#define REFLECT_WET(i, e_perp, inverse_d)
+#endif
+
 #if WANT_COLOUR || WANT_LUMINANCE
-#define REFLECT_DIFFUSE(i, e) light += COLOUR(i).rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e));
+#define REFLECT_DIFFUSE(i, e) light += DRY(COLOUR(i).rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e)));
 #if RETRO
 #define REFLECT_RETRO(i, e_perp, cosine) \
-    light += COLOUR(i).rgb * retro_luminance(rl, e_perp, cosine, quick_observation_angle(-v_w[i], EYE(i).xyz - EYE(i).w * v_w[i]), v_retro.x, v_retro.y);
+    light += DRY(COLOUR(i).rgb * retro_luminance(rl, e_perp, cosine, quick_observation_angle(-v_w[i], EYE(i).xyz - EYE(i).w * v_w[i]), v_retro.x, v_retro.y));
 #else
 #define REFLECT_RETRO(i, e_perp, cosine)
 #endif
@@ -112,7 +177,7 @@ PRECISE vec3 light = vec3(0.0);
         vec3 w = v_w[i] + RAISE(i); \
         float inverse_d = inversesqrt(dot(w, w)); \
         float cd = intensity_towards(w, inverse_d, COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_per_count[i], beam_steep[i]); \
-        float e = facing_illuminance_at(cd, inverse_d); \
+        float e = THROUGH_AIR(facing_illuminance_at(cd, inverse_d), inverse_d); \
         target += e > 0.0 ? e * SEEN_TARGET(i, map, w) : 0.0; \
     }
 #else
@@ -124,16 +189,50 @@ PRECISE vec3 light = vec3(0.0);
         float inverse_d = inversesqrt(dot(v_w[i], v_w[i])); \
         float cosine = max(-dot(v_n[i], v_w[i]) * (inverse_d * inverse_n), 0.0); \
         float cd = intensity_towards(v_w[i], inverse_d, COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_per_count[i], beam_steep[i]); \
-        float e_perp = facing_illuminance_at(cd, inverse_d); \
+        float e_perp = THROUGH_AIR(facing_illuminance_at(cd, inverse_d), inverse_d); \
         e_perp = cosine > 0.0 && e_perp > 0.0 ? e_perp * SEEN(i, map) : 0.0; \
         float e = e_perp * cosine; \
         illuminance += e; \
         REFLECT_DIFFUSE(i, e) \
         REFLECT_RETRO(i, e_perp, cosine) \
+        REFLECT_WET(i, e_perp, inverse_d) \
         LIGHT_TARGET(i, beam, map) \
     }
 
+#if LAMP_COUNT > 0 && FOG && (WANT_COLOUR || WANT_LUMINANCE)
+#define AIRLIGHT(i, beam) \
+    light += COLOUR(i).rgb * scattered_on_the_way(EYE(i).xyz, v_w[i], COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_per_count[i], beam_steep[i]);
+
+void add_airlight() {
+    if (v_fog.z <= 0.0)
+        return;
+    AIRLIGHT(0, beam_0)
+#if LAMP_COUNT > 1
+    AIRLIGHT(1, beam_1)
+#endif
+#if LAMP_COUNT > 2
+    AIRLIGHT(2, beam_2)
+#endif
+#if LAMP_COUNT > 3
+    AIRLIGHT(3, beam_3)
+#endif
+#if LAMP_COUNT > 4
+    AIRLIGHT(4, beam_4)
+#endif
+#if LAMP_COUNT > 5
+    AIRLIGHT(5, beam_5)
+#endif
+#if LAMP_COUNT > 6
+    AIRLIGHT(6, beam_6)
+#endif
+#if LAMP_COUNT > 7
+    AIRLIGHT(7, beam_7)
+#endif
+}
+#endif
+
 void main() {
+#if !BACKGROUND
 #if WANT_COLOUR || WANT_LUMINANCE
     vec3 albedo = v_albedo.rgb;
     float rl = v_albedo.w;
@@ -186,20 +285,31 @@ void main() {
             list = traffic_cells[cell.y * TRAFFIC_CELLS_AHEAD + cell.x];
         PRECISE vec4 others = v_traffic_light;
         PRECISE vec3 returned = vec3(0.0);
+#if (WANT_COLOUR || WANT_LUMINANCE) && WET
+        PRECISE vec3 wet = vec3(0.0);
+#endif
         for (uint k = 0u; k < list.y; ++k) {
             vec4 entry = traffic_entries[list.x + k];
             float e_perp;
             float e = traffic_lx(entry, v_traffic_p, n, e_perp);
             others += vec4(traffic_lamps[int(entry.x)].colour.rgb * e, e);
-#if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
+#if (WANT_COLOUR || WANT_LUMINANCE) && (RETRO || WET)
             vec3 to_lamp = traffic_lamps[int(entry.x)].position_m.xyz - v_traffic_p;
+#endif
+#if (WANT_COLOUR || WANT_LUMINANCE) && WET
+            wet += traffic_lamps[int(entry.x)].colour.rgb * wet_light(albedo, n, normalize(to_lamp), -normalize(v_from_eye), e_perp);
+#endif
+#if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
             returned += traffic_lamps[int(entry.x)].colour.rgb *
                         retro_luminance(rl, e_perp, e, quick_observation_angle(to_lamp, v_traffic_eye.xyz - v_traffic_eye.w * v_traffic_p), v_retro.x, v_retro.y);
 #endif
         }
         illuminance += others.w;
 #if WANT_COLOUR || WANT_LUMINANCE
-        light += vec3(diffuse_luminance(albedo.r, others.r), diffuse_luminance(albedo.g, others.g), diffuse_luminance(albedo.b, others.b)) + returned;
+        light += DRY(vec3(diffuse_luminance(albedo.r, others.r), diffuse_luminance(albedo.g, others.g), diffuse_luminance(albedo.b, others.b)) + returned);
+#if WET
+        light += v_wet * wet;
+#endif
 #endif
     }
 #endif
@@ -208,13 +318,45 @@ void main() {
     float e_sky = v_sky_lx * 0.5 * (1.0 + normalize(v_normal).z);
     illuminance += e_sky;
 #if WANT_COLOUR || WANT_LUMINANCE
-    light += vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky));
+    light += DRY(vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky)));
+#if WET
+    light += v_wet * wet_sky_light(albedo, normalize(v_normal), e_sky);
+#endif
+#endif
+#endif
+
+#if SUN
+    float e_sun = directional_illuminance(v_sun.w, normalize(v_normal), v_sun.xyz);
+#if SUN_SHADOWS
+    e_sun = e_sun > 0.0 ? e_sun * textureLod(sun_shadow, v_sun_at, 0.0) : 0.0;
+#endif
+    illuminance += e_sun;
+#if WANT_COLOUR || WANT_LUMINANCE
+    light += DRY(vec3(diffuse_luminance(albedo.r, e_sun), diffuse_luminance(albedo.g, e_sun), diffuse_luminance(albedo.b, e_sun)));
+#if WET
+    float sun_seen = e_sun > 0.0 ? e_sun / directional_illuminance(1.0, normalize(v_normal), v_sun.xyz) : 0.0;
+    light += v_wet * wet_light(albedo, normalize(v_normal), v_sun.xyz, -normalize(v_from_eye), sun_seen);
+#endif
 #endif
 #endif
 
 #if WANT_COLOUR || WANT_LUMINANCE
 #if EMISSIVE
     light += v_emission;
+#endif
+#if FOG
+    float left = transmittance(v_fog.y, length(v_from_eye));
+    light = light * left + vec3(v_sky_cdm2 * (1.0 - left));
+#endif
+#endif
+#endif // BACKGROUND
+
+#if WANT_COLOUR || WANT_LUMINANCE
+#if BACKGROUND
+    light = vec3(v_sky_cdm2);
+#endif
+#if LAMP_COUNT > 0 && FOG
+    add_airlight();
 #endif
     float luminance = dot(luminance_weights, light);
 #endif
@@ -232,9 +374,9 @@ void main() {
     out_luminance_cdm2 = luminance;
 #endif
 #if WANT_DEPTH
-    out_depth_m = v_depth_m;
+    out_depth_m = BACKGROUND > 0 ? 0.0 : v_depth_m;
 #endif
 #if WANT_IDS
-    out_id = v_mesh;
+    out_id = BACKGROUND > 0 ? 0u : v_mesh;
 #endif
 }

@@ -7,6 +7,13 @@ uniform mat4 clip_from_ego;
 uniform vec3 eye_m;
 uniform vec4 eye_axis; // xyz: viewing direction; w: 1 perspective, 0 map
 uniform float sky_lx;
+#if SUN
+uniform vec4 sun_towards_lx;
+#if SUN_SHADOWS
+uniform mat4 sun_map_from_ego;
+uniform vec2 sun_raised_m; // of upright surfaces, of level ones
+#endif
+#endif
 
 invariant gl_Position;
 
@@ -18,11 +25,39 @@ uniform vec4 traffic_grid; // ahead x, y of the car; corner ahead, left
 #include "traffic_lamps.glsl"
 #endif
 
+#if FOG
+uniform vec4 fog;
+#endif
+#if FOG || WET
+uniform float sky_cdm2;
+#endif
+#if WET
+uniform float wetness;
+#endif
+#if BACKGROUND
+uniform vec3 background_m[3]; // a triangle over the whole picture, far away
+#endif
+
 void main() {
+#if BACKGROUND
+    vec3 p = background_m[gl_VertexID];
+    vec3 n = vec3(0.0, 0.0, 1.0);
+#else
     vec3 p = mesh_offset_m.xyz + turned(position_m);
     vec3 n = turned(normal);
     Material m = materials[material];
-#if WANT_COLOUR || WANT_LUMINANCE
+#endif
+#if FOG || WET
+    v_from_eye = eye_axis.w > 0.0 ? p - eye_m : 1000.0 * eye_axis.xyz; // as seen from a map: from straight above
+    v_sky_cdm2 = sky_cdm2;
+#endif
+#if FOG
+    v_fog = fog;
+#endif
+#if WET
+    v_wet = wetness * m.retro.w;
+#endif
+#if (WANT_COLOUR || WANT_LUMINANCE) && !BACKGROUND
     v_albedo = m.albedo;
 #if TEXTURED
     v_uv = uv;
@@ -38,14 +73,22 @@ void main() {
     v_retro = m.retro.xy;
 #endif
 #endif
-#if SKY
+#if SKY || SUN
     v_normal = n;
+#endif
+#if SKY
     v_sky_lx = sky_lx;
+#endif
+#if SUN
+    v_sun = sun_towards_lx;
+#if SUN_SHADOWS
+    v_sun_at = (sun_map_from_ego * vec4(p + mix(sun_raised_m.x, sun_raised_m.y, n.z * n.z) * n, 1.0)).xyz;
+#endif
 #endif
 #if WANT_DEPTH
     v_depth_m = dot(p - eye_m, eye_axis.xyz);
 #endif
-#if WANT_IDS
+#if WANT_IDS && !BACKGROUND
     v_mesh = uint(mesh_offset_m.w);
 #endif
 #if LAMP_COUNT > 0
@@ -58,7 +101,7 @@ void main() {
 #if WANT_TARGET
         v_raise[i] = lamp.raise.xyz;
 #endif
-#if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
+#if (WANT_COLOUR || WANT_LUMINANCE) && (RETRO || FOG || WET)
         v_eye[i] = lamp.eye;
 #endif
 #endif

@@ -22,9 +22,29 @@ STAGE_IO vec2 v_traffic_cell;  // in cells from the grid's corner
 flat STAGE_IO uvec2 v_traffic_list;
 flat STAGE_IO vec4 v_traffic_eye; // as eye of a lamp, along the world's axes
 #endif
-#if SKY
+#if SKY || SUN
 STAGE_IO vec3 v_normal;
+#endif
+#if SKY
 flat STAGE_IO float v_sky_lx;
+#endif
+#if SUN
+flat STAGE_IO vec4 v_sun; // towards sun or moon; w: lx on a plane across its light
+#if SUN_SHADOWS
+STAGE_IO vec3 v_sun_at; // in its shadow map, of a point raised above the surface
+#endif
+#endif
+#if FOG || WET
+STAGE_IO vec3 v_from_eye;
+#endif
+#if FOG
+flat STAGE_IO vec4 v_fog; // extinction on the way from a lamp and on that to the eye, scattering, g
+#endif
+#if FOG || WET
+flat STAGE_IO float v_sky_cdm2;
+#endif
+#if WET
+flat STAGE_IO float v_wet; // 0 dry .. 1 under water
 #endif
 #if WANT_DEPTH
 STAGE_IO float v_depth_m;
@@ -40,7 +60,7 @@ flat STAGE_IO vec4 v_colour[LAMP_COUNT]; // linear sRGB of luminance 1; w: inten
 #if WANT_TARGET
 flat STAGE_IO vec3 v_raise[LAMP_COUNT]; // from the point to the target above it
 #endif
-#if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
+#if (WANT_COLOUR || WANT_LUMINANCE) && (RETRO || FOG || WET)
 flat STAGE_IO vec4 v_eye[LAMP_COUNT]; // in lamp space; w: 1 a place, 0 a direction
 #endif
 #endif

@@ -14,7 +14,7 @@ vec3 turned(vec3 v) { return v; }
 struct Material {
     vec4 albedo;   // w: retro_rl
     vec4 emission; // cd/m2; w: texture layer
-    vec4 retro;    // reference angle, 1 / fall-off, texture mode (0: none)
+    vec4 retro;    // reference angle, 1 / fall-off, texture mode (0: none); w: 1 where it gets wet
     vec4 blend;
 };
 

@@ -41,6 +41,19 @@ constexpr EquationBound bounds[] = {
     {"quick_srgb_encoded", 1e-6, "of 1", 0.5, "GLSL's roots 4.5 units each, in terms whose sizes add up to 1.8"},
     {"directional_illuminance", 4e-7, "of perpendicular_lx", 1.0, "a dot product of unit vectors 3 u and their own rounding, a product"},
     {"sky_illuminance", 3e-7, "of horizontal_lx", 1.0, "a sum and two products: 3 u"},
+    {"transmittance", 3e-5, "relative while exp is above 1e-35", 80.0,
+     "GLSL's exp is exact to 3 + 2 |x| units, |x| to 80 here; its argument's u counts |x| times"},
+    {"henyey_greenstein", 3e-6, "relative", 271.0,
+     "sums of terms of one sign for g >= 0: 4 u, times 3/2, a root and GLSL's quotient 5 u; 1 - g and 1 - cosine are exact near 1. The "
+     "condition is that of the forward peak at g = 0.9"},
+    {"scattered_towards_eye", 2e-5, "relative to optical depths of 10", 500.0,
+     "henyey_greenstein, exp to 23 units, its argument's 5 u ten times, and the sine's rounding in 1 - sine. The condition is the forward "
+     "peak's, and the way's at sines of 0.99"},
+    {"facet_cosine", 3e-7, "of 1", 1.0, "a sum of products that is at most 1, 4 u, and a root"},
+    {"water_reflectance", 3e-6, "of 1", 2.0, "differences of cosine and index, which stay apart, GLSL's quotient 5 u, squared: 30 u"},
+    {"wet_albedo", 3e-5, "relative", 4.0, "1 - F is 0.05 at a cosine of 0.01, for two directions: 20 times what water_reflectance rounds"},
+    {"wet_mirrored", 5e-4, "relative", 1000.0,
+     "the facet's sine by a cross product, 6 u of 1 over a lobe of width 0.1, to the fourth power; dot products of 0.001 with 3 u"},
 };
 
 } // namespace

@@ -31,9 +31,40 @@ double length(const EquationDoubles& x, std::size_t slot) { return std::hypot(x[
 double own(const EquationDoubles&, double value) { return std::abs(value); }
 double one(const EquationDoubles&, double) { return 1.0; }
 
-std::vector<Equation> make() {
+std::vector<Equation> of_sky_and_weather() {
     const auto any = [](const EquationDoubles&, const std::array<double, 4>&) { return true; };
     const auto first = [](const EquationDoubles& x, double) { return x[0]; };
+    // What is left of the light lies above 1e-37, and its optical depth within 80.
+    const auto not_dark = [](const EquationDoubles& x, const std::array<double, 4>&) { return x[0] * x[1] < 80.0; };
+    const auto near_enough = [](const EquationDoubles& x, const std::array<double, 4>&) {
+        const double from_lamp = x[2] / std::sqrt(1.0 - x[1] * x[1]);
+        return std::abs(x[1]) <= 0.99 && x[4] * (from_lamp + std::abs(x[3]) + from_lamp) < 10.0;
+    };
+    const auto above = [](const EquationDoubles& x, const std::array<double, 4>&) {
+        return x[0] * x[4] + x[1] * x[5] + x[2] * x[6] > 1e-3 && x[0] * x[8] + x[1] * x[9] + x[2] * x[10] > 1e-3;
+    };
+    return {{29, "directional_illuminance", "", "1e-6 to 150 000 lx, all round",
+             std::vector{logarithmic(0, 1e-6, 1.5e5), direction(4), direction(8)}, 1, first, any},
+            {30, "sky_illuminance", "", "1e-6 to 150 000 lx, all slopes", std::vector{logarithmic(0, 1e-6, 1.5e5), direction(4)}, 1, first,
+             any},
+            {31, "transmittance", "", "1e-9 to 10 per metre, 1 mm to 10 km, optical depths to 80",
+             std::vector{logarithmic(0, 1e-9, 10.0), logarithmic(1, 1e-3, 1e4)}, 1, own, not_dark},
+            {32, "henyey_greenstein", "", "all angles, g 0 to 0.9", std::vector{linear(0, -1.0, 1.0), linear(1, 0.0, 0.9)}, 1, own, any},
+            {33, "scattered_towards_eye", "", "1e-3 to 1e6 cd, angles of sines to 0.99, 1 mm to 100 m, optical depths to 10, g to 0.9",
+             std::vector{logarithmic(0, 1e-3, 1e6), linear(1, -0.99, 0.99), logarithmic(2, 1e-3, 100.0), logarithmic(3, 1e-3, 1e3),
+                         logarithmic(4, 1e-9, 10.0), linear(5, 0.0, 0.9)},
+             1, own, near_enough},
+            {34, "facet_cosine", "", "cosines 1e-6 to 1, alpha 0.01 to 1", std::vector{logarithmic(0, 1e-6, 1.0), linear(1, 0.01, 1.0)}, 1,
+             one, any},
+            {35, "water_reflectance", "", "cosines 1e-6 to 1", std::vector{logarithmic(0, 1e-6, 1.0)}, 1, one, any},
+            {36, "wet_albedo", "", "albedo 1e-4 to 1, cosines 0.01 to 1",
+             std::vector{logarithmic(0, 1e-4, 1.0), linear(1, 0.01, 1.0), linear(2, 0.01, 1.0)}, 1, own, any},
+            {37, "wet_mirrored", "", "alpha 0.1 to 1, both directions above the surface by a sine of 0.001",
+             std::vector{direction(0), linear(3, 0.1, 1.0), direction(4), direction(8)}, 1, own, above}};
+}
+
+std::vector<Equation> make() {
+    const auto any = [](const EquationDoubles&, const std::array<double, 4>&) { return true; };
     const auto place = three(either_sign(0, 1e-3, 1e4)), to_lamp = three(either_sign(4, 1e-3, 1e4));
     const auto colour = [](std::size_t slot) { return three(logarithmic(slot, 1e-4, 1.0)); };
     const auto reflectances = colour(0) + colour(4) + std::vector{linear(7, 0.0, 1.0)} + colour(8);
@@ -140,11 +171,9 @@ std::vector<Equation> make() {
          one,
          any},
         {27, "srgb_encoded", "", "0 to 1", {logarithmic(0, 1e-9, 1.0)}, 1, one, any},
-        {28, "quick_srgb_encoded", "", "0 to 1", {logarithmic(0, 1e-9, 1.0)}, 1, one, any},
-        {29, "directional_illuminance", "", "1e-6 to 150 000 lx, all round",
-         std::vector{logarithmic(0, 1e-6, 1.5e5), direction(4), direction(8)}, 1, first, any},
-        {30, "sky_illuminance", "", "1e-6 to 150 000 lx, all slopes", std::vector{logarithmic(0, 1e-6, 1.5e5), direction(4)}, 1, first,
-         any}};
+        {28, "quick_srgb_encoded", "", "0 to 1", {logarithmic(0, 1e-9, 1.0)}, 1, one, any}};
+    for (const Equation& equation : of_sky_and_weather())
+        all.push_back(equation);
     // Each position by its own angle, first angle and step; one scale for both is the larger one's.
     all[7].scale = [](const EquationDoubles& x, double) {
         return std::max((std::abs(x[0]) + std::abs(x[4])) * x[6], (std::abs(x[1]) + std::abs(x[5])) * x[7]);

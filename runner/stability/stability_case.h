@@ -93,6 +93,7 @@ std::vector<StabilityCase> image_cases();
 std::vector<StabilityCase> comparison_cases();
 std::vector<StabilityCase> time_cases();
 std::vector<StabilityCase> number_cases();
+std::vector<StabilityCase> weather_cases();
 std::vector<StabilityCase> equation_cases();
 
 } // namespace fernlicht

@@ -151,7 +151,7 @@ Weather read_weather(const YamlMap& drive) {
         weather.asymmetry = fog_asymmetry;
     }
     weather.scattering_albedo = keys.number_or("scattering_albedo", weather.scattering_albedo, 0.0, 1.0);
-    weather.asymmetry = keys.number_or("asymmetry", weather.asymmetry, -0.99, 0.99);
+    weather.asymmetry = keys.number_or("asymmetry", weather.asymmetry, 0.0, 0.9);
     if (const auto falls = keys.find("rain"))
         weather = together(weather, rain(classes[falls->choice({"light", "moderate", "heavy"})]));
     if (const auto falls = keys.find("snow"))

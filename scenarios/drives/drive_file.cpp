@@ -69,6 +69,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf
     read_time(keys, drive);
     drive.daylight = read_daylight(keys);
     drive.weather = read_weather(keys);
+    drive.street_lamps = read_street_lamps(keys, shelf);
     const Car car = read_car(keys);
     drive.bumper_m = car.bumper_m;
     drive.wheelbase_m = car.wheelbase_m;
@@ -103,7 +104,7 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
                         "speed",         "step_s",  "rate_hz",  "duration_s",    "daylight", "car",       "vehicle",
                         "actuators",     "control", "variants", "changes",       "views",    "capture",   "tone_mapper",
                         "technique",     "measure", "limits",   "shadows",       "textures", "beams",     "seed",
-                        "mirrored_road", "weather", "traffic",  "traffic_light", "scenery",  "view_set"});
+                        "mirrored_road", "weather", "traffic",  "traffic_light", "scenery",  "view_set",  "street_lamps"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;

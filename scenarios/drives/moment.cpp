@@ -1,5 +1,6 @@
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/sky/place_street_lamps.h"
 #include "scenarios/traffic/moment_traffic.h"
 
 #include <algorithm>
@@ -91,6 +92,7 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     for (const MountedLamp& lamp : lamps)
         moment.lamps.push_back(lit(lamp, moment.ego));
     add_traffic(drive, moment);
+    add_street_lamps(drive, route, street_lamps_within_m, moment);
     return moment;
 }
 

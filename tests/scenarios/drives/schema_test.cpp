@@ -75,12 +75,17 @@ TEST_F(Schema, AgreesWithTheReader) {
         "sky: foggy}",
         "weather: {fog: {visibility_m: 100}}",
         "weather: {fog: {visibility_m: 100, contrast: 0.02}, rain: light, wetness: 0.3}",
+        "street_lamps: {a: {file: low.ies}}",
+        "street_lamps: {a: {file: low.ies, every_m: 25, tilt_deg: 5, level: 0.5, temperature_k: 4000}}",
+        "street_lamps: {a: {every_m: 25}}",
+        "street_lamps: {a: {file: low.ies, every_m: 0}}",
+        "street_lamps: [low.ies]",
         "weather: {fog: {visibility_m: 0}}",
         "weather: {fog: {visibility_m: 9}, extinction_per_m: 0.1}",
         "weather: {fog: thick}",
         "weather: {snow: heavy}",
         "weather: {snow: deep}",
-        "weather: {extinction_per_m: 0.01, scattering_albedo: 0.9, asymmetry: -0.5}",
+        "weather: {extinction_per_m: 0.01, scattering_albedo: 0.9, asymmetry: 0.5}",
         "weather: {asymmetry: 1}",
         "weather: {wetness: 1.5}",
         "car: {bumper_x_m: 3, wheelbase_m: 2.5}",
@@ -218,7 +223,7 @@ TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
     std::filesystem::create_directories(folder / "library/roads");
     std::filesystem::create_directories(folder / "library/lamps");
     write_file(folder / "library/roads/country.xodr", "<OpenDRIVE/>");
-    for (const char* lamp : {"halogen-low", "halogen-high", "xenon-low", "xenon-high"})
+    for (const char* lamp : {"halogen-low", "halogen-high", "xenon-low", "xenon-high", "street-6000lm"})
         write_file(folder / "library/lamps" / (std::string(lamp) + ".ies"), ies_text(1.0));
     std::filesystem::create_directories(folder / "library/models");
     std::filesystem::copy_file(scenarios / "library/models/shelter.gltf", folder / "library/models/shelter.gltf",

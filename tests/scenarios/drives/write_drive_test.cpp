@@ -75,6 +75,14 @@ void expect_same(const Drive& a, const Drive& b) {
     EXPECT_EQ(a.step_s, b.step_s);
     EXPECT_EQ(a.daylight, b.daylight);
     EXPECT_EQ(a.weather, b.weather);
+    ASSERT_EQ(a.street_lamps.size(), b.street_lamps.size());
+    for (std::size_t i = 0; i < a.street_lamps.size(); ++i) {
+        const StreetLampRow &x = a.street_lamps[i], &y = b.street_lamps[i];
+        EXPECT_EQ(std::tie(x.name, x.first_m, x.last_m, x.every_m, x.beside_m, x.height_m, x.arm_m, x.tilt_rad, x.level),
+                  std::tie(y.name, y.first_m, y.last_m, y.every_m, y.beside_m, y.height_m, y.arm_m, y.tilt_rad, y.level));
+        EXPECT_EQ(x.colour.linear_srgb, y.colour.linear_srgb);
+        EXPECT_EQ(x.file->table.cd, y.file->table.cd);
+    }
     EXPECT_EQ(a.bumper_m, b.bumper_m);
     EXPECT_EQ(a.wheelbase_m, b.wheelbase_m);
     EXPECT_EQ(a.vehicle, b.vehicle);
@@ -128,7 +136,19 @@ class AnyDrive {
             drive.daylight = daylight_at({drive.daylight.name, 0.0, {}, {}, drive.daylight.clock}, 0.0);
         }
         if (coin())
-            drive.weather = {number(0.0, 1.0), number(0.0, 1.0), number(-0.9, 0.9), number(0.0, 1.0)};
+            drive.street_lamps = {{"row",
+                                   sources_.front().file,
+                                   number(0.0, 9.0),
+                                   number(10.0, 1e3),
+                                   number(1.0, 99.0),
+                                   number(-9.0, 9.0),
+                                   number(1.0, 20.0),
+                                   number(0.0, 3.0),
+                                   number(-0.5, 0.5),
+                                   number(0.0, 1.0),
+                                   {}}};
+        if (coin())
+            drive.weather = {number(0.0, 1.0), number(0.0, 1.0), number(0.0, 0.9), number(0.0, 1.0)};
         drive.bumper_m = number(2.0, 5.0);
         drive.wheelbase_m = number(2.0, 4.0);
         for (int i = 0; i <= whole(0, 2); ++i)

@@ -1,0 +1,188 @@
+// Sun and moon as they are drawn: against the double-precision twin, the reference, and closed forms; left out where they do not shine.
+#include "tests/renderer/reference/rooms.h"
+
+#include "renderer/renderer.h"
+#include "renderer/twin.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr Wanted drawn{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+
+/// Ground and an upright board with a post before it, 20 m ahead.
+Scene yard() {
+    Scene scene = level_ground(300.0, lambert(0.2));
+    scene.materials.push_back(lambert(0.5, SurfaceKind::object));
+    Mesh board{"board", {20.0, 0.0, 0.0}, {}, {}, {}};
+    add_quad(board, {0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3});
+    add_quad(board, {0.2F, -3, 0}, {0.2F, 3, 0}, {0.2F, 3, 3}, {0.2F, -3, 3});
+    Mesh post{"post", {16.0, 1.0, 0.0}, {}, {}, {}};
+    add_quad(post, {0, 0.2F, 0}, {0, -0.2F, 0}, {0, -0.2F, 2}, {0, 0.2F, 2});
+    add_quad(post, {0.2F, -0.2F, 0}, {0.2F, 0.2F, 0}, {0.2F, 0.2F, 2}, {0.2F, -0.2F, 2});
+    scene.meshes.push_back(finished(board, 1));
+    scene.meshes.push_back(finished(post, 1));
+    return scene;
+}
+
+Moment sunlit(double azimuth_deg, double elevation_deg, double lx, double sky_lx) {
+    Moment moment;
+    moment.daylight.horizontal_illuminance_lx = sky_lx;
+    moment.daylight.sun = {radians(azimuth_deg), radians(elevation_deg), lx};
+    moment.lamps = {even_lamp(1000.0, looking({3.5, 0.0, 0.65}, 0, 0))};
+    return moment;
+}
+
+View ahead() {
+    View view = camera({1.5, 0.35, 1.2}, 0, -3, 30, 96);
+    view.height_px = 64;
+    return view;
+}
+
+class DrawnDaylight : public testing::Test {
+  protected:
+    Frame draw(const Scene& scene, const Moment& moment, bool shadows, const char* technique = "photometric", Work* work = nullptr) {
+        RendererSettings settings;
+        settings.shadows = shadows;
+        settings.technique = technique;
+        Renderer renderer(device_, scene, settings);
+        if (work != nullptr)
+            *work = renderer.count(moment, ahead(), drawn);
+        return renderer.draw(moment, ahead(), drawn);
+    }
+    Device device_ = open_device("auto");
+};
+
+struct Tally {
+    int compared = 0, beyond = 0;
+};
+
+Tally against_twin(const Frame& frame, const Twin& twin, const Moment& moment, const View& view) {
+    Tally tally;
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x) {
+            const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+            if (truth.id != frame.ids.at(x, y))
+                continue; // an outline
+            ++tally.compared;
+            const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - truth.illuminance_lx);
+            const double dim = std::abs(static_cast<double>(frame.luminance_cdm2.at(x, y)) - truth.luminance_cdm2);
+            tally.beyond += off > truth.bound_lx + 1e-9 || dim > 1e-5 * truth.luminance_cdm2 + 1e-12 ? 1 : 0;
+        }
+    return tally;
+}
+
+/// From behind, from the side, from ahead, high, at the horizon, at the zenith; bright sun and faint moon.
+TEST_F(DrawnDaylight, LiesWithinTheBoundOfTheTwin) {
+    const Scene scene = yard();
+    const Twin twin(scene, false);
+    for (const auto& [azimuth, elevation, lx] :
+         {std::tuple(270.0, 30.0, 80'000.0), std::tuple(0.0, 10.0, 9000.0), std::tuple(90.0, 45.0, 0.2), std::tuple(200.0, 0.0, 500.0),
+          std::tuple(10.0, 90.0, 100'000.0), std::tuple(1.0, -5.0, 3.0)})
+        for (const double sky : {0.0, 12'000.0}) {
+            Moment moment = sunlit(azimuth, elevation, lx, sky);
+            moment.lamps.clear();
+            const Tally tally = against_twin(draw(scene, moment, false), twin, moment, ahead());
+            EXPECT_GT(tally.compared, 6000);
+            EXPECT_EQ(tally.beyond, 0) << azimuth << ' ' << elevation;
+        }
+}
+
+/// The ground shows E sin(elevation), and a sun below the horizon no light on it.
+TEST_F(DrawnDaylight, GivesTheGroundTheSineOfTheElevation) {
+    const Scene scene = level_ground(300.0, lambert(0.2));
+    for (const double elevation : {90.0, 30.0, 1.0}) {
+        Moment moment = sunlit(123.0, elevation, 50'000.0, 0.0);
+        moment.lamps.clear();
+        const double e = static_cast<double>(draw(scene, moment, true).illuminance_lx.at(48, 60));
+        EXPECT_NEAR(e, 50'000.0 * std::sin(radians(elevation)), 0.04);
+    }
+    Moment below = sunlit(123.0, -1.0, 50'000.0, 0.0);
+    below.lamps.clear();
+    EXPECT_EQ(draw(scene, below, true).illuminance_lx.at(48, 60), 0.0F);
+}
+
+/// Shadows of board and post fall where rays say; the map's texels of 0.12 m blur their edges.
+TEST_F(DrawnDaylight, ShadowsFallWhereRaysSay) {
+    const Scene scene = yard();
+    const Twin lit(scene, false), shaded(scene, true);
+    View above = ahead();
+    above.projection = Projection::map;
+    above.map_ahead_m = 40.0;
+    above.map_behind_m = 0.0;
+    above.map_left_m = above.map_right_m = 12.0;
+    above.width_px = 96;
+    above.height_px = 160;
+    for (const auto& [azimuth, elevation] : {std::pair(60.0, 25.0), std::pair(300.0, 12.0)}) {
+        Moment moment = sunlit(azimuth, elevation, 1000.0, 0.0);
+        moment.lamps.clear();
+        Renderer renderer(device_, scene, {});
+        const Frame frame = renderer.draw(moment, above, {.illuminance = true});
+        int dark = 0, wrong = 0;
+        const auto dark_at = [&](double x, double y) { return shaded.pixel(moment, above, x, y).illuminance_lx == 0.0; };
+        for (int y = 0; y < above.height_px; ++y)
+            for (int x = 0; x < above.width_px; ++x) {
+                const bool truth = dark_at(x + 0.5, y + 0.5);
+                bool edge = false;
+                for (const double d : {-1.0, 1.0})
+                    edge = edge || dark_at(x + 0.5 + d, y + 0.5) != truth || dark_at(x + 0.5, y + 0.5 + d) != truth;
+                if (edge)
+                    continue;
+                dark += truth ? 1 : 0;
+                wrong += (static_cast<double>(frame.illuminance_lx.at(x, y)) < 500.0 * std::sin(radians(elevation))) != truth ? 1 : 0;
+            }
+        EXPECT_GT(dark, 300) << azimuth;
+        EXPECT_LE(wrong, dark / 50) << azimuth;
+    }
+}
+
+TEST_F(DrawnDaylight, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
+    const Scene scene = yard();
+    for (const auto& [lx, elevation, sky] :
+         {std::tuple(0.0, 0.0, 0.0), std::tuple(60'000.0, 30.0, 9000.0), std::tuple(0.2, 60.0, 0.0), std::tuple(100.0, -2.0, 0.0)}) {
+        const Moment moment = sunlit(300.0, elevation, lx, sky);
+        const Frame a = draw(scene, moment, true), b = draw(scene, moment, true, "photometric-unpruned");
+        EXPECT_EQ(a.colour, b.colour) << lx;
+        EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << lx;
+        EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << lx;
+        EXPECT_EQ(a.target_lx, b.target_lx) << lx;
+    }
+}
+
+TEST_F(DrawnDaylight, NeitherSunNorMoonCostsNothing) {
+    const Scene scene = yard();
+    Work night, day;
+    draw(scene, sunlit(300.0, 30.0, 0.0, 0.0), true, "photometric", &night);
+    draw(scene, sunlit(300.0, 30.0, 1000.0, 0.0), true, "photometric", &day);
+    EXPECT_EQ(night.passes + 1, day.passes);
+    EXPECT_EQ(night.shadow_maps + 1, day.shadow_maps);
+    EXPECT_EQ(night.samplers + 1, day.samplers);
+    EXPECT_LT(night.features, day.features);
+}
+
+/// The reference's direct light and paths, and the twin, look at the same sun.
+TEST(ReferenceDaylight, AgreesWithTheTwin) {
+    const Scene scene = yard();
+    const Moment moment = sunlit(300.0, 20.0, 3000.0, 100.0);
+    ReferenceSettings settings;
+    settings.footprint = Footprint::centre;
+    const View view = ahead();
+    const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
+    const Twin twin(scene, true);
+    int differ = 0, shaded = 0;
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x) {
+            const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+            differ += std::abs(static_cast<double>(image.illuminance_lx.mean.at(x, y)) - truth.illuminance_lx) > 1e-6 * truth.illuminance_lx
+                          ? 1
+                          : 0;
+            shaded += truth.id != 0 && truth.illuminance_lx < 200.0 ? 1 : 0;
+        }
+    EXPECT_LE(differ, 20); // outlines and edges of shadows
+    EXPECT_GT(shaded, 20);
+}
+
+} // namespace
+} // namespace fernlicht

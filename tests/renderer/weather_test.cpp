@@ -1,0 +1,213 @@
+// Fog and a wet road as they are drawn: against integrals in double, the twin and the reference; pruned as unpruned; nothing in clear air.
+#include "tests/renderer/reference/rooms.h"
+
+#include "renderer/renderer.h"
+#include "renderer/twin.h"
+#include "scenarios/fog_light.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr Wanted drawn{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+
+LitLamp beam(const glm::dvec3& at) {
+    auto file = std::make_shared<LampFile>();
+    for (int i = -60; i <= 60; ++i)
+        file->table.h_deg.push_back(0.5 * i);
+    for (int i = -60; i <= 40; ++i)
+        file->table.v_deg.push_back(0.25 * i);
+    for (const double v : file->table.v_deg)
+        for (const double h : file->table.h_deg)
+            file->table.cd.push_back(300.0 + 15000.0 / (1.0 + std::exp((v + 0.6) / 0.3)) * std::exp(-h * h / 200.0));
+    return {"beam", file, {at, axes_from_angles(0.0, 0.0, 0.0)}, 1.0, {}, 0.0};
+}
+
+Moment in(const Weather& weather, double sky_lx = 0.0) {
+    Moment moment;
+    moment.weather = weather;
+    moment.daylight.horizontal_illuminance_lx = sky_lx;
+    moment.lamps = {beam({3.4, 0.6, 0.65}), beam({3.4, -0.6, 0.65})};
+    moment.lamps[1].colour.linear_srgb = {1.6, 0.85, 0.95};
+    return moment;
+}
+
+Scene road(double albedo) {
+    Scene scene = level_ground(300.0, lambert(albedo));
+    scene.materials.push_back(lambert(albedo, SurfaceKind::board));
+    Mesh board{"board", {30.0, 3.0, 0.0}, {}, {}, {}};
+    add_quad(board, {0, 2, 0}, {0, -2, 0}, {0, -2, 3}, {0, 2, 3});
+    scene.meshes.push_back(finished(board, 1));
+    return scene;
+}
+
+View ahead() {
+    View view = camera({1.3, 0.35, 1.2}, 0, -1, 30, 32);
+    view.height_px = 24;
+    return view;
+}
+
+class DrawnWeather : public testing::Test {
+  protected:
+    Frame draw(const Scene& scene, const Moment& moment, const char* technique = "photometric", int samples = 32, Work* work = nullptr,
+               const View& view = ahead()) {
+        RendererSettings settings;
+        settings.technique = technique;
+        settings.fog_samples = samples;
+        Renderer renderer(device_, scene, settings);
+        if (work != nullptr)
+            *work = renderer.count(moment, view, drawn);
+        return renderer.draw(moment, view, drawn);
+    }
+    Device device_ = open_device("auto");
+};
+
+/// Black ground and no sky: what is seen is the air alone. Float against double at the same places, in every pixel, sky and surfaces.
+TEST_F(DrawnWeather, AirlightIsThatOfDoublePrecision) {
+    const Scene scene = road(0.0);
+    const View view = ahead();
+    for (const Weather& fog : {Weather{0.001, 1.0, 0.85, 0.0}, Weather{0.03, 0.9, 0.5, 0.0}, Weather{0.5, 1.0, 0.9, 0.0}}) {
+        const Moment moment = in(fog);
+        const Frame frame = draw(scene, moment);
+        const Twin twin(scene, false);
+        const Camera camera = camera_of(moment, view);
+        for (int y = 0; y < view.height_px; ++y)
+            for (int x = 0; x < view.width_px; ++x) {
+                const TwinPixel seen = twin.pixel(in({}), view, x + 0.5, y + 0.5);
+                if (seen.id != frame.ids.at(x, y))
+                    continue; // an outline
+                const Ray ray = pixel_ray(camera, view, x + 0.5, y + 0.5);
+                const glm::dvec3 end =
+                    seen.id != 0 ? seen.point_m : ray.origin_m + ray.direction * (5000.0 / glm::dot(ray.direction, camera.axis));
+                double truth = 0.0;
+                for (const LitLamp& lamp : moment.lamps)
+                    truth += glm::dot(lamp.colour.linear_srgb, glm::dvec3(0.2126, 0.7152, 0.0722)) *
+                             airlight_cdm2(lamp, fog, camera.eye_m, end, 32);
+                // Midpoints at a table's edge fall to one side or the other: 2 % of one of 32 parts.
+                EXPECT_NEAR(static_cast<double>(frame.luminance_cdm2.at(x, y)), truth, 2e-3 * truth + 1e-9)
+                    << x << ' ' << y << ' ' << fog.extinction_per_m;
+            }
+    }
+}
+
+/// Everything together against the twin, which integrates until nothing moves: what 32 midpoints leave, and 128.
+TEST_F(DrawnWeather, MeetsTheTwinWithMoreMidpoints) {
+    const Scene scene = road(0.1);
+    View view = ahead();
+    view.width_px = 16;
+    view.height_px = 12;
+    Moment moment = in({0.03, 1.0, 0.85, 0.0}, 2.0);
+    moment.lamps.pop_back();
+    const Twin twin(scene, true);
+    double error[3] = {}, sum = 0.0;
+    const Frame frames[] = {draw(scene, moment, "photometric", 16, nullptr, view), draw(scene, moment, "photometric", 32, nullptr, view),
+                            draw(scene, moment, "photometric", 128, nullptr, view)};
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x) {
+            const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+            if (truth.id != frames[0].ids.at(x, y))
+                continue;
+            sum += truth.luminance_cdm2;
+            for (int k = 0; k < 3; ++k)
+                error[k] += std::abs(static_cast<double>(frames[k].luminance_cdm2.at(x, y)) - truth.luminance_cdm2);
+            EXPECT_NEAR(static_cast<double>(frames[1].illuminance_lx.at(x, y)), truth.illuminance_lx,
+                        truth.bound_lx + 1e-4 * truth.illuminance_lx);
+        }
+    RecordProperty("mean_error_ppm_16", static_cast<int>(1e6 * error[0] / sum));
+    RecordProperty("mean_error_ppm_32", static_cast<int>(1e6 * error[1] / sum));
+    RecordProperty("mean_error_ppm_128", static_cast<int>(1e6 * error[2] / sum));
+    EXPECT_LT(error[1], 0.03 * sum);
+    EXPECT_LT(error[2], 0.003 * sum);
+}
+
+TEST_F(DrawnWeather, WetRoadIsTheTwins) {
+    const Scene scene = road(0.1);
+    const View view = ahead();
+    for (const double wetness : {0.4, 1.0})
+        for (const bool sun : {false, true}) {
+            Moment moment = in({0.0, 1.0, 0.85, wetness}, 3.0);
+            if (sun)
+                moment.daylight.sun = {radians(80.0), radians(20.0), 40.0};
+            const Frame frame = draw(scene, moment);
+            const Twin twin(scene, true);
+            int beyond = 0;
+            for (int y = 0; y < view.height_px; ++y)
+                for (int x = 0; x < view.width_px; ++x) {
+                    const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+                    const double off = std::abs(static_cast<double>(frame.luminance_cdm2.at(x, y)) - truth.luminance_cdm2);
+                    beyond += truth.id == frame.ids.at(x, y) && off > 1e-3 * truth.luminance_cdm2 ? 1 : 0;
+                }
+            EXPECT_LE(beyond, 3) << wetness << ": edges of shadows";
+        }
+}
+
+TEST_F(DrawnWeather, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
+    const Scene scene = road(0.1);
+    for (const Weather& weather : {Weather{}, Weather{0.03, 1.0, 0.85, 0.0}, Weather{1e-9, 1.0, 0.85, 0.0}, Weather{10.0, 0.5, 0.0, 0.0},
+                                   Weather{0.0, 1.0, 0.85, 1.0}, Weather{0.01, 1.0, 0.85, 0.3}}) {
+        Moment moment = in(weather, weather.wetness > 0.5 ? 0.0 : 1.0);
+        moment.lamps[1].intensity_factor = weather.extinction_per_m > 0.02 ? 0.0 : 1.0;
+        const Frame a = draw(scene, moment), b = draw(scene, moment, "photometric-unpruned");
+        EXPECT_EQ(a.colour, b.colour) << weather.extinction_per_m << ' ' << weather.wetness;
+        EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << weather.extinction_per_m;
+        EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << weather.extinction_per_m << ' ' << weather.wetness;
+        EXPECT_EQ(a.target_lx, b.target_lx);
+        EXPECT_EQ(a.depth_m, b.depth_m);
+        EXPECT_EQ(a.ids, b.ids);
+    }
+}
+
+TEST_F(DrawnWeather, ClearAndDryCostsNothing) {
+    const Scene scene = road(0.1);
+    Work clear, foggy, wet;
+    draw(scene, in({}), "photometric", 32, &clear);
+    draw(scene, in({0.03, 1.0, 0.85, 0.0}), "photometric", 32, &foggy);
+    draw(scene, in({0.0, 1.0, 0.85, 1.0}), "photometric", 32, &wet);
+    EXPECT_LT(clear.features, foggy.features);
+    EXPECT_LT(clear.features, wet.features);
+    EXPECT_LT(clear.calls, foggy.calls);
+    EXPECT_EQ(clear.passes, foggy.passes);
+}
+
+/// From no fog to the thickest that a drive may have: nothing that is not a number, and air as thin as 1e-9 changes nothing but its share.
+TEST_F(DrawnWeather, HoldsAtTheExtremes) {
+    const Scene scene = road(0.1);
+    const Frame clear = draw(scene, in({}, 1.0));
+    for (const double extinction : {1e-9, 1e-6, 1.0, 10.0})
+        for (const double g : {0.0, 0.9}) {
+            const Frame frame = draw(scene, in({extinction, 1.0, g, 1.0}, 1.0));
+            for (const float l : frame.luminance_cdm2.pixels())
+                ASSERT_TRUE(std::isfinite(l) && l >= 0.0F) << extinction;
+        }
+    const Frame thin = draw(scene, in({1e-9, 1.0, 0.85, 0.0}, 1.0));
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 32; ++x)
+            EXPECT_NEAR(thin.luminance_cdm2.at(x, y), clear.luminance_cdm2.at(x, y), 1e-5F * clear.luminance_cdm2.at(x, y) + 1e-7F);
+}
+
+TEST(ReferenceWeather, AgreesWithTheTwin) {
+    const Scene scene = road(0.1);
+    Moment moment = in({0.03, 1.0, 0.85, 0.7}, 2.0);
+    moment.daylight.sun = {radians(80.0), radians(20.0), 40.0};
+    ReferenceSettings settings;
+    settings.footprint = Footprint::centre;
+    View view = ahead();
+    view.width_px = 16;
+    view.height_px = 12;
+    const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
+    const Twin twin(scene, true);
+    int differ = 0;
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x) {
+            const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+            differ += std::abs(static_cast<double>(image.luminance_cdm2.mean.at(x, y)) - truth.luminance_cdm2) > 1e-5 * truth.luminance_cdm2
+                          ? 1
+                          : 0;
+        }
+    EXPECT_LE(differ, 3); // outlines
+}
+
+} // namespace
+} // namespace fernlicht

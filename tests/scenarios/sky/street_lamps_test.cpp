@@ -1,0 +1,100 @@
+// Rows of lamps along the route: where they hang, where they shine, and how much.
+#include "scenarios/drives/advance.h"
+#include "scenarios/light.h"
+#include "scenarios/sky/place_street_lamps.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
+
+/// The straight, with our street lamp to the right of it.
+struct LitStraight {
+    RoadNetwork network = read_opendrive(library + "roads/straight.xodr");
+    Route route{network, {}, {}};
+    Drive drive;
+    Moment moment;
+
+    explicit LitStraight(double beside_m = -4.0) {
+        StreetLampRow row;
+        row.name = "row";
+        row.file = std::make_shared<LampFile>(read_lamp(library + "lamps/street-6000lm.ies", {.type_c_axis = TypeCAxis::nadir}));
+        row.first_m = 10.0;
+        row.last_m = 320.0;
+        row.beside_m = beside_m;
+        drive.street_lamps = {row};
+        moment.distance_m = 100.0;
+        add_street_lamps(drive, route, 200.0, moment);
+    }
+};
+
+TEST(StreetLamps, StandEveryThirtyMetresWithinWhatIsAskedFor) {
+    const LitStraight lit;
+    ASSERT_EQ(lit.moment.other_lamps.size(), 10U); // 10, 40 .. 280 m of 10 .. 310, those within 200 m of 100
+    const LitLamp& first = lit.moment.other_lamps[0];
+    EXPECT_EQ(first.body, -2);
+    const Pose lane = lit.route.pose(10.0, -4.0);
+    EXPECT_NEAR(first.pose.position_m.z - lane.position_m.z, 8.0, 1e-9);
+    EXPECT_NEAR(glm::dot(first.pose.position_m - lane.position_m, lane.left()), 1.0, 1e-9) << "an arm of 1 m towards the lane";
+}
+
+/// Down, C 0 (lamp space's right) along the road, C 90 (its up) towards the lane, from either side.
+TEST(StreetLamps, HangWithTheirAxisDown) {
+    for (const double beside_m : {-4.0, 6.0}) {
+        const LitStraight lit(beside_m);
+        const Pose& pose = lit.moment.other_lamps[0].pose;
+        const Pose lane = lit.route.pose(10.0, 0.0);
+        EXPECT_NEAR(pose.forward().z, -1.0, 1e-12);
+        EXPECT_NEAR(std::abs(glm::dot(pose.left(), lane.forward())), 1.0, 1e-12);
+        EXPECT_NEAR(glm::dot(pose.up(), lane.left()) * beside_m, -std::abs(beside_m), 1e-9);
+        EXPECT_NEAR(glm::dot(glm::cross(pose.forward(), pose.left()), pose.up()), 1.0, 1e-12);
+    }
+}
+
+/// 6000 lm, by its own sum; below it 1349.5 cd / 64 m2 = 21 lx, where street lamps are said to give 20; more to the lane than behind.
+TEST(StreetLamps, GiveTheRoadItsTwentyLux) {
+    const LitStraight lit;
+    LitLamp lamp = lit.moment.other_lamps[0];
+    Moment alone;
+    alone.lamps = {lamp};
+    const glm::dvec3 below = lamp.pose.position_m - glm::dvec3(0.0, 0.0, 8.0), across = lamp.pose.up();
+    EXPECT_NEAR(surface_illuminance_lx(alone, below, {0.0, 0.0, 1.0}), 1349.5 / 64.0, 0.01);
+    EXPECT_GT(surface_illuminance_lx(alone, below + 8.0 * across, {0.0, 0.0, 1.0}),
+              1.4 * surface_illuminance_lx(alone, below - 8.0 * across, {0.0, 0.0, 1.0}));
+    double flux = 0.0;
+    constexpr int n = 180, m = 360;
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < m; ++k) {
+            const double down = radians(90.0 * (i + 0.5) / n), turn = radians(360.0 * (k + 0.5) / m);
+            const glm::dvec3 direction =
+                lamp.pose.axes * glm::dvec3(std::cos(down), std::sin(down) * std::cos(turn), std::sin(down) * std::sin(turn));
+            flux += intensity_towards_cd(lamp, lamp.pose.position_m + direction) * std::sin(down) * radians(90.0 / n) * radians(360.0 / m);
+        }
+    EXPECT_NEAR(flux, 6000.0, 60.0);
+}
+
+TEST(StreetLamps, HavePoles) {
+    const LitStraight lit;
+    Scene scene;
+    add_street_lamp_poles(lit.drive, lit.route, scene);
+    ASSERT_EQ(scene.meshes.size(), 11U);
+    for (const Mesh& mesh : scene.meshes) {
+        EXPECT_EQ(mesh.indices.size(), 3U * 36U);
+        for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) { // counter-clockwise triangles face their normals
+            const Vertex &a = mesh.vertices[mesh.indices[k]], &b = mesh.vertices[mesh.indices[k + 1]],
+                         &c = mesh.vertices[mesh.indices[k + 2]];
+            EXPECT_GT(glm::dot(glm::cross(b.position_m - a.position_m, c.position_m - a.position_m), a.normal), 0.0F);
+        }
+    }
+    Drive without;
+    Scene empty;
+    add_street_lamp_poles(without, lit.route, empty);
+    EXPECT_TRUE(empty.meshes.empty() && empty.materials.empty());
+}
+
+} // namespace
+} // namespace fernlicht
