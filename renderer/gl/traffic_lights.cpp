@@ -23,6 +23,12 @@ bool is_pair(const LitLamp& a, const LitLamp& b) {
            glm::dot(a.pose.up(), b.pose.up()) > same_axis;
 }
 
+/// Sine of the steepest normal's angle from the vertical.
+double lean_of(const Piece& piece) {
+    const double up = std::clamp(piece.least_up, 0.0, 1.0);
+    return std::sqrt(1.0 - up * up);
+}
+
 /// By samples n to each side: the most of |I(h - n) + I(h + n) - 2 I(h)| over the table, and over all smaller n. The last holds for all
 /// more.
 std::vector<double> merging_error(const BeamTexture& g) {
@@ -101,47 +107,38 @@ void TrafficLights::add_units(const Moment& moment) {
     }
 }
 
-double TrafficLights::most_lx(const Unit& unit, const Place& place) const {
+TrafficLights::Bound TrafficLights::bound(const Unit& unit, const Place& place, double least_lx) const {
     const glm::dvec3 from = place.centre_m - unit.at_m;
-    const double radius = place.radius_m + unit.half_m, d = glm::length(from), near = std::max(d - radius, nearest_m);
+    const double radius = place.radius_m + unit.half_m, d = glm::length(from);
+    Bound bound;
+    bound.near_m = std::max(d - radius, nearest_m);
     if (glm::dot(unit.middle.pose.forward(), from) < -radius)
-        return 0.0; // behind
+        return bound; // behind
     double cosine = 1.0;
-    if (place.ground) {
-        const double height = std::max(unit.at_m.z - place.lowest_m, 0.0), beside = std::max(std::hypot(from.x, from.y) - radius, 0.0),
-                     angle = std::atan2(height, beside) + place.tilt_rad;
-        cosine = angle < 0.5 * pi ? std::sin(angle) : 1.0;
+    if (place.ground) { // the lamp's height over its distance, and what the ground leans: sin(a + b) <= sin a + sin b
+        const double height = std::max(unit.at_m.z - place.lowest_m, 0.0), beside = std::max(std::hypot(from.x, from.y) - radius, 0.0);
+        cosine = height > 0.0 ? std::min(1.0, height / std::hypot(height, beside) + place.lean) : std::min(1.0, place.lean);
     }
-    const double share = rounding * cosine * unit.factor / (near * near);
-    return unit.beam->bounds.most() * share < 1e-9 ? 0.0 : unit.beam->bounds.most_towards(to_lamp_space(unit.middle, from), radius) * share;
+    bound.lx_a_cd = rounding * cosine * unit.factor / (bound.near_m * bound.near_m);
+    bound.most_lx = unit.beam->bounds.most() * bound.lx_a_cd;
+    if (bound.most_lx > least_lx)
+        bound.most_lx = unit.beam->bounds.most_towards(to_lamp_space(unit.middle, from), radius) * bound.lx_a_cd;
+    return bound;
 }
 
 /// |E of two lamps - E of one midway|: the beams' second difference for the angle between them, and the distances' (3 / 2 of the square of
 /// that angle for each of d^2 and the cosine, taken double).
-double TrafficLights::merging_lx(const Unit& unit, const Place& place) const {
-    const double near = std::max(glm::length(place.centre_m - unit.at_m) - place.radius_m - unit.half_m, nearest_m);
-    const double angle = unit.half_m / near, most = most_lx(unit, place);
-    if (angle > 0.2)
-        return 2.0 * most;
+double TrafficLights::merging_lx(const Unit& unit, const Bound& bound) {
+    const double angle = unit.half_m / bound.near_m;
     const auto samples = static_cast<std::size_t>(std::ceil(angle / unit.beam->grid.h_step_rad));
-    if (samples >= unit.merging_cd->size())
-        return 2.0 * most;
-    const double peak = unit.beam->bounds.most(), share = peak > 0.0 ? (*unit.merging_cd)[samples] / (2.0 * peak) : 0.0;
-    Place all = place; // the second difference is known over the whole table, so the bound takes the peak
-    const double cosine_and_distance = most > 0.0 ? unit.factor * rounding / (near * near) : 0.0;
-    double cosine = 1.0;
-    if (all.ground) {
-        const glm::dvec3 from = place.centre_m - unit.at_m;
-        const double angle_up = std::atan2(std::max(unit.at_m.z - place.lowest_m, 0.0),
-                                           std::max(std::hypot(from.x, from.y) - place.radius_m - unit.half_m, 0.0)) +
-                                place.tilt_rad;
-        cosine = angle_up < 0.5 * pi ? std::sin(angle_up) : 1.0;
-    }
-    return std::min(2.0 * most, share * peak * cosine_and_distance * cosine + 6.0 * angle * angle * most);
+    if (angle > 0.2 || samples >= unit.merging_cd->size())
+        return 2.0 * bound.most_lx;
+    return std::min(2.0 * bound.most_lx, 0.5 * (*unit.merging_cd)[samples] * bound.lx_a_cd + 6.0 * angle * angle * bound.most_lx);
 }
 
 void TrafficLights::list(Unit& unit, const Place& place, double least, Lists& lists, Work& work) {
-    const double most = most_lx(unit, place);
+    const Bound bounds = bound(unit, place, least);
+    const double most = bounds.most_lx;
     if (most <= least && pruned_)
         return;
     const auto add = [](std::vector<glm::vec4>& entries, int lamp, double weight, double cd) {
@@ -163,7 +160,7 @@ void TrafficLights::list(Unit& unit, const Place& place, double least, Lists& li
     }
     double each = 1.0;
     if (unit.lamps == 2 && levels_ && most > least)
-        each = std::clamp((merging_lx(unit, place) - 0.5 * least) / (0.5 * least), 0.0, 1.0);
+        each = std::clamp((merging_lx(unit, bounds) - 2.0 * least) / (2.0 * least), 0.0, 1.0);
     for (int k = 0; k < unit.lamps; ++k)
         add(lists.fragment, unit.first + k, by_fragment * each, -1.0);
     if (unit.lamps == 2)
@@ -182,7 +179,7 @@ std::pair<std::uint32_t, std::uint32_t> TrafficLights::keep(const std::vector<gl
 /// A cell is bounded by a sphere round what ground stands in it.
 void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work) {
     struct Cell {
-        double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity(), tilt_rad = 0.0;
+        double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity(), lean = 0.0;
     };
     std::vector<Cell> ground(static_cast<std::size_t>(traffic_cells_ahead) * static_cast<std::size_t>(traffic_cells_across));
     const glm::dvec2 left(-ahead_.y, ahead_.x);
@@ -198,13 +195,13 @@ void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint
             low = glm::min(low, at - 0.1);
             high = glm::max(high, at + 0.1);
         }
-        const double tilt = std::acos(std::clamp(piece.least_up, 0.0, 1.0));
+        const double lean = lean_of(piece);
         for (int y = std::max(0, row(low.y)); y <= std::min(traffic_cells_across - 1, row(high.y)); ++y)
             for (int x = std::max(0, column(low.x)); x <= std::min(traffic_cells_ahead - 1, column(high.x)); ++x) {
                 Cell& cell = ground[static_cast<std::size_t>(y * traffic_cells_ahead + x)];
                 cell.low = std::min(cell.low, piece.lowest_m - moment.ego.position_m.z);
                 cell.high = std::max(cell.high, piece.highest_m - moment.ego.position_m.z);
-                cell.tilt_rad = std::max(cell.tilt_rad, tilt);
+                cell.lean = std::max(cell.lean, lean);
             }
     }
     cells_.assign(2 * ground.size(), 0);
@@ -217,7 +214,7 @@ void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint
         const glm::dvec2 at = ahead_ * a + left * b;
         const double half = 0.5 * traffic_cell_m + 0.01, up = 0.5 * (cell.high - cell.low);
         const Place place{
-            {at.x, at.y, 0.5 * (cell.low + cell.high)}, std::sqrt(2.0 * half * half + up * up), cell.low, cell.tilt_rad, true, false};
+            {at.x, at.y, 0.5 * (cell.low + cell.high)}, std::sqrt(2.0 * half * half + up * up), cell.low, cell.lean, true, false};
         Lists lists;
         for (Unit& unit : units_)
             list(unit, place, moment.least_traffic_lx, lists, work);

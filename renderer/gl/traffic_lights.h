@@ -3,11 +3,11 @@
 // A pair of lamps of one body with one beam and one aim is one unit. For each piece of the scene and each cell of a grid on the ground, a
 // bound from the beam and the distance says how much light a unit can bring there (b) and how wrong it would be as one beam from midway
 // between its lamps (m). With l the least lux (Moment::least_traffic_lx) the unit is drawn there
-//   with each lamp's beam where m >= l, with one beam for both where m <= l / 2, both weighted between;
+//   with each lamp's beam where m >= 4 l, with one beam for both where m <= 2 l, both weighted between;
 //   on pieces that are not ground and do not retroreflect: per vertex where b <= 3 l, as a point of one intensity per vertex where
 //   b <= 1.5 l, blended from 4 l and 2 l on;
 //   not at all where b <= l: what it brings is ramped from nothing at l to all at 2 l, so that this adds exactly nothing.
-// So no unit is off by more than 4 l anywhere, on the ground by no more than 2 l, and no weight jumps.
+// So no unit is off by more than 5 l anywhere.
 #pragma once
 
 #include "renderer/gl/beams.h"
@@ -52,7 +52,7 @@ class TrafficLights {
     };
     struct Place {
         glm::dvec3 centre_m{0.0};
-        double radius_m = 0.0, lowest_m = 0.0, tilt_rad = 0.0;
+        double radius_m = 0.0, lowest_m = 0.0, lean = 0.0; ///< lean: sine of the steepest normal's angle from the vertical
         bool ground = false, retro = false;
     };
     struct Lists {
@@ -61,8 +61,12 @@ class TrafficLights {
     void add_units(const Moment& moment);
     void pack(const LitLamp& lamp, const Beam& beam, const Moment& moment, double factor, double least_lx);
     int beam_offset(const Beam& beam);
-    double most_lx(const Unit& unit, const Place& place) const;
-    double merging_lx(const Unit& unit, const Place& place) const;
+    /// What a unit can bring to a place; the coarse bound alone where that is not above `least_lx`.
+    struct Bound {
+        double most_lx = 0.0, lx_a_cd = 0.0, near_m = 0.0;
+    };
+    Bound bound(const Unit& unit, const Place& place, double least_lx) const;
+    static double merging_lx(const Unit& unit, const Bound& bound);
     void list(Unit& unit, const Place& place, double least_lx, Lists& lists, Work& work);
     void list_cells(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work);
     std::pair<std::uint32_t, std::uint32_t> keep(const std::vector<glm::vec4>& entries);

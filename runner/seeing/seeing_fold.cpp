@@ -39,6 +39,8 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
         oncoming_.emplace(drive, route);
         if (asked.glare->mirrors)
             mirrors_.emplace(drive, route);
+        if (!drive.traffic.empty())
+            traffic_.emplace(drive);
     }
     if (asked.visibility)
         visibility_.emplace(drive, route);
@@ -51,7 +53,7 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
 }
 
 void SeeingFold::add(const Moment& moment, const Variant& variant) {
-    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, visibility_, homogeneity_, places_);
+    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, traffic_, visibility_, homogeneity_, places_);
     if (control_)
         control_->add(moment, variant);
 }
@@ -59,7 +61,7 @@ void SeeingFold::add(const Moment& moment, const Variant& variant) {
 Readings SeeingFold::readings() const {
     Readings all;
     each_asked([&](const auto& fold) { std::ranges::copy(fold.readings(), std::back_inserter(all)); }, sensors_, oncoming_, mirrors_,
-               visibility_, homogeneity_, places_, control_);
+               traffic_, visibility_, homogeneity_, places_, control_);
     return all;
 }
 

@@ -7,6 +7,7 @@
 #include "runner/seeing/mirror_fold.h"
 #include "runner/seeing/place_fold.h"
 #include "runner/seeing/sensor_fold.h"
+#include "runner/seeing/traffic_fold.h"
 #include "runner/seeing/visibility_fold.h"
 
 namespace fernlicht {
@@ -26,6 +27,7 @@ class SeeingFold {
     std::optional<SensorFold> sensors_;
     std::optional<OncomingFold> oncoming_;
     std::optional<MirrorFold> mirrors_;
+    std::optional<TrafficFold> traffic_;
     std::optional<VisibilityFold> visibility_;
     std::optional<HomogeneityFold> homogeneity_;
     std::optional<PlaceFold> places_;

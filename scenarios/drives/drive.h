@@ -112,7 +112,7 @@ struct Drive {
     std::optional<VehicleParameters> vehicle; ///< none: the car follows its lane as on rails
     std::vector<Variant> variants;            ///< at least one
     std::vector<TrafficRow> traffic_rows;     ///< road users as the file asks for them
-    double least_traffic_lx = 0.02;           ///< light of others below this is left out, from any one lamp (docs/traffic.md); > 0
+    double least_traffic_lx = 0.05;           ///< light of others below this is left out, from any one lamp (docs/traffic.md); > 0
     std::vector<RoadUser> traffic;            ///< what place_traffic() made of them; not part of the file
     std::shared_ptr<const Track> ego_track;   ///< the own car's way where a log or a storyboard says it; nullptr: the route's
     std::vector<View> views;                  ///< first is the driver's

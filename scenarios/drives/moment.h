@@ -33,7 +33,7 @@ struct Moment {
     std::vector<LitLamp> lamps;       ///< of the own car
     std::vector<LitLamp> other_lamps; ///< of other road users and along the road; all shine
     std::vector<Body> bodies;         ///< other road users, as in Drive::traffic
-    double least_traffic_lx = 0.02;   ///< light of other_lamps fainter than this is left out (Drive)
+    double least_traffic_lx = 0.05;   ///< light of other_lamps fainter than this is left out (Drive)
     Daylight daylight;
     Weather weather;
 };
