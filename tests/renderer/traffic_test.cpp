@@ -136,8 +136,9 @@ TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
 
 /// What levels cost in lux against every lamp with its own beam, and that they save lamps.
 TEST_F(Traffic, LevelsStayWithinTheirBound) {
-    const Street street(oncoming(30.0, 20, 25.0));
-    const Moment moment = street.at(0.3);
+    const Street street(oncoming(30.0, 8, 40.0));
+    Moment moment = street.at(0.3);
+    moment.least_traffic_lx = 0.3;
     RendererSettings all = settings();
     all.traffic_levels = false;
     Renderer coarse(device_, street.scene, settings()), fine(device_, street.scene, all);
