@@ -13,6 +13,7 @@
 #include "runner/run_command.h"
 #include "runner/signals_command.h"
 #include "runner/stability_command.h"
+#include "runner/storyboard_command.h"
 #include "runner/study/study_command.h"
 #include "runner/techniques_command.h"
 #include "scenarios/values/errors.h"
@@ -49,6 +50,7 @@ int main(int argc, char** argv) {
     fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_model_command(app, chosen);
     fernlicht::add_import_command(app, chosen);
+    fernlicht::add_storyboard_command(app, chosen);
     fernlicht::add_doctor_command(app, chosen);
     fernlicht::add_stability_command(app, chosen);
     fernlicht::add_accept_command(app, chosen);

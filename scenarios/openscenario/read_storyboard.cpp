@@ -161,7 +161,7 @@ void read_header(const OscNode& scenario, Storyboard& out) {
         if (const auto node = scenario.find(other))
             node->refuse("", "is not a scenario",
                          std::string_view(other) == "Catalog" ? "a Storyboard; catalogs are read by the scenarios that name them"
-                                                              : "a Storyboard; fernlicht sweep plays a variation file");
+                                                              : "a Storyboard; fernlicht storyboard plays all cases of a variation file");
 }
 
 /// Values from outside come before those of the file.

@@ -190,6 +190,8 @@ std::optional<Trigger> read_trigger(const OscNode& holder, const char* element) 
     const auto node = holder.find(element);
     if (!node)
         return {};
+    if (std::string_view(element) == "StartTrigger" && !node->find("ConditionGroup"))
+        return {}; // without conditions nothing is waited for
     Trigger trigger;
     for (const OscNode& group : node->children("ConditionGroup")) {
         std::vector<TimedCondition> conditions;
