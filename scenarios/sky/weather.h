@@ -9,7 +9,7 @@ namespace fernlicht {
 struct Weather {
     double extinction_per_m = 0.0;  ///< share of light lost per metre (scattered and absorbed), for visible light
     double scattering_albedo = 1.0; ///< share of that which is scattered; droplets absorb next to nothing in the visible
-    double asymmetry = 0.85;        ///< g of the Henyey-Greenstein phase function, the mean cosine of scattering; -1 < g < 1
+    double asymmetry = 0.85;        ///< g of the Henyey-Greenstein phase function, the mean cosine of scattering; 0..0.9
     double wetness = 0.0;           ///< of surfaces that lie open: 0 dry .. 1 under a film of water
 
     bool operator==(const Weather&) const = default;
