@@ -104,7 +104,7 @@ void ControlFold::add(const Moment& moment, const Variant& variant) {
     row.tick = moment.tick;
     row.along_m = moment.distance_m;
     const double curvature = curvature_per_m(route_, moment.distance_m + drive_.bumper_m + 0.5 * look_m);
-    row.bend = std::abs(curvature) > bend_per_m;
+    row.bend = curvature > bend_per_m ? 1 : curvature < -bend_per_m ? -1 : 0;
     row.moved = row.still = light(moment, curvature);
     row.swivel_deg.resize(lamps_.size());
     row.pitch_deg.resize(lamps_.size());
@@ -146,28 +146,34 @@ Readings ControlFold::readings() const {
             most_deg = std::max(most_deg, std::abs(swivel.value_or(0.0)));
     say("control_swivel_max_deg", "deg", "largest swivel of any lamp", rows_.empty() ? std::nullopt : std::optional(most_deg),
         "no moment was played");
-    const auto in_bends = [&](auto&& value) -> std::optional<double> {
+    const auto in_bends = [&](int side, auto&& value) -> std::optional<double> {
         std::vector<double> values;
         for (const Row& row : rows_)
-            if (const std::optional<double> found = row.bend ? value(row) : std::nullopt)
+            if (const std::optional<double> found = row.bend == side ? value(row) : std::nullopt)
                 values.push_back(*found);
         const auto spread = spread_of(values);
         return spread ? std::optional(spread->median) : std::nullopt;
     };
-    const std::string none = "no moment in a bend of less than 1500 m radius has such a place";
-    const auto pair = [&](const std::string& name, const std::string& change, const char* unit, const std::string& where,
+    const auto pair = [&](const char* name, const char* change, const char* unit, const std::string& where,
                           std::optional<double> Light::*figure) {
-        say("control_" + name, unit, where + ", median in bends", in_bends([&](const Row& row) { return row.moved.*figure; }), none);
-        say("control_" + change, unit, where + ", against the same lamps held still, median in bends",
-            in_bends([&](const Row& row) -> std::optional<double> {
-                return row.moved.*figure && row.still.*figure ? std::optional(*(row.moved.*figure) - *(row.still.*figure)) : std::nullopt;
-            }),
-            none);
+        for (const auto& [side, word] : {std::pair(1, "left"), std::pair(-1, "right")}) {
+            const std::string none = fmt::format("no moment in a {} bend of less than 1500 m radius has such a place", word);
+            say(fmt::format("control_{}_bends_{}_{}", word, name, unit), unit, fmt::format("{}, median in {} bends", where, word),
+                in_bends(side, [&](const Row& row) { return row.moved.*figure; }), none);
+            say(fmt::format("control_{}_bends_{}_{}", word, change, unit), unit,
+                fmt::format("{}, against the same lamps held still, median in {} bends", where, word),
+                in_bends(side,
+                         [&](const Row& row) -> std::optional<double> {
+                             return row.moved.*figure && row.still.*figure ? std::optional(*(row.moved.*figure) - *(row.still.*figure))
+                                                                           : std::nullopt;
+                         }),
+                none);
+        }
     };
-    pair("inside_at_50m_lx", "inside_gain_at_50m_lx", "lx", "own lane's edge inside the bend, 50 m ahead, facing target at 0.25 m",
+    pair("inside_at_50m", "inside_gain_at_50m", "lx", "own lane's edge inside the bend, 50 m ahead, facing target at 0.25 m",
          &Light::inside_lx);
-    pair("reach_5lx_m", "reach_gain_5lx_m", "m", "own lane's centre, facing target at 0.25 m", &Light::reach_m);
-    pair("glare_at_50m_lx", "glare_cost_at_50m_lx", "lx", "eyes at 1.1 m, oncoming lane's centre, 50 m ahead, facing the lamps",
+    pair("reach_5lx", "reach_gain_5lx", "m", "own lane's centre, facing target at 0.25 m", &Light::reach_m);
+    pair("glare_at_50m", "glare_cost_at_50m", "lx", "eyes at 1.1 m, oncoming lane's centre, 50 m ahead, facing the lamps",
          &Light::glare_lx);
     if (!drive_.traffic.empty())
         for (const auto& [name, where, of] :
@@ -220,7 +226,7 @@ std::vector<SeeingSeries> ControlFold::series() const {
         column("level_" + lamps_[i] + "_1", lamps_[i] + ", level", "", [&](const Row& row) { return row.level[i]; });
     }
     column("inside_at_50m_lx", "light inside the bend, 50 m ahead", "lx",
-           [](const Row& row) { return row.bend ? row.moved.inside_lx : std::nullopt; });
+           [](const Row& row) { return row.bend != 0 ? row.moved.inside_lx : std::nullopt; });
     const auto change = [](std::optional<double> Light::*figure) {
         return [figure](const Row& row) -> std::optional<double> {
             return row.moved.*figure && row.still.*figure ? std::optional(*(row.moved.*figure) - *(row.still.*figure)) : std::nullopt;

@@ -18,9 +18,9 @@ class ControlFold {
     ControlFold(const Drive& drive, const Route& route);
 
     void add(const Moment& moment, const Variant& variant);
-    /// control_swivel_max_deg; medians over the moments in bends (radius below 1500 m): control_inside_at_50m_lx and its gain over lamps
-    /// held still, control_reach_5lx_m and its gain, control_glare_at_50m_lx and its cost; shares of the time with high beam and in
-    /// each class of the passing beam.
+    /// control_swivel_max_deg; medians over the moments in bends (radius below 1500 m) to each side: control_left_bends_inside_at_50m_lx
+    /// and its gain over lamps held still, ..._reach_5lx_m and its gain, ..._glare_at_50m_lx and its cost; shares of the time with high
+    /// beam and in each class of the passing beam.
     Readings readings() const;
     std::vector<SeeingSeries> series() const;
 
@@ -31,7 +31,7 @@ class ControlFold {
     struct Row {
         int tick = 0;
         double along_m = 0.0;
-        bool bend = false;
+        int bend = 0; ///< 1: to the left, -1: to the right
         Light moved, still;
         std::vector<std::optional<double>> swivel_deg, pitch_deg, level; ///< by lamp of lamps_
         std::optional<double> mode, high_beam;
