@@ -6,6 +6,7 @@
 #include "runner/probe_fold.h"
 #include "runner/seeing/seeing_fold.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/drive_log.h"
 #include "scenarios/drives/motion.h"
 
 #include <algorithm>
@@ -161,6 +162,8 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
         state = advance(state, drive);
     for (int k = 0; k < played.ticks_planned; ++k, state = advance(state, drive)) {
         const Moment moment = moment_at(state, drive, route, variant);
+        if (options.log)
+            *options.log << logged_moment(variant.name, moment);
         if (times.begin_moment(pictures.kind(moment))) {
             measuring.finish();
             writers.finish();

@@ -3,6 +3,7 @@
 
 #include "runner/capture.h"
 
+#include <iosfwd>
 #include <limits>
 
 namespace fernlicht {
@@ -16,6 +17,7 @@ struct TickRange {
 };
 
 struct PlayOptions {
+    std::ostream* log = nullptr; ///< takes the rows of every moment (drive_log.h)
     TickRange ticks;
     std::filesystem::path folder;                                   ///< of the report; frames go below it
     int warm_up = 3;                                                ///< moments whose times are dropped

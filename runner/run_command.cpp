@@ -21,6 +21,9 @@ struct Flags {
     std::vector<std::string> lamps;
     std::string road, technique, resolution, frames, capture, backend = "auto", out;
     JudgingFlags judging;
+    std::vector<std::string> road_folders;
+    std::string replay;
+    bool lenient = false;
     bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
 };
 
@@ -36,6 +39,11 @@ DriveEdits edits_of(const Flags& flags) {
         edits.technique = flags.technique;
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
+    for (const std::string& folder : flags.road_folders)
+        edits.road_folders.emplace_back(folder);
+    edits.lenient = flags.lenient;
+    if (!flags.replay.empty())
+        edits.replay = flags.replay;
     if (!flags.capture.empty()) {
         if (flags.capture != "all")
             refuse_flag("--capture", flags.capture, "all");
@@ -116,6 +124,10 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
         ->allow_extra_args(false);
     sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
+    sub->add_option("--road-folder", flags->road_folders, "where the road of a drive's storyboard is looked for, too")
+        ->allow_extra_args(false);
+    sub->add_flag("--lenient", flags->lenient, "leave out what a storyboard has that is not supported, each with a note");
+    sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: take all places and lamps from it");
     sub->add_option("--technique", flags->technique, "how to light the scene");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");

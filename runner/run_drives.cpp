@@ -20,12 +20,15 @@
 #include "runner/stage.h"
 #include "runner/summary.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/drive_log.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <deque>
 #include <fmt/format.h>
+#include <fstream>
 #include <optional>
 #include <span>
 
@@ -76,12 +79,14 @@ std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, c
 }
 
 /// Plays one lamp set and completes it with readings and verdicts.
-PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options, Writers& writers) {
+PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options, Writers& writers,
+                           std::ostream* log = nullptr) {
     prepare(renderer, stage.drive, stage.route, variant, options.ticks);
     const int compiled = renderer.compiled_programs();
     const std::string label = stage.drive.name + ", " + variant.name;
     Progress progress(label, ticks_to_play(stage.drive, options.ticks), options.quiet);
     PlayOptions play_options;
+    play_options.log = log;
     play_options.ticks = options.ticks;
     play_options.folder = options.folder;
     play_options.profile = options.profile;
@@ -178,11 +183,16 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
     Renderer renderer(device, stage.scene, settings_for(stage.drive, settings));
     Writers writers;
     const std::size_t before = report.played.size();
+    const std::filesystem::path log_file = options.folder / ("drive-log-" + file_name_of(stage.drive.name) + ".csv");
+    std::ofstream log(log_file, std::ios::binary);
+    log << drive_log_header << '\n';
     for (const Variant& variant : stage.drive.variants) {
-        report.played.push_back(play_variant(stage, variant, renderer, options, writers));
+        report.played.push_back(play_variant(stage, variant, renderer, options, writers, &log));
         if (variant.motion && variant.motion->control)
             write_file(options.folder / ("signals-" + file_name_of(stage.drive.name + "-" + variant.name) + ".csv"),
                        signals_csv(*variant.motion->control, options.ticks.first, options.ticks.last));
+        if (!log.flush())
+            throw DeviceError(log_file.string() + ": cannot be written: " + std::generic_category().message(errno));
         if (Interruption::asked()) {
             report.complete = false;
             report.interrupted = "interrupted by the user";

@@ -6,6 +6,7 @@
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/control_world.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/drives/tell_story.h"
 #include "scenarios/roads/mirrored_road.h"
 #include "scenarios/roads/road_mesh.h"
 #include "scenarios/sky/place_street_lamps.h"
@@ -19,9 +20,13 @@ namespace fernlicht {
 
 namespace {
 
-RoadNetwork network_of(const Drive& drive) {
+/// The road, and what the drive's storyboard makes of drive and route on it.
+RoadNetwork network_of(Drive& drive) {
     RoadNetwork network = read_opendrive(drive.road_file);
-    return drive.mirrored_road ? mirrored(std::move(network)) : network;
+    if (drive.mirrored_road)
+        network = mirrored(std::move(network));
+    tell_story(drive, network);
+    return network;
 }
 
 /// Lanes are named as the road's file has them.

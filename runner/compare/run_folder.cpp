@@ -35,7 +35,7 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
     drive.resolved = parse_yaml(read_file(file, ignored, most_bytes), file);
     const YamlValue part = only(drive.resolved, {"views", "tone_mapper", "speed", "step_s"});
     const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "speed", "step_s"});
-    drive.views = read_views(keys);
+    drive.views = read_views(keys, ignored);
     drive.tone_mapper = read_tone_mapper(keys);
     if (member_of(drive.resolved, "speed") && member_of(drive.resolved, "step_s")) {
         drive.step_s = read_step_s(keys);

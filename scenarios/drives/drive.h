@@ -5,6 +5,7 @@
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/models/placed_model.h"
+#include "scenarios/openscenario/storyboard_source.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/sky/daylight.h"
 #include "scenarios/sky/street_lamps.h"
@@ -52,6 +53,7 @@ struct Variant {
     std::optional<LevellingParameters> levelling = std::nullopt; ///< only in a drive with a vehicle, as the next
     std::optional<SwivelParameters> swivel = std::nullopt;
     std::shared_ptr<const ControlParameters> control = nullptr; ///< laws that move and dim the lamps (control_parameters.h); nullptr: none
+    std::vector<LampChange> told = {};                          ///< of the storyboard, behind `changes`; not part of the file
     std::shared_ptr<const Motion> motion = nullptr;             ///< what simulate() made of them (motion.h); not part of the file
 };
 
@@ -95,6 +97,8 @@ struct LampSource {
     std::shared_ptr<const LampFile> file;
 };
 
+struct DriveLog;
+
 struct Drive {
     std::string name, title;
     std::filesystem::path file; ///< the YAML it came from
@@ -106,16 +110,18 @@ struct Drive {
     double duration_s = 0.0, step_s = 0.0;
     Daylight daylight;
     Weather weather;
-    std::vector<StreetLampRow> street_lamps;  ///< beside the route
-    double bumper_m = 0.0;                    ///< x of the front bumper in the car's frame; reach is measured from it
-    double wheelbase_m = 2.7;                 ///< from the rear axle to the front axle
-    std::optional<VehicleParameters> vehicle; ///< none: the car follows its lane as on rails
-    std::vector<Variant> variants;            ///< at least one
-    std::vector<TrafficRow> traffic_rows;     ///< road users as the file asks for them
-    double least_traffic_lx = 0.05;           ///< light of others below this is left out, from any one lamp (docs/traffic.md); > 0
-    std::vector<RoadUser> traffic;            ///< what place_traffic() made of them; not part of the file
-    std::shared_ptr<const Track> ego_track;   ///< the own car's way where a log or a storyboard says it; nullptr: the route's
-    std::vector<View> views;                  ///< first is the driver's
+    std::vector<StreetLampRow> street_lamps;    ///< beside the route
+    double bumper_m = 0.0;                      ///< x of the front bumper in the car's frame; reach is measured from it
+    double wheelbase_m = 2.7;                   ///< from the rear axle to the front axle
+    std::optional<VehicleParameters> vehicle;   ///< none: the car follows its lane as on rails
+    std::vector<Variant> variants;              ///< at least one
+    std::vector<TrafficRow> traffic_rows;       ///< road users as the file asks for them
+    double least_traffic_lx = 0.05;             ///< light of others below this is left out, from any one lamp (docs/traffic.md); > 0
+    std::optional<StoryboardSource> storyboard; ///< where the own car and others go, instead of route and speed
+    std::shared_ptr<const DriveLog> replay;     ///< poses, lamps and levels of a drive played before; not part of the file
+    std::vector<RoadUser> traffic;              ///< what place_traffic() made of them; not part of the file
+    std::shared_ptr<const Track> ego_track;     ///< the own car's way where a log or a storyboard says it; nullptr: the route's
+    std::vector<View> views;                    ///< first is the driver's
     Capture capture;
     ToneMapper tone_mapper;
     std::string technique = "photometric";
@@ -142,6 +148,9 @@ struct DriveEdits {
     std::optional<std::string> technique;
     std::optional<std::pair<int, int>> resolution;
     std::optional<bool> capture_all;
+    std::vector<std::filesystem::path> road_folders; ///< where a storyboard's road is looked for, too
+    bool lenient = false;                            ///< what a storyboard has that is not supported is left out
+    std::optional<std::filesystem::path> replay;     ///< drive-log.csv of a run
 };
 
 /// Reads and checks a drive file, schema version 1 (scenarios/drive.example.yaml explains every key). Throws InputError with file,

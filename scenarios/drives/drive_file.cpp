@@ -3,7 +3,9 @@
 #include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/drive_edits.h"
 #include "scenarios/drives/drive_keys.h"
+#include "scenarios/drives/drive_log.h"
 #include "scenarios/drives/scenery_keys.h"
+#include "scenarios/drives/storyboard_keys.h"
 #include "scenarios/drives/traffic_keys.h"
 #include "scenarios/drives/vehicle_keys.h"
 #include "scenarios/values/errors.h"
@@ -46,8 +48,10 @@ std::optional<BeamTexels> read_beams(const YamlEntry& given) {
 }
 
 void read_time(const YamlMap& keys, Drive& drive) {
-    drive.speed = read_speed(keys);
     drive.step_s = read_step_s(keys);
+    if (drive.storyboard)
+        return;
+    drive.speed = read_speed(keys);
     const YamlEntry duration = keys.require("duration_s");
     drive.duration_s = duration.number_above(0.0, 1.0e6);
     if (drive.duration_s / drive.step_s > most_ticks)
@@ -55,18 +59,27 @@ void read_time(const YamlMap& keys, Drive& drive) {
                         fmt::format("at most {:.0f}", most_ticks));
 }
 
-Drive read_all(const YamlMap& keys, const std::filesystem::path& path, LampShelf& shelf) {
+Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const DriveEdits& edits, LampShelf& shelf) {
     Drive drive;
     drive.file = path;
     const auto name = keys.find("name"), title = keys.find("title");
     drive.name = name ? name->name() : name_from(path);
     drive.title = title ? title->text() : drive.name;
-    const YamlEntry road = keys.require("road");
-    drive.road_file = road.path();
-    check_file(drive.road_file, road);
+    drive.storyboard = read_storyboard_keys(keys, edits, drive);
+    if (const auto road = keys.find("road"); road || !drive.storyboard) {
+        const YamlEntry given = keys.require("road");
+        drive.road_file = given.path();
+        check_file(drive.road_file, given);
+    }
+    if (drive.road_file.empty())
+        keys.require("storyboard").refuse("a scenario that names no road", "road: the OpenDRIVE file");
     drive.mirrored_road = keys.flag_or("mirrored_road", drive.mirrored_road);
     read_route(keys, drive);
     read_time(keys, drive);
+    if (drive.storyboard) {
+        drive.storyboard->own_daylight = keys.find("daylight").has_value();
+        drive.storyboard->own_weather = keys.find("weather").has_value();
+    }
     drive.daylight = read_daylight(keys);
     drive.weather = read_weather(keys);
     drive.street_lamps = read_street_lamps(keys, shelf);
@@ -100,18 +113,21 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht",     "name",    "title",    "road",          "route",    "speed_kmh", "speed_mps",
-                        "speed",         "step_s",  "rate_hz",  "duration_s",    "daylight", "car",       "vehicle",
-                        "actuators",     "control", "variants", "changes",       "views",    "capture",   "tone_mapper",
-                        "technique",     "measure", "limits",   "shadows",       "textures", "beams",     "seed",
-                        "mirrored_road", "weather", "traffic",  "traffic_light", "scenery",  "view_set",  "street_lamps"});
+                       {"fernlicht", "name",     "title",        "road",      "route",         "speed_kmh", "speed_mps", "speed",
+                        "step_s",    "rate_hz",  "duration_s",   "daylight",  "car",           "vehicle",   "actuators", "control",
+                        "variants",  "changes",  "views",        "capture",   "tone_mapper",   "technique", "measure",   "limits",
+                        "shadows",   "textures", "beams",        "seed",      "mirrored_road", "weather",   "traffic",   "traffic_light",
+                        "scenery",   "view_set", "street_lamps", "storyboard"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;
-    Drive drive = read_all(keys, path, shelf);
+    Drive drive = read_all(keys, path, edits, shelf);
     apply_edits(drive, edits, shelf);
     drive.lamp_sources = shelf.sources();
-    drive.opened.insert(drive.opened.begin(), opened.begin(), opened.end());
+    if (edits.replay)
+        drive.replay = std::make_shared<const DriveLog>(read_drive_log(*edits.replay, opened));
+    opened.insert(opened.end(), drive.opened.begin(), drive.opened.end());
+    drive.opened = std::move(opened);
     drive.opened.insert(drive.opened.end(), shelf.opened().begin(), shelf.opened().end());
     return drive;
 }

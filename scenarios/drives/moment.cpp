@@ -1,4 +1,5 @@
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/drive_log.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/sky/place_street_lamps.h"
 #include "scenarios/traffic/moment_traffic.h"
@@ -60,6 +61,13 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
             if (lamp.name == change.lamp)
                 apply(change, lamp);
     }
+    for (const LampChange& change : variant.told) {
+        if (change.time_s > state.time_s + tick_tolerance * drive.step_s)
+            break;
+        for (MountedLamp& lamp : lamps)
+            if (lamp.name == change.lamp)
+                apply(change, lamp);
+    }
     Moment moment;
     moment.tick = state.tick;
     moment.time_s = state.time_s;
@@ -93,6 +101,8 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
         moment.lamps.push_back(lit(lamp, moment.ego));
     add_traffic(drive, moment);
     add_street_lamps(drive, route, street_lamps_within_m, moment);
+    if (drive.replay)
+        replay(*drive.replay, variant.name, moment);
     return moment;
 }
 

@@ -12,9 +12,18 @@ constexpr std::size_t most_rows = 1000;
 constexpr int most_users = 2000;
 
 void read_place(const YamlMap& keys, TrafficRow& row) {
-    const auto given = keys.one_of({"oncoming", "ahead", "lane"});
+    const auto given = keys.one_of({"oncoming", "ahead", "lane", "entities"});
     if (!given)
-        keys.refuse_missing("oncoming", "oncoming: {gap_m}, ahead: {gap_m} or lane: {road, lane, s_m}");
+        keys.refuse_missing("oncoming", "oncoming: {gap_m}, ahead: {gap_m}, lane: {road, lane, s_m} or entities: of a storyboard");
+    if (given->first == "entities") {
+        row.place = TrafficPlace::storyboard;
+        if (given->second.is_list())
+            for (const YamlEntry& entity : given->second.list(1, most_rows))
+                row.entities.push_back(entity.text());
+        else if (given->second.text() != "all")
+            given->second.refuse("all, or a list of entities' names");
+        return;
+    }
     if (given->first == "lane") {
         row.place = TrafficPlace::lane;
         const YamlMap place = given->second.map({"road", "lane", "s_m"});
@@ -54,6 +63,7 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& 
                                     "oncoming",
                                     "ahead",
                                     "lane",
+                                    "entities",
                                     "speed_kmh",
                                     "speed_mps",
                                     "speed",
@@ -90,7 +100,8 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& 
         check_file(row.model, *model);
     }
     read_place(keys, row);
-    row.speed = read_speed(keys);
+    if (row.place != TrafficPlace::storyboard)
+        row.speed = read_speed(keys);
     if (keys.find("lamps") || keys.find("file")) {
         Variant lamps = read_lamp_set(name, keys, front_of(row), shelf);
         row.lamps = std::move(lamps.lamps);

@@ -3,6 +3,7 @@
 #include "scenarios/drives/control_keys.h"
 #include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/seeing_keys.h"
+#include "scenarios/drives/storyboard_keys.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -210,6 +211,12 @@ void write_variants(Lines& out, const Drive& drive) {
 }
 
 std::string traffic_place(const TrafficRow& row) {
+    if (row.place == TrafficPlace::storyboard) {
+        std::string names;
+        for (const std::string& entity : row.entities)
+            names += (names.empty() ? "" : ", ") + quoted(entity);
+        return row.entities.empty() ? "entities: all" : fmt::format("entities: [{}]", names);
+    }
     if (row.place == TrafficPlace::lane)
         return fmt::format("lane: {{{}lane: {}, s_m: {}}}", row.start.road.empty() ? "" : fmt::format("road: {}, ", quoted(row.start.road)),
                            row.start.lane, row.start.s_m);
@@ -229,7 +236,8 @@ void write_traffic(Lines& out, const Drive& drive) {
         if (!row.model.empty())
             out.add(2, "model: {}", quoted(row.model.string()));
         out.add(2, "{}", traffic_place(row));
-        out.add(2, "speed:");
+        if (row.place != TrafficPlace::storyboard)
+            out.add(2, "speed:");
         for (const SpeedPoint& point : row.speed)
             out.add(3, "- {{at_s: {}, speed_mps: {}}}", point.time_s, point.speed_mps);
         if (!row.lamps.empty())
@@ -243,7 +251,8 @@ void write_traffic(Lines& out, const Drive& drive) {
         out.add(2, "face_m: [{}, {}]", row.face_m.x, row.face_m.y);
         out.add(2, "tail_cd: {}", row.tail_cd);
         out.add(2, "brake_cd: {}", row.brake_cd);
-        out.add(2, "repeat: {{count: {}, every_m: {}}}", row.count, row.every_m);
+        if (row.place != TrafficPlace::storyboard)
+            out.add(2, "repeat: {{count: {}, every_m: {}}}", row.count, row.every_m);
     }
 }
 
@@ -289,6 +298,10 @@ void write_route(Lines& out, const Drive& drive) {
     out.add(0, "road: {}", quoted(drive.road_file.string()));
     if (drive.mirrored_road)
         out.add(0, "mirrored_road: true");
+    if (drive.storyboard) { // says the route
+        out.add_all(write_storyboard(*drive.storyboard));
+        return;
+    }
     out.add(0, "route:");
     if (!drive.start.road.empty())
         out.add(1, "road: {}", quoted(drive.start.road));
@@ -301,8 +314,9 @@ void write_route(Lines& out, const Drive& drive) {
 }
 
 void write_time(Lines& out, const Drive& drive) {
-    out.add(0, "speed:");
-    for (const SpeedPoint& point : drive.speed)
+    if (!drive.storyboard)
+        out.add(0, "speed:");
+    for (const SpeedPoint& point : drive.storyboard ? std::vector<SpeedPoint>{} : drive.speed)
         out.add(1, "- {{at_s: {}, speed_mps: {}}}", point.time_s, point.speed_mps);
     out.add(0, "step_s: {}", drive.step_s);
     out.add(0, "duration_s: {}", drive.duration_s);

@@ -84,7 +84,9 @@ std::vector<LampChange> brake_changes(const std::vector<SpeedPoint>& speed) {
     return changes;
 }
 
-RoadUser user_of(const TrafficRow& row, int number) {
+} // namespace
+
+RoadUser road_user_of(const TrafficRow& row, int number) {
     RoadUser user;
     user.name = row.count == 1 ? row.name : fmt::format("{}-{}", row.name, number + 1);
     user.kind = row.kind;
@@ -100,9 +102,11 @@ RoadUser user_of(const TrafficRow& row, int number) {
     return user;
 }
 
+namespace {
+
 void add(Drive& drive, const TrafficRow& row, const Route& way, const std::vector<double>& starts_m) {
     for (std::size_t i = 0; i < starts_m.size(); ++i) {
-        RoadUser user = user_of(row, static_cast<int>(i));
+        RoadUser user = road_user_of(row, static_cast<int>(i));
         user.track = follow(way, starts_m[i], row, wheelbase_share * user.size_m.x, drive.duration_s);
         drive.traffic.push_back(std::move(user));
     }
@@ -141,7 +145,8 @@ void place_row(Drive& drive, const TrafficRow& row, const RoadNetwork& network, 
 
 void place_traffic(Drive& drive, const RoadNetwork& network, const Route& route) {
     for (const TrafficRow& row : drive.traffic_rows)
-        place_row(drive, row, network, route);
+        if (row.place != TrafficPlace::storyboard)
+            place_row(drive, row, network, route);
 }
 
 } // namespace fernlicht

@@ -16,7 +16,8 @@ struct SpeedPoint {
 
 /// From where a road user follows its lane. ahead: on the own route, gap_m from the own car's start to it, both under the rear axle.
 /// oncoming: beside that place, on the nearest driving lane of the other direction. lane: from a place on the road.
-enum class TrafficPlace { ahead, oncoming, lane };
+/// storyboard: an entity of the drive's storyboard; the row gives it lamps.
+enum class TrafficPlace { ahead, oncoming, lane, storyboard };
 
 struct TrafficRow {
     std::string name;
@@ -24,11 +25,12 @@ struct TrafficRow {
     std::optional<glm::dvec3> size_m; ///< nullopt: the kind's usual size
     std::filesystem::path model;      ///< glTF; "": a body of our own
     TrafficPlace place = TrafficPlace::oncoming;
-    double gap_m = 0.0;             ///< ahead and oncoming; may be negative for ahead: behind
-    Route::Start start;             ///< lane only
-    std::vector<SpeedPoint> speed;  ///< along its lane
-    std::vector<MountedLamp> lamps; ///< in the road user's frame; what each is follows from its name (function_of)
-    glm::dvec2 face_m{0.16, 0.12};  ///< width and height of each one's luminous face
+    double gap_m = 0.0;                ///< ahead and oncoming; may be negative for ahead: behind
+    Route::Start start;                ///< lane only
+    std::vector<std::string> entities; ///< storyboard only: their names; none: all that no other row names
+    std::vector<SpeedPoint> speed;     ///< along its lane
+    std::vector<MountedLamp> lamps;    ///< in the road user's frame; what each is follows from its name (function_of)
+    glm::dvec2 face_m{0.16, 0.12};     ///< width and height of each one's luminous face
     std::vector<LampChange> changes;
     double tail_cd = 0.0, brake_cd = 0.0; ///< of each rear lamp on its axis; 0: none
     int count = 1;

@@ -104,7 +104,7 @@ TEST(DriveExample, EveryKeyIsRead) {
     EXPECT_EQ(drive.variants[0].lamps.size(), 4U);
     EXPECT_EQ(drive.variants[0].changes.size(), 4U);
     EXPECT_EQ(drive.variants[1].changes.size(), 5U);
-    EXPECT_EQ(drive.views.size(), 2U);
+    EXPECT_EQ(drive.views.size(), 3U);
     EXPECT_EQ(drive.speed.size(), 3U);
     EXPECT_EQ(drive.probes.size(), 1U);
     EXPECT_EQ(drive.limits.size(), 1U);

@@ -130,10 +130,10 @@ TEST_F(PlacedTraffic, AModelBringsItsMeshAndItsMounts) {
     ASSERT_EQ(scene.meshes.size(), 1U);
     EXPECT_EQ(scene.meshes[0].indices.size() / 3, car.triangles());
     EXPECT_EQ(opened.size(), 1U);
-    for (const TrafficLamp& lamp : drive.traffic.at(0).lamps)
+    for (const TrafficLamp& mounted : drive.traffic.at(0).lamps)
         for (const Mount& mount : car.mounts)
-            if (lamp.function == LampFunction::low && mount.name == "lamp.low." + lamp.lamp.name) {
-                EXPECT_LT(glm::length(lamp.lamp.position_m - mount.pose.position_m), 1e-5) << mount.name;
+            if (mounted.function == LampFunction::low && mount.name == "lamp.low." + mounted.lamp.name) {
+                EXPECT_LT(glm::length(mounted.lamp.position_m - mount.pose.position_m), 1e-5) << mount.name;
             }
     EXPECT_NE(write_drive(drive).find(model.string()), std::string::npos);
     std::filesystem::remove(model);

@@ -1,0 +1,14 @@
+// The key `storyboard` of a drive.
+#pragma once
+
+#include "scenarios/drives/drive.h"
+#include "scenarios/drives/yaml_entry.h"
+
+namespace fernlicht {
+
+/// A file, or {file, ego, road_folders, lenient, parameters}. Reads the storyboard: what it cannot play is refused here. Takes road,
+/// longest time and notes from it. `edits` may add folders and make it lenient. nullopt: the drive has none.
+std::optional<StoryboardSource> read_storyboard_keys(const YamlMap& keys, const DriveEdits& edits, Drive& drive);
+std::string write_storyboard(const StoryboardSource& source);
+
+} // namespace fernlicht
