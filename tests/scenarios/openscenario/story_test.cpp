@@ -27,16 +27,16 @@ TEST(Story, SpeedShapesLastAsTheirLargestRateSays) {
         const std::string action = speed("10", "dynamicsShape=\"" + shape + "\" dynamicsDimension=\"rate\" value=\"2\"");
         return play_text(scenario_text(begin, story(event("e", action, at_time(1.0))) + stop_at(15.0)));
     };
-    const auto& linear = last("linear").entities[0].samples;
+    const auto linear = last("linear").entities[0].samples;
     EXPECT_NEAR(linear[350].speed_mps, 15.0, 0.05);
     EXPECT_NEAR(linear[610].speed_mps, 10.0, 1e-9);
     EXPECT_NEAR(linear[700].s_m, 50.0 + 20.0 + 75.0 + 10.0, 0.25);
-    const auto& sine = last("sinusoidal").entities[0].samples;
+    const auto sine = last("sinusoidal").entities[0].samples;
     const double half = 0.5 * pi * 5.0 / 2.0;
     EXPECT_NEAR(sine[static_cast<std::size_t>(100.0 * (1.0 + half))].speed_mps, 15.0, 0.05);
     EXPECT_GT(sine[870].speed_mps, 10.0);
     EXPECT_NEAR(sine[900].speed_mps, 10.0, 1e-9);
-    const auto& cubic = last("cubic").entities[0].samples;
+    const auto cubic = last("cubic").entities[0].samples;
     EXPECT_NEAR(cubic[100 + 375].speed_mps, 15.0, 0.05); // half of 1.5 * 5 s
     EXPECT_NEAR(cubic[100 + 760].speed_mps, 10.0, 1e-9);
 }
