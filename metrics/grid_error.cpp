@@ -5,14 +5,14 @@
 namespace fernlicht {
 namespace {
 
-struct Measured {
+struct PickedGrid {
     ExtentGrid grid;
     std::vector<double> lx;
 };
 
 /// Every `step`th of the first `rows` and `columns`: all that reach_and_area asks for.
-Measured picked(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t step, std::size_t rows, std::size_t columns) {
-    Measured result;
+PickedGrid picked(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t step, std::size_t rows, std::size_t columns) {
+    PickedGrid result;
     for (std::size_t column = 0; column < columns; column += step)
         result.grid.offset_m.push_back(grid.offset_m[column]);
     for (std::size_t row = 0; row < rows; row += step) {
@@ -51,8 +51,8 @@ std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<doub
     const std::size_t rows = grid.ahead_m.size() - (grid.ahead_m.size() % 2 == 0 ? 1 : 0);
     const std::size_t columns = grid.offset_m.size() - (grid.offset_m.size() % 2 == 0 ? 1 : 0);
     const bool odd = rows == grid.ahead_m.size() && columns == grid.offset_m.size();
-    const Measured trimmed = odd ? Measured{} : picked(grid, lx, 1, rows, columns);
-    const Measured coarse = picked(grid, lx, 2, rows, columns);
+    const PickedGrid trimmed = odd ? PickedGrid{} : picked(grid, lx, 1, rows, columns);
+    const PickedGrid coarse = picked(grid, lx, 2, rows, columns);
     const std::vector<ReachAndArea> by_fine = reach_and_area(odd ? grid : trimmed.grid, odd ? lx : trimmed.lx, limits_lx);
     const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, limits_lx);
     for (std::size_t i = 0; i < limits_lx.size(); ++i)

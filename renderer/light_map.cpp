@@ -15,7 +15,7 @@ namespace {
 
 constexpr double nearest_m = 0.5;
 constexpr double lit_lx = 1.0;
-constexpr std::size_t most_texels = std::size_t{1} << 28;
+constexpr std::size_t most_texels_of_all = std::size_t{1} << 28;
 
 /// The lamps that are on, in the car's frame.
 Moment in_car(const Moment& moment) {
@@ -52,8 +52,8 @@ std::size_t checked_cells(std::initializer_list<LightMapAxis> axes) {
                 fmt::format("light map: {} cells from {} to {} m growing by {}, expected at least 1, ascending, 1 or more", axis.cells,
                             axis.from_m, axis.to_m, axis.growth));
         texels *= cells(axis);
-        if (texels > most_texels)
-            throw std::invalid_argument(fmt::format("light map: more than {} texels", most_texels));
+        if (texels > most_texels_of_all)
+            throw std::invalid_argument(fmt::format("light map: more than {} texels", most_texels_of_all));
     }
     return texels;
 }

@@ -69,7 +69,7 @@ std::vector<const StabilityCase*> chosen_cases(const std::vector<std::string>& p
     return chosen;
 }
 
-int stability(const Flags& flags) {
+int try_cases(const Flags& flags) {
     const std::vector<const StabilityCase*> cases = chosen_cases(items_of("--only", flags.only));
     if (flags.list) {
         for (const StabilityCase* one : cases)
@@ -115,7 +115,7 @@ void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
     sub->add_flag("--thorough", flags->thorough, "searches ten times as long");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--out", flags->out, "folder in which the files that the cases write are kept");
-    sub->callback([flags, &chosen] { chosen = [flags] { return stability(*flags); }; });
+    sub->callback([flags, &chosen] { chosen = [flags] { return try_cases(*flags); }; });
 }
 
 } // namespace fernlicht

@@ -1,5 +1,7 @@
 #include "metrics/aliasing/band_limit.h"
 
+#include "metrics/aliasing/mirrored.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -26,12 +28,6 @@ std::vector<double> low_pass(int k) {
     for (double& weight : weights)
         weight /= sum;
     return weights;
-}
-
-int mirrored(int i, int count) {
-    const int period = 2 * count;
-    const int within = ((i % period) + period) % period;
-    return within < count ? within : period - 1 - within;
 }
 
 /// At the centre of every k-th group of k samples along x: filtered, transposed.

@@ -1,5 +1,7 @@
 #include "metrics/aliasing/block_fit.h"
 
+#include "metrics/aliasing/mirrored.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,13 +9,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t side = static_cast<std::size_t>(block_side_px);
-
-int mirrored(int i, int count) {
-    const int period = 2 * count;
-    const int within = ((i % period) + period) % period;
-    return within < count ? within : period - 1 - within;
-}
+constexpr std::size_t block_side = static_cast<std::size_t>(block_side_px);
 
 const Block& weights() {
     static const Block squares = [] {
@@ -60,7 +56,7 @@ std::vector<double> solved(std::vector<double>& m, std::vector<double>& b) {
 
 Block block_at(const Image<double>& picture, int left, int top) {
     Block block;
-    block.reserve(side * side);
+    block.reserve(block_side * block_side);
     for (int y = 0; y < block_side_px; ++y)
         for (int x = 0; x < block_side_px; ++x)
             block.push_back(picture.at(mirrored(left + x, picture.width()), mirrored(top + y, picture.height())));
@@ -98,7 +94,7 @@ void remove_slope(Block& block) {
     const double middle = 0.5 * (block_side_px - 1);
     double weight = 0.0, square = 0.0, level = 0.0, along_x = 0.0, along_y = 0.0;
     for (std::size_t i = 0; i < block.size(); ++i) {
-        const double x = static_cast<double>(i % side) - middle, y = static_cast<double>(i / side) - middle;
+        const double x = static_cast<double>(i % block_side) - middle, y = static_cast<double>(i / block_side) - middle;
         weight += w[i];
         square += w[i] * x * x;
         level += w[i] * block[i];
@@ -106,7 +102,7 @@ void remove_slope(Block& block) {
         along_y += w[i] * y * block[i];
     }
     for (std::size_t i = 0; i < block.size(); ++i) {
-        const double x = static_cast<double>(i % side) - middle, y = static_cast<double>(i / side) - middle;
+        const double x = static_cast<double>(i % block_side) - middle, y = static_cast<double>(i / block_side) - middle;
         block[i] -= level / weight + (along_x * x + along_y * y) / square;
     }
 }

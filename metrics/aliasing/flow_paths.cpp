@@ -1,5 +1,7 @@
 #include "metrics/aliasing/flow_paths.h"
 
+#include "metrics/aliasing/mirrored.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr int taps = 16, around_px = 33;
+constexpr int taps = 16, box_px = 33;
 
 /// Motion from one picture to a neighbour, and where it can be trusted.
 struct Step {
@@ -42,17 +44,12 @@ std::optional<Place> stepped(const Step& step, const Place& at) {
     return to;
 }
 
-double median_of(std::vector<double> values) {
+double middle_of(std::vector<double> values) {
     if (values.empty())
         return 0.0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
     return *middle;
-}
-
-int mirrored(int i, int count) {
-    const int period = 2 * count, within = ((i % period) + period) % period;
-    return within < count ? within : period - 1 - within;
 }
 
 /// Weights of the pixels floor(at) - 7 ... floor(at) + 8; their sum is 1.
@@ -90,7 +87,7 @@ double value_at(const Image<float>& picture, const Place& at) {
 cv::Mat levels_of(const Image<float>& picture) {
     cv::Mat values(picture.height(), picture.width(), CV_32FC1), squares;
     std::ranges::copy(picture.pixels(), values.begin<float>());
-    cv::sqrBoxFilter(values, squares, CV_64F, {around_px, around_px}, {-1, -1}, true, cv::BORDER_REFLECT);
+    cv::sqrBoxFilter(values, squares, CV_64F, {box_px, box_px}, {-1, -1}, true, cv::BORDER_REFLECT);
     return squares;
 }
 
@@ -138,8 +135,8 @@ FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t f
             returns.insert(returns.end(), path_returns.begin(), path_returns.end());
             found.paths.push_back(std::move(path));
         }
-    found.median_motion_px = median_of(std::move(motions));
-    found.median_return_px = median_of(std::move(returns));
+    found.median_motion_px = middle_of(std::move(motions));
+    found.median_return_px = middle_of(std::move(returns));
     return found;
 }
 

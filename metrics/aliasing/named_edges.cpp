@@ -14,7 +14,7 @@ namespace {
 // How far a drawn line may lie from the true one and still be the same line: texels of a coarse beam are many pixels wide, a mark's border
 // is drawn within one. The others stand in the header.
 constexpr int reach_px = 2;
-constexpr double shadow_share = 0.02, least_contrast = 2.0, around_px = 4.0, straight_px = 2.0, cut_off_search_px = 16.0,
+constexpr double shadow_share = 0.02, least_contrast = 2.0, background_px = 4.0, straight_px = 2.0, cut_off_search_px = 16.0,
                  mark_search_px = 1.0;
 
 void check(const Image<float>& tested, const EdgeReference& reference, const Image<float>& fine) {
@@ -91,8 +91,8 @@ cv::Mat brightness_of(Ground kind, const EdgeReference& reference, const cv::Mat
             sum.at<float>(y, x) = static_cast<float>(of / (k * k));
         }
     cv::Mat above, below, out(share.rows, share.cols, CV_32FC1, cv::Scalar(0.0));
-    cv::GaussianBlur(sum, above, {0, 0}, around_px);
-    cv::GaussianBlur(share, below, {0, 0}, around_px);
+    cv::GaussianBlur(sum, above, {0, 0}, background_px);
+    cv::GaussianBlur(share, below, {0, 0}, background_px);
     for (int y = 0; y < share.rows; ++y)
         for (int x = 0; x < share.cols; ++x)
             if (below.at<float>(y, x) > 1e-3F)
@@ -116,8 +116,8 @@ Image<float> coverage(const EdgeReference& reference) {
     for (int y = 0; y < is_mark.rows; ++y)
         for (int x = 0; x < is_mark.cols; ++x)
             is_mark.at<float>(y, x) = reference.ground.at(x, y) == Ground::mark ? 1.0F : 0.0F;
-    const int side = reference.k + (reference.k % 2 == 0 ? 1 : 0); // odd, so that it moves nothing
-    cv::blur(is_mark, blurred, {side, side});
+    const int blur_px = reference.k + (reference.k % 2 == 0 ? 1 : 0); // odd, so that it moves nothing
+    cv::blur(is_mark, blurred, {blur_px, blur_px});
     Image<float> out(is_mark.cols, is_mark.rows);
     for (int y = 0; y < is_mark.rows; ++y)
         for (int x = 0; x < is_mark.cols; ++x)

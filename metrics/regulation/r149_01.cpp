@@ -4,8 +4,8 @@
 namespace fernlicht {
 namespace {
 
-const char* const edition = "UN R149, 01 series (ECE/TRANS/WP.29/2022/93, corrected by WP.29/1166 par. 143, supplements 1 to 7)";
-const char* const source = "one published transcription of the text";
+const char* const r149_edition = "UN R149, 01 series (ECE/TRANS/WP.29/2022/93, corrected by WP.29/1166 par. 143, supplements 1 to 7)";
+const char* const r149_source = "one published transcription of the text";
 
 Regulation passing(bool c) {
     // Class C, then class V.
@@ -13,8 +13,8 @@ Regulation passing(bool c) {
     Regulation r;
     r.id = c ? "r149-c" : "r149-v";
     r.title = c ? "UN R149, passing beam class C" : "UN R149, passing beam class V";
-    r.edition = edition;
-    r.source = source;
+    r.edition = r149_edition;
+    r.source = r149_source;
     r.receiver = un_receiver;
     r.aim = AimRule::cut_off;
     r.re_aim = {0.75, 0.75, 0.25};
@@ -65,8 +65,8 @@ Regulation driving(const Driving& d) {
     Regulation r;
     r.id = d.id;
     r.title = d.title;
-    r.edition = edition;
-    r.source = source;
+    r.edition = r149_edition;
+    r.source = r149_source;
     r.receiver = un_receiver;
     r.aim = AimRule::maximum;
     r.re_aim = {1.0, 1.0, 0.5};

@@ -7,7 +7,7 @@
 namespace fernlicht::gl {
 namespace {
 
-glm::vec4 four(const glm::dvec3& v) { return {glm::vec3(v), 0.0F}; }
+glm::vec4 padded(const glm::dvec3& v) { return {glm::vec3(v), 0.0F}; }
 
 } // namespace
 
@@ -43,10 +43,10 @@ void NaiveLighting::set_lamps(const Moment& moment) {
         const BeamTexture& g = beam.grid;
         const ShadowWindow& w = beam.window;
         packed_.push_back(
-            {four(lamp.pose.position_m - moment.ego.position_m), four(-lamp.pose.left()), four(lamp.pose.up()), four(lamp.pose.forward()),
-             glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
+            {padded(lamp.pose.position_m - moment.ego.position_m), padded(-lamp.pose.left()), padded(lamp.pose.up()),
+             padded(lamp.pose.forward()), glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
              glm::vec4(g.width, g.height, lamp.intensity_factor * beam.cd_a_unit, settings_.shadows ? 1.0 : 0.0),
-             four(lamp.colour.linear_srgb),
+             padded(lamp.colour.linear_srgb),
              glm::vec4(w.left, w.bottom, settings_.shadow_width / (w.right - w.left), settings_.shadow_height / (w.top - w.bottom))});
     }
     update_buffer(context_, block_, packed_);

@@ -33,7 +33,7 @@ int bits(const Wanted& w) { return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) 
 
 std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
 
-glm::vec4 four(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
+glm::vec4 with_fourth(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 /// From left to right, as the car sees it.
 std::vector<LitLamp> from_left(const Moment& moment) {
@@ -70,19 +70,19 @@ void PublishedLighting::set_projected_lamp(const LitLamp& lamp, const UploadedBe
         gain *= beam.peak_lx > 0.0 ? 1.0 / beam.peak_lx : 0.0;
     else if (!is("DISTANCE", "NONE"))
         gain *= cd_per_lx;
-    packed_.push_back({glm::mat4(texture * lamp_from_ego(pose, ego_m)), four(pose.position_m - ego_m, gain)});
+    packed_.push_back({glm::mat4(texture * lamp_from_ego(pose, ego_m)), with_fourth(pose.position_m - ego_m, gain)});
     textures_.push_back(beam.texture);
 }
 
 void PublishedLighting::set_spots(const LitLamp& lamp, const glm::dvec3& ego_m) {
-    packed_.push_back({glm::mat4(1.0F), four(lamp.pose.position_m - ego_m, lamp.intensity_factor)});
+    packed_.push_back({glm::mat4(1.0F), with_fourth(lamp.pose.position_m - ego_m, lamp.intensity_factor)});
     std::vector<Spot> spots = beams_.spots_of(lamp.file);
     spots.resize(most_spots, Spot{0.0, 0.0, 0.0, 0.0, 0.0}); // dark ones
     for (const Spot& spot : spots) {
         const double h = radians(spot.h_deg), v = radians(spot.v_deg);
         const glm::dvec3 axis = -lamp.pose.left() * (std::sin(h) * std::cos(v)) + lamp.pose.up() * std::sin(v) +
                                 lamp.pose.forward() * (std::cos(h) * std::cos(v));
-        spots_.push_back({four(axis, spot.exponent), glm::vec4(spot.cd, std::cos(radians(spot.cutoff_deg)), 0.0, 0.0)});
+        spots_.push_back({with_fourth(axis, spot.exponent), glm::vec4(spot.cd, std::cos(radians(spot.cutoff_deg)), 0.0, 0.0)});
     }
 }
 

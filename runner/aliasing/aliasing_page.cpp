@@ -13,9 +13,9 @@ namespace {
 using kainjow::mustache::data;
 using List = data::type;
 
-std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
+std::string short_number(double value) { return fmt::format("{:.3g}", value); }
 
-std::string edge_text(const std::optional<EdgeJaggedness>& edge) {
+std::string edge_words(const std::optional<EdgeJaggedness>& edge) {
     return edge ? fmt::format("{:.3f} ± {:.3f}", edge->found.rms_px, edge->found.standard_error_px) : "not measured";
 }
 
@@ -29,16 +29,16 @@ data row_part(const AliasingRow& row, std::size_t rank) {
     part.set("rank", row.no_spatial.empty() ? fmt::format("{}", rank + 1) : "");
     const SpatialAliasing& space = row.spatial;
     const bool known = measured_over_space(row);
-    part.set("seen", known ? three_digits(space.aliasing.visible) : "not measured");
-    part.set("aliasing", known ? three_digits(space.aliasing.contrast_percent) : "");
-    part.set("folded", known ? three_digits(space.folded.contrast_percent) : "");
-    part.set("rest", known ? three_digits(space.rest.contrast_percent) : "");
-    part.set("lost", known ? three_digits(space.lost.contrast_percent) : "");
-    part.set("cut_off", edge_text(row.cut_off));
-    part.set("marks", edge_text(row.marks));
-    const auto optional = [](const std::optional<double>& value) { return value ? three_digits(*value) : std::string("not measured"); };
-    part.set("flicker_seen", row.temporal ? three_digits(row.temporal->visible) : "not measured");
-    part.set("flicker", row.temporal ? three_digits(row.temporal->flicker_percent) : "");
+    part.set("seen", known ? short_number(space.aliasing.visible) : "not measured");
+    part.set("aliasing", known ? short_number(space.aliasing.contrast_percent) : "");
+    part.set("folded", known ? short_number(space.folded.contrast_percent) : "");
+    part.set("rest", known ? short_number(space.rest.contrast_percent) : "");
+    part.set("lost", known ? short_number(space.lost.contrast_percent) : "");
+    part.set("cut_off", edge_words(row.cut_off));
+    part.set("marks", edge_words(row.marks));
+    const auto optional = [](const std::optional<double>& value) { return value ? short_number(*value) : std::string("not measured"); };
+    part.set("flicker_seen", row.temporal ? short_number(row.temporal->visible) : "not measured");
+    part.set("flicker", row.temporal ? short_number(row.temporal->flicker_percent) : "");
     part.set("standing", row.temporal ? optional(row.temporal->standing_percent) : "");
     part.set("crawl", row.temporal ? optional(row.temporal->crawl_percent) : "");
     return part;
@@ -49,10 +49,10 @@ data flow_part(const FlowComparison& flow) {
     part.set("by", method_name(flow.method) + ", " + flow.pictures);
     part.set("median", fmt::format("{:.3f}", flow.error.median_px));
     part.set("mean", fmt::format("{:.3f}", flow.error.mean_px));
-    part.set("far", three_digits(flow.error.far_percent));
-    part.set("left_out", three_digits(flow.error.left_out_percent));
-    part.set("flicker", flow.temporal ? three_digits(flow.temporal->flicker_percent) : "not measured");
-    part.set("known", flow.known ? three_digits(flow.known->flicker_percent) : "not measured");
+    part.set("far", short_number(flow.error.far_percent));
+    part.set("left_out", short_number(flow.error.left_out_percent));
+    part.set("flicker", flow.temporal ? short_number(flow.temporal->flicker_percent) : "not measured");
+    part.set("known", flow.known ? short_number(flow.known->flicker_percent) : "not measured");
     return part;
 }
 

@@ -59,11 +59,11 @@ class Pairing {
     }
 
     void run() {
-        pair([](const RunDrive& a, const RunDrive& b) {
+        match([](const RunDrive& a, const RunDrive& b) {
             return a.drive == b.drive && a.variant == b.variant && a.technique == b.technique;
         });
-        pair([](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && a.variant == b.variant; });
-        pair([&](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && is_last(old_, a.drive) && is_last(new_, b.drive); });
+        match([](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && a.variant == b.variant; });
+        match([&](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && is_last(old_, a.drive) && is_last(new_, b.drive); });
         for (const RunDrive* drive : old_)
             runs_.left_out.push_back(shown_name(*drive) + " is in A alone");
         for (const RunDrive* drive : new_)
@@ -75,7 +75,7 @@ class Pairing {
         return std::ranges::count(left, name, [](const RunDrive* drive) { return drive->drive; }) == 1;
     }
 
-    void pair(const auto& belongs) {
+    void match(const auto& belongs) {
         for (std::size_t i = 0; i < old_.size();) {
             const auto found = std::ranges::find_if(new_, [&](const RunDrive* drive) { return belongs(*old_[i], *drive); });
             if (found == new_.end()) {

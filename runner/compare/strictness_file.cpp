@@ -13,7 +13,7 @@
 namespace fernlicht {
 namespace {
 
-using Kind = StrictnessNode::Kind;
+using NodeKind = StrictnessNode::Kind;
 
 constexpr std::size_t most_children = 64;
 constexpr double largest_bound = 1e9;
@@ -32,21 +32,21 @@ PixelBound read_bound(const YamlMap& leaf) {
     return {leaf.number_or("absolute", 0.0, 0.0, largest_bound), leaf.number_or("relative", 0.0, 0.0, largest_bound)};
 }
 
-StrictnessNode read_leaf(Kind kind, const YamlEntry& entry) {
+StrictnessNode read_leaf(NodeKind kind, const YamlEntry& entry) {
     StrictnessNode node{.kind = kind};
-    if (kind == Kind::hard_limit) {
+    if (kind == NodeKind::hard_limit) {
         node.bound = read_bound(entry.map({"absolute", "relative"}));
         return node;
     }
-    if (kind == Kind::mean_flip || kind == Kind::ssim) {
-        const char* key = kind == Kind::ssim ? "at_least" : "at_most";
+    if (kind == NodeKind::mean_flip || kind == NodeKind::ssim) {
+        const char* key = kind == NodeKind::ssim ? "at_least" : "at_most";
         node.figure = entry.map({key}).require(key).number(0.0, 1.0);
         return node;
     }
-    const YamlMap leaf = kind == Kind::percentage ? entry.map({"percent", "absolute", "relative", "one_pixel_shift", "mask"})
-                                                  : entry.map({"absolute", "relative", "one_pixel_shift", "mask"});
+    const YamlMap leaf = kind == NodeKind::percentage ? entry.map({"percent", "absolute", "relative", "one_pixel_shift", "mask"})
+                                                      : entry.map({"absolute", "relative", "one_pixel_shift", "mask"});
     node.bound = read_bound(leaf);
-    if (kind == Kind::percentage)
+    if (kind == NodeKind::percentage)
         node.percent = leaf.require("percent").number(0.0, 100.0);
     node.one_pixel_shift = leaf.flag_or("one_pixel_shift", false);
     if (const std::optional<YamlEntry> mask = leaf.find("mask")) {
@@ -62,14 +62,14 @@ StrictnessNode read_node(const YamlEntry& entry) {
     if (!chosen)
         entry.refuse("one of all, any, every, percentage, hard_limit, mean_flip, ssim");
     const auto& [word, value] = *chosen;
-    static const std::map<std::string_view, Kind> leaves{{"every", Kind::every},
-                                                         {"percentage", Kind::percentage},
-                                                         {"hard_limit", Kind::hard_limit},
-                                                         {"mean_flip", Kind::mean_flip},
-                                                         {"ssim", Kind::ssim}};
+    static const std::map<std::string_view, NodeKind> leaves{{"every", NodeKind::every},
+                                                             {"percentage", NodeKind::percentage},
+                                                             {"hard_limit", NodeKind::hard_limit},
+                                                             {"mean_flip", NodeKind::mean_flip},
+                                                             {"ssim", NodeKind::ssim}};
     if (const auto leaf = leaves.find(word); leaf != leaves.end())
         return read_leaf(leaf->second, value);
-    StrictnessNode node{.kind = word == "all" ? Kind::all : Kind::any};
+    StrictnessNode node{.kind = word == "all" ? NodeKind::all : NodeKind::any};
     for (const YamlEntry& child : value.list(1, most_children))
         node.children.push_back(read_node(child));
     return node;
@@ -84,7 +84,7 @@ StrictnessClass read_class(const std::filesystem::path& file) {
     if (const std::optional<YamlEntry> meaning = map.find("meaning"))
         read.meaning = meaning->text();
     // A class for one kind of picture alone keeps the other to the same bytes, rather than to nothing.
-    const StrictnessNode same{.kind = Kind::every};
+    const StrictnessNode same{.kind = NodeKind::every};
     if (!map.find("display") && !map.find("linear"))
         map.refuse_missing("display", "display, linear or both");
     const std::optional<YamlEntry> display = map.find("display"), linear = map.find("linear");

@@ -48,7 +48,7 @@ Found sizes(StabilityBench& bench) {
 Found widest(StabilityBench& bench) { return against_a_street(bench, {{0.112, 16384, 16}}); }
 
 /// What a view must not ask for.
-Found refused(StabilityBench& bench) {
+Found refused_images(StabilityBench& bench) {
     Found worst;
     const std::pair<const char*, bool> views[] = {
         {"vertical_fov_deg: 0.1", true},  {"vertical_fov_deg: 179", true},        {"vertical_fov_deg: 0", false},
@@ -106,7 +106,7 @@ std::vector<StabilityCase> image_cases() {
         {"image", "16384x16", "the widest picture that OpenGL 4.5 promises", 1.0, of_bound, "a pixel does not know of its neighbours",
          widest},
         {"image", "refused", "views without a picture: 0 or 180 degrees, 0 or 16385 pixels, places that are no numbers", 0.0,
-         "inputs not judged rightly", "0.01 to 179 degrees and 1 to 16384 pixels are taken, all else is refused", refused},
+         "inputs not judged rightly", "0.01 to 179 degrees and 1 to 16384 pixels are taken, all else is refused", refused_images},
         {"image", "stored", "numbers on their way into EXR: 1e5 lx, denormals, the largest float", 0.0, "values changed",
          "channels are 32-bit floats; half floats end at 65504 lx and keep 11 bits", stored},
     };

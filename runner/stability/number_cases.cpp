@@ -98,7 +98,7 @@ Found brightest(StabilityBench& bench) {
 }
 
 /// NaN and infinity in lamps, roads and drives.
-Found refused(StabilityBench& bench) {
+Found refused_numbers(StabilityBench& bench) {
     Found worst;
     for (const char* bad : {"nan", "inf", "-inf", "1e999", "1e13", "-1"}) {
         const std::filesystem::path lamp_path = bench.write("bad.csv", fmt::format("# unit: cd\nV\\H,-1,1\n-1,1,2\n1,3,{}\n", bad));
@@ -227,7 +227,7 @@ std::vector<StabilityCase> number_cases() {
          "of the pixel's rounding bound", "the largest intensity a file may hold over the square of a millimetre is far below 3e38",
          brightest},
         {"number", "refused", "NaN, infinity and what no lamp can be, in lamp, road and drive files", 0.0, "inputs not refused",
-         "a number that is none is refused where it stands, with the file's name", refused},
+         "a number that is none is refused where it stands, with the file's name", refused_numbers},
         {"number", "reports", "a dark lamp, one of 1e12 cd, a probe right at the lamp: whole runs", 0.0, "values that are not finite",
          "what could not be measured is not_measured, never NaN or infinity", reports},
         {"number", "near-field", "1 mm from a lamp that was measured from 10 m: a point source no more", 0.0, "readings not marked rightly",

@@ -121,7 +121,7 @@ Found hot_cell(StabilityBench& bench) {
     return worst;
 }
 
-Found steps(StabilityBench& bench) {
+Found steep_steps(StabilityBench& bench) {
     return found_on_a_wall(bench, through_a_file(bench, "steps",
                                                  table_of(axis(-10.0, 0.1, 201), axis(-10.0, 0.1, 201),
                                                           [](std::size_t x, std::size_t y) { return (x + y) % 2 == 0 ? 1e5 : 1.0; })));
@@ -234,7 +234,7 @@ std::vector<StabilityCase> table_cases() {
         {"table", "4000x4000", "16 million samples: reader, memory, the GPU's texture of 4 M texels", 1.0, "of the error announced",
          "the texture is coarser than the table; `beam_error` must say by how much", four_thousand},
         {"table", "hot-cell", "one sample of 1e6 cd among zeros", 1.0, of_bound, interpolation, hot_cell},
-        {"table", "steps-of-1e5", "every neighbour differs by a factor of 1e5", 1.0, of_bound, interpolation, steps},
+        {"table", "steps-of-1e5", "every neighbour differs by a factor of 1e5", 1.0, of_bound, interpolation, steep_steps},
         {"table", "zero", "a dark lamp: peak 0, flux 0, shares of nothing", 0.0, "values that are not 0 or no number",
          "0 times anything finite is 0", zero},
         {"table", "wrap-around", "H = 180 and H = -180 are one direction", 1e-9, "of the peak",

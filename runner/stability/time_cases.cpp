@@ -15,7 +15,7 @@ using namespace stability;
 /// Speed 0 to 60 m/s and back to 0 over 8 s: v = 15 t up to 4 s. Distance in closed form.
 double truth_m(double t) { return t <= 4.0 ? 7.5 * t * t : 120.0 + 60.0 * (t - 4.0) - 7.5 * (t - 4.0) * (t - 4.0); }
 
-Found steps(StabilityBench& bench) {
+Found time_steps(StabilityBench& bench) {
     Found worst;
     for (const double step_s : {1e-6, 1e-4, 1.0 / 30.0, 0.1, 1.0, 10.0}) {
         const std::filesystem::path path = write_drive_file(
@@ -52,7 +52,7 @@ Found steps(StabilityBench& bench) {
     return worst;
 }
 
-Found refused(StabilityBench& bench) {
+Found refused_times(StabilityBench& bench) {
     const std::pair<const char*, bool> times[] = {{"speed_kmh: 60\nstep_s: 1.0e-6\nduration_s: 10", true},
                                                   {"speed_kmh: 60\nstep_s: 10\nduration_s: 10", true},
                                                   {"speed_kmh: 0\nstep_s: 0.1\nduration_s: 1", true},
@@ -81,9 +81,9 @@ Found refused(StabilityBench& bench) {
 std::vector<StabilityCase> time_cases() {
     return {
         {"time", "steps", "steps of 1e-6 and 10 s: drift over a million steps, changes that fall between", 1e-12, "of the distance driven",
-         "a state is a function of its tick; the integral of the speed is exact but for 20 roundings of a double", steps},
+         "a state is a function of its tick; the integral of the speed is exact but for 20 roundings of a double", time_steps},
         {"time", "refused", "more than ten million steps, steps and durations that are none", 0.0, "inputs not judged rightly",
-         "up to ten million steps above 0 s are taken, all else is refused", refused},
+         "up to ten million steps above 0 s are taken, all else is refused", refused_times},
     };
 }
 

@@ -59,7 +59,7 @@ Found pictures(StabilityBench& bench) {
 }
 
 /// s -> 0 and L_max -> 0 have no picture: the drive file is refused, with what was expected.
-Found refused(StabilityBench& bench) {
+Found refused_tones(StabilityBench& bench) {
     Found worst;
     for (const char* keys :
          {"s: 0", "s: 1.0e-30", "s: 0.999", "s: -1", "s: .inf", "s: 1.0e+39", "s: .nan", "l_max_cdm2: 0", "l_max_cdm2: -1",
@@ -85,7 +85,7 @@ std::vector<StabilityCase> tone_cases() {
          "8-bit steps", "half a step by rounding to 8 bits, 0.01 by the polynomial in place of the sRGB power, 0.01 by floats", pictures},
         {"tone", "refused", "s -> 0 is black everywhere and 0/0 at L_max; L_max = 0 divides by 0; what a float cannot hold", 0.0,
          "inputs not judged rightly",
-         "s from 1 to 1e6 and L_max from 1e-6 to 1e9 cd/m2 are taken, all else is refused with what was expected", refused},
+         "s from 1 to 1e6 and L_max from 1e-6 to 1e9 cd/m2 are taken, all else is refused with what was expected", refused_tones},
     };
 }
 

@@ -6,6 +6,7 @@
 #include "runner/report/extent_summary.h"
 #include "runner/report/page_plots.h"
 #include "runner/study/study_maps.h"
+#include "runner/study/study_words.h"
 #include "runner/study/study_writers.h"
 #include "scenarios/values/errors.h"
 
@@ -36,8 +37,6 @@ std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result) {
     }
     return groups;
 }
-
-const std::string& lamp_of(const StudyResult& result, std::size_t cell) { return result.study.lamps[result.cells[cell].cell.lamp].name; }
 
 plots::Colour colour_of(const StudyResult& result, std::size_t cell) { return plots::series_colour(result.cells[cell].cell.lamp); }
 

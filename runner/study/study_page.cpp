@@ -22,8 +22,6 @@ using List = data::type;
 
 constexpr std::size_t embedded_bytes = std::size_t{48} << 20; // of pictures as they lie on disk
 
-const std::string& lamp_of(const StudyResult& result, std::size_t cell) { return result.study.lamps[result.cells[cell].cell.lamp].name; }
-
 std::string value_text(const std::optional<double>& value) { return value ? figure(*value, 2) : "not measured"; }
 
 /// For the browser's sorting: a number, or nothing.

@@ -26,6 +26,8 @@ std::size_t count_deciding(const StudyResult& result, std::optional<ChangeKind> 
 
 } // namespace
 
+const std::string& lamp_of(const StudyResult& result, std::size_t cell) { return result.study.lamps[result.cells[cell].cell.lamp].name; }
+
 bool was_judged(const StudyResult& result) {
     return !result.complete() || !result.verdicts.empty() ||
            std::ranges::any_of(result.cells, [](const CellResult& cell) { return !cell.verdicts.empty(); });

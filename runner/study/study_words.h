@@ -5,6 +5,9 @@
 
 namespace fernlicht {
 
+/// What the study calls the lamps of one of the result's cells.
+const std::string& lamp_of(const StudyResult& result, std::size_t cell);
+
 /// Whether anything was held against a limit, a reference or a repeat, or is missing.
 bool was_judged(const StudyResult& result);
 

@@ -2,6 +2,7 @@
 
 #include "scenarios/drives/control_keys.h"
 #include "scenarios/drives/daylight_keys.h"
+#include "scenarios/drives/flow_list.h"
 #include "scenarios/drives/seeing_keys.h"
 #include "scenarios/drives/storyboard_keys.h"
 
@@ -27,9 +28,6 @@ std::string quoted(const std::string& text) {
     }
     return out + '"';
 }
-
-std::string list(const std::vector<double>& numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); }
-std::string list(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
 /// `key`_deg where some number of degrees gives exactly these radians, else `key`_rad.
 std::string angle(std::string_view key, double angle_rad) {
@@ -89,13 +87,13 @@ void write_file_keys(Lines& out, int depth, const Drive& drive, const std::share
 }
 
 void write_colour(Lines& out, int depth, const LampColour& colour) {
-    out.add(depth, "colour: {{linear_srgb: {}, sp_ratio: {}, cct_k: {}}}", list(colour.linear_srgb), colour.sp_ratio, colour.cct_k);
+    out.add(depth, "colour: {{linear_srgb: {}, sp_ratio: {}, cct_k: {}}}", flow_list(colour.linear_srgb), colour.sp_ratio, colour.cct_k);
 }
 
 void write_lamp_keys(Lines& out, const Drive& drive, const MountedLamp& lamp) {
     out.add(3, "{}:", quoted(lamp.name));
     write_file_keys(out, 4, drive, lamp.file);
-    out.add(4, "position_m: {}", list(lamp.position_m));
+    out.add(4, "position_m: {}", flow_list(lamp.position_m));
     out.add(4, "aim: {{{}, {}, {}}}", angle("pitch", lamp.pitch_rad), angle("yaw", lamp.yaw_rad), angle("roll", lamp.roll_rad));
     out.add(4, "level: {}", lamp.level);
     out.add(4, "source: {}", word(lamp.source));
@@ -232,7 +230,7 @@ void write_traffic(Lines& out, const Drive& drive) {
         out.add(1, "{}:", quoted(row.name));
         out.add(2, "kind: {}", road_user_kinds[static_cast<std::size_t>(row.kind)]);
         if (row.size_m)
-            out.add(2, "size_m: {}", list(*row.size_m));
+            out.add(2, "size_m: {}", flow_list(*row.size_m));
         if (!row.model.empty())
             out.add(2, "model: {}", quoted(row.model.string()));
         out.add(2, "{}", traffic_place(row));
@@ -264,7 +262,7 @@ void write_views(Lines& out, const Drive& drive) {
             out.add(2, "map: {{ahead_m: {}, behind_m: {}, left_m: {}, right_m: {}}}", view.map_ahead_m, view.map_behind_m, view.map_left_m,
                     view.map_right_m);
         } else {
-            out.add(2, "position_m: {}", list(view.position_m));
+            out.add(2, "position_m: {}", flow_list(view.position_m));
             out.add(2, "{}", angle("yaw", view.yaw_rad));
             out.add(2, "{}", angle("pitch", view.pitch_rad));
             out.add(2, "{}", angle("roll", view.roll_rad));
@@ -285,7 +283,7 @@ void write_scenery(Lines& out, const Drive& drive) {
         if (placed.along_route)
             out.add(2, "along: {{distance_m: {}, left_m: {}, above_m: {}}}", p.x, p.y, p.z);
         else
-            out.add(2, "position_m: {}", list(p));
+            out.add(2, "position_m: {}", flow_list(p));
         for (const auto& [key, value] :
              {std::pair("yaw", placed.yaw_rad), std::pair("pitch", placed.pitch_rad), std::pair("roll", placed.roll_rad)})
             out.add(2, "{}", angle(key, value));
@@ -326,12 +324,12 @@ void write_measure(Lines& out, const Drive& drive) {
     out.add(0, "measure:");
     if (const auto& extent = drive.extent) {
         out.add(1, "extent:");
-        out.add(2, "limits_lx: {}", list(extent->limits_lx));
+        out.add(2, "limits_lx: {}", flow_list(extent->limits_lx));
         out.add(2, "target_height_m: {}", extent->target_height_m);
         out.add(2, "ahead_m: {}", extent->ahead_m);
         out.add(2, "beside_m: {}", extent->beside_m);
         out.add(2, "cell_m: {}", extent->cell_m);
-        out.add(2, "width_at_m: {}", list(extent->width_at_m));
+        out.add(2, "width_at_m: {}", flow_list(extent->width_at_m));
     } else {
         out.add(1, "extent: false");
     }

@@ -1,14 +1,13 @@
 #include "scenarios/drives/seeing_keys.h"
 
+#include "scenarios/drives/flow_list.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
 
 namespace fernlicht {
 namespace {
-
-std::string list(const std::vector<double>& numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); }
-std::string list(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
 std::string_view word(Across across) {
     return across == Across::own_centre        ? "own-centre"
@@ -25,8 +24,8 @@ std::string_view word(VeilingEquation equation) {
 
 /// Names are made of letters, digits and "-_.": quotes are for those that look like numbers.
 std::string sensors(const SensorParameters& sensors) {
-    std::string text = fmt::format("  sensors:\n    limits_lx: {}\n    distances_m: {}\n    points:\n", list(sensors.limits_lx),
-                                   list(sensors.distances_m));
+    std::string text = fmt::format("  sensors:\n    limits_lx: {}\n    distances_m: {}\n    points:\n", flow_list(sensors.limits_lx),
+                                   flow_list(sensors.distances_m));
     for (const Sensor& sensor : sensors.points)
         text += fmt::format("      \"{}\": {{at_m: {}, across: {}, above_m: {}}}\n", sensor.name, sensor.at_m, word(sensor.across),
                             sensor.above_m);
@@ -42,21 +41,22 @@ std::string glare(const GlareParameters& glare) {
                             observer.eye_height_m, observer.look_ahead_m);
     if (const auto& mirrors = glare.mirrors) {
         text += fmt::format("    mirrors:\n      gaps_m: {}\n      eye_m: {}\n      reflectance: {}\n      places:\n",
-                            list(mirrors->gaps_m), list(mirrors->eye_m), mirrors->reflectance);
+                            flow_list(mirrors->gaps_m), flow_list(mirrors->eye_m), mirrors->reflectance);
         for (const Mirror& mirror : mirrors->mirrors)
-            text += fmt::format("        \"{}\": {}\n", mirror.name, list(mirror.position_m));
+            text += fmt::format("        \"{}\": {}\n", mirror.name, flow_list(mirror.position_m));
     }
     text += fmt::format("    equation: {}\n    age_years: {}\n    pigmentation: {}\n    adaptation_cdm2: {}\n", word(glare.equation),
                         glare.age_years, glare.pigmentation, glare.adaptation_cdm2);
-    text += fmt::format("    distances_m: {}\n    limits_lx: {}\n    limits_percent: {}\n    limits_de_boer: {}\n", list(glare.distances_m),
-                        list(glare.limits_lx), list(glare.limits_percent), list(glare.limits_de_boer));
+    text += fmt::format("    distances_m: {}\n    limits_lx: {}\n    limits_percent: {}\n    limits_de_boer: {}\n",
+                        flow_list(glare.distances_m), flow_list(glare.limits_lx), flow_list(glare.limits_percent),
+                        flow_list(glare.limits_de_boer));
     return text;
 }
 
 std::string visibility(const VisibilityParameters& v) {
     return fmt::format("  visibility: {{size_m: {}, reflectance: {}, level: {}, age_years: {}, time_s: {}, k: {}, ahead_m: {}, step_m: {}, "
                        "distances_m: {}}}\n",
-                       v.size_m, v.reflectance, v.level, v.age_years, v.time_s, v.k, v.ahead_m, v.step_m, list(v.distances_m));
+                       v.size_m, v.reflectance, v.level, v.age_years, v.time_s, v.k, v.ahead_m, v.step_m, flow_list(v.distances_m));
 }
 
 std::string homogeneity(const HomogeneityParameters& h) {
@@ -68,7 +68,7 @@ std::string places(const PlaceParameters& p) {
     for (const auto& [asked, name] : {std::pair(p.kerb, "kerb"), std::pair(p.boards, "boards"), std::pair(p.markings, "markings")})
         if (asked)
             what.emplace_back(name);
-    return fmt::format("  places: {{what: [{}], distances_m: {}}}\n", fmt::join(what, ", "), list(p.distances_m));
+    return fmt::format("  places: {{what: [{}], distances_m: {}}}\n", fmt::join(what, ", "), flow_list(p.distances_m));
 }
 
 } // namespace

@@ -76,16 +76,16 @@ std::vector<Material> road_materials() {
 }
 
 RoadMaterial lane_material(const std::string& lane_type) {
-    struct Row {
+    struct LaneRow {
         const char* type;
         RoadMaterial material;
     };
     static constexpr std::array rows{
-        Row{"none", RoadMaterial::verge},       Row{"median", RoadMaterial::verge}, Row{"sidewalk", RoadMaterial::concrete},
-        Row{"walking", RoadMaterial::concrete}, Row{"curb", RoadMaterial::kerb},    Row{"tram", RoadMaterial::concrete},
-        Row{"rail", RoadMaterial::terrain},
+        LaneRow{"none", RoadMaterial::verge},       LaneRow{"median", RoadMaterial::verge}, LaneRow{"sidewalk", RoadMaterial::concrete},
+        LaneRow{"walking", RoadMaterial::concrete}, LaneRow{"curb", RoadMaterial::kerb},    LaneRow{"tram", RoadMaterial::concrete},
+        LaneRow{"rail", RoadMaterial::terrain},
     };
-    for (const Row& row : rows)
+    for (const LaneRow& row : rows)
         if (lane_type == row.type)
             return row.material;
     return RoadMaterial::asphalt;

@@ -8,7 +8,7 @@
 namespace fernlicht::opendrive {
 namespace {
 
-constexpr double standard_width_m = 0.12, bold_width_m = 0.25, widest_m = 10.0;
+constexpr double standard_width_m = 0.12, bold_width_m = 0.25, widest_mark_m = 10.0;
 constexpr double once_m = 1e9; ///< the gap after a line that is not repeated
 
 MarkKind mark_kind(OpenDriveXml& xml, pugi::xml_node node) {
@@ -36,7 +36,7 @@ MarkKind mark_kind(OpenDriveXml& xml, pugi::xml_node node) {
 
 double mark_width(OpenDriveXml& xml, pugi::xml_node node, const char* attribute, double fallback) {
     const double width = xml.number(node, attribute, fallback);
-    if (width <= 0.0 || width > widest_m) {
+    if (width <= 0.0 || width > widest_mark_m) {
         xml.warn_once(node, "mark width", fmt::format("the road mark's width of {} m is taken as {} m", width, fallback));
         return fallback;
     }

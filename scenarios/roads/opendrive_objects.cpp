@@ -7,7 +7,7 @@
 namespace fernlicht::opendrive {
 namespace {
 
-constexpr double widest_m = 2000.0; ///< of one object
+constexpr double widest_object_m = 2000.0; ///< of one object
 constexpr double most_repeats = 100'000.0;
 constexpr double longest_piece_m = 4.0; ///< of a continuous object: 5 mm of sagitta at a radius of 400 m
 
@@ -114,8 +114,9 @@ RoadObject read_object(OpenDriveXml& xml, pugi::xml_node node) {
     object.length_m = xml.length(node, "length", 0.0), object.width_m = xml.length(node, "width", 0.0);
     object.height_m = xml.length(node, "height", 0.0), object.radius_m = xml.length(node, "radius", 0.0);
     for (const double size : {object.length_m, object.width_m, object.height_m, object.radius_m})
-        if (size > widest_m)
-            xml.refuse(node, {}, fmt::format("{} measures {} m", named("object", object.id), size), fmt::format("at most {} m", widest_m));
+        if (size > widest_object_m)
+            xml.refuse(node, {}, fmt::format("{} measures {} m", named("object", object.id), size),
+                       fmt::format("at most {} m", widest_object_m));
     return object;
 }
 
@@ -164,9 +165,9 @@ void read_signals(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
         signal.heading_offset_rad = xml.number(node, "hOffset", 0.0);
         signal.width_m = xml.length(node, "width", 0.0), signal.height_m = xml.length(node, "height", 0.0);
         for (const double size : {signal.width_m, signal.height_m})
-            if (size > widest_m)
+            if (size > widest_object_m)
                 xml.refuse(node, {}, fmt::format("{} measures {} m", named("signal", signal.id), size),
-                           fmt::format("at most {} m", widest_m));
+                           fmt::format("at most {} m", widest_object_m));
         signal.facing_forward = xml.text(node, "orientation", "+") != "-";
         signal.dynamic = xml.text(node, "dynamic", "no") == "yes";
         if (signal.s_m < 0.0 || signal.s_m > road.length_m + 0.01)

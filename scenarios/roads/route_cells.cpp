@@ -1,8 +1,8 @@
 // Distance along a lane's centre against s, in cells on which the geometry is smooth.
+#include "scenarios/roads/gauss_legendre.h"
 #include "scenarios/roads/route.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -11,11 +11,6 @@ namespace {
 
 constexpr double longest_cell_m = 5.0;
 constexpr double shortest_cell_m = 1e-9; ///< what lies between two borders that are the same but for rounding
-
-/// Gauss-Legendre on 0..1 with five points.
-constexpr std::array<double, 5> node{0.04691007703066800, 0.23076534494715846, 0.5, 0.76923465505284154, 0.95308992296933200};
-constexpr std::array<double, 5> weight{0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
-                                       0.11846344252809454};
 
 /// Every s within (low, high) at which some polynomial of the road or of the section's lanes begins.
 std::vector<double> borders(const Road& road, const LaneSection& section, double low, double high) {
@@ -82,8 +77,8 @@ void Route::add_cells(std::size_t leg_index) {
             cell.strip = strip_at(road, 0.5 * (cell.from_s_m + cell.to_s_m));
             cell.centre = centre_cubic(road, section, leg.lane, std::min(cell.from_s_m, cell.to_s_m), std::max(cell.from_s_m, cell.to_s_m));
             const double ds = cell.to_s_m - cell.from_s_m;
-            for (std::size_t n = 0; n < node.size(); ++n)
-                cell.length_m += weight[n] * std::abs(ds) * stretch(cell.strip, cell.centre, cell.from_s_m + node[n] * ds);
+            for (std::size_t n = 0; n < gauss_node.size(); ++n)
+                cell.length_m += gauss_weight[n] * std::abs(ds) * stretch(cell.strip, cell.centre, cell.from_s_m + gauss_node[n] * ds);
             const double side = ds > 0.0 ? 1.0 : -1.0;
             cell.from_slope = side / stretch(cell.strip, cell.centre, cell.from_s_m);
             cell.to_slope = side / stretch(cell.strip, cell.centre, cell.to_s_m);
