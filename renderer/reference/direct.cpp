@@ -1,5 +1,6 @@
+#include "renderer/reference/air.h"
 #include "renderer/reference/lanes.h"
-#include "renderer/reference/shot.h"
+#include "renderer/reference/wet_lobe.h"
 
 #include "scenarios/fog_light.h"
 #include "scenarios/photometry.h"
@@ -44,8 +45,6 @@ double facing_lx(const LitLamp& lamp, const glm::dvec3& lamp_m, const glm::dvec3
 }
 
 namespace {
-
-constexpr double sky_air_m = 5000.0; // of the air before the sky, as it is drawn
 
 using Points = std::array<glm::dvec3, packet_size>;
 
@@ -98,8 +97,6 @@ void observation_lanes(const Shot& shot, const PacketLight& light, const Points&
     angles(sine, cosine, angle_rad);
 }
 
-double wetness_of(const Shot& shot, const SurfaceResponse& response) { return response.gets_wet ? shot.moment.weather.wetness : 0.0; }
-
 void add_luminance(const Shot& shot, const LitLamp& lamp, const Points& lamp_m, const Lanes& e_perp, const Lanes& cosine, LaneMask seen,
                    const PacketLight& light, Points& colour) {
     Lanes angle_rad;
@@ -113,7 +110,7 @@ void add_luminance(const Shot& shot, const LitLamp& lamp, const Points& lamp_m, 
             returned += photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle_rad[i], response.retro_reference_rad,
                                                     response.retro_inverse_falloff);
         const glm::dvec3& p = light.hits[i].point_m;
-        if (const double wet = wetness_of(shot, response); wet > 0.0)
+        if (const double wet = wetness_at(shot, response); wet > 0.0)
             returned = partly_wet(
                 returned,
                 wet_light(response.albedo, light.hits[i].normal, glm::normalize(lamp_m[i] - p), glm::normalize(shot.to_eye(p)), e_perp[i]),
@@ -173,32 +170,13 @@ void add_sun(const Shot& shot, const DirectLight& sun, Points& colour, PacketLig
             continue;
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 returned = response.albedo * (e[i] / pi);
-        if (const double wet = wetness_of(shot, response); wet > 0.0)
+        if (const double wet = wetness_at(shot, response); wet > 0.0)
             returned = partly_wet(returned,
                                   wet_light(response.albedo, light.hits[i].normal, towards,
                                             glm::normalize(shot.to_eye(light.hits[i].point_m)), sun.illuminance_lx),
                                   wet);
         colour[i] += returned;
     }
-}
-
-/// Of the lamps, by the air between the eye and a point.
-glm::dvec3 airlight(const Shot& shot, const glm::dvec3& eye_m, const glm::dvec3& end_m) {
-    glm::dvec3 sum(0.0);
-    const glm::dvec3& origin_m = shot.embree.origin_m();
-    for (const LitLamp& lamp : shot.moment.lamps)
-        sum += lamp.colour.linear_srgb * airlight_cdm2(lamp, shot.moment.weather, origin_m + eye_m, origin_m + end_m);
-    return sum;
-}
-
-/// Luminance of what a ray meets, behind the air before it; maps are seen without.
-glm::dvec3 through_air(const Shot& shot, const Ray& ray, const glm::dvec3& end_m, const glm::dvec3& light) {
-    const Weather& weather = shot.moment.weather;
-    if (weather.extinction_per_m <= 0.0 || shot.camera.is_map)
-        return light;
-    const double way = glm::length(end_m - ray.origin_m);
-    return light * air_transmittance(weather, way) + sky_airlight_cdm2(shot.moment.daylight, weather, way) +
-           airlight(shot, ray.origin_m, end_m);
 }
 
 void add_target(const Shot& shot, std::size_t index, const Points& lamp_m, PacketLight& light, ShadowTally& edges) {
@@ -241,8 +219,9 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
     for (std::size_t i = 0; i < packet_size; ++i) {
         if (!in_mask(light.hit, i)) {
             light.luminance_cdm2[i] = in_mask(lanes, i) ? sky_lx / pi : 0.0;
-            if (in_mask(lanes, i) && shot.wanted.luminance && shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map)
-                light.luminance_cdm2[i] += luminance(airlight(shot, rays[i].origin_m, rays[i].origin_m + rays[i].direction * sky_air_m));
+            if (in_mask(lanes, i) && shot.wanted.luminance && is_in_air(shot) && !shot.camera.is_map &&
+                shot.settings.integrator != Integrator::path) // paths add it themselves
+                light.luminance_cdm2[i] += luminance(airlight(shot, rays[i].origin_m, rays[i].origin_m + rays[i].direction * air_end_m));
             continue;
         }
         const double e_sky = sky ? sky_lx * 0.5 * (1.0 + light.hits[i].normal.z) : 0.0;
@@ -251,7 +230,7 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
             continue;
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 of_sky = response.albedo * e_sky / pi;
-        if (const double wet = wetness_of(shot, response); wet > 0.0 && sky)
+        if (const double wet = wetness_at(shot, response); wet > 0.0 && sky)
             of_sky = partly_wet(of_sky,
                                 wet_sky_light(response.albedo, light.hits[i].normal, glm::normalize(shot.to_eye(light.hits[i].point_m)),
                                               e_sky, sky_lx / pi),

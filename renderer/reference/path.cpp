@@ -1,27 +1,68 @@
 #include "renderer/reference/path.h"
 
+#include "renderer/reference/air.h"
 #include "renderer/reference/scattering.h"
+#include "renderer/reference/wet_lobe.h"
+#include "scenarios/fog_light.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace fernlicht::reference {
 namespace {
 
 /// Pairs of coordinates that the second path of a pixel's sample starts at, and those by mirror and glass: beyond those of any before.
-constexpr std::size_t retro_pairs = std::size_t{1} << 24, mirrored_pairs = std::size_t{2} << 24, refracted_pairs = std::size_t{3} << 24;
+constexpr std::size_t retro_pairs = std::size_t{1} << 24, mirrored_pairs = std::size_t{2} << 24, refracted_pairs = std::size_t{3} << 24,
+                      air_first_pair = std::size_t{4} << 24, film_pairs = std::size_t{5} << 24;
+/// Scatterings in the air after which Russian roulette begins, and the share of paths that it lets go on each time.
+constexpr int scatterings_kept = 16;
+constexpr double kept_scattering = 0.9;
 
-} // namespace
+/// Where a path's free flight ends, m: of density s exp(-s t).
+double flight_m(const Weather& weather, double choice) { return -std::log(choice) / weather.extinction_per_m; }
 
-glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays) {
-    const std::size_t pairs_a_bounce = 2 + shot.moment.lamps.size();
+/// Turns the path at the place where it is; false where it ends. `scattered`: how often before.
+bool turned(const Shot& shot, const glm::dvec3& place_m, const glm::dvec2& square, double roulette, int& scattered, Ray& ray,
+            glm::dvec3& weight) {
+    if (++scattered >= shot.settings.most_scatterings)
+        return false;
+    weight *= shot.moment.weather.scattering_albedo;
+    if (scattered > scatterings_kept) {
+        if (roulette >= kept_scattering)
+            return false;
+        weight /= kept_scattering;
+    }
+    ray = {place_m, sample_henyey_greenstein(ray.direction, shot.moment.weather.asymmetry, square)};
+    return weight != glm::dvec3(0.0);
+}
+
+/// The light of a ray that the air has turned `scattered` times.
+glm::dvec3 followed(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, int scattered, std::uint64_t& rays) {
+    const std::size_t of_surface = 2 + shot.moment.lamps.size(), pairs_a_bounce = of_surface + air_pairs(shot);
+    const Weather& weather = shot.moment.weather;
+    const bool in_air = is_in_air(shot);
     glm::dvec3 sum(0.0), weight(1.0);
     bool specular = false;
     for (int bounce = 0; bounce < shot.settings.most_bounces; ++bounce, pair += pairs_a_bounce) {
         ++rays;
         const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
+        if (in_air) {
+            const double way_m = hit ? glm::length(hit->point_m - ray.origin_m) : air_end_m;
+            if (shot.settings.most_scatterings > 0)
+                sum += weight * lamps_in_air(shot, ray, way_m, point, pair + of_surface + 2, rays);
+            const glm::dvec2 flight = point.pair(pair + of_surface);
+            if (const double free_m = flight_m(weather, flight.x); free_m < way_m) {
+                if (scattered == 0) // the sky's balance: what is scattered later is in it already
+                    sum += weight * sky_luminance_cdm2(shot.moment.daylight);
+                if (!turned(shot, ray.origin_m + ray.direction * free_m, point.pair(pair + of_surface + 1), flight.y, scattered, ray,
+                            weight))
+                    return sum;
+                continue;
+            }
+        }
         if (!hit)
-            return sum + weight * sky_luminance(shot.moment, ray.direction);
-        const Surface surface = surface_at(shot.embree.scene(), *hit, -ray.direction);
+            return scattered == 0 ? sum + weight * sky_luminance(shot.moment, ray.direction) : sum;
+        const Surface surface = surface_at(shot, *hit, -ray.direction);
         if (surface.is_dark())
             return sum;
         if (!surface.is_glass())
@@ -32,38 +73,82 @@ glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::siz
     return sum;
 }
 
+/// What the air before a ray's surface sends to the eye of the lamps' light: scattered once by one point a lamp, more often by a path
+/// from a place on the ray that light can have come from.
+glm::dvec3 air_seen(const Shot& shot, const SamplePoint& point, const Ray& ray, double way_m, std::uint64_t& rays) {
+    glm::dvec3 sum(0.0);
+    if (shot.settings.most_scatterings < 1)
+        return sum;
+    const Weather& weather = shot.moment.weather;
+    sum = lamps_in_air(shot, ray, way_m, point, air_first_pair + 2, rays);
+    const double stopped = 1.0 - air_transmittance(weather, way_m);
+    const glm::dvec2 choice = point.pair(air_first_pair);
+    Ray on = ray;
+    glm::dvec3 weight(stopped);
+    int scattered = 0;
+    if (stopped > 0.0 && turned(shot, ray.origin_m + ray.direction * flight_m(weather, 1.0 - choice.x * stopped),
+                                point.pair(air_first_pair + 1), 0.0, scattered, on, weight))
+        sum += weight * followed(shot, point, air_first_pair + air_pairs(shot), on, scattered, rays);
+    return sum;
+}
+
+} // namespace
+
+glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays) {
+    return followed(shot, point, pair, ray, 0, rays);
+}
+
 void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light) {
     const std::size_t first_pair = 1 + shot.moment.lamps.size();
     for (std::size_t i = 0; i < packet_size; ++i) {
         if (!in_mask(light.hit, i))
             continue;
         const SurfaceHit& hit = light.hits[i];
-        const glm::dvec3 from_m = EmbreeScene::raised(hit), direction = sample_cosine(hit.normal, points[i].pair(first_pair));
+        const glm::dvec3 from_m = EmbreeScene::raised(hit), direction = sample_cosine(hit.normal, points[i].pair(first_pair)),
+                         to_eye = glm::normalize(shot.to_eye(hit.point_m));
+        const double left = left_on_way_to_eye(shot, hit.point_m), wetness = wetness_at(shot, light.responses[i]);
         if ((shot.wanted.illuminance || shot.wanted.luminance) && glm::dot(direction, hit.facet_normal) > 0.0) {
             const glm::dvec3 radiance = arriving(i, points[i], first_pair + 1, {from_m, direction}, light.rays);
             light.illuminance_lx[i] += pi * luminance(radiance);
             if (shot.wanted.luminance)
-                light.luminance_cdm2[i] += luminance(light.responses[i].albedo * radiance);
+                light.luminance_cdm2[i] +=
+                    left * luminance(diffuse_reflectance(light.responses[i].albedo, wetness, glm::dot(hit.normal, direction),
+                                                         glm::dot(hit.normal, to_eye)) *
+                                     radiance);
+        }
+        if (shot.wanted.luminance && wetness > 0.0) {
+            const FilmSample film = sample_film(hit.normal, to_eye, points[i].pair(film_pairs));
+            if (film.weight > 0.0 && glm::dot(film.direction, hit.facet_normal) > 0.0)
+                light.luminance_cdm2[i] +=
+                    left * wetness * film.weight * luminance(arriving(i, points[i], film_pairs + 1, {from_m, film.direction}, light.rays));
         }
         if (!shot.wanted.luminance || light.responses[i].retro_rl <= 0.0)
             continue;
-        const Surface surface = surface_at(shot.embree.scene(), hit, glm::normalize(shot.to_eye(hit.point_m)));
+        const Surface surface = surface_at(shot, hit, to_eye);
         if (!surface.lobe.is_there())
             continue;
         const RetroSample sample =
             sample_retro(surface.lobe, surface.out, hit.normal, points[i].pair(retro_pairs), points[i].pair(retro_pairs + 1).x);
         if (sample.weight > 0.0 && glm::dot(sample.direction, hit.facet_normal) > 0.0)
-            light.luminance_cdm2[i] +=
-                sample.weight * luminance(arriving(i, points[i], retro_pairs + 2, {from_m, sample.direction}, light.rays));
+            light.luminance_cdm2[i] += left * (1.0 - wetness) * sample.weight *
+                                       luminance(arriving(i, points[i], retro_pairs + 2, {from_m, sample.direction}, light.rays));
     }
 }
 
-void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, PacketLight& light) {
+void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const std::array<Ray, packet_size>& eye_rays,
+                    LaneMask lanes, PacketLight& light) {
     const Arriving by_path = [&](std::size_t, const SamplePoint& point, std::size_t pair, const Ray& ray, std::uint64_t& rays) {
         return arriving_by_path(shot, point, pair, ray, rays);
     };
     add_bounced_light(shot, points, by_path, light);
     add_smooth_light(shot, points, by_path, light);
+    if (!is_in_air(shot) || shot.camera.is_map || !shot.wanted.luminance)
+        return;
+    for (std::size_t i = 0; i < packet_size; ++i)
+        if (in_mask(lanes, i)) {
+            const double way_m = in_mask(light.hit, i) ? glm::length(light.hits[i].point_m - eye_rays[i].origin_m) : air_end_m;
+            light.luminance_cdm2[i] += luminance(air_seen(shot, points[i], eye_rays[i], way_m, light.rays));
+        }
 }
 
 void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light) {
@@ -74,13 +159,14 @@ void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_siz
         if (!in_mask(light.hit, i) || !is_smooth(scene.materials[light.hits[i].material]))
             continue;
         const SurfaceHit& hit = light.hits[i];
-        const SpecularSplit split = specular_split(surface_at(scene, hit, glm::normalize(shot.to_eye(hit.point_m))));
+        const double left = left_on_way_to_eye(shot, hit.point_m);
+        const SpecularSplit split = specular_split(surface_at(shot, hit, glm::normalize(shot.to_eye(hit.point_m))));
         if (split.mirrored_share > 0.0)
             light.luminance_cdm2[i] +=
-                split.mirrored_share * luminance(arriving(i, points[i], mirrored_pairs, leaving(hit, split.mirrored), light.rays));
+                left * split.mirrored_share * luminance(arriving(i, points[i], mirrored_pairs, leaving(hit, split.mirrored), light.rays));
         if (split.refracted_share > 0.0)
-            light.luminance_cdm2[i] +=
-                split.refracted_share * luminance(arriving(i, points[i], refracted_pairs, leaving(hit, split.refracted), light.rays));
+            light.luminance_cdm2[i] += left * split.refracted_share *
+                                       luminance(arriving(i, points[i], refracted_pairs, leaving(hit, split.refracted), light.rays));
     }
 }
 

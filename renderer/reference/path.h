@@ -4,8 +4,9 @@
 // (retro_lobe.h), each with the probability of its share of the reflectance, or ends: the path's weight stays at most about 1, and no bound
 // on its length is needed. At each surface that it meets, every lamp is asked directly (next-event estimation); lamps are points or discs
 // that no path meets by itself. The sky, L = E_h / pi from every direction above the horizon, and surfaces' own light count where a path
-// meets them, and are never asked directly. So each way that light can take is counted once. A surface met from behind, on the side that is
-// not lit, is black.
+// meets them, and are never asked directly; sun and moon are asked as lamps are. So each way that light can take is counted once. A surface
+// met from behind, on the side that is not lit, is black. A wet surface sends paths on below its film and off it (wet_lobe.h); fog turns
+// them (air.h).
 #pragma once
 
 #include "renderer/reference/shot.h"
@@ -26,8 +27,9 @@ void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_si
 /// What is seen in the packet's mirrors and through its glass, both ways that glass sends it. Luminance only.
 void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light);
 
-/// Both, by paths.
-void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, PacketLight& light);
+/// Both, by paths, and where there is fog what it sends towards the eye (air.h).
+void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const std::array<Ray, packet_size>& eye_rays,
+                    LaneMask lanes, PacketLight& light);
 
 /// By paths: the whole of it, over any number of surfaces.
 glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays);

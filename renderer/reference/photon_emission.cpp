@@ -47,6 +47,8 @@ PhotonEmission::PhotonEmission(const Shot& shot) : reach_m_(shot.settings.solver
             add({.flux_lm = pi * l * facet.area_m2, .facet = static_cast<int>(shining_.size())});
             shining_.push_back(facet);
         }
+    if (const DirectLight* direct = shot.moment.daylight.direct())
+        add({.flux_lm = pi * reach_m_ * reach_m_ * direct->illuminance_lx, .direct = true});
     add({.flux_lm = 2.0 * pi * reach_m_ * reach_m_ * shot.moment.daylight.horizontal_illuminance_lx});
 }
 
@@ -73,6 +75,14 @@ PhotonStart PhotonEmission::start(const Shot& shot, const SamplePoint& point) co
         const SurfaceHit hit = facet.anywhere(first);
         const glm::dvec3 l(shot.embree.scene().materials[facet.material].emission_cdm2);
         return {{EmbreeScene::raised(hit), sample_cosine(facet.facet_normal, second)}, l * (pi * facet.area_m2 * inverse_p), false};
+    }
+    if (emitter.direct) {
+        const glm::dvec3 towards = shot.moment.daylight.direct()->towards();
+        const auto [u, v] = across(towards);
+        const glm::dvec2 disc = on_disc(second) * reach_m_;
+        const glm::dvec3 from_m = shot.car_m + towards * reach_m_ + u * disc.x + v * disc.y;
+        const bool seen = shot.embree.visible(from_m, from_m + towards * sun_distance_m);
+        return {{from_m, -towards}, glm::dvec3(seen ? emitter.flux_lm * inverse_p : 0.0), true};
     }
     const double z = first.x, across_z = std::sqrt(std::max(0.0, 1.0 - z * z)), turn = 2.0 * pi * first.y;
     const glm::dvec3 up{across_z * std::cos(turn), across_z * std::sin(turn), z};

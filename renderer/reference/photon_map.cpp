@@ -51,7 +51,7 @@ PhotonMap::Map PhotonMap::sent_out(const Shot& shot, const PhotonEmission& emiss
             const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
             if (!hit)
                 break;
-            const Surface surface = surface_at(shot.embree.scene(), *hit, -ray.direction);
+            const Surface surface = surface_at(shot, *hit, -ray.direction);
             if (surface.is_dark())
                 break;
             if (!surface.is_glass() && glm::length(hit->point_m - shot.car_m) < reach_m_)

@@ -18,7 +18,7 @@ void add_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& po
     case Integrator::direct:
         break;
     case Integrator::path:
-        add_path_light(shot, points, light);
+        add_path_light(shot, points, rays, lanes, light);
         break;
     case Integrator::whitted:
         add_whitted_light(shot, points, light);

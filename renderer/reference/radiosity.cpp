@@ -22,6 +22,7 @@ constexpr int most_sweeps = 10'000;                      ///< a white closed roo
 
 double sum_of(const glm::dvec3& rgb) { return std::abs(rgb.x) + std::abs(rgb.y) + std::abs(rgb.z); }
 
+/// Of lamps, sun and moon.
 glm::dvec3 lamps_lx(const Shot& shot, const SurfaceHit& hit, const SamplePoint& point, std::size_t pair, std::uint64_t& rays) {
     glm::dvec3 sum(0.0);
     for (const LitLamp& lamp : shot.moment.lamps) {
@@ -34,6 +35,12 @@ glm::dvec3 lamps_lx(const Shot& shot, const SurfaceHit& hit, const SamplePoint& 
         if (shot.embree.visible(hit, lamp_m))
             sum += lamp.colour.linear_srgb * (e_perp * cosine);
     }
+    if (const DirectLight* sun = shot.moment.daylight.direct())
+        if (const double e = photometry::directional_illuminance(sun->illuminance_lx, hit.normal, sun->towards()); e > 0.0) {
+            ++rays;
+            if (shot.embree.visible(hit, hit.point_m + sun->towards() * sun_distance_m))
+                sum += e;
+        }
     return sum;
 }
 

@@ -38,6 +38,8 @@ void check(const ReferenceSettings& s) {
         fail("target error and floors must be above 0");
     if (s.least_samples < 1 || s.most_samples < s.least_samples || s.most_samples > (1 << 24))
         fail("samples must be 1 <= least <= most <= 2^24");
+    if (s.most_scatterings < 0)
+        fail("scatterings must be at least 0");
     if (s.most_bounces < 1 || !(s.lamp_radius_m >= 0.0) || !std::isfinite(s.target_height_m))
         fail("bounces must be at least 1, a lamp's radius at least 0, a target's height finite");
     if (s.most_smooth < 0 || s.most_smooth > 64)
@@ -120,6 +122,8 @@ std::size_t pixels_done(const ReferenceImage& image) {
 
 } // namespace
 
+bool knows_weather(Integrator integrator) { return integrator != Integrator::radiosity && integrator != Integrator::photon_map; }
+
 struct Reference::State {
     std::mutex mutex;
     std::shared_ptr<const reference::EmbreeScene> geometry;
@@ -154,6 +158,8 @@ std::shared_ptr<const reference::EmbreeScene> Reference::geometry(const Moment& 
 ReferenceImage Reference::render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
                                  const GoOn& go_on, ReferenceImage from, const StopAsked& stop_asked) const {
     check(settings);
+    if (!knows_weather(settings.integrator) && (moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0))
+        throw std::invalid_argument("reference: fog or water for radiosity or photon map; direct, whitted and path know them");
     check_materials(scene_);
     const auto start = std::chrono::steady_clock::now();
     const auto embree = geometry(moment);

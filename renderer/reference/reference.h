@@ -14,7 +14,8 @@
 // than one in its number of samples can still be missed by all of them; then the bar does not know of it.
 //
 // Direct: Lambert and retroreflecting surfaces, lamps as points or discs, visibility by a ray, the intensity from the candela table in
-// double, the sky as a share (1 + n_z) / 2 that nothing hides: the same light as the technique `photometric` and its twin.
+// double, the sky as a share (1 + n_z) / 2 that nothing hides, sun and moon, wet roads, fog by single scattering: the same light as the
+// technique `photometric` and its twin.
 #pragma once
 
 #include "scenarios/drives/frame.h"
@@ -37,6 +38,9 @@ enum class Integrator {
     radiosity, ///< radiosity.h
     photon_map ///< photon_map.h
 };
+
+/// False for radiosity and photon_map, whose light goes straight between dry, diffuse surfaces: fog and water are refused.
+bool knows_weather(Integrator integrator);
 
 /// For Integrator::radiosity and photon_map, which solve the light of a moment before they draw it.
 struct SolverSettings {
@@ -64,6 +68,7 @@ struct ReferenceSettings {
     double floor_lx = 0.05, floor_cdm2 = 0.001;
     int least_samples = 16, most_samples = 4096; ///< in a pixel's mean; both become powers of two from 16 up
     int most_bounces = 1000;                     ///< path: a bound that Russian roulette, which is unbiased, never meets in practice
+    int most_scatterings = 1000;                 ///< path: in fog, of the light of one way; 1 is single scattering, 0 none
     double lamp_radius_m = 0.0;                  ///< > 0: lamps are discs of this radius that face along their axis; 0: points
     double target_height_m = 0.25;               ///< of target_lx, above the surface
     bool shadows = true;                         ///< direct and whitted alone can leave them out
@@ -123,7 +128,8 @@ class Reference {
 
     /// Draws illuminance, target and luminance as wanted. Maps see ground surfaces only; everything casts shadows. The same bytes for any
     /// number of threads, and for a picture drawn in one go or gone on with from `from`, an incomplete picture of the same call.
-    /// Throws DeviceError (Embree, memory), std::invalid_argument for settings that make no sense or a `from` of another size.
+    /// Throws DeviceError (Embree, memory), std::invalid_argument for settings that make no sense, a `from` of another size, and fog or
+    /// water where the integrator knows neither (knows_weather).
     ReferenceImage render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
                           const GoOn& go_on = {}, ReferenceImage from = {}, const StopAsked& stop_asked = {}) const;
 

@@ -1,6 +1,9 @@
 #include "renderer/reference/scattering.h"
 
+#include "renderer/reference/wet_lobe.h"
+#include "scenarios/fog_light.h"
 #include "scenarios/photometry.h"
+#include "scenarios/wet_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +19,8 @@ double greatest(const glm::dvec3& rgb) { return std::max({rgb.x, rgb.y, rgb.z});
 
 } // namespace
 
-Surface surface_at(const Scene& scene, const SurfaceHit& hit, const glm::dvec3& out) {
+Surface surface_at(const Shot& shot, const SurfaceHit& hit, const glm::dvec3& out) {
+    const Scene& scene = shot.embree.scene();
     const Material& material = scene.materials[hit.material];
     Surface surface{hit, response_at(scene, hit), {}, 0.0, 0.0, static_cast<double>(material.glass_index), out};
     if (surface.is_glass()) {
@@ -26,6 +30,7 @@ Surface surface_at(const Scene& scene, const SurfaceHit& hit, const glm::dvec3& 
     surface.mirror = static_cast<double>(material.mirror);
     surface.albedo = greatest(surface.response.albedo);
     surface.lobe = retro_lobe(surface.response, surface.albedo + surface.mirror);
+    surface.wetness = wetness_at(shot, surface.response);
     return surface;
 }
 
@@ -78,21 +83,33 @@ glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint&
         if (surface.lobe.is_there())
             reflected += retro_times_cosine(surface.lobe, photometry::observation_angle(to_lamp, surface.out), cosine,
                                             glm::dot(surface.hit.normal, surface.out));
-        sum += lamp.colour.linear_srgb * reflected * e_perp;
+        const double left = air_transmittance(shot.moment.weather, glm::length(to_lamp)); // 1 in clear air
+        glm::dvec3 returned = reflected * (e_perp * left);
+        if (surface.wetness > 0.0)
+            returned = partly_wet(
+                returned, wet_light(surface.response.albedo, surface.hit.normal, glm::normalize(to_lamp), surface.out, e_perp * left),
+                surface.wetness);
+        sum += lamp.colour.linear_srgb * returned;
     }
     if (const DirectLight* sun = shot.moment.daylight.direct()) {
         const double e = photometry::directional_illuminance(sun->illuminance_lx, surface.hit.normal, sun->towards());
         if (e > 0.0 && shot.settings.shadows)
             ++rays;
         if (e > 0.0 && (!shot.settings.shadows || shot.embree.visible(surface.hit, surface.hit.point_m + sun->towards() * sun_distance_m)))
-            sum += surface.response.albedo * (e / pi);
+            sum += partly_wet(surface.response.albedo * (e / pi),
+                              surface.wetness > 0.0
+                                  ? wet_light(surface.response.albedo, surface.hit.normal, sun->towards(), surface.out, sun->illuminance_lx)
+                                  : glm::dvec3(0.0),
+                              surface.wetness);
     }
     return sum;
 }
 
 bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pair, Ray& ray, glm::dvec3& weight, bool& specular) {
     const SpecularSplit smooth = specular_split(surface);
-    const double rough = surface.albedo + surface.lobe.returned, reflected = rough + smooth.mirrored_share + smooth.refracted_share;
+    const double dry = 1.0 - surface.wetness, retro = surface.lobe.returned * dry,
+                 film = surface.wetness > 0.0 ? surface.wetness * film_share(surface.hit.normal, surface.out) : 0.0;
+    const double rough = surface.albedo + retro + film, reflected = rough + smooth.mirrored_share + smooth.refracted_share;
     if (reflected <= 0.0)
         return false;
     const glm::dvec2 choice = point.pair(pair), square = point.pair(pair + 1);
@@ -101,12 +118,19 @@ bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pa
     if (lobe_choice < surface.albedo) {
         lobe_choice = choice.x * (reflected / surface.albedo);
         ray.direction = sample_cosine(surface.hit.normal, square);
-        weight *= surface.response.albedo * (reflected / surface.albedo);
-    } else if (!specular) {
-        lobe_choice = (lobe_choice - surface.albedo) / surface.lobe.returned;
+        weight *= diffuse_reflectance(surface.response.albedo, surface.wetness, glm::dot(surface.hit.normal, ray.direction),
+                                      glm::dot(surface.hit.normal, surface.out)) *
+                  (reflected / surface.albedo);
+    } else if (lobe_choice < surface.albedo + retro) {
+        lobe_choice = (lobe_choice - surface.albedo) / retro;
         const RetroSample sample = sample_retro(surface.lobe, surface.out, surface.hit.normal, square, choice.y);
         ray.direction = sample.direction;
-        weight *= sample.weight * (reflected / surface.lobe.returned);
+        weight *= sample.weight * (reflected / retro) * dry;
+    } else if (!specular) {
+        lobe_choice = (lobe_choice - surface.albedo - retro) / film;
+        const FilmSample sample = sample_film(surface.hit.normal, surface.out, square);
+        ray.direction = sample.direction;
+        weight *= sample.weight * surface.wetness * (reflected / film);
     } else {
         const bool mirrored = lobe_choice - rough < smooth.mirrored_share;
         lobe_choice = mirrored ? (lobe_choice - rough) / smooth.mirrored_share
@@ -129,7 +153,7 @@ std::optional<Surface> cast_past_smooth(const Shot& shot, const SamplePoint& poi
         const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
         if (!hit)
             return std::nullopt;
-        surface = surface_at(shot.embree.scene(), *hit, -ray.direction);
+        surface = surface_at(shot, *hit, -ray.direction);
         if (!surface->is_glass() && (surface->mirror <= 0.0 || hit->from_behind))
             return surface;
         const SpecularSplit split = specular_split(*surface);

@@ -19,6 +19,7 @@ struct Surface {
     double mirror = 0.0;      ///< share that is mirrored
     double glass_index = 0.0; ///< 0: opaque
     glm::dvec3 out{0.0};      ///< unit, back along the path
+    double wetness = 0.0;     ///< 0 dry .. 1 under water
     bool is_glass() const { return glass_index > 0.0; }
     /// Met from the side that is not lit, and nothing passes.
     bool is_dark() const { return hit.from_behind && !is_glass(); }
@@ -26,7 +27,7 @@ struct Surface {
 
 inline bool is_smooth(const Material& material) { return material.mirror > 0.0F || material.glass_index > 0.0F; }
 
-Surface surface_at(const Scene& scene, const SurfaceHit& hit, const glm::dvec3& out);
+Surface surface_at(const Shot& shot, const SurfaceHit& hit, const glm::dvec3& out);
 
 /// Share of unpolarised light that a smooth boundary reflects, 0..1. `cosine` against the normal on the side that light comes from, 0..1;
 /// `ratio` is the refractive index beyond over the one before. 1 for total reflection.
@@ -42,12 +43,12 @@ SpecularSplit specular_split(const Surface& surface);
 /// A ray from a surface into a direction, to whichever side that is.
 Ray leaving(const SurfaceHit& hit, const glm::dvec3& direction);
 
-/// Luminance in linear sRGB that the lamps give the surface along the path, over this surface alone. Draws from the point's pairs from
-/// `pair` on, one a lamp.
+/// Luminance in linear sRGB that lamps, sun and moon give the surface along the path, over this surface alone. Draws from the point's pairs
+/// from `pair` on, one a lamp.
 glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint& point, std::size_t pair, std::uint64_t& rays);
 
 /// Draws where the path goes on from the surface, from two pairs, and multiplies its weight; false where it ends. `specular`: by mirror or
-/// glass. Russian roulette keeps the weight at about 1/2 or above.
+/// glass; a wet surface's film is rough. Russian roulette keeps the weight at about 1/2 or above.
 bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pair, Ray& ray, glm::dvec3& weight, bool& specular);
 
 /// What a ray meets at last that is neither glass nor, by the throw of a die, mirror: so that light that comes from there is the surface's

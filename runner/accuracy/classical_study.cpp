@@ -66,20 +66,25 @@ PixelErrors errors_of(const ReferenceImage& tested, const ReferenceImage& truth)
     return fold.finish().value_or(PixelErrors{});
 }
 
-WorkPrecisionRow row_of(const Way& way, const ReferenceImage& image, const ReferenceImage& truth) {
+/// Named, with nothing measured yet.
+WorkPrecisionRow row_of(const Way& way) {
     const SolverSettings& solver = way.settings.solver;
     const bool solved = way.settings.integrator == Integrator::radiosity || way.settings.integrator == Integrator::photon_map;
     const std::string name = integrator_name(way.settings.integrator) + (solved && solver.final_gather ? " with final gathering" : "");
-    const PixelErrors errors = errors_of(image, truth);
     WorkPrecisionRow row;
     row.label = fmt::format("{}, {} {}", name, way.value, way.varied == "patch_m" ? "m patches" : way.varied);
-    row.parameters = {{"integrator", name},
-                      {way.varied, way.value},
-                      {"median_percent", fmt::format("{:.3g}", 100.0 * errors.error.median)},
-                      {"mean_percent", fmt::format("{:.3g}", 100.0 * errors.mean)},
-                      {"rays", fmt::format("{}", image.rays)}};
+    row.parameters = {{"integrator", name}, {way.varied, way.value}};
     if (way.settings.integrator == Integrator::photon_map)
         row.parameters.emplace_back("radius_m", fmt::format("{:.3g}", solver.radius_m));
+    return row;
+}
+
+WorkPrecisionRow row_of(const Way& way, const ReferenceImage& image, const ReferenceImage& truth) {
+    const PixelErrors errors = errors_of(image, truth);
+    WorkPrecisionRow row = row_of(way);
+    row.parameters.emplace_back("median_percent", fmt::format("{:.3g}", 100.0 * errors.error.median));
+    row.parameters.emplace_back("mean_percent", fmt::format("{:.3g}", 100.0 * errors.mean));
+    row.parameters.emplace_back("rays", fmt::format("{}", image.rays));
     row.floor = 100.0 * errors.floor.p95;
     if (errors.pixels == 0) {
         row.why_not = "no pixel has 0.05 lx";
@@ -114,10 +119,16 @@ WorkPrecision classical_study(const Scene& scene, const Moment& moment, const Vi
     ReferenceSettings converged = drawn_by(study, Integrator::path, study.truth_samples);
     converged.seed = study.seed + 1000;
     const ReferenceImage truth = draw(converged);
+    const bool has_weather = moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0;
     for (const Way& way : ways_of(study)) {
         if (!go_on())
             return diagram;
-        diagram.rows.push_back(row_of(way, draw(way.settings), truth));
+        if (has_weather && !knows_weather(way.settings.integrator)) {
+            diagram.rows.push_back(row_of(way));
+            diagram.rows.back().why_not = "knows neither fog nor wet roads";
+        } else {
+            diagram.rows.push_back(row_of(way, draw(way.settings), truth));
+        }
     }
     return diagram;
 }

@@ -87,6 +87,11 @@ ReferenceResult described(const ReferenceRequest& request, const Stage& stage) {
         throw InputError({drive.file, 0, 0, "--integrator"},
                          "found " + integrator_name(request.settings.integrator) + " for a drive without shadows",
                          "direct, whitted or path: light that is solved has shadows");
+    if (const Weather& weather = result.moment.weather;
+        !knows_weather(request.settings.integrator) && (weather.extinction_per_m > 0.0 || weather.wetness > 0.0))
+        throw InputError({drive.file, 0, 0, "--integrator"},
+                         "found " + integrator_name(request.settings.integrator) + " for a drive with fog, rain, snow or wet roads",
+                         "direct, whitted or path: solved light goes through clear air between dry surfaces");
     if (drive.extent)
         result.settings.target_height_m = drive.extent->target_height_m;
     result.inputs = deciding_inputs(result, drive);

@@ -185,5 +185,16 @@ TEST(ReferenceErrorReached, IsRelativeToTheMeanOrTheFloorOverLitPixelsDrawn) {
     EXPECT_FALSE(error_reached(estimate, Image<std::uint32_t>(6, 1), 0.01, 0.05));
 }
 
+TEST(ReferenceCommand, SolversRefuseDrivesWithFogInASentence) {
+    const TemporaryFolder folder;
+    for (const std::string integrator : {"radiosity", "photon-map"}) {
+        const Outcome run = run_program("reference " + library_file("drives/fog.yaml") + " --integrator " + integrator +
+                                        " --resolution 16x12 --quiet --out " + (folder / integrator));
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        for (const char* part : {"fog.yaml", "--integrator", "fog, rain, snow or wet roads", "direct, whitted or path"})
+            EXPECT_NE(run.output.find(part), std::string::npos) << run.output;
+    }
+}
+
 } // namespace
 } // namespace fernlicht
