@@ -101,8 +101,9 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
     const auto airlight = [&](const glm::dvec3& end_m) {
         glm::dvec3 sum(0.0);
         if (through_air)
-            for (const LitLamp& lamp : moment.lamps)
-                sum += lamp.colour.linear_srgb * airlight_cdm2(lamp, weather, ego_m + camera.eye_m, ego_m + end_m);
+            for (const auto* lamps : {&moment.lamps, &moment.other_lamps})
+                for (const LitLamp& lamp : *lamps)
+                    sum += lamp.colour.linear_srgb * airlight_cdm2(lamp, weather, ego_m + camera.eye_m, ego_m + end_m);
         return sum;
     };
     if (!hit) {

@@ -64,7 +64,8 @@ glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), stat
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, settings.beams),
       shadows_(context, scene_, {settings.shadow_width, settings.shadow_height}),
-      traffic_(context, scene_, beams_, settings.traffic_levels, pruned), faces_(context, settings.tone_mapper), list_(context, scene_),
+      traffic_(context, scene_, beams_, settings.traffic_levels, pruned), air_lamps_(context, beams_, pruned),
+      faces_(context, settings.tone_mapper), list_(context, scene_),
       block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
 
 void PhotometricLighting::set_lamps(const Shot& shot) {
@@ -105,6 +106,7 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     const bool reflects = shot.wanted.colour || shot.wanted.luminance;
     const bool everything = !pruned_ && has_weather(shot.moment);
     f.fog = everything || shot.moment.weather.extinction_per_m > 0.0;
+    f.air_lamps = f.fog && reflects && !shot.camera.is_map && (pruned_ ? air_lamps_.any() : !shot.moment.other_lamps.empty());
     f.wet = reflects && (everything || shot.moment.weather.wetness > 0.0);
     f.wanted = bits(shot.wanted);
     f.traffic = traffic || (!pruned_ && !shot.moment.other_lamps.empty());
@@ -138,6 +140,8 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("SUN_SHADOWS", flag(f.sun > 1));
     define("FOG", flag(f.fog));
     define("FOG_SAMPLES", std::to_string(settings_.fog_samples));
+    define("AIR_LAMPS", flag(f.air_lamps));
+    define("AIR_BOUND", flag(pruned_));
     define("WET", flag(f.wet));
     define("WET_ALPHA", literal(wet_roughness));
     define("BACKGROUND", flag(f.background));
@@ -179,7 +183,8 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     Program program(context_, "photometric.vert.glsl", "photometric.frag.glsl", d);
     const GLint clip = program.uniform("clip_from_ego"), eye = program.uniform("eye_m"), axis = program.uniform("eye_axis"),
                 sky = program.uniform("sky_lx"), grid = f.traffic ? program.uniform("traffic_grid") : -1;
-    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid, f.sun > 0, f.fog || f.wet}).first->second;
+    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid, f.sun > 0, f.fog || f.wet, f.air_lamps})
+        .first->second;
 }
 
 void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
@@ -199,6 +204,10 @@ void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
         sun_->set_uniforms(v.program);
     if (v.weather)
         set_weather_uniforms(gl, v.program, shot);
+    if (v.air_lamps) {
+        gl.Uniform1f(v.program.uniform("air_lamp_count"), static_cast<float>(air_lamps_.count()));
+        gl.Uniform1f(v.program.uniform("air_least_cdm2"), air_lamps_.least_cdm2());
+    }
 }
 
 void PhotometricLighting::compile(const Features& features, const Shot& shot) {
@@ -211,6 +220,16 @@ void PhotometricLighting::compile(const Features& features, const Shot& shot) {
     list_.draw(call);
 }
 
+/// Lamps of others come into sight and go while a drive is played.
+void PhotometricLighting::compile_with_and_without_air_lamps(Features features, const Shot& shot) {
+    compile(features, shot);
+    const bool reflects = shot.wanted.colour || shot.wanted.luminance;
+    if (!pruned_ || !features.fog || !reflects || shot.camera.is_map || shot.moment.other_lamps.empty())
+        return;
+    features.air_lamps = !features.air_lamps;
+    compile(features, shot);
+}
+
 PhotometricLighting::Features PhotometricLighting::background_features(const Shot& shot) const {
     Features f = features_of(shot, {}, true, false, false, 0);
     f.background = true;
@@ -221,7 +240,7 @@ PhotometricLighting::Features PhotometricLighting::background_features(const Sho
 
 /// In fog the lamps are seen before the sky too.
 void PhotometricLighting::draw_background(const Shot& shot) {
-    if (!fog_before_sky(shot) || lamps_.empty() || scene_.pieces().empty())
+    if (!fog_before_sky(shot) || (lamps_.empty() && !air_lamps_.any()) || scene_.pieces().empty())
         return;
     scene_.bind(0);
     use(variant(background_features(shot), shot.wanted), shot);
@@ -293,6 +312,7 @@ void PhotometricLighting::draw(const Shot& shot) {
     } else {
         shadows_.set({}, {}, shot.moment.ego.position_m);
     }
+    air_lamps_.set(shot.moment, shot.camera);
     set_sun(shot);
     if (sun_needs_ > 1) {
         shot.clock.begin("sun's shadow map");
@@ -308,6 +328,8 @@ void PhotometricLighting::draw(const Shot& shot) {
     list_.upload();
     if (traffic_.any())
         traffic_.bind();
+    if (air_lamps_.any())
+        air_lamps_.bind();
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
     for (std::size_t i = 0; i < lamp_beams_.size(); ++i)
         gl.BindTextureUnit(static_cast<GLuint>(i), lamp_beams_[i]->texture);
@@ -319,8 +341,8 @@ void PhotometricLighting::draw(const Shot& shot) {
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
         shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) + f.sun + (f.fog ? 1 : 0) +
-                              (f.wet ? 1 : 0) + (f.surface.retroreflecting ? 1 : 0) + (f.surface.emissive ? 1 : 0) +
-                              (f.surface.texture > 0 ? 1 : 0);
+                              (f.air_lamps ? air_lamps_.count() : 0) + (f.wet ? 1 : 0) + (f.surface.retroreflecting ? 1 : 0) +
+                              (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
         const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0) + (f.sun > 1 ? 1 : 0);
         shot.work.samplers = std::max(shot.work.samplers, textures);
     }
@@ -353,6 +375,9 @@ void PhotometricLighting::prepare(const Shot& shot) {
         traffic_.set(shot.moment, {}, shot.work);
         traffic_.bind();
         faces_.compile(shot);
+        air_lamps_.set(shot.moment, shot.camera);
+        if (air_lamps_.any())
+            air_lamps_.bind();
     }
     const int most_sun = sun_needs_ == 0 ? 0 : settings_.shadows && (!scene_.flat() || !pruned_) ? 2 : 1;
     for (const SurfaceClass& surface : scene_.classes())
@@ -361,9 +386,9 @@ void PhotometricLighting::prepare(const Shot& shot) {
               std::tuple(false, false, true), std::tuple(true, false, true), std::tuple(true, true, true)})
             for (int sun = std::min(sun_needs_, 1); sun <= most_sun; ++sun)
                 if (!traffic || others)
-                    compile(features_of(shot, surface, lit, shadowed, traffic, sun), shot);
-    if (fog_before_sky(shot) && !lamps_.empty())
-        compile(background_features(shot), shot);
+                    compile_with_and_without_air_lamps(features_of(shot, surface, lit, shadowed, traffic, sun), shot);
+    if (fog_before_sky(shot) && (!lamps_.empty() || others))
+        compile_with_and_without_air_lamps(background_features(shot), shot);
     context_.check("compiling variants");
 }
 
@@ -387,6 +412,9 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
         say("sky light", "it is night");
     if (shot.moment.weather.extinction_per_m == 0.0)
         say("fog", "the air is clear");
+    if (air_lamps_.left_out() > 0)
+        say(fmt::format("beams of others in the fog: {} of {}", air_lamps_.left_out(), shot.moment.other_lamps.size()),
+            fmt::format("give the air less than {:.2g} cd/m2 anywhere", static_cast<double>(air_lamps_.least_cdm2())));
     if (shot.moment.weather.wetness == 0.0)
         say("water on the road", "it is dry");
     if (shot.moment.daylight.direct() == nullptr)

@@ -1,6 +1,7 @@
 // The technique `photometric`: variants compiled for what a moment needs, and drawn group by group.
 #pragma once
 
+#include "renderer/gl/air_lamps.h"
 #include "renderer/gl/lamp_faces.h"
 #include "renderer/gl/lighting.h"
 #include "renderer/gl/shadow_maps.h"
@@ -29,14 +30,14 @@ class PhotometricLighting : public Lighting {
         SurfaceClass surface;
         bool shadows = false, sky = false, everything = false, by_vertex = true, traffic = false;
         int sun = 0; ///< 0: neither sun nor moon, 1: shines, 2: casts shadows
-        bool fog = false, wet = false, background = false;
+        bool fog = false, air_lamps = false, wet = false, background = false;
         int wanted = 0;
         auto operator<=>(const Features&) const = default;
     };
     struct Compiled {
         Program program;
         GLint clip, eye, axis, sky, traffic_grid;
-        bool sun, weather;
+        bool sun, weather, air_lamps;
     };
     /// Pieces that one variant draws.
     struct Group {
@@ -55,6 +56,7 @@ class PhotometricLighting : public Lighting {
     const Compiled& variant(const Features& features, const Wanted& wanted);
     void use(const Compiled& v, const Shot& shot) const;
     void compile(const Features& features, const Shot& shot);
+    void compile_with_and_without_air_lamps(Features features, const Shot& shot);
     Features background_features(const Shot& shot) const;
     void draw_background(const Shot& shot);
     void note_what_is_left_out(const Shot& shot, const std::vector<Group>& groups);
@@ -66,6 +68,7 @@ class PhotometricLighting : public Lighting {
     Beams beams_;
     ShadowMaps shadows_;
     TrafficLights traffic_;
+    AirLamps air_lamps_;
     LampFaces faces_;
     std::unique_ptr<SunLight> sun_; ///< from the first moment on in which sun or moon shines
     int sun_needs_ = 0;             ///< as Features::sun

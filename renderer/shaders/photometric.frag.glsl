@@ -1,7 +1,7 @@
 // Technique `photometric`: exact distance and cosine per fragment, intensity from the candela table, one shadow map per lamp,
 // diffuse and retroreflecting surfaces with their textures, uniform sky.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, FOG, WET, BACKGROUND, RETRO, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
+// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, FOG, AIR_LAMPS, WET, BACKGROUND, RETRO, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
 // results are wanted (WANT_*). What is left out adds exactly +0 or multiplies by exactly 1.
 #include "photometric_lamps.glsl"
 #include "photometric_varyings.glsl"
@@ -96,8 +96,14 @@ float toned(float l) {
     return TONE_KIND == 1 ? tone_rational(l, TONE_L_MAX, TONE_S) : tone_logarithmic(l, TONE_L_MAX, TONE_S);
 }
 
+#if FOG
+#define TRAFFIC_EXTINCTION v_fog.x
+#endif
 #if TRAFFIC
 #include "traffic_lamps.glsl"
+#endif
+#if AIR_LAMPS
+#include "air_lamps.glsl"
 #endif
 
 PRECISE float illuminance = 0.0;
@@ -357,6 +363,9 @@ void main() {
 #endif
 #if LAMP_COUNT > 0 && FOG
     add_airlight();
+#endif
+#if AIR_LAMPS
+    light += air_light_of_others();
 #endif
     float luminance = dot(luminance_weights, light);
 #endif

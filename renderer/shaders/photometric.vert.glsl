@@ -19,14 +19,20 @@ invariant gl_Position;
 
 #include "photometric_varyings.glsl"
 
+#if FOG
+uniform vec4 fog;
+#define TRAFFIC_EXTINCTION fog.x
+#endif
+
 #if TRAFFIC
 layout(location = 6) in uvec4 traffic_lists;
 uniform vec4 traffic_grid; // ahead x, y of the car; corner ahead, left
 #include "traffic_lamps.glsl"
 #endif
 
-#if FOG
-uniform vec4 fog;
+#if AIR_LAMPS
+uniform float air_lamp_count;
+uniform float air_least_cdm2;
 #endif
 #if FOG || WET
 uniform float sky_cdm2;
@@ -53,6 +59,10 @@ void main() {
 #endif
 #if FOG
     v_fog = fog;
+#endif
+#if AIR_LAMPS
+    v_air = vec4(eye_m, air_lamp_count);
+    v_air_least_cdm2 = air_least_cdm2;
 #endif
 #if WET
     v_wet = wetness * m.retro.w;

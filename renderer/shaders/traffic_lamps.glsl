@@ -36,7 +36,7 @@ float traffic_lx(vec4 entry, vec3 p, vec3 n, OUT(float) e_perp) {
     float cd = entry.z >= 0.0 ? (w.z > 0.0 ? entry.z : 0.0) : traffic_intensity(i, w, inverse_d);
     float facing = facing_illuminance_at(cd, inverse_d);
 #if FOG
-    facing *= transmittance(v_fog.x, 1.0 / inverse_d);
+    facing *= transmittance(TRAFFIC_EXTINCTION, 1.0 / inverse_d);
 #endif
     float e = facing * cosine, least = traffic_lamps[i].position_m.w;
     float kept = entry.y * clamp((e - least) / least, 0.0, 1.0);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -187,6 +188,86 @@ TEST_F(DrawnWeather, HoldsAtTheExtremes) {
     for (int y = 0; y < 24; ++y)
         for (int x = 0; x < 32; ++x)
             EXPECT_NEAR(thin.luminance_cdm2.at(x, y), clear.luminance_cdm2.at(x, y), 1e-5F * clear.luminance_cdm2.at(x, y) + 1e-7F);
+}
+
+/// Two cars that come towards the eye, one that drives ahead and a street lamp: `beam` has sharp edges and shines to all sides.
+std::vector<LitLamp> others() {
+    std::vector<LitLamp> lamps;
+    for (const auto& [place, yaw_deg, pitch_deg] :
+         {std::tuple(glm::dvec3(40.0, 4.0, 0.7), 180.0, 0.0), std::tuple(glm::dvec3(40.0, 2.8, 0.7), 180.0, 0.0),
+          std::tuple(glm::dvec3(160.0, 4.0, 0.7), 180.0, 0.0), std::tuple(glm::dvec3(20.0, -1.0, 0.7), 0.0, 0.0),
+          std::tuple(glm::dvec3(15.0, -4.0, 6.0), 0.0, -90.0), std::tuple(glm::dvec3(-30.0, 3.0, 0.7), 0.0, 0.0)}) {
+        lamps.push_back(beam(place));
+        lamps.back().pose.axes = axes_from_angles(radians(yaw_deg), radians(pitch_deg), 0.0);
+        lamps.back().body = -2;
+        lamps.back().colour.linear_srgb = {1.3, 0.9, 0.7};
+    }
+    return lamps;
+}
+
+/// The air alone, lit by others' lamps: never off by more than what may be left out and what 128 midpoints leave.
+TEST_F(DrawnWeather, BeamsOfOthersAreSeenInTheFog) {
+    const Scene scene = road(0.0);
+    View view = ahead();
+    view.width_px = 16;
+    view.height_px = 12;
+    for (const Weather& fog : {Weather{0.03, 1.0, 0.85, 0.0}, Weather{0.005, 1.0, 0.5, 0.0}}) {
+        Moment moment = in(fog);
+        moment.lamps.clear();
+        moment.other_lamps = others();
+        const double least = least_airlight_cdm2(moment.least_traffic_lx);
+        const Frame frame = draw(scene, moment, "photometric", 128, nullptr, view);
+        const Twin twin(scene, false);
+        double sum = 0.0, off = 0.0;
+        int lit = 0;
+        for (int y = 0; y < view.height_px; ++y)
+            for (int x = 0; x < view.width_px; ++x) {
+                const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+                const double drawn_cdm2 = static_cast<double>(frame.luminance_cdm2.at(x, y));
+                lit += drawn_cdm2 > 0.0 ? 1 : 0;
+                sum += truth.luminance_cdm2;
+                off += std::abs(drawn_cdm2 - truth.luminance_cdm2);
+                EXPECT_NEAR(drawn_cdm2, truth.luminance_cdm2,
+                            2.0 * least * static_cast<double>(moment.other_lamps.size()) +
+                                0.1 * truth.luminance_cdm2) // a beam that ends within a part
+                    << x << ' ' << y << ' ' << fog.extinction_per_m;
+            }
+        EXPECT_GT(lit, 100);
+        EXPECT_LT(off, 0.02 * sum + 16 * 12 * least);
+        EXPECT_GT(sum, 16 * 12 * least);
+    }
+}
+
+/// All of it, what a bound leaves out and what it cannot: the same bytes as by integrating every lamp in every pixel.
+TEST_F(DrawnWeather, BeamsOfOthersPrunedAndUnprunedGiveTheSameBytes) {
+    const Scene scene = road(0.1);
+    for (const double extinction : {0.0, 1e-6, 0.03})
+        for (const double least_lx : {0.05, 50.0}) {
+            Moment moment = in({extinction, 1.0, 0.85, 0.0}, 0.2);
+            moment.daylight.sun = {radians(80.0), radians(20.0), 1.0}; // so that all of it is compiled in where nothing is pruned
+            moment.other_lamps = others();
+            moment.least_traffic_lx = least_lx;
+            const Frame a = draw(scene, moment), b = draw(scene, moment, "photometric-unpruned");
+            EXPECT_EQ(a.colour, b.colour) << extinction << ' ' << least_lx;
+            EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << extinction;
+            EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << extinction << ' ' << least_lx;
+        }
+}
+
+TEST_F(DrawnWeather, BeamsOfOthersCostNothingWithoutFogOrOutOfReach) {
+    const Scene scene = road(0.1);
+    const auto counted = [&](double extinction, const glm::dvec3& place_m, double least_lx) {
+        Moment moment = in({extinction, 1.0, 0.85, 0.0});
+        moment.least_traffic_lx = least_lx;
+        moment.other_lamps = {beam(place_m)};
+        moment.other_lamps[0].body = -2;
+        Work work;
+        draw(scene, moment, "photometric", 32, &work);
+        return work.features;
+    };
+    const glm::dvec3 near(40.0, 3.0, 0.7), behind(-150.0, 30.0, 0.7);
+    EXPECT_LT(counted(0.0, near, 0.05), counted(0.03, near, 0.05));
+    EXPECT_LT(counted(0.03, behind, 0.05), counted(0.03, near, 0.05)); // exp(-4.5) of its light at most would come back
 }
 
 TEST(ReferenceWeather, AgreesWithTheTwin) {
