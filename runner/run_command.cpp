@@ -22,7 +22,7 @@ struct Flags {
     std::string road, technique, resolution, frames, capture, backend = "auto", out;
     JudgingFlags judging;
     std::vector<std::string> road_folders;
-    std::string replay;
+    std::string replay, ego;
     bool lenient = false;
     bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
 };
@@ -42,6 +42,7 @@ DriveEdits edits_of(const Flags& flags) {
     for (const std::string& folder : flags.road_folders)
         edits.road_folders.emplace_back(folder);
     edits.lenient = flags.lenient;
+    edits.ego = flags.ego;
     if (!flags.replay.empty())
         edits.replay = flags.replay;
     if (!flags.capture.empty()) {
@@ -120,13 +121,16 @@ TickRange tick_range(const std::string& frames) {
 void add_run_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub = app.add_subcommand("run", "play drives, measure, and write a report");
-    sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
+    sub->add_option("DRIVE", flags->drives,
+                    "drive files (YAML), or storyboards (OpenSCENARIO, .xosc): played with halogen low beams on all cars")
+        ->required();
     sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
         ->allow_extra_args(false);
     sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
     sub->add_option("--road-folder", flags->road_folders, "where the road of a drive's storyboard is looked for, too")
         ->allow_extra_args(false);
     sub->add_flag("--lenient", flags->lenient, "leave out what a storyboard has that is not supported, each with a note");
+    sub->add_option("--ego", flags->ego, "the storyboard's entity that is the own car");
     sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: take all places and lamps from it");
     sub->add_option("--technique", flags->technique, "how to light the scene");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");

@@ -7,6 +7,7 @@
 #include "scenarios/drives/control_world.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/drives/tell_story.h"
+#include "scenarios/drives/told_story.h"
 #include "scenarios/roads/mirrored_road.h"
 #include "scenarios/roads/road_mesh.h"
 #include "scenarios/sky/place_street_lamps.h"
@@ -44,6 +45,7 @@ Stage::Stage(Drive d)
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     add_scenery(scene, drive.scenery, route);
     add_street_lamp_poles(drive, route, scene);
+    lay_on_route(drive, route);
     fit_to_route(drive, route);
     simulate(drive, route);
     place_traffic(drive, network, route);

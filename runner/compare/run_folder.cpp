@@ -37,11 +37,11 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
     const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "speed", "step_s"});
     drive.views = read_views(keys, ignored);
     drive.tone_mapper = read_tone_mapper(keys);
-    if (member_of(drive.resolved, "speed") && member_of(drive.resolved, "step_s")) {
+    if (member_of(drive.resolved, "step_s"))
         drive.step_s = read_step_s(keys);
+    if (member_of(drive.resolved, "speed"))
         for (const SpeedPoint& point : read_speed(keys))
             drive.step_m = std::max(drive.step_m, point.speed_mps * drive.step_s);
-    }
     drive.grid_cell_m = grid_cell_m(drive.resolved, file, drive.grid_cell_m);
     if (const YamlValue* road = member_of(drive.resolved, "road"))
         if (const auto hash = drive.hashes.find(road->text); hash != drive.hashes.end())
@@ -61,6 +61,9 @@ RunDrive read_drive_of(const fs::path& folder, const CheckedJson& report, const 
             for (const CheckedJson& sample : pass.at("samples_s").items())
                 drive.pass_s[pass.at("pass").text()].push_back(sample.number());
     read_resolved(folder, drive);
+    if (drive.step_m == 0.0 && drive.step_s > 0.0) // a storyboard says the speed: the fastest that was played
+        for (const CheckedJson& sample : played.at("speed_mps").items())
+            drive.step_m = std::max(drive.step_m, sample.items().at(1).number() * drive.step_s);
     const YamlValue* title = member_of(drive.resolved, "title");
     drive.title = title ? title->text : drive.drive;
     return drive;

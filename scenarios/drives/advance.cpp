@@ -1,5 +1,6 @@
 #include "scenarios/drives/advance.h"
 
+#include "scenarios/drives/told_story.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 
 State state_at(int tick, const Drive& drive) {
     const double time_s = tick * drive.step_s;
-    return {tick, time_s, distance_m(drive.speed, time_s), speed_mps(drive.speed, time_s)};
+    return {tick, time_s, way_m(drive, time_s), speed_mps(drive.speed, time_s)};
 }
 
 } // namespace
@@ -40,6 +41,11 @@ double distance_m(const std::vector<SpeedPoint>& profile, double time_s) {
         distance += (end_s - profile[i].time_s) * 0.5 * (profile[i].speed_mps + speed_mps(profile, end_s));
     }
     return distance;
+}
+
+double way_m(const Drive& drive, double time_s) {
+    const auto place = track_place(drive, time_s);
+    return place ? place->distance_m : distance_m(drive.speed, time_s);
 }
 
 void fit_to_route(Drive& drive, const Route& route) {

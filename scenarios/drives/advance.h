@@ -27,6 +27,10 @@ int tick_count(const Drive& drive);
 double speed_mps(const std::vector<SpeedPoint>& profile, double time_s);
 double distance_m(const std::vector<SpeedPoint>& profile, double time_s);
 
+/// Distance along the route at `time_s`: of the own car's track where it has one that was laid on the route (told_story.h), else the
+/// integral of the drive's speed.
+double way_m(const Drive& drive, double time_s);
+
 /// Cuts the duration so that the front bumper stays on the route, with a note. The whole drive must hold at least one tick:
 /// throws InputError when the car stands beyond the route's end from the start.
 void fit_to_route(Drive& drive, const Route& route);

@@ -4,6 +4,7 @@
 #include "scenarios/control/masked_beam.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/drives/told_story.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -17,29 +18,30 @@ namespace {
 constexpr double road_ahead_m = 200.0, road_step_m = 5.0; ///< what plug-ins are shown (fernlicht_control.h)
 constexpr double mask_steps = 16.0; ///< levels of a file's windows are rounded to this part: each is a beam of its own
 constexpr std::size_t most_masks = 2000;
+constexpr double beside_route_m = 20.0;    ///< farther from its route a track is somewhere else
 constexpr double shortest_bearing_m = 5.0; ///< nearer, the direction to a place on the lane says nothing of the bend
 
 /// All that control reads, as a function of time alone.
 class ControlWorld {
   public:
     ControlWorld(const Drive& drive, const Route& route, const CarRun* car)
-        : drive_(drive), route_(route), car_(car),
-          course_(road_course(route, std::min(route.length_m(), distance_m(drive.speed, drive.duration_s) + 320.0))) {}
+        : drive_(drive), route_(route), car_(car), course_(road_course(route, std::min(route.length_m(), farthest_m(drive) + 320.0))) {}
 
     ControlInputs at(double time_s, const ControlParameters& control) const {
         ControlInputs in;
         in.time_s = time_s;
         drive_.ego_track ? on_track(in, control) : car_ ? on_springs(in) : on_rails(in);
         in.acceleration_mps2 = acceleration_mps2(time_s, control.period_s);
-        if (!drive_.ego_track)
+        const bool on_lane = is_on_lane(time_s);
+        if (on_lane)
             see_lane(in, control);
-        if (!control.plugins.empty())
+        if (on_lane && !control.plugins.empty())
             in.surroundings.road = road_ahead(in);
         if (!drive_.traffic.empty() && (control.high_beam || !control.plugins.empty()))
             see_others(in);
         in.load_pitch_rad = load_on_springs(control.load).spring_pitch_rad;
         in.illuminance_lx = horizontal_lx(time_s);
-        in.wetness = drive_.weather.wetness;
+        in.wetness = weather_of(drive_, time_s).wetness;
         return in;
     }
 
@@ -58,9 +60,34 @@ class ControlWorld {
     }
 
   private:
-    double curvature_per_m(double distance_m) const {
+    static double farthest_m(const Drive& drive) {
+        if (!drive.ego_track || !drive.told)
+            return distance_m(drive.speed, drive.duration_s);
+        double farthest = 0.0;
+        for (const TrackPlace& place : drive.told->places)
+            farthest = std::max(farthest, place.distance_m);
+        return farthest;
+    }
+
+    /// On its route, or on a track that runs along it: then the lane ahead is the road's.
+    bool is_on_lane(double time_s) const {
+        if (!drive_.ego_track)
+            return true;
+        const auto place = track_place(drive_, time_s);
+        return place && std::abs(place->offset_left_m) < beside_route_m;
+    }
+
+    /// The lane that the car is on lies so far to the left of the route's: cars that a track moves change lanes.
+    double lane_left_m(double time_s) const {
+        const auto place = track_place(drive_, time_s);
+        return place ? place->lane_left_m : 0.0;
+    }
+
+    /// Of a line beside the route's lane (parallel curves: 1 / (R - offset)).
+    double curvature_per_m(double distance_m, double left_m = 0.0) const {
         double derivative = 0.0;
-        return RoadCourse::at(course_.curvature_per_m, distance_m, derivative);
+        const double k = RoadCourse::at(course_.curvature_per_m, distance_m, derivative);
+        return left_m == 0.0 ? k : k / (1.0 - k * left_m);
     }
 
     /// The rear axle follows the lane's centre: it turns by the lane's curvature, and the front wheels stand as the lane's bend asks.
@@ -81,10 +108,11 @@ class ControlWorld {
         in.spring_pitch_rad = place.spring_pitch_rad;
     }
 
-    /// A track knows where the car will be: that is the lane ahead. Rates are differences over 10 ms to each side.
+    /// Far from its route a track is the only thing that knows the lane ahead: where the car will be. Rates are differences over 10 ms to
+    /// each side.
     void on_track(ControlInputs& in, const ControlParameters& control) const {
         const double t_s = in.time_s;
-        in.distance_m = distance_m(drive_.speed, t_s);
+        in.distance_m = way_m(drive_, t_s);
         in.speed_mps = drive_.ego_track->at(t_s).speed_mps;
         in.yaw_rate_rad_s = track_yaw_rate_rad_s(t_s);
         in.curvature_per_m = track_curvature_per_m(t_s);
@@ -111,10 +139,11 @@ class ControlWorld {
     }
 
     void see_lane(ControlInputs& in, const ControlParameters& control) const {
-        in.curvature_per_m = curvature_per_m(in.distance_m);
-        in.curvature_25m_per_m = curvature_per_m(in.distance_m + 25.0);
-        in.curvature_50m_per_m = curvature_per_m(in.distance_m + 50.0);
-        in.curvature_100m_per_m = curvature_per_m(in.distance_m + 100.0);
+        const double left_m = lane_left_m(in.time_s);
+        in.curvature_per_m = curvature_per_m(in.distance_m, left_m);
+        in.curvature_25m_per_m = curvature_per_m(in.distance_m + 25.0, left_m);
+        in.curvature_50m_per_m = curvature_per_m(in.distance_m + 50.0, left_m);
+        in.curvature_100m_per_m = curvature_per_m(in.distance_m + 100.0, left_m);
         if (control.bend && control.bend->law == BendLaw::route)
             in.bearing_ahead_rad = bearing_rad(in, std::max(in.speed_mps * control.bend->preview_s, shortest_bearing_m));
     }
@@ -155,7 +184,7 @@ class ControlWorld {
 
     /// Diffuse, and of the sun or the moon on a level plane.
     double horizontal_lx(double time_s) const {
-        const Daylight daylight = drive_.daylight.clock ? daylight_at(drive_.daylight, time_s) : drive_.daylight;
+        const Daylight daylight = daylight_of(drive_, time_s);
         const DirectLight* const direct = daylight.direct();
         return daylight.horizontal_illuminance_lx +
                (direct ? direct->illuminance_lx * std::max(std::sin(direct->elevation_rad), 0.0) : 0.0);
@@ -179,25 +208,24 @@ class ControlWorld {
         return pose;
     }
 
-    /// A place on the lane's centre; beyond the route's end the lane goes on straight.
-    glm::dvec3 lane_m(double at_m) const {
-        const Pose pose = route_.pose(std::min(at_m, route_.length_m()));
+    /// A place on the centre of the car's lane; beyond the route's end the lane goes on straight.
+    glm::dvec3 lane_m(double at_m, double left_m) const {
+        const Pose pose = route_.pose(std::min(at_m, route_.length_m()), left_m);
         return pose.position_m + std::max(at_m - route_.length_m(), 0.0) * pose.forward();
     }
 
     double bearing_rad(const ControlInputs& in, double ahead_m) const {
-        const glm::dvec3 there = to_local(ego(in), lane_m(in.distance_m + ahead_m));
+        const glm::dvec3 there = to_local(ego(in), lane_m(in.distance_m + ahead_m, lane_left_m(in.time_s)));
         return std::atan2(there.y, there.x);
     }
 
     std::vector<RoadPoint> road_ahead(const ControlInputs& in) const {
         const Pose from = ego(in);
+        const double left_m = lane_left_m(in.time_s);
         std::vector<RoadPoint> road;
-        if (drive_.ego_track)
-            return road; // the track is no road
         for (double along_m = 0.0; along_m <= road_ahead_m; along_m += road_step_m) {
-            const glm::dvec3 there = to_local(from, lane_m(in.distance_m + along_m));
-            road.push_back({along_m, there.x, there.y, curvature_per_m(in.distance_m + along_m)});
+            const glm::dvec3 there = to_local(from, lane_m(in.distance_m + along_m, left_m));
+            road.push_back({along_m, there.x, there.y, curvature_per_m(in.distance_m + along_m, left_m)});
         }
         return road;
     }

@@ -98,6 +98,7 @@ struct LampSource {
 };
 
 struct DriveLog;
+struct ToldStory;
 
 struct Drive {
     std::string name, title;
@@ -121,7 +122,8 @@ struct Drive {
     std::shared_ptr<const DriveLog> replay;     ///< poses, lamps and levels of a drive played before; not part of the file
     std::vector<RoadUser> traffic;              ///< what place_traffic() made of them; not part of the file
     std::shared_ptr<const Track> ego_track;     ///< the own car's way where a log or a storyboard says it; nullptr: the route's
-    std::vector<View> views;                    ///< first is the driver's
+    std::shared_ptr<const ToldStory> told; ///< what a storyboard changes besides (told_story.h); nullptr: nothing. Not part of the file
+    std::vector<View> views;               ///< first is the driver's
     Capture capture;
     ToneMapper tone_mapper;
     std::string technique = "photometric";
@@ -150,12 +152,13 @@ struct DriveEdits {
     std::optional<bool> capture_all;
     std::vector<std::filesystem::path> road_folders; ///< where a storyboard's road is looked for, too
     bool lenient = false;                            ///< what a storyboard has that is not supported is left out
+    std::string ego;                                 ///< the storyboard's entity that is the own car; "": as the drive says
     std::optional<std::filesystem::path> replay;     ///< drive-log.csv of a run
 };
 
 /// Reads and checks a drive file, schema version 1 (scenarios/drive.example.yaml explains every key). Throws InputError with file,
-/// line, column and key path. Lamp files are read; the road file must exist but is left to read_opendrive.
-/// `edits` that fit nothing (a side that no lamp has) throw InputError too.
+/// line, column and key path. A storyboard (.xosc) is read as a drive of defaults (story_drive.h). Lamp files are read; the road file must
+/// exist but is left to read_opendrive. `edits` that fit nothing (a side that no lamp has) throw InputError too.
 Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits = {});
 /// YAML that read_drive reads back to the same drive: nothing left to defaults, numbers exact, paths absolute. `file`, `notes` and
 /// `opened` are not part of it.

@@ -5,6 +5,7 @@
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/drives/drive_log.h"
 #include "scenarios/drives/scenery_keys.h"
+#include "scenarios/drives/story_drive.h"
 #include "scenarios/drives/storyboard_keys.h"
 #include "scenarios/drives/traffic_keys.h"
 #include "scenarios/drives/vehicle_keys.h"
@@ -111,7 +112,8 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
 
 Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
-    const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_bytes)), path);
+    const std::string text = is_storyboard_file(path) ? storyboard_drive_text(path, edits) : to_utf8(read_file(path, opened, most_bytes));
+    const YamlValue document = parse_yaml(text, path);
     const YamlMap keys(YamlEntry(document, path, ""),
                        {"fernlicht", "name",     "title",        "road",      "route",         "speed_kmh", "speed_mps", "speed",
                         "step_s",    "rate_hz",  "duration_s",   "daylight",  "car",           "vehicle",   "actuators", "control",

@@ -1,6 +1,7 @@
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/drive_log.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/drives/told_story.h"
 #include "scenarios/sky/place_street_lamps.h"
 #include "scenarios/traffic/moment_traffic.h"
 
@@ -73,12 +74,14 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     moment.time_s = state.time_s;
     moment.distance_m = state.distance_m;
     moment.speed_mps = state.speed_mps;
-    moment.daylight = daylight_at(drive.daylight, state.time_s);
-    moment.weather = drive.weather;
+    moment.daylight = daylight_of(drive, state.time_s);
+    moment.weather = weather_of(drive, state.time_s);
     if (drive.ego_track) {
         const TrackPoint at = drive.ego_track->at(state.time_s);
         moment.ego = at.pose;
         moment.speed_mps = at.speed_mps;
+        if (CarPlace place; variant.motion && rest_on_load(place, *variant.motion))
+            moment.ego = moved(moment.ego, place);
     } else if (!drive.vehicle) {
         moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
         if (CarPlace place; variant.motion && rest_on_load(place, *variant.motion))

@@ -5,7 +5,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr double longest_route_m = 1.0e6, farthest_m = 2000.0;
+constexpr double longest_route_m = 1.0e6, farthest_seen_m = 2000.0;
 
 std::vector<double> numbers_or(const YamlMap& keys, std::string_view key, std::vector<double> otherwise, double least, double greatest) {
     const auto given = keys.find(key);
@@ -28,7 +28,7 @@ SensorParameters read_sensors(const YamlEntry& entry) {
     const YamlMap keys = entry.map({"limits_lx", "distances_m", "points"});
     SensorParameters sensors;
     sensors.limits_lx = numbers_or(keys, "limits_lx", sensors.limits_lx, 1.0e-6, 1.0e6);
-    sensors.distances_m = numbers_or(keys, "distances_m", sensors.distances_m, 0.0, farthest_m);
+    sensors.distances_m = numbers_or(keys, "distances_m", sensors.distances_m, 0.0, farthest_seen_m);
     for (const auto& [name, point] : keys.require("points").named(100))
         sensors.points.push_back(read_sensor(name, point));
     return sensors;
@@ -40,7 +40,7 @@ GlareObserver read_observer(const std::string& name, const YamlEntry& entry) {
     observer.name = name;
     observer.at_m = keys.require("at_m").number(0.0, longest_route_m);
     observer.eye_height_m = keys.number_or("eye_height_m", observer.eye_height_m, 0.1, 10.0);
-    observer.look_ahead_m = keys.number_or("look_ahead_m", observer.look_ahead_m, 0.0, farthest_m);
+    observer.look_ahead_m = keys.number_or("look_ahead_m", observer.look_ahead_m, 0.0, farthest_seen_m);
     return observer;
 }
 
@@ -48,7 +48,7 @@ MirrorParameters read_mirrors(const YamlEntry& entry) {
     const YamlMap keys = entry.map({"gaps_m", "eye_m", "reflectance", "places"});
     MirrorParameters mirrors;
     if (const auto gaps = keys.find("gaps_m"))
-        mirrors.gaps_m = gaps->numbers(1, 16, 1.0, farthest_m);
+        mirrors.gaps_m = gaps->numbers(1, 16, 1.0, farthest_seen_m);
     if (const auto eye = keys.find("eye_m"))
         mirrors.eye_m = read_position(*eye);
     mirrors.reflectance = keys.number_or("reflectance", mirrors.reflectance, 0.0, 1.0);
@@ -85,7 +85,7 @@ GlareParameters read_glare(const YamlEntry& entry) {
     glare.age_years = keys.number_or("age_years", glare.age_years, 16.0, 100.0);
     glare.pigmentation = keys.number_or("pigmentation", glare.pigmentation, 0.0, 1.2);
     glare.adaptation_cdm2 = keys.number_or("adaptation_cdm2", glare.adaptation_cdm2, 1.0e-4, 1.0e5);
-    glare.distances_m = numbers_or(keys, "distances_m", glare.distances_m, 0.0, farthest_m);
+    glare.distances_m = numbers_or(keys, "distances_m", glare.distances_m, 0.0, farthest_seen_m);
     glare.limits_lx = numbers_or(keys, "limits_lx", glare.limits_lx, 1.0e-6, 1.0e6);
     glare.limits_percent = numbers_or(keys, "limits_percent", glare.limits_percent, 1.0e-6, 1.0e6);
     glare.limits_de_boer = numbers_or(keys, "limits_de_boer", glare.limits_de_boer, 1.0, 9.0);
@@ -101,9 +101,9 @@ VisibilityParameters read_visibility(const YamlEntry& entry) {
     visibility.age_years = keys.number_or("age_years", visibility.age_years, 23.0, 75.0);
     visibility.time_s = keys.number_or("time_s", visibility.time_s, 0.01, 1.0e3);
     visibility.k = keys.number_or("k", visibility.k, 0.1, 100.0);
-    visibility.ahead_m = keys.number_or("ahead_m", visibility.ahead_m, 10.0, farthest_m);
+    visibility.ahead_m = keys.number_or("ahead_m", visibility.ahead_m, 10.0, farthest_seen_m);
     visibility.step_m = keys.number_or("step_m", visibility.step_m, 0.1, 5.0);
-    visibility.distances_m = numbers_or(keys, "distances_m", visibility.distances_m, 1.0, farthest_m);
+    visibility.distances_m = numbers_or(keys, "distances_m", visibility.distances_m, 1.0, farthest_seen_m);
     return visibility;
 }
 
@@ -130,7 +130,7 @@ PlaceParameters read_places(const YamlEntry& entry) {
         const YamlMap keys = entry.map({"what", "distances_m"});
         what = keys.require("what");
         if (const auto distances = keys.find("distances_m"))
-            places.distances_m = distances->numbers(1, 16, 1.0, farthest_m);
+            places.distances_m = distances->numbers(1, 16, 1.0, farthest_seen_m);
     }
     for (const YamlEntry& place : what->list(1, 3)) {
         bool* const all[] = {&places.kerb, &places.boards, &places.markings};

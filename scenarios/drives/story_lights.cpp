@@ -35,7 +35,7 @@ bool is_light(const std::string& light, LampFunction function) {
         return std::ranges::find(functions, function) != functions.end();
     };
     if (light == "lowBeam")
-        return one_of({F::low});
+        return one_of({F::low, F::tail, F::position}); // wired together (UN R48, 5.11)
     if (light == "highBeam")
         return one_of({F::high});
     if (light == "daytimeRunningLights")

@@ -6,8 +6,8 @@
 
 namespace fernlicht {
 
-/// A file, or {file, ego, road_folders, lenient, parameters}. Reads the storyboard: what it cannot play is refused here. Takes road,
-/// longest time and notes from it. `edits` may add folders and make it lenient. nullopt: the drive has none.
+/// A file, or {file, ego, road_folders, lenient, parameters, place, day_rate}. Reads the storyboard: what it cannot play is refused here.
+/// Takes road, longest time and notes from it. `edits` may add folders and make it lenient. nullopt: the drive has none.
 std::optional<StoryboardSource> read_storyboard_keys(const YamlMap& keys, const DriveEdits& edits, Drive& drive);
 std::string write_storyboard(const StoryboardSource& source);
 

@@ -60,32 +60,47 @@ RoadUserKind kind_of(const osc::Entity& entity) {
     return entity.category == "semitrailer" || entity.category == "trailer" ? RoadUserKind::truck : RoadUserKind::car;
 }
 
-const TrafficRow* row_for(const Drive& drive, const std::string& entity) {
+/// The row that names the entity; else, for vehicles, the one for all.
+const TrafficRow* row_for(const Drive& drive, const osc::Entity& entity) {
     const TrafficRow* all = nullptr;
     for (const TrafficRow& row : drive.traffic_rows) {
         if (row.place != TrafficPlace::storyboard)
             continue;
-        if (std::ranges::find(row.entities, entity) != row.entities.end())
+        if (std::ranges::find(row.entities, entity.name) != row.entities.end())
             return &row;
-        if (row.entities.empty() && !all)
+        if (row.entities.empty() && !all && entity.kind == osc::EntityKind::vehicle)
             all = &row;
     }
     return all;
+}
+
+/// From the body that the row's lamps were mounted on to the entity's: as far behind the front, as far in share of width and height.
+void put_on_box(std::vector<MountedLamp>& lamps, const glm::dvec3& size_m, double rear_m, const osc::BoundingBox& box) {
+    const double forward_m = box.x_m + 0.5 * box.length_m - (rear_m + size_m.x);
+    for (MountedLamp& lamp : lamps) {
+        lamp.position_m.x += forward_m;
+        lamp.position_m.y = box.y_m + lamp.position_m.y * box.width_m / size_m.y;
+        lamp.position_m.z = std::min(lamp.position_m.z, lamp.position_m.z * box.height_m / size_m.z);
+    }
 }
 
 RoadUser user_of(const Drive& drive, const osc::PlayedEntity& played, double step_s) {
     const osc::Entity& entity = played.entity;
     TrafficRow row;
     row.tail_cd = row.brake_cd = 0.0;
-    const TrafficRow* given = row_for(drive, entity.name);
+    const TrafficRow* given = row_for(drive, entity);
     if (given)
         row = *given;
     row.name = entity.name;
     row.count = 1;
+    const bool has_box = entity.box.length_m > 0.0 && entity.box.width_m > 0.0 && entity.box.height_m > 0.0;
     if (!given || !given->size_m) {
-        row.kind = given ? given->kind : kind_of(entity);
-        if (entity.box.length_m > 0.0 && entity.box.width_m > 0.0 && entity.box.height_m > 0.0)
+        if (row.kind == RoadUserKind::car) // a row's default
+            row.kind = kind_of(entity);
+        if (has_box)
             row.size_m = {entity.box.length_m, entity.box.width_m, entity.box.height_m};
+        if (given && has_box && given->model.empty())
+            put_on_box(row.lamps, usual_size_m(given->kind), usual_rear_m(given->kind), entity.box);
     }
     const bool brakes_told = std::ranges::any_of(played.lights, [](const auto& light) { return light.action.light == "brakeLights"; });
     row.speed = brakes_told ? std::vector<SpeedPoint>{{0.0, 0.0}} : speeds_of(played, step_s);
@@ -127,7 +142,8 @@ void tell_story(Drive& drive, const RoadNetwork& network) {
     if (!drive.storyboard)
         return;
     const osc::Storyboard storyboard = osc::read_storyboard(drive.storyboard->file, drive.storyboard->options);
-    const osc::PlayedStory story = osc::play_story(storyboard, network, {.step_s = story_step_s, .most_s = drive.storyboard->most_s});
+    const osc::PlayedStory story = osc::play_story(
+        storyboard, network, {.step_s = story_step_s, .most_s = drive.storyboard->most_s, .day_rate = drive.storyboard->day_rate});
     const double length_s = static_cast<double>(std::max<std::size_t>(story.ticks(), 2) - 1) * story.step_s;
     drive.notes.push_back(fmt::format("storyboard: {} s, until {}", length_s, story.end));
     drive.notes.insert(drive.notes.end(), story.notes.begin(), story.notes.end());
@@ -139,7 +155,7 @@ void tell_story(Drive& drive, const RoadNetwork& network) {
         else if (std::ranges::any_of(entity.samples, &osc::EntitySample::present))
             drive.traffic.push_back(user_of(drive, entity, story.step_s));
     }
-    tell_environment(drive, story);
+    tell_environment(drive, story, network);
 }
 
 } // namespace fernlicht

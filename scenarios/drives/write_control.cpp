@@ -36,7 +36,7 @@ std::string cornering_line(const CorneringParameters& of) {
 }
 
 /// Text in double quotes, as YAML and JSON both read it.
-std::string quoted(const std::string& text) {
+std::string control_text(const std::string& text) {
     std::string out = "\"";
     for (const char c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
@@ -54,7 +54,7 @@ std::string mode_lines(const Drive& drive, const ModeParameters& of) {
         std::string file;
         for (const LampSource& source : drive.lamp_sources)
             if (mode.file && source.file == mode.file)
-                file = ", file: " + quoted(source.path.string());
+                file = ", file: " + control_text(source.path.string());
         text += fmt::format("        {}: {{level: {}, pitch_rad: {}{}}}\n", classes[i], mode.level, mode.pitch_rad, file);
     }
     for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{{"v_below_mps", of.v_below_mps},
@@ -93,10 +93,10 @@ std::string glare_free_lines(const GlareFreeParameters& of) {
 std::string plugin_lines(const std::vector<PluginParameters>& plugins) {
     std::string text = plugins.empty() ? "" : "      plugins:\n";
     for (const PluginParameters& of : plugins)
-        text +=
-            fmt::format("        - {{library: {}, {}lamps: {}, period_s: {}, budget_s: {}, give_up_s: {}}}\n", quoted(of.library.string()),
-                        of.parameters.empty() ? "" : fmt::format("parameters: {}, ", quoted(of.parameters)), list(of.lamps), of.period_s,
-                        of.budget_s, of.give_up_s);
+        text += fmt::format("        - {{library: {}, {}lamps: {}, period_s: {}, budget_s: {}, give_up_s: {}}}\n",
+                            control_text(of.library.string()),
+                            of.parameters.empty() ? "" : fmt::format("parameters: {}, ", control_text(of.parameters)), list(of.lamps),
+                            of.period_s, of.budget_s, of.give_up_s);
     return text;
 }
 

@@ -320,6 +320,14 @@ void write_time(Lines& out, const Drive& drive) {
     out.add(0, "duration_s: {}", drive.duration_s);
 }
 
+/// Of a drive with a storyboard only what the drive itself says: the storyboard's environments are told again.
+void write_sky(Lines& out, const Drive& drive) {
+    if (!drive.storyboard || drive.storyboard->own_daylight)
+        out.add_all(write_daylight(drive.daylight));
+    const std::string weather = !drive.storyboard || drive.storyboard->own_weather ? write_weather(drive.weather) : "";
+    out.add_all(weather.empty() && drive.storyboard && drive.storyboard->own_weather ? "weather: {wetness: 0}\n" : weather);
+}
+
 void write_measure(Lines& out, const Drive& drive) {
     out.add(0, "measure:");
     if (const auto& extent = drive.extent) {
@@ -356,7 +364,7 @@ std::string write_drive(const Drive& drive) {
     out.add(0, "title: {}", quoted(drive.title));
     write_route(out, drive);
     write_time(out, drive);
-    out.add_all(write_daylight(drive.daylight) + write_weather(drive.weather));
+    write_sky(out, drive);
     write_street_lamps(out, drive);
     out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}}}", drive.bumper_m, drive.wheelbase_m);
     if (drive.vehicle)

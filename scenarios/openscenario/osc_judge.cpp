@@ -12,7 +12,7 @@
 namespace fernlicht::osc {
 namespace {
 
-constexpr double small = 1e-6;
+constexpr double equal_within = 1e-6;
 
 bool texts_hold(const std::string& a, const std::string& b, Rule rule) {
     const auto left = to_number(a), right = to_number(b);
@@ -52,7 +52,8 @@ bool time_of_day(const TimeOfDayCondition& condition, const World& world) {
     if (!wanted || !world.environment || !world.environment->date_time)
         return false;
     const auto given = seconds_of(*world.environment->date_time);
-    const double now = given.value_or(0.0) + (world.environment->time_runs ? world.time_s - world.environment_since_s : 0.0);
+    const double now =
+        given.value_or(0.0) + (world.environment->time_runs ? world.day_rate * (world.time_s - world.environment_since_s) : 0.0);
     return given && holds(now, *wanted, condition.rule);
 }
 
@@ -61,19 +62,19 @@ bool time_of_day(const TimeOfDayCondition& condition, const World& world) {
 bool holds(double a, double b, Rule rule) {
     switch (rule) {
     case Rule::greater:
-        return a > b + small;
+        return a > b + equal_within;
     case Rule::less:
-        return a < b - small;
+        return a < b - equal_within;
     case Rule::greater_or_equal:
-        return a >= b - small;
+        return a >= b - equal_within;
     case Rule::less_or_equal:
-        return a <= b + small;
+        return a <= b + equal_within;
     case Rule::not_equal:
-        return std::abs(a - b) >= small;
+        return std::abs(a - b) >= equal_within;
     case Rule::equal:
         break;
     }
-    return std::abs(a - b) < small;
+    return std::abs(a - b) < equal_within;
 }
 
 std::optional<double> seconds_of(const std::string& text) {
@@ -167,9 +168,9 @@ bool JudgedTrigger::delayed(Judged& judged, bool value, double time_s) {
         history.emplace_back(time_s, value);
     const double then = time_s - judged.condition->delay_s;
     bool is = judged.past > 0 && history[judged.past - 1].second;
-    if (judged.past < history.size() && then > history[judged.past].first - small) {
+    if (judged.past < history.size() && then > history[judged.past].first - equal_within) {
         is = false;
-        for (; judged.past < history.size() && then > history[judged.past].first - small; ++judged.past)
+        for (; judged.past < history.size() && then > history[judged.past].first - equal_within; ++judged.past)
             is = is || history[judged.past].second;
     }
     return is;

@@ -77,6 +77,7 @@ class World {
     double time_s = 0.0;
     std::optional<Environment> environment;
     double environment_since_s = 0.0; ///< when its time of day was given
+    double day_rate = 1.0;            ///< seconds of an animated time of day for one of the story
 
   private:
     const Storyboard* storyboard_;

@@ -132,6 +132,7 @@ PlayedStory play_story(const Storyboard& storyboard, const RoadNetwork& network,
     for (const Entity& entity : storyboard.entities)
         played.entities.push_back({entity, {}, {}});
     World world(storyboard, network);
+    world.day_rate = options.day_rate;
     StoryTree tree(storyboard, world, played);
     tree.start();
     const auto steps = static_cast<std::size_t>(std::ceil(options.most_s / options.step_s - small));

@@ -8,7 +8,8 @@ namespace fernlicht::osc {
 
 struct PlayStoryOptions {
     double step_s = 0.01;
-    double most_s = 60.0; ///< longest time played
+    double most_s = 60.0;  ///< longest time played
+    double day_rate = 1.0; ///< seconds of an animated time of day for one of the story; conditions of the time of day go by it
 };
 
 /// From init to the stop trigger, to where all stories are over (in a storyboard that has some), or for `most_s`. Without a controller

@@ -26,7 +26,8 @@ struct LightChange {
 
 struct EnvironmentChange {
     double time_s = 0.0;
-    Environment environment; ///< merged: what holds from then on
+    Environment environment;   ///< merged: what holds from then on
+    double clock_from_s = 0.0; ///< when its date_time was given
 };
 
 struct PlayedEntity {

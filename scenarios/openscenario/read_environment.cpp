@@ -1,9 +1,21 @@
 #include "scenarios/openscenario/read_environment.h"
 
+#include "scenarios/sky/sky_light.h"
+
 #include <cmath>
 
 namespace fernlicht::osc {
 namespace {
+
+constexpr double mean_sun_km = 149.598e6;
+
+/// Files before 1.2 have an intensity. It was meant in lux; many write a share instead, which here is one of the clear sky's sun.
+std::optional<double> illuminance_of_intensity_lx(const OscNode& sun) {
+    const auto intensity = sun.number_if("intensity"), elevation = sun.number_if("elevation");
+    if (!intensity || *intensity > 1.0 || !elevation)
+        return intensity;
+    return *intensity * sun_light(*elevation, *elevation, mean_sun_km, SkyCover::clear).direct_lx;
+}
 
 void read_weather(const OscNode& node, Environment& out) {
     if (node.has("fractionalCloudCover"))
@@ -13,7 +25,7 @@ void read_weather(const OscNode& node, Environment& out) {
     if (const auto sun = node.find("Sun")) {
         out.sun_azimuth_rad = sun->number_if("azimuth");
         out.sun_elevation_rad = sun->number_if("elevation");
-        out.sun_illuminance_lx = sun->has("illuminance") ? sun->number_if("illuminance") : sun->number_if("intensity");
+        out.sun_illuminance_lx = sun->has("illuminance") ? sun->number_if("illuminance") : illuminance_of_intensity_lx(*sun);
     }
     if (const auto fog = node.find("Fog"); fog && fog->has("visualRange")) {
         out.fog_visual_range_m = fog->number("visualRange");

@@ -353,7 +353,7 @@ void StoryTree::act_on_world(const GlobalAction& action) {
         take(merged.friction_scale, by.friction_scale);
         take(merged.wetness, by.wetness);
         world_->environment = merged;
-        played_->environment.push_back({world_->time_s, merged});
+        played_->environment.push_back({world_->time_s, merged, world_->environment_since_s});
     } else if (const auto* entity = std::get_if<EntityAction>(&action)) {
         EntityState& state = world_->entity(entity->entity);
         state.present = entity->add_at.has_value();

@@ -98,6 +98,8 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
     put_high_beams(study, lamp, drive, edits);
     add_measures(study.measure, drive.seeing);
     drive.daylight = study.conditions.times_of_day[cell.time_of_day];
+    if (drive.storyboard)
+        drive.storyboard->own_daylight = true; // of the study: no environment of the storyboard changes it
     drive.variants.resize(1);
     Variant& variant = drive.variants.front();
     variant.name = lamp.name + condition_part(study, cell);

@@ -3,6 +3,8 @@
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/control_world.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/drives/tell_story.h"
+#include "scenarios/drives/told_story.h"
 #include "scenarios/roads/road_mesh.h"
 #include "scenarios/traffic/place_traffic.h"
 
@@ -198,8 +200,10 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
     smaller.resolution = std::pair(320, 240);
     Drive drive = read_drive(GetParam(), smaller);
     const RoadNetwork network = read_opendrive(drive.road_file);
+    tell_story(drive, network);
     const Route route(network, drive.start, drive.via);
     const Scene scene = build_scene(network);
+    lay_on_route(drive, route);
     fit_to_route(drive, route);
     simulate(drive, route);
     place_traffic(drive, network, route);
