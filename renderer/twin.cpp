@@ -3,6 +3,7 @@
 #include "scenarios/fog_light.h"
 #include "scenarios/light.h"
 #include "scenarios/photometry.h"
+#include "scenarios/retro_tint.h"
 #include "scenarios/wet_light.h"
 
 #include <algorithm>
@@ -59,13 +60,13 @@ double float_bound_lx(double illuminance_lx, double cosine, double log_gradient)
            (operations * half_ulp + position_error * (3.0 + 1.0 / std::max(cosine, 1e-6)) + log_gradient * angle_error_rad);
 }
 
-std::optional<Twin::Hit> Twin::cast(const Moment& moment, const Ray& ray, double from_m, bool ground_only) const {
+std::optional<Twin::Hit> Twin::cast(const Moment& moment, const Ray& ray, double from_m, Met met) const {
     std::optional<Hit> nearest;
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
         const Mesh& mesh = scene_.meshes[m];
-        if (ground_only && stands_on_ground(scene_, mesh))
+        if ((met == Met::ground && stands_on_ground(scene_, mesh)) || (met == Met::casters && !mesh.casts))
             continue;
-        if (mesh.body >= 0 && (static_cast<std::size_t>(mesh.body) >= moment.bodies.size() || ground_only ||
+        if (mesh.body >= 0 && (static_cast<std::size_t>(mesh.body) >= moment.bodies.size() || met == Met::ground ||
                                !moment.bodies[static_cast<std::size_t>(mesh.body)].visible))
             continue;
         const Pose body = mesh.body >= 0 ? moment.bodies[static_cast<std::size_t>(mesh.body)].pose : Pose{};
@@ -93,7 +94,7 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
     const Camera camera = camera_of(moment, view);
     const Ray ray = pixel_ray(camera, view, x_px, y_px);
     TwinPixel pixel;
-    const std::optional<Hit> hit = cast(moment, ray, 0.0, camera.is_map);
+    const std::optional<Hit> hit = cast(moment, ray, 0.0, camera.is_map ? Met::ground : Met::all);
     const double sky_lx = moment.daylight.horizontal_illuminance_lx;
     const Weather& weather = moment.weather;
     const bool through_air = weather.extinction_per_m > 0.0 && !camera.is_map; // maps show the ground without the air above it
@@ -127,7 +128,7 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
         double e_perp = photometry::facing_illuminance(intensity_towards_cd(lamp, moment.ego.position_m + pixel.point_m), to_lamp);
         if (shadows_ && e_perp > 0.0) {
             const double distance = glm::length(to_lamp);
-            const auto blocker = cast(moment, {pixel.point_m + pixel.normal * 1e-3, to_lamp / distance}, 1e-3, false);
+            const auto blocker = cast(moment, {pixel.point_m + pixel.normal * 1e-3, to_lamp / distance}, 1e-3, Met::casters);
             if (blocker && blocker->distance_m < distance)
                 e_perp = 0.0;
         }
@@ -139,9 +140,10 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
         pixel.bound_lx += float_bound_lx(e, cosine, log_gradient_per_rad(lamp.file->table, degrees(angles.x), degrees(angles.y)));
         glm::dvec3 returned = albedo * e / pi;
         if (material.retro_rl > 0.0F)
-            returned += photometry::retro_luminance(
-                static_cast<double>(material.retro_rl), e_perp, cosine, photometry::observation_angle(to_lamp, to_eye),
-                static_cast<double>(material.retro_reference_rad), 1.0 / static_cast<double>(material.retro_falloff_rad));
+            returned += retro_tint(material) * photometry::retro_luminance(static_cast<double>(material.retro_rl), e_perp, cosine,
+                                                                           photometry::observation_angle(to_lamp, to_eye),
+                                                                           static_cast<double>(material.retro_reference_rad),
+                                                                           1.0 / static_cast<double>(material.retro_falloff_rad));
         if (wet > 0.0)
             returned = partly_wet(returned, wet_light(albedo, pixel.normal, glm::normalize(to_lamp), eye_direction, e_perp), wet);
         light += lamp.colour.linear_srgb * returned;
@@ -158,7 +160,7 @@ TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, doubl
     if (const DirectLight* direct = moment.daylight.direct()) {
         const glm::dvec3 towards = direct->towards();
         double e_sun = photometry::directional_illuminance(direct->illuminance_lx, pixel.normal, towards);
-        if (e_sun > 0.0 && shadows_ && cast(moment, {pixel.point_m + pixel.normal * 1e-3, towards}, 1e-3, false))
+        if (e_sun > 0.0 && shadows_ && cast(moment, {pixel.point_m + pixel.normal * 1e-3, towards}, 1e-3, Met::casters))
             e_sun = 0.0;
         pixel.illuminance_lx += e_sun;
         pixel.bound_lx += direct->illuminance_lx * operations * half_ulp;

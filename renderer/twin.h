@@ -32,8 +32,9 @@ class Twin {
         std::uint32_t mesh = 0, material = 0;
         glm::dvec3 normal;
     };
-    /// The nearest triangle, both sides, from `from_m` on.
-    std::optional<Hit> cast(const Moment& moment, const Ray& ray, double from_m, bool ground_only) const;
+    enum class Met { all, ground, casters }; ///< casters: what stands in light's way
+    /// The nearest triangle of these, both sides, from `from_m` on.
+    std::optional<Hit> cast(const Moment& moment, const Ray& ray, double from_m, Met met) const;
 
   private:
     const Scene& scene_;

@@ -6,6 +6,7 @@
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/control_world.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/drives/own_car.h"
 #include "scenarios/drives/tell_story.h"
 #include "scenarios/drives/told_story.h"
 #include "scenarios/roads/mirrored_road.h"
@@ -51,6 +52,7 @@ Stage::Stage(Drive d)
     place_traffic(drive, network, route);
     simulate_control(drive, route);
     add_road_users(scene, drive.traffic, drive.opened);
+    add_own_car(scene, drive);
     check_limit_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);
 }

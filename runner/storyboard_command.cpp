@@ -15,7 +15,7 @@
 namespace fernlicht {
 namespace {
 
-struct Flags {
+struct StoryboardFlags {
     std::filesystem::path file;
     std::vector<std::string> road_folders, parameters;
     std::string road, out;
@@ -23,7 +23,7 @@ struct Flags {
     bool lenient = false, quiet = false;
 };
 
-osc::StoryboardOptions options_of(const Flags& flags) {
+osc::StoryboardOptions options_of(const StoryboardFlags& flags) {
     osc::StoryboardOptions options;
     options.lenient = flags.lenient;
     for (const std::string& folder : flags.road_folders)
@@ -54,7 +54,8 @@ void add_rows(const osc::PlayedStory& story, const RoadNetwork& network, int num
 }
 
 /// Plays one storyboard; tells what is in it and how it ended.
-void play(const Flags& flags, const std::filesystem::path& file, const osc::StoryboardOptions& options, int number, std::string& rows) {
+void play(const StoryboardFlags& flags, const std::filesystem::path& file, const osc::StoryboardOptions& options, int number,
+          std::string& rows) {
     const osc::Storyboard story = osc::read_storyboard(file, options);
     const std::filesystem::path road = flags.road.empty() ? story.road_file : std::filesystem::path(flags.road);
     const RoadNetwork network = road.empty() ? RoadNetwork{} : read_opendrive(road);
@@ -82,7 +83,7 @@ bool is_variation(const std::filesystem::path& file) {
     return XmlFile(file, ignored, "OpenSCENARIO", "an OpenSCENARIO file").root().child("ParameterValueDistribution");
 }
 
-int run(const Flags& flags) {
+int run(const StoryboardFlags& flags) {
     if (!(flags.most_s > 0.0 && flags.most_s <= 1e5))
         refuse_flag("--duration", fmt::format("{}", flags.most_s), "seconds above 0, at most 100 000");
     if (!(flags.step_s >= 1e-4 && flags.step_s <= 1.0))
@@ -113,7 +114,7 @@ int run(const Flags& flags) {
 } // namespace
 
 void add_storyboard_command(CLI::App& app, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<StoryboardFlags>();
     CLI::App* sub = app.add_subcommand("storyboard", "play an OpenSCENARIO XML file without drawing, and tell where everything goes");
     sub->add_option("FILE", flags->file, "scenario, or parameter variation file (all its cases)")->required();
     sub->add_option("--road", flags->road, "OpenDRIVE file to play on instead");

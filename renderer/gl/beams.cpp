@@ -35,6 +35,11 @@ template <class Step> std::vector<Step> steps_of(const BeamTexture& g) {
     return steps;
 }
 
+bool same_grid(const BeamTexture& a, const BeamTexture& b) {
+    return a.width == b.width && a.height == b.height && a.bits == b.bits && a.h_first_rad == b.h_first_rad &&
+           a.v_first_rad == b.v_first_rad && a.h_step_rad == b.h_step_rad && a.v_step_rad == b.v_step_rad;
+}
+
 } // namespace
 
 GLenum format_of_texels(int bits) { return bits == 32 ? GL_R32F : (bits == 16 ? GL_R16 : GL_R8); }
@@ -46,6 +51,10 @@ const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     beam.id = static_cast<int>(known_.size());
     beam.grid = made(file->table);
     const BeamTexture& g = beam.grid;
+    const auto same = std::ranges::find_if(known_, [&](const auto& known) {
+        return known.second.second.id == known.second.second.shape && same_grid(known.second.second.grid, g);
+    });
+    beam.shape = same == known_.end() ? beam.id : same->second.second.id;
     beam.bounds = BeamBounds(g);
     beam.window = window_of(g);
     constexpr double asin_reaches_rad = 0.5235; // 30 degrees

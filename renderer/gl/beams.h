@@ -17,7 +17,8 @@ struct ShadowWindow {
 };
 
 struct Beam {
-    int id = 0; ///< in the order of upload
+    int id = 0;    ///< in the order of upload
+    int shape = 0; ///< id of the first that lies on the same grid: all that shaders are compiled for
     BeamTexture grid;
     double cd_a_unit = 1.0; ///< of what a look-up gives: 1 for float, the largest value for steps of it
     BeamBounds bounds;

@@ -112,12 +112,14 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     f.traffic = traffic || (!pruned_ && !shot.moment.other_lamps.empty());
     if (lit || !pruned_ || (f.fog && reflects && !shot.camera.is_map)) // in fog, beams are seen from beside
         for (const Beam* beam : lamp_beams_)
-            f.beams.push_back(beam->id);
+            f.beams.push_back(beam->shape);
     f.shadows = !f.beams.empty() && (shadowed || !pruned_) && settings_.shadows;
     if (pruned_ && reflects)
-        f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive, surface.moving};
+        f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive, surface.moving,
+                     surface.tinted && (!f.beams.empty() || f.traffic)};
     else if (!pruned_)
-        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0, true, true, surface.moving};
+        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0, true, true, surface.moving,
+                     scene_.has([](const SurfaceClass& c) { return c.tinted; })};
     f.surface.moving = surface.moving;
     return f;
 }
@@ -146,6 +148,7 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("WET_ALPHA", literal(wet_roughness));
     define("BACKGROUND", flag(f.background));
     define("RETRO", flag(f.surface.retroreflecting));
+    define("RETRO_TINT", flag(f.surface.tinted));
     define("TRAFFIC", flag(f.traffic));
     if (f.traffic) {
         define("TRAFFIC_CELLS_A_METRE", literal(1.0 / traffic_cell_m));
@@ -342,7 +345,7 @@ void PhotometricLighting::draw(const Shot& shot) {
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
         shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) + f.sun + (f.fog ? 1 : 0) +
                               (f.air_lamps ? air_lamps_.count() : 0) + (f.wet ? 1 : 0) + (f.surface.retroreflecting ? 1 : 0) +
-                              (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
+                              (f.surface.tinted ? 1 : 0) + (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
         const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0) + (f.sun > 1 ? 1 : 0);
         shot.work.samplers = std::max(shot.work.samplers, textures);
     }

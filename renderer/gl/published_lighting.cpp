@@ -29,9 +29,9 @@ std::map<std::string, std::string> features_of(const Technique& technique) {
     return features;
 }
 
-int bits(const Wanted& w) { return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.depth ? 4 : 0) | (w.ids ? 8 : 0); }
+int published_bits(const Wanted& w) { return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.depth ? 4 : 0) | (w.ids ? 8 : 0); }
 
-std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
+std::string published_literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
 
 glm::vec4 with_fourth(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
@@ -134,19 +134,20 @@ const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wis
     define("TEXTURED", wish.texture > 0 ? "1" : "0");
     define("TEXTURE_MODE", std::to_string(wish.texture - 1));
     const RationalMapper mapper = published_mapper(settings_.tone_mapper, is("SUN", "1"));
-    define("L_MAX", literal(mapper.l_max_lx));
-    define("RATIONAL_S", literal(mapper.s));
-    define("REFERENCE_LIGHT", literal(reference_light_lx));
-    define("SHEETING_RL", literal(sheeting_rl));
-    define("EMISSIVE_REACH", literal(emissive_reach_m));
-    define("PROJECTION_NEAR", literal(projection_near_m));
+    define("L_MAX", published_literal(mapper.l_max_lx));
+    define("RATIONAL_S", published_literal(mapper.s));
+    define("REFERENCE_LIGHT", published_literal(reference_light_lx));
+    define("SHEETING_RL", published_literal(sheeting_rl));
+    define("EMISSIVE_REACH", published_literal(emissive_reach_m));
+    define("PROJECTION_NEAR", published_literal(projection_near_m));
     if (map_ != nullptr) {
         const auto vector = [](auto of, const UploadedMap& m) {
-            return fmt::format("vec3({}, {}, {})", literal(of(m.ahead)), literal(of(m.left)), literal(of(m.up)));
+            return fmt::format("vec3({}, {}, {})", published_literal(of(m.ahead)), published_literal(of(m.left)),
+                               published_literal(of(m.up)));
         };
         define("MAP_FROM", vector([](const LightMapAxis& a) { return a.from_m; }, *map_));
         define("MAP_INVERSE_SPAN", vector([](const LightMapAxis& a) { return 1.0 / (a.to_m - a.from_m); }, *map_));
-        define("MAP_GROWTH", literal(map_->ahead.growth));
+        define("MAP_GROWTH", published_literal(map_->ahead.growth));
     }
     Program program(context_, "published.vert.glsl", "published.frag.glsl", d);
     const auto at = [&](const char* name) { return program.uniform(name); };
@@ -237,7 +238,7 @@ void PublishedLighting::draw(const Shot& shot) {
         shot.clock.begin(pass == 2 ? "lamps" : "scene");
         start_pass(pass, shot);
         for (std::size_t g = 0; g < groups.size(); ++g) {
-            use(variant({lamps_, groups[g].texture, pass, bits(shot.wanted)}, shot.wanted), shot);
+            use(variant({lamps_, groups[g].texture, pass, published_bits(shot.wanted)}, shot.wanted), shot);
             list_.draw(static_cast<int>(g));
             const int samplers = (pass == 1 ? 0 : static_cast<int>(textures_.size())) + (groups[g].texture > 0 ? 1 : 0);
             shot.work.samplers = std::max(shot.work.samplers, samplers);
@@ -279,7 +280,7 @@ void PublishedLighting::prepare(const Shot& shot) {
         const int pass = first_pass() + k;
         start_pass(pass, shot);
         for (const SurfaceClass& surface : scene_.classes()) {
-            const Variant wish{lamps_, shot.wanted.colour ? surface.texture : 0, pass, bits(shot.wanted)};
+            const Variant wish{lamps_, shot.wanted.colour ? surface.texture : 0, pass, published_bits(shot.wanted)};
             if (variants_.contains(wish))
                 continue;
             use(variant(wish, shot.wanted), shot);

@@ -3,6 +3,7 @@
 #include "renderer/gl/piece_bounds.h"
 #include "renderer/gl/surface_textures.h"
 #include "scenarios/photometry.h"
+#include "scenarios/retro_tint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ struct GpuVertex {
 };
 
 struct GpuMaterial { // std430, as in scene.vert.glsl
-    glm::vec4 albedo, emission, retro, blend;
+    glm::vec4 albedo, emission, retro, blend, tint;
 };
 
 glm::vec3 shown(const glm::vec3& c, bool encoded) {
@@ -39,11 +40,13 @@ GpuMaterial packed(const Material& m, bool encoded) {
             {m.emission_cdm2, static_cast<float>(std::max(m.texture, 0))},
             {m.retro_reference_rad, 1.0F / m.retro_falloff_rad, m.texture < 0 ? 0.0F : 1.0F + static_cast<float>(m.texture_mode),
              gets_wet(m.kind) ? 1.0F : 0.0F},
-            {shown(m.blend_colour, encoded), 0.0F}};
+            {shown(m.blend_colour, encoded), 0.0F},
+            {glm::vec3(retro_tint(m)), 0.0F}};
 }
 
 SurfaceClass class_of(const Material& m) {
-    return {m.texture < 0 ? 0 : 1 + static_cast<int>(m.texture_mode), m.retro_rl > 0.0F, m.emission_cdm2 != glm::vec3(0.0F)};
+    return {m.texture < 0 ? 0 : 1 + static_cast<int>(m.texture_mode), m.retro_rl > 0.0F, m.emission_cdm2 != glm::vec3(0.0F), false,
+            is_tinted(m)};
 }
 
 std::int64_t cell_of(double m) { return static_cast<std::int64_t>(std::floor(m / cell_m)); }
@@ -79,6 +82,7 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             piece.origin_m = mesh.origin_m;
             piece.surface = surface;
             piece.ground = ground;
+            piece.casts = mesh.casts;
             piece.body = mesh.body;
             piece.mesh = static_cast<std::uint32_t>(&mesh - scene.meshes.data());
             piece.first_index = static_cast<GLuint>(indices.size());

@@ -18,6 +18,7 @@ struct SurfaceClass {
     int texture = 0; ///< 0: none, else 1 + TextureMode
     bool retroreflecting = false, emissive = false;
     bool moving = false; ///< turned and placed by its body
+    bool tinted = false; ///< retroreflected light has a colour of its own
 
     auto operator<=>(const SurfaceClass&) const = default;
 };
@@ -31,6 +32,7 @@ struct Piece {
     double radius_m = 0.0;
     double lowest_m = 0.0, highest_m = 0.0; ///< z in the world
     bool ground = true;                     ///< of a mesh of which nothing stands on the ground
+    bool casts = true;                      ///< of its mesh
     bool above_ground = false;              ///< ground that has other ground below it, as a bridge has
     SurfaceClass surface;
     std::uint32_t mesh = 0; ///< index in the scene

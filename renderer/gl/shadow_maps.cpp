@@ -64,7 +64,7 @@ void ShadowMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const 
             const double distance = glm::length(from_lamp), nearest = distance - piece.radius_m;
             if (nearest > shadow_farthest_m || frustum.outside(centre_of(piece, ego_m), piece.radius_m))
                 continue;
-            if (piece.ground && !piece.above_ground && faces_lamp(piece, map.lamp_m))
+            if (!piece.casts || (piece.ground && !piece.above_ground && faces_lamp(piece, map.lamp_m)))
                 continue;
             const double most_cd = beams[i]->bounds.most_towards(to_lamp_space(lamps[i], from_lamp), piece.radius_m);
             if (most_cd == 0.0 || (nearest > 0.0 && most_cd < last_contour_lx * nearest * nearest))

@@ -51,7 +51,7 @@ void SunLight::set(const Moment& moment, bool shadows) {
         const double reach = sun_window_m + piece.radius_m;
         if (std::abs(glm::dot(from_centre, right_)) > reach || std::abs(glm::dot(from_centre, up_)) > reach)
             continue;
-        if (piece.ground && !piece.above_ground && faces_light(piece))
+        if (!piece.casts || (piece.ground && !piece.above_ground && faces_light(piece)))
             continue;
         casters_.push_back(i);
         ground_casts_ = ground_casts_ || piece.ground;

@@ -107,8 +107,8 @@ void add_luminance(const Shot& shot, const LitLamp& lamp, const Points& lamp_m, 
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 returned = response.albedo * (e_perp[i] * cosine[i] / pi);
         if (response.retro_rl > 0.0)
-            returned += photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle_rad[i], response.retro_reference_rad,
-                                                    response.retro_inverse_falloff);
+            returned += response.retro_tint * photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle_rad[i],
+                                                                          response.retro_reference_rad, response.retro_inverse_falloff);
         const glm::dvec3& p = light.hits[i].point_m;
         if (const double wet = wetness_at(shot, response); wet > 0.0)
             returned = partly_wet(

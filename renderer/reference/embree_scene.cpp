@@ -12,7 +12,7 @@
 namespace fernlicht::reference {
 namespace {
 
-constexpr unsigned ground_mask = 1, stands_mask = 2, all_mask = 3;
+constexpr unsigned ground_mask = 1, stands_mask = 2, casters_mask = 3, no_caster_mask = 4, all_mask = 7;
 
 constexpr double raise_share = 8.0 / 16777216.0; // eight units of 2^-24
 constexpr double least_extent_m = 100.0;         // triangles of ours are up to so long, and rounding follows the larger of both
@@ -93,7 +93,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const glm::dvec3& origin_m)
         }
         for (const Batch& batch : mesh.batches)
             indices = std::copy_n(mesh.indices.begin() + batch.first, batch.count / 3 * 3, indices);
-        rtcSetGeometryMask(geometry, stands_on_ground(scene, mesh) ? stands_mask : ground_mask);
+        rtcSetGeometryMask(geometry, !mesh.casts ? no_caster_mask : stands_on_ground(scene, mesh) ? stands_mask : ground_mask);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(embree_->scene, geometry, static_cast<unsigned>(m));
         rtcReleaseGeometry(geometry);
@@ -208,7 +208,7 @@ bool EmbreeScene::visible(const glm::dvec3& from_m, const glm::dvec3& to_m) cons
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     const glm::vec3 origin(from_m), direction(to_m - from_m);
-    RTCRay ray{origin.x, origin.y, origin.z, 0.0F, direction.x, direction.y, direction.z, 0.0F, segment_end, all_mask, 0, 0};
+    RTCRay ray{origin.x, origin.y, origin.z, 0.0F, direction.x, direction.y, direction.z, 0.0F, segment_end, casters_mask, 0, 0};
     rtcOccluded1(embree_->scene, &context, &ray);
     return ray.tfar >= 0.0F; // Embree makes it negative where something was met
 }
@@ -226,7 +226,7 @@ LaneMask EmbreeScene::visible(const std::array<glm::dvec3, packet_size>& from_m,
         ray.org_x[i] = origin.x, ray.org_y[i] = origin.y, ray.org_z[i] = origin.z;
         ray.dir_x[i] = direction.x, ray.dir_y[i] = direction.y, ray.dir_z[i] = direction.z;
         ray.tnear[i] = 0.0F, ray.tfar[i] = segment_end, ray.time[i] = 0.0F;
-        ray.mask[i] = all_mask, ray.id[i] = 0, ray.flags[i] = 0;
+        ray.mask[i] = casters_mask, ray.id[i] = 0, ray.flags[i] = 0;
     }
     rtcOccluded16(valid.data(), embree_->scene, &context, &ray);
     LaneMask seen = 0;

@@ -130,8 +130,9 @@ void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_si
         const RetroSample sample =
             sample_retro(surface.lobe, surface.out, hit.normal, points[i].pair(retro_pairs), points[i].pair(retro_pairs + 1).x);
         if (sample.weight > 0.0 && glm::dot(sample.direction, hit.facet_normal) > 0.0)
-            light.luminance_cdm2[i] += left * (1.0 - wetness) * sample.weight *
-                                       luminance(arriving(i, points[i], retro_pairs + 2, {from_m, sample.direction}, light.rays));
+            light.luminance_cdm2[i] +=
+                left * (1.0 - wetness) * sample.weight *
+                luminance(surface.response.retro_tint * arriving(i, points[i], retro_pairs + 2, {from_m, sample.direction}, light.rays));
     }
 }
 

@@ -12,7 +12,8 @@ RetroLobe retro_lobe(const SurfaceResponse& response, double albedo) {
     if (response.retro_rl <= 0.0)
         return {};
     const double k = response.retro_inverse_falloff, at_zero = response.retro_rl * std::exp(response.retro_reference_rad * k),
-                 sphere = 2.0 * pi * at_zero * (1.0 + std::exp(-k * pi)) / (1.0 + k * k),
+                 most = std::max({response.retro_tint.r, response.retro_tint.g, response.retro_tint.b}),
+                 sphere = most * 2.0 * pi * at_zero * (1.0 + std::exp(-k * pi)) / (1.0 + k * k),
                  scale = std::min(1.0, std::max(0.0, 1.0 - albedo) / sphere);
     return {scale * at_zero, k, scale * sphere};
 }

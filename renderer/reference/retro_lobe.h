@@ -28,7 +28,7 @@ struct RetroLobe {
     bool is_there() const { return returned > 0.0; }
 };
 
-/// `albedo`: the greatest of the surface's three.
+/// `albedo`: the greatest of the surface's three. What is returned is that of the tint's greatest channel.
 RetroLobe retro_lobe(const SurfaceResponse& response, double albedo);
 
 /// f cos(theta_i); all cosines against the surface's normal, cos_in > 0.

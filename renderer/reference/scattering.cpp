@@ -81,8 +81,8 @@ glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint&
         }
         glm::dvec3 reflected = surface.response.albedo * (cosine / pi);
         if (surface.lobe.is_there())
-            reflected += retro_times_cosine(surface.lobe, photometry::observation_angle(to_lamp, surface.out), cosine,
-                                            glm::dot(surface.hit.normal, surface.out));
+            reflected += surface.response.retro_tint * retro_times_cosine(surface.lobe, photometry::observation_angle(to_lamp, surface.out),
+                                                                          cosine, glm::dot(surface.hit.normal, surface.out));
         const double left = air_transmittance(shot.moment.weather, glm::length(to_lamp)); // 1 in clear air
         glm::dvec3 returned = reflected * (e_perp * left);
         if (surface.wetness > 0.0)
@@ -125,7 +125,7 @@ bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pa
         lobe_choice = (lobe_choice - surface.albedo) / retro;
         const RetroSample sample = sample_retro(surface.lobe, surface.out, surface.hit.normal, square, choice.y);
         ray.direction = sample.direction;
-        weight *= sample.weight * (reflected / retro) * dry;
+        weight *= surface.response.retro_tint * (sample.weight * (reflected / retro) * dry);
     } else if (!specular) {
         lobe_choice = (lobe_choice - surface.albedo - retro) / film;
         const FilmSample sample = sample_film(surface.hit.normal, surface.out, square);

@@ -1,6 +1,7 @@
 #include "renderer/reference/surface_response.h"
 
 #include "scenarios/photometry.h"
+#include "scenarios/retro_tint.h"
 
 #include <cmath>
 
@@ -39,7 +40,8 @@ SurfaceResponse response_at(const Scene& scene, const SurfaceHit& hit) {
                              static_cast<double>(material.retro_reference_rad),
                              1.0 / static_cast<double>(material.retro_falloff_rad),
                              glm::dvec3(material.emission_cdm2),
-                             gets_wet(material.kind)};
+                             gets_wet(material.kind),
+                             retro_tint(material)};
     if (material.texture < 0)
         return response;
     const glm::dvec4 texel = texel_at(scene.textures[static_cast<std::size_t>(material.texture)], hit.uv);

@@ -13,6 +13,7 @@ struct SurfaceResponse {
     double retro_reference_rad = 0.0, retro_inverse_falloff = 0.0;
     glm::dvec3 emission_cdm2{0.0};
     bool gets_wet = false;
+    glm::dvec3 retro_tint{1.0}; ///< of retroreflected light
 };
 
 /// A texture between its texels: bilinear, repeating, texel centres at (i + 0.5) / width, as OpenGL's GL_LINEAR. No mipmaps: the average

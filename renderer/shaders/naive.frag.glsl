@@ -8,6 +8,7 @@ struct Material { // as in surface.vert.glsl
     vec4 emission;
     vec4 retro;
     vec4 blend;
+    vec4 tint;
 };
 
 layout(std430, binding = 1) readonly buffer Materials { Material materials[]; };
@@ -74,7 +75,7 @@ void main() {
         light += lamps[i].colour.rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e));
 #if RETRO
         if (rl > 0.0)
-            light += lamps[i].colour.rgb * retro_luminance(rl, e_perp, cosine, observation_angle(to_lamp, to_eye), material.retro.x, material.retro.y);
+            light += lamps[i].colour.rgb * material.tint.rgb * retro_luminance(rl, e_perp, cosine, observation_angle(to_lamp, to_eye), material.retro.x, material.retro.y);
 #endif
 #endif
 #if WANT_TARGET

@@ -1,7 +1,7 @@
 // Technique `photometric`: exact distance and cosine per fragment, intensity from the candela table, one shadow map per lamp,
 // diffuse and retroreflecting surfaces with their textures, uniform sky.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, FOG, AIR_LAMPS, WET, BACKGROUND, RETRO, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
+// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, FOG, AIR_LAMPS, WET, BACKGROUND, RETRO, RETRO_TINT, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
 // results are wanted (WANT_*). What is left out adds exactly +0 or multiplies by exactly 1.
 #include "photometric_lamps.glsl"
 #include "photometric_varyings.glsl"
@@ -167,8 +167,13 @@ vec3 wet_sky_light(vec3 albedo, vec3 n, float e_sky) {
 #if WANT_COLOUR || WANT_LUMINANCE
 #define REFLECT_DIFFUSE(i, e) light += DRY(COLOUR(i).rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e)));
 #if RETRO
+#if RETRO_TINT
+#define TINTED(colour) ((colour) * v_tint)
+#else
+#define TINTED(colour) (colour)
+#endif
 #define REFLECT_RETRO(i, e_perp, cosine) \
-    light += DRY(COLOUR(i).rgb * retro_luminance(rl, e_perp, cosine, quick_observation_angle(-v_w[i], EYE(i).xyz - EYE(i).w * v_w[i]), v_retro.x, v_retro.y));
+    light += DRY(TINTED(COLOUR(i).rgb) * retro_luminance(rl, e_perp, cosine, quick_observation_angle(-v_w[i], EYE(i).xyz - EYE(i).w * v_w[i]), v_retro.x, v_retro.y));
 #else
 #define REFLECT_RETRO(i, e_perp, cosine)
 #endif
@@ -306,7 +311,7 @@ void main() {
             wet += traffic_lamps[int(entry.x)].colour.rgb * wet_light(albedo, n, normalize(to_lamp), -normalize(v_from_eye), e_perp);
 #endif
 #if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
-            returned += traffic_lamps[int(entry.x)].colour.rgb *
+            returned += TINTED(traffic_lamps[int(entry.x)].colour.rgb) *
                         retro_luminance(rl, e_perp, e, quick_observation_angle(to_lamp, v_traffic_eye.xyz - v_traffic_eye.w * v_traffic_p), v_retro.x, v_retro.y);
 #endif
         }

@@ -81,6 +81,9 @@ void main() {
 #endif
 #if RETRO
     v_retro = m.retro.xy;
+#if RETRO_TINT
+    v_tint = m.tint.rgb;
+#endif
 #endif
 #endif
 #if SKY || SUN

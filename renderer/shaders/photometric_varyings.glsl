@@ -12,6 +12,9 @@ flat STAGE_IO vec3 v_emission;
 #endif
 #if RETRO
 flat STAGE_IO vec2 v_retro; // reference angle, 1 / fall-off
+#if RETRO_TINT
+flat STAGE_IO vec3 v_tint;
+#endif
 #endif
 #endif
 #if TRAFFIC

@@ -37,7 +37,7 @@ std::optional<double> others_lx(const Moment& moment) {
     std::optional<double> most;
     for (const Body& body : moment.bodies) {
         const glm::dvec3 eye = to_parent(body.pose, {1.5, 0.0, eye_m}), in_car = to_local(moment.ego, eye);
-        if (!body.visible || in_car.x < 5.0 || glm::dot(body.pose.forward(), moment.ego.forward()) > 0.0)
+        if (!body.visible || body.own || in_car.x < 5.0 || glm::dot(body.pose.forward(), moment.ego.forward()) > 0.0)
             continue;
         most = std::max(most.value_or(0.0), facing_lx(seen_lamps(moment, eye)));
     }

@@ -50,7 +50,7 @@ Count count(StabilityBench& bench, const Scene& scene, const Moment& moment, con
             int seen = 0;
             for (const glm::dvec3& offset : offsets) {
                 const glm::dvec3 from = free.point_m + offset, way = lamp_m - from;
-                const auto blocker = twin.cast(moment, {from, glm::normalize(way)}, 1e-4, false);
+                const auto blocker = twin.cast(moment, {from, glm::normalize(way)}, 1e-4, Twin::Met::casters);
                 seen += blocker && blocker->distance_m < glm::length(way) ? 0 : 1;
             }
             const bool drawn_dark = static_cast<double>(frame.illuminance_lx.at(x, y)) < 0.5 * free.illuminance_lx;

@@ -50,9 +50,12 @@ ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<
     const ActuatorParameters swivel = parameters_.bend ? parameters_.bend->actuator : SwivelParameters{}.actuator;
     const ActuatorParameters level = parameters_.levelling ? parameters_.levelling->actuator : LevellingParameters{}.actuator;
     for (const std::size_t lamp : swivelling)
-        driven_.push_back({lamp, lamp_signal::swivel_command, lamp_signal::swivel, swivel, {}, {}});
+        driven_.push_back({lamp, lamp_signal::swivel_command, lamp_signal::swivel, swivel, {}, {}, {}});
+    if (parameters_.stuck_swivel)
+        for (Driven& driven : driven_)
+            driven.diagnosis.emplace(*parameters_.stuck_swivel, driven.parameters);
     for (const std::size_t lamp : levelled)
-        driven_.push_back({lamp, lamp_signal::pitch_command, lamp_signal::pitch, level, {}, {}});
+        driven_.push_back({lamp, lamp_signal::pitch_command, lamp_signal::pitch, level, {}, {}, {}});
     if (parameters_.modes)
         for (const std::string& name : parameters_.modes->lamps)
             mode_lamps_.push_back(lamp_named(lamps, name));
@@ -128,9 +131,42 @@ void ControlLoop::advance(Driven& driven, double until_s) {
     while (!driven.commands.empty() && driven.commands.front().first <= until_s) {
         driven.actuator->advance(driven.commands.front().first);
         driven.actuator->command(driven.commands.front().second);
+        driven.asked_rad = driven.commands.front().second;
         driven.commands.pop_front();
     }
     driven.actuator->advance(until_s);
+}
+
+/// Which swivels are stuck, by what they were asked for and where they are.
+void ControlLoop::diagnose(double time_s) {
+    for (Driven& driven : driven_)
+        if (driven.diagnosis && driven.actuator && started_) {
+            const bool stuck = driven.diagnosis->step(driven.asked_rad, driven.actuator->angle_rad(), time_s - last_s_);
+            table_.of(driven.lamp, lamp_signal::swivel_stuck) = stuck ? 1.0 : 0.0;
+        }
+}
+
+/// With a swivel that is stuck: all look straight ahead, and the stuck lamp is lowered or dimmed where it is stuck aside.
+void ControlLoop::make_safe() {
+    const auto stuck = [](const Driven& driven) { return driven.diagnosis && driven.diagnosis->found(); };
+    if (std::ranges::none_of(driven_, stuck))
+        return;
+    for (const Driven& driven : driven_)
+        if (driven.actual == lamp_signal::swivel)
+            table_.of(driven.lamp, driven.command) = 0.0;
+    for (const Driven& driven : driven_) {
+        if (!driven.diagnosis || !driven.diagnosis->aside())
+            continue;
+        const auto levelling = std::ranges::find_if(
+            driven_, [&](const Driven& other) { return other.lamp == driven.lamp && other.actual == lamp_signal::pitch; });
+        if (levelling == driven_.end()) {
+            table_.of(driven.lamp, lamp_signal::level) *= parameters_.stuck_swivel->level;
+            continue;
+        }
+        double& pitch_rad = table_.of(driven.lamp, lamp_signal::pitch_command);
+        pitch_rad =
+            std::isfinite(pitch_rad) ? std::min(pitch_rad, parameters_.stuck_swivel->pitch_rad) : parameters_.stuck_swivel->pitch_rad;
+    }
 }
 
 /// Commands go out, to arrive after the dead time. A command that is no number keeps the last one.
@@ -139,12 +175,15 @@ void ControlLoop::order(double time_s) {
         const double command_rad = table_.of(driven.lamp, driven.command);
         if (!std::isfinite(command_rad))
             continue;
-        if (!driven.actuator)
-            driven.actuator.emplace(driven.parameters, command_rad, options_);
-        else if (driven.parameters.dead_time_s > 0.0)
+        if (driven.actuator && driven.parameters.dead_time_s > 0.0) {
             driven.commands.emplace_back(time_s + driven.parameters.dead_time_s, command_rad);
-        else
+            continue;
+        }
+        driven.asked_rad = command_rad;
+        if (driven.actuator)
             driven.actuator->command(command_rad);
+        else
+            driven.actuator.emplace(driven.parameters, command_rad, options_);
     }
 }
 
@@ -182,9 +221,11 @@ void ControlLoop::step(const ControlInputs& inputs) {
     read(inputs);
     check();
     fail(inputs.time_s);
+    diagnose(inputs.time_s);
     controller_.step(table_, segments_, inputs.surroundings, started_ ? inputs.time_s - last_s_ : 0.0);
     for (ControlPlugin& plugin : plugins_)
         plugin.step(table_, segments_, inputs.surroundings);
+    make_safe();
     check();
     order(inputs.time_s);
     keep(inputs.time_s);

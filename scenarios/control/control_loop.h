@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenarios/control/plugin.h"
+#include "scenarios/control/stuck_swivel.h"
 #include "scenarios/vehicle/actuator.h"
 
 #include <deque>
@@ -50,11 +51,15 @@ class ControlLoop {
         ActuatorParameters parameters;
         std::optional<Actuator> actuator;               ///< from the first tick on
         std::deque<std::pair<double, double>> commands; ///< on their way: when they arrive, rad
+        std::optional<StuckSwivel> diagnosis;           ///< of a swivel
+        double asked_rad = 0.0;                         ///< what it follows
     };
     void read(const ControlInputs& inputs);
     void fail(double time_s);
     void check();
     void advance(Driven& driven, double until_s);
+    void diagnose(double time_s);
+    void make_safe();
     void order(double time_s);
     void keep(double time_s);
 

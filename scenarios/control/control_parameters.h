@@ -115,6 +115,15 @@ struct ControlFailure {
     bool operator==(const ControlFailure&) const = default;
 };
 
+/// What lamp control does about a swivel that is stuck (stuck_swivel.h): the others look straight ahead, and the lamp, where it is stuck
+/// more than `off_rad` aside, is levelled down to `pitch_rad`, or without levelling dimmed to `level`.
+struct StuckSwivelParameters {
+    double off_rad = 0.0349, after_s = 0.5;  ///< 2 degrees from what it is asked for, for so long
+    double pitch_rad = -0.0262, level = 0.3; ///< 1.5 degrees down; times its level
+
+    bool operator==(const StuckSwivelParameters&) const = default;
+};
+
 /// A signal written by the drive: each value holds from its time on.
 struct ScriptedSignal {
     std::string name;
@@ -141,7 +150,8 @@ struct ControlParameters {
     std::optional<GlareFreeParameters> glare_free; ///< only beside a high beam
     std::vector<PluginParameters> plugins;         ///< called in this order, after the laws
     std::vector<ControlFailure> failures;
-    double safe_pitch_rad = -0.01; ///< of a lamp that cannot be trusted
+    double safe_pitch_rad = -0.01;                                               ///< of a lamp that cannot be trusted
+    std::optional<StuckSwivelParameters> stuck_swivel = StuckSwivelParameters{}; ///< nullopt: nobody looks
     std::vector<ScriptedSignal> inputs;
 
     bool operator==(const ControlParameters&) const = default;

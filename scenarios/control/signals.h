@@ -51,7 +51,7 @@ enum : std::size_t {
 
 /// Places of a lamp's signals.
 namespace lamp_signal {
-enum : std::size_t { swivel_command, swivel, pitch_command, pitch, level, segments_lit, count };
+enum : std::size_t { swivel_command, swivel, pitch_command, pitch, level, segments_lit, swivel_stuck, count };
 }
 
 /// Those that are there once, by their places; then those of each lamp, by theirs.

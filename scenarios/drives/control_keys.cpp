@@ -12,7 +12,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_lamps = 64, most_failures = 1000, most_inputs = 100, most_values = 100'000, most_plugins = 16;
+constexpr std::size_t most_lamps = 64, most_failures = 1000, most_inputs = 100, most_values = 100'000, most_plugins = 16,
+                      most_windows = 256;
 constexpr double shortest_period_s = 1.0e-4;
 
 std::vector<std::string> names_of(const Variant& variant) {
@@ -177,7 +178,7 @@ HighBeamParameters read_high_beam(const YamlEntry& given, const Variant& variant
 /// [a, b, c]: edges of two windows; {windows_deg: [[a, b], ...]}: windows that may leave gaps.
 std::vector<std::pair<double, double>> read_windows(const YamlEntry& given) {
     std::vector<std::pair<double, double>> windows;
-    const std::vector<YamlEntry> items = given.list(1, 65);
+    const std::vector<YamlEntry> items = given.list(1, most_windows + 1);
     if (items.front().is_list()) {
         for (const YamlEntry& item : items) {
             const std::vector<double> edges = item.numbers(2, 2, -180.0, 180.0);
@@ -187,7 +188,7 @@ std::vector<std::pair<double, double>> read_windows(const YamlEntry& given) {
         }
         return windows;
     }
-    const std::vector<double> edges = given.numbers(2, 65, -180.0, 180.0);
+    const std::vector<double> edges = given.numbers(2, most_windows + 1, -180.0, 180.0);
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
         if (edges[i] >= edges[i + 1])
             given.refuse("edges that do not ascend", "degrees from left to right");
@@ -268,6 +269,22 @@ ScriptedSignal read_input(const std::string& name, const YamlEntry& entry, const
     return input;
 }
 
+std::optional<StuckSwivelParameters> read_stuck_swivel(const YamlEntry& given) {
+    if (given.is_scalar()) {
+        given.choice({"none"});
+        return std::nullopt;
+    }
+    const YamlMap of = given.map({"off_deg", "off_rad", "after_s", "pitch_deg", "pitch_rad", "level"});
+    StuckSwivelParameters stuck;
+    stuck.off_rad = of.angle_rad("off", 45.0).value_or(stuck.off_rad);
+    if (!(stuck.off_rad > 0.0))
+        given.refuse("an angle off that is not above 0", "off_deg above 0");
+    stuck.after_s = of.number_or("after_s", stuck.after_s, 0.0, 100.0);
+    stuck.pitch_rad = of.angle_rad("pitch", 10.0).value_or(stuck.pitch_rad);
+    stuck.level = of.number_or("level", stuck.level, 0.0, 1.0);
+    return stuck;
+}
+
 void read_load(const YamlEntry& given, AxleLoad& load) {
     constexpr double n_per_kg = 9.81;
     const YamlMap of = given.map({"front_kg", "front_n", "rear_kg", "rear_n"});
@@ -283,7 +300,7 @@ void read_load(const YamlEntry& given, AxleLoad& load) {
 
 ControlParameters read_laws(const YamlEntry& given, const Variant& variant, LampShelf& shelf) {
     const YamlMap keys = given.map({"period_s", "bend", "cornering", "levelling", "load", "modes", "high_beam", "glare_free", "plugins",
-                                    "failures", "safe_pitch_deg", "safe_pitch_rad", "inputs"});
+                                    "failures", "stuck_swivel", "safe_pitch_deg", "safe_pitch_rad", "inputs"});
     const SignalTable signals(names_of(variant));
     ControlParameters control;
     control.period_s = keys.number_or("period_s", control.period_s, shortest_period_s, 10.0);
@@ -307,6 +324,8 @@ ControlParameters read_laws(const YamlEntry& given, const Variant& variant, Lamp
         for (const YamlEntry& plugin : plugins->list(0, most_plugins))
             control.plugins.push_back(read_plugin(plugin, variant));
     control.safe_pitch_rad = keys.angle_rad("safe_pitch", 10.0).value_or(control.safe_pitch_rad);
+    if (const auto stuck = keys.find("stuck_swivel"))
+        control.stuck_swivel = read_stuck_swivel(*stuck);
     if (const auto failures = keys.find("failures"))
         for (const YamlEntry& failure : failures->list(0, most_failures))
             control.failures.push_back(read_failure(failure, variant, signals));

@@ -16,9 +16,9 @@ namespace fernlicht {
 namespace {
 
 constexpr double road_ahead_m = 200.0, road_step_m = 5.0; ///< what plug-ins are shown (fernlicht_control.h)
-constexpr double mask_steps = 16.0; ///< levels of a file's windows are rounded to this part: each is a beam of its own
-constexpr std::size_t most_masks = 2000;
-constexpr double beside_route_m = 20.0;    ///< farther from its route a track is somewhere else
+constexpr double mask_steps = 16.0;     ///< levels of a file's windows are rounded to this part: each is a beam of its own
+constexpr double beside_route_m = 20.0; ///< farther from its route a track is somewhere else
+constexpr double most_mask_bytes = 2.0 * 1024.0 * 1024.0 * 1024.0; ///< of the beams that are drawn with, in all
 constexpr double shortest_bearing_m = 5.0; ///< nearer, the direction to a place on the lane says nothing of the bend
 
 /// All that control reads, as a function of time alone.
@@ -253,10 +253,20 @@ std::vector<std::string> notes_of(const ControlRun& run) {
     return notes;
 }
 
+/// What a beam takes when it is drawn with, here and on the GPU: a float each 0.05 degrees, or as `beams` of the drive says.
+double beam_bytes(const CandelaTable& table, const std::optional<BeamTexels>& texels) {
+    if (texels)
+        return static_cast<double>(texels->width) * texels->height * (4.0 + texels->bits / 8.0);
+    const auto steps = [](const std::vector<double>& axis) { return (std::min(axis.back(), 90.0) - std::max(axis.front(), -90.0)) / 0.05; };
+    return 8.0 * std::clamp(steps(table.h_deg) * steps(table.v_deg), 4.0, 4.0 * 1024.0 * 1024.0);
+}
+
 /// The file of each lamp that is cut into windows, for each state of them that comes; the same state is the same file.
-void mask_files(const Variant& variant, const ControlParameters& control, ControlRun& run) {
+void mask_files(const Drive& drive, const Variant& variant, const ControlParameters& control, ControlRun& run) {
     if (!control.glare_free)
         return;
+    double bytes = 0.0;
+    std::size_t states = 0;
     run.masks.resize(run.lamps.size());
     std::map<std::pair<std::size_t, std::vector<double>>, std::shared_ptr<const LampFile>> known;
     for (const SegmentedLamp& segmented : control.glare_free->lamps) {
@@ -269,20 +279,28 @@ void mask_files(const Variant& variant, const ControlParameters& control, Contro
             if (!file && std::ranges::any_of(levels, [](double level) { return level != 1.0; })) {
                 LampFile dark = *variant.lamps[lamp].file;
                 dark.table = masked(dark.table, segmented.windows_deg, levels);
+                bytes += beam_bytes(dark.table, drive.beams);
+                ++states;
+                if (bytes > most_mask_bytes)
+                    throw InputError(
+                        {},
+                        fmt::format("more than {} states of the glare-free beam's windows, {:.0f} MiB each", states - 1,
+                                    beam_bytes(dark.table, drive.beams) / 1048576.0),
+                        fmt::format("at most {:.0f} MiB of them in all: fewer windows, or coarser beams (beams: {{width, height, "
+                                    "bits}} of the drive)",
+                                    most_mask_bytes / 1048576.0));
                 file = std::make_shared<const LampFile>(std::move(dark));
             }
             run.masks[lamp].emplace_back(from_s, file);
-            if (known.size() > most_masks)
-                throw InputError({}, fmt::format("more than {} states of the glare-free beam's windows", most_masks),
-                                 "fewer windows, or fades that are shorter");
         }
     }
+    run.notes.push_back(fmt::format("glare-free high beam: {} states of windows, {:.0f} MiB of beams", states, bytes / 1048576.0));
 }
 
 std::vector<ControlledLamp> controlled_lamps(const Variant& variant) {
     std::vector<ControlledLamp> lamps;
     for (const MountedLamp& lamp : variant.lamps) {
-        lamps.push_back({lamp.name, lamp.position_m, lamp.yaw_rad, {}});
+        lamps.push_back({lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad, {}});
         if (variant.control->glare_free)
             for (const SegmentedLamp& segmented : variant.control->glare_free->lamps)
                 if (segmented.name == lamp.name)
@@ -303,7 +321,7 @@ void simulate_control(const Drive& drive, Variant& variant, const ControlWorld& 
         const ControlWorld::Resting resting = world.load_on_springs(control.load);
         motion.control->body_pitch_rad = resting.body_pitch_rad;
         motion.control->rear_lift_m = resting.rear_lift_m;
-        mask_files(variant, control, *motion.control);
+        mask_files(drive, variant, control, *motion.control);
     } catch (const InputError& error) {
         if (!error.where().file.empty())
             throw;

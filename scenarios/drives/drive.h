@@ -112,6 +112,7 @@ struct Drive {
     Daylight daylight;
     Weather weather;
     std::vector<StreetLampRow> street_lamps;    ///< beside the route
+    std::optional<PlacedModel> own_car;         ///< the own car's body, in its frame; nullopt: none is drawn
     double bumper_m = 0.0;                      ///< x of the front bumper in the car's frame; reach is measured from it
     double wheelbase_m = 2.7;                   ///< from the rear axle to the front axle
     std::optional<VehicleParameters> vehicle;   ///< none: the car follows its lane as on rails

@@ -1,5 +1,6 @@
 #include "scenarios/drives/drive.h"
 
+#include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/drive_edits.h"
 #include "scenarios/drives/drive_keys.h"
@@ -11,6 +12,7 @@
 #include "scenarios/drives/vehicle_keys.h"
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -60,6 +62,17 @@ void read_time(const YamlMap& keys, Drive& drive) {
                         fmt::format("at most {:.0f}", most_ticks));
 }
 
+/// Libraries of plug-ins decide results as any input does: each is among what was opened, once.
+void note_plugin_libraries(Drive& drive) {
+    for (const Variant& variant : drive.variants) {
+        if (!variant.control)
+            continue;
+        for (const PluginParameters& plugin : variant.control->plugins)
+            if (std::ranges::none_of(drive.opened, [&](const FileRead& known) { return known.path == plugin.library; }))
+                read_file(plugin.library, drive.opened);
+    }
+}
+
 Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const DriveEdits& edits, LampShelf& shelf) {
     Drive drive;
     drive.file = path;
@@ -87,8 +100,15 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     const Car car = read_car(keys);
     drive.bumper_m = car.bumper_m;
     drive.wheelbase_m = car.wheelbase_m;
+    drive.own_car = car.model;
+    if (car.model) {
+        drive.opened.insert(drive.opened.end(), car.model->model->opened.begin(), car.model->model->opened.end());
+        for (const std::string& note : car.model->model->notes)
+            drive.notes.push_back(fmt::format("model {}: {}", car.model->model->name, note));
+    }
     drive.vehicle = read_vehicle(keys);
     drive.variants = read_variants(keys, car, shelf);
+    note_plugin_libraries(drive);
     read_traffic(keys, shelf, drive);
     drive.views = read_views(keys, drive.opened);
     drive.capture = read_capture(keys);

@@ -124,7 +124,8 @@ std::string logged_moment(const std::string& variant, const Moment& moment) {
     for (const LitLamp& lamp : moment.lamps)
         log_row(start, DriveLog::Kind::lamp, lamp.name, lamp.pose, 0.0, lamp.intensity_factor, true, out);
     for (const Body& body : moment.bodies)
-        log_row(start, DriveLog::Kind::body, body.name, body.pose, body.speed_mps, 0.0, body.visible, out);
+        if (!body.own)
+            log_row(start, DriveLog::Kind::body, body.name, body.pose, body.speed_mps, 0.0, body.visible, out);
     for (const LitLamp& lamp : moment.other_lamps)
         if (lamp.body >= 0)
             log_row(start, DriveLog::Kind::light, lamp.name, lamp.pose, 0.0, lamp.intensity_factor, true, out);

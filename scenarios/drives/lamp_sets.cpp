@@ -17,15 +17,15 @@ constexpr std::size_t most_lamps = 64, most_variants = 32, most_changes = 10'000
 
 std::vector<std::string> mount_names(const Car& car) {
     std::vector<std::string> names;
-    for (const auto& [name, position] : car.mounts)
-        names.push_back(name);
+    for (const LampMount& mount : car.mounts)
+        names.push_back(mount.name);
     return names;
 }
 
-glm::dvec3 mount_position(const Car& car, const std::string& name, const YamlEntry& asked_by) {
-    for (const auto& [mount, position] : car.mounts)
-        if (mount == name)
-            return position;
+const LampMount& mount_named(const Car& car, const std::string& name, const YamlEntry& asked_by) {
+    for (const LampMount& mount : car.mounts)
+        if (mount.name == name)
+            return mount;
     const std::vector<std::string> known = mount_names(car);
     const std::string near = nearest_name(name, known);
     asked_by.refuse(fmt::format("no mount '{}' on the car", name),
@@ -33,19 +33,29 @@ glm::dvec3 mount_position(const Car& car, const std::string& name, const YamlEnt
                                  : fmt::format("position_m, or mount: one of {} (nearest: '{}')", fmt::join(known, ", "), near));
 }
 
-glm::dvec3 lamp_position(const std::string& name, const Layers& layers, const Car& car, const YamlEntry& asked_by) {
-    const auto position = find_in(layers, "position_m"), mount = find_in(layers, "mount");
+LampMount place_of_lamp(const std::string& name, const Layers& layers, const Car& car, const YamlEntry& asked_by) {
+    const auto position = find_in(layers, "position_m"), mount = find_in(layers, "mount"), turn = find_in(layers, "mount_turn");
     if (position && mount)
         mount->refuse("mount beside position_m", "one of them");
-    if (position)
-        return read_position(*position);
-    return mount ? mount_position(car, mount->name(), *mount) : mount_position(car, name, asked_by);
+    if (turn && !position)
+        turn->refuse("mount_turn without position_m", "position_m beside it; mounts are turned where they are given");
+    if (!position)
+        return mount ? mount_named(car, mount->name(), *mount) : mount_named(car, name, asked_by);
+    LampMount place{name, read_position(*position), {}};
+    if (turn) {
+        const YamlMap keys = turn->map({"yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad"});
+        place.turn = {keys.angle_rad("yaw", 360.0).value_or(0.0), keys.angle_rad("pitch", 90.0).value_or(0.0),
+                      keys.angle_rad("roll", 360.0).value_or(0.0)};
+    }
+    return place;
 }
 
 MountedLamp build_lamp(const std::string& name, const Layers& layers, const Car& car, LampShelf& shelf, const YamlEntry& asked_by) {
     MountedLamp lamp;
     lamp.name = name;
-    lamp.position_m = lamp_position(name, layers, car, asked_by);
+    const LampMount place = place_of_lamp(name, layers, car, asked_by);
+    lamp.position_m = place.position_m;
+    lamp.mount = place.turn;
     lamp.file = read_lamp_keys(layers, shelf);
     if (!lamp.file)
         asked_by.refuse("a lamp without a file", "file, in the lamp or in its variant");
@@ -76,8 +86,9 @@ MountedLamp read_mounted_lamp(const std::string& name, const YamlEntry& entry, c
         with_file.members.push_back({"file", entry.value().line, entry.value().column, entry.value()});
         return read_mounted_lamp(name, YamlEntry(with_file, entry.file(), entry.key_path()), variant, car, shelf);
     }
-    Layers layers{entry.map({"file", "mount", "position_m", "aim", "level", "voltage_v", "reference_voltage_v", "source", "temperature_k",
-                             "spectrum", "colour", "photometric_distance_m", "between_samples", "type_c_axis", "texture", "mirrored"})};
+    Layers layers{entry.map({"file", "mount", "position_m", "mount_turn", "aim", "level", "voltage_v", "reference_voltage_v", "source",
+                             "temperature_k", "spectrum", "colour", "photometric_distance_m", "between_samples", "type_c_axis", "texture",
+                             "mirrored"})};
     layers.insert(layers.end(), variant.begin(), variant.end());
     return build_lamp(name, layers, car, shelf, entry);
 }
@@ -157,8 +168,9 @@ Variant read_variant(const std::string& name, const YamlMap& keys, const Car& ca
     if (const auto lamps = keys.find("lamps"))
         variant.lamps = read_lamps(*lamps, {keys}, car, shelf);
     else
-        for (const auto& [mount, position] : car.mounts)
-            variant.lamps.push_back(build_lamp(mount, {keys}, car, shelf, keys.entry()));
+        for (const LampMount& mount : car.mounts)
+            if (mount.usual)
+                variant.lamps.push_back(build_lamp(mount.name, {keys}, car, shelf, keys.entry()));
     return variant;
 }
 
@@ -174,18 +186,30 @@ Variant read_lamp_set(const std::string& name, const YamlMap& keys, const Car& c
 Car read_car(const YamlMap& drive) {
     Car car;
     // A compact car: lamps 1.2 m apart, 0.65 m above the road, 0.2 m behind the bumper.
-    car.mounts = {{"left", {3.4, 0.6, 0.65}}, {"right", {3.4, -0.6, 0.65}}};
+    car.mounts = {{"left", {3.4, 0.6, 0.65}, {}}, {"right", {3.4, -0.6, 0.65}, {}}};
     const auto given = drive.find("car");
     if (!given)
         return car;
-    const YamlMap keys = given->map({"bumper_x_m", "wheelbase_m", "mounts", "lamps"});
+    const YamlMap keys = given->map({"bumper_x_m", "wheelbase_m", "model", "yaw_deg", "yaw_rad", "scale", "mounts", "lamps"});
+    car.model = read_car_model(keys);
+    if (car.model) {
+        car.bumper_m = turned_box_m(*car.model).second.x;
+        if (std::vector<LampMount> own = lamp_mounts(turned_mounts(*car.model->model, car.model->yaw_rad, car.model->scale));
+            std::ranges::any_of(own, &LampMount::usual))
+            car.mounts = std::move(own);
+        else
+            car.mounts.insert(car.mounts.end(), own.begin(), own.end());
+    }
     car.bumper_m = keys.number_or("bumper_x_m", car.bumper_m, -20.0, 20.0);
     car.wheelbase_m = keys.number_or("wheelbase_m", car.wheelbase_m, 0.5, 20.0);
     car.lamps = keys.find("lamps");
     if (const auto mounts = keys.find("mounts")) {
-        car.mounts.clear();
-        for (const auto& [name, position] : mounts->named(most_lamps))
-            car.mounts.emplace_back(name, read_position(position));
+        if (!car.model)
+            car.mounts.clear();
+        for (const auto& [name, place] : mounts->named(most_lamps)) {
+            std::erase_if(car.mounts, [&](const LampMount& mount) { return mount.name == name; });
+            car.mounts.push_back(read_lamp_mount(name, place));
+        }
     }
     return car;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/drives/drive.h"
+#include "scenarios/drives/lamp_mounts.h"
 #include "scenarios/drives/yaml_entry.h"
 
 #include <map>
@@ -30,8 +31,9 @@ void check_file(const std::filesystem::path& path, const YamlEntry& asked_by);
 
 struct Car {
     double bumper_m = 3.6, wheelbase_m = 2.7;
-    std::vector<std::pair<std::string, glm::dvec3>> mounts; ///< places for lamps, in the car's frame
-    std::optional<YamlEntry> lamps;                         ///< `car.lamps`: the one lamp set of a drive without variants
+    std::optional<PlacedModel> model; ///< the car's body and, where `mounts` does not name them, its lamps' places
+    std::vector<LampMount> mounts;
+    std::optional<YamlEntry> lamps; ///< `car.lamps`: the one lamp set of a drive without variants
 };
 
 /// `lamps`, or one lamp on each mount with the `file` of `keys`; then their `changes`, sorted by time.

@@ -106,6 +106,8 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     add_street_lamps(drive, route, street_lamps_within_m, moment);
     if (drive.replay)
         replay(*drive.replay, variant.name, moment);
+    if (drive.own_car)
+        moment.bodies.push_back({"own car", moment.ego, true, moment.speed_mps, true});
     return moment;
 }
 

@@ -22,6 +22,7 @@ struct Body {
     Pose pose;
     bool visible = true;
     double speed_mps = 0.0;
+    bool own = false; ///< the own car's: behind all others
 };
 
 struct Moment {
@@ -32,7 +33,7 @@ struct Moment {
     Pose ego;                         ///< the car's frame in the world: on the road's surface under the rear axle
     std::vector<LitLamp> lamps;       ///< of the own car
     std::vector<LitLamp> other_lamps; ///< of other road users and along the road; all shine
-    std::vector<Body> bodies;         ///< other road users, as in Drive::traffic
+    std::vector<Body> bodies;         ///< other road users, as in Drive::traffic; then the own car where it has a body
     double least_traffic_lx = 0.05;   ///< light of other_lamps fainter than this is left out (Drive)
     Daylight daylight;
     Weather weather;

@@ -9,7 +9,7 @@ namespace fernlicht {
 namespace {
 
 constexpr std::size_t most_models = 10'000, most_triangles = 8'000'000;
-constexpr double farthest_m = 1.0e7;
+constexpr double farthest_place_m = 1.0e7;
 
 void read_place(PlacedModel& placed, const YamlMap& keys) {
     const auto place = keys.one_of({"position_m", "along"});
@@ -18,10 +18,10 @@ void read_place(PlacedModel& placed, const YamlMap& keys) {
     placed.along_route = place->first == "along";
     if (placed.along_route) {
         const YamlMap along = place->second.map({"distance_m", "left_m", "above_m"});
-        placed.position_m = {along.require("distance_m").number(0.0, farthest_m), along.number_or("left_m", 0.0, -2000.0, 2000.0),
+        placed.position_m = {along.require("distance_m").number(0.0, farthest_place_m), along.number_or("left_m", 0.0, -2000.0, 2000.0),
                              along.number_or("above_m", 0.0, -2000.0, 2000.0)};
     } else {
-        const std::vector<double> xyz = place->second.numbers(3, 3, -farthest_m, farthest_m);
+        const std::vector<double> xyz = place->second.numbers(3, 3, -farthest_place_m, farthest_place_m);
         placed.position_m = {xyz[0], xyz[1], xyz[2]};
     }
     placed.yaw_rad = keys.angle_rad("yaw", 360.0).value_or(0.0);

@@ -3,7 +3,9 @@
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/models/model.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 namespace fernlicht {
 namespace {
@@ -40,19 +42,16 @@ void read_place(const YamlMap& keys, TrafficRow& row) {
 /// Lamps of cars stand on its front corners, those of what is narrow in the middle.
 Car front_of(const TrafficRow& row) {
     const glm::dvec3 size = row.size_m.value_or(usual_size_m(row.kind));
-    const double x = usual_rear_m(row.kind) * size.x / usual_size_m(row.kind).x + size.x - 0.2;
+    const double x = row.rear_m.value_or(usual_rear_m(row.kind) * size.x / usual_size_m(row.kind).x) + size.x - 0.2;
     const double z = std::min(row.kind == RoadUserKind::truck || row.kind == RoadUserKind::bus ? 0.9 : 0.65, 0.6 * size.z);
     Car car;
-    if (!row.model.empty()) // where the model has its low beams
-        for (const Mount& mount : read_model(row.model).mounts)
-            if (const std::string low = "lamp.low."; mount.name.starts_with(low))
-                car.mounts.emplace_back(mount.name.substr(low.size()), mount.pose.position_m);
-    if (!car.mounts.empty())
+    car.mounts = lamp_mounts(row.mounts);
+    if (std::ranges::any_of(car.mounts, &LampMount::usual))
         return car;
     if (size.y < 1.0)
-        car.mounts = {{"left", {x, 0.0, 0.75}}};
+        car.mounts.push_back({"left", {x, 0.0, 0.75}, {}});
     else
-        car.mounts = {{"left", {x, 0.5 * size.y - 0.3, z}}, {"right", {x, 0.3 - 0.5 * size.y, z}}};
+        car.mounts.insert(car.mounts.end(), {{"left", {x, 0.5 * size.y - 0.3, z}, {}}, {"right", {x, 0.3 - 0.5 * size.y, z}, {}}});
     return car;
 }
 
@@ -60,6 +59,9 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& 
     const YamlMap keys = entry.map({"kind",
                                     "size_m",
                                     "model",
+                                    "yaw_deg",
+                                    "yaw_rad",
+                                    "scale",
                                     "oncoming",
                                     "ahead",
                                     "lane",
@@ -95,9 +97,15 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& 
         const std::vector<double> m = size->numbers(3, 3, 0.1, 50.0);
         row.size_m = {m[0], m[1], m[2]};
     }
-    if (const auto model = keys.find("model")) {
-        row.model = model->path();
-        check_file(row.model, *model);
+    if (const auto model = read_car_model(keys)) {
+        row.model = model->file;
+        row.model_yaw_rad = model->yaw_rad;
+        row.model_scale = model->scale;
+        row.mounts = turned_mounts(*model->model, model->yaw_rad, model->scale);
+        const auto [low, high] = turned_box_m(*model);
+        row.rear_m = low.x;
+        if (!row.size_m)
+            row.size_m = glm::clamp(high - low, glm::dvec3(0.1), glm::dvec3(50.0));
     }
     read_place(keys, row);
     if (row.place != TrafficPlace::storyboard)

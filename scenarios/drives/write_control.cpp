@@ -147,6 +147,11 @@ std::string write_control(const Drive& drive, const Variant& variant) {
         text += glare_free_lines(*control.glare_free);
     text += plugin_lines(control.plugins);
     text += fmt::format("      safe_pitch_rad: {}\n", control.safe_pitch_rad);
+    if (const auto& stuck = control.stuck_swivel)
+        text += fmt::format("      stuck_swivel: {{off_rad: {}, after_s: {}, pitch_rad: {}, level: {}}}\n", stuck->off_rad, stuck->after_s,
+                            stuck->pitch_rad, stuck->level);
+    else
+        text += "      stuck_swivel: none\n";
     text += failure_lines(control.failures);
     text += input_lines(control.inputs);
     return text;

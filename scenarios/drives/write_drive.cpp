@@ -94,6 +94,8 @@ void write_lamp_keys(Lines& out, const Drive& drive, const MountedLamp& lamp) {
     out.add(3, "{}:", quoted(lamp.name));
     write_file_keys(out, 4, drive, lamp.file);
     out.add(4, "position_m: {}", flow_list(lamp.position_m));
+    if (const Turn& m = lamp.mount; m != Turn{})
+        out.add(4, "mount_turn: {{{}, {}, {}}}", angle("yaw", m.yaw_rad), angle("pitch", m.pitch_rad), angle("roll", m.roll_rad));
     out.add(4, "aim: {{{}, {}, {}}}", angle("pitch", lamp.pitch_rad), angle("yaw", lamp.yaw_rad), angle("roll", lamp.roll_rad));
     out.add(4, "level: {}", lamp.level);
     out.add(4, "source: {}", word(lamp.source));
@@ -233,6 +235,10 @@ void write_traffic(Lines& out, const Drive& drive) {
             out.add(2, "size_m: {}", flow_list(*row.size_m));
         if (!row.model.empty())
             out.add(2, "model: {}", quoted(row.model.string()));
+        if (row.model_yaw_rad != 0.0)
+            out.add(2, "{}", angle("yaw", row.model_yaw_rad));
+        if (row.model_scale != 1.0)
+            out.add(2, "scale: {}", row.model_scale);
         out.add(2, "{}", traffic_place(row));
         if (row.place != TrafficPlace::storyboard)
             out.add(2, "speed:");
@@ -366,7 +372,10 @@ std::string write_drive(const Drive& drive) {
     write_time(out, drive);
     write_sky(out, drive);
     write_street_lamps(out, drive);
-    out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}}}", drive.bumper_m, drive.wheelbase_m);
+    const std::string body = drive.own_car ? fmt::format(", model: {}, {}, scale: {}", quoted(drive.own_car->file.string()),
+                                                         angle("yaw", drive.own_car->yaw_rad), drive.own_car->scale)
+                                           : "";
+    out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}{}}}", drive.bumper_m, drive.wheelbase_m, body);
     if (drive.vehicle)
         write_vehicle(out, *drive.vehicle);
     write_variants(out, drive);

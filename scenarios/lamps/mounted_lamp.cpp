@@ -4,6 +4,19 @@
 
 namespace fernlicht {
 
+Turn turn_of(const glm::dmat3& axes) {
+    constexpr double least = 1e-9;
+    const glm::dvec3 &forward = axes[0], &left = axes[1], &up = axes[2];
+    const double level = std::hypot(forward.x, forward.y);
+    const auto angle = [](double sine, double cosine) {
+        const double rad = std::atan2(sine, cosine);
+        return std::abs(rad) < least ? 0.0 : rad;
+    };
+    if (level < least)
+        return {0.0, angle(forward.z, level), angle(-up.y, left.y)};
+    return {angle(forward.y, forward.x), angle(forward.z, level), angle(left.z, up.z)};
+}
+
 double MountedLamp::intensity_factor() const {
     // Luminous flux of a filament goes with the 3.4th power of its voltage near the rated one (law of the lamp makers, within
     // about 10 % of the rated voltage); the ballast of an arc and the driver of a LED keep their current.

@@ -24,6 +24,18 @@ LampColour colour_of_temperature(double kelvin);
 /// CSV with wavelength in nm and relative power per line. Throws InputError.
 LampColour read_spectrum(const std::filesystem::path& path, FilesRead& opened);
 
+/// Yaw, pitch, roll as axes_from_angles has them.
+struct Turn {
+    double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
+
+    glm::dmat3 axes() const { return axes_from_angles(yaw_rad, pitch_rad, roll_rad); }
+    /// What is turned by `inner` within what is turned so. Not turned at all, `inner` to the bit.
+    glm::dmat3 axes_with(const glm::dmat3& inner) const { return *this == Turn{} ? inner : axes() * inner; }
+    bool operator==(const Turn&) const = default;
+};
+/// The angles that give these axes; what is off by less than 1e-9 is not turned. Looking straight up or down, yaw 0.
+Turn turn_of(const glm::dmat3& axes);
+
 struct MountedLamp {
     std::string name; ///< "left", "right", "high-left" ...
     std::shared_ptr<const LampFile> file;
@@ -35,8 +47,9 @@ struct MountedLamp {
     SourceKind source = SourceKind::filament;
     LampColour colour;
     double photometric_distance_m = 0.0; ///< nearer than this the point-source equation is marked near-field
+    Turn mount;                          ///< how its place on the car is turned; the aim turns it further
 
-    Pose pose() const { return {position_m, axes_from_angles(yaw_rad, pitch_rad, roll_rad)}; }
+    Pose pose() const { return {position_m, mount.axes_with(axes_from_angles(yaw_rad, pitch_rad, roll_rad))}; }
     /// level times the supply's factor: (U / U_ref)^3.4 for filament lamps between 12.0 and 13.8 V (law of filament lamps' flux), 1 for arc
     /// and LED.
     double intensity_factor() const;

@@ -50,6 +50,7 @@ std::vector<Material> body_materials(const glm::vec3& paint) {
     reflector.retro_rl = 0.3F / 25.0e-4F;
     reflector.retro_reference_rad = plate.retro_reference_rad;
     reflector.retro_falloff_rad = static_cast<float>(radians(1.5 - 20.0 / 60.0) / std::log(60.0));
+    reflector.retro_rgb = {1.0F, 0.0F, 0.0F}; // the display's red; UN R3's reaches further out than sRGB
     return all;
 }
 

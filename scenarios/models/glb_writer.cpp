@@ -79,7 +79,8 @@ class GlbWriting {
         if (material.retro_rl > 0.0F)
             entry["extras"] = {{"retro_rl", material.retro_rl},
                                {"retro_reference_rad", material.retro_reference_rad},
-                               {"retro_falloff_rad", material.retro_falloff_rad}};
+                               {"retro_falloff_rad", material.retro_falloff_rad},
+                               {"retro_rgb", {material.retro_rgb.r, material.retro_rgb.g, material.retro_rgb.b}}};
         json_["materials"].push_back(std::move(entry));
     }
 

@@ -30,6 +30,8 @@ nlohmann::json parsed(const std::string& text, const std::filesystem::path& path
         const std::size_t at = std::min(error.byte, text.size());
         const auto line = static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
         throw InputError({path, line, 0, {}}, fmt::format("no JSON at byte {}", at), "a glTF model");
+    } catch (const nlohmann::json::out_of_range&) { // 1e999
+        throw InputError({path, 0, 0, {}}, "found a number beyond what a double holds", "a glTF model");
     }
 }
 

@@ -37,6 +37,14 @@ void read_retroreflection(const GltfEntry& extras, Material& material) {
     material.retro_rl = static_cast<float>(std::clamp(extras.number_or("retro_rl", 0.0), 0.0, 1e4));
     material.retro_reference_rad = angle("retro_reference_rad", material.retro_reference_rad);
     material.retro_falloff_rad = angle("retro_falloff_rad", material.retro_falloff_rad);
+    if (const auto colour = extras.find("retro_rgb")) {
+        const std::vector<double> rgb = colour->numbers(3);
+        if (*std::ranges::min_element(rgb) < 0.0 || !(*std::ranges::max_element(rgb) > 0.0) || *std::ranges::max_element(rgb) > 1.0)
+            colour->refuse(fmt::format("[{}, {}, {}]", rgb[0], rgb[1], rgb[2]), "three shares from 0 to 1, not all 0");
+        material.retro_rgb = {rgb[0], rgb[1], rgb[2]};
+    } else if (material.albedo != glm::vec3(0.0F)) {
+        material.retro_rgb = material.albedo; // coloured sheeting returns what its colour lets through
+    }
 }
 
 } // namespace

@@ -46,14 +46,14 @@ struct Step { ///< heights right and left of a border
     double right_h_m = 0.0, left_h_m = 0.0;
 };
 
-struct Heights {
+struct RowHeights {
     std::size_t first = 0, last = 0; ///< borders from the right edge to the left
     std::vector<Step> at;
 };
 
-/// Heights of a cross-section at the borders that it spans.
-Heights heights_over(const std::vector<double>& borders, const std::vector<Strip>& strips) {
-    Heights out;
+/// RowHeights of a cross-section at the borders that it spans.
+RowHeights heights_over(const std::vector<double>& borders, const std::vector<Strip>& strips) {
+    RowHeights out;
     out.at.resize(borders.size());
     if (strips.empty())
         return out;
@@ -143,7 +143,7 @@ Row make_row(const RoadNetwork& network, const Road& road, double s_m, const std
         point.pose.position_m += h * point.pose.up();
         row.points.push_back(point);
     };
-    const Heights old_heights = heights_over(borders, before), new_heights = heights_over(borders, after);
+    const RowHeights old_heights = heights_over(borders, before), new_heights = heights_over(borders, after);
     for (std::size_t k = 0; k < borders.size(); ++k) {
         const bool in_new = !after.empty() && k >= new_heights.first && k <= new_heights.last;
         const bool in_old = !before.empty() && k >= old_heights.first && k <= old_heights.last;

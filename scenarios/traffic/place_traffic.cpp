@@ -84,6 +84,23 @@ std::vector<LampChange> brake_changes(const std::vector<SpeedPoint>& speed) {
     return changes;
 }
 
+/// Tail and brake lamps of a model where it has them: "tail-left" at "lamp.tail.left", or at "lamp.tail.centre". They look along the mount.
+void put_on_mounts(std::vector<TrafficLamp>& lamps, const std::vector<Mount>& mounts) {
+    for (TrafficLamp& rear : lamps) {
+        const std::string& name = rear.lamp.name; // FUNCTION-SIDE
+        const std::size_t dash = name.find('-');
+        const std::string function = "lamp." + name.substr(0, dash) + '.';
+        auto mount = std::ranges::find(mounts, function + name.substr(dash + 1), &Mount::name);
+        if (mount == mounts.end())
+            mount = std::ranges::find(mounts, function + "centre", &Mount::name);
+        if (mount == mounts.end())
+            continue;
+        rear.lamp.position_m = mount->pose.position_m;
+        rear.lamp.yaw_rad = 0.0;
+        rear.lamp.mount = turn_of(mount->pose.axes);
+    }
+}
+
 } // namespace
 
 RoadUser road_user_of(const TrafficRow& row, int number) {
@@ -91,11 +108,15 @@ RoadUser road_user_of(const TrafficRow& row, int number) {
     user.name = row.count == 1 ? row.name : fmt::format("{}-{}", row.name, number + 1);
     user.kind = row.kind;
     user.model = row.model;
+    user.model_yaw_rad = row.model_yaw_rad;
+    user.model_scale = row.model_scale;
     user.size_m = row.size_m.value_or(usual_size_m(row.kind));
-    user.rear_m = usual_rear_m(row.kind) * user.size_m.x / usual_size_m(row.kind).x;
+    user.rear_m = row.rear_m.value_or(usual_rear_m(row.kind) * user.size_m.x / usual_size_m(row.kind).x);
     for (const MountedLamp& lamp : row.lamps)
         user.lamps.push_back({lamp, function_of(lamp.name), row.face_m});
-    std::ranges::move(rear_lamps(user.size_m, user.rear_m, row.tail_cd, row.brake_cd), std::back_inserter(user.lamps));
+    std::vector<TrafficLamp> rear = rear_lamps(user.size_m, user.rear_m, row.tail_cd, row.brake_cd);
+    put_on_mounts(rear, row.mounts);
+    std::ranges::move(rear, std::back_inserter(user.lamps));
     user.changes = row.changes;
     std::ranges::move(brake_changes(row.speed), std::back_inserter(user.changes));
     std::ranges::stable_sort(user.changes, {}, &LampChange::time_s);

@@ -25,6 +25,7 @@ struct RoadUser {
     glm::dvec3 size_m{4.5, 1.8, 1.45}; ///< length, width, height
     double rear_m = -0.9;              ///< x of its rear end in its frame
     std::filesystem::path model;       ///< "": a body of our own by kind and size
+    double model_yaw_rad = 0.0, model_scale = 1.0;
     std::vector<TrafficLamp> lamps;
     std::vector<LampChange> changes; ///< of its lamps by name, by time
     std::shared_ptr<const Track> track;

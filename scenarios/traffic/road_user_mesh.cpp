@@ -50,7 +50,7 @@ using Look = std::tuple<std::string, RoadUserKind, double, double, double, doubl
 Look look_of(const RoadUser& user) {
     return {user.model.string(), user.kind, user.size_m.x, user.size_m.y, user.size_m.z, user.rear_m, paint_of(user.name)};
 }
-Look look_of_file(const RoadUser& user) { return {user.model.string(), {}, 0.0, 0.0, 0.0, 0.0, 0}; }
+Look look_of_file(const RoadUser& user) { return {user.model.string(), {}, user.model_yaw_rad, user.model_scale, 0.0, 0.0, 0}; }
 
 } // namespace
 
@@ -67,7 +67,7 @@ void add_road_users(Scene& scene, std::span<const RoadUser> users, FilesRead& op
         } else {
             const Model model = users[i].model.empty() ? body_of(users[i]) : read_model(users[i].model);
             opened.insert(opened.end(), model.opened.begin(), model.opened.end());
-            add_model(scene, model, {}, 1.0, SurfaceKind::vehicle);
+            add_model(scene, model, {{}, axes_from_angles(users[i].model_yaw_rad, 0.0, 0.0)}, users[i].model_scale, SurfaceKind::vehicle);
             known.emplace(look, std::pair(before, scene.meshes.size()));
         }
         for (std::size_t k = before; k < scene.meshes.size(); ++k) {

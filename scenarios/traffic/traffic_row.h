@@ -1,6 +1,7 @@
 // Road users as a drive file asks for them: by a place on the road and a speed, alone or in a row.
 #pragma once
 
+#include "scenarios/models/model.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/traffic/road_user.h"
 
@@ -22,8 +23,11 @@ enum class TrafficPlace { ahead, oncoming, lane, storyboard };
 struct TrafficRow {
     std::string name;
     RoadUserKind kind = RoadUserKind::car;
-    std::optional<glm::dvec3> size_m; ///< nullopt: the kind's usual size
-    std::filesystem::path model;      ///< glTF; "": a body of our own
+    std::optional<glm::dvec3> size_m;              ///< nullopt: the kind's usual size
+    std::filesystem::path model;                   ///< glTF; "": a body of our own
+    double model_yaw_rad = 0.0, model_scale = 1.0; ///< how the file's model is turned and scaled
+    std::vector<Mount> mounts;                     ///< the model's, so turned and scaled; not part of the file
+    std::optional<double> rear_m;                  ///< x of the model's rear end; nullopt: the kind's usual; not part of the file
     TrafficPlace place = TrafficPlace::oncoming;
     double gap_m = 0.0;                ///< ahead and oncoming; may be negative for ahead: behind
     Route::Start start;                ///< lane only

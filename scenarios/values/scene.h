@@ -51,6 +51,8 @@ struct Material {
     /// out.
     float mirror = 0.0F;
     float glass_index = 0.0F; ///< refractive index against air, >= 1, of a closed body without albedo; 0: opaque. By rays alone, too
+    /// Colour that the retroreflected part has in white light, linear sRGB, each >= 0, not all 0; its size says nothing (retro_tint.h).
+    glm::vec3 retro_rgb{1.0F};
 
     bool operator==(const Material&) const = default;
 };
@@ -76,7 +78,8 @@ struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Batch> batches;
-    int body = -1; ///< -1: stands in the world; else in the frame of Moment::bodies[body], with its origin, and moves with it
+    int body = -1;     ///< -1: stands in the world; else in the frame of Moment::bodies[body], with its origin, and moves with it
+    bool casts = true; ///< false: stands in no light's way
 };
 
 struct Scene {

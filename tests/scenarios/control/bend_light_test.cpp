@@ -1,6 +1,7 @@
 #include "scenarios/control/control_run.h"
 #include "scenarios/values/pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -87,11 +88,58 @@ TEST(BendLight, LostSignalGoesStraightAheadAndComesBack) {
 TEST(BendLight, StuckSwivelStaysWhereItIs) {
     ControlParameters control = bend_light(BendLaw::yaw_rate);
     control.failures = {{ControlFailure::Kind::stuck_swivel, 1.0, 6.0, "left"}};
+    control.stuck_swivel = std::nullopt;
     const ControlRun run =
         run_control(control, two_lamps, car, [](double t) { return circle(t, 20.0, t < 1.5 ? 150.0 : -150.0); }, {8.0, 0.1});
     EXPECT_NEAR(run.swivel_rad(0, 5.9), 0.1, 1e-9);
     EXPECT_NEAR(run.swivel_rad(1, 5.9), -0.1, 1e-6);
     EXPECT_NEAR(run.swivel_rad(0, 7.9), -0.1, 1e-6);
+}
+
+/// Left, into a left bend, the lamp jams; then the bend goes right. Within the filter's and the diagnosis' time the other looks straight
+/// ahead, and the stuck lamp goes down, or dims where nothing levels it.
+TEST(BendLight, AStuckSwivelIsFoundAndMadeSafe) {
+    ControlParameters control = bend_light(BendLaw::yaw_rate);
+    control.failures = {{ControlFailure::Kind::stuck_swivel, 1.0, 6.0, "left"}};
+    const auto run_of = [](const ControlParameters& with, double radius_m = -150.0) {
+        return run_control(with, two_lamps, car, [=](double t) { return circle(t, 20.0, t < 1.5 ? 150.0 : radius_m); }, {8.0, 0.1});
+    };
+    const ControlRun dimmed = run_of(control);
+    EXPECT_NEAR(dimmed.swivel_rad(0, 5.9), 0.1, 1e-9);
+    EXPECT_EQ(dimmed.level(0, 1.9), 1.0) << "not before it was off for half a second";
+    EXPECT_EQ(dimmed.level(0, 2.3), 0.3);
+    EXPECT_EQ(dimmed.level(1, 5.9), 1.0);
+    EXPECT_NEAR(dimmed.swivel_rad(1, 5.9), 0.0, 1e-4) << "straight ahead, in a bend";
+    EXPECT_NEAR(dimmed.swivel_rad(0, 7.9), 0.0, 1e-4) << "freed it goes straight ahead";
+    EXPECT_EQ(dimmed.level(0, 7.9), 1.0) << "and need not be dim";
+    EXPECT_NEAR(dimmed.swivel_rad(1, 7.9), 0.0, 1e-4) << "nobody trusts it again";
+
+    control.levelling = LevellingParameters{};
+    const ControlRun lowered = run_of(control);
+    EXPECT_NEAR(lowered.pitch_rad(0, 5.9), -0.0262, 1e-5);
+    EXPECT_NEAR(lowered.pitch_rad(1, 5.9), 0.0, 1e-9);
+    EXPECT_EQ(lowered.level(0, 5.9), 1.0);
+
+    const ControlRun as_asked = run_of(control, 150.0);
+    EXPECT_NEAR(as_asked.pitch_rad(0, 5.9), 0.0, 1e-9) << "stuck where it is wanted nothing tells";
+    EXPECT_NEAR(as_asked.swivel_rad(1, 5.9), 0.1, 1e-6);
+}
+
+/// The quickest that the law asks for, against the actuator's rate limit: it lags by many degrees and is not stuck. Nor at its stop.
+TEST(BendLight, AHealthySwivelIsNeverFoundStuck) {
+    ControlParameters control = bend_light(BendLaw::yaw_rate);
+    control.bend->filter_s = 0.0;
+    control.bend->actuator.rate_limit_rad_s = 0.05;
+    const auto weaving = [](double t) { return circle(t, 30.0, std::fmod(t, 4.0) < 2.0 ? 60.0 : -60.0); };
+    const ControlRun run = run_control(control, two_lamps, car, weaving, {20.0, 0.1});
+    const std::size_t stuck = std::size_t{signal::count} + std::size_t{lamp_signal::swivel_stuck};
+    double least = 0.0, most = 0.0;
+    for (const auto& row : run.rows) {
+        EXPECT_EQ(row[stuck], 0.0);
+        least = std::min(least, row[std::size_t{signal::count} + std::size_t{lamp_signal::swivel}]);
+        most = std::max(most, row[std::size_t{signal::count} + std::size_t{lamp_signal::swivel}]);
+    }
+    EXPECT_GT(most - least, 0.08);
 }
 
 TEST(BendLight, ValuesThatNoCarHasAreLostSignals) {

@@ -73,6 +73,7 @@ const std::string everything = R"(    control:
       high_beam: {lamps: [right], oncoming_m: 300}
       glare_free: {windows_deg: {right: [-3, 0, 2.5]}, margin_deg: 1}
       failures: [{at_s: 1, stuck_swivel: left}, {at_s: 0, until_s: 2, lost_signal: road.motorway}]
+      stuck_swivel: {off_deg: 3, after_s: 0.2, pitch_rad: -0.02, level: 0.1}
       inputs: {ego.indicator: [{at_s: 0, value: 1}, {at_s: 1, value: 0}], road.motorway: 1}
 )";
 
@@ -108,6 +109,8 @@ TEST_F(ControlDrive, WhatIsWrongIsRefusedWithTheNearest) {
     EXPECT_THAT(with("{glare_free: {windows_deg: {left: [0, 1]}}}"), HasSubstr("high_beam beside it"));
     EXPECT_THAT(with("{high_beam: {lamps: [left]}, glare_free: {windows_deg: {left: [2, 1]}}}"), HasSubstr("edges that do not ascend"));
     EXPECT_THAT(with("{plugins: [{library: law.so}]}"), HasSubstr("there is no file"));
+    EXPECT_EQ(with("{stuck_swivel: none}"), "not refused");
+    EXPECT_THAT(with("{stuck_swivel: {off_deg: 0}}"), HasSubstr("off_deg above 0"));
     EXPECT_THAT(with("{cornering: {left: [left], again_below_kmh: 50}}"), HasSubstr("a hysteresis upside down"));
     EXPECT_THAT(with("{levelling: {control_period_s: 1}}"), HasSubstr("control.period_s"));
     EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {swivel: true}\ncontrol: {bend: route}\n"), HasSubstr("one of them"));

@@ -1,0 +1,117 @@
+// Lamp control through the program: what the report says of it, the table of signals, a plug-in among the inputs, a swivel that sticks.
+#include "tests/runner/program.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+constexpr const char* small = " --quiet --no-accuracy --resolution 96x72 ";
+
+/// The shipped S-bends at 72 km/h for four seconds. From 150 m a left bend begins, from 250 to 370 m it has a radius of 150 m.
+std::string drive_text(double from_m, const std::string& control) {
+    return fmt::format(R"(fernlicht: 1
+name: bends
+road: "{0}"
+route: {{s_m: {3}}}
+speed_kmh: 72
+rate_hz: 10
+duration_s: 4
+variants:
+  still: {{source: arc, file: "{1}"}}
+  moving: {{source: arc, file: "{1}", control: {2}}}
+measure: {{extent: false}}
+)",
+                       library_file("roads/s-bend.xodr"), library_file("lamps/xenon-low.ies"), control, from_m);
+}
+
+using Table = std::vector<std::map<std::string, std::string>>;
+
+Table table_of(const std::string& csv) {
+    std::istringstream lines(csv);
+    std::vector<std::string> header;
+    Table table;
+    for (std::string line; std::getline(lines, line);) {
+        std::vector<std::string> fields;
+        std::istringstream in(line);
+        for (std::string field; std::getline(in, field, ',');)
+            fields.push_back(field);
+        if (header.empty()) {
+            header = fields;
+            continue;
+        }
+        fields.resize(header.size());
+        for (std::size_t i = 0; i < header.size(); ++i)
+            i == 0 ? table.emplace_back()[header[i]] = fields[i] : table.back()[header[i]] = fields[i];
+    }
+    return table;
+}
+
+struct Ran {
+    Json report;
+    Table signals;
+    std::string page;
+};
+
+class ControlRunTest : public testing::Test {
+  protected:
+    Ran run(double from_m, const std::string& control) {
+        std::ofstream(folder_ / "bends.yaml") << drive_text(from_m, control);
+        const std::string out = folder_ / fmt::format("out{}", ++runs_);
+        const Outcome outcome = run_program("run " + (folder_ / "bends.yaml") + small + "--out " + out);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+        return {Json::parse(content_of(out + "/report.json")), table_of(content_of(out + "/signals-bends-moving.csv")),
+                content_of(out + "/report.html")};
+    }
+    static double reading(const Json& report, const std::string& variant, const std::string& name) {
+        for (const Json& row : report["rows"])
+            if (row["variant"] == variant && row["name"] == name)
+                return row["value"].is_number() ? row["value"].get<double>() : std::nan("");
+        ADD_FAILURE() << "no reading " << name;
+        return 0.0;
+    }
+
+  private:
+    TemporaryFolder folder_;
+    int runs_ = 0;
+};
+
+TEST_F(ControlRunTest, ReportsSwivelAndWhatItIsWorth) {
+    const Ran ran = run(260.0, "{bend: {law: yaw-rate, preview_s: 1.5}}");
+    ASSERT_EQ(ran.signals.size(), 40U) << "one row a moment";
+    double most_rad = 0.0;
+    for (const auto& row : ran.signals)
+        most_rad = std::max(most_rad, std::abs(std::stod(row.at("lamp.left.swivel_rad"))));
+    // 20 m/s over 150 m for 1.5 s: 20 * 1.5 / 300 rad = 5.7 degrees.
+    EXPECT_NEAR(most_rad * 180.0 / 3.14159265, 5.7, 0.3);
+    EXPECT_NEAR(reading(ran.report, "moving", "control_swivel_max_deg"), most_rad * 180.0 / 3.14159265, 0.2);
+    EXPECT_EQ(ran.signals.front().at("ego.speed_mps"), "20");
+    EXPECT_GT(reading(ran.report, "moving", "control_left_bends_inside_at_50m_lx"), 0.0);
+    EXPECT_EQ(reading(ran.report, "still", "control_swivel_max_deg"), 0.0);
+    EXPECT_THAT(ran.page, HasSubstr("Lamps that move"));
+}
+
+TEST_F(ControlRunTest, AStuckSwivelIsFoundAndAPluginIsAnInput) {
+    const Ran ran =
+        run(180.0, fmt::format("{{bend: {{law: yaw-rate, preview_s: 1.5}}, levelling: dynamic, failures: [{{at_s: 0.05, stuck_swivel: "
+                               "left}}], plugins: [{{library: \"{}\", lamps: [right]}}]}}",
+                               std::filesystem::path(FERNLICHT_BINARY).parent_path().string() + "/example_bend_light.so"));
+    EXPECT_EQ(ran.signals.front().at("lamp.left.swivel_stuck"), "0");
+    EXPECT_EQ(ran.signals.back().at("lamp.left.swivel_stuck"), "1");
+    EXPECT_EQ(ran.signals.back().at("lamp.right.swivel_stuck"), "0");
+    EXPECT_NEAR(std::stod(ran.signals.back().at("lamp.right.swivel_rad")), 0.0, 2e-3) << "in a bend, straight ahead";
+    bool library = false;
+    for (const Json& input : ran.report["context"]["inputs"])
+        library = library || input["path"].get<std::string>().find("example_bend_light.so") != std::string::npos;
+    EXPECT_TRUE(library);
+}
+
+} // namespace
+} // namespace fernlicht
