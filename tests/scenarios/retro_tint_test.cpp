@@ -16,17 +16,17 @@ double returned(const Material& material, double kelvin) {
 }
 
 TEST(RetroTint, GreyIsTheLampsOwnColourToTheBit) {
-    Material plate{.retro_rl = 50.0F};
+    Material plate{.name = "plate", .retro_rl = 50.0F};
     EXPECT_EQ(retro_tint(plate), glm::dvec3(1.0));
     plate.retro_rgb = glm::vec3(0.3F);
     EXPECT_EQ(retro_tint(plate), glm::dvec3(1.0));
     EXPECT_FALSE(is_tinted(plate));
-    const Material dull{.retro_rgb = {1.0F, 0.0F, 0.0F}};
+    const Material dull{.name = "dull", .retro_rgb = {1.0F, 0.0F, 0.0F}};
     EXPECT_FALSE(is_tinted(dull)) << "returns nothing";
 }
 
 TEST(RetroTint, LuminanceHoldsInIlluminantAAndFallsInBluerLight) {
-    Material reflector{.retro_rl = 120.0F, .retro_rgb = {1.0F, 0.0F, 0.0F}};
+    Material reflector{.name = "reflector", .retro_rl = 120.0F, .retro_rgb = {1.0F, 0.0F, 0.0F}};
     EXPECT_NEAR(returned(reflector, 2856.0), 1.0, 1e-12);
     EXPECT_LT(returned(reflector, 3200.0), 0.97);
     EXPECT_LT(returned(reflector, 4300.0), 0.85);

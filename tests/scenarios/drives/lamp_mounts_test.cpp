@@ -83,7 +83,8 @@ TEST_F(LampMounts, CanBeNamedAndReplacedInTheDrive) {
     const std::string start = minimal + "car: ";
     EXPECT_THAT(refusal(start + "{yaw_deg: 3}\n"), HasSubstr("expected model beside it"));
     EXPECT_THAT(refusal(start + "{model: none.glb}\n"), HasSubstr("there is no file"));
-    EXPECT_THAT(refusal(start + "{lamps: {left: {file: low.ies, mount_turn: {yaw_deg: 1}}}}\n"),
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\ncar: {lamps: {left: {file: low.ies, mount_turn: "
+                        "{yaw_deg: 1}}}}\n"),
                 HasSubstr("mount_turn without position_m"));
 }
 
@@ -102,10 +103,10 @@ TEST_F(LampMounts, OfOthersTurnAndScaleWithTheirModel) {
     const RoadUser& other = drive.traffic[0];
     EXPECT_NEAR(other.size_m.x, 2.0 * 4.508, 0.05);
     EXPECT_NEAR(other.rear_m, -7.21, 0.03) << "turned round, its front is behind";
-    ASSERT_EQ(other.lamps.size(), 4U);
+    ASSERT_EQ(other.lamps.size(), 6U);
     EXPECT_NEAR(other.lamps[0].lamp.position_m.x, -2.0 * 3.604, 1e-4);
     EXPECT_NEAR(std::abs(deg_left(other.lamps[0].lamp.pose())), 176.0, 1e-4) << "looks back, and squints";
-    for (std::size_t i = 2; i < 4; ++i) { // tail lamps at lamp.tail, which now look forward
+    for (std::size_t i = 2; i < 6; ++i) { // tail and brake lamps at the model's, which now look forward
         EXPECT_GT(other.lamps[i].lamp.position_m.x, 0.0);
         EXPECT_NEAR(other.lamps[i].lamp.pose().forward().x, 1.0, 1e-9);
     }
