@@ -119,7 +119,7 @@ struct ControlFailure {
 /// more than `off_rad` aside, is levelled down to `pitch_rad`, or without levelling dimmed to `level`.
 struct StuckSwivelParameters {
     double off_rad = 0.0349, after_s = 0.5;  ///< 2 degrees from what it is asked for, for so long
-    double pitch_rad = -0.0262, level = 0.3; ///< 1.5 degrees down; times its level
+    double pitch_rad = -0.0262, level = 0.1; ///< 1.5 degrees down; times its level
 
     bool operator==(const StuckSwivelParameters&) const = default;
 };
