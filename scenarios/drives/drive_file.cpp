@@ -85,8 +85,8 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
         drive.road_file = given.path();
         check_file(drive.road_file, given);
     }
-    if (drive.road_file.empty())
-        keys.require("storyboard").refuse("a scenario that names no road", "road: the OpenDRIVE file");
+    if (drive.road_file.empty() && !edits.road)
+        keys.require("storyboard").refuse("a scenario that names no road", "road: the OpenDRIVE file, or --road FILE");
     drive.mirrored_road = keys.flag_or("mirrored_road", drive.mirrored_road);
     read_route(keys, drive);
     read_time(keys, drive);

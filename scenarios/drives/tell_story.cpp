@@ -47,6 +47,23 @@ void take_route(Drive& drive, const osc::PlayedEntity& ego, const RoadNetwork& n
     }
 }
 
+/// A route follows lanes; a story may turn where its lane does not lead. Then the roads from there on are left out of it.
+void keep_to_lanes(Drive& drive, const RoadNetwork& network) {
+    const std::size_t roads = drive.via.size();
+    while (!drive.via.empty()) {
+        try {
+            const Route whole(network, drive.start, drive.via);
+            break;
+        } catch (const InputError&) {
+            drive.via.pop_back();
+        }
+    }
+    if (drive.via.size() < roads)
+        drive.notes.push_back(fmt::format("storyboard: the own car's lane does not lead to the road that it takes after '{}': what is "
+                                          "measured along the lane holds until there",
+                                          printable(drive.via.empty() ? drive.start.road : drive.via.back())));
+}
+
 RoadUserKind kind_of(const osc::Entity& entity) {
     if (entity.kind == osc::EntityKind::pedestrian)
         return RoadUserKind::pedestrian;
@@ -126,6 +143,7 @@ void tell_ego(Drive& drive, const osc::PlayedEntity& ego, const RoadNetwork& net
         throw InputError({drive.storyboard->file, 0, 0, "Storyboard"}, fmt::format("gives '{}' no place", printable(drive.storyboard->ego)),
                          "a TeleportAction in Init for the entity that is the own car");
     take_route(drive, ego, network);
+    keep_to_lanes(drive, network);
     drive.speed = speeds_of(ego, step_s);
     const double end_s = static_cast<double>(ego.samples.size()) * step_s;
     for (Variant& variant : drive.variants) {

@@ -201,5 +201,22 @@ TEST(StoryAlone, IsPlayedWithDefaults) {
     EXPECT_THAT(content_of(folder / "e/alone.yaml"), HasSubstr("ego: \"hero\""));
 }
 
+/// A car that turns where its lane does not lead: real files of others.
+TEST(StoryAlone, PlaysOnWhereItsLaneDoesNotLead) {
+    const std::filesystem::path shared = FERNLICHT_SHARED_DATA;
+    const std::filesystem::path story = shared / "scenarios/esmini__esmini/EnvironmentSimulator/Unittest/xosc/route_lane_change.xosc";
+    if (!std::filesystem::exists(story))
+        GTEST_SKIP() << "no " << story;
+    DriveEdits edits;
+    edits.road_folders = {shared / "roads"};
+    edits.lenient = true;
+    const Stage stage(read_drive(story, edits));
+    EXPECT_THAT(stage.drive.notes, testing::Contains(HasSubstr("does not lead to the road that it takes after '1'")));
+    EXPECT_EQ(stage.network.roads[stage.route.legs().back().road].id, "1");
+    const Moment first = moments_at({0}, stage, stage.drive.variants[0]).front();
+    const Moment later = moments_at({30}, stage, stage.drive.variants[0]).front();
+    EXPECT_GT(later.distance_m, first.distance_m);
+}
+
 } // namespace
 } // namespace fernlicht
