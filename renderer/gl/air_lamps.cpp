@@ -72,9 +72,13 @@ void AirLamps::set(const Moment& moment, const Camera& camera) {
     }
     if (!packed_.empty())
         upload(context_, lamp_buffer_, lamp_room_, packed_);
+    else if (lamp_buffer_ == 0) // for a shader that finds no lamps to look at
+        upload(context_, lamp_buffer_, lamp_room_, std::vector<Packed>(1)), upload(context_, cd_buffer_, cd_room_, std::vector<float>(1));
 }
 
 void AirLamps::bind() const {
+    if (lamp_buffer_ == 0)
+        return;
     context_.gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, lamps_at, lamp_buffer_);
     context_.gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, beams_at, cd_buffer_);
 }

@@ -22,11 +22,10 @@ class AirLamps {
 
     /// Packs the lamps of the moment that the eye may see in the air. None without fog.
     void set(const Moment& moment, const Camera& camera);
-    bool any() const { return !packed_.empty(); }
     int count() const { return static_cast<int>(packed_.size()); }
     std::size_t left_out() const { return left_out_; }
     float least_cdm2() const { return least_cdm2_; }
-    void bind() const;
+    void bind() const; ///< nothing before the first fog
 
   private:
     struct Packed { // std430, as in air_lamps.glsl

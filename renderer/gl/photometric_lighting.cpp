@@ -106,7 +106,7 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     const bool reflects = shot.wanted.colour || shot.wanted.luminance;
     const bool everything = !pruned_ && has_weather(shot.moment);
     f.fog = everything || shot.moment.weather.extinction_per_m > 0.0;
-    f.air_lamps = f.fog && reflects && !shot.camera.is_map && (pruned_ ? air_lamps_.any() : !shot.moment.other_lamps.empty());
+    f.air_lamps = f.fog && reflects && !shot.camera.is_map && !shot.moment.other_lamps.empty(); // though all may be too faint
     f.wet = reflects && (everything || shot.moment.weather.wetness > 0.0);
     f.wanted = bits(shot.wanted);
     f.traffic = traffic || (!pruned_ && !shot.moment.other_lamps.empty());
@@ -223,16 +223,6 @@ void PhotometricLighting::compile(const Features& features, const Shot& shot) {
     list_.draw(call);
 }
 
-/// Lamps of others come into sight and go while a drive is played.
-void PhotometricLighting::compile_with_and_without_air_lamps(Features features, const Shot& shot) {
-    compile(features, shot);
-    const bool reflects = shot.wanted.colour || shot.wanted.luminance;
-    if (!pruned_ || !features.fog || !reflects || shot.camera.is_map || shot.moment.other_lamps.empty())
-        return;
-    features.air_lamps = !features.air_lamps;
-    compile(features, shot);
-}
-
 PhotometricLighting::Features PhotometricLighting::background_features(const Shot& shot) const {
     Features f = features_of(shot, {}, true, false, false, 0);
     f.background = true;
@@ -243,7 +233,7 @@ PhotometricLighting::Features PhotometricLighting::background_features(const Sho
 
 /// In fog the lamps are seen before the sky too.
 void PhotometricLighting::draw_background(const Shot& shot) {
-    if (!fog_before_sky(shot) || (lamps_.empty() && !air_lamps_.any()) || scene_.pieces().empty())
+    if (!fog_before_sky(shot) || (lamps_.empty() && shot.moment.other_lamps.empty()) || scene_.pieces().empty())
         return;
     scene_.bind(0);
     use(variant(background_features(shot), shot.wanted), shot);
@@ -331,8 +321,7 @@ void PhotometricLighting::draw(const Shot& shot) {
     list_.upload();
     if (traffic_.any())
         traffic_.bind();
-    if (air_lamps_.any())
-        air_lamps_.bind();
+    air_lamps_.bind();
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
     for (std::size_t i = 0; i < lamp_beams_.size(); ++i)
         gl.BindTextureUnit(static_cast<GLuint>(i), lamp_beams_[i]->texture);
@@ -379,8 +368,7 @@ void PhotometricLighting::prepare(const Shot& shot) {
         traffic_.bind();
         faces_.compile(shot);
         air_lamps_.set(shot.moment, shot.camera);
-        if (air_lamps_.any())
-            air_lamps_.bind();
+        air_lamps_.bind();
     }
     const int most_sun = sun_needs_ == 0 ? 0 : settings_.shadows && (!scene_.flat() || !pruned_) ? 2 : 1;
     for (const SurfaceClass& surface : scene_.classes())
@@ -389,9 +377,9 @@ void PhotometricLighting::prepare(const Shot& shot) {
               std::tuple(false, false, true), std::tuple(true, false, true), std::tuple(true, true, true)})
             for (int sun = std::min(sun_needs_, 1); sun <= most_sun; ++sun)
                 if (!traffic || others)
-                    compile_with_and_without_air_lamps(features_of(shot, surface, lit, shadowed, traffic, sun), shot);
+                    compile(features_of(shot, surface, lit, shadowed, traffic, sun), shot);
     if (fog_before_sky(shot) && (!lamps_.empty() || others))
-        compile_with_and_without_air_lamps(background_features(shot), shot);
+        compile(background_features(shot), shot);
     context_.check("compiling variants");
 }
 

@@ -56,7 +56,6 @@ class PhotometricLighting : public Lighting {
     const Compiled& variant(const Features& features, const Wanted& wanted);
     void use(const Compiled& v, const Shot& shot) const;
     void compile(const Features& features, const Shot& shot);
-    void compile_with_and_without_air_lamps(Features features, const Shot& shot);
     Features background_features(const Shot& shot) const;
     void draw_background(const Shot& shot);
     void note_what_is_left_out(const Shot& shot, const std::vector<Group>& groups);

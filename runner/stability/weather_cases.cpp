@@ -2,8 +2,10 @@
 #include "runner/stability/trial.h"
 #include "scenarios/fog_light.h"
 #include "scenarios/sky/daylight.h"
+#include "scenarios/sky/weather.h"
 #include "scenarios/wet_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -57,6 +59,95 @@ Found every_day(StabilityBench&) {
                                     at.moon.illuminance_lx >= 0.0 && at.moon.illuminance_lx < 0.4;
                 const double off = std::abs(glm::length(at.sun.towards()) - 1.0) + std::abs(glm::length(at.moon.towards()) - 1.0);
                 worst.add(one && within ? off : infinity, fmt::format("{}-{}, latitude {}", year, 1 + k, latitude_deg));
+            }
+    return worst;
+}
+
+/// Dates far from where the fits were made, at both poles: figures, one light at most, and never more than a day gives.
+Found far_dates(StabilityBench&) {
+    Found worst;
+    for (const int year : {-4712, -2000, 0, 1582, 4000, 9999})
+        for (const double latitude_deg : {-90.0, 0.0, 69.0, 90.0})
+            for (int month = 1; month <= 12; ++month)
+                for (const int hour : {0, 6, 12, 18}) {
+                    Daylight day;
+                    day.clock = SkyClock{year, month, 21, 3600 * hour, 0.0, latitude_deg, 0.0, SkyCover::clear, 0.0};
+                    const Daylight at = daylight_at(day, 0.0);
+                    const bool one = at.sun.illuminance_lx == 0.0 || at.moon.illuminance_lx == 0.0;
+                    const double sky = at.horizontal_illuminance_lx, sun = at.sun.illuminance_lx, moon = at.moon.illuminance_lx;
+                    const bool within = sky > 1e-4 && sky < 60'000.0 && sun >= 0.0 && sun < 110'000.0 && moon >= 0.0 && moon < 0.4;
+                    const double off = std::abs(glm::length(at.sun.towards()) - 1.0) + std::abs(glm::length(at.moon.towards()) - 1.0);
+                    worst.add(one && within ? off : infinity,
+                              fmt::format("year {}, month {}, {} h, latitude {}", year, month, hour, latitude_deg));
+                }
+    return worst;
+}
+
+/// Hours of half a year round midsummer at which the sun is down at 69 degrees north, and of those round midwinter at which it is up; near
+/// the pole the sun's height through a midsummer's day moves by next to nothing.
+Found midnight_sun(StabilityBench&) {
+    Found worst;
+    const auto sun_lx = [](int month, int hour, double latitude_deg) {
+        Daylight day;
+        day.clock = SkyClock{2026, month, 21, 3600 * hour, 0.0, latitude_deg, 0.0, SkyCover::clear, 0.0};
+        return daylight_at(day, 0.0);
+    };
+    int wrong = 0;
+    for (int hour = 0; hour < 24; ++hour) {
+        wrong += sun_lx(6, hour, 69.0).sun.illuminance_lx > 0.0 ? 0 : 1;
+        wrong += sun_lx(12, hour, 69.0).sun.illuminance_lx > 0.0 ? 1 : 0;
+    }
+    worst.add(wrong, "hours at 69 degrees north");
+    double least = infinity, most = 0.0;
+    for (int hour = 0; hour < 24; ++hour) {
+        const double lx = sun_lx(6, hour, 90.0).horizontal_illuminance_lx;
+        least = std::min(least, lx), most = std::max(most, lx);
+    }
+    worst.add(most / least > 1.01 ? infinity : 0.0, "a day at the pole");
+    return worst;
+}
+
+/// Ranges from a millimetre to farther than the Earth is round, lamps in the eye, on it and behind it, own ones and others': nothing but
+/// luminances, and where the air takes all of it, nothing is left.
+Found fog_at_its_ends(StabilityBench& bench) {
+    const Scene scene = road_and_board();
+    Renderer renderer(bench.device(), scene, unshadowed());
+    const glm::dvec3 eye(1.3, 0.35, 1.2);
+    Found worst;
+    for (const double range_m : {1e-3, 1.0, 1e9})
+        for (const bool other : {false, true})
+            for (const auto& [at, yaw] : {std::pair(eye, 0.0), std::pair(eye + glm::dvec3(1e-4, 0.0, 0.0), pi),
+                                          std::pair(eye - glm::dvec3(5.0, 0.0, 0.0), pi), std::pair(eye + glm::dvec3(9.0, 0.0, 0.0), pi)}) {
+                Moment moment;
+                moment.weather.extinction_per_m = extinction_of_range_per_m(range_m);
+                LitLamp one = lamp(cut_off_table(), at, yaw);
+                one.body = other ? -2 : -1;
+                (other ? moment.other_lamps : moment.lamps) = {one};
+                const Frame frame = renderer.draw(moment, ahead(), {.illuminance = true, .luminance = true});
+                double wrong = not_finite(frame) > 0 ? infinity : 0.0;
+                for (const float cdm2 : frame.luminance_cdm2.pixels())
+                    wrong = cdm2 < 0.0F ? infinity : wrong;
+                for (const float lx : frame.illuminance_lx.pixels()) // every surface is more than 0.5 m from eye and lamp: e^-1500
+                    wrong = range_m < 0.01 && lx != 0.0F ? infinity : wrong;
+                worst.add(wrong, fmt::format("range {} m, {} lamp at {} m", range_m, other ? "other's" : "own", at.x));
+            }
+    return worst;
+}
+
+/// Lamps of others in the surface that they light, a nanometre and a millimetre from it, in clear air and fog: numbers in every pixel.
+Found street_lamp_on_the_ground(StabilityBench& bench) {
+    const Scene scene = road_and_board();
+    Renderer renderer(bench.device(), scene, unshadowed());
+    Found worst;
+    for (const double above_m : {0.0, 1e-9, 1e-3, -1e-3})
+        for (const double extinction : {0.0, 0.03})
+            for (const double wetness : {0.0, 1.0}) {
+                Moment moment;
+                moment.weather = {extinction, 1.0, 0.85, wetness};
+                moment.other_lamps = {lamp(constant_table(1350.0), {10.0, 0.35, above_m}, 0.0, -0.5 * pi)};
+                moment.other_lamps[0].body = -2;
+                const Frame frame = renderer.draw(moment, ahead(), everything);
+                worst.add(not_finite(frame) > 0 ? infinity : 0.0, fmt::format("{} m above the road", above_m));
             }
     return worst;
 }
@@ -120,6 +211,15 @@ std::vector<StabilityCase> weather_cases() {
              "of the bound", "float arithmetic over the twin's bound of each pixel", sun_everywhere},
             {"weather", "every-day", "poles, polar night, year ends, dates far from the fits", 1e-12, "of 1",
              "directions are made of sines and cosines, each exact to 1e-16", every_day},
+            {"weather", "far-dates", "years -4712 to 9999, at the poles, the equator and 69 degrees", 1e-12, "of 1",
+             "as every-day: polynomials in time may leave their fits, light may not leave its bounds", far_dates},
+            {"weather", "midnight-sun", "midsummer and midwinter at 69 degrees north; a day at the pole", 0.0, "hours that are wrong",
+             "the sun is up all day or none of it; at the pole a day's sky light stays within 1 %", midnight_sun},
+            {"weather", "fog-at-its-ends", "ranges of 1 mm and 1e9 m; a lamp in the eye, before and behind it, the own and others'", 0.0,
+             "luminances that are no number, or light through a wall of fog",
+             "exp underflows to 0, and rays near a lamp count from 1 mm on", fog_at_its_ends},
+            {"weather", "street-lamp-on-the-ground", "a lamp of others in the surface that it lights: 0/0 in direction and distance", 0.0,
+             "pixels that are not finite", "others' lamps count from 1 mm on", street_lamp_on_the_ground},
             {"weather", "fog-of-all-densities", "extinction 1e-9 to 10 per metre; the eye within the lamp; a lamp ahead", 0.0,
              "luminances that are no number or negative", "none may be, and without lamps and sky the air is black", fog_of_all_densities},
             {"weather", "airlight-in-closed-form", "rays from 1 mm to 1 km past a lamp, 1 mm to 1 km long", 1e-5, "relative",
