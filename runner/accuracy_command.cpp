@@ -40,7 +40,7 @@ std::vector<std::string> diagrams_of(const std::vector<std::string>& lists) {
     for (const std::string& name : asked)
         if (name != "all" && std::ranges::find(known, name) == known.end())
             refuse_flag("--diagrams", name,
-                        "all, techniques, reference, classical, solvers, control, extent, beam, weather, metrics or step");
+                        "all, techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step or traffic");
     return std::ranges::find(asked, "all") != asked.end() ? known : asked;
 }
 
@@ -81,7 +81,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
     sub->add_option(
            "--diagrams", flags->diagrams,
-           "all, or some of techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step; else techniques")
+           "all, or some of techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic; else techniques")
         ->allow_extra_args(false);
     sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
     sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);

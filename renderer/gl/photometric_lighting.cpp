@@ -393,6 +393,14 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
     if (traffic_.left_out() > 0)
         say(fmt::format("lamps of others: {} of {}", traffic_.left_out(), traffic_.units()),
             fmt::format("bring less than {} lx to anything in view", shot.moment.least_traffic_lx));
+    if (const TrafficReport& r = traffic_.report(); r.merged + r.by_vertex + r.point + r.left_out > 0)
+        say(fmt::format(
+                "lamps of others one by one: of {} lights on places of all pictures, {} as one beam for two lamps, {} by vertex, {} as a "
+                "point, {} not at all",
+                r.each + r.merged + r.by_vertex + r.point + r.left_out, r.merged, r.by_vertex, r.point, r.left_out),
+            fmt::format(
+                "by bounds all that is drawn is off by at most {:.2g} lx at any place, all that is left out brings at most {:.2g} lx",
+                r.worst_drawn_lx, r.worst_left_out_lx));
     if (shot.moment.other_lamps.empty())
         say("lamps of others", "there are none");
     if (!settings_.shadows)

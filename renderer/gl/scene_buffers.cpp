@@ -51,6 +51,22 @@ SurfaceClass class_of(const Material& m) {
 
 std::int64_t cell_of(double m) { return static_cast<std::int64_t>(std::floor(m / cell_m)); }
 
+GroundTriangle ground_triangle(const std::array<glm::vec3, 3>& at, const std::array<glm::vec3, 3>& normals) {
+    // The interpolated normal is at least as long as the least cosine to any unit vector, here the corners' mean.
+    const glm::vec3 sum = normals[0] + normals[1] + normals[2];
+    const float sum_length = std::max(glm::length(sum), 1e-3F);
+    float least = 1.0F;
+    for (const glm::vec3& n : normals)
+        least = std::min(least, glm::dot(n, sum) / sum_length);
+    least = std::max(least, 0.05F);
+    GroundTriangle triangle{{at[0], at[1], at[2]}, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::vec3 n = normals[i] / least;
+        triangle.normals[i] = {n, std::min({glm::dot(n, at[0]), glm::dot(n, at[1]), glm::dot(n, at[2])})};
+    }
+    return triangle;
+}
+
 /// The triangles of one class of a mesh, gathered over its batches.
 struct Gathered {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> corners; ///< vertex of the mesh, material
@@ -112,15 +128,19 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             for (std::size_t k = 0; ground && k + 2 < gathered.corners.size(); k += 3) {
                 const auto at = [&](std::size_t i) { return mesh.vertices[gathered.corners[k + i].first].position_m; };
                 const glm::vec3 n = glm::cross(at(1) - at(0), at(2) - at(0));
-                if (const float length = glm::length(n); length > 0.0F)
+                if (const float length = glm::length(n); length > 0.0F) {
                     planes_.emplace_back(n / length, -glm::dot(n / length, at(0)));
+                    ground_.push_back(ground_triangle({at(0), at(1), at(2)}, {mesh.vertices[gathered.corners[k].first].normal,
+                                                                              mesh.vertices[gathered.corners[k + 1].first].normal,
+                                                                              mesh.vertices[gathered.corners[k + 2].first].normal}));
+                }
             }
             piece.planes = planes_.size() - piece.first_plane;
             std::vector<glm::dvec3> places;
             for (const auto& corner : gathered.corners)
                 places.emplace_back(mesh.vertices[corner.first].position_m);
             piece.corners_m = box_round(places);
-            piece.bodies_m = ground ? std::vector{piece.corners_m} : boxes_round_bodies(places);
+            piece.bodies_m = ground || mesh.body >= 0 ? std::vector{piece.corners_m} : boxes_round_bodies(places); // a car is one
             if (std::find(classes_.begin(), classes_.end(), surface) == classes_.end())
                 classes_.push_back(surface);
             const glm::dvec3 centre = piece.origin_m + piece.centre_m;

@@ -46,6 +46,14 @@ struct Piece {
     std::vector<Corners> bodies_m;           ///< what stands on the ground: a box round each body; else the one round all
 };
 
+/// Of the ground, relative to its piece's origin.
+struct GroundTriangle {
+    glm::vec3 corners_m[3];
+    /// For the normal at each corner n, and the least that the interpolated normals' length can be as a divisor: n / length, and the least
+    /// n . place / length over the triangle. With a lamp at L, n . (L - place) / length <= (n / length) . L - that.
+    glm::vec4 normals[3];
+};
+
 /// What goes with a piece that moves or that lamps of others light: the instance's attributes 5 and 6.
 struct PieceExtra {
     glm::vec4 turn{0.0F, 0.0F, 0.0F, 1.0F};
@@ -70,6 +78,8 @@ class SceneBuffers {
     const std::vector<std::uint32_t>& near(const glm::dvec3& ego_m) const;
     /// (unit normal, -normal . vertex) of ground triangles, relative to their piece's origin.
     const std::vector<glm::vec4>& planes() const { return planes_; }
+    /// The same triangles.
+    const std::vector<GroundTriangle>& ground() const { return ground_; }
     /// Each class of the scene once.
     const std::vector<SurfaceClass>& classes() const { return classes_; }
     /// Binds vertices, materials (storage block 1) and textures (unit 15), with the places of the pieces to be drawn and, where it is not
@@ -92,6 +102,7 @@ class SceneBuffers {
     std::vector<Body> bodies_;                             ///< as placed last
     std::uint64_t placed_ = 0;
     std::vector<glm::vec4> planes_;
+    std::vector<GroundTriangle> ground_;
     std::vector<SurfaceClass> classes_;
     std::map<Cell, std::vector<std::uint32_t>> cells_; ///< pieces by where their centre is
     double largest_radius_m_ = 0.0;

@@ -1,17 +1,21 @@
 #include "renderer/gl/traffic_lights.h"
 
 #include "scenarios/light.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <limits>
 
 namespace fernlicht::gl {
 namespace {
 
-constexpr double rounding = 1.001; // what floats on the GPU may be above the bound in double
-constexpr double nearest_m = 0.05; // from a lamp, as far as bounds go
+constexpr double rounding = 1.001;      // what floats on the GPU may be above the bound in double
+constexpr double nearest_m = 0.05;      // from a lamp, as far as bounds go
+constexpr double same_normal = 5e-4;    // two of the ground, in length of their difference
+constexpr double least_height_m = 1e-3; // what floats may be off in a place on the ground
 constexpr double same_axis = 1.0 - 1e-9;
 constexpr std::uint32_t is_ground_bit = 0x80000000U;
 
@@ -23,58 +27,51 @@ bool is_pair(const LitLamp& a, const LitLamp& b) {
            glm::dot(a.pose.up(), b.pose.up()) > same_axis;
 }
 
+std::size_t texel_bytes(GLenum format) { return format == GL_RGBA32F ? 16 : format == GL_RG32F ? 8 : 4; }
+
 /// Sine of the steepest normal's angle from the vertical.
 double lean_of(const Piece& piece) {
     const double up = std::clamp(piece.least_up, 0.0, 1.0);
     return std::sqrt(1.0 - up * up);
 }
 
-/// By samples n to each side: the most of |I(h - n) + I(h + n) - 2 I(h)| over the table, and over all smaller n. The last holds for all
-/// more.
-std::vector<double> merging_error(const BeamTexture& g) {
-    std::vector<double> most(1, 0.0);
-    const auto at = [&](int x, int y) {
-        return x < 0 || x >= g.width
-                   ? 0.0
-                   : static_cast<double>(
-                         g.cd[static_cast<std::size_t>(y) * static_cast<std::size_t>(g.width) + static_cast<std::size_t>(x)]);
-    };
-    for (int n = 1; n <= 32; ++n) {
-        double worst = most.back();
-        for (int y = 0; y < g.height; ++y)
-            for (int x = -n; x < g.width + n; ++x)
-                worst = std::max(worst, std::abs(at(x - n, y) + at(x + n, y) - 2.0 * at(x, y)));
-        most.push_back(worst);
-    }
-    return most;
-}
-
-template <class T> void fill(Context& context, Buffer& buffer, std::size_t& room, const std::vector<T>& values) {
-    if (room < values.size() || buffer == 0) {
-        room = std::max<std::size_t>(2 * values.size(), 64);
-        buffer = make_buffer(context, std::vector<T>(room), GL_DYNAMIC_STORAGE_BIT);
-    }
-    update_buffer(context, buffer, values);
-}
-
 } // namespace
+
+template <class T> void TrafficLights::fill(Texels& texels, GLenum format, const std::vector<T>& values) {
+    const GladGLContext& gl = context_.gl;
+    if (texels.room < values.size() || texels.texture == 0) {
+        GLint limit = 0;
+        gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+        const std::size_t room = std::max<std::size_t>(2 * values.size(), 64), most = static_cast<std::size_t>(limit) * texel_bytes(format);
+        if (values.size() * sizeof(T) > most)
+            throw DeviceError(fmt::format("{} fetches at most {} texels, lamps of others take {}", context_.info.gl_renderer, limit,
+                                          values.size() * sizeof(T) / texel_bytes(format)));
+        texels.room = std::min(room, most / sizeof(T));
+        texels.buffer = make_buffer(context_, std::vector<T>(texels.room), GL_DYNAMIC_STORAGE_BIT);
+        GLuint name = 0;
+        gl.CreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+        texels.texture = Texture(context_, name);
+        gl.TextureBuffer(name, format, texels.buffer);
+        context_.check("making texels of lamps");
+    }
+    update_buffer(context_, texels.buffer, values);
+}
 
 int TrafficLights::beam_offset(const Beam& beam) {
     const auto [known, fresh] = offsets_.try_emplace(beam.id, static_cast<int>(cd_.size()));
     if (fresh) {
         cd_.insert(cd_.end(), beam.grid.cd.begin(), beam.grid.cd.end());
-        merging_cd_[beam.id] = merging_error(beam.grid);
-        cd_room_ = 0;
+        bounds_.emplace(beam.id, TrafficBeam(beam.grid));
+        cd_texels_.room = 0;
     }
     return known->second;
 }
 
-void TrafficLights::pack(const LitLamp& lamp, const Beam& beam, const Moment& moment, double factor, double least_lx) {
-    const BeamTexture& g = beam.grid;
-    packed_.push_back({four(lamp.pose.position_m - moment.ego.position_m, least_lx), four(-lamp.pose.left()), four(lamp.pose.up()),
-                       four(lamp.pose.forward()), four(lamp.colour.linear_srgb, factor),
-                       glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
-                       glm::vec4(beam_offset(beam), g.width, g.height, 0.0)});
+void TrafficLights::pack(const Unit& unit, int first, double least_lx) {
+    const BeamTexture& g = unit.beam->grid;
+    packed_.push_back({four(unit.at_m, least_lx), four(unit.middle.pose.forward(), unit.factor), four(unit.middle.pose.up(), first),
+                       four(unit.apart_m, g.width), four(unit.middle.colour.linear_srgb, g.height),
+                       glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad)});
 }
 
 void TrafficLights::add_units(const Moment& moment) {
@@ -87,27 +84,47 @@ void TrafficLights::add_units(const Moment& moment) {
         Unit unit;
         unit.beam = &beams_.of(lamps[i].file);
         unit.lamps = i + 1 < lamps.size() && is_pair(lamps[i], lamps[i + 1]) ? 2 : 1;
-        unit.first = static_cast<int>(packed_.size());
         unit.middle = lamps[i];
         unit.factor = unit.lamps * lamps[i].intensity_factor;
-        const double least = moment.least_traffic_lx;
-        for (int k = 0; k < unit.lamps; ++k)
-            pack(lamps[i + static_cast<std::size_t>(k)], *unit.beam, moment, lamps[i].intensity_factor, least / unit.lamps);
+        unit.middle.intensity_factor = unit.factor;
         if (unit.lamps == 2) {
             const glm::dvec3 other = lamps[i + 1].pose.position_m;
-            unit.half_m = 0.5 * glm::length(other - lamps[i].pose.position_m);
+            unit.apart_m = 0.5 * (other - lamps[i].pose.position_m);
             unit.middle.pose.position_m = 0.5 * (other + lamps[i].pose.position_m);
-            pack(unit.middle, *unit.beam, moment, unit.factor, least);
+            unit.half_m = glm::length(unit.apart_m);
+            unit.half_up_m = std::abs(glm::dot(unit.apart_m, unit.middle.pose.up()));
             ++i;
         }
-        unit.merging_cd = &merging_cd_[unit.beam->id];
         unit.at_m = unit.middle.pose.position_m - moment.ego.position_m;
-        unit.middle.intensity_factor = unit.factor;
+        const int first = beam_offset(*unit.beam);
+        unit.bounds = &bounds_.at(unit.beam->id);
+        unit.reaches_m = std::sqrt(rounding * unit.factor * unit.bounds->most_cd() / moment.least_traffic_lx);
+        pack(unit, first, moment.least_traffic_lx);
         units_.push_back(std::move(unit));
     }
 }
 
-TrafficLights::Bound TrafficLights::bound(const Unit& unit, const Place& place, double least_lx) const {
+/// Where the place is seen from midway between the lamps, with the lamps' own distance as a margin.
+BeamWindow TrafficLights::window(const Unit& unit, const Place& place, const glm::dvec3& from) {
+    const glm::dvec3 w = to_lamp_space(unit.middle, from);
+    const double across = std::hypot(w.x, w.z), radius = place.radius_m + unit.half_m;
+    if (across <= 1.001 * radius)
+        return {-pi, pi, -0.5 * pi, 0.5 * pi};
+    double low = w.y - radius, high = w.y + radius;
+    if (place.ground) { // a flat box rather than a sphere
+        const glm::dvec3 up = unit.middle.pose.up();
+        const double height = 0.5 * (place.highest_m - place.lowest_m) * std::abs(up.z),
+                     middle = w.y + (0.5 * (place.lowest_m + place.highest_m) - place.centre_m.z) * up.z,
+                     more = height + place.radius_m * std::hypot(up.x, up.y) + unit.half_up_m;
+        low = std::max(low, middle - more);
+        high = std::min(high, middle + more);
+    }
+    const double h = std::atan2(w.x, w.z), spread = std::asin(radius / across);
+    return {h - spread, h + spread, std::atan2(low, low < 0.0 ? across - radius : across + radius),
+            std::atan2(high, high > 0.0 ? across - radius : across + radius)};
+}
+
+TrafficLights::Bound TrafficLights::bound(const Unit& unit, const Place& place, double least_lx) {
     const glm::dvec3 from = place.centre_m - unit.at_m;
     const double radius = place.radius_m + unit.half_m, d = glm::length(from);
     Bound bound;
@@ -117,57 +134,96 @@ TrafficLights::Bound TrafficLights::bound(const Unit& unit, const Place& place, 
     double cosine = 1.0;
     if (place.ground) { // the lamp's height over its distance, and what the ground leans: sin(a + b) <= sin a + sin b
         const double height = std::max(unit.at_m.z - place.lowest_m, 0.0), beside = std::max(std::hypot(from.x, from.y) - radius, 0.0);
-        cosine = height > 0.0 ? std::min(1.0, height / std::hypot(height, beside) + place.lean) : std::min(1.0, place.lean);
+        cosine = place.normals != nullptr ? 0.0
+                 : height > 0.0           ? std::min(1.0, height / std::hypot(height, beside) + place.lean)
+                                          : std::min(1.0, place.lean);
     }
+    if (place.normals != nullptr)
+        for (const glm::dvec4& n : *place.normals) // the lamps' height over the ground's planes, over the distance
+            cosine = std::max(cosine, std::min(1.0, (glm::dot(glm::dvec3(n), unit.at_m) + std::abs(glm::dot(glm::dvec3(n), unit.apart_m)) -
+                                                     n.w + least_height_m) /
+                                                            bound.near_m +
+                                                        same_normal));
     bound.lx_a_cd = rounding * cosine * unit.factor / (bound.near_m * bound.near_m);
-    bound.most_lx = unit.beam->bounds.most() * bound.lx_a_cd;
-    if (bound.most_lx > least_lx)
-        bound.most_lx = unit.beam->bounds.most_towards(to_lamp_space(unit.middle, from), radius) * bound.lx_a_cd;
+    bound.most_lx = unit.bounds->most_cd() * bound.lx_a_cd;
+    if (bound.most_lx > least_lx) {
+        bound.window = window(unit, place, from);
+        bound.most_lx = unit.bounds->most_cd(bound.window) * bound.lx_a_cd;
+    }
     return bound;
 }
 
-/// |E of two lamps - E of one midway|: the beams' second difference for the angle between them, and the distances' (3 / 2 of the square of
-/// that angle for each of d^2 and the cosine, taken double).
-double TrafficLights::merging_lx(const Unit& unit, const Bound& bound) {
-    const double angle = unit.half_m / bound.near_m;
-    const auto samples = static_cast<std::size_t>(std::ceil(angle / unit.beam->grid.h_step_rad));
-    if (angle > 0.2 || samples >= unit.merging_cd->size())
-        return 2.0 * bound.most_lx;
-    return std::min(2.0 * bound.most_lx, 0.5 * (*unit.merging_cd)[samples] * bound.lx_a_cd + 6.0 * angle * angle * bound.most_lx);
-}
-
-void TrafficLights::list(Unit& unit, const Place& place, double least, Lists& lists, Work& work) {
+void TrafficLights::list(std::size_t number, const Place& place, double least, Lists& lists, Work* work) {
+    Unit& unit = units_[number];
     const Bound bounds = bound(unit, place, least);
     const double most = bounds.most_lx;
-    if (most <= least && pruned_)
-        return;
-    const auto add = [](std::vector<glm::vec4>& entries, int lamp, double weight, double cd) {
-        if (weight > 0.0)
-            entries.emplace_back(static_cast<float>(lamp), static_cast<float>(weight), static_cast<float>(cd), 0.0F);
-    };
-    double by_fragment = 1.0;
-    const int merged = unit.first + (unit.lamps == 2 ? 2 : 0);
-    if (levels_ && most > least && !place.ground && !place.retro) {
-        const double by_vertex = std::clamp((4.0 * least - most) / least, 0.0, 1.0),
-                     point = std::clamp((2.0 * least - most) / (0.5 * least), 0.0, 1.0);
-        by_fragment = 1.0 - by_vertex;
-        add(lists.vertex, merged, by_vertex * (1.0 - point), -1.0);
-        if (by_vertex * point > 0.0)
-            add(lists.vertex, merged, by_vertex * point,
-                intensity_towards_cd(unit.middle, unit.middle.pose.position_m + place.centre_m - unit.at_m));
-        work.traffic_by_vertex += by_vertex * (1.0 - point) > 0.0 ? 1 : 0;
-        work.traffic_point += by_vertex * point > 0.0 ? 1 : 0;
+    if (most <= least) {
+        lists.left_out_lx += most;
+        report_.left_out += most > 0.0 && work != nullptr ? 1 : 0;
+        if (pruned_)
+            return;
     }
-    double each = 1.0;
-    if (unit.lamps == 2 && levels_ && most > least)
-        each = std::clamp((merging_lx(unit, bounds) - 2.0 * least) / (2.0 * least), 0.0, 1.0);
-    for (int k = 0; k < unit.lamps; ++k)
-        add(lists.fragment, unit.first + k, by_fragment * each, -1.0);
-    if (unit.lamps == 2)
-        add(lists.fragment, merged, by_fragment * (1.0 - each), -1.0);
-    work.traffic_full += by_fragment * each > 0.0 ? unit.lamps : 0;
-    work.traffic_merged += unit.lamps == 2 && by_fragment * (1.0 - each) > 0.0 ? 1 : 0;
-    unit.used = unit.used || most > least;
+    const bool coarse = levels_ && most > least;
+    const double merging = !coarse || unit.lamps == 1 ? 0.0
+                                                      : unit.bounds->merging_lx(unit.half_m / bounds.near_m, unit.half_up_m / bounds.near_m,
+                                                                                bounds.window, bounds.lx_a_cd, most);
+    TrafficShare share{0.0, 1.0, 0.0, 0.0};
+    if (coarse)
+        share = traffic_share(most, merging, least, unit.lamps == 2, !place.ground && !place.retro);
+    else if (unit.lamps == 2)
+        share = {};
+    const auto add = [&](std::vector<glm::vec4>& entries, double each, double one, double cd) {
+        if (each > 0.0 || one > 0.0)
+            entries.emplace_back(static_cast<float>(number), static_cast<float>(each), static_cast<float>(one), static_cast<float>(cd));
+    };
+    add(lists.fragment, share.each, share.merged, -1.0);
+    add(lists.vertex, 0.0, share.by_vertex, -1.0);
+    if (share.point > 0.0)
+        add(lists.vertex, 0.0, share.point, intensity_towards_cd(unit.middle, unit.middle.pose.position_m + place.centre_m - unit.at_m));
+    if (most <= least)
+        return;
+    unit.used = true;
+    lists.drawn_lx += traffic_error_lx(share, most, merging, least);
+    if (work == nullptr)
+        return;
+    const bool one_lamp = unit.lamps == 1 && share.merged > 0.0;
+    work->traffic_full += share.each > 0.0 ? 2 : one_lamp ? 1 : 0;
+    work->traffic_merged += unit.lamps == 2 && share.merged > 0.0 ? 1 : 0;
+    work->traffic_by_vertex += share.by_vertex > 0.0 ? 1 : 0;
+    work->traffic_point += share.point > 0.0 ? 1 : 0;
+    report_.each += share.each > 0.0 || one_lamp ? 1 : 0;
+    report_.merged += unit.lamps == 2 && share.merged > 0.0 ? 1 : 0;
+    report_.by_vertex += share.by_vertex > 0.0 ? 1 : 0;
+    report_.point += share.point > 0.0 ? 1 : 0;
+}
+
+/// `work`: null where the place is counted elsewhere.
+TrafficLights::Lists TrafficLights::lists_of(const Place& place, std::span<const std::size_t> units, double least, Work* work) {
+    Lists lists;
+    for (const std::size_t number : units) {
+        const Unit& unit = units_[number];
+        const glm::dvec3 from = place.centre_m - unit.at_m;
+        const double radius = place.radius_m + unit.half_m, d2 = glm::dot(from, from), reach = unit.reaches_m + radius;
+        if (pruned_ && d2 > reach * reach) { // too far, wherever it aims: at least d reaches / reach away
+            if (glm::dot(unit.middle.pose.forward(), from) > -radius)
+                lists.left_out_lx += least * reach * reach / d2;
+            continue;
+        }
+        list(number, place, least, lists, work);
+    }
+    if (work != nullptr) {
+        report_.worst_drawn_lx = std::max(report_.worst_drawn_lx, lists.drawn_lx);
+        report_.worst_left_out_lx = std::max(report_.worst_left_out_lx, lists.left_out_lx);
+    }
+    return lists;
+}
+
+std::vector<std::size_t> TrafficLights::reaching(const glm::dvec3& centre_m, double radius_m) const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        if (!pruned_ || glm::length(centre_m - units_[i].at_m) < radius_m + units_[i].half_m + units_[i].reaches_m)
+            numbers.push_back(i);
+    return numbers;
 }
 
 std::pair<std::uint32_t, std::uint32_t> TrafficLights::keep(const std::vector<glm::vec4>& entries) {
@@ -176,35 +232,68 @@ std::pair<std::uint32_t, std::uint32_t> TrafficLights::keep(const std::vector<gl
     return {first, static_cast<std::uint32_t>(entries.size())};
 }
 
-/// A cell is bounded by a sphere round what ground stands in it.
-void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work) {
-    struct Cell {
-        double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity(), lean = 0.0;
-    };
-    std::vector<Cell> ground(static_cast<std::size_t>(traffic_cells_ahead) * static_cast<std::size_t>(traffic_cells_across));
+void TrafficLights::Cell::add(const glm::dvec4& normal) {
+    for (glm::dvec4& known : normals)
+        if (glm::length(glm::dvec3(known - normal)) <= same_normal) {
+            known.w = std::min(known.w, normal.w);
+            return;
+        }
+    normals.push_back(normal);
+}
+
+std::vector<TrafficLights::Cell> TrafficLights::cells_of(const Moment& moment, const std::vector<std::uint32_t>& drawn) const {
+    std::vector<Cell> cells(static_cast<std::size_t>(traffic_cells_ahead) * static_cast<std::size_t>(traffic_cells_across));
     const glm::dvec2 left(-ahead_.y, ahead_.x);
     const auto column = [](double m) { return static_cast<int>(std::floor((m + traffic_behind_m) / traffic_cell_m)); };
     const auto row = [](double m) { return static_cast<int>(std::floor((m + traffic_beside_m) / traffic_cell_m)); };
+    const double farthest_m = std::hypot(traffic_cells_ahead * traffic_cell_m, traffic_cells_across * traffic_cell_m);
     for (const std::uint32_t i : drawn) {
         const Piece& piece = scene_.pieces()[i];
-        if (!piece.ground)
+        if (!piece.ground || glm::length(centre_of(piece, moment.ego.position_m)) > farthest_m + piece.radius_m)
             continue;
-        glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-        for (const glm::dvec3& corner : piece.corners_m) {
-            const glm::dvec2 p(piece.origin_m - moment.ego.position_m + corner), at(glm::dot(p, ahead_), glm::dot(p, left));
-            low = glm::min(low, at - 0.1);
-            high = glm::max(high, at + 0.1);
-        }
-        const double lean = lean_of(piece);
-        for (int y = std::max(0, row(low.y)); y <= std::min(traffic_cells_across - 1, row(high.y)); ++y)
-            for (int x = std::max(0, column(low.x)); x <= std::min(traffic_cells_ahead - 1, column(high.x)); ++x) {
-                Cell& cell = ground[static_cast<std::size_t>(y * traffic_cells_ahead + x)];
-                cell.low = std::min(cell.low, piece.lowest_m - moment.ego.position_m.z);
-                cell.high = std::max(cell.high, piece.highest_m - moment.ego.position_m.z);
-                cell.lean = std::max(cell.lean, lean);
+        const glm::dvec3 origin = piece.origin_m - moment.ego.position_m;
+        for (std::size_t t = piece.first_plane; t < piece.first_plane + piece.planes; ++t) {
+            const GroundTriangle& triangle = scene_.ground()[t];
+            glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+            double lowest = low.x, highest = high.x;
+            for (const glm::vec3& corner : triangle.corners_m) {
+                const glm::dvec3 p = origin + glm::dvec3(corner);
+                const glm::dvec2 at(glm::dot(glm::dvec2(p), ahead_), glm::dot(glm::dvec2(p), left));
+                low = glm::min(low, at - 0.1);
+                high = glm::max(high, at + 0.1);
+                lowest = std::min(lowest, p.z);
+                highest = std::max(highest, p.z);
             }
+            for (int y = std::max(0, row(low.y)); y <= std::min(traffic_cells_across - 1, row(high.y)); ++y)
+                for (int x = std::max(0, column(low.x)); x <= std::min(traffic_cells_ahead - 1, column(high.x)); ++x) {
+                    Cell& cell = cells[static_cast<std::size_t>(y * traffic_cells_ahead + x)];
+                    cell.low = std::min(cell.low, lowest);
+                    cell.high = std::max(cell.high, highest);
+                    for (const glm::vec4& n : triangle.normals) {
+                        const glm::dvec3 normal(n);
+                        cell.add({normal, static_cast<double>(n.w) + glm::dot(normal, origin)});
+                    }
+                }
+        }
     }
-    cells_.assign(2 * ground.size(), 0);
+    return cells;
+}
+
+/// A cell is bounded by a sphere round what ground stands in it.
+void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work) {
+    const std::vector<Cell> ground = cells_of(moment, drawn);
+    const glm::dvec2 left(-ahead_.y, ahead_.x);
+    cells_.assign(ground.size(), glm::vec2(0.0F));
+    double low = 0.0, high = 0.0;
+    for (const Cell& cell : ground)
+        if (cell.high >= cell.low) {
+            low = std::min(low, cell.low);
+            high = std::max(high, cell.high);
+        }
+    const double length = traffic_cells_ahead * traffic_cell_m, width = traffic_cells_across * traffic_cell_m;
+    const glm::dvec2 middle = ahead_ * (0.5 * length - traffic_behind_m) + left * (0.5 * width - traffic_beside_m);
+    const std::vector<std::size_t> units =
+        reaching({middle.x, middle.y, 0.5 * (low + high)}, 0.5 * std::hypot(length, width, high - low) + 1.0);
     for (std::size_t i = 0; i < ground.size(); ++i) {
         const Cell& cell = ground[i];
         if (cell.high < cell.low)
@@ -213,14 +302,16 @@ void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint
                      b = (static_cast<double>(i / traffic_cells_ahead) + 0.5) * traffic_cell_m - traffic_beside_m;
         const glm::dvec2 at = ahead_ * a + left * b;
         const double half = 0.5 * traffic_cell_m + 0.01, up = 0.5 * (cell.high - cell.low);
-        const Place place{
-            {at.x, at.y, 0.5 * (cell.low + cell.high)}, std::sqrt(2.0 * half * half + up * up), cell.low, cell.lean, true, false};
-        Lists lists;
-        for (Unit& unit : units_)
-            list(unit, place, moment.least_traffic_lx, lists, work);
-        const auto [first, count] = keep(lists.fragment);
-        cells_[2 * i] = first;
-        cells_[2 * i + 1] = count;
+        const Place place{{at.x, at.y, 0.5 * (cell.low + cell.high)},
+                          std::sqrt(2.0 * half * half + up * up),
+                          cell.low,
+                          cell.high,
+                          0.0,
+                          true,
+                          false,
+                          &cell.normals};
+        const auto [first, count] = keep(lists_of(place, units, moment.least_traffic_lx, &work).fragment);
+        cells_[i] = {first, count};
     }
 }
 
@@ -234,14 +325,17 @@ void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& 
     const glm::dvec2 forward(moment.ego.forward());
     ahead_ = glm::length(forward) > 1e-6 ? glm::normalize(forward) : glm::dvec2(1.0, 0.0);
     bool on_ground = false;
-    Work uncounted; // ground is counted by its cells
+    const std::vector<std::size_t> all = reaching({}, farthest_drawn_m);
     for (const std::uint32_t i : drawn) {
         const Piece& piece = scene_.pieces()[i];
-        const Place place{centre_of(piece, moment.ego.position_m),         piece.radius_m, piece.lowest_m - moment.ego.position_m.z,
-                          std::acos(std::clamp(piece.least_up, 0.0, 1.0)), piece.ground,   piece.surface.retroreflecting};
-        Lists lists;
-        for (Unit& unit : units_)
-            list(unit, place, moment.least_traffic_lx, lists, piece.ground ? uncounted : work);
+        const Place place{centre_of(piece, moment.ego.position_m),
+                          piece.radius_m,
+                          piece.lowest_m - moment.ego.position_m.z,
+                          piece.highest_m - moment.ego.position_m.z,
+                          lean_of(piece),
+                          piece.ground,
+                          piece.surface.retroreflecting};
+        const Lists lists = lists_of(place, all, moment.least_traffic_lx, piece.ground ? nullptr : &work); // ground is counted by its cells
         std::uint32_t* const traffic = lists_[i].traffic;
         std::tie(traffic[0], traffic[1]) = keep(lists.fragment);
         std::tie(traffic[2], traffic[3]) = keep(lists.vertex);
@@ -250,26 +344,25 @@ void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& 
             on_ground = true;
         }
     }
-    cells_.assign(2 * static_cast<std::size_t>(traffic_cells_ahead) * static_cast<std::size_t>(traffic_cells_across), 0);
+    cells_.assign(static_cast<std::size_t>(traffic_cells_ahead) * static_cast<std::size_t>(traffic_cells_across), glm::vec2(0.0F));
     if (on_ground)
         list_cells(moment, drawn, work);
     left_out_ = static_cast<int>(std::ranges::count(units_, false, &Unit::used));
-    fill(context_, lamp_buffer_, lamp_room_, packed_);
-    fill(context_, entry_buffer_, entry_room_, entries_);
-    if (cd_room_ == 0)
-        fill(context_, cd_buffer_, cd_room_, cd_);
-    std::size_t cell_room = cells_.size();
-    fill(context_, cell_buffer_, cell_room, cells_);
+    fill(unit_texels_, GL_RGBA32F, packed_);
+    fill(entry_texels_, GL_RGBA32F, entries_);
+    if (cd_texels_.room == 0)
+        fill(cd_texels_, GL_R32F, cd_);
+    fill(cell_texels_, GL_RG32F, cells_);
 }
 
 glm::vec4 TrafficLights::grid() const { return {ahead_.x, ahead_.y, -traffic_behind_m, -traffic_beside_m}; }
 
 void TrafficLights::bind() const {
     const GladGLContext& gl = context_.gl;
-    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, lamp_buffer_);
-    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, entry_buffer_);
-    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cd_buffer_);
-    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cell_buffer_);
+    gl.BindTextureUnit(18, unit_texels_.texture);
+    gl.BindTextureUnit(19, entry_texels_.texture);
+    gl.BindTextureUnit(20, cd_texels_.texture);
+    gl.BindTextureUnit(21, cell_texels_.texture);
 }
 
 } // namespace fernlicht::gl

@@ -293,27 +293,29 @@ void main() {
         uvec2 list = v_traffic_list & 0x7fffffffu;
         ivec2 cell = ivec2(floor(v_traffic_cell));
         if ((v_traffic_list.y >> 31) != 0u && cell.x >= 0 && cell.y >= 0 && cell.x < TRAFFIC_CELLS_AHEAD && cell.y < TRAFFIC_CELLS_ACROSS)
-            list = traffic_cells[cell.y * TRAFFIC_CELLS_AHEAD + cell.x];
+            list = uvec2(texelFetch(traffic_cells, cell.y * TRAFFIC_CELLS_AHEAD + cell.x).xy);
         PRECISE vec4 others = v_traffic_light;
         PRECISE vec3 returned = vec3(0.0);
 #if (WANT_COLOUR || WANT_LUMINANCE) && WET
         PRECISE vec3 wet = vec3(0.0);
 #endif
         for (uint k = 0u; k < list.y; ++k) {
-            vec4 entry = traffic_entries[list.x + k];
-            float e_perp;
-            float e = traffic_lx(entry, v_traffic_p, n, e_perp);
-            others += vec4(traffic_lamps[int(entry.x)].colour.rgb * e, e);
-#if (WANT_COLOUR || WANT_LUMINANCE) && (RETRO || WET)
-            vec3 to_lamp = traffic_lamps[int(entry.x)].position_m.xyz - v_traffic_p;
-#endif
+            vec4 entry = texelFetch(traffic_entries, int(list.x + k));
+            TrafficUnit unit = traffic_unit(int(entry.x));
+            int end = end_of_traffic_lamps(entry);
+            for (int lamp = first_traffic_lamp(entry); lamp < end; ++lamp) {
+                vec3 to_lamp = traffic_place(unit, lamp) - v_traffic_p;
+                float e_perp;
+                float e = traffic_lx(unit, entry, lamp, -to_lamp, n, e_perp);
+                others += vec4(unit.colour.rgb * e, e);
 #if (WANT_COLOUR || WANT_LUMINANCE) && WET
-            wet += traffic_lamps[int(entry.x)].colour.rgb * wet_light(albedo, n, normalize(to_lamp), -normalize(v_from_eye), e_perp);
+                wet += unit.colour.rgb * wet_light(albedo, n, normalize(to_lamp), -normalize(v_from_eye), e_perp);
 #endif
 #if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
-            returned += TINTED(traffic_lamps[int(entry.x)].colour.rgb) *
-                        retro_luminance(rl, e_perp, e, quick_observation_angle(to_lamp, v_traffic_eye.xyz - v_traffic_eye.w * v_traffic_p), v_retro.x, v_retro.y);
+                returned += TINTED(unit.colour.rgb) *
+                            retro_luminance(rl, e_perp, e, quick_observation_angle(to_lamp, v_traffic_eye.xyz - v_traffic_eye.w * v_traffic_p), v_retro.x, v_retro.y);
 #endif
+            }
         }
         illuminance += others.w;
 #if WANT_COLOUR || WANT_LUMINANCE

@@ -129,10 +129,11 @@ void main() {
     v_traffic_cell = (ahead_left - traffic_grid.zw) * TRAFFIC_CELLS_A_METRE;
     PRECISE vec4 by_vertex = vec4(0.0);
     for (uint k = 0u; k < traffic_lists.w; ++k) {
-        vec4 entry = traffic_entries[traffic_lists.z + k];
+        vec4 entry = texelFetch(traffic_entries, int(traffic_lists.z + k));
+        TrafficUnit unit = traffic_unit(int(entry.x));
         float e_perp;
-        float e = traffic_lx(entry, p, normalize(n), e_perp);
-        by_vertex += vec4(traffic_lamps[int(entry.x)].colour.rgb * e, e);
+        float e = traffic_lx(unit, entry, 2, p - traffic_place(unit, 2), normalize(n), e_perp);
+        by_vertex += vec4(unit.colour.rgb * e, e);
     }
     v_traffic_light = by_vertex;
 #endif

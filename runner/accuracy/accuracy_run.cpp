@@ -5,6 +5,7 @@
 #include "runner/accuracy/reference_shots.h"
 #include "runner/accuracy/solver_diagrams.h"
 #include "runner/accuracy/studies.h"
+#include "runner/accuracy/traffic_study.h"
 #include "runner/accuracy/weather_study.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
@@ -75,13 +76,15 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
     add("beam", [&] { return beam_study(stage, variant, go_on); });
     add_all("weather", [&] { return weather_study(stage, variant, device, go_on); });
     add("metrics", [&] { return metrics_study(stage, variant, device, go_on); });
+    if (!stage.drive.traffic.empty())
+        add("traffic", [&] { return traffic_study(stage, variant, device, go_on); });
     add("step", [&] { return step_study(stage, variant, go_on); });
 }
 
 } // namespace
 
 std::vector<std::string> diagram_names() {
-    return {"techniques", "reference", "classical", "solvers", "control", "extent", "beam", "weather", "metrics", "step"};
+    return {"techniques", "reference", "classical", "solvers", "control", "extent", "beam", "weather", "metrics", "step", "traffic"};
 }
 
 AccuracyResult run_accuracy(const AccuracyRequest& request) {

@@ -1,5 +1,7 @@
 #include "runner/stability/stability_case.h"
 
+#include "runner/stability/traffic_cases.h"
+
 #include "scenarios/values/errors.h"
 
 #include <chrono>
@@ -84,7 +86,7 @@ const std::vector<StabilityCase>& stability_cases() {
     static const std::vector<StabilityCase> all = [] {
         std::vector<StabilityCase> cases;
         for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases, geometry_cases, shadow_cases, road_cases, image_cases,
-                                  comparison_cases, time_cases, number_cases, motion_cases, weather_cases, equation_cases})
+                                  comparison_cases, time_cases, number_cases, motion_cases, weather_cases, traffic_cases, equation_cases})
             for (StabilityCase& one : family())
                 cases.push_back(std::move(one));
         return cases;

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 namespace fernlicht {
 namespace {
@@ -19,7 +21,13 @@ constexpr std::array bodies{UsualBody{{4.5, 1.8, 1.45}, -0.9}, UsualBody{{5.5, 2
 /// exp(-x^2 ln 2): a half at 1.
 double bell(double x) { return std::exp2(-x * x); }
 
+/// The same file for the same intensity as long as somebody holds it: beams are made for each file.
 std::shared_ptr<const LampFile> rear_lamp_file(double cd) {
+    static std::map<double, std::weak_ptr<const LampFile>> known;
+    static std::mutex one_at_a_time;
+    const std::scoped_lock lock(one_at_a_time);
+    if (auto file = known[cd].lock())
+        return file;
     static const CandelaTable shape = [] {
         CandelaTable table;
         for (int h = -80; h <= 80; h += 2)
@@ -35,6 +43,7 @@ std::shared_ptr<const LampFile> rear_lamp_file(double cd) {
     file->name = "rear lamp";
     file->format = "model";
     file->table = scaled(shape, cd);
+    known[cd] = file;
     return file;
 }
 
