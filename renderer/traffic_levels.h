@@ -16,8 +16,8 @@ struct TrafficShare {
     double each = 1.0, merged = 0.0, by_vertex = 0.0, point = 0.0;
 };
 
-/// Of b = most_lx, m = merging_lx, l = least_lx (all >= 0). `pair`: two lamps; else `merged` is the lamp itself. `interpolated`: light may
-/// be interpolated over triangles.
+/// Of b = most_lx, m = merging_lx, l = least_lx (all >= 0). `pair`: two lamps; else `merged` is the lamp itself, and m = 0. `interpolated`:
+/// light may be interpolated over triangles.
 TrafficShare traffic_share(double most_lx, double merging_lx, double least_lx, bool pair, bool interpolated);
 
 /// Bound on |illuminance as drawn - that of each lamp with its own beam|, lx. By fragment a ramp takes at most l (l / 2 of each of two

@@ -65,6 +65,10 @@ std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, c
     if (stage.drive.beams && technique.kind != TechniqueKind::ours && technique.features.find("PROJECTED") == std::string_view::npos)
         notes.push_back(
             fmt::format("beams: technique {} has no beam textures, so that their size and depth change nothing", technique.name));
+    if (!stage.drive.traffic.empty() && technique.name != "photometric" && technique.name != "photometric-unpruned")
+        notes.push_back(fmt::format("traffic: technique {} does not draw the light of others' lamps, and its pictures do not show them as "
+                                    "sources; it draws the road users' bodies. photometric draws all three",
+                                    technique.name));
     for (const MountedLamp& lamp : variant.lamps) {
         if (lamp.photometric_distance_m > 0.0)
             notes.push_back(fmt::format("{}: nearer than {} m it is in its near field, where a point source is an approximation", lamp.name,
