@@ -67,6 +67,17 @@ GroundTriangle ground_triangle(const std::array<glm::vec3, 3>& at, const std::ar
     return triangle;
 }
 
+bool is_same_shape(const Mesh& a, const Mesh& b) {
+    const auto same_vertex = [](const Vertex& p, const Vertex& q) {
+        return p.position_m == q.position_m && p.normal == q.normal && p.uv == q.uv;
+    };
+    const auto same_batch = [](const Batch& p, const Batch& q) {
+        return p.material == q.material && p.first == q.first && p.count == q.count;
+    };
+    return a.origin_m == b.origin_m && a.indices == b.indices && std::ranges::equal(a.batches, b.batches, same_batch) &&
+           std::ranges::equal(a.vertices, b.vertices, same_vertex);
+}
+
 /// The triangles of one class of a mesh, gathered over its batches.
 struct Gathered {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> corners; ///< vertex of the mesh, material
@@ -78,7 +89,26 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
     std::vector<GpuVertex> vertices;
     std::vector<GLuint> indices;
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    std::vector<std::size_t> first_pieces;                                                ///< of each mesh
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> known_bodies; ///< meshes by vertices and indices
     for (const Mesh& mesh : scene.meshes) {
+        const std::size_t number = first_pieces.size();
+        first_pieces.push_back(pieces_.size());
+        if (mesh.body >= 0) {
+            std::vector<std::size_t>& alike = known_bodies[{mesh.vertices.size(), mesh.indices.size()}];
+            const auto same = std::ranges::find_if(alike, [&](std::size_t i) { return is_same_shape(scene.meshes[i], mesh); });
+            if (same != alike.end()) { // drawn from the same vertices
+                for (std::size_t k = first_pieces[*same]; k < first_pieces[*same + 1]; ++k) {
+                    Piece piece = pieces_[k];
+                    piece.body = mesh.body;
+                    piece.mesh = static_cast<std::uint32_t>(number);
+                    resting_.emplace_back(static_cast<std::uint32_t>(pieces_.size()), piece);
+                    pieces_.push_back(std::move(piece));
+                }
+                continue;
+            }
+            alike.push_back(number);
+        }
         std::map<SurfaceClass, Gathered> by_class;
         bool ground = true;
         for (const Batch& batch : mesh.batches) {
