@@ -74,8 +74,8 @@ bool is_same_shape(const Mesh& a, const Mesh& b) {
     const auto same_batch = [](const Batch& p, const Batch& q) {
         return p.material == q.material && p.first == q.first && p.count == q.count;
     };
-    return a.origin_m == b.origin_m && a.indices == b.indices && std::ranges::equal(a.batches, b.batches, same_batch) &&
-           std::ranges::equal(a.vertices, b.vertices, same_vertex);
+    return a.origin_m == b.origin_m && a.casts == b.casts && a.indices == b.indices &&
+           std::ranges::equal(a.batches, b.batches, same_batch) && std::ranges::equal(a.vertices, b.vertices, same_vertex);
 }
 
 /// The triangles of one class of a mesh, gathered over its batches.

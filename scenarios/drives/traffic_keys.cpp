@@ -42,7 +42,8 @@ void read_place(const YamlMap& keys, TrafficRow& row) {
 /// Lamps of cars stand on its front corners, those of what is narrow in the middle.
 Car front_of(const TrafficRow& row) {
     const glm::dvec3 size = row.size_m.value_or(usual_size_m(row.kind));
-    const double x = row.rear_m.value_or(usual_rear_m(row.kind) * size.x / usual_size_m(row.kind).x) + size.x - 0.2;
+    const double x = row.rear_m.value_or(usual_rear_m(row.kind) * size.x / usual_size_m(row.kind).x) + size.x +
+                     0.02; // the face, before the body, which else would hide it from rays
     const double z = std::min(row.kind == RoadUserKind::truck || row.kind == RoadUserKind::bus ? 0.9 : 0.65, 0.6 * size.z);
     Car car;
     car.mounts = lamp_mounts(row.mounts);

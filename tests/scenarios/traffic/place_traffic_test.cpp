@@ -54,7 +54,7 @@ TEST_F(PlacedTraffic, OncomingCarsComeOnTheOtherLaneAndShineBack) {
     ASSERT_EQ(now.other_lamps.size(), 2U);
     for (const LitLamp& shining : now.other_lamps) {
         EXPECT_EQ(shining.body, 0);
-        EXPECT_NEAR(to_local(now.ego, shining.pose.position_m).x, at.x - 3.4, 0.02);
+        EXPECT_NEAR(to_local(now.ego, shining.pose.position_m).x, at.x - 3.62, 0.02);
         EXPECT_LT(glm::dot(shining.pose.forward(), now.ego.forward()), -0.99);
     }
     EXPECT_EQ(now.lamps.size(), 2U) << "the own lamps stay apart";
