@@ -1,10 +1,13 @@
 # The target `headers` compiles every header by itself, with the flags and libraries of the library it belongs to:
-# a header that leans on what its includer happened to include before fails here. Not part of `all`.
+# a header that leans on what its includer happened to include before fails here; and all headers in one source, where two types of one
+# name, which no compiler finds in sources of their own, fail. Not part of `all`.
 add_custom_target(headers)
+set(all_headers "")
 foreach(library scenarios metrics renderer runner)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/${library}/*.h)
   set(sources "")
   foreach(header ${headers})
+    string(APPEND all_headers "#include \"${header}\"\n")
     # A header that its own source file includes first has been compiled by itself there.
     string(REGEX REPLACE "h$" "cpp" own_source ${CMAKE_SOURCE_DIR}/${header})
     if(EXISTS ${own_source})
@@ -25,3 +28,9 @@ foreach(library scenarios metrics renderer runner)
     add_dependencies(headers headers_${library})
   endif()
 endforeach()
+set(source ${CMAKE_BINARY_DIR}/generated/headers/together.cpp)
+file(CONFIGURE OUTPUT ${source} CONTENT "${all_headers}" @ONLY)
+add_library(headers_together OBJECT EXCLUDE_FROM_ALL ${source})
+target_link_libraries(headers_together PRIVATE $<TARGET_PROPERTY:fernlicht_runner,LINK_LIBRARIES>)
+add_dependencies(headers_together fernlicht_runner)
+add_dependencies(headers headers_together)

@@ -59,13 +59,13 @@ double middle_of_top(const std::vector<double>& g, std::size_t top) {
     return (begin + end) / 2.0;
 }
 
-struct Line {
+struct ScanLine {
     bool vertical;
     double at_deg, from_deg, to_deg;
 };
 
 /// A file coarser than what G needs tells its edge's place to half a step: the middle of its steepest step.
-void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const Line& line, double sign) {
+void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const ScanLine& line, double sign) {
     const std::vector<double>& axis = line.vertical ? lamp.table->v_deg : lamp.table->h_deg;
     const double turned = line.vertical ? lamp.turned.v_deg : lamp.turned.h_deg;
     const ReceivedBeam beam({lamp}, {});
@@ -87,7 +87,7 @@ void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const Line& line, d
     }
 }
 
-CutOffScan scan_along(const AimedLamp& lamp, const Line& line, const CutOffOptions& options) {
+CutOffScan scan_along(const AimedLamp& lamp, const ScanLine& line, const CutOffOptions& options) {
     CutOffScan scan;
     scan.at_deg = line.at_deg;
     const double sign = line.vertical ? 1.0 : -1.0;

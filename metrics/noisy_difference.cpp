@@ -57,9 +57,9 @@ struct Sums {
     }
 };
 
-class Comparison {
+class NoisyComparison {
   public:
-    Comparison(const NoisyPicture& a, const NoisyPicture& b, double absolute, double relative)
+    NoisyComparison(const NoisyPicture& a, const NoisyPicture& b, double absolute, double relative)
         : a_(a), b_(b), absolute_(absolute), relative_(relative) {}
 
     NoisyDifference run(double false_alarm) {
@@ -145,7 +145,7 @@ class Comparison {
 NoisyDifference compare_noisy(const NoisyPicture& a, const NoisyPicture& b, double threshold_absolute, double threshold_relative,
                               double false_alarm) {
     check(a, b);
-    NoisyDifference out = Comparison(a, b, threshold_absolute, threshold_relative).run(false_alarm);
+    NoisyDifference out = NoisyComparison(a, b, threshold_absolute, threshold_relative).run(false_alarm);
     out.identical = same(*a.mean, *b.mean) && same(*a.variance, *b.variance);
     return out;
 }

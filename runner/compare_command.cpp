@@ -27,7 +27,7 @@ struct Flags {
     bool json = false;
 };
 
-enum class Kind { pictures, runs, lamps };
+enum class ComparedKind { pictures, runs, lamps };
 
 double pixels_per_degree(const Flags& flags, int height_px) {
     const auto in_range = [](const char* flag, double value) {
@@ -94,22 +94,24 @@ int compare_runs_of(const Flags& flags) {
 }
 
 /// What a path is, by what lies there. Beam textures are pictures, too: --lamps says that they are meant as lamps.
-Kind kind_of(const std::filesystem::path& path, bool lamps) {
+ComparedKind kind_of(const std::filesystem::path& path, bool lamps) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored))
-        return Kind::runs;
-    return lamps || !is_picture(path) ? Kind::lamps : Kind::pictures;
+        return ComparedKind::runs;
+    return lamps || !is_picture(path) ? ComparedKind::lamps : ComparedKind::pictures;
 }
 
-const char* name_of(Kind kind) { return kind == Kind::runs ? "a folder" : kind == Kind::pictures ? "a picture" : "no picture"; }
+const char* name_of(ComparedKind kind) {
+    return kind == ComparedKind::runs ? "a folder" : kind == ComparedKind::pictures ? "a picture" : "no picture";
+}
 
 /// What belongs to another kind of comparison is refused rather than ignored.
-void refuse_foreign_flags(const Flags& flags, Kind kind) {
+void refuse_foreign_flags(const Flags& flags, ComparedKind kind) {
     const auto refuse = [](bool given, const char* flag, const char* expected) {
         if (given)
             throw InputError({{}, 0, 0, flag}, "found beside what it says nothing of", expected);
     };
-    if (kind != Kind::lamps) {
+    if (kind != ComparedKind::lamps) {
         refuse(!flags.regulation.empty(), "--regulation", "two lamps");
         refuse(!flags.noise.empty(), "--noise", "two lamps");
         refuse(flags.lamps, "--lamps", "two lamps");
@@ -121,15 +123,15 @@ void refuse_foreign_flags(const Flags& flags, Kind kind) {
 }
 
 int compare(const Flags& flags) {
-    const Kind first = kind_of(flags.reference, flags.lamps), second = kind_of(flags.tested, flags.lamps);
+    const ComparedKind first = kind_of(flags.reference, flags.lamps), second = kind_of(flags.tested, flags.lamps);
     if (first != second)
-        throw InputError(
-            {flags.tested, 0, 0, {}}, fmt::format("is {}", name_of(second)),
-            fmt::format("{} as A is", first == Kind::lamps ? "a lamp file (--lamps takes pictures for beam textures)" : name_of(first)));
+        throw InputError({flags.tested, 0, 0, {}}, fmt::format("is {}", name_of(second)),
+                         fmt::format("{} as A is", first == ComparedKind::lamps ? "a lamp file (--lamps takes pictures for beam textures)"
+                                                                                : name_of(first)));
     refuse_foreign_flags(flags, first);
-    if (first == Kind::runs)
+    if (first == ComparedKind::runs)
         return compare_runs_of(flags);
-    if (first == Kind::pictures)
+    if (first == ComparedKind::pictures)
         return compare_two_pictures(flags);
     return compare_two_lamps({flags.reference, flags.tested, flags.out, flags.regulation,
                               flags.noise.empty() ? 0.0 : share_of("--noise", flags.noise), flags.json});

@@ -20,7 +20,7 @@ constexpr double edge_px = 16.0, gap_px = 12.0, caption_px = 44.0, head_px = 62.
 plots::Axis lux_axis() { return {.label = "illuminance", .unit = "lx", .from = 0.1, .to = 100.0, .scale = plots::Scale::logarithmic}; }
 
 /// Where tiles of one part of the sheet lie.
-struct Ground {
+struct SheetGround {
     double tile_width = 0.0, tile_height = 0.0, top = 0.0;
     double left_of(std::size_t tile) const { return edge_px + static_cast<double>(tile % across) * (tile_width + gap_px); }
     double top_of(std::size_t tile) const { return top + static_cast<double>(tile / across) * (tile_height + caption_px); }
@@ -47,13 +47,13 @@ std::string spot_text(const ContactSheet& sheet, const SheetTile& tile) {
     return lux_text(*tile.spot_lx) + (sheet.twin_lx > 0.0 ? fmt::format(", x {:.2f}", *tile.spot_lx / sheet.twin_lx) : "");
 }
 
-void draw_caption(Canvas& canvas, const Ground& ground, std::size_t i, const SheetTile& tile, const std::string& words) {
+void draw_caption(Canvas& canvas, const SheetGround& ground, std::size_t i, const SheetTile& tile, const std::string& words) {
     const double left = ground.left_of(i), below = ground.top_of(i) + ground.tile_height;
     canvas.text(left, below + 15.0, std::string(tile.row.name), {.size_px = 13.0, .colour = ink, .bold = true});
     canvas.text(left, below + 30.0, words, {.size_px = 12.0, .colour = faint});
 }
 
-void draw_pictures(Canvas& canvas, const ContactSheet& sheet, const Ground& ground) {
+void draw_pictures(Canvas& canvas, const ContactSheet& sheet, const SheetGround& ground) {
     for (std::size_t i = 0; i < sheet.tiles.size(); ++i) {
         canvas.picture(ground.left_of(i), ground.top_of(i), ground.tile_width, ground.tile_height, pixels_of(sheet.tiles[i].colour));
         draw_caption(canvas, ground, i, sheet.tiles[i], kind_text(sheet.tiles[i].row));
@@ -67,7 +67,7 @@ void draw_cross(Canvas& canvas, double x, double y) {
     }
 }
 
-void draw_lux(Canvas& canvas, const ContactSheet& sheet, const Ground& ground) {
+void draw_lux(Canvas& canvas, const ContactSheet& sheet, const SheetGround& ground) {
     for (std::size_t i = 0; i < sheet.tiles.size(); ++i) {
         const SheetTile& tile = sheet.tiles[i];
         const double left = ground.left_of(i), top = ground.top_of(i);
@@ -102,7 +102,7 @@ void draw_bar(Canvas& canvas, double right, double top) {
 
 std::string contact_sheet_svg(const ContactSheet& sheet) {
     const auto rows = static_cast<double>((sheet.tiles.size() + across - 1) / across);
-    Ground ground{static_cast<double>(sheet.view.width_px), static_cast<double>(sheet.view.height_px), head_px};
+    SheetGround ground{static_cast<double>(sheet.view.width_px), static_cast<double>(sheet.view.height_px), head_px};
     const double part_px = head_px + rows * (ground.tile_height + caption_px);
     const double width_px = 2.0 * edge_px + across * ground.tile_width + (across - 1) * gap_px, height_px = 2.0 * part_px;
     Canvas canvas(width_px, height_px, "Contact sheet of the techniques");

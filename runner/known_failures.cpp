@@ -12,7 +12,7 @@ namespace fernlicht {
 namespace {
 
 constexpr std::size_t most_entries = 10000;
-constexpr std::size_t most_file_bytes = std::size_t{4} << 20;
+constexpr std::size_t most_list_bytes = std::size_t{4} << 20;
 
 /// The part before the first slash.
 std::string drive_of(const std::string& id) { return id.substr(0, id.find('/')); }
@@ -110,7 +110,7 @@ std::string verdict_id(const PlayedVariant& played, const Verdict& verdict) {
 KnownFailures read_known_failures(const std::filesystem::path& file) {
     KnownFailures known;
     known.file = file;
-    const YamlValue tree = parse_yaml(read_file(file, known.opened, most_file_bytes), file);
+    const YamlValue tree = parse_yaml(read_file(file, known.opened, most_list_bytes), file);
     const YamlEntry root(tree, file, "");
     const YamlMap map = root.map({"known"});
     const YamlEntry entries = map.require("known");

@@ -1,5 +1,6 @@
 #include "runner/left_open.h"
 
+#include "runner/significance.h"
 #include "runner/summary.h"
 
 #include <cmath>
@@ -13,11 +14,6 @@ namespace {
 constexpr double double_precision = 1e-6;
 /// The own lane's grid of evenness (docs/seeing.md): patches begin and end at its points.
 constexpr double evenness_step_m = 0.5;
-
-std::optional<double> value_of(const PlayedReadings& played, const std::string& name) {
-    const auto found = played.readings.find(name);
-    return found == played.readings.end() ? std::nullopt : found->second.value;
-}
 
 /// Without its unit: "probe_kerb" of "probe_kerb_lx".
 std::string without_unit(const Reading& reading) {

@@ -13,11 +13,6 @@ namespace {
 
 constexpr double rating_by_light = 2.0 / 2.302585092994046; // de Boer: W = 5 - 2 lg (E ...), after ln E
 
-std::optional<double> value_of(const PlayedReadings& played, const std::string& name) {
-    const auto found = played.readings.find(name);
-    return found == played.readings.end() ? std::nullopt : found->second.value;
-}
-
 /// A reading's name round its limit: "reach", 5, "road_own_m" of "reach_5lx_road_own_m".
 struct LimitInName {
     std::string before, after;

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void add_line(std::string& out, const char* key, const std::string& value) { out += fmt::format("{:<12} {}\n", key, value); }
+void add_entry(std::string& out, const char* key, const std::string& value) { out += fmt::format("{:<12} {}\n", key, value); }
 
 const char* word(RowVerdict verdict) {
     switch (verdict) {
@@ -210,21 +210,21 @@ std::string scan_text(const CutOffScan& s, const char* axis) {
 std::string text_of(const Regulation& r, const RegulationCheck& check, const std::vector<std::string>& lamps) {
     std::string out;
     for (const std::string& lamp : lamps)
-        add_line(out, "lamp", printable(lamp, 90));
-    add_line(out, "regulation", r.id + ": " + r.title + (check.left_hand_traffic ? ", left-hand traffic by mirror" : ""));
-    add_line(out, "edition", "per our table of " + r.edition);
-    add_line(out, "source", r.source);
-    add_line(out, "judged", judged_text(r, lamps) + "; " + receiver_text(r.receiver));
+        add_entry(out, "lamp", printable(lamp, 90));
+    add_entry(out, "regulation", r.id + ": " + r.title + (check.left_hand_traffic ? ", left-hand traffic by mirror" : ""));
+    add_entry(out, "edition", "per our table of " + r.edition);
+    add_entry(out, "source", r.source);
+    add_entry(out, "judged", judged_text(r, lamps) + "; " + receiver_text(r.receiver));
     for (std::size_t i = 0; i < check.aims.size(); ++i) {
-        add_line(out, check.aims.size() > 1 ? (i == 0 ? "aim, lamp 1" : "aim, lamp 2") : "aim",
-                 fmt::format("{}: {} ({})", word(check.aims[i].rule), check.aims[i].how, turned_text(check.aims[i].turned)));
+        add_entry(out, check.aims.size() > 1 ? (i == 0 ? "aim, lamp 1" : "aim, lamp 2") : "aim",
+                  fmt::format("{}: {} ({})", word(check.aims[i].rule), check.aims[i].how, turned_text(check.aims[i].turned)));
         if (const std::string found = as_found_text(check.aims[i]); !found.empty())
-            add_line(out, "mounted", found);
+            add_entry(out, "mounted", found);
     }
     if (check.was_re_aimed)
-        add_line(out, "re-aimed", turned_text(check.re_aimed) + " more, within what the edition allows a lamp that fails");
+        add_entry(out, "re-aimed", turned_text(check.re_aimed) + " more, within what the edition allows a lamp that fails");
     for (const std::string& note : r.notes)
-        add_line(out, "note", note);
+        add_entry(out, "note", note);
     std::size_t width = 3;
     for (const RowResult& row : check.rows)
         width = std::max(width, row.id.size());
@@ -236,8 +236,8 @@ std::string text_of(const Regulation& r, const RegulationCheck& check, const std
     for (const RowResult* row : narrowest(check, 3))
         names.push_back(fmt::format("{} {:+.1f} %", row->id, 100.0 * row->margin));
     if (!names.empty())
-        add_line(out, "narrowest", fmt::format("{}", fmt::join(names, ", ")));
-    add_line(out, "verdict", verdict_text(check) + "; no approval");
+        add_entry(out, "narrowest", fmt::format("{}", fmt::join(names, ", ")));
+    add_entry(out, "verdict", verdict_text(check) + "; no approval");
     return out;
 }
 
@@ -276,26 +276,26 @@ std::string text_of(const CutOffFigures& c, const std::string& lamp, const CutOf
     const double sign = left_hand_traffic ? -1.0 : 1.0;
     const auto at = [&](double h) { return fmt::format("H {:+.1f}", sign * h); };
     std::string out;
-    add_line(out, "lamp", printable(lamp, 90));
-    add_line(out, "scanned",
-             fmt::format("in steps of 0.01 degrees, detector {:.0f} mm at 25 m, G {}{}",
-                         std::tan(options.detector_deg * 3.14159265358979 / 180.0) * 25000.0,
-                         options.sharpness == SharpnessRule::maximum ? "at its maximum" : "at the inflection",
-                         left_hand_traffic ? "; left-hand traffic" : ""));
+    add_entry(out, "lamp", printable(lamp, 90));
+    add_entry(out, "scanned",
+              fmt::format("in steps of 0.01 degrees, detector {:.0f} mm at 25 m, G {}{}",
+                          std::tan(options.detector_deg * 3.14159265358979 / 180.0) * 25000.0,
+                          options.sharpness == SharpnessRule::maximum ? "at its maximum" : "at the inflection",
+                          left_hand_traffic ? "; left-hand traffic" : ""));
     for (const CutOffScan* scan : {&c.level_inner, &c.level, &c.level_outer})
-        add_line(out, at(scan->at_deg).c_str(), scan_text(*scan, "V"));
-    add_line(out, "linearity",
-             c.linearity_deg ? fmt::format("{:.3f} degrees over 1.5, 2.5 and 3.5 degrees", *c.linearity_deg) : "not_measured");
+        add_entry(out, at(scan->at_deg).c_str(), scan_text(*scan, "V"));
+    add_entry(out, "linearity",
+              c.linearity_deg ? fmt::format("{:.3f} degrees over 1.5, 2.5 and 3.5 degrees", *c.linearity_deg) : "not_measured");
     for (const CutOffScan& scan : c.rise)
-        add_line(out, at(scan.at_deg).c_str(), scan_text(scan, "V"));
-    add_line(out, "kink",
-             c.kink_h_deg ? fmt::format("H {:.2f}, where the line through these meets the level part", sign * *c.kink_h_deg + 0.0)
-                          : "not_measured: " + c.kink_reason);
-    add_line(out, "rise", c.rise_angle_deg ? fmt::format("{:.1f} degrees", *c.rise_angle_deg) : "not_measured: " + c.kink_reason);
+        add_entry(out, at(scan.at_deg).c_str(), scan_text(scan, "V"));
+    add_entry(out, "kink",
+              c.kink_h_deg ? fmt::format("H {:.2f}, where the line through these meets the level part", sign * *c.kink_h_deg + 0.0)
+                           : "not_measured: " + c.kink_reason);
+    add_entry(out, "rise", c.rise_angle_deg ? fmt::format("{:.1f} degrees", *c.rise_angle_deg) : "not_measured: " + c.kink_reason);
     CutOffScan shoulder = c.shoulder;
     if (shoulder.inflection_deg)
         *shoulder.inflection_deg *= sign;
-    add_line(out, "shoulder", scan_text(shoulder, "H") + (c.level.inflection_deg ? fmt::format(", along V {:.2f}", shoulder.at_deg) : ""));
+    add_entry(out, "shoulder", scan_text(shoulder, "H") + (c.level.inflection_deg ? fmt::format(", along V {:.2f}", shoulder.at_deg) : ""));
     return out;
 }
 

@@ -8,11 +8,6 @@
 namespace fernlicht {
 namespace {
 
-std::optional<double> value_of(const PlayedReadings& cell, const std::string& name) {
-    const auto found = cell.readings.find(name);
-    return found == cell.readings.end() ? std::nullopt : found->second.value;
-}
-
 /// The spread between repeats on top of what calculation leaves open, where they differ.
 std::optional<double> with_repeats(const PlayedReadings& cell, const Reading& reading) {
     const std::optional<double> calculated = left_open(cell, reading);
@@ -62,6 +57,11 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
 }
 
 } // namespace
+
+std::optional<double> value_of(const PlayedReadings& played, const std::string& name) {
+    const auto found = played.readings.find(name);
+    return found == played.readings.end() ? std::nullopt : found->second.value;
+}
 
 const char* change_name(ChangeKind kind) {
     static constexpr const char* names[] = {"real", "within aim", "no difference", "not known"};

@@ -46,6 +46,9 @@ struct PlayedReadings : Steps {
     std::map<std::string, double> by_repeats; ///< of readings that differ between repeats: what chance reaches in 5 % of them
 };
 
+/// Of a reading; nullopt where it is missing or not measured.
+std::optional<double> value_of(const PlayedReadings& played, const std::string& name);
+
 /// Whether a row tells how exact another reading is: such rows are not compared.
 bool says_how_exact(const std::string& name);
 

@@ -9,14 +9,14 @@ namespace {
 
 constexpr double followed_to_deg = 0.001; // a hundredth of the coarsest angle that a table of limits names
 
-void take(Extremes& all, double cd, Direction where, Wanted wanted) {
+void take(Extremes& all, double cd, Direction where, WantedExtremes wanted) {
     if (wanted.lowest && (!all.lowest || cd < all.lowest->cd))
         all.lowest = Extreme{cd, where};
     if (wanted.highest && (!all.highest || cd > all.highest->cd))
         all.highest = Extreme{cd, where};
 }
 
-void look(Extremes& all, const ReceivedBeam& beam, Direction where, Wanted wanted) {
+void look(Extremes& all, const ReceivedBeam& beam, Direction where, WantedExtremes wanted) {
     if (const std::optional<double> cd = beam.at(where))
         take(all, *cd, where, wanted);
     else
@@ -104,7 +104,8 @@ struct Block {
 constexpr double block_deg = 1.0;  // some twenty samples a side
 constexpr double rounding = 1e-12; // of means of equal samples
 
-void look_through(Extremes& all, const ReceivedBeam& beam, const Block& block, const std::vector<Direction>& corners, Wanted wanted) {
+void look_through(Extremes& all, const ReceivedBeam& beam, const Block& block, const std::vector<Direction>& corners,
+                  WantedExtremes wanted) {
     const double width = block.high.h_deg - block.low.h_deg, height = block.high.v_deg - block.low.v_deg;
     const std::size_t columns = samples_along(width, beam.step_deg()), rows = samples_along(height, beam.step_deg());
     for (std::size_t j = 0; j <= rows; ++j)
@@ -118,7 +119,8 @@ void look_through(Extremes& all, const ReceivedBeam& beam, const Block& block, c
 
 /// Best first: the block that promises most is cut in four, or looked through once it is small, until none promises more than was found.
 template <class Promises, class Found> void search(const ReceivedBeam& beam, Direction low, Direction high, Promises promises_less,
-                                                   Found beaten, const std::vector<Direction>& corners, Wanted wanted, Extremes& all) {
+                                                   Found beaten, const std::vector<Direction>& corners, WantedExtremes wanted,
+                                                   Extremes& all) {
     std::vector<Block> heap{{low, high, beam.bounds(low, high)}};
     while (!heap.empty()) {
         std::pop_heap(heap.begin(), heap.end(), promises_less);
@@ -146,7 +148,7 @@ template <class Promises, class Found> void search(const ReceivedBeam& beam, Dir
 
 } // namespace
 
-Extremes extremes_on(const ReceivedBeam& beam, Direction from, Direction to, Wanted wanted) {
+Extremes extremes_on(const ReceivedBeam& beam, Direction from, Direction to, WantedExtremes wanted) {
     Extremes all;
     if (!clip(beam, from, to, all.all_covered))
         return all;
@@ -180,7 +182,7 @@ Extremes extremes_on(const ReceivedBeam& beam, Direction from, Direction to, Wan
     return all;
 }
 
-Extremes extremes_in(const ReceivedBeam& beam, const std::vector<Direction>& corners, Wanted wanted) {
+Extremes extremes_in(const ReceivedBeam& beam, const std::vector<Direction>& corners, WantedExtremes wanted) {
     Extremes all;
     for (std::size_t i = 0; i < corners.size(); ++i)
         merge(all, extremes_on(beam, corners[i], corners[(i + 1) % corners.size()], wanted));

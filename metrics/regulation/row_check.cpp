@@ -17,7 +17,7 @@ struct Found {
 
 Direction moved(Direction d, Direction by) { return {d.h_deg + by.h_deg, d.v_deg + by.v_deg}; }
 
-Found look_at(const RegulationRow& row, const ReceivedBeam& beam, Direction by, Wanted wanted) {
+Found look_at(const RegulationRow& row, const ReceivedBeam& beam, Direction by, WantedExtremes wanted) {
     std::vector<Direction> places = row.places;
     for (Direction& place : places)
         place = moved(place, by);

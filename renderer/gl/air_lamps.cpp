@@ -1,5 +1,6 @@
 #include "renderer/gl/air_lamps.h"
 
+#include "renderer/gl/shader_text.h"
 #include "scenarios/fog_light.h"
 #include "scenarios/photometry.h"
 
@@ -10,10 +11,8 @@
 namespace fernlicht::gl {
 namespace {
 
-constexpr double rounding = 1.001, nearest_pass_m = 1e-3;
+constexpr double nearest_pass_m = 1e-3;
 constexpr GLuint lamps_at = 6, beams_at = 7; // bindings in air_lamps.glsl
-
-glm::vec4 with(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 template <class T> void upload(Context& context, Buffer& buffer, std::size_t& room, const std::vector<T>& values) {
     if (room < values.size() || buffer == 0) {
@@ -65,8 +64,8 @@ void AirLamps::set(const Moment& moment, const Camera& camera) {
             continue;
         }
         const BeamTexture& g = beam.grid;
-        packed_.push_back({with(at_m, rounding * beam.bounds.most() * lamp.intensity_factor), with(-lamp.pose.left()), with(lamp.pose.up()),
-                           with(lamp.pose.forward()), with(lamp.colour.linear_srgb, lamp.intensity_factor),
+        packed_.push_back({four(at_m, rounding * beam.bounds.most() * lamp.intensity_factor), four(-lamp.pose.left()), four(lamp.pose.up()),
+                           four(lamp.pose.forward()), four(lamp.colour.linear_srgb, lamp.intensity_factor),
                            glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
                            glm::vec4(beam_offset(beam), g.width, g.height, 0.0)});
     }

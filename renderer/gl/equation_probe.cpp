@@ -8,16 +8,16 @@
 namespace fernlicht {
 namespace {
 
-constexpr int width = 256;
-constexpr std::size_t most_points = std::size_t{width} * 256; ///< in one draw
+constexpr int probe_width = 256;
+constexpr std::size_t most_points = std::size_t{probe_width} * 256; ///< in one draw
 
 } // namespace
 
 struct EquationProbe::State {
     State(gl::Context& c, int equation)
         : context(c), program(c, "load.vert.glsl", "equations.frag.glsl", {{"EQUATION", std::to_string(equation)}}),
-          texture(gl::make_texture(c, GL_RGBA32F, width, static_cast<int>(most_points) / width)), target(gl::make_framebuffer(c)),
-          nothing(gl::make_vertex_array(c)), row_length(program.uniform("row_length")) {
+          texture(gl::make_texture(c, GL_RGBA32F, probe_width, static_cast<int>(most_points) / probe_width)),
+          target(gl::make_framebuffer(c)), nothing(gl::make_vertex_array(c)), row_length(program.uniform("row_length")) {
         c.gl.NamedFramebufferTexture(target, GL_COLOR_ATTACHMENT0, texture, 0);
     }
 
@@ -39,24 +39,24 @@ std::vector<EquationValue> EquationProbe::at(const std::vector<EquationArguments
     values.reserve(points.size());
     for (std::size_t first = 0; first < points.size(); first += most_points) {
         const std::size_t count = std::min(most_points, points.size() - first);
-        const auto rows = static_cast<int>((count + width - 1) / width);
+        const auto rows = static_cast<int>((count + probe_width - 1) / probe_width);
         std::vector<EquationArguments> batch(points.begin() + static_cast<std::ptrdiff_t>(first),
                                              points.begin() + static_cast<std::ptrdiff_t>(first + count));
-        batch.resize(static_cast<std::size_t>(rows) * width, batch.front());
+        batch.resize(static_cast<std::size_t>(rows) * probe_width, batch.front());
         const gl::Buffer arguments = gl::make_buffer(state_->context, batch);
         gl.BindFramebuffer(GL_FRAMEBUFFER, state_->target);
         gl.BindVertexArray(state_->nothing);
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, arguments);
-        gl.Viewport(0, 0, width, rows);
+        gl.Viewport(0, 0, probe_width, rows);
         gl.Disable(GL_DEPTH_TEST);
         state_->program.use();
-        gl.Uniform1i(state_->row_length, width);
+        gl.Uniform1i(state_->row_length, probe_width);
         gl.DrawArrays(GL_TRIANGLES, 0, 3);
         std::vector<EquationValue> read(batch.size());
         gl.BindFramebuffer(GL_READ_FRAMEBUFFER, state_->target);
         gl.NamedFramebufferReadBuffer(state_->target, GL_COLOR_ATTACHMENT0);
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-        gl.ReadPixels(0, 0, width, rows, GL_RGBA, GL_FLOAT, read.data());
+        gl.ReadPixels(0, 0, probe_width, rows, GL_RGBA, GL_FLOAT, read.data());
         values.insert(values.end(), read.begin(), read.begin() + static_cast<std::ptrdiff_t>(count));
     }
     gl.Enable(GL_DEPTH_TEST);

@@ -1,5 +1,6 @@
 #include "renderer/gl/lamp_faces.h"
 
+#include "renderer/gl/shader_text.h"
 #include "scenarios/fog_light.h"
 #include "scenarios/light.h"
 
@@ -14,11 +15,6 @@ namespace {
 constexpr double before_body_m = 0.25; // nearer than the lamp's place: its own body does not hide it
 constexpr double grazing = 0.1;        // least cosine that the face is seen under
 constexpr double least_share = 1e-7;   // of a pixel's area that is still drawn
-
-int bits(const Wanted& w) {
-    return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) |
-           (w.ids ? 32 : 0);
-}
 
 } // namespace
 
@@ -54,14 +50,14 @@ std::vector<LampFaces::Face> LampFaces::seen(const Shot& shot) const {
 }
 
 const Program& LampFaces::program(const Wanted& wanted) {
-    if (const auto known = programs_.find(bits(wanted)); known != programs_.end())
+    if (const auto known = programs_.find(wanted_bits(wanted)); known != programs_.end())
         return known->second;
     std::vector<Program::Define> d = Targets::defines(wanted);
     const auto literal = [](double value) { return fmt::format("{:.9e}", static_cast<float>(value)); };
     d.push_back({"TONE_KIND", std::to_string(static_cast<int>(tone_.kind))});
     d.push_back({"TONE_S", literal(tone_.s)});
     d.push_back({"TONE_L_MAX", literal(tone_.l_max_cdm2)});
-    return programs_.emplace(bits(wanted), Program(context_, "lamp_face.vert.glsl", "lamp_face.frag.glsl", d)).first->second;
+    return programs_.emplace(wanted_bits(wanted), Program(context_, "lamp_face.vert.glsl", "lamp_face.frag.glsl", d)).first->second;
 }
 
 void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {

@@ -1,4 +1,5 @@
 #include "renderer/gl/photometric_lighting.h"
+#include "renderer/gl/shader_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,12 +14,6 @@ constexpr std::size_t most_lamps_by_vertex = 4;
 /// Of the sky behind fog: beyond all that is drawn.
 constexpr double background_m = 5000.0;
 
-int bits(const Wanted& w) {
-    return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) |
-           (w.ids ? 32 : 0);
-}
-
-std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
 const char* flag(bool on) { return on ? "1" : "0"; }
 
 /// "vec4(...), vec4(...)": constants of a variant, one a lamp.
@@ -56,8 +51,6 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
     }
     gl.Uniform3fv(program.uniform("background_m"), 3, &corners[0][0]);
 }
-
-glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 } // namespace
 
@@ -108,7 +101,7 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     f.fog = everything || shot.moment.weather.extinction_per_m > 0.0;
     f.air_lamps = f.fog && reflects && !shot.camera.is_map && !shot.moment.other_lamps.empty(); // though all may be too faint
     f.wet = reflects && (everything || shot.moment.weather.wetness > 0.0);
-    f.wanted = bits(shot.wanted);
+    f.wanted = wanted_bits(shot.wanted);
     f.traffic = traffic || (!pruned_ && !shot.moment.other_lamps.empty());
     if (lit || !pruned_ || (f.fog && reflects && !shot.camera.is_map)) // in fog, beams are seen from beside
         for (const Beam* beam : lamp_beams_)

@@ -1,6 +1,7 @@
 #include "renderer/gl/published_lighting.h"
 
 #include "renderer/gl/beams.h"
+#include "renderer/gl/shader_text.h"
 #include "renderer/merged_beam.h"
 #include "renderer/published_light.h"
 
@@ -30,10 +31,6 @@ std::map<std::string, std::string> features_of(const Technique& technique) {
 }
 
 int published_bits(const Wanted& w) { return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.depth ? 4 : 0) | (w.ids ? 8 : 0); }
-
-std::string published_literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
-
-glm::vec4 with_fourth(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 /// From left to right, as the car sees it.
 std::vector<LitLamp> from_left(const Moment& moment) {
@@ -70,19 +67,19 @@ void PublishedLighting::set_projected_lamp(const LitLamp& lamp, const UploadedBe
         gain *= beam.peak_lx > 0.0 ? 1.0 / beam.peak_lx : 0.0;
     else if (!is("DISTANCE", "NONE"))
         gain *= cd_per_lx;
-    packed_.push_back({glm::mat4(texture * lamp_from_ego(pose, ego_m)), with_fourth(pose.position_m - ego_m, gain)});
+    packed_.push_back({glm::mat4(texture * lamp_from_ego(pose, ego_m)), four(pose.position_m - ego_m, gain)});
     textures_.push_back(beam.texture);
 }
 
 void PublishedLighting::set_spots(const LitLamp& lamp, const glm::dvec3& ego_m) {
-    packed_.push_back({glm::mat4(1.0F), with_fourth(lamp.pose.position_m - ego_m, lamp.intensity_factor)});
+    packed_.push_back({glm::mat4(1.0F), four(lamp.pose.position_m - ego_m, lamp.intensity_factor)});
     std::vector<Spot> spots = beams_.spots_of(lamp.file);
     spots.resize(most_spots, Spot{0.0, 0.0, 0.0, 0.0, 0.0}); // dark ones
     for (const Spot& spot : spots) {
         const double h = radians(spot.h_deg), v = radians(spot.v_deg);
         const glm::dvec3 axis = -lamp.pose.left() * (std::sin(h) * std::cos(v)) + lamp.pose.up() * std::sin(v) +
                                 lamp.pose.forward() * (std::cos(h) * std::cos(v));
-        spots_.push_back({with_fourth(axis, spot.exponent), glm::vec4(spot.cd, std::cos(radians(spot.cutoff_deg)), 0.0, 0.0)});
+        spots_.push_back({four(axis, spot.exponent), glm::vec4(spot.cd, std::cos(radians(spot.cutoff_deg)), 0.0, 0.0)});
     }
 }
 
@@ -134,20 +131,19 @@ const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wis
     define("TEXTURED", wish.texture > 0 ? "1" : "0");
     define("TEXTURE_MODE", std::to_string(wish.texture - 1));
     const RationalMapper mapper = published_mapper(settings_.tone_mapper, is("SUN", "1"));
-    define("L_MAX", published_literal(mapper.l_max_lx));
-    define("RATIONAL_S", published_literal(mapper.s));
-    define("REFERENCE_LIGHT", published_literal(reference_light_lx));
-    define("SHEETING_RL", published_literal(sheeting_rl));
-    define("EMISSIVE_REACH", published_literal(emissive_reach_m));
-    define("PROJECTION_NEAR", published_literal(projection_near_m));
+    define("L_MAX", literal(mapper.l_max_lx));
+    define("RATIONAL_S", literal(mapper.s));
+    define("REFERENCE_LIGHT", literal(reference_light_lx));
+    define("SHEETING_RL", literal(sheeting_rl));
+    define("EMISSIVE_REACH", literal(emissive_reach_m));
+    define("PROJECTION_NEAR", literal(projection_near_m));
     if (map_ != nullptr) {
         const auto vector = [](auto of, const UploadedMap& m) {
-            return fmt::format("vec3({}, {}, {})", published_literal(of(m.ahead)), published_literal(of(m.left)),
-                               published_literal(of(m.up)));
+            return fmt::format("vec3({}, {}, {})", literal(of(m.ahead)), literal(of(m.left)), literal(of(m.up)));
         };
         define("MAP_FROM", vector([](const LightMapAxis& a) { return a.from_m; }, *map_));
         define("MAP_INVERSE_SPAN", vector([](const LightMapAxis& a) { return 1.0 / (a.to_m - a.from_m); }, *map_));
-        define("MAP_GROWTH", published_literal(map_->ahead.growth));
+        define("MAP_GROWTH", literal(map_->ahead.growth));
     }
     Program program(context_, "published.vert.glsl", "published.frag.glsl", d);
     const auto at = [&](const char* name) { return program.uniform(name); };

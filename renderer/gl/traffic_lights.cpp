@@ -1,5 +1,6 @@
 #include "renderer/gl/traffic_lights.h"
 
+#include "renderer/gl/shader_text.h"
 #include "scenarios/light.h"
 #include "scenarios/values/errors.h"
 
@@ -12,14 +13,11 @@
 namespace fernlicht::gl {
 namespace {
 
-constexpr double rounding = 1.001;      // what floats on the GPU may be above the bound in double
 constexpr double nearest_m = 0.05;      // from a lamp, as far as bounds go
 constexpr double same_normal = 5e-4;    // two of the ground, in length of their difference
 constexpr double least_height_m = 1e-3; // what floats may be off in a place on the ground
 constexpr double same_axis = 1.0 - 1e-9;
 constexpr std::uint32_t is_ground_bit = 0x80000000U;
-
-glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 bool is_pair(const LitLamp& a, const LitLamp& b) {
     return a.body >= 0 && a.body == b.body && a.file == b.file && a.intensity_factor == b.intensity_factor &&

@@ -10,7 +10,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr double never = 1e-9; // a target that no pixel meets: each gets all samples
+constexpr double never_met = 1e-9; // a target that no pixel meets: each gets all samples
 
 /// A way to draw, and what is varied in it.
 struct Way {
@@ -21,7 +21,7 @@ struct Way {
 ReferenceSettings drawn_by(const ClassicalStudy& study, Integrator integrator, int samples) {
     ReferenceSettings settings;
     settings.integrator = integrator;
-    settings.target_error = never;
+    settings.target_error = never_met;
     settings.least_samples = settings.most_samples = samples;
     settings.solver = study.solver;
     settings.seed = study.seed;

@@ -23,7 +23,7 @@ struct Box {
 };
 
 /// The plot's ground and where values fall on it; what lies beyond an edge is drawn on it.
-struct Ground {
+struct PlotGround {
     plots::Axis time, error;
     double height = 0.0;
     double bottom() const { return top_px + height; }
@@ -64,7 +64,7 @@ plots::Axis tight_axis(const std::string& label, const std::string& unit, const 
     return axis;
 }
 
-Ground ground_for(const WorkPrecision& diagram, double height) {
+PlotGround ground_for(const WorkPrecision& diagram, double height) {
     std::vector<double> times, errors;
     for (const WorkPrecisionRow& row : diagram.rows)
         if (row.measured()) {
@@ -72,7 +72,7 @@ Ground ground_for(const WorkPrecision& diagram, double height) {
             errors.insert(errors.end(), {row.claimed_error(), row.error->high});
         }
     errors.push_back(typical_floor(diagram));
-    Ground ground;
+    PlotGround ground;
     ground.time = tight_axis(diagram.time_name, "ms", times);
     ground.error = tight_axis(diagram.error_name, diagram.error_unit, errors);
     ground.error.from *= 0.6; // room below the lowest point for its arrow
@@ -80,7 +80,7 @@ Ground ground_for(const WorkPrecision& diagram, double height) {
     return ground;
 }
 
-void draw_ground(Canvas& canvas, const Ground& ground, const WorkPrecision& diagram) {
+void draw_ground(Canvas& canvas, const PlotGround& ground, const WorkPrecision& diagram) {
     const double right = left_px + plot_width_px, floor = typical_floor(diagram);
     if (floor > 0.0) {
         canvas.rectangle(left_px, ground.y(floor), plot_width_px, ground.bottom() - ground.y(floor), {.fill = css(band), .opacity = 0.45});
@@ -106,7 +106,7 @@ void draw_ground(Canvas& canvas, const Ground& ground, const WorkPrecision& diag
 }
 
 /// Steps down from point to point of the front: what can be had for at most so much time.
-void draw_front(Canvas& canvas, const Ground& ground, const WorkPrecision& diagram, const std::vector<Standing>& standing) {
+void draw_front(Canvas& canvas, const PlotGround& ground, const WorkPrecision& diagram, const std::vector<Standing>& standing) {
     std::vector<std::pair<double, double>> points;
     for (std::size_t i = 0; i < diagram.rows.size(); ++i)
         if (standing[i].on_front)
@@ -123,7 +123,7 @@ void draw_front(Canvas& canvas, const Ground& ground, const WorkPrecision& diagr
     canvas.line(line, {.colour = plots::series_colour(0), .width_px = 1.6, .opacity = 0.8});
 }
 
-void draw_row(Canvas& canvas, const Ground& ground, const WorkPrecisionRow& row, bool on_front) {
+void draw_row(Canvas& canvas, const PlotGround& ground, const WorkPrecisionRow& row, bool on_front) {
     const plots::Colour colour = on_front ? plots::series_colour(0) : faint;
     const double x = ground.x(1e3 * row.seconds->value), y = ground.y(row.claimed_error());
     const auto bar = [&](const plots::Polyline& line) { canvas.line(line, {.colour = colour, .width_px = 1.1, .opacity = 0.8}); };
@@ -143,7 +143,7 @@ struct Heap {
 };
 
 /// Each row's point is in the first heap whose first point it touches, from the left.
-std::vector<Heap> heaps_of(const Ground& ground, const WorkPrecision& diagram) {
+std::vector<Heap> heaps_of(const PlotGround& ground, const WorkPrecision& diagram) {
     std::vector<Heap> points;
     for (std::size_t i = 0; i < diagram.rows.size(); ++i)
         if (const WorkPrecisionRow& row = diagram.rows[i]; row.measured())
@@ -177,7 +177,7 @@ std::string ranges_text(std::vector<std::size_t> numbers) {
 
 /// The rows' numbers beside their points, one label for points that touch, where it hides no point and no other label as long as such a
 /// place is found.
-void draw_numbers(Canvas& canvas, const Ground& ground, const WorkPrecision& diagram) {
+void draw_numbers(Canvas& canvas, const PlotGround& ground, const WorkPrecision& diagram) {
     std::vector<Box> taken;
     for (const WorkPrecisionRow& row : diagram.rows)
         if (row.measured()) {
@@ -236,7 +236,7 @@ std::string work_precision_svg(const WorkPrecision& diagram) {
     const double list_bottom = top_px + line_px * static_cast<double>(diagram.rows.size()) + 8.0,
                  height = std::max(least_height_px, list_bottom - top_px), total_width = list_px + 500.0,
                  total_height = top_px + height + bottom_px;
-    const Ground ground = ground_for(diagram, height);
+    const PlotGround ground = ground_for(diagram, height);
     Canvas canvas(total_width, total_height, diagram.title);
     canvas.rectangle(0.0, 0.0, total_width, total_height, {.fill = "#ffffff"});
     canvas.text(16.0, title_px, diagram.title, {.size_px = 16.0, .colour = ink, .bold = true});

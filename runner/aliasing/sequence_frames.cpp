@@ -13,7 +13,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr int least_px = 32;
+constexpr int least_frame_px = 32;
 constexpr const char* what_is_expected = "PNG or EXR files with numbers in their names, e.g. frame-0001.png";
 
 /// The last run of digits in a name; nullopt where there is none, or it is longer than nine.
@@ -139,9 +139,9 @@ SequenceFrames read_sequence(const std::filesystem::path& path_or_pattern, const
         if (last.width() != first.width() || last.height() != first.height())
             throw InputError({path, 0, 0, {}}, fmt::format("has {} x {} pixels", last.width(), last.height()),
                              fmt::format("{} x {}, as the first frame", first.width(), first.height()));
-        if (std::min(last.width(), last.height()) < least_px)
+        if (std::min(last.width(), last.height()) < least_frame_px)
             throw InputError({path, 0, 0, {}}, fmt::format("has {} x {} pixels", last.width(), last.height()),
-                             fmt::format("{} pixels each way at least", least_px));
+                             fmt::format("{} pixels each way at least", least_frame_px));
     }
     return frames;
 }

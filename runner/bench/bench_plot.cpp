@@ -40,13 +40,13 @@ double widest(const std::vector<BenchRow>& rows, std::string (*text)(const Bench
 }
 
 /// Where the bars lie: from `left` over `width` pixels, for 0 .. axis.to.
-struct Ground {
+struct PlotGround {
     double left = 0.0, width = 0.0;
     plots::Axis axis;
     double x(double value) const { return left + width * plots::position(axis, value); }
 };
 
-void draw_bar(Canvas& canvas, const BenchRow& row, const Ground& ground, double y) {
+void draw_bar(Canvas& canvas, const BenchRow& row, const PlotGround& ground, double y) {
     const double middle = y + 0.5 * bar_px, end = ground.x(1e3 * row.frame.median);
     const double low = ground.x(1e3 * row.frame.p05), high = ground.x(1e3 * row.frame.p95);
     canvas.text(ground.left - 8.0, middle + 4.0, label_of(row), {.size_px = 12.0, .colour = ink, .anchor = "end"});
@@ -57,7 +57,7 @@ void draw_bar(Canvas& canvas, const BenchRow& row, const Ground& ground, double 
     canvas.text(std::max(end, high) + 8.0, middle + 4.0, value_of(row), {.size_px = 12.0, .colour = faint});
 }
 
-void draw_axis(Canvas& canvas, const Ground& ground, double bottom) {
+void draw_axis(Canvas& canvas, const PlotGround& ground, double bottom) {
     for (const plots::Tick& tick : plots::ticks_of(ground.axis, 8)) {
         const double x = ground.x(tick.value);
         canvas.line({{x, top_px - 6.0}, {x, bottom}}, {.colour = grid});
@@ -74,7 +74,7 @@ std::string bench_svg(const BenchResult& result) {
     std::vector<double> highest{0.0};
     for (const BenchRow& row : rows)
         highest.push_back(1e3 * row.frame.p95);
-    Ground ground;
+    PlotGround ground;
     ground.axis = plots::axis_around("time a frame", "ms", highest, plots::Scale::linear, true);
     ground.left = 16.0 + std::max(60.0, widest(rows, label_of));
     ground.width = std::max(100.0, width_px - ground.left - widest(rows, value_of) - 16.0);

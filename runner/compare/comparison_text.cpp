@@ -9,14 +9,14 @@
 namespace fernlicht {
 namespace {
 
-std::string number(double value) {
+std::string six_digits(double value) {
     return value == std::round(value) && std::abs(value) < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:.6g}", value);
 }
 
 void append_values(std::string& text, const LayerComparison& layer) {
     std::vector<std::vector<std::string>> rows;
     for (const ComparedValue& v : layer.values)
-        rows.push_back({"  " + v.name, v.value ? number(*v.value) : "not measured", v.value ? v.unit : "",
+        rows.push_back({"  " + v.name, v.value ? six_digits(*v.value) : "not measured", v.value ? v.unit : "",
                         !v.value  ? v.why_not
                         : v.place ? fmt::format("at {}, {}", v.place->first, v.place->second)
                                   : ""});
@@ -30,8 +30,8 @@ std::string margin_text(const StrictnessResult& r) {
 }
 
 std::string leaf_text(const StrictnessResult& r) {
-    return fmt::format("{}: {} of {} {}, {}, farthest at {}, {}", r.statement, number(r.found), number(r.threshold), r.unit, margin_text(r),
-                       r.worst_x, r.worst_y);
+    return fmt::format("{}: {} of {} {}, {}, farthest at {}, {}", r.statement, six_digits(r.found), six_digits(r.threshold), r.unit,
+                       margin_text(r), r.worst_x, r.worst_y);
 }
 
 void collect_failures(const std::string& layer, const StrictnessResult& r, std::vector<std::string>& failures) {

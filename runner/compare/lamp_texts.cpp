@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.5g}", *value + 0.0) : "not measured"; }
+std::string five_digits(const std::optional<double>& value) { return value ? fmt::format("{:.5g}", *value + 0.0) : "not measured"; }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -66,7 +66,7 @@ std::string lamps_text(const LampPairComparison& lamps) {
     std::vector<std::vector<std::string>> rows;
     for (const LampFact& fact : lamps.facts) {
         const bool known = fact.before && fact.now;
-        rows.push_back({fact.words, number(fact.before), number(fact.now),
+        rows.push_back({fact.words, five_digits(fact.before), five_digits(fact.now),
                         known ? fmt::format("{:+.5g}", *fact.now - *fact.before + 0.0) : "",
                         fact.uncertainty ? fmt::format("±{:.2g}", *fact.uncertainty) : "", fact.unit, fact.why_not});
     }
@@ -75,7 +75,7 @@ std::string lamps_text(const LampPairComparison& lamps) {
         return text;
     rows.clear();
     for (const ComparedRow& row : lamps.rows)
-        rows.push_back({row.id, number(found_in(row.before)), number(found_in(row.now)), row.now ? row.now->unit : "",
+        rows.push_back({row.id, five_digits(found_in(row.before)), five_digits(found_in(row.now)), row.now ? row.now->unit : "",
                         percent(margin_in(row.before)), percent(margin_in(row.now)), verdict_in(row.before), verdict_in(row.now)});
     text += fmt::format("\n{}, per our table of {}\n", lamps.regulation->id, lamps.regulation->edition);
     text += aligned_table("<>><>><<", {"row", "A", "B", "", "margin A", "margin B", "A", "B"}, rows);

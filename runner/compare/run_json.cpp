@@ -8,19 +8,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json value_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json change_json(const ReadingChange& c) {
     const bool known = c.new_value && c.old_value;
     return {{"reading", c.reading},
             {"unit", c.unit},
-            {"old_value", or_null(c.old_value)},
-            {"new_value", or_null(c.new_value)},
+            {"old_value", value_or_null(c.old_value)},
+            {"new_value", value_or_null(c.new_value)},
             {"change", known ? Json(c.delta()) : Json(nullptr)},
             {"relative_change", known && *c.old_value != 0.0 ? Json(c.delta() / std::abs(*c.old_value)) : Json(nullptr)},
-            {"uncertainty", or_null(c.uncertainty)},
-            {"by_tenth_degree", or_null(c.by_aim)},
-            {"by_noise", or_null(c.by_noise)},
+            {"uncertainty", value_or_null(c.uncertainty)},
+            {"by_tenth_degree", value_or_null(c.by_aim)},
+            {"by_noise", value_or_null(c.by_noise)},
             {"kind", change_name(c.kind)},
             {"why_not", c.kind == ChangeKind::unknown ? Json(c.why_not) : Json(nullptr)}};
 }

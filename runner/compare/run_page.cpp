@@ -25,7 +25,7 @@ constexpr std::size_t embedded_bytes = std::size_t{48} << 20; // of pictures as 
 constexpr std::size_t most_settings = 40;
 
 /// With as many digits as tell it apart: readings reach from thousandths of a lux to thousands of square metres.
-std::string number(double value) {
+std::string page_number(double value) {
     const double size = std::abs(value);
     if (size > 0.0 && size < 1e-3) { // "4.3e-7"
         std::string text = fmt::format("{:.1e}", value);
@@ -34,8 +34,10 @@ std::string number(double value) {
     }
     return figure(value, size >= 1000.0 || size == 0.0 ? 0 : std::clamp(3 - static_cast<int>(std::ceil(std::log10(size))), 1, 6));
 }
-std::string signed_number(double value) { return value > 0.0 ? "+" + number(value) : number(value); }
-std::string optional_number(const std::optional<double>& value, const char* otherwise = "") { return value ? number(*value) : otherwise; }
+std::string signed_number(double value) { return value > 0.0 ? "+" + page_number(value) : page_number(value); }
+std::string optional_number(const std::optional<double>& value, const char* otherwise = "") {
+    return value ? page_number(*value) : otherwise;
+}
 std::string sort_key(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
 data change_part(const DriveComparison& drive, const ReadingChange& change, const std::string& id) {

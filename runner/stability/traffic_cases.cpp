@@ -12,7 +12,7 @@ namespace {
 
 using namespace stability;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// A road, a board that returns light, and a wall that does not: what is lit by fragment and what by vertex.
 Scene lit_by_others() {
@@ -42,14 +42,14 @@ void add_pair(Moment& moment, const glm::dvec3& middle_m, double factor, double 
     }
 }
 
-struct Place {
+struct TrafficPlace {
     const char* name;
     glm::dvec3 at_m;
     double factor = 1.0, yaw_rad = pi, apart_m = 1.2;
 };
 
 /// Where lamps are hardest to draw. The camera's eye is at (1.3, 0.35, 1.2).
-const Place hard_places[] = {
+const TrafficPlace hard_places[] = {
     {"0.1 m from the eye", {1.4, 0.35, 1.2}},
     {"in the eye", {1.3, 0.35, 1.2}},
     {"1 um from the road", {20.0, 0.0, 1e-6}},
@@ -76,7 +76,7 @@ Found hardest_places_of_others(StabilityBench& bench) {
     fine.traffic_levels = false;
     Renderer coarse(bench.device(), scene, unshadowed()), whole(bench.device(), scene, unpruned), each(bench.device(), scene, fine);
     Found worst;
-    for (const Place& place : hard_places)
+    for (const TrafficPlace& place : hard_places)
         for (const double least_lx : {1e-9, 0.05, 100.0}) {
             Moment moment;
             moment.least_traffic_lx = least_lx;
@@ -132,7 +132,7 @@ Found two_thousand_cars(StabilityBench& bench) {
         const Frame frame = renderer.draw(moment, eyes(), everything);
         for (const float lx : frame.illuminance_lx.pixels())
             most = std::max(most, static_cast<double>(lx));
-        worst.add(not_finite(frame) > 0 || !(most > 1.0) || most > 2000.0 * 2.0 * 20'000.0 / (0.5 * 0.5) ? infinity : 0.0,
+        worst.add(not_finite(frame) > 0 || !(most > 1.0) || most > 2000.0 * 2.0 * 20'000.0 / (0.5 * 0.5) ? unbounded : 0.0,
                   fmt::format("each {} m", every_m));
     }
     return worst;

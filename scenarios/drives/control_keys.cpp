@@ -2,6 +2,7 @@
 
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/control/signals.h"
+#include "scenarios/drives/lamp_keys.h"
 #include "scenarios/drives/vehicle_keys.h"
 #include "scenarios/values/errors.h"
 
@@ -12,7 +13,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_lamps = 64, most_failures = 1000, most_inputs = 100, most_values = 100'000, most_plugins = 16,
+constexpr std::size_t most_lamps = 64, most_failures = 1000, most_inputs = 100, most_input_values = 100'000, most_plugins = 16,
                       most_windows = 256;
 constexpr double shortest_period_s = 1.0e-4;
 
@@ -59,7 +60,6 @@ double speed_or(const YamlMap& keys, const std::string& key, double otherwise_mp
     return given->first == in_kmh ? given->second.number(0.0, 540.0) / 3.6 : given->second.number(0.0, 150.0);
 }
 
-bool is_high_beam(const std::string& name) { return name.find("high") != std::string::npos; }
 bool is_cornering_lamp(const std::string& name) { return name.find("corner") != std::string::npos; }
 
 BendParameters read_bend(const YamlEntry& given, const Variant& variant) {
@@ -259,7 +259,7 @@ ScriptedSignal read_input(const std::string& name, const YamlEntry& entry, const
         input.values.emplace_back(0.0, entry.number(least, greatest));
         return input;
     }
-    for (const YamlEntry& point : entry.list(1, most_values)) {
+    for (const YamlEntry& point : entry.list(1, most_input_values)) {
         const YamlMap keys = point.map({"at_s", "value"});
         const double at_s = keys.require("at_s").number(0.0, 1.0e6);
         if (!input.values.empty() && at_s <= input.values.back().first)

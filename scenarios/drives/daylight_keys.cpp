@@ -1,6 +1,7 @@
 #include "scenarios/drives/daylight_keys.h"
 
 #include "scenarios/drives/lamp_keys.h"
+#include "scenarios/drives/yaml_text.h"
 #include "scenarios/sky/calendar.h"
 
 #include <array>
@@ -10,7 +11,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_rows = 32;
+constexpr std::size_t most_lamp_rows = 32;
 constexpr double brightest_lx = 150'000.0, fastest_rate = 86'400.0;
 
 /// Whole numbers with a sign between them and as many digits as `digits` says, such as 2026-06-21.
@@ -97,16 +98,11 @@ void read_figures(const YamlMap& keys, Daylight& daylight) {
 }
 
 /// Degrees where they give exactly these radians, as everywhere in a written drive.
-std::string angle(std::string_view key, double angle_rad) {
-    const double middle = degrees(angle_rad);
-    return radians(middle) == angle_rad ? fmt::format("{}_deg: {}", key, middle) : fmt::format("{}_rad: {}", key, angle_rad);
-}
-
 std::string written(std::string_view key, const DirectLight& light) {
     if (light == DirectLight{})
         return "";
-    return fmt::format(", {}: {{{}, {}, illuminance_lx: {}}}", key, angle("azimuth", light.azimuth_rad),
-                       angle("elevation", light.elevation_rad), light.illuminance_lx);
+    return fmt::format(", {}: {{{}, {}, illuminance_lx: {}}}", key, angle_entry("azimuth", light.azimuth_rad),
+                       angle_entry("elevation", light.elevation_rad), light.illuminance_lx);
 }
 
 } // namespace
@@ -165,7 +161,7 @@ std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampShelf& sh
     const auto given = drive.find("street_lamps");
     if (!given)
         return rows;
-    for (const auto& [name, entry] : given->named(most_rows)) {
+    for (const auto& [name, entry] : given->named(most_lamp_rows)) {
         const YamlMap keys =
             entry.map({"file", "first_m", "last_m", "every_m", "beside_m", "height_m", "arm_m", "tilt_deg", "tilt_rad", "level", "source",
                        "temperature_k", "spectrum", "colour", "between_samples", "type_c_axis", "texture", "mirrored"});

@@ -1,6 +1,7 @@
 #include "scenarios/drives/drive_edits.h"
 
 #include "scenarios/drives/drive_keys.h"
+#include "scenarios/drives/lamp_keys.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 
 namespace fernlicht {
 namespace {
-
-bool is_high_beam(const std::string& lamp) { return lamp.find("high") != std::string::npos; }
 
 bool is_meant(const std::string& lamp, const std::string& side) {
     return lamp.find(side) != std::string::npos && (!is_high_beam(lamp) || is_high_beam(side));

@@ -67,12 +67,12 @@ std::shared_ptr<const LampFile> read_lamp_keys(const Layers& layers, LampShelf& 
     return shelf.lamp(file->path(), read_options(layers, axis), &*file);
 }
 
-Aim read_aim(const Layers& layers) {
+AimKeys read_aim(const Layers& layers) {
     const auto given = find_in(layers, "aim");
     if (!given)
         return {};
     const YamlMap keys = given->map({"pitch_deg", "pitch_rad", "percent_down", "yaw_deg", "yaw_rad", "roll_deg", "roll_rad"});
-    Aim aim{keys.angle_rad("pitch", 90.0), keys.angle_rad("yaw", 180.0), keys.angle_rad("roll", 180.0)};
+    AimKeys aim{keys.angle_rad("pitch", 90.0), keys.angle_rad("yaw", 180.0), keys.angle_rad("roll", 180.0)};
     if (const auto percent = keys.find("percent_down")) {
         if (aim.pitch_rad)
             percent->refuse("percent_down beside a pitch", "one of them");

@@ -12,11 +12,14 @@ std::optional<YamlEntry> find_in(const Layers& layers, std::string_view key);
 /// `file` with the keys that say how it is read; nullptr when no layer names one. `axis`: of a Type C file where no layer gives it.
 std::shared_ptr<const LampFile> read_lamp_keys(const Layers& layers, LampShelf& shelf, TypeCAxis axis = TypeCAxis::automatic);
 
-struct Aim {
+/// Lamps of the high beam are told by their names.
+inline bool is_high_beam(const std::string& lamp) { return lamp.find("high") != std::string::npos; }
+
+struct AimKeys {
     std::optional<double> pitch_rad, yaw_rad, roll_rad;
 };
 /// `aim`: pitch_deg or percent_down, yaw_deg, roll_deg; each also in radians.
-Aim read_aim(const Layers& layers);
+AimKeys read_aim(const Layers& layers);
 
 std::optional<SourceKind> read_source(const Layers& layers);
 /// `temperature_k`, `spectrum` or `colour`; else by the source: halogen 3200 K, xenon 4300 K. An LED's must be given.

@@ -13,7 +13,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_lamps = 64, most_variants = 32, most_changes = 10'000;
+constexpr std::size_t most_lamps_of_a_variant = 64, most_variants = 32, most_lamp_changes = 10'000;
 
 std::vector<std::string> mount_names(const Car& car) {
     std::vector<std::string> names;
@@ -59,7 +59,7 @@ MountedLamp build_lamp(const std::string& name, const Layers& layers, const Car&
     lamp.file = read_lamp_keys(layers, shelf);
     if (!lamp.file)
         asked_by.refuse("a lamp without a file", "file, in the lamp or in its variant");
-    const Aim aim = read_aim(layers);
+    const AimKeys aim = read_aim(layers);
     lamp.pitch_rad = aim.pitch_rad.value_or(0.0);
     lamp.yaw_rad = aim.yaw_rad.value_or(0.0);
     lamp.roll_rad = aim.roll_rad.value_or(0.0);
@@ -95,7 +95,7 @@ MountedLamp read_mounted_lamp(const std::string& name, const YamlEntry& entry, c
 
 std::vector<MountedLamp> read_lamps(const YamlEntry& entry, const Layers& variant, const Car& car, LampShelf& shelf) {
     std::vector<MountedLamp> lamps;
-    for (const auto& [name, lamp] : entry.named(most_lamps))
+    for (const auto& [name, lamp] : entry.named(most_lamps_of_a_variant))
         lamps.push_back(read_mounted_lamp(name, lamp, variant, car, shelf));
     return lamps;
 }
@@ -109,7 +109,7 @@ std::vector<std::string> changed_lamps(const YamlMap& change, const Variant& var
     if (!given)
         return known;
     std::vector<std::string> names;
-    for (const YamlEntry& entry : given->first == "lamp" ? std::vector{given->second} : given->second.list(1, most_lamps)) {
+    for (const YamlEntry& entry : given->first == "lamp" ? std::vector{given->second} : given->second.list(1, most_lamps_of_a_variant)) {
         names.push_back(entry.name());
         if (std::find(known.begin(), known.end(), names.back()) != known.end())
             continue;
@@ -128,7 +128,7 @@ void read_change(const YamlEntry& entry, Variant& variant, LampShelf& shelf) {
     change.time_s = keys.require("at_s").number(0.0, 1.0e6);
     if (const auto level = keys.find("level"))
         change.level = level->number(0.0, 1.0);
-    const Aim aim = read_aim(layers);
+    const AimKeys aim = read_aim(layers);
     change.pitch_rad = aim.pitch_rad;
     change.yaw_rad = aim.yaw_rad;
     change.roll_rad = aim.roll_rad;
@@ -149,7 +149,7 @@ void read_change(const YamlEntry& entry, Variant& variant, LampShelf& shelf) {
 
 void read_changes(const YamlMap& keys, Variant& variant, LampShelf& shelf) {
     if (const auto given = keys.find("changes"))
-        for (const YamlEntry& entry : given->list(0, most_changes))
+        for (const YamlEntry& entry : given->list(0, most_lamp_changes))
             read_change(entry, variant, shelf);
 }
 
@@ -206,7 +206,7 @@ Car read_car(const YamlMap& drive) {
     if (const auto mounts = keys.find("mounts")) {
         if (!car.model)
             car.mounts.clear();
-        for (const auto& [name, place] : mounts->named(most_lamps)) {
+        for (const auto& [name, place] : mounts->named(most_lamps_of_a_variant)) {
             std::erase_if(car.mounts, [&](const LampMount& mount) { return mount.name == name; });
             car.mounts.push_back(read_lamp_mount(name, place));
         }

@@ -5,11 +5,6 @@
 #include <algorithm>
 
 namespace fernlicht {
-namespace {
-
-void flip(double& value) { value = 0.0 - value; } // not -value: no negative zeros in files
-
-} // namespace
 
 ControlParameters mirrored(ControlParameters control) {
     const auto names = [](std::vector<std::string>& lamps) { std::ranges::transform(lamps, lamps.begin(), other_side); };

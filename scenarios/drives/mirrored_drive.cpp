@@ -8,20 +8,14 @@
 namespace fernlicht {
 namespace {
 
-void flip_sign(double& value) { value = 0.0 - value; } // not -value: no negative zeros in files
-void flip_sign(std::optional<double>& value) {
-    if (value)
-        flip_sign(*value);
-}
-
 bool is_letter_at(const std::string& text, std::size_t at) {
     return at < text.size() && std::isalpha(static_cast<unsigned char>(text[at])) != 0;
 }
 
 void mirror(View& view) {
-    flip_sign(view.position_m.y);
-    flip_sign(view.yaw_rad);
-    flip_sign(view.roll_rad);
+    flip(view.position_m.y);
+    flip(view.yaw_rad);
+    flip(view.roll_rad);
     std::swap(view.map_left_m, view.map_right_m);
 }
 
@@ -39,10 +33,10 @@ void mirror(SeeingParameters& seeing) {
         observer.name = other_side(observer.name);
     if (!seeing.glare->mirrors)
         return;
-    flip_sign(seeing.glare->mirrors->eye_m.y);
+    flip(seeing.glare->mirrors->eye_m.y);
     for (Mirror& glass : seeing.glare->mirrors->mirrors) {
         glass.name = other_side(glass.name);
-        flip_sign(glass.position_m.y);
+        flip(glass.position_m.y);
     }
 }
 
@@ -68,17 +62,17 @@ std::shared_ptr<const LampFile> other_lamp(Drive& drive, const std::shared_ptr<c
 void mirror(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, Drive& drive) {
     for (MountedLamp& lamp : lamps) {
         lamp.name = other_side(lamp.name);
-        flip_sign(lamp.position_m.y);
-        flip_sign(lamp.yaw_rad);
-        flip_sign(lamp.roll_rad);
-        flip_sign(lamp.mount.yaw_rad);
-        flip_sign(lamp.mount.roll_rad);
+        flip(lamp.position_m.y);
+        flip(lamp.yaw_rad);
+        flip(lamp.roll_rad);
+        flip(lamp.mount.yaw_rad);
+        flip(lamp.mount.roll_rad);
         lamp.file = other_lamp(drive, lamp.file);
     }
     for (LampChange& change : changes) {
         change.lamp = other_side(change.lamp);
-        flip_sign(change.yaw_rad);
-        flip_sign(change.roll_rad);
+        flip(change.yaw_rad);
+        flip(change.roll_rad);
         if (change.file)
             change.file = other_lamp(drive, change.file);
     }
@@ -92,8 +86,8 @@ void mirror(Variant& variant, Drive& drive) {
         return;
     ActuatorParameters& actuator = variant.swivel->actuator;
     std::swap(actuator.least_rad, actuator.greatest_rad);
-    flip_sign(actuator.least_rad);
-    flip_sign(actuator.greatest_rad);
+    flip(actuator.least_rad);
+    flip(actuator.greatest_rad);
 }
 
 } // namespace
@@ -120,13 +114,13 @@ void mirror_traffic(Drive& drive, bool lamps) {
         mirror(view);
     for (Probe& probe : drive.probes) {
         probe.name = other_side(probe.name);
-        flip_sign(probe.left_m);
+        flip(probe.left_m);
     }
     mirror(drive.seeing);
     for (PlacedModel& placed : drive.scenery) { // the model itself keeps its sides
-        flip_sign(placed.position_m.y);
-        flip_sign(placed.yaw_rad);
-        flip_sign(placed.roll_rad);
+        flip(placed.position_m.y);
+        flip(placed.yaw_rad);
+        flip(placed.roll_rad);
     }
     if (lamps)
         for (Variant& variant : drive.variants)

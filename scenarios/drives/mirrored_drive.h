@@ -3,6 +3,8 @@
 
 #include "scenarios/drives/drive.h"
 
+#include <optional>
+
 namespace fernlicht {
 
 /// Mirrors the drive's road and all that the drive places to the left or the right: views, probes, sensors, mirrors. With `lamps` the car's
@@ -10,6 +12,13 @@ namespace fernlicht {
 /// the other side. Other road users go on the mirrored road with mirrored lamps. "left" and "right" change places in names and in readings
 /// that have limits.
 void mirror_traffic(Drive& drive, bool lamps);
+
+/// The other sign, and never a negative zero, which files would show.
+inline void flip(double& value) { value = 0.0 - value; }
+inline void flip(std::optional<double>& value) {
+    if (value)
+        flip(*value);
+}
 
 /// "high-left" of "high-right"; within longer words they stay ("bright").
 std::string other_side(const std::string& name);

@@ -11,7 +11,7 @@ constexpr double metres_a_degree = 111'132.954,
                  bulge_m = 16'038.509; ///< meridian arc on WGS 84: 111 132.954 B - 16 038.509 sin 2 B + ..., B in degrees
 constexpr double metres_a_degree_on_the_equator = 111'319.491, utm_scale = 0.9996, utm_false_easting_m = 500'000.0;
 
-struct Projection {
+struct MapProjection {
     double latitude_deg = 0.0, longitude_deg = 0.0, easting_m = 0.0, northing_m = 0.0, scale = 1.0;
 };
 
@@ -30,16 +30,16 @@ std::optional<double> proj_number(std::string_view text, std::string_view key) {
     return value ? to_number(*value) : std::nullopt;
 }
 
-std::optional<Projection> utm(int zone, bool south) {
+std::optional<MapProjection> utm(int zone, bool south) {
     if (zone < 1 || zone > 60)
         return {};
-    return Projection{0.0, 6.0 * zone - 183.0, utm_false_easting_m, south ? 1.0e7 : 0.0, utm_scale};
+    return MapProjection{0.0, 6.0 * zone - 183.0, utm_false_easting_m, south ? 1.0e7 : 0.0, utm_scale};
 }
 
-std::optional<Projection> projection_of(std::string_view text) {
+std::optional<MapProjection> projection_of(std::string_view text) {
     const auto latitude = proj_number(text, "lat_0"), longitude = proj_number(text, "lon_0");
     if (latitude && longitude)
-        return Projection{*latitude, *longitude, proj_number(text, "x_0").value_or(0.0), proj_number(text, "y_0").value_or(0.0), 1.0};
+        return MapProjection{*latitude, *longitude, proj_number(text, "x_0").value_or(0.0), proj_number(text, "y_0").value_or(0.0), 1.0};
     if (const auto zone = proj_number(text, "zone"); zone && std::abs(*zone) < 100.0)
         return utm(static_cast<int>(*zone), text.find("+south") != std::string_view::npos);
     const std::size_t at = text.find("EPSG:");

@@ -7,7 +7,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double ramp_step_s = 0.02;
-constexpr int most_changes = 100'000; ///< of one lamp
+constexpr int most_light_changes = 100'000; ///< of one lamp
 
 struct Ramp {
     std::vector<LampChange>& out;
@@ -77,7 +77,7 @@ std::vector<LampChange> light_changes(const std::vector<osc::LightChange>& light
                 continue;
             }
             double time_s = lights[i].time_s;
-            for (int n = 0; n < most_changes && time_s < until_s; ++n) {
+            for (int n = 0; n < most_light_changes && time_s < until_s; ++n) {
                 ramp.to(lit, time_s, 0.0, until_s);
                 ramp.to(0.0, time_s + to.flash_on_s, 0.0, until_s);
                 time_s += to.flash_on_s + to.flash_off_s;

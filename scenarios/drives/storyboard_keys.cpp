@@ -1,4 +1,5 @@
 #include "scenarios/drives/storyboard_keys.h"
+#include "scenarios/drives/yaml_text.h"
 
 #include "scenarios/values/errors.h"
 
@@ -43,16 +44,6 @@ std::string names_of(const osc::Storyboard& story) {
     return out + (story.entities.size() > most ? ", ..." : "");
 }
 
-std::string quoted_value(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            out += '\\';
-        out += c;
-    }
-    return out + '"';
-}
-
 } // namespace
 
 std::optional<StoryboardSource> read_storyboard_keys(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
@@ -90,11 +81,11 @@ std::optional<StoryboardSource> read_storyboard_keys(const YamlMap& keys, const 
 }
 
 std::string write_storyboard(const StoryboardSource& source) {
-    std::string out = fmt::format("storyboard:\n  file: {}\n  ego: {}\n  lenient: {}\n", quoted_value(source.file.string()),
-                                  quoted_value(source.ego), source.options.lenient);
+    std::string out = fmt::format("storyboard:\n  file: {}\n  ego: {}\n  lenient: {}\n", quoted(source.file.string()), quoted(source.ego),
+                                  source.options.lenient);
     std::string folders;
     for (const auto& folder : source.options.road_folders)
-        folders += fmt::format("{}{}", folders.empty() ? "" : ", ", quoted_value(folder.string()));
+        folders += fmt::format("{}{}", folders.empty() ? "" : ", ", quoted(folder.string()));
     out += fmt::format("  road_folders: [{}]\n", folders);
     if (const auto& site = source.site)
         out += fmt::format("  place: {{latitude_deg: {}, longitude_deg: {}{}}}\n", site->latitude_deg, site->longitude_deg,
@@ -103,7 +94,7 @@ std::string write_storyboard(const StoryboardSource& source) {
     if (!source.options.parameters.empty())
         out += "  parameters:\n";
     for (const auto& [name, value] : source.options.parameters)
-        out += fmt::format("    {}: {}\n", quoted_value(name), quoted_value(value));
+        out += fmt::format("    {}: {}\n", quoted(name), quoted(value));
     return out;
 }
 

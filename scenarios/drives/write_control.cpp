@@ -1,5 +1,6 @@
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/control_keys.h"
+#include "scenarios/drives/yaml_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -35,17 +36,6 @@ std::string cornering_line(const CorneringParameters& of) {
                        of.until_speed_mps, of.again_below_mps, of.on_rad, of.off_rad, of.fade_s);
 }
 
-/// Text in double quotes, as YAML and JSON both read it.
-std::string control_text(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-        else
-            out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-    return out + '"';
-}
-
 std::string mode_lines(const Drive& drive, const ModeParameters& of) {
     static constexpr const char* classes[] = {"c", "v", "e", "w"};
     std::string text = fmt::format("      modes:\n        lamps: {}\n", list(of.lamps));
@@ -54,7 +44,7 @@ std::string mode_lines(const Drive& drive, const ModeParameters& of) {
         std::string file;
         for (const LampSource& source : drive.lamp_sources)
             if (mode.file && source.file == mode.file)
-                file = ", file: " + control_text(source.path.string());
+                file = ", file: " + quoted(source.path.string());
         text += fmt::format("        {}: {{level: {}, pitch_rad: {}{}}}\n", classes[i], mode.level, mode.pitch_rad, file);
     }
     for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{{"v_below_mps", of.v_below_mps},
@@ -93,10 +83,10 @@ std::string glare_free_lines(const GlareFreeParameters& of) {
 std::string plugin_lines(const std::vector<PluginParameters>& plugins) {
     std::string text = plugins.empty() ? "" : "      plugins:\n";
     for (const PluginParameters& of : plugins)
-        text += fmt::format("        - {{library: {}, {}lamps: {}, period_s: {}, budget_s: {}, give_up_s: {}}}\n",
-                            control_text(of.library.string()),
-                            of.parameters.empty() ? "" : fmt::format("parameters: {}, ", control_text(of.parameters)), list(of.lamps),
-                            of.period_s, of.budget_s, of.give_up_s);
+        text +=
+            fmt::format("        - {{library: {}, {}lamps: {}, period_s: {}, budget_s: {}, give_up_s: {}}}\n", quoted(of.library.string()),
+                        of.parameters.empty() ? "" : fmt::format("parameters: {}, ", quoted(of.parameters)), list(of.lamps), of.period_s,
+                        of.budget_s, of.give_up_s);
     return text;
 }
 

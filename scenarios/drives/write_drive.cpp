@@ -5,6 +5,7 @@
 #include "scenarios/drives/flow_list.h"
 #include "scenarios/drives/seeing_keys.h"
 #include "scenarios/drives/storyboard_keys.h"
+#include "scenarios/drives/yaml_text.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -14,29 +15,6 @@
 
 namespace fernlicht {
 namespace {
-
-/// Text in double quotes, as YAML and JSON both read it.
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            out += {'\\', c};
-        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-        else
-            out += c;
-    }
-    return out + '"';
-}
-
-/// `key`_deg where some number of degrees gives exactly these radians, else `key`_rad.
-std::string angle(std::string_view key, double angle_rad) {
-    const double middle = degrees(angle_rad);
-    for (const double candidate : {middle, std::nextafter(middle, -HUGE_VAL), std::nextafter(middle, HUGE_VAL)})
-        if (radians(candidate) == angle_rad)
-            return fmt::format("{}_deg: {}", key, candidate);
-    return fmt::format("{}_rad: {}", key, angle_rad);
-}
 
 /// Writes lines at a depth of two spaces each.
 class Lines {
@@ -95,8 +73,10 @@ void write_lamp_keys(Lines& out, const Drive& drive, const MountedLamp& lamp) {
     write_file_keys(out, 4, drive, lamp.file);
     out.add(4, "position_m: {}", flow_list(lamp.position_m));
     if (const Turn& m = lamp.mount; m != Turn{})
-        out.add(4, "mount_turn: {{{}, {}, {}}}", angle("yaw", m.yaw_rad), angle("pitch", m.pitch_rad), angle("roll", m.roll_rad));
-    out.add(4, "aim: {{{}, {}, {}}}", angle("pitch", lamp.pitch_rad), angle("yaw", lamp.yaw_rad), angle("roll", lamp.roll_rad));
+        out.add(4, "mount_turn: {{{}, {}, {}}}", angle_entry("yaw", m.yaw_rad), angle_entry("pitch", m.pitch_rad),
+                angle_entry("roll", m.roll_rad));
+    out.add(4, "aim: {{{}, {}, {}}}", angle_entry("pitch", lamp.pitch_rad), angle_entry("yaw", lamp.yaw_rad),
+            angle_entry("roll", lamp.roll_rad));
     out.add(4, "level: {}", lamp.level);
     out.add(4, "source: {}", word(lamp.source));
     out.add(4, "voltage_v: {}", lamp.voltage_v);
@@ -118,7 +98,7 @@ void write_street_lamps(Lines& out, const Drive& drive) {
         out.add(2, "beside_m: {}", row.beside_m);
         out.add(2, "height_m: {}", row.height_m);
         out.add(2, "arm_m: {}", row.arm_m);
-        out.add(2, "{}", angle("tilt", row.tilt_rad));
+        out.add(2, "{}", angle_entry("tilt", row.tilt_rad));
         out.add(2, "level: {}", row.level);
         write_colour(out, 2, row.colour);
     }
@@ -131,11 +111,11 @@ void write_change(Lines& out, const Drive& drive, const LampChange& change) {
         out.add(4, "level: {}", *change.level);
     std::vector<std::string> aim;
     if (change.pitch_rad)
-        aim.push_back(angle("pitch", *change.pitch_rad));
+        aim.push_back(angle_entry("pitch", *change.pitch_rad));
     if (change.yaw_rad)
-        aim.push_back(angle("yaw", *change.yaw_rad));
+        aim.push_back(angle_entry("yaw", *change.yaw_rad));
     if (change.roll_rad)
-        aim.push_back(angle("roll", *change.roll_rad));
+        aim.push_back(angle_entry("roll", *change.roll_rad));
     if (!aim.empty())
         out.add(4, "aim: {{{}}}", fmt::join(aim, ", "));
     if (change.file)
@@ -180,8 +160,8 @@ void write_vehicle(Lines& out, const VehicleParameters& car) {
 
 std::string actuator_keys(const ActuatorParameters& actuator) {
     return fmt::format("natural_frequency_hz: {}, damping: {}, rate_limit_rad_s: {}, {}, {}, control_period_s: {}, dead_time_s: {}",
-                       actuator.natural_frequency_hz, actuator.damping, actuator.rate_limit_rad_s, angle("least", actuator.least_rad),
-                       angle("greatest", actuator.greatest_rad), actuator.control_period_s, actuator.dead_time_s);
+                       actuator.natural_frequency_hz, actuator.damping, actuator.rate_limit_rad_s, angle_entry("least", actuator.least_rad),
+                       angle_entry("greatest", actuator.greatest_rad), actuator.control_period_s, actuator.dead_time_s);
 }
 
 void write_actuators(Lines& out, const Variant& variant) {
@@ -236,7 +216,7 @@ void write_traffic(Lines& out, const Drive& drive) {
         if (!row.model.empty())
             out.add(2, "model: {}", quoted(row.model.string()));
         if (row.model_yaw_rad != 0.0)
-            out.add(2, "{}", angle("yaw", row.model_yaw_rad));
+            out.add(2, "{}", angle_entry("yaw", row.model_yaw_rad));
         if (row.model_scale != 1.0)
             out.add(2, "scale: {}", row.model_scale);
         out.add(2, "{}", traffic_place(row));
@@ -269,10 +249,10 @@ void write_views(Lines& out, const Drive& drive) {
                     view.map_right_m);
         } else {
             out.add(2, "position_m: {}", flow_list(view.position_m));
-            out.add(2, "{}", angle("yaw", view.yaw_rad));
-            out.add(2, "{}", angle("pitch", view.pitch_rad));
-            out.add(2, "{}", angle("roll", view.roll_rad));
-            out.add(2, "{}", angle("vertical_fov", view.vertical_fov_rad));
+            out.add(2, "{}", angle_entry("yaw", view.yaw_rad));
+            out.add(2, "{}", angle_entry("pitch", view.pitch_rad));
+            out.add(2, "{}", angle_entry("roll", view.roll_rad));
+            out.add(2, "{}", angle_entry("vertical_fov", view.vertical_fov_rad));
             if (view.mirrored)
                 out.add(2, "mirrored: true");
         }
@@ -292,7 +272,7 @@ void write_scenery(Lines& out, const Drive& drive) {
             out.add(2, "position_m: {}", flow_list(p));
         for (const auto& [key, value] :
              {std::pair("yaw", placed.yaw_rad), std::pair("pitch", placed.pitch_rad), std::pair("roll", placed.roll_rad)})
-            out.add(2, "{}", angle(key, value));
+            out.add(2, "{}", angle_entry(key, value));
         out.add(2, "scale: {}", placed.scale);
         out.add(2, "ground: {}", placed.ground);
     }
@@ -373,7 +353,7 @@ std::string write_drive(const Drive& drive) {
     write_sky(out, drive);
     write_street_lamps(out, drive);
     const std::string body = drive.own_car ? fmt::format(", model: {}, {}, scale: {}", quoted(drive.own_car->file.string()),
-                                                         angle("yaw", drive.own_car->yaw_rad), drive.own_car->scale)
+                                                         angle_entry("yaw", drive.own_car->yaw_rad), drive.own_car->scale)
                                            : "";
     out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}{}}}", drive.bumper_m, drive.wheelbase_m, body);
     if (drive.vehicle)

@@ -25,7 +25,7 @@ Vector un_vector(double h_deg, double v_deg) {
     return {std::cos(v) * std::sin(h), std::sin(v), std::cos(v) * std::cos(h)};
 }
 
-Direction un_angles(const Vector& d) { return {degrees(std::atan2(d.x, d.z)), degrees(std::atan2(d.y, std::hypot(d.x, d.z)))}; }
+TwoAngles un_angles(const Vector& d) { return {degrees(std::atan2(d.x, d.z)), degrees(std::atan2(d.y, std::hypot(d.x, d.z)))}; }
 
 /// The native table as a function of H and V; rounding at its edges does not throw a direction out.
 struct Native {
@@ -43,7 +43,7 @@ struct Native {
                 return axis.front();
             return angle > axis.back() && angle < axis.back() + rounding_deg ? axis.back() : angle;
         };
-        const Direction d = system.to_native(h_deg, v_deg);
+        const TwoAngles d = system.to_native(h_deg, v_deg);
         const double h = snapped(d.h_deg, table.h_deg), v = snapped(d.v_deg, table.v_deg);
         const double cd = intensity_cd(table, h, v);
         return {cd, cd > 0.0 || has_data(table, h, v)};
@@ -157,7 +157,7 @@ Axes first_axes(const Native& native) {
     const CandelaTable& t = native.table;
     Axes axes, border;
     const auto add = [&](Axes& to, double h, double v) {
-        const Direction d = native.system.to_un(h, v);
+        const TwoAngles d = native.system.to_un(h, v);
         to.h.push_back(d.h_deg);
         to.v.push_back(d.v_deg);
     };
@@ -187,7 +187,7 @@ Axes first_axes(const Native& native) {
         axes = {thinned(axes.h), thinned(axes.v)};
     // The peak keeps its place to the last digit: a neighbour that is all but the same angle gives way.
     const Peak peak = peak_of(t);
-    const Direction at_peak = native.system.to_un(peak.h_deg, peak.v_deg);
+    const TwoAngles at_peak = native.system.to_un(peak.h_deg, peak.v_deg);
     place(axes.h, std::abs(at_peak.h_deg) < 1e-12 ? 0.0 : at_peak.h_deg);
     place(axes.v, std::abs(at_peak.v_deg) < 1e-12 ? 0.0 : at_peak.v_deg);
     return axes;
@@ -238,7 +238,7 @@ AngleSystem type_b() {
     return {"type B",
             [](double h, double v) {
                 const Vector d = un_vector(h, v);
-                return Direction{degrees(std::atan2(d.x, std::hypot(d.y, d.z))), degrees(std::atan2(d.y, d.z))};
+                return TwoAngles{degrees(std::atan2(d.x, std::hypot(d.y, d.z))), degrees(std::atan2(d.y, d.z))};
             },
             [](double h_deg, double v_deg) {
                 const double h = radians(h_deg), v = radians(v_deg);
@@ -251,7 +251,7 @@ AngleSystem flat_screen() {
             [](double h, double v) {
                 const Vector d = un_vector(h, v);
                 // Behind the lamp there is no screen: 180 lies outside every screen's angles.
-                return d.z > 0.0 ? Direction{h, degrees(std::atan2(d.y, d.z))} : Direction{180.0, 90.0};
+                return d.z > 0.0 ? TwoAngles{h, degrees(std::atan2(d.y, d.z))} : TwoAngles{180.0, 90.0};
             },
             [](double h_deg, double v_deg) {
                 return un_angles({std::tan(radians(h_deg)), std::tan(radians(v_deg)), 1.0});
@@ -264,7 +264,7 @@ AngleSystem beam_along_nadir() {
                 const Vector d = un_vector(h, v);
                 const double gamma = degrees(std::atan2(std::hypot(d.x, d.y), d.z));
                 const double c = d.x == 0.0 && d.y == 0.0 ? 0.0 : degrees(std::atan2(d.y, d.x));
-                return Direction{-c, gamma - 90.0};
+                return TwoAngles{-c, gamma - 90.0};
             },
             [](double h_deg, double v_deg) {
                 const double c = radians(-h_deg), gamma = radians(v_deg + 90.0);

@@ -9,15 +9,15 @@
 
 namespace fernlicht {
 
-struct Direction {
+struct TwoAngles {
     double h_deg = 0.0, v_deg = 0.0;
 };
 
 /// Another system's two angles, its polar axis elsewhere. Each function is the inverse of the other where both are defined.
 struct AngleSystem {
     std::string name;                                   ///< for notes: "type B"
-    std::function<Direction(double, double)> to_native; ///< from UN H, V to the system's own two angles
-    std::function<Direction(double, double)> to_un;
+    std::function<TwoAngles(double, double)> to_native; ///< from UN H, V to the system's own two angles
+    std::function<TwoAngles(double, double)> to_un;
 };
 
 /// IES type B, horizontal polar axis: h = asin(x), v = atan2(y, z).

@@ -12,12 +12,12 @@ namespace {
 constexpr double coarsest_deg = 5.0;
 
 /// A sample of one axis and the stretch that it stands for.
-struct Stretch {
+struct DegreeStretch {
     double at_deg, from_deg, to_deg;
 };
 
 /// Even stretches of at most 5 degrees with their samples in the middle.
-void fill(std::vector<Stretch>& axis, double from_deg, double to_deg) {
+void fill(std::vector<DegreeStretch>& axis, double from_deg, double to_deg) {
     if (!(to_deg > from_deg))
         return;
     const int parts = static_cast<int>(std::ceil((to_deg - from_deg) / coarsest_deg));
@@ -27,8 +27,8 @@ void fill(std::vector<Stretch>& axis, double from_deg, double to_deg) {
 }
 
 /// From -90 to 90 degrees: the table's samples with half of the way to their neighbours, and filled where there are none.
-std::vector<Stretch> stretches(const std::vector<double>& samples) {
-    std::vector<Stretch> axis;
+std::vector<DegreeStretch> stretches(const std::vector<double>& samples) {
+    std::vector<DegreeStretch> axis;
     std::vector<double> own;
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(own), [](double angle) { return std::abs(angle) <= 90.0; });
     if (own.size() < 2) {
@@ -49,12 +49,12 @@ std::vector<Stretch> stretches(const std::vector<double>& samples) {
     return axis;
 }
 
-double width_rad(const Stretch& s) { return radians(s.to_deg - s.from_deg); }
-double band(const Stretch& s) { return std::sin(radians(s.to_deg)) - std::sin(radians(s.from_deg)); }
+double width_rad(const DegreeStretch& s) { return radians(s.to_deg - s.from_deg); }
+double band(const DegreeStretch& s) { return std::sin(radians(s.to_deg)) - std::sin(radians(s.from_deg)); }
 
 /// The table on both axes' samples.
 struct Samples {
-    std::vector<Stretch> h, v;
+    std::vector<DegreeStretch> h, v;
     std::vector<double> cd; ///< rows of V
 
     double at(std::size_t row, std::size_t column) const { return cd[row * h.size() + column]; }
@@ -63,8 +63,8 @@ struct Samples {
 Samples samples_of(const CandelaTable& table) {
     Samples s{stretches(table.h_deg), stretches(table.v_deg), {}};
     s.cd.reserve(s.h.size() * s.v.size());
-    for (const Stretch& row : s.v)
-        for (const Stretch& column : s.h)
+    for (const DegreeStretch& row : s.v)
+        for (const DegreeStretch& column : s.h)
             s.cd.push_back(intensity_cd(table, column.at_deg, row.at_deg));
     return s;
 }
@@ -83,7 +83,7 @@ std::vector<double> change_along(const Samples& s, bool across) {
         change[i] = std::sqrt(square);
         total += change[i];
     }
-    const std::vector<Stretch>& axis = across ? s.h : s.v;
+    const std::vector<DegreeStretch>& axis = across ? s.h : s.v;
     for (std::size_t i = 0; i + 1 < count; ++i)
         change[i] = (total > 0.0 ? 0.5 * change[i] / total : 0.0) + 0.5 * (axis[i + 1].at_deg - axis[i].at_deg) / 180.0;
     return change;

@@ -10,7 +10,7 @@
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 template <class T> void put(std::string& bytes, const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof(T)); }
 
@@ -20,21 +20,21 @@ class GlbWriting {
         json_["asset"] = {{"version", "2.0"}, {"generator", "fernlicht " FERNLICHT_VERSION}};
         json_["scene"] = 0;
         for (const char* key : {"scenes", "nodes", "meshes", "materials", "accessors", "bufferViews"})
-            json_[key] = Json::array();
+            json_[key] = OrderedJson::array();
     }
 
     std::string written() {
         add_pictures();
         for (const Material& material : model_.materials)
             add_material(material);
-        Json nodes = Json::array();
+        OrderedJson nodes = OrderedJson::array();
         for (const Mesh& mesh : model_.meshes)
             nodes.push_back(add_mesh(mesh));
         for (const Mount& mount : model_.mounts)
             nodes.push_back(add_mount(mount));
         json_["scenes"].push_back({{"nodes", nodes}});
         json_["buffers"] = {{{"byteLength", binary_.size()}}};
-        std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace), out = "glTF";
+        std::string text = json_.dump(-1, ' ', false, OrderedJson::error_handler_t::replace), out = "glTF";
         text.append((4 - text.size() % 4) % 4, ' ');
         put(out, std::uint32_t{2});
         put(out, static_cast<std::uint32_t>(28 + text.size() + binary_.size()));
@@ -70,9 +70,9 @@ class GlbWriting {
     }
 
     void add_material(const Material& material) {
-        Json entry = {{"name", material.name}};
+        OrderedJson entry = {{"name", material.name}};
         const glm::vec3& a = material.albedo;
-        Json pbr = {{"baseColorFactor", {a.r, a.g, a.b, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
+        OrderedJson pbr = {{"baseColorFactor", {a.r, a.g, a.b, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
         if (material.texture >= 0 && textures_[static_cast<std::size_t>(material.texture)] >= 0)
             pbr["baseColorTexture"] = {{"index", textures_[static_cast<std::size_t>(material.texture)]}};
         entry["pbrMetallicRoughness"] = std::move(pbr);
@@ -100,7 +100,7 @@ class GlbWriting {
         json_["accessors"][position]["min"] = {low.x, low.y, low.z};
         json_["accessors"][position]["max"] = {high.x, high.y, high.z};
         const std::size_t normal = add_accessor(normals, 5126, count, "VEC3"), uv = add_accessor(uvs, 5126, count, "VEC2");
-        Json primitives = Json::array();
+        OrderedJson primitives = OrderedJson::array();
         for (const Batch& batch : mesh.batches) {
             std::string indices;
             for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i)
@@ -127,7 +127,7 @@ class GlbWriting {
 
     const Model& model_;
     const std::vector<std::string>& pictures_;
-    Json json_;
+    OrderedJson json_;
     std::string binary_;
     std::vector<int> textures_; ///< of the file, by texture of the model
 };

@@ -10,8 +10,6 @@
 namespace fernlicht::osc {
 namespace {
 
-constexpr double small = 1e-6;
-
 double limited(double speed_mps, const SpeedLimits& limits) {
     const double most = limits.speed_mps.value_or(HUGE_VAL);
     return std::clamp(speed_mps, -most, most);

@@ -11,8 +11,6 @@
 namespace fernlicht::osc {
 namespace {
 
-constexpr double small = 1e-6;
-
 struct Asked {
     const World& world;
     const EntityState& self;

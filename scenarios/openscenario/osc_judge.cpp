@@ -12,8 +12,6 @@
 namespace fernlicht::osc {
 namespace {
 
-constexpr double equal_within = 1e-6;
-
 bool texts_hold(const std::string& a, const std::string& b, Rule rule) {
     const auto left = to_number(a), right = to_number(b);
     if (left && right)
@@ -62,19 +60,19 @@ bool time_of_day(const TimeOfDayCondition& condition, const World& world) {
 bool holds(double a, double b, Rule rule) {
     switch (rule) {
     case Rule::greater:
-        return a > b + equal_within;
+        return a > b + small;
     case Rule::less:
-        return a < b - equal_within;
+        return a < b - small;
     case Rule::greater_or_equal:
-        return a >= b - equal_within;
+        return a >= b - small;
     case Rule::less_or_equal:
-        return a <= b + equal_within;
+        return a <= b + small;
     case Rule::not_equal:
-        return std::abs(a - b) >= equal_within;
+        return std::abs(a - b) >= small;
     case Rule::equal:
         break;
     }
-    return std::abs(a - b) < equal_within;
+    return std::abs(a - b) < small;
 }
 
 std::optional<double> seconds_of(const std::string& text) {
@@ -168,9 +166,9 @@ bool JudgedTrigger::delayed(Judged& judged, bool value, double time_s) {
         history.emplace_back(time_s, value);
     const double then = time_s - judged.condition->delay_s;
     bool is = judged.past > 0 && history[judged.past - 1].second;
-    if (judged.past < history.size() && then > history[judged.past].first - equal_within) {
+    if (judged.past < history.size() && then > history[judged.past].first - small) {
         is = false;
-        for (; judged.past < history.size() && then > history[judged.past].first - equal_within; ++judged.past)
+        for (; judged.past < history.size() && then > history[judged.past].first - small; ++judged.past)
             is = is || history[judged.past].second;
     }
     return is;

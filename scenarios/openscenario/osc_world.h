@@ -7,6 +7,9 @@
 
 namespace fernlicht::osc {
 
+/// Seconds, metres, metres per second: what is no nearer than this counts as the same.
+inline constexpr double small = 1e-6;
+
 /// A position of the file that is nowhere on the network; who asked for it knows the line. Fragments as InputError takes them.
 struct PlaceError {
     std::string found, expected;

@@ -11,7 +11,7 @@
 namespace fernlicht::osc {
 namespace {
 
-constexpr double small = 1e-6, still_mps = 1e-3;
+constexpr double still_mps = 1e-3;
 constexpr double settle_mps = 1.0, settle_slope = 0.15; ///< how quickly a car glides to the lane its way needs
 
 /// On its way to a goal the car changes to the lane that its road is to be left on.

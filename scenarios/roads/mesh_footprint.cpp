@@ -17,7 +17,7 @@ struct Bounds {
     glm::dvec2 low, high;
 };
 
-Bounds bounds(const Ground& ground) {
+Bounds bounds(const PlanQuad& ground) {
     Bounds b{ground.corners_m[0], ground.corners_m[0]};
     for (const glm::dvec2& corner : ground.corners_m) {
         b.low = glm::min(b.low, corner);
@@ -31,7 +31,7 @@ bool meet(const Bounds& a, const Bounds& b) {
 }
 
 /// Whether a line along one of a's sides has all of b beyond it, or no more than `margin` inside.
-bool separated(const Ground& a, const Ground& b, double margin) {
+bool separated(const PlanQuad& a, const PlanQuad& b, double margin) {
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec2 side = a.corners_m[(i + 1) % 4] - a.corners_m[i];
         const double length = glm::length(side);
@@ -81,8 +81,8 @@ Extent paved_extent(const std::vector<Strip>& strips) {
 
 } // namespace
 
-Ground ground_between(const std::array<glm::dvec3, 4>& points) {
-    Ground ground;
+PlanQuad ground_between(const std::array<glm::dvec3, 4>& points) {
+    PlanQuad ground;
     ground.lowest_m = ground.highest_m = points[0].z;
     for (std::size_t i = 0; i < 4; ++i) {
         ground.corners_m[i] = glm::dvec2(points[i]);
@@ -92,7 +92,7 @@ Ground ground_between(const std::array<glm::dvec3, 4>& points) {
     return ground;
 }
 
-bool overlap(const Ground& a, const Ground& b, double margin_m) { return !separated(a, b, margin_m) && !separated(b, a, margin_m); }
+bool overlap(const PlanQuad& a, const PlanQuad& b, double margin_m) { return !separated(a, b, margin_m) && !separated(b, a, margin_m); }
 
 Footprints::Footprints(const RoadNetwork& network, const std::vector<SurfacePlan>& plans) : joints_(plans.size()) {
     for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -104,7 +104,7 @@ Footprints::Footprints(const RoadNetwork& network, const std::vector<SurfacePlan
 
 void Footprints::add(const RoadNetwork& network, const SurfacePlan& plan, std::size_t road) {
     const auto place = [&](double s, double t) { return surface_pose(network, *plan.road, s, t).position_m; };
-    for (const Stretch& stretch : plan.stretches) {
+    for (const RoadStretch& stretch : plan.stretches) {
         const std::vector<Strip> from = plan.profile(stretch).strips(stretch.layout_s_m(), stretch.from_s_m);
         const std::vector<Strip> to = plan.profile(stretch).strips(stretch.layout_s_m(), stretch.to_s_m);
         if (from.empty())
@@ -113,7 +113,7 @@ void Footprints::add(const RoadNetwork& network, const SurfacePlan& plan, std::s
             return ground_between({place(stretch.from_s_m, a.right_t), place(stretch.to_s_m, b.right_t), place(stretch.to_s_m, b.left_t),
                                    place(stretch.from_s_m, a.left_t)});
         };
-        Footprint footprint;
+        RoadFootprint footprint;
         footprint.all = ground({from.front().right_t_m, from.back().left_t_m}, {to.front().right_t_m, to.back().left_t_m});
         footprint.paved = ground(paved_extent(from), paved_extent(to));
         footprint.road = road;
@@ -144,7 +144,7 @@ void Footprints::add_joints(const RoadNetwork& network) {
     }
 }
 
-void Footprints::near(const Ground& ground, const std::function<void(const Footprint&)>& visit) const {
+void Footprints::near(const PlanQuad& ground, const std::function<void(const RoadFootprint&)>& visit) const {
     const Bounds b = bounds(ground);
     std::vector<std::uint32_t> found;
     for_tiles(b, [&](std::uint64_t key) {
@@ -158,7 +158,7 @@ void Footprints::near(const Ground& ground, const std::function<void(const Footp
             visit(all_[index]);
 }
 
-bool Footprints::continues(std::size_t road, double from_s_m, double to_s_m, const Footprint& other) const {
+bool Footprints::continues(std::size_t road, double from_s_m, double to_s_m, const RoadFootprint& other) const {
     if (other.road == road)
         return std::max(other.from_s_m - to_s_m, from_s_m - other.to_s_m) < continues_m;
     for (const Joint& joint : joints_[road]) {

@@ -194,9 +194,9 @@ std::vector<double> crown_lines(const RoadNetwork& network, const Road& road, do
     return lines;
 }
 
-std::vector<Stretch> stretches_of(const RoadNetwork& network, const Road& road, const std::vector<SectionProfile>& profiles,
-                                  const std::vector<double>& crown, const RoadMeshOptions& options) {
-    std::vector<Stretch> out;
+std::vector<RoadStretch> stretches_of(const RoadNetwork& network, const Road& road, const std::vector<SectionProfile>& profiles,
+                                      const std::vector<double>& crown, const RoadMeshOptions& options) {
+    std::vector<RoadStretch> out;
     if (profiles.empty())
         return out;
     const std::size_t chunks = chunk_count(road, options);

@@ -9,7 +9,7 @@
 namespace fernlicht {
 
 /// A stretch between two neighbouring stations; all of it lies in one lane section and one chunk.
-struct Stretch {
+struct RoadStretch {
     std::size_t profile = 0; ///< into the road's profiles
     double from_s_m = 0.0, to_s_m = 0.0;
     std::size_t chunk = 0;
@@ -22,7 +22,7 @@ std::vector<double> crown_lines(const RoadNetwork& network, const Road& road, do
 
 /// Stretches of the whole road in order. `crown` from crown_lines.
 /// Where the surface itself jumps (a profile with a step), stretches are not cut below 2 cm: the step becomes a steep ramp.
-std::vector<Stretch> stretches_of(const RoadNetwork& network, const Road& road, const std::vector<SectionProfile>& profiles,
-                                  const std::vector<double>& crown, const RoadMeshOptions& options);
+std::vector<RoadStretch> stretches_of(const RoadNetwork& network, const Road& road, const std::vector<SectionProfile>& profiles,
+                                      const std::vector<double>& crown, const RoadMeshOptions& options);
 
 } // namespace fernlicht

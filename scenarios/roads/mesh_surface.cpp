@@ -31,7 +31,7 @@ struct Cut {
     std::vector<Strip> from, to;
 };
 
-Cut cut_at(const SurfacePlan& plan, const Stretch& stretch) {
+Cut cut_at(const SurfacePlan& plan, const RoadStretch& stretch) {
     const SectionProfile& profile = plan.profile(stretch);
     return {profile.strips(stretch.layout_s_m(), stretch.from_s_m), profile.strips(stretch.layout_s_m(), stretch.to_s_m)};
 }
@@ -42,7 +42,7 @@ SurfaceRows append_surface(Scene& scene, const RoadNetwork& network, const Surfa
     SurfaceRows surface;
     const Road& road = *plan.road;
     std::vector<Cut> cuts;
-    for (const Stretch& stretch : plan.stretches)
+    for (const RoadStretch& stretch : plan.stretches)
         cuts.push_back(cut_at(plan, stretch));
     for (std::size_t i = 0; i <= cuts.size() && !cuts.empty(); ++i) {
         const double s = i < cuts.size() ? plan.stretches[i].from_s_m : plan.stretches.back().to_s_m;

@@ -15,9 +15,9 @@ struct SurfacePlan {
     const Road* road = nullptr;
     std::vector<SectionProfile> profiles;
     std::vector<double> crown;
-    std::vector<Stretch> stretches;
+    std::vector<RoadStretch> stretches;
 
-    const SectionProfile& profile(const Stretch& stretch) const { return profiles[stretch.profile]; }
+    const SectionProfile& profile(const RoadStretch& stretch) const { return profiles[stretch.profile]; }
 };
 
 SurfacePlan plan_surface(const RoadNetwork& network, const Road& road, const RoadMeshOptions& options);

@@ -17,7 +17,7 @@ constexpr double below_road_m = 0.05;
 constexpr double storey_m = 4.0; ///< a road that much lower passes under a bridge
 constexpr double inside_of_radius = 0.8;
 constexpr double widening_per_m = 1.5;
-constexpr double longest_cell_m = 8.0;
+constexpr double longest_terrain_cell_m = 8.0;
 constexpr double widest_turn_rad = 0.15;
 
 /// Drop of the ground below the road's edge: a verge at 6 %, a shallow ditch side, then level.
@@ -73,7 +73,7 @@ class Side {
     void place(double verge_width);
     /// The point of the road's edge in a row, as a stretch beside it has it.
     std::size_t outermost(const std::vector<Range>& strips) const { return left_ ? strips.back().last : strips.front().first; }
-    Ground cell(std::size_t rib, std::size_t column) const;
+    PlanQuad cell(std::size_t rib, std::size_t column) const;
     double allowed(const Footprints& footprints, std::size_t rib, std::size_t column, bool& open) const;
     void append_cell(MeshBuilder& builder, std::size_t rib, std::size_t column) const;
     glm::dvec3 normal(const Rib& rib, std::size_t column) const;
@@ -106,7 +106,7 @@ void Side::add_rib(const Row& row, const RowPoint& point, std::size_t chunk, boo
     const double heading = std::atan2(forward.y, forward.x);
     rib.forward = {std::cos(heading), std::sin(heading), 0.0};
     rib.outward = (left_ ? 1.0 : -1.0) * glm::dvec3(-rib.forward.y, rib.forward.x, 0.0);
-    const bool far = ribs_.empty() || rib.s_m - ribs_.back().s_m >= longest_cell_m ||
+    const bool far = ribs_.empty() || rib.s_m - ribs_.back().s_m >= longest_terrain_cell_m ||
                      glm::dot(rib.forward, ribs_.back().forward) < std::cos(widest_turn_rad);
     if (always || far)
         ribs_.push_back(rib);
@@ -168,7 +168,7 @@ void Side::place(double verge_width) {
     open_.assign(ribs_.size(), {false, false, false, false});
 }
 
-Ground Side::cell(std::size_t rib, std::size_t column) const {
+PlanQuad Side::cell(std::size_t rib, std::size_t column) const {
     const Rib& a = ribs_[rib];
     const Rib& b = ribs_[rib + 1];
     return ground_between({a.points_m[column], b.points_m[column], b.points_m[column + 1], a.points_m[column + 1]});
@@ -176,9 +176,9 @@ Ground Side::cell(std::size_t rib, std::size_t column) const {
 
 /// The height that keeps the cell below every other road it lies under or over; `open` if one passes far below.
 double Side::allowed(const Footprints& footprints, std::size_t rib, std::size_t column, bool& open) const {
-    const Ground ground = cell(rib, column);
+    const PlanQuad ground = cell(rib, column);
     double cap = unlimited;
-    footprints.near(ground, [&](const Footprint& other) {
+    footprints.near(ground, [&](const RoadFootprint& other) {
         if (other.all.lowest_m > ground.highest_m + below_road_m ||
             footprints.continues(road_index_, ribs_[rib].s_m, ribs_[rib + 1].s_m, other) || !overlap(ground, other.all, 0.01))
             return;
@@ -262,7 +262,7 @@ void Side::append(Scene& scene) const {
             if (builder)
                 std::move(*builder).add_to(scene);
             const auto stretch = std::find_if(plan_.stretches.begin(), plan_.stretches.end(),
-                                              [&](const Stretch& s) { return s.chunk == ribs_[i + 1].chunk; });
+                                              [&](const RoadStretch& s) { return s.chunk == ribs_[i + 1].chunk; });
             builder.emplace(
                 chunk_name(left_ ? "left of road" : "right of road", plan_, static_cast<std::size_t>(stretch - plan_.stretches.begin())),
                 ribs_[i].points_m[0]);

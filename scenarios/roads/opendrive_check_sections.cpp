@@ -106,11 +106,6 @@ std::vector<int> lane_links(pugi::xml_node lane, const char* name) {
     return ids;
 }
 
-const Lane* lane_of(const LaneSection& section, int id) {
-    const auto lane = std::find_if(section.lanes.begin(), section.lanes.end(), [&](const Lane& l) { return l.id == id; });
-    return lane == section.lanes.end() || id == 0 ? nullptr : &*lane;
-}
-
 void check_sections(OpenDriveXml& xml, const Road& road, pugi::xml_node road_node) {
     std::vector<pugi::xml_node> nodes;
     for (const pugi::xml_node node : road_node.child("lanes").children("laneSection"))

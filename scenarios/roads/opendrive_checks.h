@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/roads/opendrive_parts.h"
+#include "scenarios/roads/route_links.h"
 
 namespace fernlicht::opendrive {
 
@@ -34,8 +35,5 @@ void check_junctions(OpenDriveXml& xml, const RoadNetwork& network);
 pugi::xml_node lane_node(pugi::xml_node section, int id);
 /// All predecessors or successors that the file names; the values keep the first only.
 std::vector<int> lane_links(pugi::xml_node lane, const char* name);
-
-/// The lane with this id; nullptr for none and for the centre.
-const Lane* lane_of(const LaneSection& section, int id);
 
 } // namespace fernlicht::opendrive

@@ -15,7 +15,7 @@ namespace {
 constexpr double same_height_m = 0.05;
 constexpr double overlap_margin_m = 0.02;
 
-Ground ground_of(const StripEnd& from, const StripEnd& to) {
+PlanQuad ground_of(const StripEnd& from, const StripEnd& to) {
     const std::array<glm::dvec3, 4> corners{from.row.points[from.range.first].pose.position_m,
                                             to.row.points[to.range.first].pose.position_m, to.row.points[to.range.last].pose.position_m,
                                             from.row.points[from.range.last].pose.position_m};
@@ -32,9 +32,9 @@ class JunctionPaint {
         const Strip& strip = from.strip;
         if (strip.material == RoadMaterial::asphalt || strip.kerb_face)
             return strip.material;
-        const Ground ground = ground_of(from, to);
+        const PlanQuad ground = ground_of(from, to);
         bool covered = false;
-        footprints_.near(ground, [&](const Footprint& other) {
+        footprints_.near(ground, [&](const RoadFootprint& other) {
             const bool level =
                 other.paved.lowest_m < ground.highest_m + same_height_m && other.paved.highest_m > ground.lowest_m - same_height_m;
             covered = covered || (level && !footprints_.continues(road_, from.row.s_m, to.row.s_m, other) &&

@@ -17,11 +17,6 @@ struct End {
     double heading_rad;  ///< of travel
 };
 
-const Lane* lane_of(const LaneSection& section, int id) {
-    const auto lane = std::find_if(section.lanes.begin(), section.lanes.end(), [&](const Lane& l) { return l.id == id; });
-    return lane == section.lanes.end() || id == 0 ? nullptr : &*lane;
-}
-
 /// Where the lane is entered (or left, with `leaving`) when followed in the place's direction.
 End end_of(const RoadNetwork& network, const LanePlace& place, bool leaving) {
     const Road& road = network.roads[place.road];
@@ -104,6 +99,11 @@ double turn(const RoadNetwork& network, const LanePlace& from, const LanePlace& 
 }
 
 } // namespace
+
+const Lane* lane_of(const LaneSection& section, int id) {
+    const auto lane = std::find_if(section.lanes.begin(), section.lanes.end(), [&](const Lane& l) { return l.id == id; });
+    return lane == section.lanes.end() || id == 0 ? nullptr : &*lane;
+}
 
 std::vector<LanePlace> next_places(const RoadNetwork& network, const LanePlace& from) {
     const Road& road = network.roads[from.road];

@@ -13,6 +13,9 @@ struct LanePlace {
     bool operator==(const LanePlace&) const = default;
 };
 
+/// The lane with this id; nullptr for none and for the centre.
+const Lane* lane_of(const LaneSection& section, int id);
+
 /// All places the lane leads to, the one with the least turn first; empty where the lane ends.
 std::vector<LanePlace> next_places(const RoadNetwork& network, const LanePlace& from);
 

@@ -9,7 +9,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr double astronomical_unit_km = 149597870.7;
 constexpr double arc_second = pi / (180.0 * 3600.0);
 
 double turn(double degrees_any) { return radians(degrees_any - 360.0 * std::floor(degrees_any / 360.0)); }

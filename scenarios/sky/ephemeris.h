@@ -3,6 +3,8 @@
 
 namespace fernlicht {
 
+inline constexpr double astronomical_unit_km = 149597870.7;
+
 /// Nutation along the ecliptic within 0.5 arc seconds, and the true obliquity (Meeus, chapter 22).
 struct Ecliptic {
     double nutation_rad = 0.0, obliquity_rad = 0.0;

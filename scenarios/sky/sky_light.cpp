@@ -1,5 +1,6 @@
 #include "scenarios/sky/sky_light.h"
 
+#include "scenarios/sky/ephemeris.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr double mean_sun_distance_km = 149597870.7, mean_moon_km = 384400.0;
+constexpr double mean_moon_km = 384400.0;
 constexpr double disc_radius_rad = radians(0.2667);                  // of sun and moon alike
 constexpr double set_rad = radians(-0.8333), day_rad = radians(2.0); // twilight's model up to here, day's from here
 
@@ -60,7 +61,7 @@ double air_mass(double apparent_altitude_rad) {
 }
 
 double extraterrestrial_lx(double distance_km) {
-    const double relative = mean_sun_distance_km / distance_km;
+    const double relative = astronomical_unit_km / distance_km;
     return 127500.0 * relative * relative;
 }
 
@@ -100,7 +101,7 @@ SkyLight moon_light(double apparent_altitude_rad, double distance_km, double pha
     const double phase = std::pow(10.0, -8.68e-3 * i - 2.2e-9 * i * i * i * i);
     const double moon = full_moon_share * phase * relative * relative, risen = risen_share(apparent_altitude_rad);
     const CoverFigures f = figures_of(cover);
-    return {moon * extraterrestrial_lx(mean_sun_distance_km) * direct_share(f, apparent_altitude_rad),
+    return {moon * extraterrestrial_lx(astronomical_unit_km) * direct_share(f, apparent_altitude_rad),
             risen > 0.0 ? moon * risen * day_sky_lx(f, apparent_altitude_rad) : 0.0};
 }
 

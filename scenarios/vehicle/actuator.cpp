@@ -101,7 +101,7 @@ struct Actuator::Parts {
     ActuatorParameters actuator;
     Law law;
     OdeProblem problem;
-    Integrator integrator;
+    OdeIntegrator integrator;
     std::vector<double> x{0.0, 0.0};
     double time_s = 0.0;
     bool jammed = false;

@@ -78,7 +78,7 @@ CarRun run_car(CarModel start, const std::vector<SpeedSegment>& wishes, double e
     start.wish = wishes.front();
     const auto model = std::make_shared<CarModel>(std::move(start));
     const OdeProblem problem = car_problem(model);
-    Integrator integrator(problem, {.solver = model->car.solver, .tolerance = model->car.tolerance});
+    OdeIntegrator integrator(problem, {.solver = model->car.solver, .tolerance = model->car.tolerance});
     std::vector<double> x = steady_car(*model, 0.0);
     RoadSteps steps{*model};
     steps.skip(x);

@@ -61,29 +61,29 @@ std::optional<Crossing> first_crossing(const std::vector<Watch>& watches, const 
 
 } // namespace
 
-Integrator::Integrator(const OdeProblem& problem, const SolverOptions& options)
+OdeIntegrator::OdeIntegrator(const OdeProblem& problem, const SolverOptions& options)
     : problem_(problem), options_(options), single_(problem, work_),
       active_(options.solver == Solver::rosenbrock ? Solver::rosenbrock : Solver::dormand_prince) {
     if (!(options.tolerance >= 1.0e-14 && options.tolerance <= 0.1))
-        throw std::invalid_argument(fmt::format("Integrator: a tolerance of {}", options.tolerance));
+        throw std::invalid_argument(fmt::format("OdeIntegrator: a tolerance of {}", options.tolerance));
     if (options.fixed_step_s != 0.0 && (!(options.fixed_step_s > 0.0) || options.solver == Solver::automatic))
-        throw std::invalid_argument("Integrator: a fixed step that is not above 0, or without a chosen solver");
+        throw std::invalid_argument("OdeIntegrator: a fixed step that is not above 0, or without a chosen solver");
     for (const double scale : problem.scale)
         if (!(scale > 0.0))
-            throw std::invalid_argument("Integrator: a scale that is not above 0");
+            throw std::invalid_argument("OdeIntegrator: a scale that is not above 0");
 }
 
-void Integrator::give_up(double t_s, const std::string& found) const {
+void OdeIntegrator::give_up(double t_s, const std::string& found) const {
     throw InputError({{}, 0, 0, "solver"}, fmt::format("{} with {} at {:.6g} s", found, name(active_), t_s),
                      options_.solver == Solver::dormand_prince ? "solver: auto or rosenbrock, or a larger tolerance"
                                                                : "a larger tolerance or equations that change less quickly");
 }
 
-void Integrator::try_step(double t_s, double step_s, const std::vector<double>& x) {
+void OdeIntegrator::try_step(double t_s, double step_s, const std::vector<double>& x) {
     active_ == Solver::rosenbrock ? single_.rosenbrock(t_s, step_s, x) : single_.dormand_prince(t_s, step_s, x);
 }
 
-double Integrator::error_of(const std::vector<double>& x) {
+double OdeIntegrator::error_of(const std::vector<double>& x) {
     const TriedStep& step = single_.tried();
     double sum = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -96,7 +96,7 @@ double Integrator::error_of(const std::vector<double>& x) {
 }
 
 /// So short that an explicit Euler step would change the state by a hundredth of its scale (Hairer, Norsett & Wanner I, II.4, first guess).
-double Integrator::first_step(double t_s, double room_s, const std::vector<double>& x) {
+double OdeIntegrator::first_step(double t_s, double room_s, const std::vector<double>& x) {
     std::vector<double> slope(x.size());
     ++work_.derivatives;
     problem_.derivative(t_s, x.data(), slope.data());
@@ -107,7 +107,7 @@ double Integrator::first_step(double t_s, double room_s, const std::vector<doubl
     return std::min(room_s, guess_s * std::pow(options_.tolerance / 1.0e-6, 0.2));
 }
 
-double Integrator::next_step(double step_s, double error, bool taken) {
+double OdeIntegrator::next_step(double step_s, double error, bool taken) {
     if (!std::isfinite(error))
         return 0.1 * step_s;
     const bool implicit = active_ == Solver::rosenbrock;
@@ -121,7 +121,7 @@ double Integrator::next_step(double step_s, double error, bool taken) {
     return step_s * factor;
 }
 
-void Integrator::weigh_stiffness() {
+void OdeIntegrator::weigh_stiffness() {
     if (options_.solver != Solver::automatic)
         return;
     const double product = single_.tried().stiffness;
@@ -147,7 +147,7 @@ void Integrator::weigh_stiffness() {
 
 /// Repeats the step so that it ends behind the event by at most `within_s`. The continuous extension, where the event was found, is less
 /// exact than the method itself, hence the corrections: Newton's, by the slope over the last fifth of the step.
-double Integrator::step_to(const Watch& watch, bool rising, double t_s, double step_s, double within_s, const std::vector<double>& x) {
+double OdeIntegrator::step_to(const Watch& watch, bool rising, double t_s, double step_s, double within_s, const std::vector<double>& x) {
     constexpr int most_corrections = 6;
     for (int correction = 0;; ++correction) {
         try_step(t_s, step_s, x);
@@ -165,7 +165,7 @@ double Integrator::step_to(const Watch& watch, bool rising, double t_s, double s
     }
 }
 
-Arrival Integrator::integrate(double start_s, double end_s, std::vector<double>& x, const std::vector<Watch>& watches, DensePath* path) {
+Arrival OdeIntegrator::integrate(double start_s, double end_s, std::vector<double>& x, const std::vector<Watch>& watches, DensePath* path) {
     const bool fixed = options_.fixed_step_s > 0.0;
     double t_s = start_s;
     std::uint64_t fixed_steps = 0;

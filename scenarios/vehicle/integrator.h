@@ -27,10 +27,10 @@ struct Arrival {
     std::optional<std::size_t> event; ///< which watch; none: the end was reached
 };
 
-class Integrator {
+class OdeIntegrator {
   public:
     /// `problem` must outlive it. Throws std::invalid_argument for options out of range.
-    Integrator(const OdeProblem& problem, const SolverOptions& options);
+    OdeIntegrator(const OdeProblem& problem, const SolverOptions& options);
 
     /// Integrates `x` from `start_s` until `end_s` or the first event, writing steps into `path` where one is given. The method and its
     /// step length are kept from call to call; the problem or `x` may have changed in between. Throws InputError when the steps are used

@@ -61,7 +61,7 @@ StudiedProblem actuator(double natural_frequency_hz, double end_s) {
             rows[3] = -2.0 * z * w;
         };
         ode.scale = {1.0, w};
-        Integrator integrator(ode, options);
+        OdeIntegrator integrator(ode, options);
         DensePath path({0});
         std::vector<double> x{0.0, 0.0};
         integrator.integrate(0.0, end_s, x, {}, &path);

@@ -27,7 +27,7 @@ OdeProblem actuator_step(double w) {
 /// Largest error of the answer to a step at some moments of [0, end].
 double step_error(double w, const SolverOptions& options, double end_s) {
     const OdeProblem problem = actuator_step(w);
-    Integrator integrator(problem, options);
+    OdeIntegrator integrator(problem, options);
     std::vector<double> x{0.0, 0.0};
     double worst = 0.0, from_s = 0.0;
     for (const double part : {0.001, 0.01, 0.1, 0.3, 1.0}) {
@@ -53,7 +53,7 @@ bool shrinks(Solver solver, double size, double angle_rad) {
         dfdt[0] = dfdt[1] = 0.0;
     };
     problem.scale = {1.0, 1.0};
-    Integrator integrator(problem, {.solver = solver, .fixed_step_s = 1.0});
+    OdeIntegrator integrator(problem, {.solver = solver, .fixed_step_s = 1.0});
     std::vector<double> x{1.0, 0.0};
     constexpr double steps = 2000.0;
     for (double t_s = 0.0; t_s < steps; t_s += 10.0) {
@@ -119,7 +119,7 @@ std::vector<ExtremeTrial> steps_of_a_microsecond_and_of_ten_seconds() {
             {fmt::format("{}, steps of 1e-6 s", name(solver)), step_error(w, {.solver = solver, .fixed_step_s = 1.0e-6}, 0.1)});
     {
         const OdeProblem problem = actuator_step(w);
-        Integrator integrator(problem, {.solver = Solver::rosenbrock, .fixed_step_s = 10.0});
+        OdeIntegrator integrator(problem, {.solver = Solver::rosenbrock, .fixed_step_s = 10.0});
         std::vector<double> x{0.0, 0.0};
         integrator.integrate(0.0, 1000.0, x);
         trials.push_back({"rosenbrock, steps of 10 s, settled", std::abs(x[0] - 1.0)});

@@ -19,7 +19,7 @@ std::shared_ptr<CarModel> standing() {
 /// Integrates on, tightly.
 std::vector<double> after(const std::shared_ptr<CarModel>& model, std::vector<double> x, double duration_s, double tolerance = 1e-10) {
     const OdeProblem problem = car_problem(model);
-    Integrator integrator(problem, {.tolerance = tolerance});
+    OdeIntegrator integrator(problem, {.tolerance = tolerance});
     integrator.integrate(0.0, duration_s, x);
     return x;
 }
@@ -144,7 +144,7 @@ TEST(CarModel, DampersTakeExactlyTheirWork) {
     std::vector<double> x = lifted(*model);
     const double before = energy_j(*model, x);
     x.push_back(0.0);
-    Integrator integrator(with_work, {.tolerance = 1e-10});
+    OdeIntegrator integrator(with_work, {.tolerance = 1e-10});
     integrator.integrate(0.0, 0.3, x);
     EXPECT_NEAR(energy_j(*model, x) + x[count], before, 1e-7 * before);
     EXPECT_GT(x[count], 0.3 * before);

@@ -31,7 +31,7 @@ OdeProblem smooth() {
 }
 
 double error_at_end(const OdeProblem& problem, Solver solver, double step_s, DensePath* path = nullptr) {
-    Integrator integrator(problem, {.solver = solver, .fixed_step_s = step_s});
+    OdeIntegrator integrator(problem, {.solver = solver, .fixed_step_s = step_s});
     std::vector<double> x{1.0, 1.0, 0.0};
     integrator.integrate(0.0, 2.0, x, {}, path);
     return std::max({std::abs(x[0] - 0.2), std::abs(x[1] - std::cos(4.0)), std::abs(x[2] + 2.0 * std::sin(4.0))});
@@ -48,7 +48,7 @@ double error_between(Solver solver, double step_s) {
 }
 
 /// Order seen when the step is halved. Within 0.25 of the method's: the next term of the error is smaller by some h, and h is 0.025 here.
-TEST(Integrator, HasTheMethodsOrders) {
+TEST(OdeIntegrator, HasTheMethodsOrders) {
     const OdeProblem problem = smooth();
     const auto order = [&](Solver solver) { return std::log2(error_at_end(problem, solver, 0.05) / error_at_end(problem, solver, 0.025)); };
     EXPECT_NEAR(order(Solver::dormand_prince), 5.0, 0.25);
@@ -59,17 +59,17 @@ TEST(Integrator, HasTheMethodsOrders) {
         << "local error of the continuous extension of order 3";
 }
 
-TEST(Integrator, AJacobianByDifferencesKeepsTheOrder) {
+TEST(OdeIntegrator, AJacobianByDifferencesKeepsTheOrder) {
     OdeProblem problem = smooth();
     problem.jacobian = nullptr;
     EXPECT_NEAR(std::log2(error_at_end(problem, Solver::rosenbrock, 0.1) / error_at_end(problem, Solver::rosenbrock, 0.05)), 4.0, 0.25);
 }
 
-TEST(Integrator, ErrorFollowsTheTolerance) {
+TEST(OdeIntegrator, ErrorFollowsTheTolerance) {
     const OdeProblem problem = smooth();
     for (const Solver solver : {Solver::dormand_prince, Solver::rosenbrock})
         for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
-            Integrator integrator(problem, {.solver = solver, .tolerance = tolerance});
+            OdeIntegrator integrator(problem, {.solver = solver, .tolerance = tolerance});
             std::vector<double> x{1.0, 1.0, 0.0};
             integrator.integrate(0.0, 2.0, x);
             // Errors of some ten steps, of a scale of 1 + |x|, carried on by an oscillator that keeps them.
@@ -83,26 +83,26 @@ double after_steps(Solver solver, double z, int steps) {
     OdeProblem problem;
     problem.derivative = [](double, const double* x, double* dxdt) { dxdt[0] = -x[0]; };
     problem.scale = {1.0};
-    Integrator integrator(problem, {.solver = solver, .fixed_step_s = z});
+    OdeIntegrator integrator(problem, {.solver = solver, .fixed_step_s = z});
     std::vector<double> x{1.0};
     integrator.integrate(0.0, z * steps, x);
     return std::abs(x[0]);
 }
 
-TEST(Integrator, DormandPrinceIsStableUpTo3Point306) {
+TEST(OdeIntegrator, DormandPrinceIsStableUpTo3Point306) {
     // The largest z with |R(-z)| = 1 of R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 + z^5/120 + z^6/600.
     EXPECT_LT(after_steps(Solver::dormand_prince, 3.30, 1000), 1.0);
     EXPECT_GT(after_steps(Solver::dormand_prince, 3.31, 1000), 1.0);
 }
 
-TEST(Integrator, RosenbrockIsLStable) {
+TEST(OdeIntegrator, RosenbrockIsLStable) {
     // R(infinity) = 0: one step of any length leaves nothing, up to the rounding of 1 / (gamma h).
     for (const double z : {10.0, 1e3, 1e6, 1e9, 1e12})
         EXPECT_LT(after_steps(Solver::rosenbrock, z, 1), 10.0 / z) << z;
 }
 
 /// Van der Pol's oscillator with mu = 1000 has stretches that are stiff and corners that are not.
-TEST(Integrator, ChoosesByStiffness) {
+TEST(OdeIntegrator, ChoosesByStiffness) {
     OdeProblem problem;
     problem.derivative = [](double, const double* x, double* dxdt) {
         dxdt[0] = x[1];
@@ -110,33 +110,33 @@ TEST(Integrator, ChoosesByStiffness) {
     };
     problem.scale = {1.0, 1.0};
     std::vector<double> stiff{2.0, 0.0};
-    Integrator automatic(problem, {});
+    OdeIntegrator automatic(problem, {});
     automatic.integrate(0.0, 100.0, stiff);
     EXPECT_EQ(automatic.active(), Solver::rosenbrock);
     EXPECT_GT(automatic.work().rosenbrock.simulated_s, 98.0);
     EXPECT_LT(automatic.work().dormand_prince.steps, 100U);
 
-    Integrator explicit_only(problem, {.solver = Solver::dormand_prince});
+    OdeIntegrator explicit_only(problem, {.solver = Solver::dormand_prince});
     std::vector<double> x{2.0, 0.0};
     explicit_only.integrate(0.0, 100.0, x);
     EXPECT_GT(explicit_only.work().dormand_prince.steps, 100U * automatic.work().rosenbrock.steps);
     EXPECT_NEAR(x[0], stiff[0], 1e-4);
 
-    Integrator smooth_one(problem = smooth(), {});
+    OdeIntegrator smooth_one(problem = smooth(), {});
     std::vector<double> y{1.0, 1.0, 0.0};
     smooth_one.integrate(0.0, 20.0, y);
     EXPECT_EQ(smooth_one.work().switches, 0U);
     EXPECT_EQ(smooth_one.work().rosenbrock.steps, 0U);
 }
 
-TEST(Integrator, GoesBackToTheExplicitMethod) {
+TEST(OdeIntegrator, GoesBackToTheExplicitMethod) {
     // x' = -k(t) (x - cos t) with k from 1 to 1e5 and back.
     OdeProblem problem;
     problem.derivative = [](double t, const double* x, double* dxdt) {
         dxdt[0] = -(1.0 + 1.0e5 * (t > 2.0 && t < 4.0 ? 1.0 : 0.0)) * (x[0] - std::cos(t));
     };
     problem.scale = {1.0};
-    Integrator integrator(problem, {});
+    OdeIntegrator integrator(problem, {});
     std::vector<double> x{1.0};
     std::vector<Solver> then;
     for (const double stop : {2.0, 4.0, 30.0}) {
@@ -147,7 +147,7 @@ TEST(Integrator, GoesBackToTheExplicitMethod) {
     EXPECT_EQ(integrator.work().switches, 2U);
 }
 
-TEST(Integrator, StopsAtEvents) {
+TEST(OdeIntegrator, StopsAtEvents) {
     // A falling body: h = 10 - 4.905 t^2 reaches the ground at sqrt(10 / 4.905).
     OdeProblem problem;
     problem.derivative = [](double, const double* x, double* dxdt) {
@@ -156,7 +156,7 @@ TEST(Integrator, StopsAtEvents) {
     };
     problem.scale = {1.0, 1.0};
     for (const Solver solver : {Solver::dormand_prince, Solver::rosenbrock}) {
-        Integrator integrator(problem, {.solver = solver});
+        OdeIntegrator integrator(problem, {.solver = solver});
         std::vector<double> x{10.0, 0.0};
         const std::vector<Watch> watches{{[](double, const double* s) { return s[0] - 20.0; }},
                                          {[](double, const double* s) { return s[0]; }, false, true},
@@ -172,10 +172,10 @@ TEST(Integrator, StopsAtEvents) {
     }
 }
 
-TEST(Integrator, ThePathIsTheSolutionWhoeverAsks) {
+TEST(OdeIntegrator, ThePathIsTheSolutionWhoeverAsks) {
     const OdeProblem problem = smooth();
     DensePath path({1});
-    Integrator integrator(problem, {.tolerance = 1e-9});
+    OdeIntegrator integrator(problem, {.tolerance = 1e-9});
     std::vector<double> x{1.0, 1.0, 0.0};
     integrator.integrate(0.0, 2.0, x, {}, &path);
     EXPECT_EQ(path.start_s(), 0.0);
@@ -187,12 +187,12 @@ TEST(Integrator, ThePathIsTheSolutionWhoeverAsks) {
         EXPECT_NEAR(path.at(t, 0), std::cos(2.0 * t), 1e-7); // between steps the error is of order 4, not 5
 }
 
-TEST(Integrator, GivesUpWithASentence) {
+TEST(OdeIntegrator, GivesUpWithASentence) {
     OdeProblem problem;
     problem.derivative = [](double, const double* x, double* dxdt) { dxdt[0] = x[0] * x[0]; }; // 1 / (1 - t): ends at t = 1
     problem.scale = {1.0};
     for (const Solver solver : {Solver::automatic, Solver::dormand_prince, Solver::rosenbrock}) {
-        Integrator integrator(problem, {.solver = solver, .most_steps = 20'000});
+        OdeIntegrator integrator(problem, {.solver = solver, .most_steps = 20'000});
         std::vector<double> x{1.0};
         try {
             integrator.integrate(0.0, 2.0, x);
@@ -201,8 +201,8 @@ TEST(Integrator, GivesUpWithASentence) {
             EXPECT_THAT(error.what(), HasSubstr("step"));
         }
     }
-    EXPECT_THROW(Integrator(problem, {.tolerance = 0.0}), std::invalid_argument);
-    EXPECT_THROW(Integrator(problem, {.solver = Solver::automatic, .fixed_step_s = 0.1}), std::invalid_argument);
+    EXPECT_THROW(OdeIntegrator(problem, {.tolerance = 0.0}), std::invalid_argument);
+    EXPECT_THROW(OdeIntegrator(problem, {.solver = Solver::automatic, .fixed_step_s = 0.1}), std::invalid_argument);
 }
 
 } // namespace
