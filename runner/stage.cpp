@@ -9,6 +9,7 @@
 #include "scenarios/drives/own_car.h"
 #include "scenarios/drives/tell_story.h"
 #include "scenarios/drives/told_story.h"
+#include "scenarios/roads/far_ground.h"
 #include "scenarios/roads/mirrored_road.h"
 #include "scenarios/roads/road_mesh.h"
 #include "scenarios/sky/place_street_lamps.h"
@@ -45,7 +46,10 @@ Stage::Stage(Drive d)
     : drive(std::move(d)), network(network_of(drive)), route(network, start_of(drive), drive.via),
       scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
     add_scenery(scene, drive.scenery, route);
+    find_street_lamps(drive, network);
     add_street_lamp_poles(drive, route, scene);
+    if (drive.daylight != Daylight{})
+        add_far_ground(scene);
     lay_on_route(drive, route);
     fit_to_route(drive, route);
     simulate(drive, route);

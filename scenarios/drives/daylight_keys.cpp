@@ -11,7 +11,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_lamp_rows = 32;
+constexpr std::size_t most_lamp_rows = 32, most_object_words = 32;
 constexpr double brightest_lx = 150'000.0, fastest_rate = 86'400.0;
 
 /// Whole numbers with a sign between them and as many digits as `digits` says, such as 2026-06-21.
@@ -163,13 +163,21 @@ std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampShelf& sh
         return rows;
     for (const auto& [name, entry] : given->named(most_lamp_rows)) {
         const YamlMap keys =
-            entry.map({"file", "first_m", "last_m", "every_m", "beside_m", "height_m", "arm_m", "tilt_deg", "tilt_rad", "level", "source",
-                       "temperature_k", "spectrum", "colour", "between_samples", "type_c_axis", "texture", "mirrored"});
+            entry.map({"file", "on_objects", "first_m", "last_m", "every_m", "beside_m", "height_m", "arm_m", "tilt_deg", "tilt_rad",
+                       "level", "source", "temperature_k", "spectrum", "colour", "between_samples", "type_c_axis", "texture", "mirrored"});
         StreetLampRow row;
         row.name = name;
         row.file = read_lamp_keys({keys}, shelf, TypeCAxis::nadir);
         if (!row.file)
             entry.refuse("street lamps without a file", "file");
+        if (const auto objects = keys.find("on_objects")) {
+            for (const char* key : {"first_m", "last_m", "every_m", "beside_m"})
+                if (const auto of_rows = keys.find(key))
+                    of_rows->refuse(fmt::format("{} beside on_objects", key), "one of them: the road's objects have their places");
+            for (const YamlEntry& word : objects->list(1, most_object_words))
+                row.on_objects.push_back(word.text());
+            row.height_m = 0.0;
+        }
         row.first_m = keys.number_or("first_m", row.first_m, -1.0e6, 1.0e6);
         row.last_m = keys.number_or("last_m", row.last_m, row.first_m, 1.0e6);
         row.every_m = keys.number_or("every_m", row.every_m, 1.0, 1.0e6);

@@ -122,6 +122,8 @@ void mirror_traffic(Drive& drive, bool lamps) {
         flip(placed.yaw_rad);
         flip(placed.roll_rad);
     }
+    for (StreetLampRow& row : drive.street_lamps)
+        flip(row.beside_m);
     if (lamps)
         for (Variant& variant : drive.variants)
             mirror(variant, drive);

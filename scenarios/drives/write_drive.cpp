@@ -92,11 +92,18 @@ void write_street_lamps(Lines& out, const Drive& drive) {
     for (const StreetLampRow& row : drive.street_lamps) {
         out.add(1, "{}:", quoted(row.name));
         write_file_keys(out, 2, drive, row.file);
-        out.add(2, "first_m: {}", row.first_m);
-        out.add(2, "last_m: {}", row.last_m);
-        out.add(2, "every_m: {}", row.every_m);
-        out.add(2, "beside_m: {}", row.beside_m);
-        out.add(2, "height_m: {}", row.height_m);
+        if (row.on_objects.empty()) {
+            out.add(2, "first_m: {}", row.first_m);
+            out.add(2, "last_m: {}", row.last_m);
+            out.add(2, "every_m: {}", row.every_m);
+            out.add(2, "beside_m: {}", row.beside_m);
+        } else {
+            out.add(2, "on_objects:");
+            for (const std::string& word : row.on_objects)
+                out.add(3, "- {}", quoted(word));
+        }
+        if (row.on_objects.empty() || row.height_m > 0.0)
+            out.add(2, "height_m: {}", row.height_m);
         out.add(2, "arm_m: {}", row.arm_m);
         out.add(2, "{}", angle_entry("tilt", row.tilt_rad));
         out.add(2, "level: {}", row.level);

@@ -80,6 +80,7 @@ void expect_same(const Drive& a, const Drive& b) {
         const StreetLampRow &x = a.street_lamps[i], &y = b.street_lamps[i];
         EXPECT_EQ(std::tie(x.name, x.first_m, x.last_m, x.every_m, x.beside_m, x.height_m, x.arm_m, x.tilt_rad, x.level),
                   std::tie(y.name, y.first_m, y.last_m, y.every_m, y.beside_m, y.height_m, y.arm_m, y.tilt_rad, y.level));
+        EXPECT_EQ(x.on_objects, y.on_objects);
         EXPECT_EQ(x.colour.linear_srgb, y.colour.linear_srgb);
         EXPECT_EQ(x.file->table.cd, y.file->table.cd);
     }
@@ -147,6 +148,15 @@ class AnyDrive {
                                    number(-0.5, 0.5),
                                    number(0.0, 1.0),
                                    {}}};
+        if (coin()) {
+            StreetLampRow row;
+            row.name = "posts";
+            row.file = sources_.front().file;
+            row.on_objects = {"lamp post", "It's \"quoted\": a, b"};
+            row.height_m = coin() ? number(1.0, 20.0) : 0.0;
+            row.colour = {};
+            drive.street_lamps.push_back(row);
+        }
         if (coin())
             drive.weather = {number(0.0, 1.0), number(0.0, 1.0), number(0.0, 0.9), number(0.0, 1.0)};
         drive.bumper_m = number(2.0, 5.0);

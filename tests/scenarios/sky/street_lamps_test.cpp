@@ -2,10 +2,12 @@
 #include "scenarios/drives/advance.h"
 #include "scenarios/light.h"
 #include "scenarios/sky/place_street_lamps.h"
+#include "scenarios/values/errors.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
@@ -94,6 +96,91 @@ TEST(StreetLamps, HavePoles) {
     Scene empty;
     add_street_lamp_poles(without, lit.route, empty);
     EXPECT_TRUE(empty.meshes.empty() && empty.materials.empty());
+}
+
+/// Our village, with lamps on its posts.
+struct LitVillage {
+    RoadNetwork network = read_opendrive(library + "roads/village.xodr");
+    Route route{network, {}, {}};
+    Drive drive;
+
+    explicit LitVillage(const std::string& word, double height_m = 0.0, double arm_m = 1.0) {
+        StreetLampRow row;
+        row.name = "posts";
+        row.file = std::make_shared<LampFile>(read_lamp(library + "lamps/street-6000lm.ies", {.type_c_axis = TypeCAxis::nadir}));
+        row.on_objects = {word};
+        row.height_m = height_m;
+        row.arm_m = arm_m;
+        drive.file = "village.yaml";
+        drive.road_file = "village.xodr";
+        drive.street_lamps = {row};
+        find_street_lamps(drive, network);
+    }
+    std::vector<LitLamp> around(const glm::dvec3& place_m, double within_m) const {
+        Moment moment;
+        moment.ego.position_m = place_m;
+        add_street_lamps(drive, route, within_m, moment);
+        return moment.other_lamps;
+    }
+};
+
+/// Objects 170 to 178: posts of 6 m on the kerb (z offset 0.12 m), 3.7 m to the left of the reference line.
+TEST(StreetLamps, HangOnThePolesOfTheRoadsFile) {
+    const LitVillage lit("LAMP");
+    ASSERT_EQ(lit.drive.street_lamps[0].found->size(), 9U);
+    const Road& street = *lit.network.find(lit.network.roads.front().id);
+    const Pose foot = surface_pose(lit.network, street, 20.0, 3.7);
+    const std::vector<LitLamp> near = lit.around(foot.position_m, 1.0);
+    ASSERT_EQ(near.size(), 1U);
+    EXPECT_EQ(near[0].body, -2);
+    EXPECT_NE(near[0].name.find("object 170 (lamp post)"), std::string::npos) << near[0].name;
+    EXPECT_NEAR(near[0].pose.position_m.z - foot.position_m.z, 0.12 + 6.0 - 0.1, 1e-9);
+    const glm::dvec3 arm = near[0].pose.position_m - foot.position_m;
+    EXPECT_NEAR(glm::dot(arm, foot.left()), -1.0, 1e-3) << "towards the reference line";
+    EXPECT_NEAR(near[0].pose.forward().z, -1.0, 1e-12);
+    EXPECT_EQ(lit.around(foot.position_m, 45.0).size(), 2U); // the next stands 40 m on
+    EXPECT_GE(LitVillage("Pole").drive.street_lamps[0].found->size(), 9U) << "by type";
+    EXPECT_NEAR(LitVillage("lamp", 7.5).around(foot.position_m, 1.0).at(0).pose.position_m.z - foot.position_m.z, 0.12 + 7.5, 1e-9);
+}
+
+/// Arm and head, and only where the lamp hangs higher than the post a pole of its own; without arm the lamp stands on the post.
+TEST(StreetLamps, OnPolesOfTheRoadAddWhatIsMissing) {
+    const auto indices = [](const LitVillage& lit) {
+        Scene scene;
+        add_street_lamp_poles(lit.drive, lit.route, scene);
+        EXPECT_EQ(scene.meshes.size(), 9U);
+        return scene.meshes.front().indices.size();
+    };
+    EXPECT_EQ(indices(LitVillage("lamp post")), 2U * 36U);
+    EXPECT_EQ(indices(LitVillage("lamp post", 7.5)), 3U * 36U);
+    const LitVillage on_top("lamp post", 0.0, 0.0);
+    EXPECT_EQ(indices(on_top), 36U);
+    EXPECT_GT(on_top.drive.street_lamps[0].found->front().height_m, 6.0);
+}
+
+/// A lamp without arm must not stand in its own pole, which would take all of its light.
+TEST(StreetLamps, WithoutArmAreNotInTheirPole) {
+    LitStraight lit;
+    lit.drive.street_lamps[0].arm_m = 0.0;
+    Scene scene;
+    add_street_lamp_poles(lit.drive, lit.route, scene);
+    for (const Mesh& mesh : scene.meshes)
+        for (const Vertex& vertex : mesh.vertices)
+            EXPECT_GT(std::abs(static_cast<double>(vertex.position_m.z) - 8.0), 0.015);
+}
+
+TEST(StreetLamps, ThatFindNoObjectSayWhatStandsThere) {
+    try {
+        const LitVillage none("lantern");
+        FAIL();
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        for (const char* part : {"village.yaml", "street_lamps.posts.on_objects", "village.xodr", "'lamp post'"})
+            EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+    LitVillage unknown("lamp post");
+    unknown.drive.street_lamps[0].found.reset();
+    EXPECT_THROW(unknown.around({}, 100.0), std::logic_error);
 }
 
 } // namespace
