@@ -12,8 +12,8 @@ ControlParameters mirrored(ControlParameters control) {
         names(control.bend->lamps);
         ActuatorParameters& actuator = control.bend->actuator;
         std::swap(actuator.least_rad, actuator.greatest_rad);
-        flip(actuator.least_rad);
-        flip(actuator.greatest_rad);
+        change_sign(actuator.least_rad);
+        change_sign(actuator.greatest_rad);
     }
     if (control.cornering) {
         names(control.cornering->left);
@@ -29,7 +29,7 @@ ControlParameters mirrored(ControlParameters control) {
             lamp.name = other_side(lamp.name);
             std::ranges::reverse(lamp.windows_deg);
             for (auto& [from, to] : lamp.windows_deg)
-                std::swap(from, to), flip(from), flip(to);
+                std::swap(from, to), change_sign(from), change_sign(to);
         }
     for (PluginParameters& plugin : control.plugins)
         names(plugin.lamps);
@@ -40,7 +40,7 @@ ControlParameters mirrored(ControlParameters control) {
         for (const std::string_view sideways : {"ego.yaw_rate_rad_s", "ego.steering_rad", "ego.indicator"})
             if (input.name == sideways)
                 for (auto& [at_s, value] : input.values)
-                    flip(value);
+                    change_sign(value);
     return control;
 }
 

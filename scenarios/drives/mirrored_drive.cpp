@@ -13,9 +13,9 @@ bool is_letter_at(const std::string& text, std::size_t at) {
 }
 
 void mirror(View& view) {
-    flip(view.position_m.y);
-    flip(view.yaw_rad);
-    flip(view.roll_rad);
+    change_sign(view.position_m.y);
+    change_sign(view.yaw_rad);
+    change_sign(view.roll_rad);
     std::swap(view.map_left_m, view.map_right_m);
 }
 
@@ -33,10 +33,10 @@ void mirror(SeeingParameters& seeing) {
         observer.name = other_side(observer.name);
     if (!seeing.glare->mirrors)
         return;
-    flip(seeing.glare->mirrors->eye_m.y);
+    change_sign(seeing.glare->mirrors->eye_m.y);
     for (Mirror& glass : seeing.glare->mirrors->mirrors) {
         glass.name = other_side(glass.name);
-        flip(glass.position_m.y);
+        change_sign(glass.position_m.y);
     }
 }
 
@@ -62,17 +62,17 @@ std::shared_ptr<const LampFile> other_lamp(Drive& drive, const std::shared_ptr<c
 void mirror(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, Drive& drive) {
     for (MountedLamp& lamp : lamps) {
         lamp.name = other_side(lamp.name);
-        flip(lamp.position_m.y);
-        flip(lamp.yaw_rad);
-        flip(lamp.roll_rad);
-        flip(lamp.mount.yaw_rad);
-        flip(lamp.mount.roll_rad);
+        change_sign(lamp.position_m.y);
+        change_sign(lamp.yaw_rad);
+        change_sign(lamp.roll_rad);
+        change_sign(lamp.mount.yaw_rad);
+        change_sign(lamp.mount.roll_rad);
         lamp.file = other_lamp(drive, lamp.file);
     }
     for (LampChange& change : changes) {
         change.lamp = other_side(change.lamp);
-        flip(change.yaw_rad);
-        flip(change.roll_rad);
+        change_sign(change.yaw_rad);
+        change_sign(change.roll_rad);
         if (change.file)
             change.file = other_lamp(drive, change.file);
     }
@@ -86,8 +86,8 @@ void mirror(Variant& variant, Drive& drive) {
         return;
     ActuatorParameters& actuator = variant.swivel->actuator;
     std::swap(actuator.least_rad, actuator.greatest_rad);
-    flip(actuator.least_rad);
-    flip(actuator.greatest_rad);
+    change_sign(actuator.least_rad);
+    change_sign(actuator.greatest_rad);
 }
 
 } // namespace
@@ -114,16 +114,16 @@ void mirror_traffic(Drive& drive, bool lamps) {
         mirror(view);
     for (Probe& probe : drive.probes) {
         probe.name = other_side(probe.name);
-        flip(probe.left_m);
+        change_sign(probe.left_m);
     }
     mirror(drive.seeing);
     for (PlacedModel& placed : drive.scenery) { // the model itself keeps its sides
-        flip(placed.position_m.y);
-        flip(placed.yaw_rad);
-        flip(placed.roll_rad);
+        change_sign(placed.position_m.y);
+        change_sign(placed.yaw_rad);
+        change_sign(placed.roll_rad);
     }
     for (StreetLampRow& row : drive.street_lamps)
-        flip(row.beside_m);
+        change_sign(row.beside_m);
     if (lamps)
         for (Variant& variant : drive.variants)
             mirror(variant, drive);

@@ -9,16 +9,15 @@ namespace fernlicht {
 
 /// Mirrors the drive's road and all that the drive places to the left or the right: views, probes, sensors, mirrors. With `lamps` the car's
 /// lamps too: tables, mounts, how they are turned aside, ranges of bend lighting; without, the car keeps the lamps that it has, made for
-/// the other side. Poles of street lamps go to
-/// the other side. Other road users go on the mirrored road with mirrored lamps. "left" and "right" change places in names and in readings
-/// that have limits.
+/// the other side. Poles of street lamps go to the other side. Other road users go on the mirrored road with mirrored lamps. "left" and
+/// "right" change places in names and in readings that have limits.
 void mirror_traffic(Drive& drive, bool lamps);
 
 /// The other sign, and never a negative zero, which files would show.
-inline void flip(double& value) { value = 0.0 - value; }
-inline void flip(std::optional<double>& value) {
+inline void change_sign(double& value) { value = 0.0 - value; }
+inline void change_sign(std::optional<double>& value) {
     if (value)
-        flip(*value);
+        change_sign(*value);
 }
 
 /// "high-left" of "high-right"; within longer words they stay ("bright").
