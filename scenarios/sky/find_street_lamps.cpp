@@ -10,7 +10,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double pole_drawn_m = 4.0, ///< of a pole whose file says no height, as the road's mesh has it
-    below_top_m = 0.1, above_top_m = 0.06;
+    below_top_m = 0.1, above_top_m = 0.05;
 constexpr std::size_t most_named = 8;
 
 std::string without_case(std::string text) {
