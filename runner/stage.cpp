@@ -59,6 +59,11 @@ Stage::Stage(Drive d)
     add_own_car(scene, drive);
     check_limit_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);
+    if (drive.extent && !drive.traffic.empty())
+        drive.notes.emplace_back(
+            "other road users: pictures and lux maps show the light of all lamps; reach, width and area are of the own lamps "
+            "alone. Drawn, they end where a body hides road or target; the calculation, and what aim and flux change, know "
+            "no bodies");
 }
 
 std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant) {

@@ -20,7 +20,7 @@ struct StoryboardFlags {
     std::vector<std::string> road_folders, parameters;
     std::string road, out;
     double most_s = 60.0, step_s = 0.01;
-    bool lenient = false, quiet = false;
+    bool lenient = false, quiet = false, force = false;
 };
 
 osc::StoryboardOptions options_of(const StoryboardFlags& flags) {
@@ -88,6 +88,9 @@ int run(const StoryboardFlags& flags) {
         refuse_flag("--duration", fmt::format("{}", flags.most_s), "seconds above 0, at most 100 000");
     if (!(flags.step_s >= 1e-4 && flags.step_s <= 1.0))
         refuse_flag("--step", fmt::format("{}", flags.step_s), "seconds from 0.0001 to 1");
+    std::error_code error;
+    if (!flags.out.empty() && !flags.force && std::filesystem::exists(flags.out, error))
+        throw InputError({{}, 0, 0, "--out"}, printable(flags.out, 400) + " is there already", "a new file, or --force");
     osc::StoryboardOptions options = options_of(flags);
     std::string rows = "case,time_s,entity,x_m,y_m,z_m,heading_rad,pitch_rad,roll_rad,speed_mps,road,lane,s_m,t_m,visible\n";
     if (is_variation(flags.file)) {
@@ -123,6 +126,7 @@ void add_storyboard_command(CLI::App& app, std::function<int()>& chosen) {
     sub->add_option("--duration", flags->most_s, "longest time played, in s (60)");
     sub->add_option("--step", flags->step_s, "time step in s (0.01)");
     sub->add_option("--out", flags->out, "CSV with a row for each step and entity");
+    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
     sub->add_flag("--lenient", flags->lenient, "leave out what is not supported, each with a note");
     sub->add_flag("--quiet", flags->quiet, "no entities and notes");
     sub->callback([flags, &chosen] { chosen = [flags] { return run(*flags); }; });

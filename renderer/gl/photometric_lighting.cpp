@@ -394,7 +394,7 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
             fmt::format(
                 "by bounds all that is drawn is off by at most {:.2g} lx at any place, all that is left out brings at most {:.2g} lx",
                 r.worst_drawn_lx, r.worst_left_out_lx));
-    if (shot.moment.other_lamps.empty())
+    else if (shot.moment.other_lamps.empty())
         say("lamps of others", "there are none");
     if (!settings_.shadows)
         say("shadow maps", "the drive switches them off");

@@ -84,7 +84,9 @@ data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder,
     data part;
     part.set("number", fmt::format("{}", number));
     part.set("name", short_text(drive.name, 200));
-    part.set("headline", headline_reaches(drive));
+    const data headline = headline_reaches(drive);
+    part.set("has_headline", !headline.is_empty_list());
+    part.set("headline", headline);
     part.set("extents", extent_tables(drive));
     part.set("pictures", moments_part(drive, folder, budget_bytes));
     part.set("plots", plots_part(drive));

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <csetjmp>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <fmt/format.h>
+#include <string_view>
 #include <sys/syscall.h>
 #include <unistd.h>
 #include <vector>
@@ -31,6 +33,15 @@ void on_signal(int number) {
         return;
     std::signal(number, SIG_DFL);
     std::raise(number);
+}
+
+/// exit() cannot be undone; but a run that is not finished must not look like one that is.
+void on_exit_inside() {
+    if (inside == 0)
+        return;
+    constexpr std::string_view text = "fernlicht: a control plug-in called exit(), expected it to return\n";
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+    ::_exit(2);
 }
 
 std::string word(int number, double give_up_s) {
@@ -121,6 +132,7 @@ std::string called(const std::function<void()>& call) {
 
 CallOutcome guarded_call(const std::function<void()>& call, double give_up_s) {
     CallOutcome outcome;
+    [[maybe_unused]] static const int registered = std::atexit(on_exit_inside);
     caller = static_cast<pid_t>(::syscall(SYS_gettid));
     const auto start = std::chrono::steady_clock::now();
     {

@@ -348,6 +348,11 @@ void read_control(const YamlMap& drive, const YamlMap* keys, Variant& variant, L
         return;
     }
     variant.control = std::make_shared<const ControlParameters>(read_laws(*given, variant, shelf));
+    for (const ControlFailure& failure : variant.control->failures)
+        if (failure.kind == ControlFailure::Kind::stuck_swivel && !variant.control->bend && !variant.swivel &&
+            variant.control->plugins.empty())
+            given->refuse(fmt::format("control.failures: stuck_swivel of '{}', which nothing turns", printable(failure.what)),
+                          "a bend law or a plug-in beside it");
     if (variant.control->bend && variant.swivel)
         given->refuse("control.bend beside actuators.swivel", "one of them");
     if (variant.control->levelling && variant.levelling)

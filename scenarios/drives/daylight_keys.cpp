@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t most_lamp_rows = 32, most_object_words = 32;
 constexpr double brightest_lx = 150'000.0, fastest_rate = 86'400.0;
+constexpr double lowest_shining_rad = radians(-1.0); ///< of a disc whose upper edge refraction still lifts over the horizon
 
 /// Whole numbers with a sign between them and as many digits as `digits` says, such as 2026-06-21.
 template <std::size_t n> std::array<int, n> digits_between(const YamlEntry& entry, const std::string& text, char sign,
@@ -79,6 +80,9 @@ DirectLight read_direct(const YamlEntry& entry) {
     light.azimuth_rad = *azimuth;
     light.elevation_rad = *elevation;
     light.illuminance_lx = keys.require("illuminance_lx").number(0.0, brightest_lx);
+    if (light.illuminance_lx > 0.0 && light.elevation_rad < lowest_shining_rad)
+        entry.refuse(fmt::format("light of {:g} lx from {:g} degrees of elevation", light.illuminance_lx, degrees(light.elevation_rad)),
+                     "-1 degree or higher, or an illuminance of 0");
     return light;
 }
 

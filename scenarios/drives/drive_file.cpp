@@ -110,6 +110,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     drive.variants = read_variants(keys, car, shelf);
     note_plugin_libraries(drive);
     read_traffic(keys, shelf, drive);
+    check_entities(keys, drive);
     drive.views = read_views(keys, drive.opened);
     drive.capture = read_capture(keys);
     drive.tone_mapper = read_tone_mapper(keys);

@@ -4,7 +4,9 @@
 #include "scenarios/values/xml_file.h"
 
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <string_view>
 
@@ -13,7 +15,8 @@ namespace {
 
 constexpr std::array<const char*, 4> kinds{"ego", "lamp", "body", "light"};
 constexpr std::size_t numbers = 14; ///< place, axes, speed, factor
-constexpr std::size_t fields = 20;  ///< the last is a name with all its commas
+constexpr double farthest_from_origin_m = 1.0e7, axes_within = 1.0e-6;
+constexpr std::size_t fields = 20; ///< the last is a name with all its commas
 
 void log_row(const std::string& start, DriveLog::Kind kind, const std::string& name, const Pose& pose, double speed, double factor,
              bool visible, std::string& out) {
@@ -80,6 +83,14 @@ struct Reader {
         for (int column = 0; column < 3; ++column)
             for (int r = 0; r < 3; ++r)
                 out.pose.axes[column][r] = value[static_cast<std::size_t>(3 + 3 * column + r)];
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(out.pose.position_m[axis]) <= farthest_from_origin_m))
+                refuse(line, fmt::format("found a place of {:g} m", out.pose.position_m[axis]),
+                       fmt::format("at most {:g} m", farthest_from_origin_m));
+            for (int other = axis; other < 3; ++other)
+                if (!(std::abs(glm::dot(out.pose.axes[axis], out.pose.axes[other]) - (axis == other ? 1.0 : 0.0)) <= axes_within))
+                    refuse(line, "found axes that are not of length 1 and square to one another", "forward, left and up of a pose");
+        }
         out.speed_mps = value[12];
         out.factor = value[13];
         out.visible = field[18] == "1";

@@ -9,7 +9,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_folders = 32, most_parameters = 1000;
+constexpr std::size_t most_folders = 32, most_parameters = 1000, most_traffic_rows = 1000;
 constexpr double fastest_day = 86'400.0;
 
 SkySite read_site(const YamlEntry& entry) {
@@ -78,6 +78,34 @@ std::optional<StoryboardSource> read_storyboard_keys(const YamlMap& keys, const 
     drive.notes.insert(drive.notes.end(), story.notes.begin(), story.notes.end());
     drive.opened.insert(drive.opened.end(), story.opened.begin(), story.opened.end());
     return source;
+}
+
+void check_entities(const YamlMap& keys, const Drive& drive) {
+    const auto rows = keys.find("traffic");
+    if (!rows)
+        return;
+    std::optional<osc::Storyboard> story;
+    for (const auto& [name, row] : rows->named(most_traffic_rows)) {
+        const auto entries = row.named(most_traffic_rows);
+        const auto given = std::ranges::find(entries, "entities", &std::pair<std::string, YamlEntry>::first);
+        if (given == entries.end())
+            continue;
+        if (!drive.storyboard)
+            given->second.refuse("entities in a drive without a storyboard", "oncoming, ahead or lane, or a storyboard that has them");
+        if (!given->second.is_list())
+            continue;
+        if (!story)
+            story = osc::read_storyboard(drive.storyboard->file, drive.storyboard->options);
+        for (const YamlEntry& entity : given->second.list(1, most_traffic_rows)) {
+            const std::string wanted = entity.text();
+            if (wanted == drive.storyboard->ego)
+                entity.refuse(fmt::format("'{}', the own car", printable(wanted)),
+                              "another entity; the own car's lamps stand under variants");
+            if (std::ranges::find(story->entities, wanted, &osc::Entity::name) == story->entities.end())
+                entity.refuse(fmt::format("no entity '{}' in the storyboard", printable(wanted)),
+                              fmt::format("one of {}", names_of(*story)));
+        }
+    }
 }
 
 std::string write_storyboard(const StoryboardSource& source) {

@@ -163,7 +163,7 @@ void tell_story(Drive& drive, const RoadNetwork& network) {
     const osc::PlayedStory story = osc::play_story(
         storyboard, network, {.step_s = story_step_s, .most_s = drive.storyboard->most_s, .day_rate = drive.storyboard->day_rate});
     const double length_s = static_cast<double>(std::max<std::size_t>(story.ticks(), 2) - 1) * story.step_s;
-    drive.notes.push_back(fmt::format("storyboard: {} s, until {}", length_s, story.end));
+    drive.notes.push_back(fmt::format("storyboard: {:.6g} s, until {}", length_s, story.end));
     drive.notes.insert(drive.notes.end(), story.notes.begin(), story.notes.end());
     drive.duration_s = std::min(drive.duration_s, length_s);
     drive.traffic.clear();

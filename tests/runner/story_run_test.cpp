@@ -125,6 +125,30 @@ TEST(StoryRun, WhatCannotBePlayedIsOneSentence) {
     const Outcome no_log = run_program(run + "--replay " + (folder / "short.csv") + " --out " + (folder / "d"));
     EXPECT_EQ(no_log.exit_code, 2);
     EXPECT_THAT(no_log.output, HasSubstr("short.csv:1"));
+
+    EXPECT_EQ(run_program(run + "--out " + (folder / "e")).exit_code, 0);
+    const std::string log = content_of(folder / "e/drive-log-told.csv");
+    const std::size_t at = log.find(",ego,") + 5;
+    write(folder / "far.csv", log.substr(0, at) + "1e30" + log.substr(log.find(',', at)));
+    const Outcome far = run_program(run + "--replay " + (folder / "far.csv") + " --out " + (folder / "f"));
+    EXPECT_EQ(far.exit_code, 2);
+    EXPECT_THAT(far.output, HasSubstr("far.csv:2"));
+    EXPECT_THAT(far.output, HasSubstr("a place of 1e+30 m"));
+
+    const auto with_entities = [&](const std::string& names) {
+        std::string drive = drive_text();
+        write(folder / "told.yaml", drive.replace(drive.find("entities: all"), 13, "entities: [" + names + "]"));
+        return run_program(run + "--out " + (folder / "g")).output;
+    };
+    EXPECT_THAT(with_entities("Othr"), HasSubstr("no entity 'Othr' in the storyboard, expected one of Ego, Other"));
+    EXPECT_THAT(with_entities("Ego"), HasSubstr("the own car"));
+
+    const std::string play = "storyboard " + (folder / "told.xosc") + " --duration 1 --quiet --out ";
+    EXPECT_EQ(run_program(play + (folder / "told.xosc")).exit_code, 2);
+    EXPECT_EQ(content_of(folder / "told.xosc"), scenario_text(two_cars, stop_at(10.0)));
+    EXPECT_EQ(run_program(play + (folder / "tracks.csv")).exit_code, 0);
+    EXPECT_EQ(run_program(play + (folder / "tracks.csv")).exit_code, 2);
+    EXPECT_EQ(run_program(play + (folder / "tracks.csv") + " --force").exit_code, 0);
 }
 
 } // namespace

@@ -111,6 +111,7 @@ TEST_F(ControlDrive, WhatIsWrongIsRefusedWithTheNearest) {
     EXPECT_THAT(with("{plugins: [{library: law.so}]}"), HasSubstr("there is no file"));
     EXPECT_EQ(with("{stuck_swivel: none}"), "not refused");
     EXPECT_THAT(with("{stuck_swivel: {off_deg: 0}}"), HasSubstr("off_deg above 0"));
+    EXPECT_THAT(with("{failures: [{at_s: 1, stuck_swivel: left}]}"), HasSubstr("stuck_swivel of 'left', which nothing turns"));
     EXPECT_THAT(with("{cornering: {left: [left], again_below_kmh: 50}}"), HasSubstr("a hysteresis upside down"));
     EXPECT_THAT(with("{levelling: {control_period_s: 1}}"), HasSubstr("control.period_s"));
     EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {swivel: true}\ncontrol: {bend: route}\n"), HasSubstr("one of them"));

@@ -115,6 +115,11 @@ TEST(Plugin, CommandsThatAreNoneAreLeftOut) {
     EXPECT_THAT(odd.notes, testing::Contains("control law 'odd': 150 commands were no numbers or out of range, and left out"));
 }
 
+TEST(Plugin, ExitIsNoFinishedRun) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(guarded_call([] { std::exit(0); }, 10.0), testing::ExitedWithCode(2), "called exit");
+}
+
 TEST(Plugin, ExceptionsAreErrors) {
     EXPECT_EQ(guarded_call([] { throw std::runtime_error("no"); }, 1.0).failed, "an exception: no");
     EXPECT_EQ(guarded_call([] {}, 1.0).failed, "");

@@ -83,6 +83,8 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
                             "daylight: {date: 2026-02-28, time: -1:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}",
                             "daylight: {horizontal_illuminance_lx: 1, sun: {azimuth_deg: 1, elevation_deg: 1, illuminance_lx: 1}, "
                             "moon: {azimuth_deg: 1, elevation_deg: 1, illuminance_lx: 1}}",
+                            "daylight: {horizontal_illuminance_lx: 1, sun: {azimuth_deg: 1, elevation_deg: -5, illuminance_lx: 1}}",
+                            "traffic: {others: {entities: all}}",
                             "weather: {fog: {visibility_m: 100}, extinction_per_m: 1}",
                             "weather: {extinction_per_m: 11}",
                             "weather: {mist: true}",
