@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 
@@ -64,13 +65,14 @@ Model model_of(const ModelRequest& request) {
 }
 
 std::string model_text(const Model& model, double scale) {
+    const auto millimetres = [](double m) { return std::round(1000.0 * m) / 1000.0 + 0.0; }; // and no negative zero
     const glm::dvec3 size = scale * (model.high_m - model.low_m), low = scale * model.low_m;
     std::size_t vertices = 0;
     for (const Mesh& mesh : model.meshes)
         vertices += mesh.vertices.size();
     std::string text = fmt::format("{}\n  size         {:.3f} m long, {:.3f} m wide, {:.3f} m high\n", model.name, size.x, size.y, size.z);
-    text += fmt::format("  origin       {:.3f} m before its rear, {:.3f} m from its right side, {:.3f} m above its lowest point\n", -low.x,
-                        -low.y, -low.z);
+    text += fmt::format("  origin       {:.3f} m before its rear, {:.3f} m from its right side, {:.3f} m above its lowest point\n",
+                        millimetres(-low.x), millimetres(-low.y), millimetres(-low.z));
     text += fmt::format("  triangles    {} in {} mesh{}, {} vertices\n", model.triangles(), model.meshes.size(),
                         model.meshes.size() == 1 ? "" : "es", vertices);
     for (const Material& m : model.materials)

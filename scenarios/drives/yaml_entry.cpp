@@ -103,7 +103,7 @@ bool YamlEntry::flag() const {
 
 std::string YamlEntry::text() const {
     if (!is_scalar() || value_->text.empty())
-        refuse("text");
+        refuse("text that is not empty");
     return value_->text;
 }
 
