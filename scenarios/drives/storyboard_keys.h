@@ -11,8 +11,8 @@ namespace fernlicht {
 std::optional<StoryboardSource> read_storyboard_keys(const YamlMap& keys, const DriveEdits& edits, Drive& drive);
 std::string write_storyboard(const StoryboardSource& source);
 
-/// Names in the `entities` of traffic rows: each must be an entity of the storyboard and not the own car; without a storyboard `entities` is
-/// refused.
+/// Names in the `entities` of traffic rows: each must be an entity of the storyboard and not the own car; without a storyboard `entities`
+/// is refused.
 void check_entities(const YamlMap& keys, const Drive& drive);
 
 } // namespace fernlicht
