@@ -4,17 +4,9 @@
 #include "runner/limits.h"
 #include "runner/seeing/seeing_fold.h"
 #include "scenarios/drives/advance.h"
-#include "scenarios/drives/control_world.h"
-#include "scenarios/drives/motion.h"
-#include "scenarios/drives/own_car.h"
+#include "scenarios/drives/staged_scene.h"
 #include "scenarios/drives/tell_story.h"
-#include "scenarios/drives/told_story.h"
-#include "scenarios/roads/far_ground.h"
 #include "scenarios/roads/mirrored_road.h"
-#include "scenarios/roads/road_mesh.h"
-#include "scenarios/sky/place_street_lamps.h"
-#include "scenarios/traffic/place_traffic.h"
-#include "scenarios/traffic/road_user_mesh.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -44,19 +36,7 @@ Route::Start start_of(const Drive& drive) {
 
 Stage::Stage(Drive d)
     : drive(std::move(d)), network(network_of(drive)), route(network, start_of(drive), drive.via),
-      scene(build_scene(network, {.textures = drive.textured, .seed = drive.seed})) {
-    add_scenery(scene, drive.scenery, route);
-    find_street_lamps(drive, network);
-    add_street_lamp_poles(drive, route, scene);
-    if (drive.daylight != Daylight{})
-        add_far_ground(scene);
-    lay_on_route(drive, route);
-    fit_to_route(drive, route);
-    simulate(drive, route);
-    place_traffic(drive, network, route);
-    simulate_control(drive, route);
-    add_road_users(scene, drive.traffic, drive.opened);
-    add_own_car(scene, drive);
+      scene(staged_scene(drive, network, route)) {
     check_limit_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);
     if (drive.extent && !drive.traffic.empty())

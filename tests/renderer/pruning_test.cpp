@@ -3,15 +3,10 @@
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/control_world.h"
 #include "scenarios/drives/motion.h"
-#include "scenarios/drives/own_car.h"
+#include "scenarios/drives/staged_scene.h"
 #include "scenarios/drives/tell_story.h"
 #include "scenarios/drives/told_story.h"
-#include "scenarios/models/placed_model.h"
-#include "scenarios/roads/far_ground.h"
 #include "scenarios/roads/road_mesh.h"
-#include "scenarios/sky/place_street_lamps.h"
-#include "scenarios/traffic/place_traffic.h"
-#include "scenarios/traffic/road_user_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -207,19 +202,7 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
     const RoadNetwork network = read_opendrive(drive.road_file);
     tell_story(drive, network);
     const Route route(network, drive.start, drive.via);
-    Scene scene = build_scene(network);
-    add_scenery(scene, drive.scenery, route);
-    find_street_lamps(drive, network);
-    add_street_lamp_poles(drive, route, scene);
-    if (drive.daylight != Daylight{})
-        add_far_ground(scene);
-    lay_on_route(drive, route);
-    fit_to_route(drive, route);
-    simulate(drive, route);
-    place_traffic(drive, network, route);
-    simulate_control(drive, route);
-    add_road_users(scene, drive.traffic, drive.opened);
-    add_own_car(scene, drive);
+    const Scene scene = staged_scene(drive, network, route);
     Device device = open_device("auto");
     RendererSettings settings;
     settings.tone_mapper = drive.tone_mapper;
