@@ -1,0 +1,28 @@
+// One frame of a CAN bus: classic, CAN FD, remote or error, with when and where it was seen.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace fernlicht {
+
+struct CanFrame {
+    std::int64_t time_ns = 0; ///< of reception; since the epoch, or since whatever the log's stamps count from
+    std::string channel;      ///< name of the interface, "can0"; at most 15 bytes (IFNAMSIZ)
+    std::uint32_t id = 0;     ///< 11 bits; 29 if extended; of an error frame its class bits, without CAN_ERR_FLAG
+    bool extended = false;    ///< 29-bit identifier
+    bool remote = false;      ///< asks for data and has none; classic only
+    bool error = false;       ///< made by the driver, not from the bus; classic only, always 8 bytes
+    bool fd = false;          ///< CAN FD
+    bool bit_rate_switch = false, error_state_indicator = false; ///< FD only
+    std::uint8_t length = 0;             ///< bytes of data: 0-8; FD 0-8, 12, 16, 20, 24, 32, 48, 64; remote: asked for
+    std::uint8_t raw_dlc = 0;            ///< classic with 8 bytes: 9-15 as it was on the bus; else 0
+    std::array<std::uint8_t, 64> data{}; ///< beyond `length` 0
+
+    std::span<const std::uint8_t> bytes() const { return {data.data(), remote ? 0U : std::size_t{length}}; }
+    bool operator==(const CanFrame&) const = default;
+};
+
+} // namespace fernlicht
