@@ -1,5 +1,6 @@
 #include "scenarios/drives/staged_scene.h"
 
+#include "scenarios/drives/advance.h"
 #include "scenarios/drives/control_world.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/drives/own_car.h"
