@@ -3,7 +3,7 @@
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "renderer/timer_check.h"
-#include "runner/kernel_can.h"
+#include "runner/can/can_socket.h"
 #include "runner/library_versions.h"
 #include "runner/run_context.h"
 #include "scenarios/values/errors.h"
