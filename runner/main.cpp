@@ -3,6 +3,7 @@
 #include "runner/accuracy_command.h"
 #include "runner/aliasing_command.h"
 #include "runner/bench_command.h"
+#include "runner/can_command.h"
 #include "runner/compare_command.h"
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
     fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);
     fernlicht::add_signals_command(app, chosen);
+    fernlicht::add_can_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);
     fernlicht::add_model_command(app, chosen);
     fernlicht::add_import_command(app, chosen);

@@ -1,0 +1,15 @@
+#include "runner/can_command.h"
+
+#include "runner/can/cut_command.h"
+
+#include <CLI/CLI.hpp>
+
+namespace fernlicht {
+
+void add_can_command(CLI::App& app, std::function<int()>& chosen) {
+    CLI::App* can = app.add_subcommand("can", "small tools for logs of a CAN bus, as candump writes them");
+    can->require_subcommand(1);
+    add_can_cut(*can, chosen);
+}
+
+} // namespace fernlicht
