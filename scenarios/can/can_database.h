@@ -48,6 +48,7 @@ struct CanMessage {
     std::uint16_t length = 0; ///< bytes
     std::vector<std::string> senders;
     std::string comment;
+    std::string send_type;          ///< GenMsgSendType as the file names it: "Cyclic", "OnEvent" ...
     std::optional<double> cycle_s;  ///< GenMsgCycleTime; nullopt or 0: not cyclic
     std::vector<CanSignal> signals; ///< in the order of the file
 

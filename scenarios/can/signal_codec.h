@@ -5,6 +5,7 @@
 
 #include <map>
 #include <span>
+#include <string_view>
 
 namespace fernlicht {
 
@@ -14,19 +15,38 @@ struct CanValue {
     double physical = 0.0;              ///< with sign, factor and offset; of whole numbers beyond 53 bits the nearest double
     const std::string* label = nullptr; ///< of the raw value, nullptr: none
 
-    bool out_of_limits() const; ///< beyond the signal's limits, or not a number
+    bool out_of_limits() const; ///< beyond the signal's limits by more than half a raw step, or not a finite number
 };
 
 /// The signals that the bytes hold, in the message's order, those that the multiplexors do not choose left out. A signal that reaches
 /// beyond the bytes that came is left out, too: shorter frames than the message are usual.
 std::vector<CanValue> decode(const CanMessage& message, std::span<const std::uint8_t> bytes);
+/// The same into a list that keeps its memory, for many frames.
+void decode_into(const CanMessage& message, std::span<const std::uint8_t> bytes, std::vector<CanValue>& values);
 
 /// One signal of a message; nullopt where it is not there (multiplexor, short frame).
 std::optional<CanValue> decode(const CanMessage& message, const CanSignal& signal, std::span<const std::uint8_t> bytes);
 
-/// Bytes of the message's length with these physical values; signals not named take their start value, else 0; a value is rounded to the
-/// nearest raw one. Throws InputError for a name that no signal of the message has and a value that its bits cannot hold, and names the
-/// signal.
+/// Value of these bits of a signal.
+CanValue value_of_raw(const CanSignal& signal, std::uint64_t raw);
+/// The value in decimals: whole numbers exactly, all others so that they come back by reading; "nan", "inf", "-inf".
+std::string exact_text(const CanValue& value);
+
+/// Bits of the raw value nearest to a physical one (halves away from 0). Throws InputError with the signal's name where its bits cannot
+/// hold it; not a number and infinities fit floating-point signals only.
+std::uint64_t raw_of(const CanSignal& signal, double physical);
+/// The same of a text: a number in decimals, of which whole ones are taken exactly to 64 bits and more, or a label of the signal.
+std::uint64_t raw_of(const CanSignal& signal, std::string_view text);
+
+/// Bytes of the message's length with these raw values (bits). Signals not named take their start value, else 0; a multiplexor not named
+/// takes its start value if that lets the named signals be there, else the least value that does.
+/// Throws InputError for a name that no signal of the message has, values that a multiplexor does not let be in one frame, a signal beyond
+/// the message's length, and signals that overlap and differ.
+std::vector<std::uint8_t> encode_raw(const CanMessage& message, const std::map<std::string, std::uint64_t>& raw);
+/// The same upon bytes that were there before: only the named signals change.
+void encode_raw_into(const CanMessage& message, const std::map<std::string, std::uint64_t>& raw, std::span<std::uint8_t> bytes);
+
+/// encode_raw() of physical values, by raw_of().
 std::vector<std::uint8_t> encode(const CanMessage& message, const std::map<std::string, double>& physical);
 
 } // namespace fernlicht

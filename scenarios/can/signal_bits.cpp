@@ -1,0 +1,43 @@
+#include "scenarios/can/signal_bits.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+
+// A signal of 64 bits that does not begin at a byte's border lies in 9 bytes; the ninth is taken apart.
+std::uint64_t read_bits(const CanSignal& signal, std::span<const std::uint8_t> bytes) {
+    const std::size_t first = first_bit(signal), last = first + signal.length - 1;
+    const std::size_t begin = first / 8, end = last / 8;
+    std::uint64_t value = 0;
+    if (signal.big_endian) {
+        const unsigned below = 7 - last % 8;
+        const std::size_t from = end - begin > 7 ? end - 7 : begin;
+        for (std::size_t i = from; i <= end; ++i)
+            value = value << 8 | bytes[i];
+        value >>= below;
+        if (from > begin)
+            value |= std::uint64_t{bytes[begin]} << (64 - below);
+    } else {
+        const unsigned below = first % 8;
+        const std::size_t to = std::min(end, begin + 7);
+        for (std::size_t i = to + 1; i-- > begin;)
+            value = value << 8 | bytes[i];
+        value >>= below;
+        if (to < end)
+            value |= std::uint64_t{bytes[end]} << (64 - below);
+    }
+    return value & all_bits(signal);
+}
+
+void write_bits(const CanSignal& signal, std::uint64_t raw, std::span<std::uint8_t> bytes) {
+    const std::size_t first = first_bit(signal);
+    for (std::size_t k = 0; k < signal.length; ++k) {
+        const std::size_t bit = first + k;
+        const unsigned shift = signal.big_endian ? 7 - bit % 8 : bit % 8;
+        const std::uint64_t one = raw >> (signal.big_endian ? signal.length - 1 - k : k) & 1U;
+        std::uint8_t& byte = bytes[bit / 8];
+        byte = static_cast<std::uint8_t>((byte & ~(1U << shift)) | one << shift);
+    }
+}
+
+} // namespace fernlicht
