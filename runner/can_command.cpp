@@ -1,6 +1,9 @@
 #include "runner/can_command.h"
 
+#include "runner/can/convert_command.h"
 #include "runner/can/cut_command.h"
+#include "runner/can/merge_command.h"
+#include "runner/can/stat_command.h"
 
 #include <CLI/CLI.hpp>
 
@@ -9,7 +12,10 @@ namespace fernlicht {
 void add_can_command(CLI::App& app, std::function<int()>& chosen) {
     CLI::App* can = app.add_subcommand("can", "small tools for logs of a CAN bus, as candump writes them");
     can->require_subcommand(1);
+    add_can_stat(*can, chosen);
+    add_can_merge(*can, chosen);
     add_can_cut(*can, chosen);
+    add_can_convert(*can, chosen);
 }
 
 } // namespace fernlicht

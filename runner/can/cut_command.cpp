@@ -97,7 +97,9 @@ int cut_log(const CutFlags& flags) {
     LenientStream stream(flags.file, flags.log);
     const CandumpStream& log = stream.log();
     LineOutput out(flags.out, flags.force);
-    const Interruption interruption;
+    std::optional<Interruption> interruption; // ends a pipe as its end would
+    if (log.from_pipe())
+        interruption.emplace();
     bool kept = false;                        // the frame before
     std::optional<std::int64_t> last_kept_ns; // of a log with delta stamps
     for (CandumpStream::What what; (what = stream.next()) != CandumpStream::What::end;) {
@@ -123,7 +125,7 @@ int cut_log(const CutFlags& flags) {
             return 0;
     }
     out.flush();
-    return Interruption::asked() ? 1 : 0;
+    return 0;
 }
 
 } // namespace

@@ -61,6 +61,7 @@ class CandumpStream {
     std::size_t line_number() const { return where_.line; }
     CandumpStamps stamps() const { return stamps_; } ///< what they were taken for; by_themselves: as they stood
     const std::filesystem::path& path() const { return where_.file; }
+    bool from_pipe() const { return from_pipe_; } ///< or a terminal: more may come
     /// The next line is not here yet: next() may wait for it.
     bool may_wait() const;
 

@@ -1,0 +1,186 @@
+#include "runner/can/log_statistics.h"
+
+#include "scenarios/can/can_filter.h"
+#include "scenarios/can/error_words.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace fernlicht {
+namespace {
+
+constexpr int bins_an_octave = 16;
+
+std::size_t period_bin(std::int64_t period_ns) {
+    const auto value = static_cast<std::uint64_t>(period_ns);
+    const int octave = static_cast<int>(std::bit_width(value | 1U)) - 1;
+    const std::uint64_t within = octave >= 4 ? value >> (octave - 4) & 15U : value << (4 - octave) & 15U;
+    return static_cast<std::size_t>(octave) * bins_an_octave + within;
+}
+
+/// Where the bin begins, in ns.
+double bin_from(std::size_t bin) {
+    return std::ldexp(1.0 + static_cast<double>(bin % bins_an_octave) / bins_an_octave, static_cast<int>(bin / bins_an_octave));
+}
+
+} // namespace
+
+void PeriodStatistics::add(std::int64_t period_ns, std::int64_t ended_ns) {
+    ++count_;
+    if (count_ == 1 || period_ns < least_)
+        least_ = period_ns;
+    if (count_ == 1 || period_ns > most_) {
+        most_ = period_ns;
+        most_ended_ = ended_ns;
+    }
+    const double value = static_cast<double>(period_ns), off = value - mean_; // Welford
+    mean_ += off / static_cast<double>(count_);
+    squares_ += off * (value - mean_);
+    if (!bins_)
+        bins_ = std::make_unique<std::array<std::uint32_t, 64 * 16>>();
+    std::uint32_t& bin = (*bins_)[period_bin(period_ns)];
+    if (bin != 0xffffffffU)
+        ++bin;
+}
+
+double PeriodStatistics::deviation_ns() const { return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : 0.0; }
+
+double PeriodStatistics::median_ns() const {
+    if (count_ == 0)
+        return 0.0;
+    std::uint64_t below = 0;
+    for (std::size_t bin = 0; bin < bins_->size(); ++bin) {
+        below += (*bins_)[bin];
+        if (2 * below >= count_) // the bin's middle, within what there was
+            return std::clamp((bin_from(bin) + bin_from(bin + 1)) / 2.0, static_cast<double>(least_), static_cast<double>(most_));
+    }
+    return static_cast<double>(most_);
+}
+
+std::optional<std::uint64_t> PeriodStatistics::gaps(double medians) const {
+    const double bound = medians * median_ns();
+    if (bound <= 0.0)
+        return std::nullopt;
+    std::uint64_t longer = 0;
+    for (std::size_t bin = bins_->size(); bin-- > 0 && bin_from(bin) > bound;)
+        longer += (*bins_)[bin];
+    return longer;
+}
+
+void BusTime::operator+=(const BusTime& other) {
+    without_stuffing_s += other.without_stuffing_s;
+    exact_s += other.exact_s;
+    worst_s += other.worst_s;
+}
+
+void IdStatistics::add(const CanFrame& frame, bool stamped, std::optional<bool> sent_here) {
+    ++frames;
+    fd_frames += frame.fd ? 1U : 0U;
+    sent += sent_here.value_or(false) ? 1U : 0U;
+    if (const auto at = std::ranges::lower_bound(lengths, frame.length); at == lengths.end() || *at != frame.length)
+        lengths.insert(at, frame.length);
+    if (stamped) {
+        if (!last_ns)
+            first_ns = frame.time_ns;
+        else if (frame.time_ns < *last_ns)
+            ++backwards;
+        else
+            periods.add(frame.time_ns - *last_ns, frame.time_ns);
+        last_ns = frame.time_ns;
+    }
+    const std::size_t length = frame.bytes().size();
+    for (std::size_t i = 0; i < std::min<std::size_t>(length, bytes_seen); ++i)
+        changed[i] = static_cast<std::uint8_t>(changed[i] | (frame.data[i] ^ first_bytes[i]));
+    for (std::size_t i = bytes_seen; i < length; ++i)
+        first_bytes[i] = frame.data[i];
+    bytes_seen = std::max(bytes_seen, static_cast<std::uint8_t>(length));
+}
+
+LogStatistics::Channel& LogStatistics::channel(const std::string& name) {
+    if (!last_ || last_->all.name != name) {
+        last_ = &channels_[name];
+        last_->all.name = name;
+    }
+    return *last_;
+}
+
+double LogStatistics::wire_seconds(const FrameBits& bits) const {
+    const double data_bitrate = options_.data_bitrate > 0.0 ? options_.data_bitrate : options_.bitrate;
+    return bits.nominal / options_.bitrate + bits.data / data_bitrate;
+}
+
+void LogStatistics::add_load(Channel& on, IdStatistics& id, const CanFrame& frame, bool stamped) {
+    const BusTime time{wire_seconds(frame_bits(frame, BitStuffing::none)), wire_seconds(frame_bits(frame, BitStuffing::exact)),
+                       wire_seconds(frame_bits(frame, BitStuffing::worst))};
+    id.bus += time;
+    on.all.bus += time;
+    if (!stamped || frame.time_ns < *on.all.first_ns)
+        return;
+    const std::int64_t second = (frame.time_ns - *on.all.first_ns) / 1'000'000'000;
+    if (second != on.second)
+        on.second_s = 0.0;
+    on.second = second;
+    on.second_s += time.exact_s;
+    on.all.busiest_second = std::max(on.all.busiest_second, on.second_s);
+}
+
+void LogStatistics::add(const CanFrame& frame, bool stamped, std::optional<bool> sent) {
+    Channel& on = channel(frame.channel);
+    ChannelStatistics& all = on.all;
+    ++all.frames;
+    if (stamped) {
+        if (!all.last_ns) {
+            all.first_ns = frame.time_ns;
+        } else if (frame.time_ns < *all.last_ns) {
+            ++all.backwards;
+        } else if (frame.time_ns - *all.last_ns > all.silence_ns) {
+            all.silence_ns = frame.time_ns - *all.last_ns;
+            all.silence_ended_ns = frame.time_ns;
+        }
+        on.equal_stamps += all.last_ns == frame.time_ns ? 1U : 0U;
+        if (all.last_ns && on.step_ns != 1000)
+            on.step_ns = std::max<std::int64_t>(std::gcd(on.step_ns, frame.time_ns - *all.last_ns), on.step_ns == 0 ? 0 : 1000);
+        all.last_ns = frame.time_ns;
+    }
+    if (frame.error) {
+        ++all.errors;
+        bool known = false;
+        for (std::size_t i = 0; i < can_error_classes.size(); ++i)
+            if (frame.id >> i & 1) {
+                ++all.error_classes[i];
+                known = true;
+            }
+        all.error_classes.back() += known ? 0U : 1U;
+        return;
+    }
+    IdStatistics& id = on.ids[kernel_can_id(frame)];
+    id.id = frame.id;
+    id.extended = frame.extended;
+    id.remote = frame.remote;
+    id.add(frame, stamped, sent);
+    if (options_.bitrate > 0.0)
+        add_load(on, id, frame, stamped);
+}
+
+void LogStatistics::lost(const std::string& name, std::uint64_t frames) { channel(name).all.lost += frames; }
+
+std::vector<ChannelStatistics> LogStatistics::take() {
+    std::vector<ChannelStatistics> out;
+    for (auto& [name, one] : channels_) {
+        for (auto& [key, id] : one.ids)
+            one.all.ids.push_back(std::move(id));
+        std::ranges::sort(one.all.ids, [](const IdStatistics& a, const IdStatistics& b) {
+            return std::tuple(a.extended, a.id, a.remote) < std::tuple(b.extended, b.id, b.remote);
+        });
+        one.all.step_ns = one.step_ns > 1000 && 2 * one.equal_stamps > one.all.frames ? one.step_ns : 0;
+        out.push_back(std::move(one.all));
+    }
+    channels_.clear();
+    last_ = nullptr;
+    return out;
+}
+
+} // namespace fernlicht
