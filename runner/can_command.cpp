@@ -4,6 +4,9 @@
 #include "runner/can/cut_command.h"
 #include "runner/can/merge_command.h"
 #include "runner/can/stat_command.h"
+#include "runner/can/decode_command.h"
+#include "runner/can/encode_command.h"
+#include "runner/can/list_command.h"
 
 #include <CLI/CLI.hpp>
 
@@ -16,6 +19,9 @@ void add_can_command(CLI::App& app, std::function<int()>& chosen) {
     add_can_merge(*can, chosen);
     add_can_cut(*can, chosen);
     add_can_convert(*can, chosen);
+    add_can_decode(*can, chosen);
+    add_can_encode(*can, chosen);
+    add_can_list(*can, chosen);
 }
 
 } // namespace fernlicht
