@@ -2,11 +2,11 @@
 
 #include "runner/can/convert_command.h"
 #include "runner/can/cut_command.h"
-#include "runner/can/merge_command.h"
-#include "runner/can/stat_command.h"
 #include "runner/can/decode_command.h"
 #include "runner/can/encode_command.h"
 #include "runner/can/list_command.h"
+#include "runner/can/merge_command.h"
+#include "runner/can/stat_command.h"
 
 #include <CLI/CLI.hpp>
 
