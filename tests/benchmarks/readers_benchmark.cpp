@@ -1,6 +1,8 @@
 // What is read before the first frame.
 #include "renderer/beam_texture.h"
 #include "renderer/projected_beam.h"
+#include "scenarios/can/candump_stream.h"
+#include "scenarios/can/frame_bits.h"
 #include "scenarios/drives/yaml_tree.h"
 #include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/ies.h"
@@ -88,6 +90,76 @@ void projected_beam(benchmark::State& state) {
         benchmark::DoNotOptimize(make_projected_beam(table, {512, 128, 8}));
 }
 BENCHMARK(projected_beam)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime(); // parallel inside
+
+/// 100 000 frames of 0 to 8 bytes on two channels, as `candump -L` writes them.
+std::string candump_text(const CandumpStyle& style) {
+    std::string text;
+    CanFrame frame;
+    std::uint64_t state = 1;
+    for (int i = 0; i < 100'000; ++i) {
+        state = state * 6364136223846793005U + 1442695040888963407U;
+        frame.time_ns = 1'436'509'052'249'713'000 + i * 500'000LL;
+        frame.channel = state >> 33 & 1 ? "can0" : "can1";
+        frame.extended = state >> 34 & 1;
+        frame.id = static_cast<std::uint32_t>(state >> 35) & (frame.extended ? 0x1fffffffU : 0x7ffU);
+        frame.length = static_cast<std::uint8_t>(state >> 20 & 15U) < 8 ? 8 : static_cast<std::uint8_t>(state >> 20 & 7U);
+        frame.data = {};
+        for (std::size_t byte = 0; byte < frame.length; ++byte)
+            frame.data[byte] = static_cast<std::uint8_t>(state >> (7 * byte));
+        append_candump_line(text, frame, style);
+        text += '\n';
+    }
+    return text;
+}
+
+void read_candump_text(benchmark::State& state, bool screen) {
+    CandumpStyle style;
+    style.form = screen ? CandumpStyle::Form::screen : CandumpStyle::Form::log;
+    const std::string text = candump_text(style);
+    for (auto _ : state) {
+        CandumpStream stream("a.log", text);
+        std::int64_t sum = 0;
+        while (stream.next() != CandumpStream::What::end)
+            sum += stream.line().frame.data[0];
+        benchmark::DoNotOptimize(sum);
+    }
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
+    state.SetItemsProcessed(state.iterations() * 100'000);
+}
+BENCHMARK_CAPTURE(read_candump_text, log, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_candump_text, screen, true)->Unit(benchmark::kMillisecond);
+
+void write_candump_text(benchmark::State& state) {
+    std::vector<CandumpLine> lines;
+    const std::string all = candump_text({});
+    for (CandumpStream stream("a.log", all); stream.next() != CandumpStream::What::end;)
+        lines.push_back(stream.line());
+    std::string text;
+    for (auto _ : state) {
+        text.clear();
+        for (const CandumpLine& line : lines)
+            append_candump_line(text, line.frame, line.style);
+        benchmark::DoNotOptimize(text.data());
+    }
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
+}
+BENCHMARK(write_candump_text)->Unit(benchmark::kMillisecond);
+
+/// With the stuff bits of each frame.
+void count_frame_bits(benchmark::State& state) {
+    std::vector<CanFrame> frames;
+    const std::string all = candump_text({});
+    for (CandumpStream stream("a.log", all); stream.next() != CandumpStream::What::end;)
+        frames.push_back(stream.line().frame);
+    for (auto _ : state) {
+        std::uint64_t bits = 0;
+        for (const CanFrame& frame : frames)
+            bits += frame_bits(frame, BitStuffing::exact).total();
+        benchmark::DoNotOptimize(bits);
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(frames.size()));
+}
+BENCHMARK(count_frame_bits)->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace fernlicht
