@@ -1,5 +1,6 @@
 #include "runner/can/stat_command.h"
 
+#include "runner/can/line_output.h"
 #include "runner/can/log_flags.h"
 #include "runner/can/log_statistics.h"
 #include "runner/flag_values.h"
@@ -88,12 +89,22 @@ std::string errors_text(const ChannelStatistics& channel) {
     return text;
 }
 
+/// Without their requests.
+std::size_t distinct_ids(const ChannelStatistics& channel) {
+    std::size_t ids = 0;
+    for (std::size_t i = 0; i < channel.ids.size(); ++i)
+        if (i == 0 || channel.ids[i].id != channel.ids[i - 1].id || channel.ids[i].extended != channel.ids[i - 1].extended)
+            ++ids;
+    return ids;
+}
+
 std::string statistics_text(const std::vector<ChannelStatistics>& channels, const StatFlags& flags) {
     std::string out;
     auto to = std::back_inserter(out);
     for (const ChannelStatistics& channel : channels) {
+        const std::size_t ids = distinct_ids(channel);
         fmt::format_to(to, "{}{}: {} frame{} of {} identifier{}", out.empty() ? "" : "\n", printable(channel.name), channel.frames,
-                       channel.frames == 1 ? "" : "s", channel.ids.size(), channel.ids.size() == 1 ? "" : "s");
+                       channel.frames == 1 ? "" : "s", ids, ids == 1 ? "" : "s");
         if (channel.first_ns)
             fmt::format_to(to, ", {:.1f}/s, from {} to {} ({:.3f} s)\n", rate_of(channel.frames, channel.first_ns, channel.last_ns),
                            stamp_text(*channel.first_ns), stamp_text(*channel.last_ns), channel.seconds());
@@ -234,10 +245,12 @@ int show_statistics(const StatFlags& flags) {
             break;
     }
     const std::vector<ChannelStatistics> channels = statistics.take();
+    LineOutput out({});
     if (flags.json)
-        fmt::print("{}\n", statistics_json(channels, flags).dump(2, ' ', false, StatJson::error_handler_t::replace));
+        out.text() = statistics_json(channels, flags).dump(2, ' ', false, StatJson::error_handler_t::replace) + "\n";
     else
-        fmt::print("{}", channels.empty() ? "no frames\n" : statistics_text(channels, flags));
+        out.text() = channels.empty() ? "no frames\n" : statistics_text(channels, flags);
+    out.flush();
     return 0;
 }
 
