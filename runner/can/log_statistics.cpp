@@ -12,18 +12,12 @@
 namespace fernlicht {
 namespace {
 
-constexpr int bins_an_octave = 16;
-
-std::size_t period_bin(std::int64_t period_ns) {
+/// 64 an octave, by the logarithm's whole part and the six bits behind it.
+std::uint32_t period_bin(std::int64_t period_ns) {
     const auto value = static_cast<std::uint64_t>(period_ns);
-    const int octave = static_cast<int>(std::bit_width(value | 1U)) - 1;
-    const std::uint64_t within = octave >= 4 ? value >> (octave - 4) & 15U : value << (4 - octave) & 15U;
-    return static_cast<std::size_t>(octave) * bins_an_octave + within;
-}
-
-/// Where the bin begins, in ns.
-double bin_from(std::size_t bin) {
-    return std::ldexp(1.0 + static_cast<double>(bin % bins_an_octave) / bins_an_octave, static_cast<int>(bin / bins_an_octave));
+    const auto octave = static_cast<std::uint32_t>(std::bit_width(value | 1U)) - 1;
+    const std::uint64_t within = octave >= 6 ? value >> (octave - 6) : value << (6 - octave);
+    return octave * 64 + static_cast<std::uint32_t>(within & 63U);
 }
 
 } // namespace
@@ -39,25 +33,24 @@ void PeriodStatistics::add(std::int64_t period_ns, std::int64_t ended_ns) {
     const double value = static_cast<double>(period_ns), off = value - mean_; // Welford
     mean_ += off / static_cast<double>(count_);
     squares_ += off * (value - mean_);
-    if (!bins_)
-        bins_ = std::make_unique<std::array<std::uint32_t, 64 * 16>>();
-    std::uint32_t& bin = (*bins_)[period_bin(period_ns)];
-    if (bin != 0xffffffffU)
-        ++bin;
+    const std::uint32_t index = period_bin(period_ns);
+    auto bin = std::ranges::lower_bound(bins_, index, {}, &Bin::index);
+    if (bin == bins_.end() || bin->index != index)
+        bin = bins_.insert(bin, Bin{index, 0, 0.0});
+    ++bin->count;
+    bin->sum_ns += value;
 }
 
 double PeriodStatistics::deviation_ns() const { return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : 0.0; }
 
 double PeriodStatistics::median_ns() const {
-    if (count_ == 0)
-        return 0.0;
-    std::uint64_t below = 0;
-    for (std::size_t bin = 0; bin < bins_->size(); ++bin) {
-        below += (*bins_)[bin];
-        if (2 * below >= count_) // the bin's middle, within what there was
-            return std::clamp((bin_from(bin) + bin_from(bin + 1)) / 2.0, static_cast<double>(least_), static_cast<double>(most_));
+    std::uint64_t so_far = 0;
+    for (const Bin& bin : bins_) {
+        so_far += bin.count;
+        if (2 * so_far >= count_)
+            return bin.sum_ns / static_cast<double>(bin.count);
     }
-    return static_cast<double>(most_);
+    return 0.0;
 }
 
 std::optional<std::uint64_t> PeriodStatistics::gaps(double medians) const {
@@ -65,8 +58,9 @@ std::optional<std::uint64_t> PeriodStatistics::gaps(double medians) const {
     if (bound <= 0.0)
         return std::nullopt;
     std::uint64_t longer = 0;
-    for (std::size_t bin = bins_->size(); bin-- > 0 && bin_from(bin) > bound;)
-        longer += (*bins_)[bin];
+    for (const Bin& bin : bins_)
+        if (bin.sum_ns > bound * static_cast<double>(bin.count))
+            longer += bin.count;
     return longer;
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -31,15 +30,21 @@ class PeriodStatistics {
     std::int64_t most_ended_ns() const { return most_ended_; } ///< when the first of the longest ended
     double mean_ns() const { return mean_; }
     double deviation_ns() const; ///< standard deviation of the periods (n - 1): the jitter
-    double median_ns() const;    ///< from a histogram: off by at most 3 %
-    /// How many are longer than so many medians, by bins 1/16 of an octave wide; nullopt where the median is 0.
+    double median_ns() const;    ///< mean of those periods within 1.1 % of each other among which it is
+    /// How many are longer than so many medians, to 1.1 %; nullopt where the median is 0.
     std::optional<std::uint64_t> gaps(double medians) const;
 
   private:
     std::uint64_t count_ = 0;
     std::int64_t least_ = 0, most_ = 0, most_ended_ = 0;
     double mean_ = 0.0, squares_ = 0.0;
-    std::unique_ptr<std::array<std::uint32_t, 64 * 16>> bins_; ///< by the logarithm
+    /// Periods of nearly one length: 64 bins an octave, those alone that there are.
+    struct Bin {
+        std::uint32_t index = 0;
+        std::uint64_t count = 0;
+        double sum_ns = 0.0;
+    };
+    std::vector<Bin> bins_; ///< ascending
 };
 
 /// Seconds of the bus by how stuffed bits are counted.
