@@ -96,6 +96,8 @@ TEST(CanCut, RefusesInOneSentence) {
     refused("convert -t d " + log, "-t: found 'd', expected a or z in the log form");
     refused("convert -a " + log, "with it: the log form has one look");
     refused("convert --out " + log + " " + log, "a.log is there already, expected a new file, or --force");
+    refused("cut --to 5 " + written(folder, "none.txt", "  can0  123   [0] \n"),
+            "none.txt:1: found a frame without a stamp, expected stamps to cut by");
     refused("", "A subcommand is required");
 }
 
