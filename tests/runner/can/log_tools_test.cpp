@@ -194,6 +194,19 @@ TEST(CanStat, CountsAsByHand) {
     EXPECT_THAT(page, HasSubstr("--81"));
 }
 
+TEST(CanStat, TellsWhatCameSoFar) {
+    const TemporaryFolder folder;
+    std::string text;
+    for (int i = 0; i < 100; ++i)
+        text += candump_line({.time_ns = 1'000'000'000 + i * 100'000'000LL, .channel = "can0", .id = 1}) + "\n";
+    std::istringstream lines(told(folder, "can stat --json --every 2.5 " + written(folder, "a.log", text)));
+    std::vector<int> frames;
+    for (std::string line; std::getline(lines, line);)
+        frames.push_back(nlohmann::json::parse(line)["channels"][0]["frames"]);
+    EXPECT_THAT(frames, testing::ElementsAre(26, 51, 76, 100));
+    EXPECT_EQ(run_program("can stat --every 0 " + (folder / "a.log")).exit_code, 2);
+}
+
 TEST(CanStat, CountsLogsWithoutStampsAndNothing) {
     const TemporaryFolder folder;
     const std::string log = written(folder, "a.txt", "  can0  123   [2]  11 22\n  can0  123   [2]  11 23\n");
