@@ -6,6 +6,7 @@
 #include "runner/can/encode_command.h"
 #include "runner/can/list_command.h"
 #include "runner/can/merge_command.h"
+#include "runner/can/record_command.h"
 #include "runner/can/stat_command.h"
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@ void add_can_command(CLI::App& app, std::function<int()>& chosen) {
     add_can_decode(*can, chosen);
     add_can_encode(*can, chosen);
     add_can_list(*can, chosen);
+    add_can_record(*can, chosen);
 }
 
 } // namespace fernlicht

@@ -1,5 +1,6 @@
 #include "runner/run_command.h"
 
+#include "runner/can/log_flags.h"
 #include "runner/flag_values.h"
 #include "runner/judging_flags.h"
 #include "runner/output_folder.h"
@@ -11,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 namespace fernlicht {
 namespace {
@@ -22,7 +24,8 @@ struct Flags {
     std::string road, technique, resolution, frames, capture, backend = "auto", out;
     JudgingFlags judging;
     std::vector<std::string> road_folders;
-    std::string replay, ego;
+    std::string replay, ego, can_start, can_channel;
+    std::optional<std::string> can_log;
     bool lenient = false;
     bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
 };
@@ -45,6 +48,12 @@ DriveEdits edits_of(const Flags& flags) {
     edits.ego = flags.ego;
     if (!flags.replay.empty())
         edits.replay = flags.replay;
+    if (flags.can_log)
+        edits.can_log = *flags.can_log == "none" ? "" : *flags.can_log;
+    if (!flags.can_start.empty())
+        edits.can_start_ns = nanoseconds_of("--can-start", flags.can_start);
+    if (!flags.can_channel.empty())
+        edits.can_channel = flags.can_channel;
     if (!flags.capture.empty()) {
         if (flags.capture != "all")
             refuse_flag("--capture", flags.capture, "all");
@@ -132,6 +141,10 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_flag("--lenient", flags->lenient, "leave out what a storyboard has that is not supported, each with a note");
     sub->add_option("--ego", flags->ego, "the storyboard's entity that is the own car");
     sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: take all places and lamps from it");
+    sub->add_option("--can-log", flags->can_log,
+                    "candump log that gives the signals of the drive's `can`; none: the drive's own speed and signals");
+    sub->add_option("--can-start", flags->can_start, "stamp in the log that is the drive's 0 s, in s; by default that of its first frame");
+    sub->add_option("--can-channel", flags->can_channel, "frames of this channel alone");
     sub->add_option("--technique", flags->technique, "how to light the scene");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");

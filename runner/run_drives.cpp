@@ -4,8 +4,10 @@
 #include "renderer/sanity.h"
 #include "renderer/timer_check.h"
 #include "runner/accuracy/drive_error.h"
+#include "runner/can/sent_log.h"
 #include "runner/cell_inputs.h"
 #include "runner/contact_sheet.h"
+#include "runner/control/bus_report.h"
 #include "runner/control/signals_csv.h"
 #include "runner/interruption.h"
 #include "runner/limits.h"
@@ -101,6 +103,7 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) { return renderer.submit(moment, view, wanted); };
     PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
     const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
+    played.bus = bus_report(stage.drive, variant, std::max(0, options.ticks.first), last_tick);
     played.inputs = cell_inputs(stage.drive, variant, stage.network.opened, std::max(0, options.ticks.first), last_tick);
     if (const int late = renderer.compiled_programs() - compiled; late > 0)
         played.notes.push_back(
@@ -194,7 +197,9 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
         report.played.push_back(play_variant(stage, variant, renderer, options, writers, &log));
         if (variant.motion && variant.motion->control)
             write_file(options.folder / ("signals-" + file_name_of(stage.drive.name + "-" + variant.name) + ".csv"),
-                       signals_csv(*variant.motion->control, options.ticks.first, options.ticks.last));
+                       signals_csv(stage.drive, *variant.motion->control, options.ticks.first, options.ticks.last));
+        if (const std::string sent = sent_log(stage.drive, variant); !sent.empty())
+            write_file(options.folder / ("can-" + file_name_of(stage.drive.name + "-" + variant.name) + ".log"), sent);
         if (!log.flush())
             throw DeviceError(log_file.string() + ": cannot be written: " + std::generic_category().message(errno));
         if (Interruption::asked()) {

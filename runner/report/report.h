@@ -8,6 +8,7 @@
 #include "metrics/statistics.h"
 #include "renderer/renderer.h"
 #include "runner/accuracy/reach_error.h"
+#include "runner/control/bus_report.h"
 #include "runner/seeing/seeing_series.h"
 #include "scenarios/drives/frame.h"
 
@@ -167,6 +168,7 @@ struct PlayedVariant {
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed
     std::vector<SeeingSeries> seeing;                 ///< glare and light at fixed places, every moment; empty where not asked for
     std::vector<CarRow> car;                          ///< every moment of a drive with a vehicle, else empty
+    BusReport bus;                                    ///< signals from and to a bus; empty without
     std::string no_road_lx, no_target_lx;             ///< why there are no rendered extents of that plane; "" where there are
     std::vector<PassTime> passes;                     ///< raw samples of frames drawn alone, warm-up dropped: "frame", "shadow", ...
     Throughput throughput;

@@ -2,6 +2,7 @@
 #include "runner/report/clean_text.h"
 #include "runner/report/page_parts.h"
 #include "runner/report/page_plots.h"
+#include "runner/report/page_signals.h"
 #include "runner/report/report_writers.h"
 
 #include <algorithm>
@@ -59,6 +60,14 @@ data plots_part(const ComparedDrive& drive) {
         has_controlled = add(controlled, svg) || has_controlled;
     part.set("has_controlled", has_controlled);
     part.set("controlled", controlled);
+    data signals{List::list};
+    bool has_signals = false;
+    for (const std::string& svg : signal_svgs(drive))
+        has_signals = add(signals, svg) || has_signals;
+    part.set("has_signals", has_signals);
+    part.set("signals", signals);
+    part.set("signal_table", signal_table(drive));
+    part.set("signal_sentence", signal_sentence(drive));
     part.set("has_seen", has_seen);
     part.set("seen", seen);
     part.set("has_timing", add(timings, timing_svg(drive)));

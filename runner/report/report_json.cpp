@@ -5,6 +5,7 @@
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
 #include "runner/report/report_writers.h"
+#include "runner/report/signals_json.h"
 #include "runner/report/verdict_json.h"
 
 #include <algorithm>
@@ -366,6 +367,8 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
         json["seeing"] = seeing_json(played.seeing);
     if (!played.car.empty())
         json["car"] = car_json(played.car);
+    if (!played.bus.empty())
+        json["signals"] = signals_json(played.bus);
     return json;
 }
 

@@ -5,9 +5,10 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fernlicht {
@@ -39,8 +40,9 @@ struct BusInput {
     double tolerance = 0.0;        ///< between both, in the table's unit
     /// value = factor * physical + offset; nullopt: by the units of both.
     std::optional<double> factor, offset;
-    /// Physical value to value, in place of factor and units; what is not listed is out of range. Empty: none.
-    std::map<double, double> values;
+    /// What the bus says (a label of the signal's value table, or a physical value in digits) and its value, in place of factor and units;
+    /// what is not listed is out of range. Empty: none.
+    std::vector<std::pair<std::string, double>> values;
     std::optional<double> stale_after_s;          ///< since the last frame; nullopt: three cycles of the message, never if it has none
     std::array<BusPolicy, bus_states> policies{}; ///< by state; that of `fresh` is not used
     std::optional<double> fallback;               ///< `default`, in the table's unit; also what `hold` hands over before there was a value
@@ -52,10 +54,10 @@ struct BusInput {
 /// A signal of the table that is sent.
 struct BusOutput {
     BusSource target;
-    std::string name;                     ///< in the signal table
-    std::optional<double> factor, offset; ///< physical = factor * value + offset; nullopt: by the units of both
-    std::map<double, double> values;      ///< value to physical, in place of factor and units; the nearest one listed holds. Empty: none
-    std::optional<double> cycle_s;        ///< of the message; nullopt: as its database says
+    std::string name;                                   ///< in the signal table
+    std::optional<double> factor, offset;               ///< physical = factor * value + offset; nullopt: by the units of both
+    std::vector<std::pair<std::string, double>> values; ///< as of an input; the one whose value is nearest is sent. Empty: none
+    std::optional<double> cycle_s;                      ///< of the message; nullopt: as its database says
     InputError::Where where;
 };
 
@@ -66,6 +68,7 @@ struct BusMapping {
     std::string channel;                      ///< frames of others are not looked at; "": of all
     std::optional<std::filesystem::path> log; ///< a recording (candump) that the drive is played by
     std::optional<std::int64_t> start_ns;     ///< stamp in the log that is the drive's 0 s; nullopt: of its first frame
+    bool scripted = false;                    ///< played by the drive's own speed and signals, although nothing else is said
     InputError::Where where;
 };
 

@@ -6,6 +6,8 @@
 #include "scenarios/can/can_frame.h"
 #include "scenarios/control/signals.h"
 
+#include <map>
+
 namespace fernlicht {
 
 class BusOutputs {
@@ -33,10 +35,11 @@ class BusOutputs {
     struct Value {
         std::size_t place = 0; ///< in the table
         std::string signal, name;
-        std::map<double, double> values;
+        std::vector<std::pair<double, double>> values; ///< physical, table's
         UnitConversion conversion;
         double least = 0.0, greatest = 0.0; ///< physical
         double now = 0.0;                   ///< physical
+        bool lost = false, beyond = false;
         std::uint64_t cut = 0, no_number = 0;
     };
     struct Page {                            ///< what one frame carries
@@ -48,7 +51,7 @@ class BusOutputs {
         std::int64_t cycle_ns = 0, next_ns = 0;
         std::vector<Page> pages;
     };
-    CanFrame frame(const Sent& sent, const Page& page) const;
+    CanFrame frame(const Sent& sent, Page& page) const;
 
     std::vector<CanDatabase> databases_;
     std::string channel_;

@@ -42,7 +42,8 @@ struct BusRecordOfInput {
 class BusSignals {
   public:
     /// `databases` as read_bus_databases reads them. Throws InputError with the mapping's place for a message or signal that none or more
-    /// than one of them has, units that do not fit, a staleness that nothing says.
+    /// than one of them has, a label that the signal lacks, units that do not fit, `missing: fail` without a time after which it is
+    /// missing.
     BusSignals(const BusMapping& mapping, std::vector<CanDatabase> databases);
     BusSignals(BusSignals&&) = default; // inner pointers go along with a move, not with a copy
 
@@ -66,6 +67,7 @@ class BusSignals {
         const CanMessage* message = nullptr;
         const CanSignal* signal = nullptr;
         UnitConversion conversion;
+        std::vector<std::pair<double, double>> values; ///< physical, table's
         std::uint64_t frames = 0, changes = 0, raw = 0;
         std::int64_t last_ns = 0, changed_ns = 0;
         double value = std::numeric_limits<double>::quiet_NaN();
@@ -78,8 +80,8 @@ class BusSignals {
         std::int64_t stale_after_ns = 0, also_stale_after_ns = 0;
         std::optional<double> held;
     };
-    void read(Reading& reading, const BusInput& input, const Source& source, const CanFrame& frame, std::int64_t time_ns) const;
-    BusState state_of(const Source& source, const BusInput& input, std::int64_t tick_ns, bool& unchecked) const;
+    BusState state_of(std::size_t input, std::int64_t tick_ns) const;
+    void apply_policy(std::size_t input, std::int64_t tick_ns, BusValue& value);
 
     std::vector<CanDatabase> databases_; ///< messages point into it
     std::string channel_;

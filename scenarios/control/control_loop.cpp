@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 
 namespace fernlicht {
 namespace {
@@ -29,9 +30,9 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 } // namespace
 
 ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
-                         const SolverOptions& options)
+                         const SolverOptions& options, const std::vector<std::string>& written)
     : parameters_(parameters), options_(options), table_(names_of(lamps)), controller_(parameters, lamps, car), runs_(lamps.size()),
-      out_of_range_(table_.size(), 0) {
+      levels_(lamps.size(), 1.0), switches_(lamps.size(), 1.0), before_(table_.values()), out_of_range_(table_.size(), 0) {
     for (const ControlledLamp& lamp : lamps)
         segments_.emplace_back(lamp.windows_deg.size(), 1.0);
     for (const PluginParameters& plugin : parameters_.plugins)
@@ -47,6 +48,22 @@ ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<
             swivelling.insert(lamp_named(lamps, name));
             levelled.insert(lamp_named(lamps, name));
         }
+    for (const std::string& name : written) {
+        const std::size_t place = table_.find(name);
+        if (place < signal::count)
+            continue;
+        const std::size_t lamp = (place - signal::count) / lamp_signal::count, which = (place - signal::count) % lamp_signal::count;
+        if (which == lamp_signal::swivel_command)
+            swivelling.insert(lamp);
+        if (which == lamp_signal::pitch_command)
+            levelled.insert(lamp);
+        if (which == lamp_signal::swivel || which == lamp_signal::pitch)
+            measured_.push_back(place);
+    }
+    for (const std::size_t place : measured_) {
+        const std::size_t lamp = (place - signal::count) / lamp_signal::count;
+        ((place - signal::count) % lamp_signal::count == lamp_signal::swivel ? swivelling : levelled).erase(lamp);
+    }
     const ActuatorParameters swivel = parameters_.bend ? parameters_.bend->actuator : SwivelParameters{}.actuator;
     const ActuatorParameters level = parameters_.levelling ? parameters_.levelling->actuator : LevellingParameters{}.actuator;
     for (const std::size_t lamp : swivelling)
@@ -99,6 +116,30 @@ void ControlLoop::read(const ControlInputs& in) {
         for (const auto& [from_s, value] : parameters_.inputs[i].values)
             if (from_s <= in.time_s)
                 table_[scripted_[i]] = value;
+    write_over(in, false);
+}
+
+/// Signals that laws write are written over after them, all others before. A measured angle that is lost stays as it was.
+void ControlLoop::write_over(const ControlInputs& inputs, bool of_laws) {
+    for (const WrittenSignal& written : inputs.written) {
+        if ((table_.kind(written.place).writer == "laws") != of_laws)
+            continue;
+        if (std::isnan(written.value) && std::ranges::find(measured_, written.place) != measured_.end())
+            continue;
+        table_[written.place] = written.value;
+    }
+}
+
+/// When what changed.
+void ControlLoop::stamp(const ControlInputs& inputs) {
+    for (std::size_t place = 0; place < table_.size(); ++place) {
+        const double now = table_[place], then = before_[place];
+        if (started_ && now != then && !(std::isnan(now) && std::isnan(then)))
+            table_.stamp(place, inputs.time_s, 0.0);
+        before_[place] = now;
+    }
+    for (const WrittenSignal& written : inputs.written)
+        table_.stamp(written.place, table_.changed_s(written.place), written.age_s);
 }
 
 void ControlLoop::fail(double time_s) {
@@ -173,8 +214,11 @@ void ControlLoop::make_safe() {
 void ControlLoop::order(double time_s) {
     for (Driven& driven : driven_) {
         const double command_rad = table_.of(driven.lamp, driven.command);
-        if (!std::isfinite(command_rad))
+        if (!std::isfinite(command_rad)) {
+            if (!driven.actuator) // not told yet: as it was aimed
+                driven.actuator.emplace(driven.parameters, 0.0, options_);
             continue;
+        }
         if (driven.actuator && driven.parameters.dead_time_s > 0.0) {
             driven.commands.emplace_back(time_s + driven.parameters.dead_time_s, command_rad);
             continue;
@@ -195,8 +239,10 @@ void ControlLoop::keep(double time_s) {
     };
     for (std::size_t lamp = 0; lamp < runs_.size(); ++lamp) {
         double& level = table_.of(lamp, lamp_signal::level);
-        if (!std::isfinite(level)) // as it was
-            level = runs_[lamp].levels.empty() ? 1.0 : runs_[lamp].levels.back().second;
+        const double by_switch = table_.of(lamp, lamp_signal::driver_switch);
+        level = levels_[lamp] = std::isfinite(level) ? level : levels_[lamp]; // lost: as it was
+        switches_[lamp] = std::isfinite(by_switch) ? by_switch : switches_[lamp];
+        level *= switches_[lamp];
         double lit = 0.0;
         for (const double segment : segments_[lamp])
             lit += segment;
@@ -206,6 +252,11 @@ void ControlLoop::keep(double time_s) {
         else
             changed(runs_[lamp].segments, segments_[lamp], std::vector<double>(segments_[lamp].size(), 1.0));
         changed(runs_[lamp].levels, level, 1.0);
+    }
+    for (const std::size_t place : measured_) {
+        const std::size_t lamp = (place - signal::count) / lamp_signal::count;
+        const bool swivel = (place - signal::count) % lamp_signal::count == lamp_signal::swivel;
+        changed(swivel ? runs_[lamp].measured_swivel : runs_[lamp].measured_pitch, table_[place], 0.0);
     }
     const auto mode = static_cast<BeamMode>(static_cast<int>(table_[signal::control_mode]));
     for (const std::size_t lamp : mode_lamps_)
@@ -225,6 +276,7 @@ void ControlLoop::step(const ControlInputs& inputs) {
     controller_.step(table_, segments_, inputs.surroundings, started_ ? inputs.time_s - last_s_ : 0.0);
     for (ControlPlugin& plugin : plugins_)
         plugin.step(table_, segments_, inputs.surroundings);
+    write_over(inputs, true);
     make_safe();
     check();
     order(inputs.time_s);
@@ -232,8 +284,28 @@ void ControlLoop::step(const ControlInputs& inputs) {
     if (!started_)
         for (const Driven& driven : driven_)
             table_.of(driven.lamp, driven.actual) = driven.actuator ? driven.actuator->angle_rad() : 0.0;
+    stamp(inputs);
     last_s_ = inputs.time_s;
     started_ = true;
+}
+
+LampRun ControlLoop::lamp_at(std::size_t lamp, double time_s) const {
+    const auto held = [&](const auto& changes) {
+        const auto next = std::ranges::upper_bound(changes, time_s, {}, [](const auto& change) { return change.first; });
+        return std::remove_cvref_t<decltype(changes)>(next == changes.begin() ? next : next - 1, next);
+    };
+    const LampRun& run = runs_[lamp];
+    LampRun now;
+    now.levels = held(run.levels);
+    now.modes = held(run.modes);
+    now.segments = held(run.segments);
+    now.measured_swivel = held(run.measured_swivel);
+    now.measured_pitch = held(run.measured_pitch);
+    for (const Driven& driven : driven_)
+        if (driven.lamp == lamp && driven.actuator)
+            (driven.actual == lamp_signal::swivel ? now.measured_swivel
+                                                  : now.measured_pitch) = {{0.0, driven.actuator->so_far().angle_rad(time_s)}};
+    return now;
 }
 
 std::vector<LampRun> ControlLoop::finish(double end_s) {

@@ -10,7 +10,14 @@
 
 namespace fernlicht {
 
-/// What the loop is told at a tick. What it has no name for stands in `signals`: scripted, or from a bus.
+/// A signal that comes from elsewhere, in place of what car, road, laws or actuators would write.
+struct WrittenSignal {
+    std::size_t place = 0; ///< in the table
+    double value = 0.0;    ///< NaN: lost
+    double age_s = 0.0;    ///< of the value
+};
+
+/// What the loop is told at a tick.
 struct ControlInputs {
     double time_s = 0.0;
     double distance_m = 0.0, speed_mps = 0.0, acceleration_mps2 = 0.0, yaw_rate_rad_s = 0.0, steering_rad = 0.0;
@@ -19,26 +26,31 @@ struct ControlInputs {
     double bearing_ahead_rad = 0.0;
     double illuminance_lx = 0.0, wetness = 0.0;
     Surroundings surroundings;
+    std::vector<WrittenSignal> written; ///< from a bus
 };
 
 /// What a lamp did until now.
 struct LampRun {
     std::optional<ActuatorRun> swivel, pitch;
-    std::vector<std::pair<double, double>> levels;                ///< from when, which
-    std::vector<std::pair<double, BeamMode>> modes;               ///< from when, which; of lamps that have them
-    std::vector<std::pair<double, std::vector<double>>> segments; ///< from when, levels of its windows
+    std::vector<std::pair<double, double>> measured_swivel, measured_pitch; ///< from when, rad: in place of an actuator of ours
+    std::vector<std::pair<double, double>> levels;                          ///< from when, which
+    std::vector<std::pair<double, BeamMode>> modes;                         ///< from when, which; of lamps that have them
+    std::vector<std::pair<double, std::vector<double>>> segments;           ///< from when, levels of its windows
 };
 
 class ControlLoop {
   public:
-    /// Throws std::invalid_argument for a lamp or a signal that is not there, InputError for a plug-in that cannot be used.
+    /// `written`: names of the signals that inputs will write. A command among them has an actuator follow it, a measured angle is where
+    /// the lamp is. Throws std::invalid_argument for a lamp or a signal that is not there, InputError for a plug-in that cannot be used.
     ControlLoop(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
-                const SolverOptions& options = {});
+                const SolverOptions& options = {}, const std::vector<std::string>& written = {});
 
     /// Moves everything on to `inputs.time_s`, which is not before the last one. Throws InputError when an actuator's solver gives up or a
     /// plug-in fails.
     void step(const ControlInputs& inputs);
     const SignalTable& signals() const { return table_; }
+    /// A lamp at a time before the last tick, from 0 s on: one entry each, and its angles as measured ones in place of actuators.
+    LampRun lamp_at(std::size_t lamp, double time_s) const;
 
     /// Lets the actuators come to `end_s` and hands over what the lamps did, in the order of the lamps. The loop is used up.
     std::vector<LampRun> finish(double end_s);
@@ -55,6 +67,8 @@ class ControlLoop {
         double asked_rad = 0.0;                         ///< what it follows
     };
     void read(const ControlInputs& inputs);
+    void write_over(const ControlInputs& inputs, bool of_laws);
+    void stamp(const ControlInputs& inputs);
     void fail(double time_s);
     void check();
     void advance(Driven& driven, double until_s);
@@ -71,9 +85,11 @@ class ControlLoop {
     std::vector<ControlPlugin> plugins_;
     std::vector<Driven> driven_;
     std::vector<LampRun> runs_;
-    std::vector<std::size_t> mode_lamps_;
-    std::vector<std::size_t> scripted_, failing_; ///< places of their signals, or the lamps that they are about
-    std::vector<std::size_t> out_of_range_;       ///< how often, by signal
+    std::vector<std::size_t> mode_lamps_, measured_; ///< lamps; places
+    std::vector<double> levels_, switches_;          ///< by lamp: the last that were known
+    std::vector<double> before_;                     ///< values of the last tick
+    std::vector<std::size_t> scripted_, failing_;    ///< places of their signals, or the lamps that they are about
+    std::vector<std::size_t> out_of_range_;          ///< how often, by signal
     double last_s_ = 0.0;
     bool started_ = false;
 };

@@ -18,6 +18,7 @@ struct ControlRun {
     /// The signal table at the moments of the drive: the row that held, with the actuators where they are at that very time.
     std::vector<std::string> signals;
     std::vector<std::vector<double>> rows;
+    std::vector<double> changed_s, age_s; ///< of the signals at the end: when they last became another, how old they are
     std::vector<std::string> notes;
 
     std::size_t lamp(const std::string& name) const; ///< lamps.size(): none of this name
@@ -31,6 +32,30 @@ struct ControlRun {
 struct ControlSpan {
     double end_s = 0.0;
     double row_step_s = 0.0; ///< moments of the drive
+};
+
+/// A control loop that keeps what the moments of a drive need of it, tick by tick.
+class ControlRunner {
+  public:
+    /// Throws as ControlLoop does; `written` as there. `row_step_s`: from moment to moment.
+    ControlRunner(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
+                  double row_step_s, const SolverOptions& options = {}, const std::vector<std::string>& written = {});
+
+    double next_s() const; ///< the time of the next tick: ticks * period
+    /// `inputs.time_s` is next_s(). Throws as ControlLoop does.
+    void step(const ControlInputs& inputs);
+    const SignalTable& signals() const { return loop_.signals(); }
+    /// Lamps at a time before the last tick (lamp_at, control_loop.h), for moments of a drive that is still happening.
+    ControlRun at(double time_s) const;
+    /// All until `end_s`, which is not before the last tick. The runner is used up.
+    ControlRun finish(double end_s);
+
+  private:
+    void keep_rows(double until_s);
+
+    ControlLoop loop_;
+    ControlRun run_;
+    double row_step_s_ = 0.0;
 };
 
 /// Ticks at k * period from 0 to the end. Throws as ControlLoop does.

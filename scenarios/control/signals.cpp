@@ -45,17 +45,30 @@ constexpr std::array<SignalKind, std::size_t{signal::count} + std::size_t{lamp_s
     {"lamp.*.level", "1", 0.0, 1.0, "laws", "times the level that the drive gives the lamp"},
     {"lamp.*.segments_lit", "1", 0.0, 256.0, "laws", "of a lamp in segments: the sum of their levels"},
     {"lamp.*.swivel_stuck", "1", 0.0, 1.0, "laws", "1: found to be stuck, by command and position; stays so"},
+    {"lamp.*.switch", "1", 0.0, 1.0, "driver", "times the laws' level: what the driver's switch gives the lamp; lost: as it was"},
 }};
 
 } // namespace
 
 std::span<const SignalKind> known_signals() { return kinds; }
 
+const SignalKind* known_signal(const std::string& name) {
+    for (const SignalKind& kind : kinds) {
+        const std::size_t star = kind.name.find('*');
+        if (star == std::string_view::npos ? name == kind.name
+                                           : name.size() > kind.name.size() - 1 && name.starts_with(kind.name.substr(0, star)) &&
+                                                 name.ends_with(kind.name.substr(star + 1)))
+            return &kind;
+    }
+    return nullptr;
+}
+
 SignalTable::SignalTable(std::vector<std::string> lamps)
-    : lamps_(std::move(lamps)), values_(std::size_t{signal::count} + lamps_.size() * lamp_signal::count, 0.0) {
+    : lamps_(std::move(lamps)), values_(std::size_t{signal::count} + lamps_.size() * lamp_signal::count, 0.0),
+      stamps_(values_.size()) {
     values_[signal::others_nearest_oncoming] = values_[signal::others_nearest_preceding] = none;
     for (std::size_t lamp = 0; lamp < lamps_.size(); ++lamp)
-        of(lamp, lamp_signal::level) = 1.0;
+        of(lamp, lamp_signal::level) = of(lamp, lamp_signal::driver_switch) = 1.0;
 }
 
 const SignalKind& SignalTable::kind(std::size_t place) const {

@@ -14,7 +14,7 @@ struct SignalKind {
     std::string_view name; ///< "ego.speed_mps"; "lamp.*.swivel_rad" stands for one signal of each lamp, its name in place of the star
     std::string_view unit;
     double least = 0.0, greatest = 0.0; ///< beyond them a value is taken for wrong
-    std::string_view writer;            ///< "car", "road", "drive", "traffic", "laws", "actuators"
+    std::string_view writer;            ///< "car", "road", "drive", "driver", "traffic", "laws", "actuators"
     std::string_view meaning;
 };
 
@@ -51,11 +51,13 @@ enum : std::size_t {
 
 /// Places of a lamp's signals.
 namespace lamp_signal {
-enum : std::size_t { swivel_command, swivel, pitch_command, pitch, level, segments_lit, swivel_stuck, count };
+enum : std::size_t { swivel_command, swivel, pitch_command, pitch, level, segments_lit, swivel_stuck, driver_switch, count };
 }
 
 /// Those that are there once, by their places; then those of each lamp, by theirs.
 std::span<const SignalKind> known_signals();
+/// Of the signal of this name, with a lamp's name in place of the star or the star itself; nullptr: none has it.
+const SignalKind* known_signal(const std::string& name);
 
 /// A value that is not a number says that the signal is lost; infinity is a distance to nothing.
 class SignalTable {
@@ -71,6 +73,12 @@ class SignalTable {
     double& of(std::size_t lamp, std::size_t of_lamp) { return values_[place(lamp, of_lamp)]; }
     double of(std::size_t lamp, std::size_t of_lamp) const { return values_[place(lamp, of_lamp)]; }
 
+    /// When the signal last became another, in the table's time; 0: never since the start.
+    double changed_s(std::size_t place) const { return stamps_[place].changed_s; }
+    /// How old its value is: of signals from a bus since the frame that brought it, infinite where none did; of all others 0.
+    double age_s(std::size_t place) const { return stamps_[place].age_s; }
+    void stamp(std::size_t place, double changed_s, double age_s) { stamps_[place] = {changed_s, age_s}; }
+
     std::size_t size() const { return values_.size(); }
     const std::vector<double>& values() const { return values_; }
     std::string name(std::size_t place) const;
@@ -80,7 +88,11 @@ class SignalTable {
 
   private:
     std::vector<std::string> lamps_;
+    struct Stamp {
+        double changed_s = 0.0, age_s = 0.0;
+    };
     std::vector<double> values_;
+    std::vector<Stamp> stamps_;
 };
 
 } // namespace fernlicht

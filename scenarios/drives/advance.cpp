@@ -1,5 +1,6 @@
 #include "scenarios/drives/advance.h"
 
+#include "scenarios/drives/bus_motion.h"
 #include "scenarios/drives/told_story.h"
 #include "scenarios/values/errors.h"
 
@@ -8,14 +9,11 @@
 #include <fmt/format.h>
 
 namespace fernlicht {
-namespace {
 
 State state_at(int tick, const Drive& drive) {
     const double time_s = tick * drive.step_s;
-    return {tick, time_s, way_m(drive, time_s), speed_mps(drive.speed, time_s)};
+    return {tick, time_s, way_m(drive, time_s), own_speed_mps(drive, time_s)};
 }
-
-} // namespace
 
 State start(const Drive& drive) { return state_at(0, drive); }
 
@@ -45,7 +43,11 @@ double distance_m(const std::vector<SpeedPoint>& profile, double time_s) {
 
 double way_m(const Drive& drive, double time_s) {
     const auto place = track_place(drive, time_s);
-    return place ? place->distance_m : distance_m(drive.speed, time_s);
+    return place ? place->distance_m : drive.bus_motion ? drive.bus_motion->way_m(time_s) : distance_m(drive.speed, time_s);
+}
+
+double own_speed_mps(const Drive& drive, double time_s) {
+    return drive.bus_motion ? drive.bus_motion->speed_mps(time_s) : speed_mps(drive.speed, time_s);
 }
 
 void fit_to_route(Drive& drive, const Route& route) {

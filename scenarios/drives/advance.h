@@ -17,6 +17,7 @@ struct State {
 /// moment meant to be at 4 s may lie a rounding error before it.
 inline constexpr double tick_tolerance = 1.0e-6;
 
+State state_at(int tick, const Drive& drive);
 State start(const Drive& drive);
 State advance(const State& state, const Drive& drive);
 
@@ -28,8 +29,11 @@ double speed_mps(const std::vector<SpeedPoint>& profile, double time_s);
 double distance_m(const std::vector<SpeedPoint>& profile, double time_s);
 
 /// Distance along the route at `time_s`: of the own car's track where it has one that was laid on the route (told_story.h), else the
-/// integral of the drive's speed.
+/// integral of its speed.
 double way_m(const Drive& drive, double time_s);
+
+/// What the drive wants of the own car at `time_s`: its own profile, or what a bus says.
+double own_speed_mps(const Drive& drive, double time_s);
 
 /// Cuts the duration so that the front bumper stays on the route, with a note. The whole drive must hold at least one tick:
 /// throws InputError when the car stands beyond the route's end from the start.

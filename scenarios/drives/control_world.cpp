@@ -1,31 +1,27 @@
 #include "scenarios/drives/control_world.h"
 
-#include "scenarios/control/control_run.h"
-#include "scenarios/control/masked_beam.h"
+#include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/advance.h"
-#include "scenarios/drives/motion.h"
 #include "scenarios/drives/told_story.h"
-#include "scenarios/values/errors.h"
+#include "scenarios/vehicle/road_course.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-#include <map>
 
 namespace fernlicht {
 namespace {
 
 constexpr double road_ahead_m = 200.0, road_step_m = 5.0; ///< what plug-ins are shown (fernlicht_control.h)
-constexpr double mask_steps = 16.0;     ///< levels of a file's windows are rounded to this part: each is a beam of its own
-constexpr double beside_route_m = 20.0; ///< farther from its route a track is somewhere else
-constexpr double most_mask_bytes = 2.0 * 1024.0 * 1024.0 * 1024.0; ///< of the beams that are drawn with, in all
-constexpr double shortest_bearing_m = 5.0; ///< nearer, the direction to a place on the lane says nothing of the bend
+constexpr double beside_route_m = 20.0;                   ///< farther from its route a track is somewhere else
+constexpr double shortest_bearing_m = 5.0;                ///< nearer, the direction to a place on the lane says nothing of the bend
+
+} // namespace
 
 /// All that control reads, as a function of time alone.
-class ControlWorld {
-  public:
-    ControlWorld(const Drive& drive, const Route& route, const CarRun* car)
-        : drive_(drive), route_(route), car_(car), course_(road_course(route, std::min(route.length_m(), farthest_m(drive) + 320.0))) {}
+struct ControlWorld::Parts {
+    Parts(const Drive& drive, const Route& route, const CarRun* car)
+        : drive_(drive), route_(route), car_(car),
+          course_(road_course(route, std::min(route.length_m(), farthest_m(drive, route) + 320.0))) {}
 
     ControlInputs at(double time_s, const ControlParameters& control) const {
         ControlInputs in;
@@ -45,9 +41,6 @@ class ControlWorld {
         return in;
     }
 
-    struct Resting {
-        double spring_pitch_rad = 0.0, body_pitch_rad = 0.0, rear_lift_m = 0.0;
-    };
     /// Springs and tyres of the vehicle, else of the middle-class car; each axle goes down by its load over its stiffness.
     Resting load_on_springs(const AxleLoad& load) const {
         const VehicleParameters car = drive_.vehicle.value_or(VehicleParameters{});
@@ -59,8 +52,9 @@ class ControlWorld {
                 rear_m + rear_tyre_m};
     }
 
-  private:
-    static double farthest_m(const Drive& drive) {
+    static double farthest_m(const Drive& drive, const Route& route) {
+        if (drive.live || drive.bus_motion)
+            return route.length_m();
         if (!drive.ego_track || !drive.told)
             return distance_m(drive.speed, drive.duration_s);
         double farthest = 0.0;
@@ -92,8 +86,8 @@ class ControlWorld {
 
     /// The rear axle follows the lane's centre: it turns by the lane's curvature, and the front wheels stand as the lane's bend asks.
     void on_rails(ControlInputs& in) const {
-        in.distance_m = distance_m(drive_.speed, in.time_s);
-        in.speed_mps = speed_mps(drive_.speed, in.time_s);
+        in.distance_m = way_m(drive_, in.time_s);
+        in.speed_mps = own_speed_mps(drive_, in.time_s);
         const double k = curvature_per_m(in.distance_m);
         in.yaw_rate_rad_s = k * in.speed_mps;
         in.steering_rad = std::atan(k * drive_.wheelbase_m);
@@ -193,7 +187,7 @@ class ControlWorld {
     double acceleration_mps2(double time_s, double period_s) const {
         const double before_s = std::max(time_s - period_s, 0.0), span_s = time_s - before_s;
         const auto speed = [&](double t_s) {
-            return drive_.ego_track ? drive_.ego_track->at(t_s).speed_mps : car_ ? car_->at(t_s).speed_mps : speed_mps(drive_.speed, t_s);
+            return drive_.ego_track ? drive_.ego_track->at(t_s).speed_mps : car_ ? car_->at(t_s).speed_mps : own_speed_mps(drive_, t_s);
         };
         return span_s > 0.0 ? (speed(time_s) - speed(before_s)) / span_s : 0.0;
     }
@@ -236,112 +230,11 @@ class ControlWorld {
     RoadCourse course_;
 };
 
-ControlledCar controlled_car(const Drive& drive) {
-    ControlledCar car{drive.wheelbase_m, 0.0};
-    if (drive.vehicle) {
-        CarModel model;
-        model.car = *drive.vehicle;
-        model.wheelbase_m = drive.wheelbase_m;
-        car.self_steering_s2_per_m = model.self_steering_gradient();
-    }
-    return car;
-}
+ControlWorld::ControlWorld(const Drive& drive, const Route& route, const CarRun* car)
+    : parts_(std::make_unique<const Parts>(drive, route, car)) {}
+ControlWorld::~ControlWorld() = default;
 
-std::vector<std::string> notes_of(const ControlRun& run) {
-    std::vector<std::string> notes{fmt::format("lamp control: {} ticks of {:g} ms", run.ticks, 1e3 * run.period_s)};
-    notes.insert(notes.end(), run.notes.begin(), run.notes.end());
-    return notes;
-}
-
-/// What a beam takes when it is drawn with, here and on the GPU: a float each 0.05 degrees, or as `beams` of the drive says.
-double beam_bytes(const CandelaTable& table, const std::optional<BeamTexels>& texels) {
-    if (texels)
-        return static_cast<double>(texels->width) * texels->height * (4.0 + texels->bits / 8.0);
-    const auto steps = [](const std::vector<double>& axis) { return (std::min(axis.back(), 90.0) - std::max(axis.front(), -90.0)) / 0.05; };
-    return 8.0 * std::clamp(steps(table.h_deg) * steps(table.v_deg), 4.0, 4.0 * 1024.0 * 1024.0);
-}
-
-/// The file of each lamp that is cut into windows, for each state of them that comes; the same state is the same file.
-void mask_files(const Drive& drive, const Variant& variant, const ControlParameters& control, ControlRun& run) {
-    if (!control.glare_free)
-        return;
-    double bytes = 0.0;
-    std::size_t states = 0;
-    run.masks.resize(run.lamps.size());
-    std::map<std::pair<std::size_t, std::vector<double>>, std::shared_ptr<const LampFile>> known;
-    for (const SegmentedLamp& segmented : control.glare_free->lamps) {
-        const std::size_t lamp = run.lamp(segmented.name);
-        for (const auto& [from_s, exact] : run.runs[lamp].segments) {
-            std::vector<double> levels;
-            for (const double level : exact)
-                levels.push_back(std::round(level * mask_steps) / mask_steps);
-            std::shared_ptr<const LampFile>& file = known[{lamp, levels}];
-            if (!file && std::ranges::any_of(levels, [](double level) { return level != 1.0; })) {
-                LampFile dark = *variant.lamps[lamp].file;
-                dark.table = masked(dark.table, segmented.windows_deg, levels);
-                bytes += beam_bytes(dark.table, drive.beams);
-                ++states;
-                if (bytes > most_mask_bytes)
-                    throw InputError(
-                        {},
-                        fmt::format("more than {} states of the glare-free beam's windows, {:.0f} MiB each", states - 1,
-                                    beam_bytes(dark.table, drive.beams) / 1048576.0),
-                        fmt::format("at most {:.0f} MiB of them in all: fewer windows, or coarser beams (beams: {{width, height, "
-                                    "bits}} of the drive)",
-                                    most_mask_bytes / 1048576.0));
-                file = std::make_shared<const LampFile>(std::move(dark));
-            }
-            run.masks[lamp].emplace_back(from_s, file);
-        }
-    }
-    run.notes.push_back(fmt::format("glare-free high beam: {} states of windows, {:.0f} MiB of beams", states, bytes / 1048576.0));
-}
-
-std::vector<ControlledLamp> controlled_lamps(const Variant& variant) {
-    std::vector<ControlledLamp> lamps;
-    for (const MountedLamp& lamp : variant.lamps) {
-        lamps.push_back({lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad, {}});
-        if (variant.control->glare_free)
-            for (const SegmentedLamp& segmented : variant.control->glare_free->lamps)
-                if (segmented.name == lamp.name)
-                    lamps.back().windows_deg = segmented.windows_deg;
-    }
-    return lamps;
-}
-
-void simulate_control(const Drive& drive, Variant& variant, const ControlWorld& world) {
-    const ControlParameters& control = *variant.control;
-    Motion motion = variant.motion ? *variant.motion : Motion{};
-    try {
-        const SolverOptions options =
-            drive.vehicle ? SolverOptions{.solver = drive.vehicle->solver, .tolerance = drive.vehicle->tolerance} : SolverOptions{};
-        motion.control = run_control(
-            control, controlled_lamps(variant), controlled_car(drive), [&](double time_s) { return world.at(time_s, control); },
-            {drive.duration_s, drive.step_s}, options);
-        const ControlWorld::Resting resting = world.load_on_springs(control.load);
-        motion.control->body_pitch_rad = resting.body_pitch_rad;
-        motion.control->rear_lift_m = resting.rear_lift_m;
-        mask_files(drive, variant, control, *motion.control);
-    } catch (const InputError& error) {
-        if (!error.where().file.empty())
-            throw;
-        throw InputError({drive.file, 0, 0, fmt::format("control of '{}'", variant.name)}, error.what());
-    }
-    const std::vector<std::string> notes = notes_of(*motion.control);
-    motion.notes.insert(motion.notes.end(), notes.begin(), notes.end());
-    variant.motion = std::make_shared<const Motion>(std::move(motion));
-}
-
-} // namespace
-
-void simulate_control(Drive& drive, const Route& route) {
-    if (std::ranges::none_of(drive.variants, [](const Variant& variant) { return variant.control != nullptr; }))
-        return;
-    const std::shared_ptr<const CarRun> car = drive.vehicle ? drive.variants.front().motion->car : nullptr;
-    const ControlWorld world(drive, route, car.get());
-    for (Variant& variant : drive.variants)
-        if (variant.control)
-            simulate_control(drive, variant, world);
-}
+ControlInputs ControlWorld::at(double time_s, const ControlParameters& control) const { return parts_->at(time_s, control); }
+ControlWorld::Resting ControlWorld::load_on_springs(const AxleLoad& load) const { return parts_->load_on_springs(load); }
 
 } // namespace fernlicht

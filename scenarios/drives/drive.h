@@ -97,6 +97,9 @@ struct LampSource {
     std::shared_ptr<const LampFile> file;
 };
 
+struct BusMapping;
+struct BusMotion;
+struct BusPlay;
 struct DriveLog;
 struct ToldStory;
 
@@ -124,7 +127,11 @@ struct Drive {
     std::vector<RoadUser> traffic;              ///< what place_traffic() made of them; not part of the file
     std::shared_ptr<const Track> ego_track;     ///< the own car's way where a log or a storyboard says it; nullptr: the route's
     std::shared_ptr<const ToldStory> told; ///< what a storyboard changes besides (told_story.h); nullptr: nothing. Not part of the file
-    std::vector<View> views;               ///< first is the driver's
+    std::shared_ptr<const BusMapping> can; ///< signals from and to a bus (can/bus_mapping.h); nullptr: none
+    bool live = false;                     ///< the bus is listened to while the drive happens (bus_drive.h). Not part of the file
+    std::shared_ptr<const BusPlay> bus;    ///< what simulate_bus() made of a recording (bus_play.h). Not part of the file
+    std::shared_ptr<const BusMotion> bus_motion; ///< how the own car moves by the bus; nullptr: as `speed` says. Not part of the file
+    std::vector<View> views;                     ///< first is the driver's
     Capture capture;
     ToneMapper tone_mapper;
     std::string technique = "photometric";
@@ -155,6 +162,9 @@ struct DriveEdits {
     bool lenient = false;                            ///< what a storyboard has that is not supported is left out
     std::string ego;                                 ///< the storyboard's entity that is the own car; "": as the drive says
     std::optional<std::filesystem::path> replay;     ///< drive-log.csv of a run
+    std::optional<std::filesystem::path> can_log;    ///< recording of a bus; empty: none, although the drive names one
+    std::optional<std::int64_t> can_start_ns;        ///< stamp in it that is the drive's 0 s
+    std::optional<std::string> can_channel;          ///< frames of others are left out; "": none are
 };
 
 /// Reads and checks a drive file, schema version 1 (scenarios/drive.example.yaml explains every key). Throws InputError with file,

@@ -1,6 +1,7 @@
 #include "scenarios/drives/motion.h"
 
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/bus_motion.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/vehicle/car_validity.h"
 
@@ -132,13 +133,14 @@ void simulate_vehicle(Drive& drive, const Route& route) {
     model.car = *drive.vehicle;
     model.wheelbase_m = drive.wheelbase_m;
     // As far as it may come; it lags behind its plan rather than running ahead, by metres at most.
-    model.road = road_course(route, distance_m(drive.speed, drive.duration_s) + 200.0);
-    const auto car = std::make_shared<const CarRun>(run_car(model, wishes(drive.speed), drive.duration_s));
+    const std::vector<SpeedPoint> speed = drive.bus_motion ? drive.bus_motion->profile() : drive.speed;
+    model.road = road_course(route, way_m(drive, drive.duration_s) + 200.0);
+    const auto car = std::make_shared<const CarRun>(run_car(model, wishes(speed), drive.duration_s));
     fit_to_route(drive, route, *car);
     check_validity(drive, *car);
-    drive.notes.push_back(fmt::format("vehicle: {}; {}", solved(car->work()), strayed(*car, drive.speed)));
+    drive.notes.push_back(fmt::format("vehicle: {}; {}", solved(car->work()), strayed(*car, speed)));
     for (Variant& variant : drive.variants) {
-        auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt, std::nullopt, {}});
+        auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt, std::nullopt, {}, {}});
         if (variant.levelling) {
             motion->levelling = run_levelling(drive, variant, *car);
             motion->notes.push_back(actuator_note("levelling", *motion->levelling));

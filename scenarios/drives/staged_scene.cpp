@@ -1,7 +1,7 @@
 #include "scenarios/drives/staged_scene.h"
 
 #include "scenarios/drives/advance.h"
-#include "scenarios/drives/control_world.h"
+#include "scenarios/drives/control_play.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/drives/own_car.h"
 #include "scenarios/drives/told_story.h"
@@ -22,6 +22,7 @@ Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route)
     if (drive.daylight != Daylight{})
         add_far_ground(scene);
     lay_on_route(drive, route);
+    simulate_bus(drive, route);
     fit_to_route(drive, route);
     simulate(drive, route);
     place_traffic(drive, network, route);

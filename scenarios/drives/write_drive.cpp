@@ -1,5 +1,6 @@
 #include "scenarios/drives/drive.h"
 
+#include "scenarios/drives/bus_keys.h"
 #include "scenarios/drives/control_keys.h"
 #include "scenarios/drives/daylight_keys.h"
 #include "scenarios/drives/flow_list.h"
@@ -366,6 +367,7 @@ std::string write_drive(const Drive& drive) {
     if (drive.vehicle)
         write_vehicle(out, *drive.vehicle);
     write_variants(out, drive);
+    out.add_all(write_can(drive));
     write_traffic(out, drive);
     write_views(out, drive);
     write_scenery(out, drive);

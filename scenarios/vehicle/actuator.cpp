@@ -141,6 +141,8 @@ void Actuator::advance(double until_s) {
     }
 }
 
+const ActuatorRun& Actuator::so_far() const { return parts_->run; }
+
 ActuatorRun Actuator::take() {
     parts_->run.work = parts_->integrator.work();
     return std::move(parts_->run);

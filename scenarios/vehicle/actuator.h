@@ -34,6 +34,8 @@ class Actuator {
     void jam(bool jammed);
     /// Throws InputError when the solver gives up.
     void advance(double until_s);
+    /// The motion until now, without the work. Before the first advance() its path has no steps.
+    const ActuatorRun& so_far() const;
     /// The motion until now; the actuator is used up.
     ActuatorRun take();
 

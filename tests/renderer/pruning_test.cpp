@@ -1,7 +1,7 @@
 // Leaving out what a moment does not need must not change a bit; switching it on must change a pixel, and off must save work.
 #include "renderer/renderer.h"
 #include "scenarios/drives/advance.h"
-#include "scenarios/drives/control_world.h"
+#include "scenarios/drives/control_play.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/drives/staged_scene.h"
 #include "scenarios/drives/tell_story.h"

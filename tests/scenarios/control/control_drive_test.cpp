@@ -1,7 +1,7 @@
 // Lamp control in drives: what is read is written back, what is wrong is refused, and moments have what the laws did.
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/advance.h"
-#include "scenarios/drives/control_world.h"
+#include "scenarios/drives/control_play.h"
 #include "scenarios/drives/motion.h"
 #include "scenarios/traffic/place_traffic.h"
 #include "scenarios/values/errors.h"

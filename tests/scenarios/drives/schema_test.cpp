@@ -46,6 +46,7 @@ TEST_F(Schema, PassesResolvedDrives) {
 
 /// Good or bad, schema and reader must agree.
 TEST_F(Schema, AgreesWithTheReader) {
+    write_file(folder / "bus.dbc", "VERSION \"\"\n");
     const std::vector<std::string> endings = {
         "",
         "rate_hz: 60",
@@ -163,6 +164,27 @@ TEST_F(Schema, AgreesWithTheReader) {
         "measure: {glare: {mirrors: true, equation: cie-general, age_years: 101}}",
         "measure: {glare: {mirrors: true, limits_de_boer: [10]}}",
         "measure: {glare: {mirrors: true, pigmentation: 1.2, adaptation_cdm2: 0}}",
+        "can: {databases: bus.dbc, inputs: {ego.speed_mps: A.B}}",
+        "can: {databases: [bus.dbc, bus.dbc], outputs: {A.B: ego.speed_mps}}",
+        "can: {databases: bus.dbc}",
+        "can: {inputs: {ego.speed_mps: A.B}}",
+        "can: {databases: bus.dbc, inputs: {}}",
+        "can: {databases: bus.dbc, inputs: {ego.speed_mps: A}}",
+        "can: {databases: bus.dbc, inputs: {ego.speed_mps: A.B.C}}",
+        "can: {databases: bus.dbc, inputs: {ego.speed_mps: {signal: A.B, stale: hold, missing: fail, out_of_range: lost}}}",
+        "can: {databases: bus.dbc, inputs: {ego.speed_mps: {signal: A.B, stale: keep}}}",
+        "can: {databases: bus.dbc, inputs: {ego.speed_mps: {stale: hold}}}",
+        "can: {databases: bus.dbc, inputs: {ego.speed_mps: {signal: A.B, stale_after_s: 0}}}",
+        "can: {databases: bus.dbc, inputs: {ego.speed_mps: {signal: A.B, factor: 0}}}",
+        "can: {databases: bus.dbc, inputs: {ego.indicator: {signal: A.B, values: {left: 1, none: 0}}}}",
+        "can: {databases: bus.dbc, outputs: {A: ego.speed_mps}}",
+        "can: {databases: bus.dbc, outputs: {A.B: {signal: ego.speed_mps, cycle_s: 0.1, offset: 1}}}",
+        "can: {databases: bus.dbc, outputs: {A.B: {signal: ego.speed_mps, cycle_s: 0}}}",
+        "can: {databases: bus.dbc, log: none, inputs: {ego.speed_mps: A.B}}",
+        "can: {databases: bus.dbc, log: low.ies, start: 12.5, inputs: {ego.speed_mps: A.B}}",
+        "can: {databases: bus.dbc, log: low.ies, start: -1, inputs: {ego.speed_mps: A.B}}",
+        "can: {databases: bus.dbc, log: low.ies, start: '1436509052.249713', channel: can0, inputs: {ego.speed_mps: A.B}}",
+        "can: {database: bus.dbc, inputs: {ego.speed_mps: A.B}}",
         "limits: []",
         "limits: [{reading: x}]",
         "limits: [{reading: x, at_least: 3}]",
@@ -231,6 +253,10 @@ TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
     std::filesystem::create_directories(folder / "library/models");
     std::filesystem::copy_file(scenarios / "library/models/shelter.gltf", folder / "library/models/shelter.gltf",
                                std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::create_directories(folder / "library/can");
+    for (const char* const file : {"mock-up.dbc", "s-bend.log"})
+        std::filesystem::copy_file(scenarios / "library/can" / file, folder / "library/can" / file,
+                                   std::filesystem::copy_options::overwrite_existing);
     const std::string example = content(scenarios / "drive.example.yaml");
     ASSERT_EQ(refusal(example), "not refused");
     const std::regex key(R"(\b([a-z_]{4,})(: ))");

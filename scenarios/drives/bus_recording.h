@@ -1,0 +1,18 @@
+// What a bus would carry if a drive's own script were the car: the recording that a drive with `can` is played by.
+#pragma once
+
+#include "scenarios/drives/drive.h"
+
+namespace fernlicht {
+
+struct CanFrame;
+
+/// The inputs of the drive's mapping the other way round: at each tick of control the values that the drive's own world and script give the
+/// signal table, encoded into the messages that the inputs come from (`also` too), at the messages' cycle times, or at the control period.
+/// Stamped from the drive's 0 s, in order of time. `drive`: staged with `can` played by the script (BusMapping::scripted); the variant has
+/// been simulated with it. Throws InputError for a drive without inputs and what mapping and databases lack. `notes` gets what was cut to
+/// the range of a signal.
+std::vector<CanFrame> recorded_inputs(const Drive& drive, const Route& route, const Variant& variant, FilesRead& opened,
+                                      std::vector<std::string>& notes);
+
+} // namespace fernlicht

@@ -1,0 +1,155 @@
+// What lamp control sends: when, with which bytes, and what happens to values that do not fit.
+#include "scenarios/can/bus_outputs.h"
+#include "scenarios/can/candump_log.h"
+#include "scenarios/values/errors.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::int64_t ms = 1'000'000;
+
+CanSignal signal_of(const char* name, std::uint16_t start, std::uint16_t length, double factor, const char* unit) {
+    CanSignal made;
+    made.name = name;
+    made.start_bit = start;
+    made.length = length;
+    made.factor = factor;
+    made.unit = unit;
+    return made;
+}
+
+/// Status, every 50 ms: multiplexed by Lamp; Level on both pages. State, no cycle: Mode with labels.
+CanDatabase lamps() {
+    CanMessage status;
+    status.id = 0x210;
+    status.name = "Status";
+    status.length = 4;
+    status.cycle_s = 0.05;
+    CanSignal lamp = signal_of("Lamp", 0, 8, 1.0, "");
+    lamp.multiplexor = true;
+    CanSignal left = signal_of("Left", 8, 16, 0.01, "deg");
+    left.is_signed = true;
+    left.minimum = -15.0;
+    left.maximum = 15.0;
+    left.multiplexed_by = "Lamp";
+    left.multiplexed_when = {{0, 0}};
+    CanSignal right = left;
+    right.name = "Right";
+    right.multiplexed_when = {{3, 3}};
+    CanSignal level = signal_of("Level", 24, 8, 0.5, "%");
+    level.start_value = 20.0;
+    status.signals = {lamp, left, right, level};
+    CanMessage state;
+    state.id = 0x18ff2011;
+    state.extended = true;
+    state.name = "State";
+    state.length = 1;
+    CanSignal mode = signal_of("Mode", 0, 8, 1.0, "");
+    mode.labels = {{7, "country"}, {9, "town"}};
+    state.signals = {mode};
+    CanDatabase database;
+    database.file = "lamps.dbc";
+    database.messages = {status, state};
+    return database;
+}
+
+BusOutput output(const char* message, const char* signal, const char* name) {
+    BusOutput made;
+    made.target = {message, signal};
+    made.name = name;
+    made.where = {"drive.yaml", 9, 5, std::string("can.outputs.") + message + "." + signal};
+    return made;
+}
+
+std::vector<std::string> lines(const std::vector<CanFrame>& frames) {
+    std::vector<std::string> lines;
+    for (const CanFrame& frame : frames)
+        lines.push_back(candump_line(frame));
+    return lines;
+}
+
+TEST(BusOutputs, SendEachMessageAtItsCycleWithWhatHeldThen) {
+    SignalTable table({"left", "right"});
+    BusMapping mapping;
+    mapping.channel = "vcan0";
+    mapping.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Right", "lamp.right.swivel_rad"),
+                       output("Status", "Level", "lamp.left.level")};
+    BusOutputs outputs(mapping, {lamps()}, table);
+    EXPECT_EQ(outputs.next_ns(), 0);
+    table.of(0, lamp_signal::swivel) = 0.017453292519943295 * 1.5;  // 150 = 0x0096
+    table.of(1, lamp_signal::swivel) = 0.017453292519943295 * -2.0; // -200 = 0xff38
+    outputs.set(table);
+    EXPECT_THAT(lines(outputs.due(0)), ElementsAre("(0000000000.000000) vcan0 210#009600C8", "(0000000000.000000) vcan0 210#0338FFC8"));
+    EXPECT_EQ(outputs.next_ns(), 50 * ms);
+    EXPECT_THAT(outputs.due(49 * ms), IsEmpty());
+    table.of(0, lamp_signal::level) = 0.5; // 50 % is 100 = 0x64
+    EXPECT_EQ(lines(outputs.due(50 * ms)).front(), "(0000000000.050000) vcan0 210#009600C8") << "not told yet";
+    outputs.set(table);
+    EXPECT_EQ(lines(outputs.due(150 * ms)).back(), "(0000000000.150000) vcan0 210#0338FF64");
+    EXPECT_EQ(outputs.sent(), 8U);
+    EXPECT_THAT(outputs.notes(), IsEmpty());
+}
+
+TEST(BusOutputs, CutsWhatDoesNotFitAndKeepsWhatIsLost) {
+    SignalTable table({"left", "right"});
+    BusMapping mapping;
+    mapping.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Level", "lamp.left.level")};
+    BusOutputs outputs(mapping, {lamps()}, table);
+    EXPECT_EQ(lines(outputs.due(0)).front(), "(0000000000.000000) can0 210#00000014") << "start values before anything is known";
+    table.of(0, lamp_signal::swivel) = 1.0; // 57 degrees of at most 15
+    table.of(0, lamp_signal::level) = std::nan("");
+    outputs.set(table);
+    EXPECT_EQ(lines(outputs.due(50 * ms)).front(), "(0000000000.050000) can0 210#00DC0514");
+    EXPECT_THAT(outputs.notes(),
+                ElementsAre("Status.Left of lamp.left.swivel_rad was beyond -15 to 15 in 1 frames of those sent, and cut to that",
+                            "Status.Level of lamp.left.level was lost in 1 frames of those sent, which repeat what was sent before"));
+}
+
+TEST(BusOutputs, SendLabelsOfTheNearestValue) {
+    SignalTable table({"left"});
+    BusMapping mapping;
+    mapping.outputs = {output("State", "Mode", "control.mode")};
+    mapping.outputs.front().values = {{"country", 0.0}, {"town", 1.0}};
+    mapping.outputs.front().cycle_s = 0.1;
+    BusOutputs outputs(mapping, {lamps()}, table);
+    outputs.set(table);
+    EXPECT_EQ(lines(outputs.due(0)).front(), "(0000000000.000000) can0 18FF2011#07");
+    table[signal::control_mode] = 1.0;
+    outputs.set(table);
+    EXPECT_EQ(lines(outputs.due(100 * ms)).front(), "(0000000000.100000) can0 18FF2011#09");
+}
+
+TEST(BusOutputs, AreRefusedWhereNothingSaysHow) {
+    const SignalTable table({"left"});
+    const auto refused = [&](std::vector<BusOutput> wanted) {
+        BusMapping mapping;
+        mapping.outputs = std::move(wanted);
+        try {
+            BusOutputs(mapping, {lamps()}, table);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("not refused");
+    };
+    EXPECT_EQ(refused({output("State", "Mode", "control.mode")}), "drive.yaml:9:5: can.outputs.State.Mode: message 'State' without a cycle "
+                                                                  "time, expected GenMsgCycleTime in its database, or cycle_s");
+    EXPECT_THAT(refused({output("Status", "Lamp", "control.mode")}), HasSubstr("multiplexor 'Status.Lamp'"));
+    EXPECT_THAT(refused({output("Status", "Level", "lamp.left.swivel_rad")}),
+                HasSubstr("unit '%' of signal 'Level', expected one that fits 'rad'"));
+    EXPECT_THAT(refused({output("Status", "Level", "lamp.middle.level")}), HasSubstr("no signal 'lamp.middle.level'"));
+    EXPECT_THAT(refused({output("Statos", "Level", "lamp.left.level")}), HasSubstr("nearest: 'Status'"));
+    BusOutput quick = output("Status", "Level", "lamp.left.level"), slow = output("Status", "Left", "lamp.left.swivel_rad");
+    quick.cycle_s = 0.01;
+    slow.cycle_s = 0.02;
+    EXPECT_THAT(refused({quick, slow}), HasSubstr("another cycle of message 'Status' than before"));
+}
+
+} // namespace
+} // namespace fernlicht
