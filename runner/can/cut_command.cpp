@@ -70,6 +70,8 @@ class Cut {
                }));
     }
 
+    bool asks_for_times() const { return from_ || to_; }
+
     bool keeps_channel(const std::string& channel) const {
         return channels_.empty() ||
                std::ranges::any_of(channels_, [&](const ChannelFilter& one) { return one.channel == "any" || one.channel == channel; });
@@ -104,6 +106,8 @@ int cut_log(const CutFlags& flags) {
     std::optional<std::int64_t> last_kept_ns; // of a log with delta stamps
     for (CandumpStream::What what; (what = stream.next()) != CandumpStream::What::end;) {
         bool keep = kept; // an explanation goes with its frame
+        if (what == CandumpStream::What::frame && cut.asks_for_times() && log.line().style.stamp_digits == 0)
+            throw InputError({log.path(), log.line_number(), 0, {}}, "found a frame without a stamp", "stamps to cut by --from and --to");
         if (what == CandumpStream::What::frame)
             keep = kept = cut.keeps(log.line().frame) != flags.inverted;
         else if (what == CandumpStream::What::lost)

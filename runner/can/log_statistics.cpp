@@ -161,19 +161,17 @@ void LogStatistics::add(const CanFrame& frame, bool stamped, std::optional<bool>
 
 void LogStatistics::lost(const std::string& name, std::uint64_t frames) { channel(name).all.lost += frames; }
 
-std::vector<ChannelStatistics> LogStatistics::take() {
+std::vector<ChannelStatistics> LogStatistics::so_far() const {
     std::vector<ChannelStatistics> out;
-    for (auto& [name, one] : channels_) {
-        for (auto& [key, id] : one.ids)
-            one.all.ids.push_back(std::move(id));
-        std::ranges::sort(one.all.ids, [](const IdStatistics& a, const IdStatistics& b) {
+    for (const auto& [name, one] : channels_) {
+        ChannelStatistics& all = out.emplace_back(one.all);
+        for (const auto& [key, id] : one.ids)
+            all.ids.push_back(id);
+        std::ranges::sort(all.ids, [](const IdStatistics& a, const IdStatistics& b) {
             return std::tuple(a.extended, a.id, a.remote) < std::tuple(b.extended, b.id, b.remote);
         });
-        one.all.step_ns = one.step_ns > 1000 && 2 * one.equal_stamps > one.all.frames ? one.step_ns : 0;
-        out.push_back(std::move(one.all));
+        all.step_ns = one.step_ns > 1000 && 2 * one.equal_stamps > all.frames ? one.step_ns : 0;
     }
-    channels_.clear();
-    last_ = nullptr;
     return out;
 }
 

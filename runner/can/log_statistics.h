@@ -90,8 +90,8 @@ class LogStatistics {
     /// `stamped`: the frame's time counts. `sent`: as CandumpStyle has it.
     void add(const CanFrame& frame, bool stamped, std::optional<bool> sent);
     void lost(const std::string& channel, std::uint64_t frames);
-    /// By name of the channel. What was added is moved out.
-    std::vector<ChannelStatistics> take();
+    /// What was added so far, by name of the channel.
+    std::vector<ChannelStatistics> so_far() const;
 
   private:
     struct Channel {

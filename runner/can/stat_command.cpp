@@ -23,6 +23,7 @@ struct StatFlags {
     std::vector<std::string> files;
     LogFlags log;
     StatisticsOptions options;
+    std::string every; ///< seconds; "": at the end alone
     bool json = false;
 };
 
@@ -226,8 +227,24 @@ void check_stat_flags(const StatFlags& flags) {
         refuse_flag("--gap", fmt::format("{}", flags.options.gap_factor), "a factor above 1");
 }
 
+/// False: nobody reads any more.
+bool print_statistics(const LogStatistics& statistics, const StatFlags& flags, bool last) {
+    const std::vector<ChannelStatistics> channels = statistics.so_far();
+    LineOutput out({});
+    if (flags.json)
+        out.text() =
+            statistics_json(channels, flags).dump(flags.every.empty() ? 2 : -1, ' ', false, StatJson::error_handler_t::replace) + "\n";
+    else
+        out.text() = (channels.empty() ? "no frames\n" : statistics_text(channels, flags)) + (last ? "" : "\n");
+    return out.flush();
+}
+
 int show_statistics(const StatFlags& flags) {
     check_stat_flags(flags);
+    const std::int64_t every_ns = flags.every.empty() ? 0 : nanoseconds_of("--every", flags.every);
+    if (!flags.every.empty() && every_ns == 0)
+        refuse_flag("--every", flags.every, "seconds above 0");
+    std::optional<std::int64_t> printed_ns;
     LogStatistics statistics(flags.options);
     for (const std::string& file : flags.files) {
         LenientStream stream(file, flags.log);
@@ -240,17 +257,21 @@ int show_statistics(const StatFlags& flags) {
                 statistics.add(log.line().frame, log.line().style.stamp_digits > 0, log.line().style.sent);
             else if (what == CandumpStream::What::lost)
                 statistics.lost(log.lost().channel, log.lost().frames);
+            if (every_ns == 0 || what != CandumpStream::What::frame)
+                continue;
+            const std::int64_t now_ns = log.line().frame.time_ns;
+            if (!printed_ns)
+                printed_ns = now_ns;
+            if (now_ns - *printed_ns < every_ns)
+                continue;
+            printed_ns = now_ns;
+            if (!print_statistics(statistics, flags, false))
+                return 0;
         }
         if (interruption && Interruption::asked())
             break;
     }
-    const std::vector<ChannelStatistics> channels = statistics.take();
-    LineOutput out({});
-    if (flags.json)
-        out.text() = statistics_json(channels, flags).dump(2, ' ', false, StatJson::error_handler_t::replace) + "\n";
-    else
-        out.text() = channels.empty() ? "no frames\n" : statistics_text(channels, flags);
-    out.flush();
+    print_statistics(statistics, flags, true);
     return 0;
 }
 
@@ -263,7 +284,8 @@ void add_can_stat(CLI::App& can, std::function<int()>& chosen) {
     sub->add_option("--bitrate", flags->options.bitrate, "of the bus, in bit/s: tells its load");
     sub->add_option("--data-bitrate", flags->options.data_bitrate, "of CAN FD with bit rate switch, in bit/s (as --bitrate)");
     sub->add_option("--gap", flags->options.gap_factor, "a gap is a period longer than so many medians (3)");
-    sub->add_flag("--json", flags->json, "prints JSON");
+    sub->add_option("--every", flags->every, "prints what came so far whenever so many seconds have passed by the stamps, too");
+    sub->add_flag("--json", flags->json, "prints JSON; with --every one line each");
     add_log_flags(*sub, flags->log);
     sub->callback([flags, &chosen] { chosen = [flags] { return show_statistics(*flags); }; });
 }

@@ -43,7 +43,7 @@ bool is_drop_count(std::string_view rest, CandumpStream::Lost& lost) {
     if (!take_text(rest, " on '"))
         return false;
     const std::size_t quote = rest.find('\'');
-    if (quote == std::string_view::npos || quote > 15)
+    if (quote > 15) // npos, too
         return false;
     lost.channel.assign(rest, 0, quote);
     rest.remove_prefix(quote);
@@ -129,7 +129,7 @@ bool CandumpStream::fetch_line() {
     std::size_t searched = 0;
     for (;;) {
         const std::size_t end = rest_.find('\n', searched);
-        if (end != std::string_view::npos && end <= longest_line) {
+        if (end <= longest_line) { // not npos
             text_ = rest_.substr(0, end);
             rest_.remove_prefix(end + 1);
             ended_ = true;

@@ -96,6 +96,8 @@ TEST(CanCut, RefusesInOneSentence) {
     refused("convert -t d " + log, "-t: found 'd', expected a or z in the log form");
     refused("convert -a " + log, "with it: the log form has one look");
     refused("convert --out " + log + " " + log, "a.log is there already, expected a new file, or --force");
+    refused("cut --to 5 " + written(folder, "none.txt", "  can0  123   [0] \n"),
+            "none.txt:1: found a frame without a stamp, expected stamps to cut by");
     refused("", "A subcommand is required");
 }
 
@@ -190,6 +192,19 @@ TEST(CanStat, CountsAsByHand) {
     EXPECT_THAT(page, HasSubstr("3 frames lost by the socket that was logged"));
     EXPECT_THAT(page, HasSubstr("1 error frame: controller-problem 1, bus-off 1"));
     EXPECT_THAT(page, HasSubstr("--81"));
+}
+
+TEST(CanStat, TellsWhatCameSoFar) {
+    const TemporaryFolder folder;
+    std::string text;
+    for (int i = 0; i < 100; ++i)
+        text += candump_line({.time_ns = 1'000'000'000 + i * 100'000'000LL, .channel = "can0", .id = 1}) + "\n";
+    std::istringstream lines(told(folder, "can stat --json --every 2.5 " + written(folder, "a.log", text)));
+    std::vector<int> frames;
+    for (std::string line; std::getline(lines, line);)
+        frames.push_back(nlohmann::json::parse(line)["channels"][0]["frames"]);
+    EXPECT_THAT(frames, testing::ElementsAre(26, 51, 76, 100));
+    EXPECT_EQ(run_program("can stat --every 0 " + (folder / "a.log")).exit_code, 2);
 }
 
 TEST(CanStat, CountsLogsWithoutStampsAndNothing) {
