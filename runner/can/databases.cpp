@@ -59,7 +59,7 @@ const CanMessage& Databases::named(const std::string& name) const {
     }
     const std::string near = nearest_name(name, names);
     throw InputError({databases_.empty() ? std::filesystem::path() : databases_.front().file, 0, 0, {}},
-                     fmt::format("no message '{}' among {}", printable(name), names.size()), near.empty() ? "" : near);
+                     fmt::format("found no message '{}' among {}", printable(name), names.size()), near.empty() ? "" : near);
 }
 
 Selection::Selection(const std::vector<std::string>& names, const Databases& databases) {

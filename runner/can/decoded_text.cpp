@@ -10,7 +10,7 @@ void append_readable(std::string& out, const CanValue& value) {
     if (std::trunc(value.physical) == value.physical) // of factors such as 0.5, too, as long as nothing is behind the point
         out += exact_text(value);
     else
-        fmt::format_to(std::back_inserter(out), "{:.12g}", value.physical);
+        fmt::format_to(std::back_inserter(out), "{:.{}g}", value.physical, value.signal->kind == CanValueKind::float32 ? 7 : 12);
 }
 
 void append_decoded(std::string& out, const CanMessage& message, std::span<const CanValue> values, bool single_line, bool numbers) {

@@ -9,7 +9,7 @@
 
 namespace fernlicht {
 
-/// A number for eyes: whole numbers exactly, others with twelve digits.
+/// A number for eyes: whole numbers exactly, others with twelve digits, floats of 32 bits with their seven.
 void append_readable(std::string& out, const CanValue& value);
 
 /// Behind the frame's line: " ::" and "Name(", a signal a line, ")"; or all behind it on the same line. Without line end.

@@ -20,7 +20,7 @@ struct EncodeFlags {
     std::vector<std::string> words; ///< message, then SIGNAL=VALUE; or - for JSON
     std::string channel, stamp, data, out;
     DatabaseFlags databases;
-    bool force = false;
+    bool force = false, lenient = false;
 };
 
 // Raw values of what was named; what the bytes before already mean keeps its bits, whichever of several they are (not a number, -0).
@@ -52,7 +52,7 @@ std::size_t fd_length(std::size_t bytes) {
 
 void fill_frame(CanFrame& frame, const CanMessage& message, const FrameJson& from) {
     if (frame.remote || frame.error)
-        throw InputError({{}, 0, 0, message.name}, "a remote or error frame with signals", "a data frame");
+        throw InputError({{}, 0, 0, message.name}, "found a remote or error frame with signals", "a data frame");
     if (from.has_data) {
         const std::span<std::uint8_t> bytes(frame.data.data(), frame.length);
         encode_raw_into(message, raw_values(message, from, bytes), bytes);
@@ -60,7 +60,8 @@ void fill_frame(CanFrame& frame, const CanMessage& message, const FrameJson& fro
     }
     const std::vector<std::uint8_t> bytes = encode_raw(message, raw_values(message, from, {}));
     if (bytes.size() > 64)
-        throw InputError({{}, 0, 0, message.name}, fmt::format("a message of {} bytes", bytes.size()), "at most 64, what a frame holds");
+        throw InputError({{}, 0, 0, message.name}, fmt::format("found a message of {} bytes", bytes.size()),
+                         "at most 64, what a frame holds");
     frame.fd = frame.fd || message.fd || bytes.size() > 8;
     frame.bit_rate_switch = frame.bit_rate_switch || message.bit_rate_switch;
     std::ranges::copy(bytes, frame.data.begin());
@@ -156,6 +157,18 @@ void take_data_flag(FrameJson& from, const EncodeFlags& flags, const Databases& 
     from.has_data = true;
 }
 
+void encode_line(std::string& out, std::string_view text, const InputError::Where& where, const Databases& databases,
+                 const EncodeFlags& flags) {
+    const FrameJson from = parse_frame_json(text, where);
+    if (!from.is_frame)
+        return;
+    try {
+        write_line(out, encoded(from, databases), flags, from);
+    } catch (const InputError& error) { // what does not fit knows its signal, not the line
+        throw InputError(where, error.what());
+    }
+}
+
 int encode_frames(const EncodeFlags& flags) {
     const Databases databases(flags.databases);
     LineOutput out(flags.out, flags.force);
@@ -175,16 +188,12 @@ int encode_frames(const EncodeFlags& flags) {
     while (lines.next()) {
         if (lines.text().find_first_not_of(" \t\r") == std::string_view::npos)
             continue;
-        const InputError::Where where{"standard input", lines.number(), 0, {}};
-        const FrameJson from = parse_frame_json(lines.text(), where);
-        if (!from.is_frame)
-            continue;
         try {
-            write_line(out.text(), encoded(from, databases), flags, from);
-        } catch (const InputError& error) { // the line of the signal that does not fit
-            if (error.where().line > 0)
+            encode_line(out.text(), lines.text(), {"standard input", lines.number(), 0, {}}, databases, flags);
+        } catch (const InputError& error) {
+            if (!flags.lenient)
                 throw;
-            throw InputError(where, error.what());
+            fmt::print(stderr, "fernlicht: skipped: {}\n", error.what());
         }
         if (lines.may_wait() ? !out.flush() : !out.written())
             return 0;
@@ -206,6 +215,7 @@ void add_can_encode(CLI::App& can, std::function<int()>& chosen) {
     sub->add_option("--channel", flags->channel, "writes a line of a log with this channel, in place of 123#1122 as cansend takes it");
     sub->add_option("--stamp", flags->stamp, "time of the line in a log, in s");
     sub->add_option("--data", flags->data, "bytes in which the signals are changed, in place of the message's start values");
+    sub->add_flag("--lenient", flags->lenient, "skip JSON lines of which no frame can be made, and tell them");
     sub->add_option("-o,--out", flags->out, "file in place of standard output");
     sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
     sub->callback([flags, &chosen] { chosen = [flags] { return encode_frames(*flags); }; });

@@ -155,7 +155,7 @@ int list_database(const ListFlags& flags) {
         flags.json ? print_message_json(message) : print_message(message, flags);
     }
     if (!found)
-        throw InputError({database.file, 0, 0, {}}, fmt::format("no message '{}' among {}", printable(flags.message), names.size()),
+        throw InputError({database.file, 0, 0, {}}, fmt::format("found no message '{}' among {}", printable(flags.message), names.size()),
                          nearest_name(flags.message, names));
     if (flags.notes)
         for (const std::string& note : database.notes)

@@ -24,12 +24,12 @@ std::string with_unix_line_ends(const std::string& text) {
 // UTF-8, and a note if a character's meaning hangs on the encoding.
 std::string decoded_dbc(const std::string& bytes, const std::filesystem::path& file, std::vector<std::string>& notes) {
     if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
-        throw InputError({file, 1, 0, {}}, "UTF-16", "UTF-8 or Windows-1252");
+        throw InputError({file, 1, 0, {}}, "found UTF-16", "UTF-8 or Windows-1252");
     const auto line_of = [&](std::size_t place) {
         return 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(place), '\n');
     };
     if (const std::size_t zero = bytes.find('\0'); zero != std::string::npos)
-        throw InputError({file, static_cast<std::size_t>(line_of(zero)), 0, {}}, "a zero byte", "the text of a DBC file");
+        throw InputError({file, static_cast<std::size_t>(line_of(zero)), 0, {}}, "found a zero byte", "the text of a DBC file");
     const bool marked = bytes.starts_with("\xEF\xBB\xBF");
     const auto beyond =
         std::find_if(bytes.begin() + (marked ? 3 : 0), bytes.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });

@@ -181,7 +181,7 @@ void DbcCursor::refuse(const std::string& expected) {
 }
 
 void DbcCursor::refuse_at(std::size_t line, const std::string& found, const std::string& expected) const {
-    throw InputError({file_, line, 0, {}}, found, expected);
+    throw InputError({file_, line, 0, {}}, "found " + found, expected);
 }
 
 } // namespace fernlicht

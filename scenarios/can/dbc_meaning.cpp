@@ -92,7 +92,7 @@ void DbcReading::note_absent(const char* keyword, const DbcObject& on) {
 }
 
 void DbcReading::refuse(std::size_t line, const std::string& found, const std::string& expected) const {
-    throw InputError({file, line, 0, {}}, found, expected);
+    throw InputError({file, line, 0, {}}, "found " + found, expected);
 }
 
 std::string dbc_signal_name(const DbcMessage& message, const DbcSignal& signal) {

@@ -45,7 +45,7 @@ void Chooser::choose(const CanSignal& by, const std::vector<const CanSignal*>& w
         for (const CanSignal* one : wanted)
             if (!lets_in(*one, named->second))
                 throw InputError(in_message(message, one->name),
-                                 fmt::format("a value, although {} = {} leaves the signal out", by.name, named->second),
+                                 fmt::format("found a value, although {} = {} leaves the signal out", by.name, named->second),
                                  fmt::format("{} = {}", by.name, one->multiplexed_when.empty() ? 0 : one->multiplexed_when.front().first));
         return;
     }
@@ -63,7 +63,7 @@ void Chooser::choose(const CanSignal& by, const std::vector<const CanSignal*>& w
         std::string names;
         for (const CanSignal* one : wanted)
             names += (names.empty() ? "" : ", ") + one->name;
-        throw InputError(in_message(message, by.name), fmt::format("no value that lets {} be in one frame", names),
+        throw InputError(in_message(message, by.name), fmt::format("found no value that lets {} be in one frame", names),
                          "signals that go together");
     }
     values[by.name] = *least;
@@ -99,14 +99,14 @@ void encode_raw_into(const CanMessage& message, const RawValues& raw, std::span<
             for (const CanSignal& one : message.signals)
                 names.push_back(one.name);
             const std::string near = nearest_name(name, names);
-            throw InputError({{}, 0, 0, message.name}, fmt::format("no signal '{}' in this message", printable(name)),
+            throw InputError({{}, 0, 0, message.name}, fmt::format("found no signal '{}' in this message", printable(name)),
                              near.empty() ? fmt::format("one of its {}", names.size()) : near);
         }
         if (bytes_to_hold(*signal) > bytes.size())
-            throw InputError(in_message(message, name), fmt::format("a signal that needs {} bytes", bytes_to_hold(*signal)),
+            throw InputError(in_message(message, name), fmt::format("found a signal that needs {} bytes", bytes_to_hold(*signal)),
                              fmt::format("at most {}, the message's length", bytes.size()));
         if ((value & ~all_bits(*signal)) != 0)
-            throw InputError(in_message(message, name), fmt::format("raw value {:#x}", value),
+            throw InputError(in_message(message, name), fmt::format("found raw value {:#x}", value),
                              fmt::format("at most {} bits", signal->length));
     }
     RawValues values = raw;
@@ -116,7 +116,7 @@ void encode_raw_into(const CanMessage& message, const RawValues& raw, std::span<
             write_bits(*signal, value, bytes);
     for (const auto& [name, value] : raw)
         if (const CanSignal* signal = message.signal(name); read_bits(*signal, bytes) != value)
-            throw InputError(in_message(message, name), "a signal whose bits another one of these values needs, too",
+            throw InputError(in_message(message, name), "found a signal whose bits another one of these values needs, too",
                              "signals that do not overlap, or agree");
 }
 

@@ -26,7 +26,7 @@ std::string raw_limit_text(const CanSignal& signal, WideWhole raw) {
     std::string a = raw_limit_text(signal, least_raw(signal)), b = raw_limit_text(signal, greatest_raw(signal));
     if (signal.factor < 0.0)
         std::swap(a, b);
-    throw InputError(in_signal(signal), found, fmt::format("{} to {}, which is what its {} bits hold", a, b, signal.length));
+    throw InputError(in_signal(signal), "found " + found, fmt::format("{} to {}, which is what its {} bits hold", a, b, signal.length));
 }
 
 std::uint64_t fitted(const CanSignal& signal, WideWhole raw, const std::string& found) {
@@ -58,7 +58,7 @@ std::uint64_t raw_of_floating(const CanSignal& signal, double physical) {
         return std::bit_cast<std::uint64_t>(unscaled);
     // Beyond halfway from the greatest float to the next there would be; a cast beyond the greatest is undefined.
     if (std::isfinite(unscaled) && std::abs(unscaled) >= 0x1.ffffffp127)
-        throw InputError(in_signal(signal), fmt::format("{}", physical), "a value that a float of 32 bits can hold");
+        throw InputError(in_signal(signal), fmt::format("found {}", physical), "a value that a float of 32 bits can hold");
     constexpr double greatest = std::numeric_limits<float>::max();
     if (std::isfinite(unscaled))
         return std::bit_cast<std::uint32_t>(static_cast<float>(std::clamp(unscaled, -greatest, greatest)));
@@ -71,8 +71,6 @@ std::string exact_text(const CanValue& value) {
     const CanSignal& signal = *value.signal;
     if (const auto exact = exact_whole(signal, value.raw))
         return decimal_text(*exact);
-    if (signal.kind == CanValueKind::float32 && signal.factor == 1.0 && signal.offset == 0.0)
-        return fmt::format("{}", std::bit_cast<float>(static_cast<std::uint32_t>(value.raw)));
     return fmt::format("{}", value.physical);
 }
 
@@ -81,7 +79,7 @@ std::uint64_t raw_of(const CanSignal& signal, double physical) {
         return raw_of_floating(signal, physical);
     const std::string found = fmt::format("{}", physical);
     if (!std::isfinite(physical))
-        throw InputError(in_signal(signal), found, "a number, because the signal is a whole one");
+        throw InputError(in_signal(signal), "found " + found, "a number, because the signal is a whole one");
     if (const auto whole = whole_below_62_bits(physical); whole && std::abs(physical) >= 0x1p53)
         return raw_of_whole(signal, *whole, found);
     const double raw = std::round((physical - signal.offset) / signal.factor);
@@ -96,7 +94,7 @@ std::uint64_t raw_of(const CanSignal& signal, std::string_view text) {
         if (label != text)
             continue;
         if (labelled)
-            throw InputError(in_signal(signal), fmt::format("'{}', which is the text of {} and {}", printable(label), *labelled, raw),
+            throw InputError(in_signal(signal), fmt::format("found '{}', which is the text of {} and {}", printable(label), *labelled, raw),
                              "a number");
         labelled = raw;
     }
@@ -118,7 +116,7 @@ std::uint64_t raw_of(const CanSignal& signal, std::string_view text) {
     for (const auto& entry : signal.labels)
         labels.push_back(entry.second);
     const std::string near = nearest_name(std::string(text), labels);
-    throw InputError(in_signal(signal), fmt::format("'{}'", found),
+    throw InputError(in_signal(signal), fmt::format("found '{}'", found),
                      labels.empty() ? "a number"
                      : near.empty() ? fmt::format("a number or one of the signal's {} labels", labels.size())
                                     : fmt::format("a number or a label, '{}' perhaps", printable(near)));

@@ -103,8 +103,9 @@ TEST_F(Codec, Floats) {
     EXPECT_TRUE(std::isnan(decode(read, encode(read, {{"A", none}})).at(0).physical));
     EXPECT_EQ(encode(read, {{"A", endless}}), (Bytes{0x7F, 0x80, 0, 0, 0, 0, 0, 0}));
     EXPECT_TRUE(decode(read, encode(read, {{"A", none}})).at(0).out_of_limits());
-    EXPECT_THAT(encode_refusal(read, {{"A", 1e39}}), HasSubstr("A: 1e+39, expected a value that a float of 32 bits can hold"));
-    EXPECT_EQ(exact_text(decode(read, encode(read, {{"A", 0.1}})).at(0)), "0.1");
+    EXPECT_THAT(encode_refusal(read, {{"A", 1e39}}), HasSubstr("A: found 1e+39, expected a value that a float of 32 bits can hold"));
+    // The float nearest to 0.1 is 13421773 / 2^27.
+    EXPECT_EQ(exact_text(decode(read, encode(read, {{"A", 0.1}})).at(0)), "0.10000000149011612");
     EXPECT_EQ(decode(read, encode(read, {{"A", 0.1}})).at(0).physical, static_cast<double>(0.1F));
 }
 
@@ -132,7 +133,7 @@ TEST_F(Codec, LabelsOfRawValues) {
         raw_of(read.signals[1], "nine");
         ADD_FAILURE();
     } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "B: 'nine', expected a number or a label, 'none' perhaps");
+        EXPECT_STREQ(error.what(), "B: found 'nine', expected a number or a label, 'none' perhaps");
     }
 }
 
@@ -142,12 +143,12 @@ TEST_F(Codec, ValuesRoundToTheNearestAndMustFit) {
     EXPECT_EQ(encode(read, {{"A", 0.34}})[0], 3);
     EXPECT_EQ(encode(read, {{"A", 0.36}})[0], 4);
     EXPECT_EQ(encode(read, {{"A", 25.54}})[0], 255);
-    EXPECT_EQ(encode_refusal(read, {{"A", 25.6}}), "A: 25.6, expected 0 to 25.5, which is what its 8 bits hold");
+    EXPECT_EQ(encode_refusal(read, {{"A", 25.6}}), "A: found 25.6, expected 0 to 25.5, which is what its 8 bits hold");
     EXPECT_EQ(encode(read, {{"B", -128.4}})[1], 0x80);
-    EXPECT_EQ(encode_refusal(read, {{"B", -129}}), "B: -129, expected -128 to 127, which is what its 8 bits hold");
-    EXPECT_THAT(encode_refusal(read, {{"B", std::nan("")}}), HasSubstr("B: nan, expected a number"));
+    EXPECT_EQ(encode_refusal(read, {{"B", -129}}), "B: found -129, expected -128 to 127, which is what its 8 bits hold");
+    EXPECT_THAT(encode_refusal(read, {{"B", std::nan("")}}), HasSubstr("B: found nan, expected a number"));
     EXPECT_THAT(encode_refusal(read, {{"B", 1e300}}), HasSubstr("-128 to 127"));
-    EXPECT_EQ(encode_refusal(read, {{"b", 1}}), "Lamp: no signal 'b' in this message, expected one of its 2");
+    EXPECT_EQ(encode_refusal(read, {{"b", 1}}), "Lamp: found no signal 'b' in this message, expected one of its 2");
 }
 
 TEST_F(Codec, SimpleMultiplexing) {
@@ -160,8 +161,9 @@ TEST_F(Codec, SimpleMultiplexing) {
     EXPECT_EQ(three[1].physical, 263.0);
     EXPECT_EQ(four.size(), 2U) << "only Mux and C";
     EXPECT_EQ(encode(read, {{"B", 263}, {"C", 5}}), (Bytes{0x53, 7, 1, 0, 0, 0, 0, 0})) << "the multiplexor follows what was named";
-    EXPECT_EQ(encode_refusal(read, {{"B", 1}, {"Mux", 0}}), "Lamp.B: a value, although Mux = 0 leaves the signal out, expected Mux = 3");
-    EXPECT_THAT(encode_refusal(read, {{"A", 1}, {"B", 0}}), HasSubstr("Lamp.Mux: no value that lets A, B be in one frame"));
+    EXPECT_EQ(encode_refusal(read, {{"B", 1}, {"Mux", 0}}),
+              "Lamp.B: found a value, although Mux = 0 leaves the signal out, expected Mux = 3");
+    EXPECT_THAT(encode_refusal(read, {{"A", 1}, {"B", 0}}), HasSubstr("Lamp.Mux: found no value that lets A, B be in one frame"));
 }
 
 TEST_F(Codec, CascadesOfMultiplexors) {
@@ -190,7 +192,7 @@ TEST_F(Codec, OverlappingSignalsMustAgree) {
     const CanMessage read = message(" SG_ A : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ B : 4|8@1+ (1,0) [0|0] \"\" X");
     EXPECT_EQ(encode(read, {{"A", 0x51}, {"B", 0x25}}), (Bytes{0x51, 0x02, 0, 0, 0, 0, 0, 0}));
     EXPECT_THAT(encode_refusal(read, {{"A", 0x51}, {"B", 0x24}}),
-                HasSubstr("Lamp.A: a signal whose bits another one of these values needs"));
+                HasSubstr("Lamp.A: found a signal whose bits another one of these values needs"));
 }
 
 TEST_F(Codec, RandomRawValuesComeBackFromEveryPlace) {
