@@ -82,7 +82,7 @@ Selection::Selection(const std::vector<std::string>& names, const Databases& dat
                 }
             }
         if (!found)
-            throw InputError({{}, 0, 0, "--only"}, fmt::format("'{}'", printable(text)),
+            throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}'", printable(text)),
                              "a message, a signal or MESSAGE.SIGNAL of the databases");
     }
 }

@@ -148,7 +148,7 @@ void take_data_flag(FrameJson& from, const EncodeFlags& flags, const Databases& 
         return;
     std::string json = "{\"data\":";
     append_json_text(json, flags.data);
-    const FrameJson data = parse_frame_json(json + "}", {{}, 0, 0, "--data"});
+    const FrameJson data = parse_frame_json(json + "}", {"--data", 0, 0, {}});
     const CanMessage& message = databases.named(from.message);
     from.line.frame.data = data.line.frame.data;
     from.line.frame.length = data.line.frame.length;

@@ -30,7 +30,7 @@ std::string listed_bits(const CanSignal& signal) {
 std::string listed_switch(const CanSignal& signal) {
     std::string out;
     if (!signal.multiplexed_by.empty()) {
-        out = " if " + signal.multiplexed_by + " = ";
+        out = "  if " + signal.multiplexed_by + " = ";
         bool first = true;
         for (const auto& [least, greatest] : signal.multiplexed_when) {
             out += first ? "" : ", ";
@@ -38,17 +38,17 @@ std::string listed_switch(const CanSignal& signal) {
             first = false;
         }
     }
-    return signal.multiplexor ? out + " multiplexor" : out;
+    return signal.multiplexor ? out + "  multiplexor" : out;
 }
 
 void print_signal(const CanSignal& signal, std::size_t columns, bool comments) {
-    std::string out = fmt::format("    {:{}}  {:10}", signal.name, columns, listed_bits(signal));
+    std::string out = fmt::format("    {:{}}  {}", signal.name, columns, listed_bits(signal));
     if (signal.factor != 1.0 || signal.offset != 0.0)
         fmt::format_to(std::back_inserter(out), "  * {} {} {}", signal.factor, signal.offset < 0.0 ? '-' : '+', std::abs(signal.offset));
     if (signal.has_limits())
         fmt::format_to(std::back_inserter(out), "  {} to {}", signal.minimum, signal.maximum);
     if (!signal.unit.empty())
-        out += " " + signal.unit;
+        out += "  " + signal.unit;
     out += listed_switch(signal);
     if (signal.start_value)
         fmt::format_to(std::back_inserter(out), "  starts raw {}", *signal.start_value);

@@ -129,6 +129,11 @@ TEST_F(Codec, LabelsOfRawValues) {
     EXPECT_EQ(decode(read, Bytes{3, 0}).at(0).label, nullptr);
     EXPECT_EQ(raw_of(read.signals[0], "lost"), 0xFFU);
     EXPECT_EQ(raw_of(read.signals[1], "none"), 0xFFU);
+    // A gear box whose raw 8 is the fourth gear: numbers are numbers.
+    const CanMessage gears = message(" SG_ A : 0|8@1+ (1,0) [0|0] \"\" X", "VAL_ 16 A 5 \"1\" 8 \"4\" 9 \"inf\" 10 \"R\" 11 \"R\" ;");
+    EXPECT_EQ(raw_of(gears.signals[0], "4"), 4U);
+    EXPECT_EQ(raw_of(gears.signals[0], "inf"), 9U);
+    EXPECT_THROW(raw_of(gears.signals[0], "R"), InputError) << "which?";
     try {
         raw_of(read.signals[1], "nine");
         ADD_FAILURE();
