@@ -58,23 +58,35 @@ bool any_number(const std::vector<std::optional<double>>& values) {
     return std::ranges::any_of(values, [](const auto& value) { return value.has_value(); });
 }
 
+std::vector<double> numbers(const std::vector<std::optional<double>>& values) {
+    std::vector<double> all;
+    for (const std::optional<double>& value : values)
+        if (value)
+            all.push_back(*value);
+    return all;
+}
+
+/// What was received may be anything: beyond the axis of what was used it is left out, and the band says why.
+plots::Polyline inside(const plots::Axis& axis, plots::Polyline line) {
+    for (plots::Point& point : line)
+        if (!(point.y >= axis.from && point.y <= axis.to))
+            point.y = no_value;
+    return line;
+}
+
 std::string signal_svg(const BusReport& bus, const BusSignalReport& signal) {
     plots::Figure figure;
     figure.title = short_text(signal.name, 60);
     figure.subtitle = short_text(signal.source + (signal.also.empty() ? "" : ", also " + signal.also), 80);
     figure.width_px = 640.0;
     figure.height_px = 260.0;
-    std::vector<double> all;
-    for (const auto* const values : {&signal.value, &signal.received})
-        for (const std::optional<double>& value : *values)
-            if (value)
-                all.push_back(*value);
     figure.x = time_axis(bus);
-    figure.y = plots::axis_around("value", signal.unit, all, plots::Scale::linear, true);
+    figure.y = plots::axis_around("value", signal.unit, numbers(any_number(signal.value) ? signal.value : signal.received),
+                                  plots::Scale::linear, true);
     add_state_bands(figure, signal, bus.end_s);
     const bool lone = bus.time_s.size() == 1, differs = signal.value != signal.received;
     if (differs && any_number(signal.received))
-        figure.series.push_back({"as received", bus_line(bus, signal.received), {150, 150, 150}, 1.2, "3 3", lone});
+        figure.series.push_back({"as received", inside(figure.y, bus_line(bus, signal.received)), {150, 150, 150}, 1.2, "3 3", lone});
     if (any_number(signal.value))
         figure.series.push_back({differs ? "as used" : "", bus_line(bus, signal.value), {30, 90, 150}, 2.0, "", lone});
     return plots::svg_of(figure);

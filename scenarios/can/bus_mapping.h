@@ -43,6 +43,7 @@ struct BusInput {
     /// What the bus says (a label of the signal's value table, or a physical value in digits) and its value, in place of factor and units;
     /// what is not listed is out of range. Empty: none.
     std::vector<std::pair<std::string, double>> values;
+    bool opposite = false;                        ///< the sign is turned round after all this
     std::optional<double> stale_after_s;          ///< since the last frame; nullopt: three cycles of the message, never if it has none
     std::array<BusPolicy, bus_states> policies{}; ///< by state; that of `fresh` is not used
     std::optional<double> fallback;               ///< `default`, in the table's unit; also what `hold` hands over before there was a value
@@ -54,6 +55,7 @@ struct BusInput {
 /// A signal of the table that is sent.
 struct BusOutput {
     BusSource target;
+    bool opposite = false;                              ///< the sign is turned round before all else
     std::string name;                                   ///< in the signal table
     std::optional<double> factor, offset;               ///< physical = factor * value + offset; nullopt: by the units of both
     std::vector<std::pair<std::string, double>> values; ///< as of an input; the one whose value is nearest is sent. Empty: none

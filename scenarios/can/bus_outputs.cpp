@@ -50,6 +50,7 @@ BusOutputs::BusOutputs(const BusMapping& mapping, std::vector<CanDatabase> datab
                              "a signal below it: the multiplexor follows");
         value.signal = found.signal->name;
         value.name = output.name;
+        value.opposite = output.opposite;
         value.values = resolve_values(output.values, *found.signal, output.where);
         // Written for what is sent: physical = factor * value + offset; a conversion goes the other way.
         if (output.factor || output.offset)
@@ -98,7 +99,7 @@ void BusOutputs::set(const SignalTable& table) {
     for (Sent& sent : messages_)
         for (Page& page : sent.pages)
             for (Value& value : page.values) {
-                const double now = table[value.place];
+                const double now = value.opposite ? 0.0 - table[value.place] : table[value.place];
                 value.lost = std::isnan(now);
                 if (value.lost)
                     continue;

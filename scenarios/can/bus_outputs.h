@@ -39,7 +39,7 @@ class BusOutputs {
         UnitConversion conversion;
         double least = 0.0, greatest = 0.0; ///< physical
         double now = 0.0;                   ///< physical
-        bool lost = false, beyond = false;
+        bool opposite = false, lost = false, beyond = false;
         std::uint64_t cut = 0, no_number = 0;
     };
     struct Page {                            ///< what one frame carries

@@ -110,6 +110,8 @@ void BusSignals::take(const CanFrame& frame) {
             const auto listed = std::ranges::find(reading.values, said->physical, &std::pair<double, double>::first);
             value = listed == reading.values.end() ? not_known : listed->second;
         }
+        if (inputs_[input].opposite)
+            value = 0.0 - value;
         in_range = in_range && value >= source.least && value <= source.greatest;
         const bool changed = reading.frames == 0 || reading.raw != said->raw;
         ++reading.frames;

@@ -47,13 +47,6 @@ BusSource source_from_key(const std::string& key, const YamlEntry& entry) {
     return {key.substr(0, dot), key.substr(dot + 1)};
 }
 
-/// Laws' own signals and what follows from others are not for a bus; commands, levels and measured angles of lamps are.
-bool may_come_from_bus(const SignalKind& kind) {
-    if (kind.name == "time_s" || kind.name == "lamp.*.segments_lit" || kind.name == "lamp.*.swivel_stuck")
-        return false;
-    return kind.name.starts_with("lamp.") || kind.writer != "laws";
-}
-
 const SignalKind& kind_named(const std::string& name, const YamlEntry& entry) {
     if (const SignalKind* const kind = known_signal(name))
         return *kind;
@@ -80,6 +73,7 @@ template <class Mapped> void read_scale(const YamlMap& keys, Mapped& mapped) {
         if (*mapped.factor == 0.0)
             factor->refuse("a number that is not 0");
     }
+    mapped.opposite = keys.flag_or("opposite", false);
     if (const auto offset = keys.find("offset"))
         mapped.offset = offset->number(-largest_factor, largest_factor);
     if (!mapped.values.empty() && (mapped.factor || mapped.offset))
@@ -99,8 +93,8 @@ BusInput read_bus_input(const std::string& name, const YamlEntry& entry) {
         input.source = read_source(entry);
         return input;
     }
-    const YamlMap keys = entry.map({"signal", "also", "tolerance", "factor", "offset", "values", "stale_after_s", "stale", "missing",
-                                    "out_of_range", "contradictory", "default"});
+    const YamlMap keys = entry.map({"signal", "also", "tolerance", "factor", "offset", "values", "opposite", "stale_after_s", "stale",
+                                    "missing", "out_of_range", "contradictory", "default"});
     input.source = read_source(keys.require("signal"));
     input.values = read_values(keys, kind);
     read_scale(keys, input);
@@ -137,7 +131,7 @@ BusOutput read_bus_output(const std::string& target, const YamlEntry& entry) {
         output.name = entry.text();
         kind_named(output.name, entry);
     } else {
-        const YamlMap keys = entry.map({"signal", "factor", "offset", "values", "cycle_s"});
+        const YamlMap keys = entry.map({"signal", "factor", "offset", "values", "opposite", "cycle_s"});
         const YamlEntry signal = keys.require("signal");
         output.name = signal.text();
         output.values = read_values(keys, kind_named(output.name, signal));
@@ -182,7 +176,8 @@ std::string values_text(const std::vector<std::pair<std::string, double>>& value
 
 template <class Mapped> std::string scale_text(const Mapped& mapped) {
     return (mapped.factor ? fmt::format(", factor: {}", *mapped.factor) : "") +
-           (mapped.offset ? fmt::format(", offset: {}", *mapped.offset) : "") + (mapped.values.empty() ? "" : values_text(mapped.values));
+           (mapped.offset ? fmt::format(", offset: {}", *mapped.offset) : "") + (mapped.values.empty() ? "" : values_text(mapped.values)) +
+           (mapped.opposite ? ", opposite: true" : "");
 }
 
 std::string stamp_text(std::int64_t ns) {
@@ -191,6 +186,12 @@ std::string stamp_text(std::int64_t ns) {
 }
 
 } // namespace
+
+bool may_come_from_bus(const SignalKind& kind) {
+    if (kind.name == "time_s" || kind.name == "lamp.*.segments_lit" || kind.name == "lamp.*.swivel_stuck")
+        return false;
+    return kind.name.starts_with("lamp.") || kind.writer != "laws";
+}
 
 std::optional<std::int64_t> stamp_from_text(const std::string& text) {
     const std::size_t dot = text.find('.');

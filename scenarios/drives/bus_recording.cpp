@@ -24,6 +24,7 @@ BusOutput turned_round(const BusInput& input, const BusSource& source, const std
     output.target = source;
     output.name = name;
     output.values = input.values;
+    output.opposite = input.opposite;
     output.where = input.where;
     if (input.factor || input.offset) {
         output.factor = 1.0 / input.factor.value_or(1.0);

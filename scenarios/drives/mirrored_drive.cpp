@@ -117,6 +117,8 @@ void mirror_traffic(Drive& drive, bool lamps) {
         change_sign(probe.left_m);
     }
     mirror(drive.seeing);
+    if (drive.can)
+        drive.can = std::make_shared<const BusMapping>(mirrored(*drive.can));
     for (PlacedModel& placed : drive.scenery) { // the model itself keeps its sides
         change_sign(placed.position_m.y);
         change_sign(placed.yaw_rad);

@@ -10,7 +10,7 @@ namespace fernlicht {
 /// Mirrors the drive's road and all that the drive places to the left or the right: views, probes, sensors, mirrors. With `lamps` the car's
 /// lamps too: tables, mounts, how they are turned aside, ranges of bend lighting; without, the car keeps the lamps that it has, made for
 /// the other side. Poles of street lamps go to the other side. Other road users go on the mirrored road with mirrored lamps. "left" and
-/// "right" change places in names and in readings that have limits.
+/// "right" change places in names and in readings that have limits, and signals from and to a bus point to the other side.
 void mirror_traffic(Drive& drive, bool lamps);
 
 /// The other sign, and never a negative zero, which files would show.

@@ -246,6 +246,14 @@ TEST(BusSignals, LabelsStandForValues) {
     EXPECT_EQ(said(3).state, BusState::out_of_range) << "nobody said what 3 is";
 }
 
+TEST(BusSignals, OppositeSignsTurnRound) {
+    BusInput input = speed_input();
+    input.opposite = true;
+    BusSignals bus = bus_of(input);
+    bus.take(ten_mps(0));
+    EXPECT_EQ(bus.at(0).front().value, -10.0);
+}
+
 TEST(BusSignals, DoublesThatAreNoNumbersAreOutOfRange) {
     BusInput input = speed_input();
     input.name = "ego.yaw_rate_rad_s";
