@@ -75,8 +75,9 @@ bool together(const DbcMessage& message, const CanSignal& a, const CanSignal& b)
 }
 
 void check_overlaps(DbcReading& reading, const DbcMessage& message) {
-    std::vector<std::vector<std::size_t>> holders; // by bit: signals that hold it
-    std::set<std::pair<std::size_t, std::size_t>> seen;
+    std::vector<std::vector<std::size_t>> holders;      // by bit: signals that hold it
+    std::set<std::pair<std::size_t, std::size_t>> seen; // a message of others has some thousands at most
+    constexpr std::size_t enough_pairs = 100'000;
     std::size_t overlaps = 0, line = 0;
     std::string first_pair;
     for (std::size_t i = 0; i < message.signals.size(); ++i) {
@@ -90,7 +91,8 @@ void check_overlaps(DbcReading& reading, const DbcMessage& message) {
             if (bit >= holders.size())
                 holders.resize(bit + 64);
             for (const std::size_t other : holders[bit]) {
-                if (!seen.insert({other, i}).second || !together(message, message.signals[other].signal, signal) || overlaps++ > 0)
+                if (seen.size() == enough_pairs || !seen.insert({other, i}).second ||
+                    !together(message, message.signals[other].signal, signal) || overlaps++ > 0)
                     continue;
                 line = message.signals[i].line;
                 first_pair = fmt::format("{} overlaps {}", dbc_signal_name(message, message.signals[i]),

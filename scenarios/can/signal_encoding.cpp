@@ -45,11 +45,12 @@ WideWhole rounded_quotient(WideWhole dividend, WideWhole divisor) {
     return dividend >= 0 ? (dividend + half) / divisor : -((-dividend + half) / divisor);
 }
 
-std::uint64_t raw_of_whole(const CanSignal& signal, WideWhole physical, const std::string& found) {
+// Without rounding through doubles; nullopt where factor and offset are not whole.
+std::optional<std::uint64_t> exact_raw(const CanSignal& signal, WideWhole physical, const std::string& found) {
     const auto factor = whole_below_62_bits(signal.factor), offset = whole_below_62_bits(signal.offset);
-    if (signal.kind == CanValueKind::whole && factor && offset)
-        return fitted(signal, rounded_quotient(physical - *offset, *factor), found);
-    return raw_of(signal, static_cast<double>(physical));
+    if (signal.kind != CanValueKind::whole || !factor || !offset)
+        return std::nullopt;
+    return fitted(signal, rounded_quotient(physical - *offset, *factor), found);
 }
 
 std::uint64_t raw_of_floating(const CanSignal& signal, double physical) {
@@ -99,8 +100,9 @@ std::uint64_t raw_of(const CanSignal& signal, double physical) {
     const std::string found = fmt::format("{}", physical);
     if (!std::isfinite(physical))
         throw InputError(in_signal(signal), "found " + found, "a number, because the signal is a whole one");
-    if (const auto whole = whole_below_62_bits(physical); whole && std::abs(physical) >= 0x1p53)
-        return raw_of_whole(signal, *whole, found);
+    if (std::trunc(physical) == physical && std::abs(physical) >= 0x1p53 && std::abs(physical) < 0x1p100)
+        if (const auto exact = exact_raw(signal, static_cast<WideWhole>(physical), found))
+            return *exact;
     const double raw = std::round((physical - signal.offset) / signal.factor);
     if (!(std::abs(raw) < 0x1p65))
         refuse_size(signal, found);
@@ -108,8 +110,10 @@ std::uint64_t raw_of(const CanSignal& signal, double physical) {
 }
 
 std::uint64_t raw_of(const CanSignal& signal, std::string_view text) {
-    if (const auto whole = parse_whole(text))
-        return raw_of_whole(signal, *whole, std::string(text));
+    if (const auto whole = parse_whole(text)) {
+        const auto exact = exact_raw(signal, *whole, std::string(text));
+        return exact ? *exact : raw_of(signal, static_cast<double>(*whole));
+    }
     double number = 0.0;
     const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
     const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);

@@ -156,6 +156,19 @@ TEST_F(Codec, ValuesRoundToTheNearestAndMustFit) {
     EXPECT_EQ(encode_refusal(read, {{"b", 1}}), "Lamp: found no signal 'b' in this message, expected one of its 2");
 }
 
+TEST_F(Codec, GreatValuesOfSignalsWithFractions) {
+    // 2^60 / 0.1 is 11529215046068469760, one of 64 bits without sign; the double quotient is exact to 53 bits.
+    const CanMessage read = message(" SG_ A : 0|64@1+ (0.1,0) [0|0] \"\" X");
+    EXPECT_EQ(raw_of(read.signals[0], 0x1p60), 11529215046068469760U);
+    EXPECT_EQ(raw_of(read.signals[0], "1152921504606846976"), 11529215046068469760U);
+    EXPECT_EQ(encode_refusal(read, {{"A", 0x1p61}}),
+              "A: found 2.305843009213694e+18, expected 0 to 1.8446744073709553e+18, which is what its 64 bits hold");
+    const CanMessage whole = message(" SG_ A : 0|64@1- (2,0) [0|0] \"\" X");
+    EXPECT_EQ(raw_of(whole.signals[0], 0x1p63), std::uint64_t{1} << 62);
+    EXPECT_EQ(raw_of(whole.signals[0], -0x1p64), std::uint64_t{1} << 63);
+    EXPECT_THAT(encode_refusal(whole, {{"A", 0x1p64}}), HasSubstr("expected -18446744073709551616 to 18446744073709551614"));
+}
+
 TEST_F(Codec, SimpleMultiplexing) {
     const CanMessage read = message(" SG_ Mux M : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ A m0 : 8|8@1+ (1,0) [0|0] \"\" X\n"
                                     " SG_ B m3 : 8|16@1+ (1,0) [0|0] \"\" X\n SG_ C : 4|4@1+ (1,0) [0|0] \"\" X");
