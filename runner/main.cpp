@@ -7,6 +7,7 @@
 #include "runner/compare_command.h"
 #include "runner/doctor_command.h"
 #include "runner/lamp_command.h"
+#include "runner/live/live_command.h"
 #include "runner/models/import_command.h"
 #include "runner/models/model_command.h"
 #include "runner/reference_command.h"
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     std::function<int()> chosen;
     fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_live_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_study_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_compare_command(app, chosen);

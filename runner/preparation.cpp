@@ -1,5 +1,6 @@
 #include "runner/preparation.h"
 
+#include "renderer/timer_check.h"
 #include "scenarios/drives/advance.h"
 
 #include <algorithm>
@@ -7,6 +8,26 @@
 #include <tuple>
 
 namespace fernlicht {
+
+RendererSettings settings_for(Device& device, bool profile) {
+    RendererSettings settings;
+    settings.profile = profile;
+    if (!device.info().software) {
+        settings.read_back = check_read_back(device).faster();
+        settings.gpu_clock = check_timer(device).agrees();
+    }
+    return settings;
+}
+
+RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
+    settings.technique = drive.technique;
+    settings.tone_mapper = drive.tone_mapper;
+    settings.beams = drive.beams;
+    settings.shadows = drive.shadows;
+    if (drive.extent)
+        settings.target_height_m = drive.extent->target_height_m;
+    return settings;
+}
 
 std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive) {
     std::vector<std::pair<View, Wanted>> pictures;

@@ -6,6 +6,11 @@
 
 namespace fernlicht {
 
+/// What suits the device, found out by trying it. `profile`: each pass is finished and timed.
+RendererSettings settings_for(Device& device, bool profile);
+/// The same with what the drive asks for.
+RendererSettings settings_for(const Drive& drive, RendererSettings settings);
+
 /// Every kind of picture that play() asks for: the drive's views, plain and stored, and the maps of extents and probes.
 std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive);
 

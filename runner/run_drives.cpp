@@ -2,7 +2,6 @@
 
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
-#include "renderer/timer_check.h"
 #include "runner/accuracy/drive_error.h"
 #include "runner/can/sent_log.h"
 #include "runner/cell_inputs.h"
@@ -36,27 +35,6 @@
 
 namespace fernlicht {
 namespace {
-
-/// What suits the device, found out by trying it.
-RendererSettings settings_for(Device& device, bool profile) {
-    RendererSettings settings;
-    settings.profile = profile;
-    if (!device.info().software) {
-        settings.read_back = check_read_back(device).faster();
-        settings.gpu_clock = check_timer(device).agrees();
-    }
-    return settings;
-}
-
-RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
-    settings.technique = drive.technique;
-    settings.tone_mapper = drive.tone_mapper;
-    settings.beams = drive.beams;
-    settings.shadows = drive.shadows;
-    if (drive.extent)
-        settings.target_height_m = drive.extent->target_height_m;
-    return settings;
-}
 
 std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, const Renderer& renderer) {
     std::vector<std::string> notes = stage.drive.notes;

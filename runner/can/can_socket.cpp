@@ -316,7 +316,8 @@ CanSocket::Went CanSocket::try_to_send(const CanFrame& frame) {
             ++figures_.no_room;
             return Went::later;
         }
-        // An interface that is down or away is receive()'s to wait for.
+        if (errno == ENETDOWN || errno == ENODEV || errno == ENXIO) // the kernel says it once, here or to receive(), which waits for it
+            losing_ = errno == ENETDOWN ? losing_.value_or(CanOutage::Kind::down) : CanOutage::Kind::removed;
         if (figures_.why_not_sent.empty())
             figures_.why_not_sent =
                 errno == EINVAL && frame.fd ? fmt::format("interface {} is not set up for CAN FD", options_.interface) : said(errno);

@@ -49,6 +49,9 @@ kainjow::mustache::data timing_table(const ComparedDrive& drive);
 /// How fast each lamp set was played beside what drawing alone takes.
 kainjow::mustache::data throughput_table(const ComparedDrive& drive);
 
+/// Punctuality and losses of a live run.
+kainjow::mustache::data live_part(const LiveFigures& live);
+
 /// Commands, versions, machine, input files.
 kainjow::mustache::data context_part(const RunContext& context);
 

@@ -12,6 +12,7 @@
 #include "runner/seeing/seeing_series.h"
 #include "scenarios/drives/frame.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -182,13 +183,15 @@ struct PlayedVariant {
     std::vector<std::string> notes;    ///< near-field, warnings of readers ...
 };
 
+struct LiveFigures;
 struct Report {
     RunContext context;
     std::vector<PlayedVariant> played;
     bool complete = true;
-    std::string interrupted;           ///< why not complete
-    std::vector<Verdict> listed;       ///< on the list of known failures itself: entries that are of no use any more
-    std::vector<std::string> warnings; ///< one sentence each
+    std::string interrupted;                           ///< why not complete
+    std::vector<Verdict> listed;                       ///< on the list of known failures itself: entries that are of no use any more
+    std::vector<std::string> warnings;                 ///< one sentence each
+    std::shared_ptr<const LiveFigures> live = nullptr; ///< how punctual a live run was and what it lost (live_figures.h); nullptr: none
 };
 
 /// The page shows this many moments of a drive: of all that are pictured, evenly spread, first and last among them.

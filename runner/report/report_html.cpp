@@ -121,6 +121,8 @@ std::string report_html(const Report& report, const std::filesystem::path& folde
     page.set("extent_table", std::string(report_file("extent_table.mustache")));
     page.set("verdict", verdict_part(report));
     page.set("drives", parts);
+    if (report.live)
+        page.set("live", live_part(*report.live));
     page.set("context", context_part(report.context));
     kainjow::mustache::mustache page_template{std::string(report_file("report.html.mustache"))};
     std::string html = page_template.render(page);

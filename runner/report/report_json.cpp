@@ -1,6 +1,7 @@
 #include "runner/accuracy/errors_json.h"
 #include "runner/bench/bench_result.h"
 #include "runner/context_json.h"
+#include "runner/live/live_figures.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
@@ -376,21 +377,23 @@ std::string report_json(const Report& report) {
     Json drives = Json::array();
     for (const PlayedVariant& played : report.played)
         drives.push_back(played_json(played));
-    const Json whole{{"schema", "fernlicht report"},
-                     {"schema_version", 1},
-                     {"verdict", verdict_name(overall(report))},
-                     {"verdict_counts", counts_json(count_verdicts(report))},
-                     {"known_failures", verdicts_json(report.listed)},
-                     {"warnings", report.warnings},
-                     {"complete", report.complete},
-                     {"interrupted", report.complete ? Json(nullptr) : Json(report.interrupted)},
-                     {"rows", rows_json(report)},
-                     {"drives", drives},
-                     {"context", context_json(report.context)},
-                     {"timing", timing_json(report)},
-                     {"throughput", throughput_json(report)},
-                     {"accuracy_times", accuracy_times_json(report)},
-                     {"savings", savings_json(report)}};
+    Json whole{{"schema", "fernlicht report"},
+               {"schema_version", 1},
+               {"verdict", verdict_name(overall(report))},
+               {"verdict_counts", counts_json(count_verdicts(report))},
+               {"known_failures", verdicts_json(report.listed)},
+               {"warnings", report.warnings},
+               {"complete", report.complete},
+               {"interrupted", report.complete ? Json(nullptr) : Json(report.interrupted)},
+               {"rows", rows_json(report)},
+               {"drives", drives},
+               {"context", context_json(report.context)},
+               {"timing", timing_json(report)},
+               {"throughput", throughput_json(report)},
+               {"accuracy_times", accuracy_times_json(report)},
+               {"savings", savings_json(report)}};
+    if (report.live)
+        whole["live"] = live_json(*report.live);
     return json_text(whole);
 }
 

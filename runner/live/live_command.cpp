@@ -1,0 +1,105 @@
+#include "runner/live/live_command.h"
+
+#include "runner/flag_values.h"
+#include "runner/live/live_run.h"
+#include "runner/output_folder.h"
+#include "runner/run_context.h"
+#include "scenarios/drives/bus_keys.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+constexpr int interrupted_code = 130; ///< as a shell has it for what SIGINT ended
+
+/// The flags as typed.
+struct Flags {
+    std::filesystem::path drive;
+    std::string interface, log, start, variant, record, resolution, backend = "auto", out;
+    double duration_s = 0.0, listen_s = 0.5;
+    int receive_buffer = 0;
+    bool no_wait = false, no_draw = false, lossless = false;
+};
+
+Drive drive_of(const Flags& flags) {
+    DriveEdits edits;
+    if (!flags.resolution.empty())
+        edits.resolution = resolution_of(flags.resolution);
+    edits.can_log = std::filesystem::path(flags.log); // of a drive that names a recording itself, too: it is not played
+    if (!flags.start.empty()) {
+        edits.can_start_ns = stamp_from_text(flags.start);
+        if (!edits.can_start_ns)
+            refuse_flag("--can-start", flags.start, "a stamp of the recording, e.g. 1436509052.249713");
+    }
+    Drive drive = read_drive(flags.drive, edits);
+    if (flags.duration_s > 0.0)
+        drive.duration_s = flags.duration_s;
+    return drive;
+}
+
+/// What a run without loss has none of.
+bool lost(const LiveFigures& live) {
+    return live.socket.dropped + live.socket.superseded + live.socket.not_sent + live.not_recorded > 0 || !live.socket.outages.empty();
+}
+
+int live(const Flags& flags, const std::vector<std::string>& command) {
+    if (flags.interface.empty() == flags.log.empty())
+        refuse_flag("--can", flags.interface, "an interface, or a recording by --can-log FILE; one of both");
+    if (flags.no_wait && flags.log.empty())
+        refuse_flag("--no-wait", "", "--can-log FILE: a bus cannot be hurried");
+    if (!flags.start.empty() && flags.log.empty())
+        refuse_flag("--can-start", flags.start, "--can-log FILE: the drive's 0 s on a bus is now");
+    LiveOptions options;
+    options.interface = flags.interface;
+    options.log = flags.log;
+    options.wait = !flags.no_wait;
+    options.variant = flags.variant;
+    options.listen_s = flags.listen_s;
+    options.receive_buffer_bytes = flags.receive_buffer;
+    options.record = flags.record;
+    options.draw = !flags.no_draw && !flags.no_wait;
+    options.backend = flags.backend;
+    options.command = command;
+    Drive drive = drive_of(flags);
+    options.folder = flags.out.empty() ? default_output_folder(drive.name, utc_now()) : std::filesystem::path(flags.out);
+    const Report report = run_live(std::move(drive), options);
+    fmt::print("{}", live_text(*report.live));
+    if (!report.live->replay.empty())
+        fmt::print("replay     {}\n", report.live->replay);
+    if (!report.complete)
+        fmt::print("incomplete: {}\n", report.interrupted);
+    fmt::print("{}\n", (options.folder / "report.html").string());
+    return !report.complete ? interrupted_code : flags.lossless && lost(*report.live) ? 1 : 0;
+}
+
+} // namespace
+
+void add_live_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand("live", "drive against the clock: inputs from a CAN bus, outputs onto it");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML) with the key `can`")->required();
+    sub->add_option("--can", flags->interface, "CAN interface of the kernel, e.g. can0 or vcan0");
+    sub->add_option("--can-log", flags->log, "a recording (candump) at its own pace, instead of an interface");
+    sub->add_option("--can-start", flags->start, "stamp of the recording that is the drive's 0 s");
+    sub->add_option("--duration", flags->duration_s, "seconds to drive, instead of the drive's own")->check(CLI::Range(0.01, 1.0e6));
+    sub->add_option("--variant", flags->variant, "which lamp set is driven, where there are several");
+    sub->add_option("--listen", flags->listen_s, "seconds to listen to the bus before 0 s")->check(CLI::Range(0.0, 3600.0));
+    sub->add_option("--record", flags->record, "file for the frames used, a candump log; default: in the report's folder");
+    sub->add_option("--receive-buffer", flags->receive_buffer,
+                    "bytes that the kernel may hold for the socket; default: 4 MiB where permitted")
+        ->check(CLI::Range(1, 1 << 30));
+    sub->add_flag("--no-draw", flags->no_draw, "no pictures; needs nothing that draws");
+    sub->add_flag("--no-wait", flags->no_wait, "of a recording: as fast as it goes, without pictures");
+    sub->add_flag("--lossless", flags->lossless,
+                  "exit code 1 when a frame was dropped, not sent or not recorded, or the interface was away");
+    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
+    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return live(*flags, command); }; });
+}
+
+} // namespace fernlicht
