@@ -135,12 +135,12 @@ case_outputs() {
     hold "250 + 100 frames" test "$(wc -l <"$scratch/sent")" = 350
     hold "swivel moved" test "$(grep -c '^201#0000' "$scratch/sent")" -lt 200
     hold "CAN FD" test "$(grep -c '^202##' "$scratch/sent")" = 100
-    # Cycle times by candump's stamps: mean exact, each as late as a tick at most.
+    # Cycle times by candump's stamps: exact but for how late the first and the last frame were, at most as late as a tick and 10 ms.
     awk '$3 ~ /^201#/ { t = substr($1, 2) + 0; if (n++) { d = t - last; s += d; if (d > most) most = d } last = t } END { printf "%.6f %.6f %d\n", s / (n - 1), most, n }' \
         "$scratch/candump.log" >"$scratch/cycle"
     read -r mean most count <"$scratch/cycle"
     figure "outputs: 201# every 20 ms: $count frames, mean $(awk -v x="$mean" 'BEGIN { printf "%.3f", 1000 * x }') ms, longest $(awk -v x="$most" 'BEGIN { printf "%.1f", 1000 * x }') ms; $(lateness outputs)"
-    hold "mean cycle" between "$mean" 0.0199 0.0201
+    hold "mean cycle" awk -v mean="$mean" -v late="$(late outputs max)" 'BEGIN { off = 1000 * mean - 20; exit !(249 * (off < 0 ? -off : off) <= late + 10) }'
     keep outputs
 }
 
