@@ -2,8 +2,11 @@
 #include "runner/live/live_figures.h"
 #include "runner/live/live_pictures.h"
 #include "runner/live/log_writer.h"
+#include "runner/report/report_writers.h"
 #include "scenarios/can/candump_log.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
+#include "tests/runner/schema_check.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -150,6 +153,13 @@ TEST(LiveFigures, JsonSaysWhatWasLost) {
     EXPECT_EQ(json["socket"]["outages"][0]["kind"], "down");
     EXPECT_TRUE(json["socket"]["outages"][1]["until_s"].is_null());
     EXPECT_EQ(json["pictures"]["skipped"], 8);
+    Report report;
+    report.live = std::make_shared<const LiveFigures>(sample_figures());
+    FilesRead opened;
+    tests::Schema schema(nlohmann::json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/report/report.schema.json", opened)));
+    EXPECT_THAT(schema.check(nlohmann::json::parse(report_json(report))), testing::IsEmpty());
+    EXPECT_THAT(report_html(report, {}), testing::AllOf(testing::HasSubstr("Interface removed at 0.90 s, until the end"),
+                                                        testing::HasSubstr("frames dropped by the socket")));
     EXPECT_THAT(live_text(sample_figures()), testing::HasSubstr("17 dropped by the socket"));
     EXPECT_THAT(live_text(sample_figures()),
                 testing::HasSubstr("interface down at 0.30 s for 0.50 s, interface removed at 0.90 s to the end"));

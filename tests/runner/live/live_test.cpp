@@ -1,5 +1,6 @@
 // `fernlicht live` from a recording at its own pace: what a machine without CAN in its kernel can show. On a bus: tests/can/cases.sh.
 #include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -82,6 +83,8 @@ TEST_F(Live, WithoutWaitingItCommandsTheSame) {
     EXPECT_TRUE(live["socket"].is_null());
     const Json report = Json::parse(content("paced/report.json"));
     EXPECT_EQ(report["live"], live);
+    tests::Schema schema(Json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/report/report.schema.json")));
+    EXPECT_THAT(schema.check(report), testing::IsEmpty());
     EXPECT_THAT(content("paced/report.html"), testing::AllOf(HasSubstr("How late ticks began"), HasSubstr("Lateness over the drive")));
 }
 
