@@ -15,7 +15,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_databases = 64, most_mapped = 1000, most_values = 1000;
+constexpr std::size_t most_databases = 64, most_mapped = 1000, most_listed_values = 1000;
 constexpr double largest_factor = 1.0e12, longest_stale_s = 1.0e6, longest_cycle_s = 1000.0, shortest_cycle_s = 1.0e-4;
 constexpr BusState policy_states[] = {BusState::stale, BusState::missing, BusState::out_of_range, BusState::contradictory};
 
@@ -61,7 +61,7 @@ const SignalKind& kind_named(const std::string& name, const YamlEntry& entry) {
 std::vector<std::pair<std::string, double>> read_values(const YamlMap& keys, const SignalKind& kind) {
     std::vector<std::pair<std::string, double>> values;
     if (const auto given = keys.find("values"))
-        for (const auto& [text, entry] : texts_of(*given, most_values))
+        for (const auto& [text, entry] : texts_of(*given, most_listed_values))
             values.emplace_back(text, entry.number(std::max(kind.least, -1.0e12), std::min(kind.greatest, 1.0e12)));
     return values;
 }
