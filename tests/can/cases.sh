@@ -66,8 +66,9 @@ stop() {
 flat() { tr '\n' ' ' <"$scratch/$1/live.json" | sed 's/: */: /g; s/, */, /g; s/  */ /g'; }
 # json NAME KEY: a number of its live.json; of a key that is there several times the first.
 json() { flat "$1" | grep -o "\"$2\": [^,}]*" | head -n 1 | sed 's/.*: //; s/ *$//'; }
-# late NAME p50|p99|max: of the ticks, in ms
-late() { flat "$1" | grep -o '"lateness_s": {[^}]*}' | grep -o "\"$2\": [^,}]*" | awk '{ printf "%.3f", 1000 * $2 }'; }
+# ticks_ms NAME lateness_s|work_s p50|p99|max: in ms
+ticks_ms() { flat "$1" | grep -o "\"$2\": {[^}]*}" | grep -o "\"$3\": [^,}]*" | awk '{ printf "%.3f", 1000 * $2 }'; }
+late() { ticks_ms "$1" lateness_s "$2"; }
 # over NAME KIND: an outage of this kind that has an end.
 over() { flat "$1" | grep -q "\"kind\": \"$2\", \"from_s\": [^,]*, \"until_s\": [0-9]"; }
 lateness() { echo "ticks late by $(late "$1" p50) ms (p50), $(late "$1" p99) ms (p99), $(late "$1" max) ms (max)"; }
@@ -101,8 +102,7 @@ case_refusals() {
         hold "one line" test "$(wc -l <<<"$said")" = 1
     }
     ip link add dev "$if" type vcan
-    refused 2 "found no interface 'nocan7'" "$program" live "$drive" --can nocan7 --no-draw --out "$scratch/r1"
-    refused 2 "there: $if" "$program" live "$drive" --can nocan7 --no-draw --out "$scratch/r1"
+    refused 2 "found no interface 'nocan7', expected a CAN interface; there: $if" "$program" live "$drive" --can nocan7 --no-draw --out "$scratch/r1"
     refused 2 "network interface of another kind" "$program" live "$drive" --can lo --no-draw --out "$scratch/r1"
     refused 3 "interface $if is down" "$program" live "$drive" --can "$if" --no-draw --out "$scratch/r1"
     ip link set "$if" up
@@ -135,12 +135,13 @@ case_outputs() {
     hold "250 + 100 frames" test "$(wc -l <"$scratch/sent")" = 350
     hold "swivel moved" test "$(grep -c '^201#0000' "$scratch/sent")" -lt 200
     hold "CAN FD" test "$(grep -c '^202##' "$scratch/sent")" = 100
-    # Cycle times by candump's stamps: exact but for how late the first and the last frame were, at most as late as a tick and 10 ms.
+    # Cycle times by candump's stamps: exact but for how late the first and the last frame were: at most as a tick's begin and
+    # work, and 10 ms.
     awk '$3 ~ /^201#/ { t = substr($1, 2) + 0; if (n++) { d = t - last; s += d; if (d > most) most = d } last = t } END { printf "%.6f %.6f %d\n", s / (n - 1), most, n }' \
         "$scratch/candump.log" >"$scratch/cycle"
     read -r mean most count <"$scratch/cycle"
     figure "outputs: 201# every 20 ms: $count frames, mean $(awk -v x="$mean" 'BEGIN { printf "%.3f", 1000 * x }') ms, longest $(awk -v x="$most" 'BEGIN { printf "%.1f", 1000 * x }') ms; $(lateness outputs)"
-    hold "mean cycle" awk -v mean="$mean" -v late="$(late outputs max)" 'BEGIN { off = 1000 * mean - 20; exit !(249 * (off < 0 ? -off : off) <= late + 10) }'
+    hold "mean cycle" awk -v mean="$mean" -v late="$(late outputs max)" -v work="$(ticks_ms outputs work_s max)" 'BEGIN { off = 1000 * mean - 20; exit !(249 * (off < 0 ? -off : off) <= late + work + 10) }'
     keep outputs
 }
 
@@ -280,7 +281,7 @@ at_rate() {
 case_endurance() {
     interface_up
     local burst best=() rates=() seconds=${FERNLICHT_TEST_CAN_SECONDS:-60}
-    for burst in 5 20 50 100 200; do
+    for burst in 20 60 200; do
         at_rate "rate-$burst" 3 "$burst" 2
         (($(json "rate-$burst" dropped) == 0)) || break
         # A generator that cannot follow says nothing of us; more of it only takes from us.
