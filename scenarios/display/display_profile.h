@@ -1,0 +1,67 @@
+// A display: what light comes out of it for the numbers that go in, and from where it is looked at.
+#pragma once
+
+#include "scenarios/values/files.h"
+
+#include <filesystem>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+
+namespace fernlicht {
+
+/// From a code, 0..1, to the share of a channel's full light, 0..1.
+enum class TransferKind {
+    linear,
+    gamma, ///< code^gamma
+    srgb,  ///< IEC 61966-2-1
+    pq     ///< SMPTE ST 2084: codes mean luminances up to 10 000 cd/m2, whatever the display's peak; the display stops at its peak
+};
+
+/// How a colour that the display cannot show is changed.
+enum class GamutRule {
+    keep_luminance, ///< moved towards the grey of its luminance until all channels are within 0..1
+    clip            ///< each channel by itself: keeps the hue of none and the luminance of none
+};
+
+struct DisplayProfile {
+    std::string name, title;
+    /// XYZ in cd/m2 of linear red, green, blue, 0..1 each; columns. Y of (1, 1, 1) is the luminance that white adds to black.
+    glm::dmat3 xyz_from_rgb{1.0};
+    double black_cdm2 = 0.0; ///< of (0, 0, 0): stray light and what the panel lets through; white's chromaticity; 0 <= black < peak
+    TransferKind transfer = TransferKind::srgb;
+    double gamma = 2.2; ///< TransferKind::gamma alone; 0.1 to 10
+    GamutRule gamut = GamutRule::keep_luminance;
+    int bits = 8; ///< of a channel: 8 or 16 in files
+    double viewing_distance_m = 0.6, pixel_pitch_mm = 0.27;
+
+    double white_cdm2() const; ///< what (1, 1, 1) adds to black
+    double peak_cdm2() const { return black_cdm2 + white_cdm2(); }
+    /// What one pixel spans for the eye, degrees: 2 atan(pitch / (2 distance)).
+    double pixel_deg() const;
+
+    bool operator==(const DisplayProfile&) const = default;
+};
+
+/// XYZ of linear light in sRGB's primaries as IEC 61966-2-1 rounds it; pictures of fernlicht hold such light, Y in cd/m2.
+glm::dmat3 xyz_from_light();
+
+/// sRGB at 80 cd/m2 (IEC 61966-2-1's reference display): the profile of a drive that names none.
+DisplayProfile srgb_display();
+
+/// The columns of xyz_from_rgb for primaries and white given by chromaticities x, y, with Y of white = `white_cdm2`. Throws
+/// std::invalid_argument where they make no colour space: y = 0, primaries on a line, a white outside their triangle.
+glm::dmat3 xyz_from_primaries(const glm::dvec2& red, const glm::dvec2& green, const glm::dvec2& blue, const glm::dvec2& white,
+                              double white_cdm2);
+
+/// A profile in YAML (scenarios/library/displays has some; docs/display.md explains the keys). `text` a path, or the name of a shipped
+/// profile. Throws InputError with file, line, column, key.
+DisplayProfile read_display_profile(const std::filesystem::path& path, FilesRead& opened);
+/// YAML that is read back to the same.
+std::string write_display_profile(const DisplayProfile& profile);
+
+/// Codes to shares of light and back; both rise, and are inverse to each other within 1e-12. For pq relative to `white_cdm2`.
+double decoded(const DisplayProfile& profile, double code);
+double encoded(const DisplayProfile& profile, double share);
+
+} // namespace fernlicht

@@ -1,0 +1,122 @@
+// Display profiles in YAML.
+#include "scenarios/display/display_profile.h"
+#include "scenarios/drives/yaml_entry.h"
+#include "scenarios/drives/yaml_text.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+constexpr std::size_t most_profile_bytes = std::size_t{1} << 20;
+constexpr double lumens_per_watt = 683.0, least_white_cdm2 = 1.0e-3, most_cdm2 = 1.0e5;
+
+glm::dmat3 read_matrix(const YamlEntry& entry) {
+    const std::vector<YamlEntry> rows = entry.list(3, 3);
+    glm::dmat3 matrix;
+    for (int row = 0; row < 3; ++row) {
+        const std::vector<double> numbers = rows[static_cast<std::size_t>(row)].numbers(3, 3, -most_cdm2, most_cdm2);
+        for (int column = 0; column < 3; ++column)
+            matrix[column][row] = numbers[static_cast<std::size_t>(column)];
+    }
+    return matrix;
+}
+
+glm::dvec2 read_chromaticity(const YamlMap& primaries, const char* key) {
+    const std::vector<double> xy = primaries.require(key).numbers(2, 2, 0.0, 1.0);
+    return {xy[0], xy[1]};
+}
+
+/// Light of full red, green and blue, from the matrix or the primaries; luminances as the file has them or, with `white_cdm2`, scaled.
+glm::dmat3 read_light(const YamlMap& keys, double black_cdm2) {
+    const auto given = keys.one_of({"rgb_to_xyz", "primaries"});
+    if (!given)
+        keys.refuse_missing("rgb_to_xyz", "a matrix of three rows X, Y, Z, or `primaries`");
+    const auto peak = keys.find("peak_cdm2");
+    const double peak_cdm2 = peak ? peak->number_above(black_cdm2, most_cdm2) : 0.0;
+    if (given->first == "primaries") {
+        const YamlMap primaries = given->second.map({"red", "green", "blue", "white"});
+        if (!peak)
+            keys.refuse_missing("peak_cdm2", "the luminance of white, cd/m2; primaries alone say nothing of it");
+        try {
+            return xyz_from_primaries(read_chromaticity(primaries, "red"), read_chromaticity(primaries, "green"),
+                                      read_chromaticity(primaries, "blue"), read_chromaticity(primaries, "white"), peak_cdm2 - black_cdm2);
+        } catch (const std::invalid_argument& error) {
+            given->second.refuse(error.what(), "chromaticities x, y of three primaries with white between them");
+        }
+    }
+    glm::dmat3 matrix = read_matrix(given->second);
+    const auto unit = keys.find("unit");
+    if (unit && unit->choice({"cd/m2", "W/(sr m2)"}) == 1)
+        matrix = lumens_per_watt * matrix;
+    const double white_cdm2 = matrix[0].y + matrix[1].y + matrix[2].y;
+    if (!(white_cdm2 >= least_white_cdm2 && white_cdm2 <= most_cdm2))
+        given->second.refuse(fmt::format("a white of {:.3g} cd/m2", white_cdm2), fmt::format("{:g} to {:g}", least_white_cdm2, most_cdm2));
+    if (peak)
+        matrix *= (peak_cdm2 - black_cdm2) / white_cdm2;
+    if (matrix[0].y < 0.0 || matrix[1].y < 0.0 || matrix[2].y < 0.0)
+        given->second.refuse("a channel of negative luminance", "a row Y of numbers that are not below 0");
+    const double scale = std::cbrt(std::abs(glm::determinant(matrix)));
+    if (!(scale > 1.0e-4 * (matrix[0].y + matrix[1].y + matrix[2].y)))
+        given->second.refuse("channels that mix to no plane of colours", "three columns that differ: the matrix must have an inverse");
+    return matrix;
+}
+
+void read_transfer(const YamlMap& keys, DisplayProfile& profile) {
+    const YamlEntry transfer = keys.require("transfer");
+    if (transfer.is_scalar()) {
+        constexpr TransferKind kinds[] = {TransferKind::linear, TransferKind::srgb, TransferKind::pq};
+        profile.transfer = kinds[transfer.choice({"linear", "srgb", "pq"})];
+        return;
+    }
+    profile.transfer = TransferKind::gamma;
+    profile.gamma = transfer.map({"gamma"}).require("gamma").number(0.1, 10.0);
+}
+
+} // namespace
+
+DisplayProfile read_display_profile(const std::filesystem::path& path, FilesRead& opened) {
+    const YamlValue tree = parse_yaml(read_file(path, opened, most_profile_bytes), path);
+    const YamlMap keys = YamlEntry(tree, path, "")
+                             .map({"fernlicht_display", "title", "rgb_to_xyz", "unit", "primaries", "peak_cdm2", "black_cdm2", "transfer",
+                                   "gamut", "bits", "viewing_distance_m", "pixel_pitch_mm"});
+    if (const YamlEntry version = keys.require("fernlicht_display"); version.whole(0, 1000) != 1)
+        version.refuse("1, the version of display profiles that this program knows");
+    DisplayProfile profile;
+    profile.name = path.stem().string();
+    const auto title = keys.find("title");
+    profile.title = title ? title->text() : profile.name;
+    profile.black_cdm2 = keys.number_or("black_cdm2", 0.0, 0.0, most_cdm2);
+    profile.xyz_from_rgb = read_light(keys, profile.black_cdm2);
+    read_transfer(keys, profile);
+    if (const auto gamut = keys.find("gamut"))
+        profile.gamut = gamut->choice({"keep-luminance", "clip"}) == 0 ? GamutRule::keep_luminance : GamutRule::clip;
+    profile.bits = profile.transfer == TransferKind::pq ? 16 : 8;
+    if (const auto bits = keys.find("bits"))
+        if ((profile.bits = bits->whole(8, 16)) != 8 && profile.bits != 16)
+            bits->refuse("8 or 16");
+    if (const auto distance = keys.find("viewing_distance_m"))
+        profile.viewing_distance_m = distance->number_above(0.0, 1000.0);
+    if (const auto pitch = keys.find("pixel_pitch_mm"))
+        profile.pixel_pitch_mm = pitch->number_above(0.0, 1000.0);
+    return profile;
+}
+
+std::string write_display_profile(const DisplayProfile& profile) {
+    std::string text = fmt::format("fernlicht_display: 1\ntitle: {}\nrgb_to_xyz:\n", quoted(profile.title));
+    for (int row = 0; row < 3; ++row)
+        text += fmt::format("  - [{}, {}, {}]\n", profile.xyz_from_rgb[0][row], profile.xyz_from_rgb[1][row], profile.xyz_from_rgb[2][row]);
+    const char* const kinds[] = {"linear", "gamma", "srgb", "pq"};
+    text += fmt::format("unit: cd/m2\nblack_cdm2: {}\n", profile.black_cdm2);
+    text += profile.transfer == TransferKind::gamma ? fmt::format("transfer: {{gamma: {}}}\n", profile.gamma)
+                                                    : fmt::format("transfer: {}\n", kinds[static_cast<int>(profile.transfer)]);
+    text += fmt::format("gamut: {}\nbits: {}\nviewing_distance_m: {}\npixel_pitch_mm: {}\n",
+                        profile.gamut == GamutRule::clip ? "clip" : "keep-luminance", profile.bits, profile.viewing_distance_m,
+                        profile.pixel_pitch_mm);
+    return text;
+}
+
+} // namespace fernlicht
