@@ -21,6 +21,7 @@ struct RendererSettings {
     int shadow_width = 1024, shadow_height = 512;
     double shadow_tolerance_m = 0.03; ///< shadows are looked up from points at least this far above a surface
     double target_height_m = 0.25;
+    bool sources = true; ///< faces of lamps and surfaces that shine by themselves are seen; false: their light alone
     bool traffic_levels =
         true; ///< lamps of others are drawn as coarsely as their light allows (docs/traffic.md); false: each with its beam
     ReadBack read_back = ReadBack::plain;

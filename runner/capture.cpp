@@ -85,7 +85,7 @@ std::string file_name_of(const std::string& text) {
 }
 
 StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,
-                        const Moment& moment, const View& view) {
+                        const Moment& moment, const View& view, const WritePicture& write_picture) {
     const std::filesystem::path place = std::filesystem::path("frames") / file_name_of(set);
     const std::string stem = fmt::format("{}-{:06}", file_name_of(view.name), moment.tick);
     StoredFrame stored{moment.tick, moment.time_s, view.name, {}, {}};
@@ -99,7 +99,7 @@ StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, c
     const auto shared = std::make_shared<const Frame>(std::move(frame));
     if (png) {
         stored.png = (place / (stem + ".png")).generic_string();
-        writers.submit([shared, path = folder / stored.png] { write_png(shared->colour, path); });
+        writers.submit([shared, view, write_picture, path = folder / stored.png] { write_picture(*shared, view, path); });
     }
     if (exr) {
         stored.exr = (place / (stem + ".exr")).generic_string();

@@ -1,6 +1,7 @@
 // Stores frames by other threads while the next ones are drawn.
 #pragma once
 
+#include "runner/display/display_step.h"
 #include "runner/report/report.h"
 
 #include <condition_variable>
@@ -42,7 +43,7 @@ bool is_captured(const Capture& capture, int tick, double step_s);
 /// Queues the files of one captured frame under `folder`/frames/`set`/ and returns their paths relative to `folder`; "" for a file that
 /// the frame has no picture for.
 StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,
-                        const Moment& moment, const View& view);
+                        const Moment& moment, const View& view, const WritePicture& write_picture);
 
 /// A file or folder name made of letters, digits, '-', '_' and '.', from any text.
 std::string file_name_of(const std::string& text);

@@ -51,6 +51,22 @@ void add_context(OIIO::ImageSpec& spec, const Moment& moment, const View& view) 
         number("fernlicht:vertical_fov_deg", degrees(view.vertical_fov_rad));
 }
 
+constexpr const char* shown_by_key = "fernlicht:shown_by";
+
+OIIO::ImageSpec png_spec(int width, int height, OIIO::TypeDesc type, const PictureTags& tags) {
+    OIIO::ImageSpec spec(width, height, 3, type);
+    if (tags.icc.empty())
+        spec.attribute("oiio:ColorSpace", "sRGB");
+    else
+        spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(tags.icc.size())), tags.icc.data());
+    if (!tags.shown_by.empty())
+        spec.attribute(shown_by_key, tags.shown_by);
+    spec.attribute("png:compressionLevel", 6);
+    spec.attribute("png:filter",
+                   0x08); // none, PNG_FILTER_NONE: nights compress better and three times as fast without (docs/decisions/0004)
+    return spec;
+}
+
 void write_images(const std::vector<std::string>& names, const std::vector<const Image<float>*>& images, const Moment& moment,
                   const View& view, const std::vector<std::pair<std::string, std::string>>& texts, const std::filesystem::path& path) {
     OIIO::ImageSpec spec(view.width_px, view.height_px, static_cast<int>(images.size()), OIIO::TypeDesc::FLOAT);
@@ -99,13 +115,29 @@ void write_channels(const std::vector<PictureChannel>& channels, const Moment& m
     write_images(names, images, moment, view, texts, path);
 }
 
-void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path) {
-    OIIO::ImageSpec spec(picture.width(), picture.height(), 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("png:compressionLevel", 6);
-    spec.attribute("png:filter",
-                   0x08); // none, PNG_FILTER_NONE: nights compress better and three times as fast without (docs/decisions/0004)
-    write_whole(path, spec, OIIO::TypeDesc::UINT8, picture.data());
+void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path) { write_png(picture, PictureTags{}, path); }
+
+void write_png(const Image<Rgb8>& picture, const PictureTags& tags, const std::filesystem::path& path) {
+    write_whole(path, png_spec(picture.width(), picture.height(), OIIO::TypeDesc::UINT8, tags), OIIO::TypeDesc::UINT8, picture.data());
+}
+
+void write_png(const Image<glm::u16vec3>& codes, int bits, const PictureTags& tags, const std::filesystem::path& path) {
+    if (bits == 16) {
+        write_whole(path, png_spec(codes.width(), codes.height(), OIIO::TypeDesc::UINT16, tags), OIIO::TypeDesc::UINT16, codes.data());
+        return;
+    }
+    Image<Rgb8> picture(codes.width(), codes.height());
+    std::ranges::transform(codes.pixels(), picture.data(), [](const glm::u16vec3& code) {
+        return Rgb8{static_cast<std::uint8_t>(code.r), static_cast<std::uint8_t>(code.g), static_cast<std::uint8_t>(code.b)};
+    });
+    write_png(picture, tags, path);
+}
+
+std::string png_shown_by(const std::filesystem::path& path) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+    if (!input || std::string_view(input->format_name()) != "png")
+        throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(input ? "no PNG" : OIIO::geterror(), 200), "a PNG picture");
+    return std::string(input->spec().get_string_attribute(shown_by_key));
 }
 
 Image<Rgb8> read_png(const std::filesystem::path& path) {

@@ -24,8 +24,19 @@ struct PictureChannel {
 void write_channels(const std::vector<PictureChannel>& channels, const Moment& moment, const View& view,
                     const std::vector<std::pair<std::string, std::string>>& texts, const std::filesystem::path& path);
 
+/// What a picture says of itself.
+struct PictureTags {
+    std::string shown_by; ///< one line on tone mapper and display (shown_picture.h); "": nothing is said
+    std::string icc;      ///< the display's ICC profile; "": sRGB
+};
 /// 8-bit sRGB. Throws DeviceError.
 void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path);
+void write_png(const Image<Rgb8>& picture, const PictureTags& tags, const std::filesystem::path& path);
+/// Codes of 8 or 16 bits. Throws DeviceError.
+void write_png(const Image<glm::u16vec3>& codes, int bits, const PictureTags& tags, const std::filesystem::path& path);
+
+/// What a PNG says it was shown by; "" where it does not. Throws InputError for what is no PNG.
+std::string png_shown_by(const std::filesystem::path& path);
 
 /// An 8-bit grey or RGB picture; grey becomes r = g = b. Throws InputError: missing, no PNG, cut short, other bits, with alpha, more than
 /// 2^28 values.

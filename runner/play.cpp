@@ -21,7 +21,7 @@ class Pictures {
   public:
     Pictures(const Drive& drive, const Route& route, const PlayOptions& options, PlayedVariant& played, Writers& writers, FrameTimes& times)
         : drive_(drive), route_(route), options_(options), played_(played), writers_(writers), times_(times),
-          maps_(captured_moments(drive, options.ticks)) {}
+          maps_(captured_moments(drive, options.ticks)), display_(drive) {}
 
     /// "frame" is what a simulator would draw each time: the driver's view in colour; where every frame is stored, with its linear results.
     std::string kind(const Moment& moment) const {
@@ -33,8 +33,11 @@ class Pictures {
         const bool captured = is_captured(drive_.capture, moment.tick, drive_.step_s);
         for (std::size_t i = 0; i < (captured ? drive_.views.size() : std::min<std::size_t>(1, drive_.views.size())); ++i) {
             const View& view = drive_.views[i];
-            Frame frame = draw(moment, view, captured ? stored_results(view, drive_.capture) : Wanted{.colour = true})();
+            const Wanted wanted = captured ? stored_results(view, drive_.capture) : Wanted{.colour = true};
+            Frame frame = draw(moment, view, display_.with_light(wanted, view, captured, i == 0))();
             i == 0 ? times_.add(kind(moment), frame) : times_.add(frame);
+            if (i == 0)
+                display_.see(frame);
             if (captured)
                 drawn_.emplace_back(&view, std::move(frame));
         }
@@ -45,14 +48,17 @@ class Pictures {
             if (view->projection == Projection::map)
                 keep_map(frame, moment, *view);
             StoredFrame stored = store_frame(writers_, options_.folder, drive_.name + "-" + played_.variant, drive_.capture,
-                                             std::move(frame), moment, *view);
+                                             std::move(frame), moment, *view, display_.writer());
             played_.frames.push_back(std::move(stored));
         }
         captured_ += drawn_.empty() ? 0U : 1U;
         drawn_.clear();
     }
 
-    void finish(bool all_played) { played_.maps = maps_.finish(all_played); }
+    void finish(bool all_played) {
+        played_.maps = maps_.finish(all_played);
+        std::ranges::copy(display_.times(), std::back_inserter(played_.passes));
+    }
 
   private:
     static std::size_t captured_moments(const Drive& drive, TickRange range) {
@@ -77,6 +83,7 @@ class Pictures {
     Writers& writers_;
     FrameTimes& times_;
     LuxMaps maps_;
+    DisplayStep display_;
     std::vector<std::pair<const View*, Frame>> drawn_; ///< of this moment, to be stored
     std::size_t captured_ = 0;                         ///< moments until now
 };

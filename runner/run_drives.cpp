@@ -8,6 +8,7 @@
 #include "runner/contact_sheet.h"
 #include "runner/control/bus_report.h"
 #include "runner/control/signals_csv.h"
+#include "runner/display/fit_tone_mapper.h"
 #include "runner/interruption.h"
 #include "runner/limits.h"
 #include "runner/output_folder.h"
@@ -162,6 +163,7 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
 }
 
 void run_drive(Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
+    fit_tone_mapper(stage, device, settings_for(stage.drive, settings));
     write_file(options.folder / (file_name_of(stage.drive.name) + ".yaml"), write_drive(stage.drive));
     add_inputs(report.context.inputs, stage.drive.opened);
     add_inputs(report.context.inputs, stage.network.opened);

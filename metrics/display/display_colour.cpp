@@ -1,6 +1,6 @@
 #include "metrics/display/display_colour.h"
 
-#include "metrics/display/tone_curve.h"
+#include "scenarios/display/tone_curve.h"
 
 #include <algorithm>
 #include <cmath>

@@ -93,6 +93,7 @@ void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
     set(shot.wanted.illuminance, 0);
     set(shot.wanted.target, 0);
     set(shot.wanted.luminance, 2);
+    set(shot.wanted.light, 2);
     set(shot.wanted.depth, 0);
     set(shot.wanted.ids, 0);
     gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(faces.size()));
@@ -105,7 +106,7 @@ void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
 }
 
 void LampFaces::draw(const Shot& shot) {
-    if (shot.camera.is_map || shot.moment.other_lamps.empty() || !(shot.wanted.colour || shot.wanted.luminance))
+    if (shot.camera.is_map || shot.moment.other_lamps.empty() || !shot.wanted.seen())
         return;
     const std::vector<Face> faces = seen(shot);
     shot.work.traffic_faces += static_cast<int>(faces.size());
@@ -114,7 +115,7 @@ void LampFaces::draw(const Shot& shot) {
 }
 
 void LampFaces::compile(const Shot& shot) {
-    if (shot.camera.is_map || !(shot.wanted.colour || shot.wanted.luminance))
+    if (shot.camera.is_map || !shot.wanted.seen())
         return;
     draw_faces(shot, {Face{glm::vec4(-10.0F, -10.0F, 1.0F, 1.0F), glm::vec4(0.0F, 0.0F, 0.0F, 0.5F)}});
 }

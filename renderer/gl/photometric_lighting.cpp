@@ -29,9 +29,7 @@ bool has_weather(const Moment& moment) {
     return moment.daylight.direct() != nullptr || moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0;
 }
 
-bool fog_before_sky(const Shot& shot) {
-    return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && (shot.wanted.colour || shot.wanted.luminance);
-}
+bool fog_before_sky(const Shot& shot) { return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && shot.wanted.seen(); }
 
 void set_weather_uniforms(const GladGLContext& gl, const Program& program, const Shot& shot) {
     const Weather& weather = shot.moment.weather;
@@ -96,7 +94,7 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     f.everything = !pruned_;
     f.by_vertex = by_vertex_;
     f.sky = !pruned_ || shot.moment.daylight.horizontal_illuminance_lx > 0.0;
-    const bool reflects = shot.wanted.colour || shot.wanted.luminance;
+    const bool reflects = shot.wanted.seen();
     const bool everything = !pruned_ && has_weather(shot.moment);
     f.fog = everything || shot.moment.weather.extinction_per_m > 0.0;
     f.air_lamps = f.fog && reflects && !shot.camera.is_map && !shot.moment.other_lamps.empty(); // though all may be too faint
@@ -108,10 +106,10 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
             f.beams.push_back(beam->shape);
     f.shadows = !f.beams.empty() && (shadowed || !pruned_) && settings_.shadows;
     if (pruned_ && reflects)
-        f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive, surface.moving,
-                     surface.tinted && (!f.beams.empty() || f.traffic)};
+        f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive && settings_.sources,
+                     surface.moving, surface.tinted && (!f.beams.empty() || f.traffic)};
     else if (!pruned_)
-        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0, true, true, surface.moving,
+        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0, true, settings_.sources, surface.moving,
                      scene_.has([](const SurfaceClass& c) { return c.tinted; })};
     f.surface.moving = surface.moving;
     return f;
@@ -332,7 +330,8 @@ void PhotometricLighting::draw(const Shot& shot) {
         shot.work.samplers = std::max(shot.work.samplers, textures);
     }
     draw_background(shot);
-    faces_.draw(shot);
+    if (settings_.sources)
+        faces_.draw(shot);
     context_.check("drawing the scene");
     shot.clock.end();
     ++shot.work.passes;

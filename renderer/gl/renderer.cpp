@@ -2,11 +2,11 @@
 
 #include "renderer/gl/fragment_count.h"
 #include "renderer/gl/lighting.h"
+#include "scenarios/display/tone_curve.h"
 #include "scenarios/photometry.h"
 
 #include <chrono>
 #include <list>
-#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -15,25 +15,8 @@ using gl::PassClock;
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-double toned(const ToneMapper& tone, double luminance) {
-    switch (tone.kind) {
-    case ToneMapperKind::linear:
-        return photometry::tone_linear(luminance, tone.l_max_cdm2);
-    case ToneMapperKind::rational:
-        return photometry::tone_rational(luminance, tone.l_max_cdm2, tone.s);
-    case ToneMapperKind::logarithmic:
-        break;
-    }
-    return photometry::tone_logarithmic(luminance, tone.l_max_cdm2, tone.s);
-}
-
 /// Views of so many sizes and wishes keep their targets; a drive's maps may change size with every moment.
 constexpr std::size_t most_targets = 8;
-
-bool same(const Wanted& a, const Wanted& b) {
-    return std::tie(a.colour, a.illuminance, a.target, a.luminance, a.depth, a.ids) ==
-           std::tie(b.colour, b.illuminance, b.target, b.luminance, b.depth, b.ids);
-}
 
 } // namespace
 
@@ -61,7 +44,7 @@ struct Renderer::State {
 
 std::shared_ptr<gl::Targets> Renderer::State::targets_for(const View& view, const Wanted& wanted) {
     for (auto it = targets.begin(); it != targets.end(); ++it)
-        if (it->width == view.width_px && it->height == view.height_px && same(it->wanted, wanted)) {
+        if (it->width == view.width_px && it->height == view.height_px && it->wanted == wanted) {
             targets.splice(targets.begin(), targets, it);
             return it->targets;
         }
@@ -103,6 +86,7 @@ Wanted Renderer::available(Wanted wanted) const {
     wanted.illuminance = wanted.illuminance && t.illuminance;
     wanted.target = wanted.target && t.target;
     wanted.luminance = wanted.luminance && t.luminance;
+    wanted.light = wanted.light && t.luminance;
     return wanted;
 }
 

@@ -17,13 +17,14 @@ constexpr Format formats[] = {{"COLOUR", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
                               {"ILLUMINANCE", GL_R32F, GL_RED, GL_FLOAT},
                               {"TARGET", GL_R32F, GL_RED, GL_FLOAT},
                               {"LUMINANCE", GL_R32F, GL_RED, GL_FLOAT},
+                              {"LIGHT", GL_RGBA32F, GL_RGBA, GL_FLOAT}, // three channels need not be drawable
                               {"DEPTH", GL_R32F, GL_RED, GL_FLOAT},
                               {"IDS", GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT}};
 
 } // namespace
 
 bool Targets::is_wanted(const Wanted& wanted, Result result) {
-    const bool all[] = {wanted.colour, wanted.illuminance, wanted.target, wanted.luminance, wanted.depth, wanted.ids};
+    const bool all[] = {wanted.colour, wanted.illuminance, wanted.target, wanted.luminance, wanted.light, wanted.depth, wanted.ids};
     return all[result];
 }
 
@@ -41,6 +42,7 @@ std::vector<Program::Define> Targets::defines(const Wanted& wanted) {
         list.push_back({std::string("WANT_") + formats[r].name, is_wanted(wanted, result) ? "1" : "0"});
         list.push_back({std::string("OUT_") + formats[r].name, std::to_string(slot(wanted, result))});
     }
+    list.push_back({"WANT_SEEN", wanted.seen() ? "1" : "0"});
     return list;
 }
 
@@ -76,8 +78,9 @@ void Targets::begin(const glm::vec3& background, float sky_luminance_cdm2) {
         if (!is_wanted(wanted_, result))
             continue;
         const GLint place = slot(wanted_, result);
-        const float value[4] = {result == colour ? background.r : (result == luminance ? sky_luminance_cdm2 : 0.0F), background.g,
-                                background.b, 1.0F};
+        const float sky = result == luminance || result == light ? sky_luminance_cdm2 : 0.0F;
+        const float value[4] = {result == colour ? background.r : sky, result == colour ? background.g : sky,
+                                result == colour ? background.b : sky, 1.0F};
         const GLuint zero[4] = {0, 0, 0, 0};
         if (result == ids)
             gl.ClearNamedFramebufferuiv(framebuffer_, GL_COLOR, place, zero);
@@ -89,7 +92,9 @@ void Targets::begin(const glm::vec3& background, float sky_luminance_cdm2) {
 }
 
 std::size_t Targets::bytes_of(Result result) const {
-    return is_wanted(wanted_, result) ? std::size_t{4} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) : 0;
+    return is_wanted(wanted_, result)
+               ? std::size_t{result == light ? 16U : 4U} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)
+               : 0;
 }
 
 void Targets::read_pixels(Result result, void* place) {
@@ -113,6 +118,13 @@ template <class Fill> Frame Targets::make_frame(Fill fill) {
     take(luminance, frame.luminance_cdm2);
     take(depth, frame.depth_m);
     take(ids, frame.ids);
+    Image<glm::vec4> light_and_one;
+    take(light, light_and_one);
+    if (wanted_.light) {
+        frame.light = Image<glm::vec3>(width_, height_);
+        for (std::size_t i = 0; i < frame.light.size(); ++i)
+            frame.light.pixels()[i] = glm::vec3(light_and_one.pixels()[i]);
+    }
     Image<std::uint32_t> rgba;
     take(colour, rgba);
     if (wanted_.colour) {

@@ -13,7 +13,7 @@ class Targets {
   public:
     Targets(Context& context, int width, int height, const Wanted& wanted);
 
-    /// Binds, sets the viewport and clears: everything 0, colour to `background`, luminance to the sky's.
+    /// Binds, sets the viewport and clears: everything 0, colour to `background`, luminance and light to the sky's.
     void begin(const glm::vec3& background, float sky_luminance_cdm2);
     /// Reads every wanted result; waits for the drawing to finish.
     Frame read();
@@ -26,11 +26,11 @@ class Targets {
     Reading start_read();
     Frame finish_read(Reading reading);
 
-    /// WANT_* and OUT_* for the fragment shader.
+    /// WANT_* and OUT_* for the fragment shader; WANT_SEEN: any of what an eye sees.
     static std::vector<Program::Define> defines(const Wanted& wanted);
 
   private:
-    enum Result { colour, illuminance, target, luminance, depth, ids, result_count };
+    enum Result { colour, illuminance, target, luminance, light, depth, ids, result_count };
     static bool is_wanted(const Wanted& wanted, Result result);
     static int slot(const Wanted& wanted, Result result);
     std::size_t bytes_of(Result result) const;

@@ -25,6 +25,9 @@ void main() {
 #if WANT_LUMINANCE
     out_luminance_cdm2 = luminance;
 #endif
+#if WANT_LIGHT
+    out_light = vec4(light, 1.0);
+#endif
 #if WANT_ILLUMINANCE
     out_illuminance_lx = 0.0;
 #endif

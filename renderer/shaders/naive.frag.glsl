@@ -45,7 +45,7 @@ void main() {
     PRECISE float illuminance = 0.0;
     PRECISE float target = 0.0;
     PRECISE vec3 light = vec3(0.0);
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
     Material material = materials[v_material];
     vec3 albedo = material.albedo.rgb;
     float rl = material.albedo.w;
@@ -71,7 +71,7 @@ void main() {
 #endif
         float e = e_perp * cosine;
         illuminance += e;
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
         light += lamps[i].colour.rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e));
 #if RETRO
         if (rl > 0.0)
@@ -95,12 +95,12 @@ void main() {
 #if SKY
     float e_sky = sky_lx * 0.5 * (1.0 + n.z);
     illuminance += e_sky;
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
     light += vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky));
 #endif
 #endif
 
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
     light += material.emission.rgb;
     float luminance = dot(luminance_weights, light);
 #endif
@@ -116,6 +116,9 @@ void main() {
 #endif
 #if WANT_LUMINANCE
     out_luminance_cdm2 = luminance;
+#endif
+#if WANT_LIGHT
+    out_light = vec4(light, 1.0);
 #endif
 #if WANT_DEPTH
     out_depth_m = dot(p - eye_m, eye_axis.xyz);

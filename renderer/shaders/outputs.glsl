@@ -11,6 +11,9 @@ layout(location = OUT_TARGET) out float out_target_lx;
 #if WANT_LUMINANCE
 layout(location = OUT_LUMINANCE) out float out_luminance_cdm2;
 #endif
+#if WANT_LIGHT
+layout(location = OUT_LIGHT) out vec4 out_light; // rgb: cd/m2 in sRGB's primaries
+#endif
 #if WANT_DEPTH
 layout(location = OUT_DEPTH) out float out_depth_m;
 #endif

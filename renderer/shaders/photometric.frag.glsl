@@ -63,7 +63,7 @@ float visibility(vec3 w, sampler2DShadow map, vec4 window) {
 
 #endif
 
-#if LAMP_COUNT > 0 && FOG && (WANT_COLOUR || WANT_LUMINANCE)
+#if LAMP_COUNT > 0 && FOG && WANT_SEEN
 // Light of one lamp that the medium turns towards the eye between eye and w (both in lamp space), cd/m2: midpoints over the angle at the
 // lamp, drawn together towards the far end with the power 3/2, where beams are narrow (docs/daylight.md has the errors).
 float scattered_on_the_way(vec3 eye, vec3 w, float factor, sampler2D beam, vec4 grid, vec2 count, vec2 per_count, bool steep) {
@@ -136,7 +136,7 @@ PRECISE vec3 light = vec3(0.0);
 #define THROUGH_AIR(e, inverse_d) (e)
 #endif
 
-#if (WANT_COLOUR || WANT_LUMINANCE) && WET
+#if WANT_SEEN && WET
 // What a wet surface adds to the light of one source, beside `1 - v_wet` of what it would send dry.
 vec3 wet_light(vec3 albedo, vec3 n, vec3 to_light, vec3 to_eye, float e_perp) {
     float c_in = max(dot(n, to_light), 0.0);
@@ -164,7 +164,7 @@ vec3 wet_sky_light(vec3 albedo, vec3 n, float e_sky) {
 #define REFLECT_WET(i, e_perp, inverse_d)
 #endif
 
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
 #define REFLECT_DIFFUSE(i, e) light += DRY(COLOUR(i).rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e)));
 #if RETRO
 #if RETRO_TINT
@@ -210,7 +210,7 @@ vec3 wet_sky_light(vec3 albedo, vec3 n, float e_sky) {
         LIGHT_TARGET(i, beam, map) \
     }
 
-#if LAMP_COUNT > 0 && FOG && (WANT_COLOUR || WANT_LUMINANCE)
+#if LAMP_COUNT > 0 && FOG && WANT_SEEN
 #define AIRLIGHT(i, beam) \
     light += COLOUR(i).rgb * scattered_on_the_way(EYE(i).xyz, v_w[i], COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_per_count[i], beam_steep[i]);
 
@@ -244,7 +244,7 @@ void add_airlight() {
 
 void main() {
 #if !BACKGROUND
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
     vec3 albedo = v_albedo.rgb;
     float rl = v_albedo.w;
 #if TEXTURED
@@ -296,7 +296,7 @@ void main() {
             list = uvec2(texelFetch(traffic_cells, cell.y * TRAFFIC_CELLS_AHEAD + cell.x).xy);
         PRECISE vec4 others = v_traffic_light;
         PRECISE vec3 returned = vec3(0.0);
-#if (WANT_COLOUR || WANT_LUMINANCE) && WET
+#if WANT_SEEN && WET
         PRECISE vec3 wet = vec3(0.0);
 #endif
         for (uint k = 0u; k < list.y; ++k) {
@@ -308,17 +308,17 @@ void main() {
                 float e_perp;
                 float e = traffic_lx(unit, entry, lamp, -to_lamp, n, e_perp);
                 others += vec4(unit.colour.rgb * e, e);
-#if (WANT_COLOUR || WANT_LUMINANCE) && WET
+#if WANT_SEEN && WET
                 wet += unit.colour.rgb * wet_light(albedo, n, normalize(to_lamp), -normalize(v_from_eye), e_perp);
 #endif
-#if (WANT_COLOUR || WANT_LUMINANCE) && RETRO
+#if WANT_SEEN && RETRO
                 returned += TINTED(unit.colour.rgb) *
                             retro_luminance(rl, e_perp, e, quick_observation_angle(to_lamp, v_traffic_eye.xyz - v_traffic_eye.w * v_traffic_p), v_retro.x, v_retro.y);
 #endif
             }
         }
         illuminance += others.w;
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
         light += DRY(vec3(diffuse_luminance(albedo.r, others.r), diffuse_luminance(albedo.g, others.g), diffuse_luminance(albedo.b, others.b)) + returned);
 #if WET
         light += v_wet * wet;
@@ -330,7 +330,7 @@ void main() {
 #if SKY
     float e_sky = v_sky_lx * 0.5 * (1.0 + normalize(v_normal).z);
     illuminance += e_sky;
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
     light += DRY(vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky)));
 #if WET
     light += v_wet * wet_sky_light(albedo, normalize(v_normal), e_sky);
@@ -344,7 +344,7 @@ void main() {
     e_sun = e_sun > 0.0 ? e_sun * textureLod(sun_shadow, v_sun_at, 0.0) : 0.0;
 #endif
     illuminance += e_sun;
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
     light += DRY(vec3(diffuse_luminance(albedo.r, e_sun), diffuse_luminance(albedo.g, e_sun), diffuse_luminance(albedo.b, e_sun)));
 #if WET
     float sun_seen = e_sun > 0.0 ? e_sun / directional_illuminance(1.0, normalize(v_normal), v_sun.xyz) : 0.0;
@@ -353,7 +353,7 @@ void main() {
 #endif
 #endif
 
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
 #if EMISSIVE
     light += v_emission;
 #endif
@@ -364,7 +364,7 @@ void main() {
 #endif
 #endif // BACKGROUND
 
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
 #if BACKGROUND
     light = vec3(v_sky_cdm2);
 #endif
@@ -388,6 +388,9 @@ void main() {
 #endif
 #if WANT_LUMINANCE
     out_luminance_cdm2 = luminance;
+#endif
+#if WANT_LIGHT
+    out_light = vec4(light, 1.0);
 #endif
 #if WANT_DEPTH
     out_depth_m = BACKGROUND > 0 ? 0.0 : v_depth_m;

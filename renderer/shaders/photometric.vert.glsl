@@ -67,7 +67,7 @@ void main() {
 #if WET
     v_wet = wetness * m.retro.w;
 #endif
-#if (WANT_COLOUR || WANT_LUMINANCE) && !BACKGROUND
+#if WANT_SEEN && !BACKGROUND
     v_albedo = m.albedo;
 #if TEXTURED
     v_uv = uv;
@@ -114,7 +114,7 @@ void main() {
 #if WANT_TARGET
         v_raise[i] = lamp.raise.xyz;
 #endif
-#if (WANT_COLOUR || WANT_LUMINANCE) && (RETRO || FOG || WET)
+#if WANT_SEEN && (RETRO || FOG || WET)
         v_eye[i] = lamp.eye;
 #endif
 #endif

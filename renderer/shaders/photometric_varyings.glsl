@@ -1,5 +1,5 @@
 // What the vertex stage of `photometric` hands to the fragment stage. STAGE_IO is `out` or `in`.
-#if WANT_COLOUR || WANT_LUMINANCE
+#if WANT_SEEN
 flat STAGE_IO vec4 v_albedo; // w: retro_rl
 #if TEXTURED
 STAGE_IO vec2 v_uv;
@@ -67,7 +67,7 @@ flat STAGE_IO vec4 v_colour[LAMP_COUNT]; // linear sRGB of luminance 1; w: inten
 #if WANT_TARGET
 flat STAGE_IO vec3 v_raise[LAMP_COUNT]; // from the point to the target above it
 #endif
-#if (WANT_COLOUR || WANT_LUMINANCE) && (RETRO || FOG || WET)
+#if WANT_SEEN && (RETRO || FOG || WET)
 flat STAGE_IO vec4 v_eye[LAMP_COUNT]; // in lamp space; w: 1 a place, 0 a direction
 #endif
 #endif

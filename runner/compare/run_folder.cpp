@@ -3,6 +3,7 @@
 #include "runner/capture.h"
 #include "runner/compare/yaml_difference.h"
 #include "runner/output_folder.h"
+#include "scenarios/drives/display_keys.h"
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/values/errors.h"
 
@@ -33,8 +34,8 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
     const fs::path file = folder / (file_name_of(drive.drive) + ".yaml");
     FilesRead ignored;
     drive.resolved = parse_yaml(read_file(file, ignored, most_bytes), file);
-    const YamlValue part = only(drive.resolved, {"views", "tone_mapper", "speed", "step_s"});
-    const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "speed", "step_s"});
+    const YamlValue part = only(drive.resolved, {"views", "tone_mapper", "display", "speed", "step_s"});
+    const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "display", "speed", "step_s"});
     drive.views = read_views(keys, ignored);
     drive.tone_mapper = read_tone_mapper(keys);
     if (member_of(drive.resolved, "step_s"))

@@ -4,6 +4,7 @@
 #include "runner/plots/svg.h"
 #include "runner/reference/reference_result.h"
 #include "runner/report/json_text.h"
+#include "scenarios/display/tone_curve.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/files.h"
 
@@ -47,23 +48,11 @@ std::vector<PictureChannel> channels_of(const ReferenceImage& image) {
     return channels;
 }
 
-double tone(const ToneMapper& mapper, double cdm2) {
-    switch (mapper.kind) {
-    case ToneMapperKind::linear:
-        return photometry::tone_linear(cdm2, mapper.l_max_cdm2);
-    case ToneMapperKind::rational:
-        return photometry::tone_rational(cdm2, mapper.l_max_cdm2, mapper.s);
-    case ToneMapperKind::logarithmic:
-        return photometry::tone_logarithmic(cdm2, mapper.l_max_cdm2, mapper.s);
-    }
-    return 0.0;
-}
-
 /// Luminance alone, in grey: the reference estimates no colours.
 Image<Rgb8> grey_picture(const Image<float>& cdm2, const ToneMapper& mapper) {
     Image<Rgb8> out(cdm2.width(), cdm2.height());
     for (std::size_t i = 0; i < cdm2.size(); ++i) {
-        const double shown = photometry::srgb_encoded(tone(mapper, static_cast<double>(cdm2.pixels()[i])));
+        const double shown = photometry::srgb_encoded(toned(mapper, static_cast<double>(cdm2.pixels()[i])));
         const auto level = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(shown, 0.0, 1.0)));
         out.pixels()[i] = {level, level, level};
     }

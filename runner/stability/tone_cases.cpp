@@ -1,6 +1,7 @@
 // Tone mappers at the ends of their domain, in pictures and in drive files.
 #include "runner/stability/trial.h"
 #include "runner/stability/trial_files.h"
+#include "scenarios/display/tone_curve.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>
@@ -12,22 +13,6 @@ namespace fernlicht {
 namespace {
 
 using namespace stability;
-
-double toned(const ToneMapper& tone, double l) {
-    switch (tone.kind) {
-    case ToneMapperKind::linear:
-        return photometry::tone_linear(l, tone.l_max_cdm2);
-    case ToneMapperKind::rational:
-        return photometry::tone_rational(l, tone.l_max_cdm2, tone.s);
-    case ToneMapperKind::logarithmic:
-        break;
-    }
-    return photometry::tone_logarithmic(l, tone.l_max_cdm2, tone.s);
-}
-
-const char* name_of(ToneMapperKind kind) {
-    return kind == ToneMapperKind::linear ? "linear" : kind == ToneMapperKind::rational ? "rational" : "logarithmic";
-}
 
 /// A white wall under skies of every luminance, in 8 bits, against the formula in double.
 Found pictures(StabilityBench& bench) {
@@ -42,7 +27,7 @@ Found pictures(StabilityBench& bench) {
                 if (kind == ToneMapperKind::linear && s != 1.0)
                     continue;
                 RendererSettings settings;
-                settings.tone_mapper = {kind, s, l_max};
+                settings.tone_mapper = {kind, s, l_max, {}};
                 Renderer renderer(bench.device(), scene, settings);
                 for (const double l : {0.0, 1e-42, 1e-30, 1e-6 * l_max, 0.5 * l_max, l_max * (1.0 - 1e-7), l_max, l_max * (1.0 + 1e-7),
                                        10.0 * l_max, 1e30}) {
@@ -52,7 +37,7 @@ Found pictures(StabilityBench& bench) {
                     const double shown = 255.0 * photometry::srgb_encoded(toned(settings.tone_mapper, l));
                     const double error =
                         not_finite(frame) > 0 ? std::numeric_limits<double>::infinity() : std::abs(frame.colour.at(1, 1).g - shown);
-                    worst.add(error, fmt::format("{}, s = {:g}, L_max = {:g}, L = {:g}", name_of(kind), s, l_max, l));
+                    worst.add(error, fmt::format("{}, s = {:g}, L_max = {:g}, L = {:g}", name(kind), s, l_max, l));
                 }
             }
     return worst;

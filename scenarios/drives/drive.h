@@ -1,6 +1,8 @@
 // A drive: everything that decides what a run shows, resolved to plain values. Read from YAML; written back beside the results.
 #pragma once
 
+#include "scenarios/display/display_settings.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/seeing_parameters.h"
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
@@ -31,15 +33,6 @@ struct View {
     double map_ahead_m = 0.0, map_behind_m = 0.0, map_left_m = 0.0, map_right_m = 0.0; ///< map only; from the car's origin
 
     bool operator==(const View&) const = default;
-};
-
-enum class ToneMapperKind { linear, rational, logarithmic };
-struct ToneMapper {
-    ToneMapperKind kind = ToneMapperKind::rational;
-    double s = 20.0;           ///< rational only; >= 1, 1 is linear
-    double l_max_cdm2 = 100.0; ///< luminance that becomes white
-
-    bool operator==(const ToneMapper&) const = default;
 };
 
 struct ControlParameters;
@@ -134,6 +127,7 @@ struct Drive {
     std::vector<View> views;                     ///< first is the driver's
     Capture capture;
     ToneMapper tone_mapper;
+    DisplaySettings display;
     std::string technique = "photometric";
     std::optional<ExtentParameters> extent;
     std::vector<Probe> probes;

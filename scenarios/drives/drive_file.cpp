@@ -3,6 +3,7 @@
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/bus_keys.h"
 #include "scenarios/drives/daylight_keys.h"
+#include "scenarios/drives/display_keys.h"
 #include "scenarios/drives/drive_edits.h"
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/drives/drive_log.h"
@@ -116,6 +117,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     drive.views = read_views(keys, drive.opened);
     drive.capture = read_capture(keys);
     drive.tone_mapper = read_tone_mapper(keys);
+    drive.display = read_display(keys, drive.opened);
     if (const auto technique = keys.find("technique"))
         drive.technique = technique->name();
     read_scenery(keys, drive);
@@ -138,12 +140,11 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     const std::string text = is_storyboard_file(path) ? storyboard_drive_text(path, edits) : to_utf8(read_file(path, opened, most_bytes));
     const YamlValue document = parse_yaml(text, path);
     const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht",     "name",    "title",    "road",          "route",    "speed_kmh", "speed_mps",
-                        "speed",         "step_s",  "rate_hz",  "duration_s",    "daylight", "car",       "vehicle",
-                        "actuators",     "control", "variants", "changes",       "views",    "capture",   "tone_mapper",
-                        "technique",     "measure", "limits",   "shadows",       "textures", "beams",     "seed",
-                        "mirrored_road", "weather", "traffic",  "traffic_light", "scenery",  "view_set",  "street_lamps",
-                        "storyboard",    "can"});
+                       {"fernlicht", "name",     "title",        "road",       "route",         "speed_kmh", "speed_mps", "speed",
+                        "step_s",    "rate_hz",  "duration_s",   "daylight",   "car",           "vehicle",   "actuators", "control",
+                        "variants",  "changes",  "views",        "capture",    "tone_mapper",   "technique", "measure",   "limits",
+                        "shadows",   "textures", "beams",        "seed",       "mirrored_road", "weather",   "traffic",   "traffic_light",
+                        "scenery",   "view_set", "street_lamps", "storyboard", "can",           "display"});
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;

@@ -115,21 +115,6 @@ Capture read_capture(const YamlMap& drive) {
     return capture;
 }
 
-ToneMapper read_tone_mapper(const YamlMap& drive) {
-    ToneMapper mapper;
-    const auto given = drive.find("tone_mapper");
-    if (!given)
-        return mapper;
-    const YamlMap keys = given->map({"kind", "s", "l_max_cdm2"});
-    static constexpr ToneMapperKind kinds[] = {ToneMapperKind::linear, ToneMapperKind::rational, ToneMapperKind::logarithmic};
-    if (const auto kind = keys.find("kind"))
-        mapper.kind = kinds[kind->choice({"linear", "rational", "logarithmic"})];
-    mapper.s = keys.number_or("s", mapper.s, 1.0, 1.0e6);
-    if (const auto l_max = keys.find("l_max_cdm2"))
-        mapper.l_max_cdm2 = l_max->number(1.0e-6, 1.0e9); // the GPU divides by it in float
-    return mapper;
-}
-
 void read_measure(const YamlMap& keys, Drive& drive) {
     drive.extent = ExtentParameters{};
     const auto given = keys.find("measure");

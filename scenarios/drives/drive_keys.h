@@ -16,7 +16,6 @@ double read_step_s(const YamlMap& drive);
 /// driver's view and a map by default. `opened` gets the file.
 std::vector<View> read_views(const YamlMap& drive, FilesRead& opened);
 Capture read_capture(const YamlMap& drive);
-ToneMapper read_tone_mapper(const YamlMap& drive);
 /// `measure`: extent (nullopt for `extent: false`), probes, sensors and glare.
 void read_measure(const YamlMap& keys, Drive& drive);
 std::vector<Limit> read_limits(const YamlMap& drive);

@@ -18,17 +18,20 @@ struct Rgb8 {
 };
 
 struct Wanted {
-    bool colour = false, illuminance = false, target = false, luminance = false, depth = false, ids = false;
+    bool colour = false, illuminance = false, target = false, luminance = false, light = false, depth = false, ids = false;
+    bool seen() const { return colour || luminance || light; } ///< anything that an eye sees
+    bool operator==(const Wanted&) const = default;
 };
 
 struct Frame {
     Image<Rgb8> colour;          ///< tone-mapped, sRGB-encoded
     Image<float> illuminance_lx; ///< on the surface seen in the pixel, all lamps and sky; 0 where nothing is seen
     Image<float> target_lx; ///< of a target at the pixel's place (raised by the view's target height) that faces each lamp: sum of I / d^2
-    Image<float> luminance_cdm2;                        ///< towards the camera
-    Image<float> depth_m;                               ///< distance from the camera along its axis; 0: nothing
-    Image<std::uint32_t> ids;                           ///< mesh index + 1; 0: nothing
-    double cpu_s = 0.0;                                 ///< submit to finish
+    Image<float> luminance_cdm2; ///< towards the camera
+    Image<glm::vec3> light;      ///< the luminance with its colour: linear in sRGB's primaries, Y in cd/m2, towards the camera
+    Image<float> depth_m;        ///< distance from the camera along its axis; 0: nothing
+    Image<std::uint32_t> ids;    ///< mesh index + 1; 0: nothing
+    double cpu_s = 0.0;          ///< submit to finish
     std::vector<std::pair<std::string, double>> pass_s; ///< seconds by pass, where passes were timed
 };
 

@@ -3,6 +3,7 @@
 #include "scenarios/drives/bus_keys.h"
 #include "scenarios/drives/control_keys.h"
 #include "scenarios/drives/daylight_keys.h"
+#include "scenarios/drives/display_keys.h"
 #include "scenarios/drives/flow_list.h"
 #include "scenarios/drives/seeing_keys.h"
 #include "scenarios/drives/storyboard_keys.h"
@@ -33,9 +34,6 @@ class Lines {
 };
 
 std::string_view word(SourceKind kind) { return kind == SourceKind::filament ? "filament" : kind == SourceKind::arc ? "arc" : "led"; }
-std::string_view word(ToneMapperKind kind) {
-    return kind == ToneMapperKind::linear ? "linear" : kind == ToneMapperKind::rational ? "rational" : "logarithmic";
-}
 std::string_view word(BetweenSamples rule) { return rule == BetweenSamples::linear_cd ? "linear_cd" : "log_cd"; }
 std::string_view word(TypeCAxis axis) {
     return axis == TypeCAxis::automatic ? "automatic" : axis == TypeCAxis::horizontal ? "horizontal" : "nadir";
@@ -373,8 +371,8 @@ std::string write_drive(const Drive& drive) {
     write_scenery(out, drive);
     out.add(0, "capture: {{per_second: {}, all: {}, exr: {}, png: {}}}", drive.capture.per_second, drive.capture.all, drive.capture.exr,
             drive.capture.png);
-    out.add(0, "tone_mapper: {{kind: {}, s: {}, l_max_cdm2: {}}}", word(drive.tone_mapper.kind), drive.tone_mapper.s,
-            drive.tone_mapper.l_max_cdm2);
+    out.add_all(write_tone_mapper(drive.tone_mapper));
+    out.add_all(write_display(drive.display));
     out.add(0, "technique: {}", quoted(drive.technique));
     write_measure(out, drive);
     out.add_all(write_seeing(drive.seeing));

@@ -1,5 +1,5 @@
 #include "metrics/display/display_colour.h"
-#include "metrics/display/tone_curve.h"
+#include "scenarios/display/tone_curve.h"
 #include "scenarios/values/files.h"
 
 #include <cmath>

@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"TwoRows", "fernlicht_display: 1\nrgb_to_xyz: [[1, 2, 3], [2, 4, 6]]\ntransfer: srgb\n", "rgb_to_xyz"},
         Refusal{"Gamma", "fernlicht_display: 1\nrgb_to_xyz: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntransfer: {gamma: 0}\n", "gamma"},
         Refusal{"Transfer", "fernlicht_display: 1\nrgb_to_xyz: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntransfer: rec709\n", "linear"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 } // namespace
 } // namespace fernlicht

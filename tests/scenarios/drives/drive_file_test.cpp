@@ -142,7 +142,7 @@ TEST_F(DriveFile, DaylightStepSpeedAndTheRest) {
     EXPECT_EQ(drive.start.s_m, 5.5);
     EXPECT_THAT(drive.via, ElementsAre("3", "x"));
     EXPECT_EQ(drive.capture, (Capture{4.0, true, false, true}));
-    EXPECT_EQ(drive.tone_mapper, (ToneMapper{ToneMapperKind::logarithmic, 10.0, 100.0}));
+    EXPECT_EQ(drive.tone_mapper, (ToneMapper{ToneMapperKind::logarithmic, 10.0, 100.0, {}}));
     EXPECT_EQ(drive.technique, "as-published");
     EXPECT_FALSE(drive.shadows);
     EXPECT_FALSE(drive.extent);

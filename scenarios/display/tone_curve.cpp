@@ -1,4 +1,4 @@
-#include "metrics/display/tone_curve.h"
+#include "scenarios/display/tone_curve.h"
 
 #include "scenarios/photometry.h"
 
@@ -24,6 +24,11 @@ template <class Along> CurvePlace piece_at(const std::vector<ToneKnot>& curve, d
 }
 
 } // namespace
+
+std::string_view name(ToneMapperKind kind) {
+    constexpr std::string_view names[] = {"linear", "rational", "logarithmic", "histogram"};
+    return names[static_cast<std::size_t>(kind)];
+}
 
 double toned(const ToneMapper& mapper, double l) {
     if (!(l > 0.0))

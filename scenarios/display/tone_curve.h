@@ -5,8 +5,12 @@
 #include "scenarios/display/tone_mapper.h"
 
 #include <optional>
+#include <string_view>
 
 namespace fernlicht {
+
+/// "rational", as drives name it.
+std::string_view name(ToneMapperKind kind);
 
 /// Share of what the display can show, 0..1: 0 for 0 and below, 1 from l_max on; rises with the luminance. A luminance that is not a number
 /// is shown as 0.

@@ -1,0 +1,79 @@
+#include "runner/display/display_step.h"
+
+#include "metrics/display/tone_fit.h"
+#include "runner/display/icc_profile.h"
+#include "runner/display/shown_picture.h"
+#include "runner/picture_file.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+
+DisplayStep::DisplayStep(const Drive& drive)
+    : drive_(drive), after_drawing_(drive.display.after_drawing() || drive.tone_mapper.kind == ToneMapperKind::histogram),
+      times_(std::make_shared<Times>()) {
+    if (const auto& adaptation = drive.display.adaptation)
+        adapted_.emplace(adaptation->brighter_s, adaptation->darker_s);
+    if (drive.display.profile)
+        icc_ = icc_profile(*drive.display.profile);
+}
+
+Wanted DisplayStep::with_light(Wanted wanted, const View& view, bool stored, bool drivers) const {
+    if (after_drawing_ && wanted.colour && view.projection == Projection::perspective)
+        wanted.light = stored || (drivers && adapted_);
+    return wanted;
+}
+
+void DisplayStep::see(const Frame& frame) {
+    if (!adapted_ || frame.light.empty())
+        return;
+    LuminanceHistogram histogram;
+    for (const glm::vec3& light : frame.light.pixels())
+        histogram.add(glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722)), false);
+    adapted_->see(histogram.log_mean_cdm2(), drive_.step_s);
+    if (first_cdm2_ == 0.0)
+        first_cdm2_ = adapted_->cdm2();
+}
+
+ToneMapper DisplayStep::mapper() const {
+    ToneMapper mapper = drive_.tone_mapper;
+    if (!adapted_ || first_cdm2_ == 0.0)
+        return mapper;
+    const double moved = adapted_->cdm2() / first_cdm2_;
+    mapper.l_max_cdm2 *= moved;
+    for (ToneKnot& knot : mapper.curve)
+        knot.ln_luminance += std::log(moved);
+    return mapper;
+}
+
+WritePicture DisplayStep::writer() const {
+    const PictureTags tags{shown_by(drive_.display, drive_.tone_mapper), icc_};
+    if (!after_drawing_)
+        return [tags](const Frame& frame, const View&, const std::filesystem::path& path) { write_png(frame.colour, tags, path); };
+    return [tags, mapper = mapper(), display = drive_.display, times = times_](const Frame& frame, const View& view,
+                                                                               const std::filesystem::path& path) {
+        if (frame.light.empty()) {
+            write_png(frame.colour, {shown_by({}, mapper), ""}, path);
+            return;
+        }
+        const ShownPicture shown = show(frame.light, view.vertical_fov_rad, display, mapper);
+        PictureTags own = tags;
+        own.shown_by = shown_by(display, mapper);
+        write_png(shown.codes, shown.bits, own, path);
+        const std::lock_guard lock(times->mutex);
+        for (const auto& [name, seconds] : shown.stage_s) {
+            const std::string pass = "display: " + name;
+            auto known = std::ranges::find(times->stages, pass, &PassTime::name);
+            if (known == times->stages.end())
+                known = times->stages.insert(known, PassTime{pass, {}});
+            known->seconds.push_back(seconds);
+        }
+    };
+}
+
+std::vector<PassTime> DisplayStep::times() const {
+    const std::lock_guard lock(times_->mutex);
+    return times_->stages;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,48 @@
+// What a drive's stored pictures are shown by, as the play loop meets them.
+#pragma once
+
+#include "metrics/display/exposure.h"
+#include "runner/report/report.h"
+#include "scenarios/drives/frame.h"
+
+#include <functional>
+#include <memory>
+#include <mutex>
+
+namespace fernlicht {
+
+/// Writes a frame's picture to a PNG.
+using WritePicture = std::function<void(const Frame&, const View&, const std::filesystem::path&)>;
+
+class DisplayStep {
+  public:
+    /// The drive's tone mapper is closed (fit_tone_mapper). It outlives what it is made for.
+    explicit DisplayStep(const Drive& drive);
+
+    /// What to draw besides, so that the picture can be shown: of a stored one its coloured light, and where white adapts that of each
+    /// driver's.
+    Wanted with_light(Wanted wanted, const View& view, bool stored, bool drivers) const;
+    /// The driver's frame of a moment, before its pictures are written. Nothing without adaptation.
+    void see(const Frame& frame);
+    /// With the exposure of now; may be called by another thread, and later. Frames without coloured light (techniques that compute no
+    /// luminance) are written as they were drawn.
+    WritePicture writer() const;
+    /// What each stage took, a sample a picture. After all is written.
+    std::vector<PassTime> times() const;
+
+  private:
+    struct Times {
+        std::mutex mutex;
+        std::vector<PassTime> stages;
+    };
+    ToneMapper mapper() const;
+
+    const Drive& drive_;
+    bool after_drawing_;
+    std::optional<AdaptedLuminance> adapted_;
+    double first_cdm2_ = 0.0; ///< what the eye was adapted to at first, where white is the tone mapper's
+    std::string icc_;
+    std::shared_ptr<Times> times_;
+};
+
+} // namespace fernlicht

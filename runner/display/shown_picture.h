@@ -1,0 +1,30 @@
+// From a picture's coloured light to the codes of a display, stage by stage: windscreen, eye, tone mapper, display. What is not asked for
+// is not computed.
+#pragma once
+
+#include "scenarios/display/display_settings.h"
+#include "scenarios/display/tone_mapper.h"
+#include "scenarios/values/image.h"
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fernlicht {
+
+struct ShownPicture {
+    Image<glm::u16vec3> codes; ///< of `bits` bits
+    int bits = 8;
+    std::vector<std::pair<std::string, double>> stage_s; ///< what each stage took, in order
+};
+
+/// `light`: perspective, square pixels, linear in sRGB's primaries, Y in cd/m2. The mapper is closed (ToneMapper::is_open). Without a
+/// profile: sRGB.
+ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper);
+
+/// What pictures were shown by, in one line: "rational s=20 white=100 cd/m2; display srgb". Pictures with different lines have no common
+/// scale.
+std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper);
+
+} // namespace fernlicht

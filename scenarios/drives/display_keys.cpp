@@ -1,0 +1,148 @@
+#include "scenarios/drives/display_keys.h"
+
+#include "scenarios/display/tone_curve.h"
+#include "scenarios/drives/yaml_text.h"
+
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr double most_s = 1.0e6, least_l_max_cdm2 = 1.0e-6, most_l_max_cdm2 = 1.0e9; // the GPU divides by it in float
+constexpr std::size_t most_knots = 10000;
+
+void read_white(const YamlEntry& entry, ToneMapper& mapper) {
+    if (entry.is_scalar() && (entry.value().text == "all" || entry.value().text == "surfaces"))
+        mapper.white = entry.value().text == "all" ? WhitePoint::all : WhitePoint::surfaces;
+    else if (!entry.is_scalar())
+        entry.refuse("a number of cd/m2, `all` or `surfaces`");
+    else
+        mapper.l_max_cdm2 = entry.number(least_l_max_cdm2, most_l_max_cdm2);
+}
+
+void read_curve(const YamlEntry& entry, ToneMapper& mapper) {
+    if (mapper.kind != ToneMapperKind::histogram)
+        entry.refuse("a curve", "none: only `kind: histogram` has one");
+    for (const YamlEntry& knot : entry.list(2, most_knots)) {
+        const std::vector<double> at = knot.numbers(2, 2, -1.0e3, 1.0e3);
+        if (!mapper.curve.empty() && !(at[0] > mapper.curve.back().ln_luminance && at[1] > mapper.curve.back().ln_share))
+            knot.refuse("a knot that does not rise", "logarithms of luminance and share above those of the knot before");
+        mapper.curve.push_back({at[0], at[1]});
+    }
+    if (mapper.curve.back().ln_share != 0.0)
+        entry.refuse(fmt::format("a last share of exp({:g})", mapper.curve.back().ln_share), "0, white");
+}
+
+Windscreen read_windscreen(const YamlEntry& entry) {
+    Windscreen screen;
+    const YamlMap keys = entry.map({"transmittance", "haze"});
+    screen.transmittance = keys.number_or("transmittance", screen.transmittance, 0.01, 1.0);
+    screen.haze = keys.number_or("haze", screen.haze, 0.0, 0.3);
+    return screen;
+}
+
+EyeVeil read_veil(const YamlEntry& entry) {
+    EyeVeil veil;
+    if (entry.is_scalar() && entry.flag())
+        return veil;
+    const YamlMap keys = entry.map({"age_years", "pigmentation"});
+    veil.age_years = keys.number_or("age_years", veil.age_years, 1.0, 120.0);
+    veil.pigmentation = keys.number_or("pigmentation", veil.pigmentation, 0.0, 1.2);
+    return veil;
+}
+
+} // namespace
+
+ToneMapper read_tone_mapper(const YamlMap& drive) {
+    ToneMapper mapper;
+    const auto given = drive.find("tone_mapper");
+    if (!given)
+        return mapper;
+    const YamlMap keys = given->map({"kind", "s", "l_max_cdm2", "curve"});
+    static constexpr ToneMapperKind kinds[] = {ToneMapperKind::linear, ToneMapperKind::rational, ToneMapperKind::logarithmic,
+                                               ToneMapperKind::histogram};
+    if (const auto kind = keys.find("kind"))
+        mapper.kind = kinds[kind->choice({"linear", "rational", "logarithmic", "histogram"})];
+    if (const auto s = keys.find("s")) {
+        mapper.fitted_s = s->is_scalar() && s->value().text == "fitted";
+        if (mapper.fitted_s && mapper.kind != ToneMapperKind::rational)
+            s->refuse("'fitted'", "a number: only `kind: rational` has an s that is fitted");
+        if (!mapper.fitted_s)
+            mapper.s = s->number(1.0, most_s);
+    }
+    if (const auto l_max = keys.find("l_max_cdm2"))
+        read_white(*l_max, mapper);
+    if (const auto curve = keys.find("curve"))
+        read_curve(*curve, mapper);
+    return mapper;
+}
+
+DisplaySettings read_display(const YamlMap& drive, FilesRead& opened) {
+    DisplaySettings display;
+    const auto given = drive.find("display");
+    if (!given)
+        return display;
+    const auto read_profile = [&](const YamlEntry& entry) {
+        display.profile_file = entry.path();
+        display.profile = read_display_profile(display.profile_file, opened);
+    };
+    if (given->is_scalar()) {
+        read_profile(*given);
+        return display;
+    }
+    const YamlMap keys = given->map({"profile", "windscreen", "eye", "adaptation"});
+    if (const auto profile = keys.find("profile"))
+        read_profile(*profile);
+    if (const auto windscreen = keys.find("windscreen"))
+        display.windscreen = read_windscreen(*windscreen);
+    if (const auto eye = keys.find("eye")) {
+        const YamlMap parts = eye->map({"veil", "colours", "sharpness"});
+        if (const auto veil = parts.find("veil"); veil && !(veil->is_scalar() && !veil->flag()))
+            display.veil = read_veil(*veil);
+        display.night_colours = parts.flag_or("colours", false);
+        display.night_sharpness = parts.flag_or("sharpness", false);
+    }
+    if (const auto adaptation = keys.find("adaptation"); adaptation && !(adaptation->is_scalar() && !adaptation->flag())) {
+        display.adaptation = ExposureAdaptation{};
+        if (!adaptation->is_scalar()) {
+            const YamlMap times = adaptation->map({"brighter_s", "darker_s"});
+            display.adaptation->brighter_s = times.number_or("brighter_s", display.adaptation->brighter_s, 1.0e-3, 3600.0);
+            display.adaptation->darker_s = times.number_or("darker_s", display.adaptation->darker_s, 1.0e-3, 3600.0);
+        }
+    }
+    return display;
+}
+
+std::string write_tone_mapper(const ToneMapper& mapper) {
+    const std::string s = mapper.fitted_s ? "fitted" : fmt::format("{}", mapper.s);
+    const std::string white = mapper.white == WhitePoint::given ? fmt::format("{}", mapper.l_max_cdm2)
+                              : mapper.white == WhitePoint::all ? "all"
+                                                                : "surfaces";
+    std::string curve;
+    for (const ToneKnot& knot : mapper.curve)
+        curve += fmt::format("{}[{}, {}]", curve.empty() ? "" : ", ", knot.ln_luminance, knot.ln_share);
+    return fmt::format("tone_mapper: {{kind: {}, s: {}, l_max_cdm2: {}{}}}\n", name(mapper.kind), s, white,
+                       curve.empty() ? "" : fmt::format(", curve: [{}]", curve));
+}
+
+std::string write_display(const DisplaySettings& display) {
+    if (!display.after_drawing())
+        return {};
+    std::string text = "display:\n";
+    if (display.profile)
+        text += fmt::format("  profile: {}\n", quoted(display.profile_file.string()));
+    if (display.windscreen)
+        text += fmt::format("  windscreen: {{transmittance: {}, haze: {}}}\n", display.windscreen->transmittance, display.windscreen->haze);
+    if (display.veil || display.night_colours || display.night_sharpness) {
+        const std::string veil =
+            display.veil ? fmt::format("veil: {{age_years: {}, pigmentation: {}}}, ", display.veil->age_years, display.veil->pigmentation)
+                         : "";
+        text += fmt::format("  eye: {{{}colours: {}, sharpness: {}}}\n", veil, display.night_colours, display.night_sharpness);
+    }
+    if (display.adaptation)
+        text +=
+            fmt::format("  adaptation: {{brighter_s: {}, darker_s: {}}}\n", display.adaptation->brighter_s, display.adaptation->darker_s);
+    return text;
+}
+
+} // namespace fernlicht
