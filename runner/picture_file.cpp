@@ -133,11 +133,14 @@ void write_png(const Image<glm::u16vec3>& codes, int bits, const PictureTags& ta
     write_png(picture, tags, path);
 }
 
-std::string png_shown_by(const std::filesystem::path& path) {
+PictureTags read_png_tags(const std::filesystem::path& path) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
     if (!input || std::string_view(input->format_name()) != "png")
         throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(input ? "no PNG" : OIIO::geterror(), 200), "a PNG picture");
-    return std::string(input->spec().get_string_attribute(shown_by_key));
+    PictureTags tags{std::string(input->spec().get_string_attribute(shown_by_key)), {}};
+    if (const OIIO::ParamValue* const icc = input->spec().find_attribute("ICCProfile"))
+        tags.icc.assign(static_cast<const char*>(icc->data()), static_cast<std::size_t>(icc->datasize()));
+    return tags;
 }
 
 Image<Rgb8> read_png(const std::filesystem::path& path) {

@@ -35,8 +35,8 @@ void write_png(const Image<Rgb8>& picture, const PictureTags& tags, const std::f
 /// Codes of 8 or 16 bits. Throws DeviceError.
 void write_png(const Image<glm::u16vec3>& codes, int bits, const PictureTags& tags, const std::filesystem::path& path);
 
-/// What a PNG says it was shown by; "" where it does not. Throws InputError for what is no PNG.
-std::string png_shown_by(const std::filesystem::path& path);
+/// What a PNG says of itself. Throws InputError for what is no PNG.
+PictureTags read_png_tags(const std::filesystem::path& path);
 
 /// An 8-bit grey or RGB picture; grey becomes r = g = b. Throws InputError: missing, no PNG, cut short, other bits, with alpha, more than
 /// 2^28 values.

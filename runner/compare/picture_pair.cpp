@@ -89,6 +89,18 @@ void read_linear(PicturePair& pair, bool common_alone) {
             pair.alone.push_back(channel.name);
 }
 
+/// Pictures shown in different ways have no common scale, and differences of colours are made for sRGB.
+void check_shown_alike(const PicturePair& pair) {
+    const PictureTags a = read_png_tags(pair.reference), b = read_png_tags(pair.tested);
+    if (!a.shown_by.empty() && !b.shown_by.empty() && a.shown_by != b.shown_by)
+        throw InputError({pair.tested, 0, 0, {}}, "was shown by '" + printable(b.shown_by, 200) + "'",
+                         "'" + printable(a.shown_by, 200) + "' as the reference, or the EXRs of the same moments");
+    for (const auto& [tags, file] : {std::pair(&a, &pair.reference), std::pair(&b, &pair.tested)})
+        if (!tags->icc.empty())
+            throw InputError({*file, 0, 0, {}}, "has the colour space of a display, by an ICC profile",
+                             "sRGB, which differences of colours are made for; EXRs of the same moments can be compared");
+}
+
 PicturePair read_pair(const std::filesystem::path& reference, const std::filesystem::path& tested, bool common_alone) {
     PicturePair pair;
     pair.reference = reference;
@@ -101,6 +113,7 @@ PicturePair read_pair(const std::filesystem::path& reference, const std::filesys
         read_linear(pair, common_alone);
         return pair;
     }
+    check_shown_alike(pair);
     pair.reference_display = read_png(reference);
     pair.tested_display = read_png(tested);
     pair.width = pair.reference_display.width();

@@ -5,6 +5,7 @@
 #include "metrics/statistics.h"
 #include "runner/capture.h"
 #include "runner/compare/run_pairs.h"
+#include "runner/picture_file.h"
 #include "runner/summary.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
@@ -102,6 +103,14 @@ std::string why_not_view(const View* before, const View* now) {
     return *before == *now ? "" : "it looks from another place, another way or over another field";
 }
 
+/// Whether two PNGs were shown in different ways, or one that cannot be compared. Runs of older versions say it by their tone mapper alone.
+bool other_display(const RunDrive& before, const RunDrive& now, const FramePair& pair) {
+    const PictureTags a = read_png_tags(before.folder / pair.file(pair.old_frame)),
+                      b = read_png_tags(now.folder / pair.file(pair.new_frame));
+    return before.tone_mapper != now.tone_mapper || (!a.shown_by.empty() && !b.shown_by.empty() && a.shown_by != b.shown_by) ||
+           !a.icc.empty() || !b.icc.empty();
+}
+
 /// Frames that both have, and in words which were left out.
 void pair_frames(DriveComparison& drive) {
     const RunDrive &before = *drive.before, &now = *drive.now;
@@ -132,14 +141,16 @@ void pair_frames(DriveComparison& drive) {
             const bool old_has = !pair.file(old_frame).empty(), new_has = !pair.file(*found).empty();
             if (old_has != new_has)
                 (is_display ? png_alone : exr_alone) = true;
-            else if (is_display && old_has && before.tone_mapper != now.tone_mapper)
+            else if (is_display && old_has && other_display(before, now, pair))
                 other_tones = true;
             else if (old_has)
                 drive.frames.push_back(std::move(pair));
         }
     }
     if (other_tones)
-        drive.left_out.emplace_back("PNGs: shown by another tone mapper or at another exposure; the EXRs of the same moments are compared");
+        drive.left_out.emplace_back(
+            "PNGs: shown by another tone mapper, at another exposure or for another display than sRGB; the EXRs of the same moments are "
+            "compared");
     if (png_alone)
         drive.left_out.emplace_back("PNGs that one run alone stored");
     if (exr_alone)

@@ -53,6 +53,7 @@ RunDrive read_drive_of(const fs::path& folder, const CheckedJson& report, const 
                        const std::map<std::string, std::string>& hashes) {
     RunDrive drive;
     static_cast<PlayedResult&>(drive) = read_played(report, played, "");
+    drive.folder = folder;
     drive.technique = played.at("technique").text();
     drive.hashes = hashes;
     for (const CheckedJson& sample : played.at("speed_mps").items())

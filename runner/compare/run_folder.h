@@ -11,6 +11,7 @@ namespace fernlicht {
 
 /// One drive with one lamp set.
 struct RunDrive : PlayedResult {
+    std::filesystem::path folder; ///< of the run
     std::string technique, title;
     std::vector<double> time_s; ///< of the moments played
     YamlValue resolved;         ///< the drive as it was played

@@ -14,7 +14,7 @@ DisplayStep::DisplayStep(const Drive& drive)
       times_(std::make_shared<Times>()) {
     if (const auto& adaptation = drive.display.adaptation)
         adapted_.emplace(adaptation->brighter_s, adaptation->darker_s);
-    if (drive.display.profile)
+    if (drive.display.profile && !is_srgb(*drive.display.profile))
         icc_ = icc_profile(*drive.display.profile);
 }
 

@@ -47,6 +47,17 @@ DisplayProfile srgb_display() {
     return profile;
 }
 
+bool is_srgb(const DisplayProfile& profile) {
+    if (profile.transfer != TransferKind::srgb || profile.bits != 8)
+        return false;
+    const glm::dmat3 light = xyz_from_light();
+    double most = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            most = std::max(most, std::abs(profile.xyz_from_rgb[i][k] / profile.white_cdm2() - light[i][k]));
+    return most < 1.0e-4;
+}
+
 glm::dmat3 xyz_from_primaries(const glm::dvec2& red, const glm::dvec2& green, const glm::dvec2& blue, const glm::dvec2& white,
                               double white_cdm2) {
     const glm::dmat3 columns(unit_xyz(red), unit_xyz(green), unit_xyz(blue));

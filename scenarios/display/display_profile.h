@@ -49,6 +49,9 @@ glm::dmat3 xyz_from_light();
 /// sRGB at 80 cd/m2 (IEC 61966-2-1's reference display): the profile of a drive that names none.
 DisplayProfile srgb_display();
 
+/// Whether its codes mean what sRGB's do, whatever its luminances: what a PNG says without an ICC profile.
+bool is_srgb(const DisplayProfile& profile);
+
 /// The columns of xyz_from_rgb for primaries and white given by chromaticities x, y, with Y of white = `white_cdm2`. Throws
 /// std::invalid_argument where they make no colour space: y = 0, primaries on a line, a white outside their triangle.
 glm::dmat3 xyz_from_primaries(const glm::dvec2& red, const glm::dvec2& green, const glm::dvec2& blue, const glm::dvec2& white,

@@ -61,12 +61,12 @@ TEST(DisplayRun, NamingTheDefaultsChangesNoPixel) {
 
 TEST(DisplayRun, PicturesSayWhatTheyWereShownBy) {
     const TemporaryFolder folder;
-    EXPECT_EQ(png_shown_by(played(folder, "plain", "") + picture), "rational s=20 white=100 cd/m2; display srgb");
+    EXPECT_EQ(read_png_tags(played(folder, "plain", "") + picture).shown_by, "rational s=20 white=100 cd/m2; display srgb");
     const std::string out =
         played(folder, "eye",
                "tone_mapper: {kind: linear, l_max_cdm2: 50}\ndisplay: {profile: " + library_file("displays/projector.yaml") +
                    ", windscreen: {haze: 0.02}, eye: {veil: {age_years: 60}, colours: true, sharpness: true}}\n");
-    EXPECT_THAT(png_shown_by(out + picture),
+    EXPECT_THAT(read_png_tags(out + picture).shown_by,
                 testing::MatchesRegex("linear white=50 cd/m2; display projector \\([0-9a-f]*\\); windscreen 0.75 haze "
                                       "0.02; eye of 60 years; colours at night; sharpness at night"));
     const json report = json::parse(content_of(out + "/report.json"));
@@ -122,9 +122,9 @@ TEST(DisplayRun, VeilAndWindscreenDoWhatTheySay) {
 TEST(DisplayRun, AdaptationNeedsNoMoreThanItsPictures) {
     const TemporaryFolder folder;
     const std::string out = played(folder, "adapting", "display: {adaptation: {brighter_s: 0.05, darker_s: 0.05}}\n");
-    EXPECT_THAT(png_shown_by(out + picture), testing::EndsWith("; adapting"));
-    EXPECT_THAT(png_shown_by(out + "/frames/oncoming-1-halogen/driver-000020.png"), testing::HasSubstr("white=100 cd/m2"));
-    EXPECT_THAT(png_shown_by(out + picture), testing::Not(testing::HasSubstr("white=100 cd/m2")));
+    EXPECT_THAT(read_png_tags(out + picture).shown_by, testing::EndsWith("; adapting"));
+    EXPECT_THAT(read_png_tags(out + "/frames/oncoming-1-halogen/driver-000020.png").shown_by, testing::HasSubstr("white=100 cd/m2"));
+    EXPECT_THAT(read_png_tags(out + picture).shown_by, testing::Not(testing::HasSubstr("white=100 cd/m2")));
 }
 
 TEST(DisplayRun, PicturesOfAnHdrMonitorHaveSixteenBitsAndItsProfile) {
@@ -134,6 +134,28 @@ TEST(DisplayRun, PicturesOfAnHdrMonitorHaveSixteenBitsAndItsProfile) {
     EXPECT_EQ(bytes[24], 16); // IHDR: bits
     EXPECT_THAT(bytes, testing::HasSubstr("iCCP"));
     EXPECT_THAT(content_of(played(folder, "plain", "") + picture), testing::HasSubstr("sRGB"));
+}
+
+/// Two exposures, two tone mappers, two values of s, two displays: refused, each by what differs.
+TEST(DisplayRun, PicturesWithoutACommonScaleAreNotCompared) {
+    const TemporaryFolder folder;
+    const std::string plain = played(folder, "plain", "") + picture;
+    const auto compared = [&](const std::string& name, const std::string& lines) {
+        const Outcome run = run_program("compare " + plain + " " + played(folder, name, lines) + picture);
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        return run.output;
+    };
+    EXPECT_THAT(compared("exposure", "tone_mapper: {l_max_cdm2: 50}\n"),
+                testing::HasSubstr("was shown by 'rational s=20 white=50 cd/m2; display srgb'"));
+    EXPECT_THAT(compared("mapper", "tone_mapper: {kind: logarithmic}\n"),
+                testing::HasSubstr("expected 'rational s=20 white=100 cd/m2; display srgb'"));
+    EXPECT_THAT(compared("s", "tone_mapper: {s: 19}\n"), testing::HasSubstr("s=19 "));
+    EXPECT_THAT(compared("profile", "display: " + library_file("displays/projector.yaml") + "\n"), testing::HasSubstr("display projector"));
+    const std::string projected = folder / "profile" + picture;
+    const Outcome same = run_program("compare " + projected + " " + projected);
+    EXPECT_EQ(same.exit_code, 2);
+    EXPECT_THAT(same.output, testing::HasSubstr("ICC profile"));
+    EXPECT_EQ(run_program("compare " + plain + " " + plain).exit_code, 0);
 }
 
 TEST(DisplayRun, RefusalsAreASentence) {
