@@ -8,6 +8,7 @@
 #include "runner/contact_sheet.h"
 #include "runner/control/bus_report.h"
 #include "runner/control/signals_csv.h"
+#include "runner/display/display_sheet.h"
 #include "runner/display/fit_tone_mapper.h"
 #include "runner/interruption.h"
 #include "runner/limits.h"
@@ -159,6 +160,10 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
         const std::string name = "contact-sheet-" + file_name_of(sheet.drive + "-" + sheet.variant) + ".png";
         write_file(options.folder / name, plots::png_of_svg(contact_sheet_svg(sheet)));
         played[i].contact_sheet = {sheet.moment.tick, sheet.moment.time_s, "driver", name, ""};
+        const DisplaySheet shown = display_sheet(stage, stage.drive.variants[i], sheet.moment, device, plain);
+        if (!shown.mappers.empty())
+            write_file(options.folder / ("display-sheet-" + file_name_of(sheet.drive + "-" + sheet.variant) + ".png"),
+                       plots::png_of_svg(display_sheet_svg(shown)));
     }
 }
 

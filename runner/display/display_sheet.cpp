@@ -1,0 +1,130 @@
+#include "runner/display/display_sheet.h"
+
+#include "metrics/display/tone_fit.h"
+#include "runner/display/shown_picture.h"
+#include "runner/plots/canvas.h"
+#include "runner/report/clean_text.h"
+#include "scenarios/display/tone_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+using plots::Canvas;
+
+constexpr int tile_px = 320, tiles_across = 4;
+constexpr plots::Colour sheet_ink{24, 24, 32}, sheet_faint{100, 100, 108};
+constexpr double sheet_edge_px = 16.0, tile_gap_px = 12.0, under_tile_px = 44.0, over_tiles_px = 62.0;
+
+View tile_view(const View& driver) {
+    View view = driver;
+    view.height_px = std::max(1, static_cast<int>(std::lround(double{tile_px} * view.height_px / view.width_px)));
+    view.width_px = tile_px;
+    return view;
+}
+
+Image<Rgb8> shown_tile(const Image<glm::vec3>& light, const View& view, const DisplaySettings& display, const ToneMapper& mapper) {
+    const ShownPicture shown = show(light, view.vertical_fov_rad, display, mapper);
+    Image<Rgb8> picture(light.width(), light.height());
+    std::ranges::transform(shown.codes.pixels(), picture.data(), [](const glm::u16vec3& code) {
+        return Rgb8{static_cast<std::uint8_t>(code.r), static_cast<std::uint8_t>(code.g), static_cast<std::uint8_t>(code.b)};
+    });
+    return picture;
+}
+
+/// "white 103 cd/m2, s 20; keeps 98, 84, 34 %"
+std::string mapper_words(const ToneMapper& mapper) {
+    std::string words = fmt::format("white {:.3g} cd/m2", mapper.l_max_cdm2);
+    if (mapper.kind == ToneMapperKind::rational || mapper.kind == ToneMapperKind::logarithmic)
+        words += fmt::format(", s {:.3g}", mapper.s);
+    return words + fmt::format("; keeps {:.0f}, {:.0f}, {:.0f} %", 100.0 * contrast_kept(mapper, 0.1), 100.0 * contrast_kept(mapper, 1.0),
+                               100.0 * contrast_kept(mapper, 10.0));
+}
+
+void draw_tiles(Canvas& canvas, const std::vector<DisplayTile>& tiles, double top, double tile_height) {
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const double left = sheet_edge_px + static_cast<double>(i % tiles_across) * (tile_px + tile_gap_px),
+                     at = top + static_cast<double>(i / tiles_across) * (tile_height + under_tile_px);
+        Image<plots::Colour> pixels(tiles[i].picture.width(), tiles[i].picture.height());
+        std::ranges::transform(tiles[i].picture.pixels(), pixels.data(), [](const Rgb8& p) { return plots::Colour{p.r, p.g, p.b}; });
+        canvas.picture(left, at, tile_px, tile_height, pixels);
+        canvas.text(left, at + tile_height + 15.0, tiles[i].name, {.size_px = 13.0, .colour = sheet_ink, .bold = true});
+        canvas.text(left, at + tile_height + 30.0, tiles[i].words, {.size_px = 12.0, .colour = sheet_faint});
+    }
+}
+
+} // namespace
+
+DisplaySheet display_sheet(const Stage& stage, const Variant& variant, const Moment& moment, Device& device,
+                           const RendererSettings& settings) {
+    DisplaySheet sheet{stage.drive.name, stage.drive.title, variant.name, moment.time_s, moment.distance_m, {}, {}};
+    const View view = tile_view(*driver_view(stage.drive));
+    const Frame frame = Renderer(device, stage.scene, settings).draw(moment, view, {.luminance = true, .light = true});
+    if (frame.light.empty())
+        return sheet;
+    RendererSettings surfaces_alone = settings;
+    surfaces_alone.sources = false;
+    LuminanceHistogram all, surfaces;
+    all.add(frame.luminance_cdm2);
+    surfaces.add(Renderer(device, stage.scene, surfaces_alone).draw(moment, view, {.luminance = true}).luminance_cdm2);
+    const double brightest = std::max(all.most_cdm2(), 1.0e-6), brightest_surface = std::max(surfaces.most_cdm2(), 1.0e-6);
+    const auto add = [&](const char* name, const ToneMapper& mapper) {
+        sheet.mappers.push_back({name, mapper_words(mapper), shown_tile(frame.light, view, {}, mapper)});
+    };
+    const auto mapper = [](ToneMapperKind kind, double s, double l_max_cdm2) {
+        ToneMapper made;
+        made.kind = kind;
+        made.s = s;
+        made.l_max_cdm2 = l_max_cdm2;
+        return made;
+    };
+    add("linear", mapper(ToneMapperKind::linear, 1.0, brightest));
+    add("linear, light sources clipped", mapper(ToneMapperKind::linear, 1.0, brightest_surface));
+    add("logarithmic", mapper(ToneMapperKind::logarithmic, 1000.0, brightest));
+    add("histogram adjustment", histogram_mapper(all, brightest, 1.0e-3));
+    add("rational", mapper(ToneMapperKind::rational, 20.0, 100.0));
+    add("rational, fitted", mapper(ToneMapperKind::rational, fitted_s(all.log_mean_cdm2(), brightest_surface, 0.18), brightest_surface));
+    const auto add_eye = [&](const char* name, const char* words, const DisplaySettings& display) {
+        sheet.eyes.push_back({name, words, shown_tile(frame.light, view, display, stage.drive.tone_mapper)});
+    };
+    DisplaySettings windscreen, young, old, night;
+    windscreen.windscreen = Windscreen{0.75, 0.03};
+    young.veil = EyeVeil{25.0, 0.5};
+    old.veil = EyeVeil{75.0, 0.5};
+    night.night_colours = night.night_sharpness = true;
+    add_eye("as it is", "the drive's own tone mapper, as in all of this row", {});
+    add_eye("windscreen", "transmittance 0.75, haze 3 %: a worn one", windscreen);
+    add_eye("veil, 25 years", "the CIE's general glare equation", young);
+    add_eye("veil, 75 years", "the same eye later", old);
+    add_eye("colours and sharpness at night", "what cones leave to rods", night);
+    return sheet;
+}
+
+std::string display_sheet_svg(const DisplaySheet& sheet) {
+    const double tile_height = sheet.mappers.empty() ? 0.0 : sheet.mappers.front().picture.height();
+    const auto rows = [](const std::vector<DisplayTile>& tiles) {
+        return static_cast<double>((tiles.size() + tiles_across - 1) / tiles_across);
+    };
+    const double first_px = over_tiles_px + rows(sheet.mappers) * (tile_height + under_tile_px),
+                 height_px = first_px + over_tiles_px + rows(sheet.eyes) * (tile_height + under_tile_px),
+                 width_px = 2.0 * sheet_edge_px + tiles_across * tile_px + (tiles_across - 1) * tile_gap_px;
+    Canvas canvas(width_px, height_px, "Contact sheet of tone mappers and eyes");
+    canvas.rectangle(0.0, 0.0, width_px, height_px, {.fill = "#ffffff"});
+    const auto head = [&](double top, const std::string& title, const std::string& words) {
+        canvas.text(sheet_edge_px, top + 26.0, title, {.size_px = 17.0, .colour = sheet_ink, .bold = true});
+        canvas.text(sheet_edge_px, top + 46.0, words, {.size_px = 13.0, .colour = sheet_faint});
+    };
+    head(0.0, "One moment through every tone mapper",
+         fmt::format("{}, {}: after {:.2f} s, {:.1f} m along the route; keeps: of a small contrast at 0.1, 1 and 10 cd/m2",
+                     short_text(sheet.title.empty() ? sheet.drive : sheet.title, 60), short_text(sheet.variant, 40), sheet.time_s,
+                     sheet.distance_m));
+    draw_tiles(canvas, sheet.mappers, over_tiles_px, tile_height);
+    head(first_px, "Through windscreen and eye", "each stage alone");
+    draw_tiles(canvas, sheet.eyes, first_px + over_tiles_px, tile_height);
+    return canvas.finish();
+}
+
+} // namespace fernlicht
