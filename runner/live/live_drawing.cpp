@@ -1,8 +1,10 @@
 #include "runner/live/live_drawing.h"
 
+#include "runner/display/fit_tone_mapper.h"
 #include "runner/lux_map.h"
 #include "runner/preparation.h"
 #include "scenarios/drives/motion.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
 
@@ -28,7 +30,12 @@ Variant at_rest(const Variant& variant) {
 
 LiveDrawing::LiveDrawing(const Stage& stage, const Variant& variant, Device& device, std::filesystem::path folder)
     : stage_(stage), set_(stage.drive.name + "-" + variant.name), folder_(std::move(folder)),
-      renderer_(device, stage.scene, settings_for(stage.drive, settings_for(device, false))) {
+      renderer_(device, stage.scene, settings_for(stage.drive, settings_for(device, false))), display_(stage.drive) {
+    refuse_open_tone_mapper(stage.drive);
+    if (stage.drive.display.adaptation)
+        throw InputError({stage.drive.file, 0, 0, "display.adaptation"},
+                         "white that follows every picture in a live drive, which leaves some out",
+                         "none, or a replay of the recording by `fernlicht run --can-log`");
     Drive scripted = stage.drive;
     scripted.bus_motion.reset(); // nobody knows yet how the bus moves the car
     prepare(renderer_, scripted, stage.route, at_rest(variant), {});
@@ -39,12 +46,13 @@ void LiveDrawing::draw(const LivePicture& picture) {
     const Moment& moment = picture.moment;
     for (std::size_t i = 0; i < (picture.captured ? drive.views.size() : std::min<std::size_t>(1, drive.views.size())); ++i) {
         const View& view = drive.views[i];
-        Frame frame = renderer_.draw(moment, view, picture.captured ? stored_results(view, drive.capture) : Wanted{.colour = true});
+        const Wanted wanted = picture.captured ? stored_results(view, drive.capture) : Wanted{.colour = true};
+        Frame frame = renderer_.draw(moment, view, display_.with_light(wanted, view, picture.captured, i == 0));
         if (!picture.captured)
             continue;
         if (view.projection == Projection::map && !frame.illuminance_lx.empty() && maps_.size() < most_live_maps)
             maps_.push_back(lux_map_of(frame, moment, view, stage_.route, drive.bumper_m));
-        frames_.push_back(store_frame(writers_, folder_, set_, drive.capture, std::move(frame), moment, view));
+        frames_.push_back(store_frame(writers_, folder_, set_, drive.capture, std::move(frame), moment, view, display_.writer()));
     }
     ++drawn_;
     captured_ += picture.captured ? 1 : 0;
@@ -62,6 +70,7 @@ void LiveDrawing::finish(PlayedVariant& played) {
     played.frames = std::move(frames_);
     for (const std::size_t i : spread_over(maps_.size(), most_pictured_moments))
         played.maps.push_back(std::move(maps_[i]));
+    std::ranges::copy(display_.times(), std::back_inserter(played.passes));
 }
 
 } // namespace fernlicht

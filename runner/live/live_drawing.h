@@ -11,7 +11,8 @@ namespace fernlicht {
 class LiveDrawing {
   public:
     /// To be made before the drive happens. Compiles what the drive's moments need while all lamps shine. Stage and device must outlive it.
-    /// Throws DeviceError.
+    /// Throws DeviceError, and InputError for a tone mapper that is fitted and for white that adapts: both look at pictures that a live
+    /// drive may leave out.
     LiveDrawing(const Stage& stage, const Variant& variant, Device& device, std::filesystem::path folder);
 
     /// Draws until no more come. Throws DeviceError.
@@ -29,6 +30,7 @@ class LiveDrawing {
     std::string set_;
     std::filesystem::path folder_;
     Renderer renderer_;
+    DisplayStep display_;
     Writers writers_;
     std::vector<StoredFrame> frames_;
     std::vector<LuxMap> maps_;
