@@ -12,7 +12,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double degrees_a_radian = 180.0 / std::numbers::pi;
-constexpr double haze_from_deg = 0.5, haze_to_deg = 30.0, haze_counted_from_deg = 2.5; // the last: ASTM D1003
+constexpr double haze_from_deg = 0.1, haze_to_deg = 30.0, haze_counted_from_deg = 2.5; // the last: ASTM D1003
 constexpr int most_points = 4; // of the lattice on which a cell's veil is computed, to a side
 
 /// Light of a cell: what it sends to the eye, and the direction of its centre.

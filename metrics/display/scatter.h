@@ -24,7 +24,7 @@ struct ScatterFunction {
 ScatterFunction eye_scatter(const GlareEye& eye);
 
 /// A windscreen of this haze, the share of the light that it turns by more than 2.5 degrees (ASTM D1003), 0 to 0.3: f falls with 1 /
-/// theta^2 from 0.5 to 30 degrees. The form is ours: scratches and dirt scatter forward, and no measured function of a worn windscreen was
+/// theta^2 from 0.1 to 30 degrees. The form is ours: scratches and dirt scatter forward, and no measured function of a worn windscreen was
 /// at hand.
 ScatterFunction windscreen_scatter(double haze);
 

@@ -15,7 +15,7 @@ namespace {
 
 using plots::Canvas;
 
-constexpr int tile_px = 320, tiles_across = 4;
+constexpr int tile_px = 320, tiles_across = 3;
 constexpr plots::Colour sheet_ink{24, 24, 32}, sheet_faint{100, 100, 108};
 constexpr double sheet_edge_px = 16.0, tile_gap_px = 12.0, under_tile_px = 44.0, over_tiles_px = 62.0;
 
