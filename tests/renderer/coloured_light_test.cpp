@@ -30,7 +30,7 @@ Moment warm_night() {
     LitLamp own = even_lamp(20000.0, looking({3.5, 0.0, 0.65}, 0, 0));
     own.colour = colour_of_temperature(3200.0);
     moment.lamps = {own};
-    LitLamp other = even_lamp(800.0, looking({40.0, 3.0, 0.65}, 180, 0));
+    LitLamp other = even_lamp(800.0, looking({40.0, 12.0, 0.65}, 180, 0));
     other.face_m = {0.3, 0.2};
     moment.other_lamps = {other};
     return moment;

@@ -1,6 +1,8 @@
 // Tone mappers and displays through the program: what a drive asks for is what its pictures are, and what it does not ask for changes
 // nothing.
 #include "metrics/display/display_colour.h"
+#include "runner/display/icc_profile.h"
+#include "runner/display/shown_picture.h"
 #include "runner/picture_file.h"
 #include "scenarios/display/tone_curve.h"
 #include "tests/runner/program.h"
@@ -19,11 +21,14 @@ using nlohmann::json;
 constexpr const char* few = " --quiet --frames 20:22 --resolution 96x72 --capture all --no-accuracy --backend osmesa ";
 constexpr const char* picture = "/frames/oncoming-1-halogen/driver-000021.png";
 
-/// The shipped drive with an oncoming car, with other lines at its end.
+/// The shipped drive with oncoming cars, halogen alone and nothing measured, with other lines at its end.
 std::string drive_with(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
     std::string text = content_of(library_file("drives/oncoming.yaml"));
     for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;)
         text.replace(at, 3, library_file(""));
+    text.erase(text.find("  xenon: "), text.find("traffic_light: ") - text.find("  xenon: "));
+    text.erase(text.find("  map: "));
+    text += "measure: {extent: false}\n";
     const std::string path = folder / (name + ".yaml");
     std::ofstream(path) << text << lines;
     return path;
@@ -47,16 +52,19 @@ TEST(DisplayRun, NamingTheDefaultsChangesNoPixel) {
     const TemporaryFolder folder;
     const Image<Rgb8> plain = read_png(played(folder, "plain", "") + picture);
     EXPECT_EQ(read_png(played(folder, "named", "tone_mapper: {kind: rational, s: 20, l_max_cdm2: 100}\n") + picture), plain);
-    // The same after drawing, with each channel clipped, within a code: the drawing rounds its floats first.
+    // The same after drawing, with each channel clipped, within a code: the drawing rounds its floats first. Where others' lamps are seen,
+    // a few pixels, drawing takes the brighter of lamp and surface in each channel, and light adds up.
     const std::string profile = folder / "clipping.yaml";
     std::ofstream(profile) << content_of(library_file("displays/srgb.yaml")) << "gamut: clip\n";
     const Image<Rgb8> after = read_png(played(folder, "after", "display: " + profile + "\n") + picture);
     ASSERT_EQ(after.size(), plain.size());
+    int apart = 0;
     for (std::size_t i = 0; i < plain.size(); ++i) {
-        EXPECT_NEAR(after.pixels()[i].r, plain.pixels()[i].r, 1);
-        EXPECT_NEAR(after.pixels()[i].g, plain.pixels()[i].g, 1);
-        EXPECT_NEAR(after.pixels()[i].b, plain.pixels()[i].b, 1);
+        const Rgb8 a = after.pixels()[i], b = plain.pixels()[i];
+        apart += std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > 1 ? 1 : 0;
     }
+    EXPECT_LT(apart, 40);
+    EXPECT_LT(apart, static_cast<int>(plain.size()) / 100);
 }
 
 TEST(DisplayRun, PicturesSayWhatTheyWereShownBy) {
@@ -139,20 +147,31 @@ TEST(DisplayRun, PicturesOfAnHdrMonitorHaveSixteenBitsAndItsProfile) {
 /// Two exposures, two tone mappers, two values of s, two displays: refused, each by what differs.
 TEST(DisplayRun, PicturesWithoutACommonScaleAreNotCompared) {
     const TemporaryFolder folder;
-    const std::string plain = played(folder, "plain", "") + picture;
-    const auto compared = [&](const std::string& name, const std::string& lines) {
-        const Outcome run = run_program("compare " + plain + " " + played(folder, name, lines) + picture);
+    const auto stored = [&](const std::string& name, const DisplaySettings& display, const ToneMapper& mapper) {
+        write_png(Image<Rgb8>(16, 16, {20, 30, 40}), {shown_by(display, mapper), ""}, folder / (name + ".png"));
+        return folder / (name + ".png");
+    };
+    ToneMapper mapper;
+    const std::string plain = stored("plain", {}, mapper);
+    const auto compared = [&](const std::string& other) {
+        const Outcome run = run_program("compare " + plain + " " + other);
         EXPECT_EQ(run.exit_code, 2) << run.output;
         return run.output;
     };
-    EXPECT_THAT(compared("exposure", "tone_mapper: {l_max_cdm2: 50}\n"),
-                testing::HasSubstr("was shown by 'rational s=20 white=50 cd/m2; display srgb'"));
-    EXPECT_THAT(compared("mapper", "tone_mapper: {kind: logarithmic}\n"),
-                testing::HasSubstr("expected 'rational s=20 white=100 cd/m2; display srgb'"));
-    EXPECT_THAT(compared("s", "tone_mapper: {s: 19}\n"), testing::HasSubstr("s=19 "));
-    EXPECT_THAT(compared("profile", "display: " + library_file("displays/projector.yaml") + "\n"), testing::HasSubstr("display projector"));
-    const std::string projected = folder / "profile" + picture;
-    const Outcome same = run_program("compare " + projected + " " + projected);
+    mapper.l_max_cdm2 = 50.0;
+    EXPECT_THAT(compared(stored("exposure", {}, mapper)), testing::HasSubstr("was shown by 'rational s=20 white=50 cd/m2; display srgb'"));
+    mapper = {};
+    mapper.kind = ToneMapperKind::logarithmic;
+    EXPECT_THAT(compared(stored("mapper", {}, mapper)), testing::HasSubstr("expected 'rational s=20 white=100 cd/m2; display srgb'"));
+    mapper = {};
+    mapper.s = 19.0;
+    EXPECT_THAT(compared(stored("s", {}, mapper)), testing::HasSubstr("s=19 "));
+    FilesRead opened;
+    DisplaySettings projector;
+    projector.profile = read_display_profile(library_file("displays/projector.yaml"), opened);
+    EXPECT_THAT(compared(stored("profile", projector, {})), testing::HasSubstr("display projector"));
+    write_png(Image<Rgb8>(16, 16), {shown_by(projector, {}), icc_profile(*projector.profile)}, folder / "icc.png");
+    const Outcome same = run_program("compare " + (folder / "icc.png") + " " + (folder / "icc.png"));
     EXPECT_EQ(same.exit_code, 2);
     EXPECT_THAT(same.output, testing::HasSubstr("ICC profile"));
     EXPECT_EQ(run_program("compare " + plain + " " + plain).exit_code, 0);

@@ -15,7 +15,8 @@ namespace {
 class ByLittleCms {
   public:
     explicit ByLittleCms(const std::string& icc)
-        : profile_(cmsOpenProfileFromMem(icc.data(), static_cast<cmsUInt32Number>(icc.size()))), xyz_(cmsCreateXYZProfile()),
+        : whole_(cmsSetAdaptationState(0.0)), // an eye that is not adapted to the paper's D50
+          profile_(cmsOpenProfileFromMem(icc.data(), static_cast<cmsUInt32Number>(icc.size()))), xyz_(cmsCreateXYZProfile()),
           transform_(cmsCreateTransform(profile_, TYPE_RGB_DBL, xyz_, TYPE_XYZ_DBL, INTENT_ABSOLUTE_COLORIMETRIC,
                                         cmsFLAGS_NOOPTIMIZE | cmsFLAGS_NOCACHE)) {}
     ~ByLittleCms() {
@@ -33,6 +34,7 @@ class ByLittleCms {
     }
 
   private:
+    double whole_;
     cmsHPROFILE profile_, xyz_;
     cmsHTRANSFORM transform_;
 };

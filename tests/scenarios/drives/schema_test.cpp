@@ -253,6 +253,9 @@ TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
     std::filesystem::create_directories(folder / "library/models");
     std::filesystem::copy_file(scenarios / "library/models/shelter.gltf", folder / "library/models/shelter.gltf",
                                std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::create_directories(folder / "library/displays");
+    std::filesystem::copy_file(scenarios / "library/displays/projector.yaml", folder / "library/displays/projector.yaml",
+                               std::filesystem::copy_options::overwrite_existing);
     std::filesystem::create_directories(folder / "library/can");
     for (const char* const file : {"mock-up.dbc", "s-bend.log"})
         std::filesystem::copy_file(scenarios / "library/can" / file, folder / "library/can" / file,
