@@ -64,8 +64,7 @@ const SignalKind* known_signal(const std::string& name) {
 }
 
 SignalTable::SignalTable(std::vector<std::string> lamps)
-    : lamps_(std::move(lamps)), values_(std::size_t{signal::count} + lamps_.size() * lamp_signal::count, 0.0),
-      stamps_(values_.size()) {
+    : lamps_(std::move(lamps)), values_(std::size_t{signal::count} + lamps_.size() * lamp_signal::count, 0.0), stamps_(values_.size()) {
     values_[signal::others_nearest_oncoming] = values_[signal::others_nearest_preceding] = none;
     for (std::size_t lamp = 0; lamp < lamps_.size(); ++lamp)
         of(lamp, lamp_signal::level) = of(lamp, lamp_signal::driver_switch) = 1.0;
