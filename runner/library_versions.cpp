@@ -4,6 +4,7 @@
 #include <OpenImageIO/oiioversion.h>
 #include <fmt/format.h>
 #include <glm/glm.hpp>
+#include <lcms2.h>
 #include <librsvg/rsvg.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/version.h>
@@ -27,6 +28,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
         {"fmt", dotted(FMT_VERSION, 10000, 100)},
         {"GLM", fmt::format("{}.{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH, GLM_VERSION_REVISION)},
         {"librsvg", fmt::format("{}.{}.{}", rsvg_major_version, rsvg_minor_version, rsvg_micro_version)},
+        {"Little CMS", fmt::format("{}.{}", cmsGetEncodedCMMversion() / 1000, cmsGetEncodedCMMversion() % 1000 / 10)},
         {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
         {"oneTBB", TBB_runtime_version()},
         {"OpenCV", CV_VERSION},
