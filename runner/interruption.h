@@ -3,7 +3,8 @@
 
 namespace fernlicht {
 
-/// While it lives, SIGINT and SIGTERM set a flag; a second one ends the program at once. One within another, as a run within a study, hears
+/// While it lives, SIGINT and SIGTERM set a flag; one that comes half a second after the first or later ends the program at once; what
+/// comes sooner is the same wish, as `timeout` sends it to a process and to its group. One within another, as a run within a study, hears
 /// what the outer one heard.
 class Interruption {
   public:

@@ -8,6 +8,7 @@
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 
@@ -29,7 +30,7 @@ Drive drive_of(const Flags& flags) {
     DriveEdits edits;
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
-    edits.can_log = std::filesystem::path(flags.log); // of a drive that names a recording itself, too: it is not played
+    edits.can_log = std::filesystem::path(flags.log); // the recording that a drive names itself is not played
     if (!flags.start.empty()) {
         edits.can_start_ns = stamp_from_text(flags.start);
         if (!edits.can_start_ns)
@@ -46,13 +47,37 @@ bool lost(const LiveFigures& live) {
     return live.socket.dropped + live.socket.superseded + live.socket.not_sent + live.not_recorded > 0 || !live.socket.outages.empty();
 }
 
-int live(const Flags& flags, const std::vector<std::string>& command) {
+void check_bus_flags(const Flags& flags) {
     if (flags.interface.empty() == flags.log.empty())
-        refuse_flag("--can", flags.interface, "an interface, or a recording by --can-log FILE; one of both");
+        throw InputError({{}, 0, 0, "--can"},
+                         flags.log.empty() ? "found neither an interface nor a recording" : "found an interface and a recording",
+                         "--can IFACE or --can-log FILE, one of both");
+    if (flags.log == "none")
+        refuse_flag("--can-log", flags.log, "a recording; `fernlicht run --can-log none` plays a drive by its script");
     if (flags.no_wait && flags.log.empty())
-        refuse_flag("--no-wait", "", "--can-log FILE: a bus cannot be hurried");
+        throw InputError({{}, 0, 0, "--no-wait"}, "found it beside --can", "--can-log FILE: a bus cannot be hurried");
     if (!flags.start.empty() && flags.log.empty())
         refuse_flag("--can-start", flags.start, "--can-log FILE: the drive's 0 s on a bus is now");
+}
+
+/// Of a drive that fails the report is written before the error comes: whoever reads the sentence learns where.
+Report run_and_name(Drive drive, const LiveOptions& options) {
+    const std::filesystem::path page = options.folder / "report.html";
+    std::error_code ignored;
+    const bool was_there = std::filesystem::exists(page, ignored);
+    try {
+        return run_live(std::move(drive), options);
+    } catch (...) {
+        if (!was_there && std::filesystem::exists(page, ignored)) {
+            fmt::print("{}\n", page.string());
+            std::fflush(stdout);
+        }
+        throw;
+    }
+}
+
+int live(const Flags& flags, const std::vector<std::string>& command) {
+    check_bus_flags(flags);
     LiveOptions options;
     options.interface = flags.interface;
     options.log = flags.log;
@@ -66,10 +91,12 @@ int live(const Flags& flags, const std::vector<std::string>& command) {
     options.command = command;
     Drive drive = drive_of(flags);
     options.folder = flags.out.empty() ? default_output_folder(drive.name, utc_now()) : std::filesystem::path(flags.out);
-    const Report report = run_live(std::move(drive), options);
+    const Report report = run_and_name(std::move(drive), options);
     fmt::print("{}", live_text(*report.live));
     if (!report.live->replay.empty())
         fmt::print("replay     {}\n", report.live->replay);
+    for (const std::string& warning : report.warnings)
+        fmt::print("warning: {}\n", warning);
     if (!report.complete)
         fmt::print("incomplete: {}\n", report.interrupted);
     fmt::print("{}\n", (options.folder / "report.html").string());
@@ -88,7 +115,7 @@ void add_live_command(CLI::App& app, const std::vector<std::string>& command, st
     sub->add_option("--duration", flags->duration_s, "seconds to drive, instead of the drive's own")->check(CLI::Range(0.01, 1.0e6));
     sub->add_option("--variant", flags->variant, "which lamp set is driven, where there are several");
     sub->add_option("--listen", flags->listen_s, "seconds to listen to the bus before 0 s")->check(CLI::Range(0.0, 3600.0));
-    sub->add_option("--record", flags->record, "file for the frames used, a candump log; default: in the report's folder");
+    sub->add_option("--record", flags->record, "new file for the frames used, a candump log; default: in the report's folder");
     sub->add_option("--receive-buffer", flags->receive_buffer,
                     "bytes that the kernel may hold for the socket; default: 4 MiB where permitted")
         ->check(CLI::Range(1, 1 << 30));

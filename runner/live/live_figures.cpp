@@ -88,8 +88,8 @@ nlohmann::ordered_json live_json(const LiveFigures& live) {
               {"listened_s", live.listened_s},
               {"ticks_planned", live.ticks_planned},
               {"ticks", live.late_s.size()},
-              {"lateness_s", quantiles_json(live.late_s)},
-              {"work_s", quantiles_json(live.work_s)},
+              {"lateness_s", live.waited ? quantiles_json(live.late_s) : Json(nullptr)},
+              {"work_s", live.waited ? quantiles_json(live.work_s) : Json(nullptr)},
               {"overruns", live.overruns},
               {"real_time_priority", live.punctuality.no_priority.empty()},
               {"locked_pages", live.punctuality.no_locked_pages.empty()},
@@ -115,9 +115,10 @@ nlohmann::ordered_json live_json(const LiveFigures& live) {
 }
 
 std::string live_text(const LiveFigures& live) {
-    std::string text = fmt::format("ticks      {} of {}, every {:g} ms; late by {}; {} overran\n", live.late_s.size(), live.ticks_planned,
-                                   1e3 * live.period_s, of_samples(live.late_s), live.overruns);
-    text += fmt::format("frames     {} used, {} of them late, by at most {}\n", live.used, live.late, milliseconds(live.latest_s));
+    std::string text = fmt::format("ticks      {} of {}, every {:g} ms", live.late_s.size(), live.ticks_planned, 1e3 * live.period_s);
+    text += live.waited ? fmt::format("; late by {}; {} overran\n", of_samples(live.late_s), live.overruns) : ", without waiting\n";
+    text += fmt::format("frames     {} used", live.used);
+    text += live.waited ? fmt::format(", {} of them late, by at most {}\n", live.late, milliseconds(live.latest_s)) : "\n";
     if (!live.interface.empty()) {
         const CanSocketFigures& socket = live.socket;
         text +=

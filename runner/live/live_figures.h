@@ -12,6 +12,7 @@ namespace fernlicht {
 struct LiveFigures {
     std::string interface;     ///< "can0"; "": a recording, at its own pace
     std::filesystem::path log; ///< that recording
+    bool waited = true;        ///< false: as fast as it went, which says nothing of lateness
     double period_s = 0.0;     ///< of the control ticks
     double listened_s = 0.0;   ///< before the drive's 0 s
     std::int64_t start_ns = 0; ///< stamp (since the epoch) of the drive's 0 s, in the recording and on the bus
@@ -49,7 +50,7 @@ std::string candump_stamp(std::int64_t time_ns);
 nlohmann::ordered_json live_json(const LiveFigures& live);
 /// For a terminal: a few lines.
 std::string live_text(const LiveFigures& live);
-/// Ticks over their lateness, both logarithmic, and lateness over the drive. None without ticks.
+/// Ticks over their lateness, both logarithmic, and lateness over the drive. None without ticks, and of what did not wait.
 std::vector<std::string> live_svgs(const LiveFigures& live);
 
 } // namespace fernlicht

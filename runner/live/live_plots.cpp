@@ -82,7 +82,7 @@ std::string over_drive_svg(const LiveFigures& live) {
 } // namespace
 
 std::vector<std::string> live_svgs(const LiveFigures& live) {
-    if (live.late_s.empty())
+    if (live.late_s.empty() || !live.waited)
         return {};
     return {histogram_svg(live), over_drive_svg(live)};
 }

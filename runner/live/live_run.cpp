@@ -19,6 +19,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <thread>
+#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -48,6 +49,25 @@ std::vector<CanFrame> recorded_frames(Drive& drive, const std::filesystem::path&
         frame.time_ns -= start_ns;
     std::ranges::stable_sort(frames, {}, &CanFrame::time_ns);
     return frames;
+}
+
+/// A new file in a folder that is there, or in the report's. So that nothing is made or lost for a recording that cannot be written.
+void check_recording(const LiveOptions& options) {
+    namespace fs = std::filesystem;
+    if (options.record.empty())
+        return;
+    const fs::path file = fs::absolute(options.record).lexically_normal(), report = fs::absolute(options.folder).lexically_normal();
+    const auto refuse = [](const std::string& found, const char* expected) { throw InputError({{}, 0, 0, "--record"}, found, expected); };
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(file, ignored)))
+        refuse(printable(options.record.string(), 400) + " is there already", "a new file");
+    if (!file.has_filename() || file == report)
+        refuse(printable(options.record.string(), 400) + " is a folder", "a new file");
+    const fs::path folder = file.parent_path();
+    if (folder != report && !fs::is_directory(folder, ignored))
+        refuse("there is no folder " + printable(folder.string(), 400), "a new file in a folder that is there");
+    if (folder != report && access(folder.c_str(), W_OK | X_OK) != 0)
+        refuse(printable(folder.string(), 400) + " cannot be written to", "a new file in a folder that can");
 }
 
 /// The mapping with another channel or recording.
@@ -111,6 +131,7 @@ LiveFigures LiveSession::new_figures() const {
     LiveFigures figures;
     figures.interface = options_.interface;
     figures.log = options_.log;
+    figures.waited = options_.wait;
     figures.period_s = play_->period_s();
     figures.ticks_planned = static_cast<std::uint64_t>(std::ceil(stage_.drive.duration_s / figures.period_s - 1e-9));
     figures.listened_s = options_.log.empty() ? options_.listen_s : 0.0;
@@ -203,6 +224,7 @@ PlayedVariant LiveSession::result(const LiveFigures& figures) {
 }
 
 Report LiveSession::play() {
+    check_recording(options_);
     if (options_.log.empty())
         CanSocket probe(socket_); // refused before anything is drawn or written
     if (options_.draw) {

@@ -29,6 +29,8 @@ std::string live_summary(const LiveFigures& live) {
     std::string text = fmt::format(
         "{} of {} control ticks every {:g} ms, {} frames used of {}, {} sent.", live.late_s.size(), live.ticks_planned, 1e3 * live.period_s,
         live.used, live.interface.empty() ? short_text(live.log.string(), 80) : short_text(live.interface, 20), live.outputs);
+    if (!live.waited)
+        text += " Played without waiting: there is no lateness to tell.";
     if (!live.interface.empty())
         text += fmt::format(" Stamps and filters are the kernel's ({}); its buffer for this socket holds {:.0f} KiB.",
                             live.socket.filters < 0 ? "no filter" : fmt::format("{} identifiers", live.socket.filters),
@@ -45,13 +47,17 @@ std::string live_summary(const LiveFigures& live) {
 data live_part(const LiveFigures& live) {
     data part, times{data::type::list}, losses{data::type::list}, outages{data::type::list}, plots{data::type::list};
     part.set("summary", live_summary(live));
+    part.set("waited", live.waited);
     times.push_back(live_times_row("a tick’s begin after its time", live.late_s));
     times.push_back(live_times_row("a tick’s work", live.work_s));
     part.set("times", times);
-    losses.push_back(live_loss_row("ticks that ended after the next one’s time", live.overruns, fmt::format("of {}", live.late_s.size())));
-    losses.push_back(
-        live_loss_row("frames that came after the tick of their stamp", live.late,
-                      fmt::format("of {}, by at most {:.3f} ms; they count for the next tick", live.used, 1e3 * live.latest_s)));
+    if (live.waited) {
+        losses.push_back(
+            live_loss_row("ticks that ended after the next one’s time", live.overruns, fmt::format("of {}", live.late_s.size())));
+        losses.push_back(
+            live_loss_row("frames that came after the tick of their stamp", live.late,
+                          fmt::format("of {}, by at most {:.3f} ms; they count for the next tick", live.used, 1e3 * live.latest_s)));
+    }
     if (!live.interface.empty()) {
         const CanSocketFigures& socket = live.socket;
         losses.push_back(live_loss_row("frames dropped by the socket", socket.dropped, fmt::format("{} received", socket.received)));

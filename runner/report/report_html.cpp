@@ -61,10 +61,11 @@ data plots_part(const ComparedDrive& drive) {
     part.set("has_controlled", has_controlled);
     part.set("controlled", controlled);
     data signals{List::list};
-    bool has_signals = false;
-    for (const std::string& svg : signal_svgs(drive))
-        has_signals = add(signals, svg) || has_signals;
-    part.set("has_signals", has_signals);
+    const std::vector<std::string> of_signals = signal_svgs(drive);
+    for (const std::string& svg : of_signals)
+        add(signals, svg);
+    part.set("has_signals", !of_signals.empty());
+    part.set("has_signal_light", of_signals.size() > drive.variants.front()->bus.signals.size());
     part.set("signals", signals);
     part.set("signal_table", signal_table(drive));
     part.set("signal_sentence", signal_sentence(drive));

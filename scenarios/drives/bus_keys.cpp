@@ -210,7 +210,7 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
     const auto given = keys.find("can");
     if (!given) {
         if (edits.can_log || edits.can_start_ns || edits.can_channel)
-            throw InputError({drive.file, 0, 0, "--can-log"}, "found a drive without `can`", "a mapping of its signals to those of a bus");
+            throw InputError({drive.file, 0, 0, "can"}, "found a drive without `can`", "a mapping of its signals to those of a bus");
         return;
     }
     const YamlMap of = given->map({"databases", "channel", "log", "start", "inputs", "outputs"});
@@ -251,6 +251,9 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
         mapping.log = mapping.scripted ? std::nullopt : std::optional(std::filesystem::absolute(*edits.can_log).lexically_normal());
         mapping.start_ns.reset();
     }
+    if (edits.can_start_ns && mapping.scripted)
+        throw InputError({drive.file, 0, 0, "--can-start"}, "found a start of a drive that is played without a recording",
+                         "--can-log FILE beside it");
     if (edits.can_start_ns)
         mapping.start_ns = edits.can_start_ns;
     if (edits.can_channel)
