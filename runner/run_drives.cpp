@@ -265,6 +265,12 @@ void note_parts(const std::deque<Stage>& stages, const TickRange& ticks, Report&
                                                   stage.drive.name, asked, all));
 }
 
+/// So that nobody takes what policies made up for what a car said.
+void note_buses(const std::deque<Stage>& stages, Report& report) {
+    for (const Stage& stage : stages)
+        std::ranges::copy(bus_warnings(stage.drive), std::back_inserter(report.warnings));
+}
+
 /// Verdicts that need all of the run.
 void judge(const RunOptions& options, Report& report) {
     if (!options.references.empty())
@@ -309,10 +315,12 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
         report.complete = false;
         report.interrupted = error.what();
         note_parts(stages, options.ticks, report);
+        note_buses(stages, report);
         write_report(report, options.folder);
         throw;
     }
     note_parts(stages, options.ticks, report);
+    note_buses(stages, report);
     write_report(report, options.folder);
     if (report.complete)
         folder.finish();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
@@ -91,6 +92,37 @@ BusReport bus_report(const Drive& drive, const Variant& variant, int first, int 
         report.signals.push_back(std::move(signal));
     }
     return report;
+}
+
+std::vector<std::string> bus_warnings(const Drive& drive) {
+    constexpr double noticeable_share = 0.05;
+    std::vector<std::string> warnings;
+    if (!drive.can || !drive.bus || drive.bus->ticks.empty())
+        return warnings;
+    const auto all = static_cast<double>(drive.bus->ticks.size());
+    for (std::size_t i = 0; i < drive.can->inputs.size() && i < drive.bus->records.size(); ++i) {
+        const BusInput& input = drive.can->inputs[i];
+        const BusRecordOfInput& record = drive.bus->records[i];
+        std::string states;
+        double share = 0.0;
+        for (std::size_t state = 1; state < bus_states; ++state) {
+            if (record.ticks[state] == 0)
+                continue;
+            const double of_state = static_cast<double>(record.ticks[state]) / all;
+            share += of_state;
+            const auto kind = static_cast<BusState>(state);
+            states += fmt::format("{}{} {:.3g} % (policy: {})", states.empty() ? "" : ", ",
+                                  kind == BusState::out_of_range ? "out of range" : std::string(name_of(kind)), 100.0 * of_state,
+                                  name_of(input.policy(kind)));
+        }
+        if (record.frames == 0)
+            warnings.push_back(fmt::format("{}: no frame held {}, which {} comes from, at any tick; policy: {}", drive.name,
+                                           input.source.text(), input.name, name_of(input.policy(BusState::missing))));
+        else if (share > noticeable_share)
+            warnings.push_back(fmt::format("{}: {} of {} was not fresh at {:.3g} % of the ticks: {}", drive.name, input.name,
+                                           input.source.text(), 100.0 * share, states));
+    }
+    return warnings;
 }
 
 } // namespace fernlicht

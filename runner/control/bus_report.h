@@ -50,4 +50,8 @@ struct BusReport {
 /// Of the moments first..last; empty without a bus.
 BusReport bus_report(const Drive& drive, const Variant& variant, int first, int last);
 
+/// A sentence for each input that never came, or that was not fresh at more than a twentieth of the control ticks, with what its policies
+/// did. None without a bus.
+std::vector<std::string> bus_warnings(const Drive& drive);
+
 } // namespace fernlicht

@@ -12,8 +12,8 @@
 #include "runner/report/json_text.h"
 #include "runner/run_context.h"
 #include "scenarios/can/bus_mapping.h"
-#include "scenarios/can/candump_log.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/bus_play.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +37,6 @@ std::size_t live_variant(const Drive& drive, const std::string& name) {
     if (found == drive.variants.end())
         throw InputError({drive.file, 0, 0, "--variant"}, fmt::format("found '{}'", printable(name)), "a lamp set of the drive: " + names);
     return static_cast<std::size_t>(found - drive.variants.begin());
-}
-
-/// Stamped from the drive's 0 s, `start_ns` in the recording.
-std::vector<CanFrame> recorded_frames(Drive& drive, const std::filesystem::path& log, std::int64_t& start_ns) {
-    std::vector<CanFrame> frames = read_candump(log, drive.opened);
-    if (frames.empty())
-        throw InputError({log, 0, 0, {}}, "found a recording without frames", "what a bus said");
-    start_ns = drive.can->start_ns.value_or(frames.front().time_ns);
-    for (CanFrame& frame : frames)
-        frame.time_ns -= start_ns;
-    std::ranges::stable_sort(frames, {}, &CanFrame::time_ns);
-    return frames;
 }
 
 /// A new file in a folder that is there, or in the report's. So that nothing is made or lost for a recording that cannot be written.
@@ -83,7 +71,7 @@ class LiveSession {
     LiveSession(Drive drive, const LiveOptions& options) : options_(options), stage_(staged(std::move(drive), options)) {
         variant_ = live_variant(stage_.drive, options.variant);
         if (!options.log.empty())
-            recorded_ = recorded_frames(stage_.drive, options.log, start_ns_);
+            recorded_ = read_bus_recording(stage_.drive, options.log, start_ns_);
         play_.emplace(stage_.drive, stage_.route, variant_);
         if (options.log.empty())
             socket_ = {options.interface, play_->identifiers(), options.receive_buffer_bytes};
@@ -185,8 +173,9 @@ void LiveSession::drive_on(LiveFigures& figures) {
 /// The drive as it was, with its recording for a bus: what `fernlicht run` plays again.
 void LiveSession::write_replay(LiveFigures& figures) {
     Drive replayed = stage_.drive;
+    replayed.variants = {variant()}; // the others were not driven
     change_mapping(replayed, [&](BusMapping& mapping) {
-        mapping.log = std::filesystem::absolute(options_.folder / figures.recording);
+        mapping.log = figures.recording; // beside the drive's file, wherever the folder goes
         mapping.start_ns = figures.start_ns;
     });
     const std::filesystem::path drive_file = options_.folder / (file_name_of(replayed.name) + ".yaml");
@@ -249,6 +238,8 @@ Report LiveSession::play() {
                        signals_csv(stage_.drive, *variant().motion->control, 0, tick_count(stage_.drive) - 1));
     }
     report.live = figures;
+    if (stage_.drive.bus)
+        report.warnings = bus_warnings(stage_.drive);
     report.played.push_back(result(*figures));
     write_file(options_.folder / "live.json", json_text(live_json(*figures)));
     if (interrupted_) {

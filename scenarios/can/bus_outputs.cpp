@@ -37,6 +37,22 @@ const SignalKind& kind_of_output(const BusOutput& output, const SignalTable& tab
     return table.kind(place);
 }
 
+/// On a live bus our frames would collide with those of who sends the message.
+void refuse_what_is_read(const BusMapping& mapping, const std::vector<CanDatabase>& databases, const BusOutput& output,
+                         const CanMessage& sent) {
+    const auto is_sent = [&](const BusSource& source) {
+        return std::ranges::any_of(databases, [&](const CanDatabase& database) {
+            const CanMessage* const read = database.message(source.message);
+            return read && read->id == sent.id && read->extended == sent.extended;
+        });
+    };
+    for (const BusInput& input : mapping.inputs)
+        if (is_sent(input.source) || (input.also && is_sent(*input.also)))
+            throw InputError(output.where,
+                             fmt::format("an output of message '{}', which {} is read from", printable(sent.name), input.name),
+                             "a message that nobody else sends");
+}
+
 } // namespace
 
 BusOutputs::BusOutputs(const BusMapping& mapping, std::vector<CanDatabase> databases, const SignalTable& table)
@@ -45,6 +61,7 @@ BusOutputs::BusOutputs(const BusMapping& mapping, std::vector<CanDatabase> datab
         Value value;
         const SignalKind& kind = kind_of_output(output, table, value.place);
         const FoundSource found = find_source(databases_, output.target, output.where);
+        refuse_what_is_read(mapping, databases_, output, *found.message);
         if (found.signal->multiplexor)
             throw InputError(output.where, fmt::format("multiplexor '{}'", printable(output.target.text())),
                              "a signal below it: the multiplexor follows");

@@ -27,6 +27,18 @@ std::int64_t staleness_ns(const BusInput& input, const CanMessage& message) {
 
 std::string words_of(BusState state) { return state == BusState::out_of_range ? "out of range" : std::string(name_of(state)); }
 
+/// "97.2222 m/s (350 km/h on the bus)"
+std::string said_by(const UnitConversion& conversion, const CanSignal& signal, const BusInput& input, double value) {
+    if (std::isnan(value))
+        return "a value that means nothing";
+    const SignalKind* const kind = known_signal(input.name);
+    const std::string_view unit = kind && kind->unit != "1" ? std::string_view(kind->unit) : std::string_view();
+    const std::string in_ours = fmt::format("{:g}{}{}", value, unit.empty() ? "" : " ", unit);
+    if (!input.values.empty() || signal.unit.empty() || signal.unit == unit)
+        return in_ours;
+    return fmt::format("{} ({:g} {} on the bus)", in_ours, conversion.to_physical(input.opposite ? -value : value), printable(signal.unit));
+}
+
 } // namespace
 
 std::string_view name_of(BusState state) {
@@ -47,8 +59,9 @@ std::vector<CanDatabase> read_bus_databases(const BusMapping& mapping, FilesRead
 }
 
 BusSignals::BusSignals(const BusMapping& mapping, std::vector<CanDatabase> databases)
-    : databases_(std::move(databases)), channel_(mapping.channel), inputs_(mapping.inputs), values_(inputs_.size()),
-      records_(inputs_.size()) {
+    : databases_(std::move(databases)), channel_(mapping.channel),
+      recording_(mapping.log ? fmt::format(" (recording {})", printable(mapping.log->filename().string())) : ""), inputs_(mapping.inputs),
+      values_(inputs_.size()), records_(inputs_.size()) {
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
         const BusInput& input = inputs_[i];
         const SignalKind* const kind = known_signal(input.name);
@@ -180,13 +193,15 @@ void BusSignals::apply_policy(std::size_t input, std::int64_t tick_ns, BusValue&
             found = fmt::format("no frame for {:.3f} s at {:.3f} s", value.age_s, in_seconds(tick_ns));
             break;
         case BusState::out_of_range:
-            found = std::isnan(value.received) ? fmt::format("a value that means nothing at {:.3f} s", in_seconds(tick_ns))
-                                               : fmt::format("{:g} at {:.3f} s", value.received, in_seconds(tick_ns));
+            found = fmt::format("{} at {:.3f} s", said_by(source.first.conversion, *source.first.signal, by, value.received),
+                                in_seconds(tick_ns));
             break;
         default:
-            found = fmt::format("{:g} beside {:g} of {} at {:.3f} s", value.received, value.other, by.also->text(), in_seconds(tick_ns));
+            found = fmt::format(
+                "{} beside {} of {} at {:.3f} s", said_by(source.first.conversion, *source.first.signal, by, value.received),
+                said_by(source.second->conversion, *source.second->signal, by, value.other), by.also->text(), in_seconds(tick_ns));
         }
-        throw InputError(by.where, fmt::format("{} of {} is {}: {}", by.name, by.source.text(), words_of(value.state), found),
+        throw InputError(by.where, fmt::format("{} of {} is {}: {}{}", by.name, by.source.text(), words_of(value.state), found, recording_),
                          "a fresh value, because its policy is to fail");
     }
 }

@@ -84,7 +84,7 @@ class BusSignals {
     void apply_policy(std::size_t input, std::int64_t tick_ns, BusValue& value);
 
     std::vector<CanDatabase> databases_; ///< messages point into it
-    std::string channel_;
+    std::string channel_, recording_;    ///< the latter for sentences: " (recording bus.log)"
     std::vector<BusInput> inputs_;
     std::vector<Source> sources_;
     std::unordered_map<std::uint64_t, std::vector<std::pair<std::size_t, bool>>> readers_; ///< by identifier: input, its second source

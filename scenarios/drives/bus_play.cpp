@@ -1,12 +1,13 @@
 #include "scenarios/drives/bus_play.h"
 
-#include "scenarios/can/candump_log.h"
+#include "scenarios/can/candump_stream.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/advance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace fernlicht {
 namespace {
@@ -20,16 +21,48 @@ std::string lamp_signal_name(const std::string& pattern, const std::string& lamp
     return pattern.substr(0, star) + lamp + pattern.substr(star + 1);
 }
 
-/// Frames of the recording in its order, stamped from the drive's 0 s.
+/// "can0 (12 frames), can1 (3 frames)"
+std::string channels_text(const std::vector<CanFrame>& frames) {
+    constexpr std::size_t most_named = 8;
+    std::map<std::string, std::size_t> counts;
+    for (const CanFrame& frame : frames)
+        ++counts[frame.channel];
+    std::string text;
+    std::size_t named = 0;
+    for (const auto& [channel, count] : counts)
+        if (named++ < most_named)
+            text += fmt::format("{}{} ({} frame{})", text.empty() ? "" : ", ", printable(channel), count, count == 1 ? "" : "s");
+    return counts.size() > most_named ? fmt::format("{} and {} more", text, counts.size() - most_named) : text;
+}
+
+/// A recording of another car, or of another bus, would leave every signal to its policy.
+void refuse_foreign(const BusMapping& mapping, const std::filesystem::path& log, const std::vector<CanFrame>& frames) {
+    if (!mapping.channel.empty() && std::ranges::find(frames, mapping.channel, &CanFrame::channel) == frames.end())
+        throw InputError({log, 0, 0, {}},
+                         fmt::format("found no frame of channel '{}', but {}", printable(mapping.channel), channels_text(frames)),
+                         "a channel of the recording (can.channel or --can-channel)");
+    if (mapping.inputs.empty())
+        return;
+    FilesRead read_twice;
+    BusSignals signals(mapping, read_bus_databases(mapping, read_twice));
+    for (const CanFrame& frame : frames) {
+        const std::uint64_t before = signals.taken();
+        signals.take(frame);
+        if (signals.taken() > before &&
+            std::ranges::any_of(signals.records(), [](const BusRecordOfInput& record) { return record.frames > 0; }))
+            return;
+    }
+    throw InputError({log, 0, 0, {}},
+                     signals.taken() == 0
+                         ? fmt::format("found no frame with an identifier that can.inputs read, but {}", channels_text(frames))
+                         : fmt::format("found {} frames that can.inputs read, all too short for their signals", signals.taken()),
+                     "a recording of the bus that the drive's databases describe");
+}
+
+/// Frames of the recording, stamped from the drive's 0 s.
 std::vector<CanFrame> frames_of(Drive& drive, BusPlay& play) {
     const BusMapping& mapping = *drive.can;
-    std::vector<CanFrame> frames = read_candump(*mapping.log, drive.opened);
-    if (frames.empty())
-        throw InputError({*mapping.log, 0, 0, {}}, "found a recording without frames", "what a bus said");
-    play.start_ns = mapping.start_ns.value_or(frames.front().time_ns);
-    for (CanFrame& frame : frames)
-        frame.time_ns -= play.start_ns;
-    std::ranges::stable_sort(frames, {}, &CanFrame::time_ns); // several channels may have been written one after the other
+    std::vector<CanFrame> frames = read_bus_recording(drive, *mapping.log, play.start_ns);
     play.first_s = in_seconds(frames.front().time_ns);
     play.last_s = in_seconds(frames.back().time_ns);
     if (*play.last_s < 0.0 || *play.first_s > drive.duration_s)
@@ -71,6 +104,28 @@ void note_signals(Drive& drive, const BusPlay& play) {
 }
 
 } // namespace
+
+std::vector<CanFrame> read_bus_recording(Drive& drive, const std::filesystem::path& log, std::int64_t& start_ns) {
+    const BusMapping& mapping = *drive.can;
+    const std::string text = read_file(log, drive.opened);
+    CandumpStream stream(log, text);
+    std::vector<CanFrame> frames;
+    for (CandumpStream::What what; (what = stream.next()) != CandumpStream::What::end;) {
+        if (what != CandumpStream::What::frame)
+            continue;
+        if (stream.line().style.stamp_digits == 0)
+            throw InputError({log, stream.line_number(), 0, {}}, "found a frame without a stamp", "stamps to play by");
+        frames.push_back(stream.line().frame);
+    }
+    if (frames.empty())
+        throw InputError({log, 0, 0, {}}, "found a recording without frames", "what a bus said");
+    refuse_foreign(mapping, log, frames);
+    start_ns = mapping.start_ns.value_or(frames.front().time_ns);
+    for (CanFrame& frame : frames)
+        frame.time_ns -= start_ns;
+    std::ranges::stable_sort(frames, {}, &CanFrame::time_ns); // several channels may have been written one after the other
+    return frames;
+}
 
 const std::vector<BusValue>& BusPlay::at(double time_s) const {
     // A moment at a tick but for a rounding has this tick's (control_run.h).
@@ -159,8 +214,10 @@ BusWriter::BusWriter(const BusMapping& mapping, const std::vector<std::string>& 
         if (input.name.find('*') == std::string::npos)
             names.push_back(input.name);
         else
-            for (const std::string& lamp : lamps)
-                names.push_back(lamp_signal_name(input.name, lamp));
+            for (const std::string& lamp : lamps) // one that is named itself comes from there alone
+                if (const std::string name = lamp_signal_name(input.name, lamp);
+                    std::ranges::find(mapping.inputs, name, &BusInput::name) == mapping.inputs.end())
+                    names.push_back(name);
         for (const std::string& name : names) {
             try {
                 places_.emplace_back(i, table.find(name));

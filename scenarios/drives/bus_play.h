@@ -22,6 +22,10 @@ struct BusPlay {
     const std::vector<BusValue>& at(double time_s) const;
 };
 
+/// Frames of a recording in order of time, stamped from the drive's 0 s, which is `start_ns` in it. Throws InputError for one without
+/// frames or without stamps, without a frame of the mapping's channel, and for one no frame of which gives an input a value.
+std::vector<CanFrame> read_bus_recording(Drive& drive, const std::filesystem::path& log, std::int64_t& start_ns);
+
 /// The control period of a drive with a bus: all its variants have the same. Throws InputError where they have not.
 double bus_period_s(const Drive& drive);
 

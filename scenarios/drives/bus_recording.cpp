@@ -10,11 +10,16 @@
 namespace fernlicht {
 namespace {
 
-/// The first lamp stands for all where a mapping says so.
-std::string one_signal(const std::string& name, const Variant& variant) {
+/// The first lamp that is not named itself stands for all where a mapping says so.
+std::string one_signal(const std::string& name, const Variant& variant, const BusMapping& mapping) {
     const std::size_t star = name.find('*');
-    return star == std::string::npos || variant.lamps.empty() ? name
-                                                              : name.substr(0, star) + variant.lamps.front().name + name.substr(star + 1);
+    if (star == std::string::npos || variant.lamps.empty())
+        return name;
+    const auto of_lamp = [&](const MountedLamp& lamp) { return name.substr(0, star) + lamp.name + name.substr(star + 1); };
+    for (const MountedLamp& lamp : variant.lamps)
+        if (std::ranges::find(mapping.inputs, of_lamp(lamp), &BusInput::name) == mapping.inputs.end())
+            return of_lamp(lamp);
+    return of_lamp(variant.lamps.front());
 }
 
 /// physical = (value - offset) / factor.
@@ -50,7 +55,7 @@ std::vector<CanFrame> recorded_inputs(const Drive& drive, const Route& route, co
     BusMapping mapping;
     mapping.channel = drive.can->channel;
     for (const BusInput& input : drive.can->inputs) {
-        const std::string name = one_signal(input.name, variant);
+        const std::string name = one_signal(input.name, variant, *drive.can);
         mapping.outputs.push_back(turned_round(input, input.source, name, variant.control->period_s, databases));
         if (input.also)
             mapping.outputs.push_back(turned_round(input, *input.also, name, variant.control->period_s, databases));

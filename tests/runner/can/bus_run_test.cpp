@@ -168,9 +168,10 @@ TEST_F(BusRun, APolicyToFailEndsTheRunWithASentence) {
     const std::string sentence =
         refused("run " + shipped_drive() + few + "--can-log " + (folder / "late.log") + " --out " + (folder / "o"));
     EXPECT_THAT(sentence, HasSubstr("s-bend-can.yaml:"));
-    EXPECT_THAT(sentence,
-                HasSubstr("can.inputs.ego.speed_mps: ego.speed_mps of Travel.Speed is missing: no frame until 0.080 s, expected a fresh "
-                          "value, because its policy is to fail"));
+    EXPECT_THAT(
+        sentence,
+        HasSubstr("can.inputs.ego.speed_mps: ego.speed_mps of Travel.Speed is missing: no frame until 0.080 s (recording late.log), "
+                  "expected a fresh value, because its policy is to fail"));
     EXPECT_FALSE(std::filesystem::exists(folder / "o"));
 }
 
@@ -185,7 +186,16 @@ TEST_F(BusRun, WhatIsWrongIsOneSentence) {
                 HasSubstr("found stamps from -4000.000000 s to -3972.020000 s of the drive, expected frames "
                           "of its 28 s"));
     EXPECT_THAT(refused(drive + "--can-start soon"), HasSubstr("--can-start"));
-    EXPECT_THAT(refused(drive + "--can-channel can7"), HasSubstr("is missing"));
+    EXPECT_THAT(refused(drive + "--can-channel can7"), HasSubstr("s-bend.log: found no frame of channel 'can7', but can0 ("));
+    std::ofstream(folder / "unstamped.log") << "  can0  110   [4]  28 19 00 00\n";
+    EXPECT_THAT(refused(drive + "--can-log " + (folder / "unstamped.log")),
+                HasSubstr("unstamped.log:1: found a frame without a stamp, expected stamps to play by"));
+    std::ofstream(folder / "foreign.log") << "(1000.000000) can0 7F0#28190000\n(1001.000000) can1 7F1#\n";
+    EXPECT_THAT(refused(drive + "--can-log " + (folder / "foreign.log")),
+                HasSubstr("found no frame with an identifier that can.inputs read, but can0 (1 frame), can1 (1 frame)"));
+    std::ofstream(folder / "short.log") << "(1000.000000) can0 110#\n(1001.000000) can0 110#\n";
+    EXPECT_THAT(refused(drive + "--can-log " + (folder / "short.log")),
+                HasSubstr("found 2 frames that can.inputs read, all too short for their signals"));
     EXPECT_THAT(refused("run " + library_file("drives/s-bend.yaml") + " --can-log " + (folder / "torn.log") + " --out " + (folder / "o")),
                 HasSubstr("found a drive without `can`"));
     EXPECT_THAT(refused("can record " + library_file("drives/s-bend.yaml")), HasSubstr("without `can`"));

@@ -173,6 +173,10 @@ TEST(LiveFigures, HistogramCountsEveryTick) {
     LiveFigures punctual = sample_figures();
     punctual.late_s.assign(5, 0.0); // as without waiting
     EXPECT_EQ(live_svgs(punctual).size(), 2U);
+    punctual.waited = false;
+    EXPECT_TRUE(live_svgs(punctual).empty());
+    EXPECT_TRUE(live_json(punctual)["lateness_s"].is_null());
+    EXPECT_THAT(live_text(punctual), testing::Not(testing::HasSubstr("late")));
 }
 
 } // namespace

@@ -123,6 +123,7 @@ TEST_F(Live, APolicyThatFailsEndsTheDriveWithItsReport) {
                                                     folder / "short.log", folder / "failed"));
     EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr("stale"));
+    EXPECT_THAT(outcome.output, HasSubstr(folder / "failed/report.html"));
     const Json report = Json::parse(content("failed/report.json"));
     EXPECT_EQ(report["complete"], false);
     EXPECT_GT(report["live"]["ticks"], 20);
@@ -152,6 +153,22 @@ TEST_F(Live, RefusesInOneSentence) {
         refused(d + " --can vcan0" + out, 3, "this kernel has no CAN");
     else
         ::close(socket);
+}
+
+TEST_F(Live, ARecordingNeverReplacesAFile) {
+    const std::string before = content("bus.log");
+    const auto refused_record = [&](const std::string& record) {
+        const Outcome outcome =
+            live(fmt::format("--can-log {} --duration 1 --no-wait --record {} --out {}", folder / "bus.log", record, folder / "o"));
+        EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+        EXPECT_FALSE(std::filesystem::exists(folder / "o")) << record;
+        return outcome.output;
+    };
+    EXPECT_THAT(refused_record(folder / "bus.log"), HasSubstr("bus.log is there already, expected a new file"));
+    EXPECT_EQ(content("bus.log"), before);
+    std::filesystem::create_directory(folder / "d");
+    EXPECT_THAT(refused_record(folder / "d"), HasSubstr("is there already"));
+    EXPECT_THAT(refused_record(folder / "absent/new.log"), HasSubstr("there is no folder"));
 }
 
 } // namespace

@@ -151,5 +151,25 @@ TEST(BusOutputs, AreRefusedWhereNothingSaysHow) {
     EXPECT_THAT(refused({quick, slow}), HasSubstr("another cycle of message 'Status' than before"));
 }
 
+TEST(BusOutputs, OfAMessageThatIsReadAreRefused) {
+    const SignalTable table({"left", "right"});
+    BusMapping mapping;
+    mapping.outputs = {output("Status", "Level", "lamp.left.level")};
+    BusInput input;
+    input.name = "lamp.left.switch";
+    input.source = {"Status", "Level"};
+    mapping.inputs = {input};
+    try {
+        const BusOutputs outputs(mapping, {lamps()}, table);
+        FAIL() << "not refused";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(),
+                     "drive.yaml:9:5: can.outputs.Status.Level: an output of message 'Status', which lamp.left.switch is read "
+                     "from, expected a message that nobody else sends");
+    }
+    mapping.inputs.front().source = {"State", "Mode"};
+    EXPECT_NO_THROW(BusOutputs(mapping, {lamps()}, table));
+}
+
 } // namespace
 } // namespace fernlicht

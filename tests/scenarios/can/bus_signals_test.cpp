@@ -163,8 +163,10 @@ TEST_P(Policies, HandOverWhatTheySay) {
             FAIL() << "not refused";
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), HasSubstr("drive.yaml:7:3: can.inputs.ego.speed_mps: ego.speed_mps of Cockpit.Speed is "));
-            const char* const why[] = {"", "stale: no frame for 0.050 s at 0.060 s", "missing: no frame until 0.060 s",
-                                       "out of range: 182.042 at 0.060 s", "contradictory: 10 beside 20 of Brakes.Speed at 0.060 s"};
+            const char* const why[] = {
+                "", "stale: no frame for 0.050 s at 0.060 s", "missing: no frame until 0.060 s",
+                "out of range: 182.042 m/s (655.35 km/h on the bus) at 0.060 s",
+                "contradictory: 10 m/s (36 km/h on the bus) beside 20 m/s (72 km/h on the bus) of Brakes.Speed at 0.060 s"};
             EXPECT_THAT(error.what(), HasSubstr(why[static_cast<std::size_t>(with.state)]));
         }
         return;

@@ -286,5 +286,15 @@ can:
     EXPECT_EQ(played.at(15, 0).lamps[1].intensity_factor, 0.0);
 }
 
+TEST(BusWriter, ALampThatIsNamedGoesByItsOwnLineWhateverTheOrder) {
+    BusMapping mapping;
+    for (const char* const name : {"lamp.left.switch", "lamp.*.switch"})
+        mapping.inputs.emplace_back().name = name;
+    EXPECT_THAT(BusWriter(mapping, {"left", "right"}).names(), testing::ElementsAre("lamp.left.switch", "lamp.right.switch"));
+    std::swap(mapping.inputs.front(), mapping.inputs.back());
+    const BusWriter writer(mapping, {"left", "right"});
+    EXPECT_THAT(writer.names(), testing::ElementsAre("lamp.right.switch", "lamp.left.switch"));
+}
+
 } // namespace
 } // namespace fernlicht

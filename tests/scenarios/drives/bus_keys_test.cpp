@@ -73,6 +73,8 @@ TEST_F(BusKeys, FlagsTakeAnotherRecordingOrNone) {
     EXPECT_EQ(drive.can->start_ns, 7);
     EXPECT_EQ(drive.can->channel, "can9");
     edits.can_log = std::filesystem::path();
+    EXPECT_THAT(refusal(yaml, edits), HasSubstr("--can-start: found a start of a drive that is played without a recording"));
+    edits.can_start_ns.reset();
     drive = read(yaml, edits);
     EXPECT_TRUE(drive.can->scripted);
     EXPECT_THAT(write_can(drive), HasSubstr("log: none\n"));
