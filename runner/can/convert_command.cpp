@@ -8,9 +8,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace fernlicht {
@@ -100,8 +103,15 @@ void check_convert_flags(const ConvertFlags& flags) {
         refuse_flag("-t", flags.stamps, "a, A, d, z, or n for none");
     if (!flags.screen && !flags.stamps.empty() && flags.stamps != "a" && flags.stamps != "z")
         refuse_flag("-t", flags.stamps, "a or z in the log form; --screen has the others");
-    if (!flags.screen && (flags.ascii || flags.binary || flags.swapped || flags.dlc || flags.explained || flags.colour > 0))
-        refuse_flag("-a, -i, -S, -8, -e, -c", "without --screen", "them with it: the log form has one look");
+    if (flags.screen)
+        return;
+    std::vector<std::string> looks;
+    for (const auto& [name, given] : {std::pair("-a", flags.ascii), std::pair("-i", flags.binary), std::pair("-S", flags.swapped),
+                                      std::pair("-8", flags.dlc), std::pair("-e", flags.explained), std::pair("-c", flags.colour > 0)})
+        if (given)
+            looks.emplace_back(name);
+    if (!looks.empty())
+        throw InputError({}, fmt::format("found {} without --screen", fmt::join(looks, ", ")), "both: the log form has one look");
 }
 
 int convert_log(const ConvertFlags& flags) {
@@ -136,7 +146,7 @@ int convert_log(const ConvertFlags& flags) {
         if (!out.written())
             return 0;
     }
-    out.flush();
+    out.finish();
     return 0;
 }
 

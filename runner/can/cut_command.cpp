@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -50,6 +51,25 @@ class Cut {
             channels_.push_back(parse_channel_filter(text, "--channel"));
         from_ = bound("--from", flags.from, from_relative_);
         to_ = bound("--to", flags.to, to_relative_);
+        if (from_ && to_ && from_relative_ == to_relative_ && *to_ < *from_)
+            refuse_flag("--to", flags.to, "a time not before --from");
+        seen_.resize(channels_.size());
+    }
+
+    /// Of each frame, kept or not.
+    void see_channel(const std::string& channel) {
+        if (channel == seen_last_)
+            return;
+        seen_last_ = channel;
+        for (std::size_t i = 0; i < channels_.size(); ++i)
+            seen_[i] = seen_[i] || channels_[i].channel == "any" || channels_[i].channel == channel;
+    }
+
+    void tell_absent(const CandumpStream& log) const {
+        for (std::size_t i = 0; i < channels_.size(); ++i)
+            if (!seen_[i])
+                fmt::print(stderr, "fernlicht: {}: no frame of channel {}\n", printable(log.path().string(), 400),
+                           printable(channels_[i].channel));
     }
 
     bool keeps(const CanFrame& frame) {
@@ -89,6 +109,8 @@ class Cut {
     std::vector<CutId> ids_;
     std::vector<CanFilters> filters_;
     std::vector<ChannelFilter> channels_;
+    std::vector<bool> seen_; ///< by channels_
+    std::string seen_last_;
     std::optional<std::int64_t> from_, to_;
     std::int64_t first_ns_ = 0;
     bool started_ = false, from_relative_ = false, to_relative_ = false;
@@ -110,6 +132,8 @@ int cut_log(const CutFlags& flags) {
             throw InputError({log.path(), log.line_number(), 0, {}}, "found a frame without a stamp", "stamps to cut by --from and --to");
         if (what == CandumpStream::What::frame)
             keep = kept = cut.keeps(log.line().frame) != flags.inverted;
+        if (what == CandumpStream::What::frame)
+            cut.see_channel(log.line().frame.channel);
         else if (what == CandumpStream::What::lost)
             keep = cut.keeps_channel(log.lost().channel);
         else if (what == CandumpStream::What::comment)
@@ -128,7 +152,8 @@ int cut_log(const CutFlags& flags) {
         if (log.may_wait() ? !out.flush() : !out.written())
             return 0;
     }
-    out.flush();
+    out.finish();
+    cut.tell_absent(log);
     return 0;
 }
 

@@ -37,12 +37,12 @@ class Decoder {
 
     /// False: nobody reads any more.
     bool decode_log(const std::string& path);
-    void tell_unknown() const;
+    void finish();
 
   private:
     void write_header();
     void write_frame(const CandumpStream& log);
-    void write_row(const CanFrame& frame, const CanMessage& message);
+    void write_row(const CandumpLine& line, const CanMessage& message);
     void pass_line(const CandumpStream& log);
 
     const DecodeFlags& flags_;
@@ -70,9 +70,12 @@ void Decoder::write_header() {
     out_.text() += '\n';
 }
 
-void Decoder::write_row(const CanFrame& frame, const CanMessage& message) {
+void Decoder::write_row(const CandumpLine& line, const CanMessage& message) {
     std::string& out = out_.text();
-    fmt::format_to(std::back_inserter(out), "{}.{:09},", frame.time_ns / 1'000'000'000, frame.time_ns % 1'000'000'000);
+    const CanFrame& frame = line.frame;
+    if (line.style.stamp_digits > 0)
+        fmt::format_to(std::back_inserter(out), "{}.{:09}", frame.time_ns / 1'000'000'000, frame.time_ns % 1'000'000'000);
+    out += ',';
     append_csv_text(out, frame.channel);
     out += ',';
     append_csv_text(out, message.name);
@@ -122,7 +125,7 @@ void Decoder::write_frame(const CandumpStream& log) {
             return;
     }
     if (flags_.csv)
-        return write_row(line.frame, *message);
+        return write_row(line, *message);
     if (flags_.json)
         append_frame_json(out_.text(), line, message, values_);
     else {
@@ -146,7 +149,8 @@ bool Decoder::decode_log(const std::string& path) {
     return out_.flush();
 }
 
-void Decoder::tell_unknown() const {
+void Decoder::finish() {
+    out_.finish();
     if (unknown_ > 0 && (flags_.known || flags_.csv))
         fmt::print(stderr, "fernlicht: {} frame{} of {} identifier{} that no message describes left out\n", unknown_,
                    unknown_ == 1 ? "" : "s", unknown_ids_.size(), unknown_ids_.size() == 1 ? "" : "s");
@@ -161,7 +165,7 @@ int decode_logs(const DecodeFlags& flags) {
     for (const std::string& log : logs)
         if (!decoder.decode_log(log))
             return 0;
-    decoder.tell_unknown();
+    decoder.finish();
     return Interruption::asked() ? 1 : 0;
 }
 

@@ -176,7 +176,7 @@ int encode_frames(const EncodeFlags& flags) {
         FrameJson from = from_words(flags);
         take_data_flag(from, flags, databases);
         write_line(out.text(), encoded(from, databases), flags, from);
-        out.flush();
+        out.finish();
         return 0;
     }
     if (flags.words.size() > 1)
@@ -198,7 +198,7 @@ int encode_frames(const EncodeFlags& flags) {
         if (lines.may_wait() ? !out.flush() : !out.written())
             return 0;
     }
-    out.flush();
+    out.finish();
     return Interruption::asked() ? 1 : 0;
 }
 

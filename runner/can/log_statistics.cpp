@@ -70,6 +70,20 @@ void BusTime::operator+=(const BusTime& other) {
     worst_s += other.worst_s;
 }
 
+BusTime BusTime::operator-(const BusTime& other) const {
+    return {without_stuffing_s - other.without_stuffing_s, exact_s - other.exact_s, worst_s - other.worst_s};
+}
+
+BusTime ChannelStatistics::load() const {
+    const BusTime taken = bus - bus_at_end;
+    return {taken.without_stuffing_s / seconds(), taken.exact_s / seconds(), taken.worst_s / seconds()};
+}
+
+BusTime ChannelStatistics::load(const IdStatistics& id) const {
+    const BusTime taken = id.bus - (id.last_ns == last_ns ? id.bus_at_end : BusTime{});
+    return {taken.without_stuffing_s / seconds(), taken.exact_s / seconds(), taken.worst_s / seconds()};
+}
+
 void IdStatistics::add(const CanFrame& frame, bool stamped, std::optional<bool> sent_here) {
     ++frames;
     fd_frames += frame.fd ? 1U : 0U;
@@ -77,6 +91,11 @@ void IdStatistics::add(const CanFrame& frame, bool stamped, std::optional<bool> 
     if (const auto at = std::ranges::lower_bound(lengths, frame.length); at == lengths.end() || *at != frame.length)
         lengths.insert(at, frame.length);
     if (stamped) {
+        if (last_ns != frame.time_ns) {
+            frames_at_end = 0;
+            bus_at_end = {};
+        }
+        ++frames_at_end;
         if (!last_ns)
             first_ns = frame.time_ns;
         else if (frame.time_ns < *last_ns)
@@ -106,12 +125,14 @@ double LogStatistics::wire_seconds(const FrameBits& bits) const {
     return bits.nominal / options_.bitrate + bits.data / data_bitrate;
 }
 
-void LogStatistics::add_load(Channel& on, IdStatistics& id, const CanFrame& frame, bool stamped) {
+void LogStatistics::add_load(Channel& on, IdStatistics& id, const CanFrame& frame) {
     const BusTime time{wire_seconds(frame_bits(frame, BitStuffing::none)), wire_seconds(frame_bits(frame, BitStuffing::exact)),
                        wire_seconds(frame_bits(frame, BitStuffing::worst))};
     id.bus += time;
+    id.bus_at_end += time;
     on.all.bus += time;
-    if (!stamped || frame.time_ns < *on.all.first_ns)
+    on.all.bus_at_end += time;
+    if (frame.time_ns < *on.all.first_ns)
         return;
     const std::int64_t second = (frame.time_ns - *on.all.first_ns) / 1'000'000'000;
     if (second != on.second)
@@ -126,6 +147,11 @@ void LogStatistics::add(const CanFrame& frame, bool stamped, std::optional<bool>
     ChannelStatistics& all = on.all;
     ++all.frames;
     if (stamped) {
+        if (all.last_ns != frame.time_ns) {
+            all.frames_at_end = 0;
+            all.bus_at_end = {};
+        }
+        ++all.frames_at_end;
         if (!all.last_ns) {
             all.first_ns = frame.time_ns;
         } else if (frame.time_ns < *all.last_ns) {
@@ -155,8 +181,8 @@ void LogStatistics::add(const CanFrame& frame, bool stamped, std::optional<bool>
     id.extended = frame.extended;
     id.remote = frame.remote;
     id.add(frame, stamped, sent);
-    if (options_.bitrate > 0.0)
-        add_load(on, id, frame, stamped);
+    if (options_.bitrate > 0.0 && stamped)
+        add_load(on, id, frame);
 }
 
 void LogStatistics::lost(const std::string& name, std::uint64_t frames) { channel(name).all.lost += frames; }

@@ -51,6 +51,7 @@ class PeriodStatistics {
 struct BusTime {
     double without_stuffing_s = 0.0, exact_s = 0.0, worst_s = 0.0;
     void operator+=(const BusTime& other);
+    BusTime operator-(const BusTime& other) const;
 };
 
 /// One identifier on one channel; requests for its data apart.
@@ -65,7 +66,8 @@ struct IdStatistics {
     std::array<std::uint8_t, 64> first_bytes{}; ///< each as it was first seen
     std::array<std::uint8_t, 64> changed{};     ///< bits that were ever different from that
     std::uint8_t bytes_seen = 0;                ///< length of the longest
-    BusTime bus;
+    std::uint64_t frames_at_end = 0;            ///< stamped as the last: they begin what is no longer seen
+    BusTime bus, bus_at_end;                    ///< of stamped frames; of those stamped as the last
 
     void add(const CanFrame& frame, bool stamped, std::optional<bool> sent_here);
 };
@@ -77,10 +79,14 @@ struct ChannelStatistics {
     std::array<std::uint64_t, 11> error_classes{}; ///< by can_error_classes; the last: others
     std::optional<std::int64_t> first_ns, last_ns;
     std::int64_t silence_ns = 0, silence_ended_ns = 0; ///< longest time without a frame
-    BusTime bus;
+    std::uint64_t frames_at_end = 0;                   ///< stamped as the last
+    BusTime bus, bus_at_end;
     double busiest_second = 0.0; ///< greatest share of the bus's time, exact bits, in whole seconds from the first frame on
     std::int64_t step_ns =
         0; ///< where most stamps equal the one before: what all times between them are multiples of, if above 1 us; else 0
+    /// Seconds of the bus for a second of time, from the first stamp up to the last, without those stamped as the last: n - 1 of n frames.
+    BusTime load() const;
+    BusTime load(const IdStatistics& id) const; ///< of one identifier over the channel's time: all sum up to load()
     double seconds() const { return first_ns && last_ns ? static_cast<double>(*last_ns - *first_ns) * 1e-9 : 0.0; }
 };
 
@@ -103,7 +109,7 @@ class LogStatistics {
         std::uint64_t equal_stamps = 0; ///< to the frame before
     };
     Channel& channel(const std::string& name);
-    void add_load(Channel& on, IdStatistics& id, const CanFrame& frame, bool stamped);
+    void add_load(Channel& on, IdStatistics& id, const CanFrame& frame); ///< of a stamped one
     double wire_seconds(const FrameBits& bits) const;
 
     StatisticsOptions options_;

@@ -24,6 +24,8 @@ struct MergeFlags {
 
 struct ChannelName {
     std::string from, to; ///< from "": all
+    std::size_t flag = 0; ///< which of --channel
+    bool used = false;
 };
 
 /// One of the logs, with the frame that comes next.
@@ -72,10 +74,12 @@ class MergeSource {
     }
 
   private:
-    std::string renamed(const std::string& channel) const {
-        for (const ChannelName& name : names)
-            if (name.from.empty() || name.from == channel)
+    std::string renamed(const std::string& channel) {
+        for (ChannelName& name : names)
+            if (name.from.empty() || name.from == channel) {
+                name.used = true;
                 return name.to;
+            }
         return channel;
     }
 
@@ -121,13 +125,14 @@ std::optional<std::string> value_for(const std::string& text, const std::string&
 }
 
 void name_source(MergeSource& source, const std::string& file, const MergeFlags& flags) {
-    for (const std::string& text : flags.channels) {
+    for (std::size_t flag = 0; flag < flags.channels.size(); ++flag) {
+        const std::string& text = flags.channels[flag];
         const std::optional<std::string> value = value_for(text, file, flags.files);
         if (!value)
             continue;
         const std::size_t sign = value->find('=');
         ChannelName name{sign == std::string::npos ? "" : value->substr(0, sign),
-                         sign == std::string::npos ? *value : value->substr(sign + 1)};
+                         sign == std::string::npos ? *value : value->substr(sign + 1), flag};
         const auto is_bad = [](unsigned char c) { return c <= ' ' || c == 0x7f; };
         if (name.to.empty() || name.to.size() > 15 || std::ranges::any_of(name.to, is_bad) || sign == 0)
             refuse_flag("--channel", text, "CHANNEL, OLD=NEW, FILE=CHANNEL or FILE=OLD=NEW, with names of at most 15 bytes");
@@ -136,6 +141,15 @@ void name_source(MergeSource& source, const std::string& file, const MergeFlags&
     for (const std::string& text : flags.offsets)
         if (const std::optional<std::string> value = value_for(text, file, flags.files))
             source.offset_ns = nanoseconds_of("--offset", *value, true);
+}
+
+/// A name that is none of the files' and none of their channels' would change nothing.
+void check_names_used(const std::vector<std::unique_ptr<MergeSource>>& sources, const MergeFlags& flags) {
+    for (std::size_t flag = 0; flag < flags.channels.size(); ++flag) {
+        const auto is_used = [&](const ChannelName& name) { return name.flag == flag && (name.used || name.from.empty()); };
+        if (std::ranges::none_of(sources, [&](const auto& source) { return std::ranges::any_of(source->names, is_used); }))
+            refuse_flag("--channel", flags.channels[flag], "one of the files or a channel of theirs before =");
+    }
 }
 
 int merge_logs(const MergeFlags& flags) {
@@ -164,7 +178,9 @@ int merge_logs(const MergeFlags& flags) {
             return 0;
         next->advance(out.text());
     }
-    out.flush();
+    if (!Interruption::asked())
+        check_names_used(sources, flags);
+    out.finish();
     return 0;
 }
 

@@ -48,7 +48,7 @@ int record_drive(const RecordFlags& flags) {
         if (!out.written())
             return 0;
     }
-    out.flush();
+    out.finish();
     for (const std::string& note : notes)
         fmt::print(stderr, "{}\n", note);
     return 0;

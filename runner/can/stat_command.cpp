@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
@@ -24,6 +25,7 @@ struct StatFlags {
     LogFlags log;
     StatisticsOptions options;
     std::string every; ///< seconds; "": at the end alone
+    std::string bitrate, data_bitrate, gap;
     bool json = false;
 };
 
@@ -49,9 +51,10 @@ std::string changing_text(const IdStatistics& id) {
 
 std::string stamp_text(std::int64_t time_ns) { return fmt::format("{}.{:06}", time_ns / 1'000'000'000, time_ns % 1'000'000'000 / 1000); }
 
-double rate_of(std::uint64_t frames, const std::optional<std::int64_t>& first_ns, const std::optional<std::int64_t>& last_ns) {
-    return frames > 1 && first_ns && *last_ns > *first_ns
-               ? static_cast<double>(frames - 1) * 1e9 / static_cast<double>(*last_ns - *first_ns)
+/// Frames a second from the first stamp up to the last, without those stamped as the last.
+template <typename Statistics> double rate_of(const Statistics& of) {
+    return of.first_ns && *of.last_ns > *of.first_ns
+               ? static_cast<double>(of.frames - of.frames_at_end) * 1e9 / static_cast<double>(*of.last_ns - *of.first_ns)
                : 0.0;
 }
 
@@ -68,7 +71,7 @@ void append_ids(const ChannelStatistics& channel, const StatFlags& flags, std::s
         fmt::format_to(std::back_inserter(out), "  {:<10} {:>9}", identifier_text(id), id.frames);
         if (periods.count() > 0)
             fmt::format_to(std::back_inserter(out), " {:>8.2f} {:>11.3f} {:>11.3f} {:>11.3f} {:>11.3f} {:>10.3f} {:>12.3f} {:>5}",
-                           rate_of(id.frames, id.first_ns, id.last_ns), periods.mean_ns() * 1e-6, periods.median_ns() * 1e-6,
+                           rate_of(id), periods.mean_ns() * 1e-6, periods.median_ns() * 1e-6,
                            static_cast<double>(periods.least_ns()) * 1e-6, static_cast<double>(periods.most_ns()) * 1e-6,
                            periods.deviation_ns() * 1e-6, static_cast<double>(periods.most_ended_ns() - *channel.first_ns) * 1e-9,
                            gaps ? fmt::format("{}", *gaps) : "-");
@@ -76,7 +79,7 @@ void append_ids(const ChannelStatistics& channel, const StatFlags& flags, std::s
             fmt::format_to(std::back_inserter(out), " {:>8} {:>11} {:>11} {:>11} {:>11} {:>10} {:>12} {:>5}", "-", "-", "-", "-", "-", "-",
                            "-", "-");
         if (load)
-            fmt::format_to(std::back_inserter(out), " {:>7.3f}", 100.0 * id.bus.exact_s / channel.seconds());
+            fmt::format_to(std::back_inserter(out), " {:>7.3f}", 100.0 * channel.load(id).exact_s);
         fmt::format_to(std::back_inserter(out), " {:>8}  {}\n", lengths_text(id.lengths), changing_text(id));
     }
 }
@@ -107,14 +110,14 @@ std::string statistics_text(const std::vector<ChannelStatistics>& channels, cons
         fmt::format_to(to, "{}{}: {} frame{} of {} identifier{}", out.empty() ? "" : "\n", printable(channel.name), channel.frames,
                        channel.frames == 1 ? "" : "s", ids, ids == 1 ? "" : "s");
         if (channel.first_ns)
-            fmt::format_to(to, ", {:.1f}/s, from {} to {} ({:.3f} s)\n", rate_of(channel.frames, channel.first_ns, channel.last_ns),
-                           stamp_text(*channel.first_ns), stamp_text(*channel.last_ns), channel.seconds());
+            fmt::format_to(to, ", {:.1f}/s, from {} to {} ({:.3f} s)\n", rate_of(channel), stamp_text(*channel.first_ns),
+                           stamp_text(*channel.last_ns), channel.seconds());
         else
             fmt::format_to(to, ", without stamps\n");
         if (flags.options.bitrate > 0.0 && channel.seconds() > 0.0) {
-            fmt::format_to(
-                to, "  load {} with stuffed bits ({} without, {} at worst)", percent_text(channel.bus.exact_s / channel.seconds()),
-                percent_text(channel.bus.without_stuffing_s / channel.seconds()), percent_text(channel.bus.worst_s / channel.seconds()));
+            const BusTime load = channel.load();
+            fmt::format_to(to, "  load {} with stuffed bits ({} without, {} at worst)", percent_text(load.exact_s),
+                           percent_text(load.without_stuffing_s), percent_text(load.worst_s));
             fmt::format_to(to, "{}\n", channel.seconds() >= 1.0 ? ", busiest second " + percent_text(channel.busiest_second) : "");
         }
         if (channel.silence_ns > 0)
@@ -137,8 +140,8 @@ std::string statistics_text(const std::vector<ChannelStatistics>& channels, cons
 
 using StatJson = nlohmann::ordered_json;
 
-StatJson bus_json(const BusTime& bus, double seconds) {
-    return {{"exact", bus.exact_s / seconds}, {"without_stuffing", bus.without_stuffing_s / seconds}, {"worst", bus.worst_s / seconds}};
+StatJson load_json(const BusTime& load) {
+    return {{"exact", load.exact_s}, {"without_stuffing", load.without_stuffing_s}, {"worst", load.worst_s}};
 }
 
 StatJson id_json(const IdStatistics& id, const ChannelStatistics& channel, const StatFlags& flags) {
@@ -154,7 +157,7 @@ StatJson id_json(const IdStatistics& id, const ChannelStatistics& channel, const
         one["backwards"] = id.backwards;
     }
     if (const PeriodStatistics& periods = id.periods; periods.count() > 0) {
-        one["rate_hz"] = rate_of(id.frames, id.first_ns, id.last_ns);
+        one["rate_hz"] = rate_of(id);
         one["period_ms"] = {{"mean", periods.mean_ns() * 1e-6},
                             {"median", periods.median_ns() * 1e-6},
                             {"least", static_cast<double>(periods.least_ns()) * 1e-6},
@@ -177,7 +180,7 @@ StatJson id_json(const IdStatistics& id, const ChannelStatistics& channel, const
     one["changing_bits"] = changed;
     one["changing_bytes"] = bytes;
     if (flags.options.bitrate > 0.0 && channel.seconds() > 0.0)
-        one["load"] = bus_json(id.bus, channel.seconds());
+        one["load"] = load_json(channel.load(id));
     return one;
 }
 
@@ -198,14 +201,14 @@ StatJson statistics_json(const std::vector<ChannelStatistics>& channels, const S
         if (channel.first_ns) {
             one["first_ns"] = *channel.first_ns;
             one["last_ns"] = *channel.last_ns;
-            one["rate_hz"] = rate_of(channel.frames, channel.first_ns, channel.last_ns);
+            one["rate_hz"] = rate_of(channel);
             one["longest_silence_s"] = static_cast<double>(channel.silence_ns) * 1e-9;
             one["longest_silence_ended_ns"] = channel.silence_ended_ns;
             one["backwards"] = channel.backwards;
             one["stamp_step_ns"] = channel.step_ns > 0 ? StatJson(channel.step_ns) : StatJson(nullptr);
         }
         if (flags.options.bitrate > 0.0 && channel.seconds() > 0.0) {
-            one["load"] = bus_json(channel.bus, channel.seconds());
+            one["load"] = load_json(channel.load());
             if (channel.seconds() >= 1.0)
                 one["load"]["busiest_second"] = channel.busiest_second;
         }
@@ -217,14 +220,21 @@ StatJson statistics_json(const std::vector<ChannelStatistics>& channels, const S
     return all;
 }
 
-void check_stat_flags(const StatFlags& flags) {
-    const auto in_range = [](double bitrate) { return bitrate >= 1000.0 && bitrate <= 20e6; };
-    if (flags.options.bitrate != 0.0 && !in_range(flags.options.bitrate))
-        refuse_flag("--bitrate", fmt::format("{}", flags.options.bitrate), "bit/s from 1000 to 20 000 000");
-    if (flags.options.data_bitrate != 0.0 && (!in_range(flags.options.data_bitrate) || flags.options.bitrate == 0.0))
-        refuse_flag("--data-bitrate", fmt::format("{}", flags.options.data_bitrate), "bit/s from 1000 to 20 000 000, with --bitrate");
-    if (!(flags.options.gap_factor > 1.0 && flags.options.gap_factor <= 1e6))
-        refuse_flag("--gap", fmt::format("{}", flags.options.gap_factor), "a factor above 1");
+/// Into `value` where the flag was given.
+void take_number(const char* flag, const std::string& text, double least, double most, const char* expected, double& value) {
+    if (text.empty())
+        return;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= least && value <= most))
+        refuse_flag(flag, text, expected);
+}
+
+void take_stat_flags(StatFlags& flags) {
+    take_number("--bitrate", flags.bitrate, 1000.0, 20e6, "bit/s from 1000 to 20 000 000", flags.options.bitrate);
+    take_number("--data-bitrate", flags.data_bitrate, 1000.0, 20e6, "bit/s from 1000 to 20 000 000", flags.options.data_bitrate);
+    if (!flags.data_bitrate.empty() && flags.bitrate.empty())
+        refuse_flag("--data-bitrate", flags.data_bitrate, "--bitrate beside it");
+    take_number("--gap", flags.gap, std::nextafter(1.0, 2.0), 1e6, "a factor above 1", flags.options.gap_factor);
 }
 
 /// False: nobody reads any more.
@@ -239,8 +249,8 @@ bool print_statistics(const LogStatistics& statistics, const StatFlags& flags, b
     return out.flush();
 }
 
-int show_statistics(const StatFlags& flags) {
-    check_stat_flags(flags);
+int show_statistics(StatFlags flags) {
+    take_stat_flags(flags);
     const std::int64_t every_ns = flags.every.empty() ? 0 : nanoseconds_of("--every", flags.every);
     if (!flags.every.empty() && every_ns == 0)
         refuse_flag("--every", flags.every, "seconds above 0");
@@ -281,9 +291,9 @@ void add_can_stat(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StatFlags>();
     CLI::App* sub = can.add_subcommand("stat", "what candump logs show: rates, periods and jitter, gaps, load, errors, changing bits");
     sub->add_option("FILE", flags->files, "logs of candump, one after the other; - for standard input")->required();
-    sub->add_option("--bitrate", flags->options.bitrate, "of the bus, in bit/s: tells its load");
-    sub->add_option("--data-bitrate", flags->options.data_bitrate, "of CAN FD with bit rate switch, in bit/s (as --bitrate)");
-    sub->add_option("--gap", flags->options.gap_factor, "a gap is a period longer than so many medians (3)");
+    sub->add_option("--bitrate", flags->bitrate, "of the bus, in bit/s: tells its load");
+    sub->add_option("--data-bitrate", flags->data_bitrate, "of CAN FD with bit rate switch, in bit/s (as --bitrate)");
+    sub->add_option("--gap", flags->gap, "a gap is a period longer than so many medians (3)");
     sub->add_option("--every", flags->every, "prints what came so far whenever so many seconds have passed by the stamps, too");
     sub->add_flag("--json", flags->json, "prints JSON; with --every one line each");
     add_log_flags(*sub, flags->log);

@@ -158,6 +158,8 @@ bool CandumpStream::fetch_line() {
 CandumpStream::What CandumpStream::next() {
     if (!fetch_line())
         return What::end;
+    if (where_.line == 1 && text_.starts_with("\xef\xbb\xbf")) // byte order mark
+        text_.remove_prefix(3);
     const char first = text_.empty() ? '\0' : text_.front();
     if (first != '(') { // nearly all lines of a log begin with it
         if (first == '\t' && line_.frame.error)

@@ -166,10 +166,17 @@ void DbcParser::bit_timing() {
 
 void DbcParser::nodes() {
     at.expect(':', "behind BU_");
+    std::size_t line = at.line(); // of the name before
+    bool begins_line = false;     // it does
     while (!at.at_end() && !dbc_keyword(at.peek())) {
         if (at.take(',') || at.take(';'))
             continue;
+        if (begins_line && (at.has_number() || at.has_text())) // no name of a node, but a statement whose keyword is misspelt
+            if (const std::string near = nearest_name(result.nodes.back(), dbc_keywords); !near.empty())
+                at.refuse_at(line, fmt::format("'{}'", printable(result.nodes.back())), fmt::format("a statement, {} perhaps", near));
         result.nodes.push_back(at.word("names of nodes"));
+        begins_line = at.line() != line;
+        line = at.line();
     }
 }
 

@@ -1,5 +1,7 @@
 #include "scenarios/values/errors.h"
 
+#include "scenarios/values/utf8.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -33,14 +35,16 @@ InputError::InputError(Where where, std::string found, std::string expected)
 std::string printable(const std::string& text, std::size_t max_chars) {
     static constexpr char hex[] = "0123456789abcdef";
     std::string out;
-    for (const char c : text) {
+    for (std::size_t i = 0; i < text.size();) {
         if (out.size() >= max_chars)
             return out + "...";
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x20 && byte != 0x7f)
-            out += c;
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const std::size_t length = utf8_length(reinterpret_cast<const unsigned char*>(text.data()) + i, text.size() - i);
+        if (length > 0 && byte >= 0x20 && byte != 0x7f)
+            out.append(text, i, length);
         else
             out += {'\\', 'x', hex[byte >> 4], hex[byte & 15]};
+        i += std::max<std::size_t>(length, 1);
     }
     return out;
 }

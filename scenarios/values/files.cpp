@@ -1,6 +1,7 @@
 #include "scenarios/values/files.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/utf8.h"
 
 #include <cerrno>
 #include <cstdint>
@@ -23,7 +24,21 @@ constexpr std::uint16_t windows_1252[32] = {0x20ac, 0,      0x201a, 0x0192, 0x20
                                             0x2039, 0x0152, 0,      0x017d, 0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
                                             0x2013, 0x2014, 0x02dc, 0x2122, 0x0161, 0x203a, 0x0153, 0,      0x017e, 0x0178};
 
-/// Length of the UTF-8 sequence at `p`, or 0 when the bytes are none (overlong forms and surrogates included).
+void append_code_point(std::string& out, unsigned code) {
+    if (code < 0x80) {
+        out += static_cast<char>(code);
+    } else if (code < 0x800) {
+        out += static_cast<char>(0xc0 | code >> 6);
+        out += static_cast<char>(0x80 | (code & 0x3f));
+    } else {
+        out += static_cast<char>(0xe0 | code >> 12);
+        out += static_cast<char>(0x80 | (code >> 6 & 0x3f));
+        out += static_cast<char>(0x80 | (code & 0x3f));
+    }
+}
+
+} // namespace
+
 std::size_t utf8_length(const unsigned char* p, std::size_t left) {
     const auto continues = [&](std::size_t i) { return i < left && (p[i] & 0xc0) == 0x80; };
     if (p[0] < 0x80)
@@ -40,21 +55,6 @@ std::size_t utf8_length(const unsigned char* p, std::size_t left) {
     }
     return 0;
 }
-
-void append_code_point(std::string& out, unsigned code) {
-    if (code < 0x80) {
-        out += static_cast<char>(code);
-    } else if (code < 0x800) {
-        out += static_cast<char>(0xc0 | code >> 6);
-        out += static_cast<char>(0x80 | (code & 0x3f));
-    } else {
-        out += static_cast<char>(0xe0 | code >> 12);
-        out += static_cast<char>(0x80 | (code >> 6 & 0x3f));
-        out += static_cast<char>(0x80 | (code & 0x3f));
-    }
-}
-
-} // namespace
 
 std::string content_hash(const void* data, std::size_t bytes) {
     const XXH128_hash_t hash = XXH3_128bits(data, bytes);

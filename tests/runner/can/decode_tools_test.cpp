@@ -103,6 +103,8 @@ TEST_F(CanCodecTools, WritesATable) {
     EXPECT_EQ(told("can decode --csv --only Lamp " + dbc() + " " + log()),
               "time,channel,message,Lamp.Indicator,Lamp.Speed [km/h],Lamp.Page,Lamp.Left [deg],Lamp.Right [deg]\n"
               "1700000000.000001000,can0,Lamp,2,50,0,-1,\n1700000000.000002000,can0,Lamp,1,-0.01,1,,\n");
+    std::ofstream(folder_ / "bare.txt") << "  can0  100   [8]  02 13 88 00 F6 FF 00 00\n";
+    EXPECT_THAT(told("can decode --csv --only Speed " + dbc() + " '" + (folder_ / "bare.txt") + "'"), HasSubstr("\n,can0,Lamp,50"));
     EXPECT_EQ(refusal("can decode --csv --json " + dbc()), "--csv: found beside --json, expected one of the two\n");
 }
 

@@ -94,11 +94,25 @@ TEST(CanCut, RefusesInOneSentence) {
     refused("merge --offset=-5 " + log, "a.log:1: found a stamp that --offset takes before 0");
     refused("merge - - ", "expected standard input once");
     refused("convert -t d " + log, "-t: found 'd', expected a or z in the log form");
-    refused("convert -a " + log, "with it: the log form has one look");
+    refused("convert -a " + log, "found -a without --screen, expected both: the log form has one look");
     refused("convert --out " + log + " " + log, "a.log is there already, expected a new file, or --force");
     refused("cut --to 5 " + written(folder, "none.txt", "  can0  123   [0] \n"),
             "none.txt:1: found a frame without a stamp, expected stamps to cut by");
-    refused("", "A subcommand is required");
+    refused("", "found no tool behind can, expected one of stat, merge");
+    refused("stta " + log, "found 'stta' behind can, expected a tool, stat perhaps");
+    refused("stat --bogus " + log, "--bogus");
+    refused("--bogus stat " + log, "found '--bogus' behind can");
+    refused("convert -a -8 " + log, "found -a, -8 without --screen, expected both: the log form has one look");
+    for (const std::string bitrate : {"0", "abc", "500k", "-5", "nan"})
+        refused("stat --bitrate=" + bitrate + " " + log, "--bitrate: found '" + bitrate + "', expected bit/s from 1000 to 20 000 000");
+    refused("stat --data-bitrate 2000000 " + log, "--data-bitrate: found '2000000', expected --bitrate beside it");
+    refused("cut --from 5 --to 3 " + log, "--to: found '3', expected a time not before --from");
+    refused("cut --from +5 --to +3 " + log, "--to: found '+3'");
+    const std::string good = written(folder, "good.log", "(1.000000) can0 123#11\n");
+    for (const std::string name : {"ome.log=can1", "foo=bar"})
+        refused("merge " + good + " --channel " + name,
+                "--channel: found '" + name + "', expected one of the files or a channel of theirs");
+    refused("cut " + written(folder, "junk.log", "\x80\xff \xc3\xa4\n"), "junk.log:1:1: found '\\x80\\xff");
 }
 
 TEST(CanCut, SkipsBadLinesWhereAskedTo) {
@@ -110,6 +124,50 @@ TEST(CanCut, SkipsBadLinesWhereAskedTo) {
     EXPECT_THAT(outcome.output, HasSubstr("a.log:2:1: found 'x'"));
     EXPECT_THAT(outcome.output, HasSubstr("3 lines skipped that are no frames"));
     EXPECT_THAT(outcome.output, HasSubstr("(1.000000) can0 123#11\n(2.000000) can0 123#22\n"));
+}
+
+TEST(CanCut, TellsOfChannelsThatNoFrameHas) {
+    const TemporaryFolder folder;
+    const std::string log = written(folder, "a.log", mixed_log);
+    const Outcome outcome = run_program("can cut --channel can7 --channel can1 " + log + " > /dev/null");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.output, testing::EndsWith("a.log: no frame of channel can7\n"));
+    EXPECT_THAT(outcome.output, testing::Not(HasSubstr("can1")));
+}
+
+TEST(CanCut, TakesAByteOrderMark) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(told(folder, "can cut " + written(folder, "a.log", "\xef\xbb\xbf" + mixed_log)), mixed_log);
+}
+
+/// What is read may be what is written; what fails leaves the file that was there, and nothing beside it.
+TEST(CanTools, LoseNoFileThatIsReplaced) {
+    const TemporaryFolder folder;
+    const std::string log = written(folder, "a.log", mixed_log), kept = "(0000000010.000000) can0 100#0011\n";
+    std::filesystem::create_symlink("a.log", folder / "link.log");
+    const std::string names[] = {log, "'" + (folder / "./a.log") + "'", "'" + (folder / "link.log") + "'"};
+    for (const std::string& name : names) {
+        for (const std::string tool : {"cut", "convert", "merge"}) {
+            EXPECT_EQ(run_program("can " + tool + " " + log + " --force -o " + name).exit_code, 0) << tool;
+            EXPECT_THAT(content_of(folder / "a.log"), testing::StartsWith(kept)) << tool;
+        }
+    }
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.log"));
+    EXPECT_EQ(run_program("can cut --to 10.4 " + log + " --force -o " + log).exit_code, 0);
+    EXPECT_THAT(content_of(folder / "a.log"), testing::StartsWith(kept));
+    const std::string before = content_of(folder / "a.log");
+
+    const std::string half = written(folder, "half.log", kept + "junk\n");
+    EXPECT_EQ(run_program("can cut " + half + " --force -o " + log).exit_code, 2);
+    EXPECT_EQ(content_of(folder / "a.log"), before);
+    const Outcome outcome = run_program("can cut " + half + " 2> /dev/null");
+    EXPECT_EQ(outcome.output, kept) << "good lines come out before a bad one is refused";
+    EXPECT_EQ(run_program("can cut " + written(folder, "junk.log", "junk\n") + " -o '" + (folder / "new.log") + "'").exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.log"));
+    EXPECT_EQ(run_program("can cut " + log + " -o /dev/null").exit_code, 0);
+    EXPECT_EQ(run_program("can cut " + log + " --force -o /dev/full").exit_code, 3);
+    for (const auto& entry : std::filesystem::directory_iterator(folder / ""))
+        EXPECT_EQ(entry.path().string().find(".part-"), std::string::npos) << entry.path();
 }
 
 TEST(CanMerge, IsStableByTime) {
@@ -192,6 +250,30 @@ TEST(CanStat, CountsAsByHand) {
     EXPECT_THAT(page, HasSubstr("3 frames lost by the socket that was logged"));
     EXPECT_THAT(page, HasSubstr("1 error frame: controller-problem 1, bus-off 1"));
     EXPECT_THAT(page, HasSubstr("--81"));
+}
+
+/// n frames span n - 1 periods: their mean is that of a second in the middle.
+TEST(CanStat, LoadsAsTheBusiestSecondWhereTrafficIsRegular) {
+    const TemporaryFolder folder;
+    for (const int last : {10, 250}) { // frames 10 ms apart; each of 47 + 8 bits, 100 a second
+        std::string text;
+        for (int i = 0; i <= last; ++i)
+            text += fmt::format("({:010}.{:02}0000) can0 100#11\n", 10 + i / 100, i % 100);
+        const nlohmann::json can0 = statistics(folder, "--bitrate 500000 " + written(folder, "a.log", text))["channels"][0];
+        EXPECT_NEAR(can0["rate_hz"], 100.0, 1e-9);
+        EXPECT_NEAR(can0["load"]["without_stuffing"], 100 * 55 / 5e5, 1e-12);
+        EXPECT_NEAR(can0["ids"][0]["load"]["without_stuffing"], 100 * 55 / 5e5, 1e-12);
+        if (last > 100) {
+            EXPECT_NEAR(can0["load"]["busiest_second"], can0["load"]["exact"], 1e-12);
+        }
+    }
+    // Whole seconds: 5 frames in each of four, of which the last is not over.
+    std::string text;
+    for (int i = 0; i < 20; ++i)
+        text += fmt::format("({:010}.000000) can0 100#11\n", 10 + i / 5);
+    const nlohmann::json can0 = statistics(folder, "--bitrate 500000 " + written(folder, "s.log", text))["channels"][0];
+    EXPECT_NEAR(can0["rate_hz"], 5.0, 1e-12);
+    EXPECT_NEAR(can0["load"]["exact"], can0["load"]["busiest_second"], 1e-12);
 }
 
 TEST(CanStat, TellsWhatCameSoFar) {

@@ -231,6 +231,7 @@ TEST_F(Dbc, RefusalsNameLineAndReason) {
     const std::string head = "BU_:\nBO_ 1 A: 8 X\n", good = " SG_ S : 0|8@1+ (1,0) [0|0] \"\" X\n";
     const std::pair<std::string, std::string> cases[] = {
         {"hello", ":1: found 'hello', expected a statement as BO_, SG_, CM_ ..."},
+        {"BU_: A\n  B\nVALL_ 1 S 1 \"a\";", ":3: found 'VALL_', expected a statement, VAL_ perhaps"},
         {head + "VALL_ 1 S 1 \"a\";", ":3: found 'VALL_', expected a statement, VAL_ perhaps"},
         {"BO_ x A: 8 X", ":1: found 'x', expected an identifier of a message, a whole number from 0 to 4294967295"},
         {"BO_ 4294967296 A: 8 X", ":1: found '4294967296', expected an identifier of a message, a whole number from 0 to 4294967295"},
