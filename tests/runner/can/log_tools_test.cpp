@@ -129,10 +129,10 @@ TEST(CanCut, SkipsBadLinesWhereAskedTo) {
 TEST(CanCut, TellsOfChannelsThatNoFrameHas) {
     const TemporaryFolder folder;
     const std::string log = written(folder, "a.log", mixed_log);
-    const Outcome outcome = run_program("can cut --channel can7 --channel can1 " + log + " > /dev/null");
+    const Outcome outcome = run_program("can cut --channel can7 --channel can1 -o /dev/null " + log);
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.output, testing::EndsWith("a.log: no frame of channel can7\n"));
-    EXPECT_THAT(outcome.output, testing::Not(HasSubstr("can1")));
+    EXPECT_THAT(outcome.output, testing::Not(HasSubstr("channel can1")));
 }
 
 TEST(CanCut, TakesAByteOrderMark) {
@@ -160,8 +160,8 @@ TEST(CanTools, LoseNoFileThatIsReplaced) {
     const std::string half = written(folder, "half.log", kept + "junk\n");
     EXPECT_EQ(run_program("can cut " + half + " --force -o " + log).exit_code, 2);
     EXPECT_EQ(content_of(folder / "a.log"), before);
-    const Outcome outcome = run_program("can cut " + half + " 2> /dev/null");
-    EXPECT_EQ(outcome.output, kept) << "good lines come out before a bad one is refused";
+    const Outcome outcome = run_program("can cut " + half);
+    EXPECT_THAT(outcome.output, testing::StartsWith(kept)) << "good lines come out before a bad one is refused";
     EXPECT_EQ(run_program("can cut " + written(folder, "junk.log", "junk\n") + " -o '" + (folder / "new.log") + "'").exit_code, 2);
     EXPECT_FALSE(std::filesystem::exists(folder / "new.log"));
     EXPECT_EQ(run_program("can cut " + log + " -o /dev/null").exit_code, 0);
