@@ -1,35 +1,20 @@
 #include "scenarios/can/candump_colours.h"
+#include "scenarios/can/candump_cursor.h"
 #include "scenarios/can/candump_log.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
 
-/// Value of a hexadecimal digit, 255 for what is none.
-constexpr std::array<std::uint8_t, 256> nibble_table = [] {
-    std::array<std::uint8_t, 256> table{};
-    table.fill(255);
-    for (std::uint8_t i = 0; i < 10; ++i)
-        table['0' + std::size_t{i}] = i;
-    for (std::uint8_t i = 0; i < 6; ++i)
-        table['A' + std::size_t{i}] = table['a' + std::size_t{i}] = static_cast<std::uint8_t>(10 + i);
-    return table;
-}();
-
-std::uint8_t nibble_of(char c) { return nibble_table[static_cast<unsigned char>(c)]; }
-bool is_decimal(char c) { return c >= '0' && c <= '9'; }
-
 constexpr std::uint32_t error_flag = 0x20000000U; ///< CAN_ERR_FLAG
 constexpr std::int64_t most_seconds = 9223372035; ///< so that nanoseconds fit 64 bits
 
-class CandumpParser {
+class CandumpParser : private CandumpCursor {
   public:
     CandumpParser(std::string_view line, const InputError::Where& where, CandumpLine& out)
-        : line_(line), where_(where), frame_(out.frame), style_(out.style) {}
+        : CandumpCursor(line, where), frame_(out.frame), style_(out.style) {}
 
     void parse() {
         if (!line_.empty() && line_.back() == '\r')
@@ -62,51 +47,6 @@ class CandumpParser {
     }
 
   private:
-    char peek(std::size_t ahead = 0) const { return at_ + ahead < line_.size() ? line_[at_ + ahead] : '\0'; }
-
-    bool take(std::string_view text) {
-        if (!line_.substr(at_).starts_with(text))
-            return false;
-        at_ += text.size();
-        return true;
-    }
-
-    std::size_t take_blanks() {
-        const std::size_t from = at_;
-        while (peek() == ' ')
-            ++at_;
-        return at_ - from;
-    }
-
-    [[noreturn]] void refuse(std::size_t column, const std::string& expected) const {
-        std::string_view rest = line_.substr(std::min(column, line_.size()));
-        if (const std::size_t blank = rest.find(' '); blank != std::string_view::npos && blank > 0)
-            rest = rest.substr(0, blank);
-        refuse(column, rest.empty() ? "found the end of the line" : "found '" + printable(std::string(rest)) + "'", expected);
-    }
-    [[noreturn]] void refuse(std::size_t column, const std::string& found, const std::string& expected) const {
-        InputError::Where where = where_;
-        where.column = column + 1;
-        throw InputError(std::move(where), found, expected);
-    }
-
-    /// Decimal digits from here on, at most `most` of them; their number.
-    std::size_t decimal(std::int64_t& value, std::size_t most) {
-        const std::size_t from = at_;
-        value = 0;
-        while (is_decimal(peek()) && at_ - from < most)
-            value = value * 10 + (line_[at_++] - '0');
-        return at_ - from;
-    }
-
-    std::int64_t fixed_decimal(std::size_t digits, std::int64_t least, std::int64_t greatest, const char* expected) {
-        const std::size_t from = at_;
-        std::int64_t value = 0;
-        if (decimal(value, digits) != digits || value < least || value > greatest)
-            refuse(from, expected);
-        return value;
-    }
-
     void seconds_stamp() {
         const std::size_t start = at_++;
         std::int64_t seconds = 0;
@@ -131,30 +71,6 @@ class CandumpParser {
             refuse(at_, "')' behind the stamp");
         style_.stamp_digits = static_cast<std::uint8_t>(places);
         frame_.time_ns = seconds * 1'000'000'000 + fraction * (places == 6 ? 1000 : 1);
-    }
-
-    std::int64_t date_stamp(std::int64_t year) {
-        using namespace std::chrono;
-        const std::size_t from = at_ - 4;
-        ++at_;
-        const std::int64_t month_number = fixed_decimal(2, 1, 12, "a month from 01 to 12");
-        if (!take("-"))
-            refuse(at_, "'-' behind the month");
-        const std::int64_t day_number = fixed_decimal(2, 1, 31, "a day from 01 to 31");
-        const year_month_day date(std::chrono::year(static_cast<int>(year)), month(static_cast<unsigned>(month_number)),
-                                  day(static_cast<unsigned>(day_number)));
-        if (!date.ok() || year < 1970 || year > 2261)
-            refuse(from, "a day that there is, from 1970 to 2261");
-        if (!take(" "))
-            refuse(at_, "a blank between date and time");
-        const std::int64_t hours = fixed_decimal(2, 0, 23, "hours from 00 to 23");
-        if (!take(":"))
-            refuse(at_, "':' behind the hours");
-        const std::int64_t minutes = fixed_decimal(2, 0, 59, "minutes from 00 to 59");
-        if (!take(":"))
-            refuse(at_, "':' behind the minutes");
-        const std::int64_t seconds = fixed_decimal(2, 0, 60, "seconds from 00 to 60");
-        return sys_days(date).time_since_epoch().count() * std::int64_t{86400} + hours * 3600 + minutes * 60 + seconds;
     }
 
     bool take_colour() {
@@ -246,16 +162,6 @@ class CandumpParser {
             frame_.extended = true;
         }
         frame_.id = id & 0x1fffffffU;
-    }
-
-    /// Two hexadecimal digits. False, and nothing taken, where there are none.
-    bool take_byte(std::uint8_t& byte) {
-        const std::uint8_t high = nibble_of(peek()), low = nibble_of(peek(1));
-        if (high > 15 || low > 15)
-            return false;
-        byte = static_cast<std::uint8_t>(high << 4 | low);
-        at_ += 2;
-        return true;
     }
 
     static bool is_fd_length(std::size_t length) {
@@ -447,18 +353,6 @@ class CandumpParser {
         }
     }
 
-    bool take_bits(std::uint8_t& byte) {
-        unsigned value = 0;
-        for (std::size_t i = 0; i < 8; ++i) {
-            if (peek(i) != '0' && peek(i) != '1')
-                return false;
-            value = value << 1 | (peek(i) == '1' ? 1U : 0U);
-        }
-        byte = static_cast<std::uint8_t>(value);
-        at_ += 8;
-        return true;
-    }
-
     void ascii_column(std::size_t length) {
         const char quote = peek();
         if (length > 1 && (quote == '`') != style_.swapped)
@@ -475,11 +369,8 @@ class CandumpParser {
             refuse(from, "the bytes' text, with '.' for what cannot be printed");
     }
 
-    std::string_view line_;
-    const InputError::Where& where_;
     CanFrame& frame_;
     CandumpStyle& style_;
-    std::size_t at_ = 0;
     std::size_t blanks_before_channel_ = 0, blanks_behind_channel_ = 0;
 };
 
