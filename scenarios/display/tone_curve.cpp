@@ -8,6 +8,11 @@
 namespace fernlicht {
 namespace {
 
+/// A histogram curve that is not found yet is linear.
+ToneMapperKind shape_of(const ToneMapper& mapper) {
+    return mapper.kind == ToneMapperKind::histogram && mapper.curve.empty() ? ToneMapperKind::linear : mapper.kind;
+}
+
 struct CurvePlace {
     ToneKnot from;
     double slope = 1.0;
@@ -33,7 +38,7 @@ std::string_view name(ToneMapperKind kind) {
 double toned(const ToneMapper& mapper, double l) {
     if (!(l > 0.0))
         return 0.0;
-    switch (mapper.kind) {
+    switch (shape_of(mapper)) {
     case ToneMapperKind::linear:
         return photometry::tone_linear(l, mapper.l_max_cdm2);
     case ToneMapperKind::rational:
@@ -55,7 +60,7 @@ std::optional<double> untoned(const ToneMapper& mapper, double d) {
         return std::nullopt;
     if (d == 0.0 || d == 1.0)
         return d * mapper.l_max_cdm2;
-    switch (mapper.kind) {
+    switch (shape_of(mapper)) {
     case ToneMapperKind::linear:
         return d * mapper.l_max_cdm2;
     case ToneMapperKind::rational:
@@ -73,7 +78,7 @@ double contrast_kept(const ToneMapper& mapper, double l) {
     const double x = l / mapper.l_max_cdm2;
     if (!(x < 1.0))
         return 0.0;
-    switch (mapper.kind) {
+    switch (shape_of(mapper)) {
     case ToneMapperKind::linear:
         return 1.0;
     case ToneMapperKind::rational:

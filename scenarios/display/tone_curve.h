@@ -15,6 +15,7 @@ std::string_view name(ToneMapperKind kind);
 /// Share of what the display can show, 0..1: 0 for 0 and below, 1 from l_max on; rises with the luminance. A luminance that is not a number
 /// is shown as 0.
 ///
+/// A histogram curve that is not found yet (ToneMapper::is_open) is linear.
 /// Below a histogram curve's first knot the share falls in proportion to the luminance, so that 0 stays 0.
 double toned(const ToneMapper& mapper, double luminance_cdm2);
 
