@@ -4,6 +4,7 @@
 #include "renderer/device.h"
 #include "renderer/technique.h"
 #include "scenarios/drives/frame.h"
+#include "scenarios/drives/shadow_settings.h"
 #include "scenarios/values/scene.h"
 
 #include <optional>
@@ -17,9 +18,7 @@ struct RendererSettings {
     std::string technique = "photometric";
     ToneMapper tone_mapper;
     std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float
-    bool shadows = true;
-    int shadow_width = 1024, shadow_height = 512;
-    double shadow_tolerance_m = 0.03; ///< shadows are looked up from points at least this far above a surface
+    ShadowSettings shadows;
     double target_height_m = 0.25;
     bool sources = true; ///< faces of lamps and surfaces that shine by themselves are seen; false: their light alone
     bool traffic_levels =

@@ -38,7 +38,7 @@ double check_sanity(Device& device) {
     const Scene scene = wall();
     const Moment moment = lit_by_one_lamp();
     RendererSettings settings;
-    settings.shadow_width = settings.shadow_height = 64;
+    settings.shadows.width = settings.shadows.height = 64;
     Renderer renderer(device, scene, settings);
     View view;
     view.width_px = 48;

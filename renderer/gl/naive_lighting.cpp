@@ -21,7 +21,7 @@ const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
     std::vector<Program::Define> d = Targets::defines(shot.wanted);
     const auto flag = [](bool on) { return on ? "1" : "0"; };
     d.push_back({"LAMP_COUNT", std::to_string(lamps)});
-    d.push_back({"SHADOWS", flag(settings_.shadows)});
+    d.push_back({"SHADOWS", flag(settings_.shadows.any())});
     d.push_back({"SKY", "1"});
     if (scene_.moves())
         d.push_back({"MOVING", "1"});
@@ -45,9 +45,9 @@ void NaiveLighting::set_lamps(const Moment& moment) {
         packed_.push_back(
             {padded(lamp.pose.position_m - moment.ego.position_m), padded(-lamp.pose.left()), padded(lamp.pose.up()),
              padded(lamp.pose.forward()), glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
-             glm::vec4(g.width, g.height, lamp.intensity_factor * beam.cd_a_unit, settings_.shadows ? 1.0 : 0.0),
+             glm::vec4(g.width, g.height, lamp.intensity_factor * beam.cd_a_unit, settings_.shadows.any() ? 1.0 : 0.0),
              padded(lamp.colour.linear_srgb),
-             glm::vec4(w.left, w.bottom, settings_.shadow_width / (w.right - w.left), settings_.shadow_height / (w.top - w.bottom))});
+             glm::vec4(w.left, w.bottom, settings_.shadows.width / (w.right - w.left), settings_.shadows.height / (w.top - w.bottom))});
     }
     update_buffer(context_, block_, packed_);
 }
@@ -75,9 +75,9 @@ void NaiveLighting::draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m,
 void NaiveLighting::draw_shadow_maps(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
     while (shadow_maps_.size() < lamps_.size())
-        shadow_maps_.push_back(make_texture(context_, GL_DEPTH_COMPONENT32F, settings_.shadow_width, settings_.shadow_height));
+        shadow_maps_.push_back(make_texture(context_, GL_DEPTH_COMPONENT32F, settings_.shadows.width, settings_.shadows.height));
     depth_.use();
-    gl.Viewport(0, 0, settings_.shadow_width, settings_.shadow_height);
+    gl.Viewport(0, 0, settings_.shadows.width, settings_.shadows.height);
     gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); // row 0 is the lowest tangent, as texel_lit() takes it
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
         gl.NamedFramebufferTexture(shadow_target_, GL_DEPTH_ATTACHMENT, shadow_maps_[i], 0);
@@ -98,7 +98,7 @@ void NaiveLighting::draw(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
     set_lamps(shot.moment);
     scene_.place(shot.moment.bodies);
-    if (settings_.shadows && !lamps_.empty()) {
+    if (settings_.shadows.any() && !lamps_.empty()) {
         shot.clock.begin("shadow maps");
         draw_shadow_maps(shot);
         shot.clock.end();
@@ -115,7 +115,7 @@ void NaiveLighting::draw(const Shot& shot) {
     gl.Uniform4f(program.uniform("eye_axis"), axis.x, axis.y, axis.z, 0.0F);
     gl.Uniform1f(program.uniform("sky_lx"), static_cast<float>(shot.moment.daylight.horizontal_illuminance_lx));
     gl.Uniform1f(program.uniform("target_height_m"), static_cast<float>(settings_.target_height_m));
-    gl.Uniform1f(program.uniform("shadow_tolerance_m"), static_cast<float>(settings_.shadow_tolerance_m));
+    gl.Uniform1f(program.uniform("shadow_tolerance_m"), static_cast<float>(settings_.shadows.tolerance_m));
     const ToneMapper& tone = settings_.tone_mapper;
     gl.Uniform4f(program.uniform("tone"), static_cast<float>(tone.kind), static_cast<float>(tone.s), static_cast<float>(tone.l_max_cdm2),
                  0.0F);
@@ -123,16 +123,16 @@ void NaiveLighting::draw(const Shot& shot) {
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
         gl.BindTextureUnit(static_cast<GLuint>(i), beams_.of(lamps_[i].file).texture);
         if (i < shadow_maps_.size())
-            gl.BindTextureUnit(first_shadow_unit + static_cast<GLuint>(i), shadow_maps_[i]);
+            gl.BindTextureUnit(shadow_unit(i), shadow_maps_[i]);
     }
     draw_pieces(shot.camera.clip_from_ego, shot.moment.ego.position_m, shot.camera.is_map, farthest_drawn_m, shot.work);
     shot.clock.end();
     context_.check("drawing the scene");
     shot.work.lamps = static_cast<int>(lamps_.size());
-    shot.work.samplers = static_cast<int>(lamps_.size()) * (settings_.shadows ? 2 : 1) + (scene_.texture_bytes() > 0 ? 1 : 0);
+    shot.work.samplers = static_cast<int>(lamps_.size()) * (settings_.shadows.any() ? 2 : 1) + (scene_.texture_bytes() > 0 ? 1 : 0);
     shot.work.texture_bytes =
         beams_.texture_bytes() + scene_.texture_bytes() +
-        shadow_maps_.size() * 4 * static_cast<std::size_t>(settings_.shadow_width) * static_cast<std::size_t>(settings_.shadow_height);
+        shadow_maps_.size() * 4 * static_cast<std::size_t>(settings_.shadows.width) * static_cast<std::size_t>(settings_.shadows.height);
 }
 
 void NaiveLighting::prepare(const Shot& shot) { draw(shot); }

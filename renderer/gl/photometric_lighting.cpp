@@ -54,9 +54,8 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, settings.beams),
-      shadows_(context, scene_, {settings.shadow_width, settings.shadow_height}),
-      traffic_(context, scene_, beams_, settings.traffic_levels, pruned), air_lamps_(context, beams_, pruned),
-      faces_(context, settings.tone_mapper), list_(context, scene_),
+      shadows_(make_shadows(context, scene_, settings.shadows)), traffic_(context, scene_, beams_, settings.traffic_levels, pruned),
+      air_lamps_(context, beams_, pruned), faces_(context, settings.tone_mapper), list_(context, scene_),
       block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
 
 void PhotometricLighting::set_lamps(const Shot& shot) {
@@ -82,9 +81,9 @@ void PhotometricLighting::set_sun(const Shot& shot) {
     if (!sun_ && (everything || shot.moment.daylight.direct() != nullptr))
         sun_ = std::make_unique<SunLight>(context_, scene_);
     if (sun_)
-        sun_->set(shot.moment, settings_.shadows && !scene_.flat());
+        sun_->set(shot.moment, shadows_ && !scene_.flat());
     const bool shines = sun_ && sun_->shines();
-    sun_needs_ = everything ? 1 + (settings_.shadows ? 1 : 0) : !shines ? 0 : sun_->casts() ? 2 : 1;
+    sun_needs_ = everything ? 1 + (shadows_ ? 1 : 0) : !shines ? 0 : sun_->casts() ? 2 : 1;
 }
 
 PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed,
@@ -104,7 +103,7 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     if (lit || !pruned_ || (f.fog && reflects && !shot.camera.is_map)) // in fog, beams are seen from beside
         for (const Beam* beam : lamp_beams_)
             f.beams.push_back(beam->shape);
-    f.shadows = !f.beams.empty() && (shadowed || !pruned_) && settings_.shadows;
+    f.shadows = !f.beams.empty() && (shadowed || !pruned_) && shadows_;
     if (pruned_ && reflects)
         f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive && settings_.sources,
                      surface.moving, surface.tinted && (!f.beams.empty() || f.traffic)};
@@ -119,10 +118,6 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     if (const auto known = variants_.find(f); known != variants_.end())
         return known->second;
     std::vector<const Beam*> beams = f.beams.empty() ? std::vector<const Beam*>{} : lamp_beams_;
-    const ShadowSize size{settings_.shadow_width, settings_.shadow_height};
-    double spread = 0.0;
-    for (const Beam* beam : beams)
-        spread = std::max(spread, 1.5 * texel_tangent(beam->window, size));
     std::vector<Program::Define> d = Targets::defines(wanted);
     const auto define = [&](const char* name, std::string value) { d.push_back({name, std::move(value)}); };
     define("LAMP_COUNT", std::to_string(beams.size()));
@@ -164,26 +159,22 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
                return fmt::format("vec2({}, {})", literal(1.0 / b.grid.width), literal(1.0 / b.grid.height));
            }));
     define("BEAM_STEEP", list(beams, [](const Beam& b) { return std::string(b.steep ? "true" : "false"); }));
-    define("SHADOW_NEAR", literal(shadow_near_m));
-    define("SHADOW_TOLERANCE", literal(settings_.shadow_tolerance_m));
-    define("SHADOW_SPREAD", literal(spread));
-    define("SHADOW_WINDOWS", list(beams, [&](const Beam& b) {
-               // The window lies within the empty outermost texels.
-               const double across = (size.width - 2.0) / size.width / (b.window.right - b.window.left),
-                            up = (size.height - 2.0) / size.height / (b.window.top - b.window.bottom);
-               return fmt::format("vec4({}, {}, {}, {})", literal(across), literal(up), literal(1.0 / size.width - b.window.left * across),
-                                  literal(1.0 / size.height - b.window.bottom * up));
-           }));
+    if (f.shadows) {
+        const std::vector<Program::Define> more = shadows_->defines(beams);
+        d.insert(d.end(), more.begin(), more.end());
+    }
     Program program(context_, "photometric.vert.glsl", "photometric.frag.glsl", d);
     const GLint clip = program.uniform("clip_from_ego"), eye = program.uniform("eye_m"), axis = program.uniform("eye_axis"),
                 sky = program.uniform("sky_lx"), grid = f.traffic ? program.uniform("traffic_grid") : -1;
-    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid, f.sun > 0, f.fog || f.wet, f.air_lamps})
+    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid, f.shadows, f.sun > 0, f.fog || f.wet, f.air_lamps})
         .first->second;
 }
 
 void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
     const GladGLContext& gl = context_.gl;
     v.program.use();
+    if (v.shadows)
+        shadows_->set_uniforms(v.program);
     const glm::mat4 clip(shot.camera.clip_from_ego);
     const glm::vec3 eye(shot.camera.eye_m), axis(shot.camera.axis);
     gl.UniformMatrix4fv(v.clip, 1, GL_FALSE, &clip[0][0]);
@@ -264,7 +255,7 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
             lit = lamps_[k].intensity_factor > 0.0 &&
                   lamp_beams_[k]->bounds.most_towards(to_lamp_space(lamps_[k], centre - (lamps_[k].pose.position_m - ego_m)),
                                                       piece.radius_m + (shot.wanted.target ? settings_.target_height_m : 0.0)) > 0.0;
-        const bool shadowed = lit && settings_.shadows && shadows_.reach(piece, shot.wanted.target ? settings_.target_height_m : 0.0);
+        const bool shadowed = lit && shadows_ && shadows_->reach(piece, shot.wanted.target ? settings_.target_height_m : 0.0);
         sorted[{piece.surface, lit, shadowed, traffic_.any() && traffic_.reach(i)}].emplace_back(distances[s], i);
     }
     std::vector<Group> groups;
@@ -285,16 +276,10 @@ void PhotometricLighting::draw(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
     scene_.place(shot.moment.bodies);
     set_lamps(shot);
-    const bool shadows = settings_.shadows && !lamps_.empty();
-    if (shadows) {
-        shadows_.set(lamps_, lamp_beams_, shot.moment.ego.position_m);
-        if (!pruned_ || shadows_.needed()) {
-            shot.clock.begin("shadow maps");
-            shadows_.draw(shot.work);
-            shot.clock.end();
-        }
-    } else {
-        shadows_.set({}, {}, shot.moment.ego.position_m);
+    if (shadows_) {
+        shadows_->set(lamps_, lamp_beams_, shot.moment.ego.position_m);
+        if (!lamps_.empty() && (!pruned_ || shadows_->needed()))
+            shadows_->draw(shot);
     }
     air_lamps_.set(shot.moment, shot.camera);
     set_sun(shot);
@@ -338,7 +323,7 @@ void PhotometricLighting::draw(const Shot& shot) {
     shot.work.calls += static_cast<int>(groups.size());
     shot.work.triangles += list_.triangles();
     shot.work.texture_bytes =
-        beams_.texture_bytes() + shadows_.texture_bytes() + scene_.texture_bytes() + (sun_ ? sun_->texture_bytes() : 0);
+        beams_.texture_bytes() + (shadows_ ? shadows_->texture_bytes() : 0) + scene_.texture_bytes() + (sun_ ? sun_->texture_bytes() : 0);
     note_what_is_left_out(shot, groups);
 }
 
@@ -348,9 +333,10 @@ void PhotometricLighting::prepare(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
     if (scene_.pieces().empty())
         return;
-    shadows_.compile();
+    if (shadows_)
+        shadows_->compile(shot);
     set_sun(shot);
-    if (sun_ && settings_.shadows)
+    if (sun_ && shadows_)
         sun_->compile();
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
@@ -362,7 +348,7 @@ void PhotometricLighting::prepare(const Shot& shot) {
         air_lamps_.set(shot.moment, shot.camera);
         air_lamps_.bind();
     }
-    const int most_sun = sun_needs_ == 0 ? 0 : settings_.shadows && (!scene_.flat() || !pruned_) ? 2 : 1;
+    const int most_sun = sun_needs_ == 0 ? 0 : shadows_ && (!scene_.flat() || !pruned_) ? 2 : 1;
     for (const SurfaceClass& surface : scene_.classes())
         for (const auto& [lit, shadowed, traffic] :
              {std::tuple(false, false, false), std::tuple(true, false, false), std::tuple(true, true, false),
@@ -395,9 +381,9 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
                 r.worst_drawn_lx, r.worst_left_out_lx));
     else if (shot.moment.other_lamps.empty())
         say("lamps of others", "there are none");
-    if (!settings_.shadows)
+    if (!shadows_)
         say("shadow maps", "the drive switches them off");
-    else if (!shadows_.needed())
+    else if (!shadows_->needed())
         say("shadow maps", scene_.flat() ? "the scene is flat, nothing stands in a beam" : "nothing stands in a beam");
     if (shot.moment.daylight.horizontal_illuminance_lx == 0.0)
         say("sky light", "it is night");
@@ -420,7 +406,7 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
         say(fmt::format("{} of {} pieces of the scene", scene_.pieces().size() - drawn, scene_.pieces().size()), "out of view");
     if (dark > 0)
         say(fmt::format("lamps on {} of {} pieces in view", dark, drawn), "outside every beam");
-    if (unshaded > 0 && shadows_.needed())
+    if (unshaded > 0 && shadows_ && shadows_->needed())
         say(fmt::format("shadow look-ups on {} of {} pieces in view", unshaded, drawn), "no caster stands between them and a lamp");
     if (!scene_.has([](const SurfaceClass& c) { return c.retroreflecting; }))
         say("retroreflection", "no material of the scene retroreflects");

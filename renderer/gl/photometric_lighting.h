@@ -4,7 +4,7 @@
 #include "renderer/gl/air_lamps.h"
 #include "renderer/gl/lamp_faces.h"
 #include "renderer/gl/lighting.h"
-#include "renderer/gl/shadow_maps.h"
+#include "renderer/gl/shadows.h"
 #include "renderer/gl/sun_light.h"
 #include "renderer/gl/traffic_lights.h"
 
@@ -37,7 +37,7 @@ class PhotometricLighting : public Lighting {
     struct Compiled {
         Program program;
         GLint clip, eye, axis, sky, traffic_grid;
-        bool sun, weather, air_lamps;
+        bool shadows, sun, weather, air_lamps;
     };
     /// Pieces that one variant draws.
     struct Group {
@@ -65,7 +65,7 @@ class PhotometricLighting : public Lighting {
     bool pruned_;
     SceneBuffers scene_;
     Beams beams_;
-    ShadowMaps shadows_;
+    std::unique_ptr<Shadows> shadows_; ///< nullptr: none are cast
     TrafficLights traffic_;
     AirLamps air_lamps_;
     LampFaces faces_;

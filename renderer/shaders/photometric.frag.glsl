@@ -44,21 +44,9 @@ float intensity_towards(vec3 w, float inverse_d, float factor, sampler2D beam, v
 }
 
 #if SHADOWS
-layout(binding = 8) uniform sampler2DShadow shadow_0; // shadow_near_m / distance along the axis; 0: nothing
-layout(binding = 9) uniform sampler2DShadow shadow_1;
-layout(binding = 10) uniform sampler2DShadow shadow_2;
-layout(binding = 11) uniform sampler2DShadow shadow_3;
-layout(binding = 12) uniform sampler2DShadow shadow_4;
-layout(binding = 13) uniform sampler2DShadow shadow_5;
-layout(binding = 14) uniform sampler2DShadow shadow_6;
-layout(binding = 16) uniform sampler2DShadow shadow_7;
-const vec4 shadow_window[LAMP_COUNT] = vec4[LAMP_COUNT](SHADOW_WINDOWS); // tangents -> texture: scale x, y, offset x, y
-
-// Share of the lamp seen from a point in lamp space: four texels, weighted. Outside the map nothing is known to stand in the way.
-float visibility(vec3 w, sampler2DShadow map, vec4 window) {
-    float inverse_z = 1.0 / w.z;
-    return textureLod(map, vec3(w.xy * inverse_z * window.xy + window.zw, SHADOW_NEAR * inverse_z), 0.0);
-}
+#ifdef SHADOW_MAPS
+#include "shadow_maps.glsl"
+#endif
 #endif
 
 #endif
@@ -121,11 +109,7 @@ PRECISE vec3 light = vec3(0.0);
 #endif
 
 // One lamp; a macro, since constants must be picked by constants.
-#if SHADOWS
-// Looked up from a point raised above the surface by what a texel spans there: see docs/decisions/0005.
-#define SEEN(i, map) visibility(v_w[i] + v_n[i] * (inverse_n * max(SHADOW_TOLERANCE, SHADOW_SPREAD * v_w[i].z)), map, shadow_window[i])
-#define SEEN_TARGET(i, map, w) visibility(w, map, shadow_window[i])
-#else
+#if !SHADOWS
 #define SEEN(i, map) 1.0
 #define SEEN_TARGET(i, map, w) 1.0
 #endif

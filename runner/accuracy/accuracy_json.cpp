@@ -28,7 +28,7 @@ Json configuration_json(const ConfigurationResult& found, const DriveAccuracy& d
             {"technique", c.technique},
             {"width_px", c.width_px},
             {"height_px", c.height_px},
-            {"shadow_map", {{"width", c.shadow_width}, {"height", c.shadow_height}}},
+            {"shadow_map", {{"width", c.shadows.width}, {"height", c.shadows.height}}},
             {"beams", beams_text(c.beams)},
             {"varied", text_or_null(c.varied)},
             {"moments", found.moments},

@@ -12,7 +12,7 @@ namespace fernlicht {
 struct Configuration {
     std::string technique;
     int width_px = 0, height_px = 0;
-    int shadow_width = 1024, shadow_height = 512;
+    ShadowSettings shadows;
     std::optional<BeamTexels> beams; ///< nullopt: as fine as the technique takes them, in float
     std::string varied; ///< what differs from the drive's own way beside the technique: "resolution", "shadow maps"; "" for nothing
 };

@@ -16,7 +16,7 @@ WorkPrecisionRow row_of(const ConfigurationResult& found, std::size_t moments) {
     row.label = name_of(c);
     row.parameters = {{"technique", c.technique},
                       {"resolution", fmt::format("{}x{}", c.width_px, c.height_px)},
-                      {"shadow maps", fmt::format("{}x{}", c.shadow_width, c.shadow_height)},
+                      {"shadow maps", fmt::format("{}x{}", c.shadows.width, c.shadows.height)},
                       {"beams", beams_text(c.beams)}};
     if (c.beams == eight_bit_texels && c.varied == "beams")
         row.note = "thesis";
@@ -125,7 +125,7 @@ WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive) {
         if (c.technique != "photometric" || (!c.varied.empty() && c.varied != "shadow maps"))
             continue;
         WorkPrecisionRow row = row_of(found, drive.moments.size());
-        row.label = fmt::format("{} x {}", c.shadow_width, c.shadow_height);
+        row.label = fmt::format("{} x {}", c.shadows.width, c.shadows.height);
         row.floor = 0.0;
         if (found.whole && found.whole->pixels > 0) {
             const double share = found.whole->percent_beyond[2];

@@ -11,6 +11,7 @@
 #include <deque>
 #include <fmt/format.h>
 #include <map>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -71,7 +72,7 @@ ReferenceSettings reference_settings(const Drive& drive, const SweepRequest& req
     ReferenceSettings settings;
     settings.target_error = request.target_error;
     settings.most_samples = request.most_samples;
-    settings.shadows = drive.shadows;
+    settings.shadows = drive.shadows.any();
     settings.seed = request.seed;
     settings.target_height_m = drive.extent->target_height_m;
     return settings;
@@ -163,7 +164,7 @@ std::string name_of(const Configuration& c) {
     if (c.varied.find("resolution") != std::string::npos)
         name += fmt::format(", {}x{}", c.width_px, c.height_px);
     if (c.varied.find("shadow maps") != std::string::npos)
-        name += fmt::format(", shadow maps {}x{}", c.shadow_width, c.shadow_height);
+        name += fmt::format(", shadow maps {}x{}", c.shadows.width, c.shadows.height);
     if (c.varied.find("beams") != std::string::npos)
         name += ", beams " + beams_text(c.beams);
     return name;
@@ -174,9 +175,7 @@ RendererSettings settings_of(const Drive& drive, const Configuration& configurat
     settings.technique = configuration.technique;
     settings.tone_mapper = drive.tone_mapper;
     settings.beams = configuration.beams;
-    settings.shadows = drive.shadows;
-    settings.shadow_width = configuration.shadow_width;
-    settings.shadow_height = configuration.shadow_height;
+    settings.shadows = configuration.shadows;
     if (drive.extent)
         settings.target_height_m = drive.extent->target_height_m;
     return settings;
@@ -197,8 +196,7 @@ const Variant& variant_of(const Drive& drive, const std::string& name) {
 std::vector<Configuration> configurations_of(const SweepRequest& request, const Drive& drive) {
     const View& driver = view_to_compare(drive);
     const std::vector<Size> resolutions = sizes_of(request.resolutions, {driver.width_px, driver.height_px}, {0.5, 0.25});
-    const RendererSettings usual;
-    const std::vector<Size> maps = sizes_of(request.shadow_maps, {usual.shadow_width, usual.shadow_height}, {2.0, 0.5, 0.25});
+    const std::vector<Size> maps = sizes_of(request.shadow_maps, {drive.shadows.width, drive.shadows.height}, {2.0, 0.5, 0.25});
     const std::vector<std::optional<BeamTexels>> beams = beams_of(request, drive);
     std::vector<Technique> rows;
     for (const Technique& row : chosen_techniques(request.techniques))
@@ -210,8 +208,9 @@ std::vector<Configuration> configurations_of(const SweepRequest& request, const 
         for (const auto& [index, name] : {std::pair(r, "resolution"), std::pair(m, "shadow maps"), std::pair(b, "beams")})
             if (index > 0)
                 varied += (varied.empty() ? "" : ", ") + std::string(name);
-        all.push_back(
-            {std::string(row.name), resolutions[r].first, resolutions[r].second, maps[m].first, maps[m].second, beams[b], varied});
+        ShadowSettings shadows = drive.shadows;
+        std::tie(shadows.width, shadows.height) = maps[m];
+        all.push_back({std::string(row.name), resolutions[r].first, resolutions[r].second, shadows, beams[b], varied});
     };
     for (const Technique& row : rows)
         add(row, 0, 0, 0);

@@ -45,7 +45,7 @@ class MediaBench {
           timed_(resized(*driver_view(stage.drive), timed_width, timed_height)) {
         ReferenceSettings settings;
         settings.footprint = Footprint::centre;
-        settings.shadows = stage.drive.shadows;
+        settings.shadows = stage.drive.shadows.any();
         truth_ = Reference(scene_).render(moment, compared_, {.luminance = true}, settings);
     }
 
@@ -118,7 +118,7 @@ MediumStudy sun_ways(const Moment& moment, const RendererSettings& drawn) {
                       "the map has 2048 x 2048 texels of 0.12 m; all other lights keep their shadows but in the second way",
                       {{"with its shadow map", "shadows", "map", "as drives are drawn", moment, drawn}}};
     MediumWay bright{"without any shadows", "shadows", "none", "", moment, drawn};
-    bright.settings.shadows = false;
+    bright.settings.shadows.method = ShadowMethod::none;
     study.ways.push_back(std::move(bright));
     MediumWay dark{"left out", "shadows", "no light", "", moment, drawn};
     dark.moment.daylight.sun = dark.moment.daylight.moon = {};

@@ -109,7 +109,7 @@ void draw_edges(Session& s, const Technique& technique, const AliasingConfigurat
     if (!technique.illuminance)
         return;
     RendererSettings settings = settings_of(s.stage.drive, finest);
-    settings.shadows = false;
+    settings.shadows.method = ShadowMethod::none;
     s.references.edges.unshadowed_lx = Renderer(s.device, s.stage.scene, settings).draw(moment, fine, {.illuminance = true}).illuminance_lx;
 }
 

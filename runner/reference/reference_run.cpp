@@ -81,9 +81,10 @@ ReferenceResult described(const ReferenceRequest& request, const Stage& stage) {
                          "a perspective view: a map's pixels are those of the drive file");
     result.wanted = {.illuminance = true, .target = is_map, .luminance = !is_map};
     result.settings = request.settings;
-    result.settings.shadows = drive.shadows;
+    result.settings.shadows = drive.shadows.any();
     result.settings.most_samples = reference::most_samples_used(request.settings);
-    if (!drive.shadows && (request.settings.integrator == Integrator::radiosity || request.settings.integrator == Integrator::photon_map))
+    if (!drive.shadows.any() &&
+        (request.settings.integrator == Integrator::radiosity || request.settings.integrator == Integrator::photon_map))
         throw InputError({drive.file, 0, 0, "--integrator"},
                          "found " + integrator_name(request.settings.integrator) + " for a drive without shadows",
                          "direct, whitted or path: light that is solved has shadows");

@@ -13,7 +13,7 @@ using namespace stability;
 
 /// Of the map that the trial's lamp gets: 1024 texels over 60 degrees across, the coarser of its axes.
 constexpr double texel_tangent = 2.0 * 0.5773502691896257 / 1022.0;
-constexpr double least_raise_m = 0.03; // RendererSettings::shadow_tolerance_m
+constexpr double least_raise_m = 0.03; // ShadowSettings::tolerance_m
 
 struct Count {
     int lit = 0, dark = 0; ///< pixels of which rays leave no doubt

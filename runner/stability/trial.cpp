@@ -89,7 +89,7 @@ Scene empty_scene() {
 
 RendererSettings unshadowed() {
     RendererSettings settings;
-    settings.shadows = false;
+    settings.shadows.method = ShadowMethod::none;
     return settings;
 }
 

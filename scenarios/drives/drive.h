@@ -4,6 +4,7 @@
 #include "scenarios/display/display_settings.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/seeing_parameters.h"
+#include "scenarios/drives/shadow_settings.h"
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/models/placed_model.h"
@@ -134,7 +135,7 @@ struct Drive {
     SeeingParameters seeing; ///< sensors and glare
     std::vector<PlacedModel> scenery;
     std::vector<Limit> limits;
-    bool shadows = true;
+    ShadowSettings shadows;          ///< of the technique photometric; none: nothing casts a shadow, in rays neither
     std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float
     bool textured = true;            ///< surfaces have pictures
     std::uint64_t seed = 1;

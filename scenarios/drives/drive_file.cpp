@@ -8,6 +8,7 @@
 #include "scenarios/drives/drive_keys.h"
 #include "scenarios/drives/drive_log.h"
 #include "scenarios/drives/scenery_keys.h"
+#include "scenarios/drives/shadow_keys.h"
 #include "scenarios/drives/story_drive.h"
 #include "scenarios/drives/storyboard_keys.h"
 #include "scenarios/drives/traffic_keys.h"
@@ -123,7 +124,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     read_scenery(keys, drive);
     read_measure(keys, drive);
     drive.limits = read_limits(keys);
-    drive.shadows = keys.flag_or("shadows", drive.shadows);
+    drive.shadows = read_shadows(keys);
     if (const auto beams = keys.find("beams"))
         drive.beams = read_beams(*beams);
     if (const auto textures = keys.find("textures"))

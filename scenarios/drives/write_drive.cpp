@@ -6,6 +6,7 @@
 #include "scenarios/drives/display_keys.h"
 #include "scenarios/drives/flow_list.h"
 #include "scenarios/drives/seeing_keys.h"
+#include "scenarios/drives/shadow_keys.h"
 #include "scenarios/drives/storyboard_keys.h"
 #include "scenarios/drives/yaml_text.h"
 
@@ -377,7 +378,7 @@ std::string write_drive(const Drive& drive) {
     write_measure(out, drive);
     out.add_all(write_seeing(drive.seeing));
     write_limits(out, drive);
-    out.add(0, "shadows: {}", drive.shadows);
+    out.add_all(write_shadows(drive.shadows));
     if (drive.beams && *drive.beams != eight_bit_texels)
         out.add(0, "beams: {{width: {}, height: {}, bits: {}}}", drive.beams->width, drive.beams->height, drive.beams->bits);
     else

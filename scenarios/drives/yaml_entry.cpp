@@ -117,7 +117,7 @@ std::string YamlEntry::name() const {
     return result;
 }
 
-std::size_t YamlEntry::choice(std::initializer_list<std::string_view> choices) const {
+std::size_t YamlEntry::choice(std::span<const std::string_view> choices) const {
     if (is_scalar()) {
         if (const auto found = std::find(choices.begin(), choices.end(), value_->text); found != choices.end())
             return static_cast<std::size_t>(found - choices.begin());

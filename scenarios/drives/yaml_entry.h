@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,7 +42,8 @@ class YamlEntry {
     /// Text that can be part of a file name and of a reading's name: letters, digits, `-`, `_`, `.`; at most 64, not starting with a dot.
     std::string name() const;
     /// Index of the text among `choices`; the refusal lists them and names the nearest.
-    std::size_t choice(std::initializer_list<std::string_view> choices) const;
+    std::size_t choice(std::initializer_list<std::string_view> choices) const { return choice(std::span(choices.begin(), choices.size())); }
+    std::size_t choice(std::span<const std::string_view> choices) const;
     /// Relative paths start at the folder of the YAML file. The result is absolute and normal. Existence is not asked.
     std::filesystem::path path() const;
 

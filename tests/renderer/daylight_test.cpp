@@ -45,7 +45,7 @@ class DrawnDaylight : public testing::Test {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, bool shadows, const char* technique = "photometric", Work* work = nullptr) {
         RendererSettings settings;
-        settings.shadows = shadows;
+        settings.shadows.method = shadows ? ShadowMethod::map : ShadowMethod::none;
         settings.technique = technique;
         Renderer renderer(device_, scene, settings);
         if (work != nullptr)

@@ -110,7 +110,7 @@ TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
     Moment moment = street.at(0.5);
     moment.lamps.clear();
     RendererSettings s = settings();
-    s.shadows = false;
+    s.shadows.method = ShadowMethod::none;
     const View view = driver(48, 32);
     const Twin twin(street.scene, false);
     for (const double least : {0.05, 1e-6}) {

@@ -127,7 +127,7 @@ TEST_F(TwinTest, DriverIsSane) { EXPECT_LT(check_sanity(device_), sanity_bound);
 TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
     const Scene scene = small_scene({});
     RendererSettings settings;
-    settings.shadows = false;
+    settings.shadows.method = ShadowMethod::none;
     Renderer renderer(device_, scene, settings);
     for (const double sky_lx : {0.0, 3.4}) {
         const Moment moment = two_lamps({}, sky_lx);
@@ -143,7 +143,7 @@ TEST_F(TwinTest, TheBoundIsNotSlack) {
     // A flipped sign, a lamp left out, a texel's shift: each must break the bound on many pixels.
     const Scene scene = small_scene({});
     RendererSettings settings;
-    settings.shadows = false;
+    settings.shadows.method = ShadowMethod::none;
     Renderer renderer(device_, scene, settings);
     const Moment moment = two_lamps({});
     const Frame frame = renderer.draw(moment, driver(), everything);

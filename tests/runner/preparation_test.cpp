@@ -31,7 +31,7 @@ TEST(Preparation, NothingCompilesWhileADriveIsPlayed) {
         Device device = open_device("auto");
         RendererSettings settings;
         settings.technique = technique;
-        settings.shadow_width = settings.shadow_height = 64;
+        settings.shadows.width = settings.shadows.height = 64;
         Renderer renderer(device, stage.scene, settings);
         for (const Variant& variant : stage.drive.variants) {
             prepare(renderer, stage.drive, stage.route, variant, {});

@@ -144,7 +144,7 @@ TEST_F(DriveFile, DaylightStepSpeedAndTheRest) {
     EXPECT_EQ(drive.capture, (Capture{4.0, true, false, true}));
     EXPECT_EQ(drive.tone_mapper, (ToneMapper{ToneMapperKind::logarithmic, 10.0, 100.0, {}}));
     EXPECT_EQ(drive.technique, "as-published");
-    EXPECT_FALSE(drive.shadows);
+    EXPECT_EQ(drive.shadows.method, ShadowMethod::none);
     EXPECT_FALSE(drive.extent);
     EXPECT_THAT(drive.probes, ElementsAre(Probe{"p", 7.0, 0.0, 0.0}));
     EXPECT_THAT(drive.limits, ElementsAre(Limit{"p_lx", std::nullopt, 3.0}));

@@ -194,7 +194,9 @@ class AnyDrive {
         drive.limits = several<Limit>(3, [&] {
             return Limit{text(), number(-5.0, 0.0), coin() ? std::optional(number(0.0, 1e9)) : std::nullopt};
         });
-        drive.shadows = coin();
+        drive.shadows.method = shadow_method_names()[drive.seed % shadow_method_names().size()].method;
+        drive.shadows.width = coin() ? 1024 : 16;
+        drive.shadows.tolerance_m = number(0.001, 1.0);
         if (coin())
             drive.beams = coin() ? eight_bit_texels : BeamTexels{2 + static_cast<int>(drive.seed % 100), 33, coin() ? 16 : 32};
         drive.textured = coin();

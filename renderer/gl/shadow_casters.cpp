@@ -1,0 +1,137 @@
+#include "renderer/gl/shadow_casters.h"
+
+#include "renderer/camera.h"
+#include "renderer/gl/draw_list.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace fernlicht::gl {
+namespace {
+
+constexpr double margin_texels = 2.6; // a look-up takes texels up to 1 away, from a point raised by 1.5 (see SHADOW_SPREAD)
+constexpr double margin_m = 0.05;     // or raised by the tolerance
+constexpr double tangents_from_m = 0.1;
+
+Corners in_lamp_space(const LitLamp& lamp, const glm::dvec3& offset_from_lamp, const Corners& corners) {
+    Corners out{};
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = to_lamp_space(lamp, offset_from_lamp + corners[i]);
+    return out;
+}
+
+Caster caster_of(const Corners& box, double margin) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Caster caster{infinity, -infinity, infinity, -infinity, infinity, false};
+    for (const glm::dvec3& corner : box) {
+        caster.around = caster.around || corner.z < tangents_from_m;
+        caster.left = std::min(caster.left, corner.x / corner.z - margin);
+        caster.right = std::max(caster.right, corner.x / corner.z + margin);
+        caster.bottom = std::min(caster.bottom, corner.y / corner.z - margin);
+        caster.top = std::max(caster.top, corner.y / corner.z + margin);
+        caster.nearest_m = std::min(caster.nearest_m, corner.z - margin_m);
+    }
+    return caster;
+}
+
+/// The part of the box that lies beyond the caster's front against the frustum behind the caster: apart, where all of it is on the
+/// far side of one of the frustum's planes.
+bool shades(const Caster& caster, const Corners& box) {
+    if (caster.around)
+        return true;
+    std::array<glm::dvec3, 20> points; // corners beyond the front, and where edges cross it
+    std::size_t count = 0;
+    const double front = std::max(caster.nearest_m, tangents_from_m);
+    for (std::size_t i = 0; i < box.size(); ++i) {
+        if (box[i].z >= front)
+            points[count++] = box[i];
+        for (const std::size_t axis : {1U, 2U, 4U})
+            if (const std::size_t k = i | axis; k != i && (box[i].z < front) != (box[k].z < front))
+                points[count++] = box[i] + (box[k] - box[i]) * ((front - box[i].z) / (box[k].z - box[i].z));
+    }
+    const auto all = [&](auto outside) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (!outside(points[i]))
+                return false;
+        return true;
+    };
+    return !(all([&](const glm::dvec3& p) { return p.x < caster.left * p.z - margin_m; }) ||
+             all([&](const glm::dvec3& p) { return p.x > caster.right * p.z + margin_m; }) ||
+             all([&](const glm::dvec3& p) { return p.y < caster.bottom * p.z - margin_m; }) ||
+             all([&](const glm::dvec3& p) { return p.y > caster.top * p.z + margin_m; }));
+}
+
+} // namespace
+
+glm::dmat4 lamp_clip(const LitLamp& lamp, const ShadowWindow& w, const glm::dvec3& ego_m) {
+    const glm::dvec3 axes[3] = {-lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()}, at = lamp.pose.position_m - ego_m;
+    glm::dmat4 lamp_from_ego(1.0);
+    for (int column = 0; column < 3; ++column)
+        lamp_from_ego[column] = {axes[0][column], axes[1][column], axes[2][column], 0.0};
+    lamp_from_ego[3] = {-glm::dot(axes[0], at), -glm::dot(axes[1], at), -glm::dot(axes[2], at), 1.0};
+    return tangent_projection(w.left, w.right, w.bottom, w.top, shadow_near_m) * lamp_from_ego;
+}
+
+double texel_tangent(const ShadowWindow& window, const ShadowSettings& settings) {
+    return std::max((window.right - window.left) / (settings.width - 2), (window.top - window.bottom) / (settings.height - 2));
+}
+
+bool ShadowCasters::faces_lamp(const Piece& piece, const glm::dvec3& lamp_m) const {
+    const glm::vec3 lamp(lamp_m + ego_m_ - piece.origin_m);
+    const auto first = scene_.planes().begin() + static_cast<std::ptrdiff_t>(piece.first_plane);
+    return std::all_of(first, first + static_cast<std::ptrdiff_t>(piece.planes),
+                       [&](const glm::vec4& plane) { return glm::dot(glm::vec3(plane), lamp) + plane.w > 0.0F; });
+}
+
+void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
+    ego_m_ = ego_m;
+    lamps_.clear();
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        LampCasters found;
+        found.lamp = lamps[i];
+        found.lamp_m = lamps[i].pose.position_m - ego_m;
+        found.window = beams[i]->window;
+        found.clip = lamp_clip(lamps[i], found.window, ego_m);
+        const Frustum frustum(found.clip);
+        for (const std::uint32_t k : scene_.near(ego_m)) {
+            const Piece& piece = scene_.pieces()[k];
+            const glm::dvec3 from_lamp = centre_of(piece, ego_m) - found.lamp_m;
+            const double distance = glm::length(from_lamp), nearest = distance - piece.radius_m;
+            if (nearest > shadow_farthest_m || frustum.outside(centre_of(piece, ego_m), piece.radius_m))
+                continue;
+            if (!piece.casts || (piece.ground && !piece.above_ground && faces_lamp(piece, found.lamp_m)))
+                continue;
+            const double most_cd = beams[i]->bounds.most_towards(to_lamp_space(lamps[i], from_lamp), piece.radius_m);
+            if (most_cd == 0.0 || (nearest > 0.0 && most_cd < last_contour_lx * nearest * nearest))
+                continue;
+            found.pieces.push_back(k);
+            for (const Corners& body : piece.bodies_m)
+                found.bodies.push_back(caster_of(in_lamp_space(found.lamp, piece.origin_m - ego_m - found.lamp_m, body),
+                                                 margin_texels * texel_tangent(found.window, settings_)));
+        }
+        lamps_.push_back(std::move(found));
+    }
+}
+
+bool ShadowCasters::any() const {
+    return std::any_of(lamps_.begin(), lamps_.end(), [](const LampCasters& lamp) { return !lamp.pieces.empty(); });
+}
+
+bool ShadowCasters::reach(const Piece& piece, double raised_m) const {
+    Corners raised = piece.corners_m; // bits 0 to 3: the box's bottom, 4 to 7: its top
+    for (std::size_t i = 4; i < raised.size(); ++i)
+        raised[i].z += raised_m;
+    for (const LampCasters& lamp : lamps_) {
+        if (lamp.bodies.empty())
+            continue;
+        const Corners box = in_lamp_space(lamp.lamp, piece.origin_m - ego_m_ - lamp.lamp_m, raised);
+        if (std::ranges::any_of(lamp.bodies, [&](const Caster& caster) { return shades(caster, box); }))
+            return true;
+    }
+    return false;
+}
+
+} // namespace fernlicht::gl

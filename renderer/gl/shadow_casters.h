@@ -1,0 +1,61 @@
+// What can cast a shadow in each lamp's light, and on what: what stands on the ground, the far side of crests, bridges.
+//
+// Ground that faces the lamp casts no shadow: light that passes through such a sheet comes out of it again only through a part that
+// faces away, which is drawn, or at a bridge, which is drawn too.
+#pragma once
+
+#include "renderer/gl/beams.h"
+#include "renderer/gl/scene_buffers.h"
+#include "scenarios/drives/shadow_settings.h"
+
+namespace fernlicht::gl {
+
+inline constexpr double shadow_near_m = 0.05;
+inline constexpr double shadow_farthest_m = 300.0;
+/// A shadow counts while the lamp's light on a surface facing it, without the shadow, is at least this: the beam's last contour.
+inline constexpr double last_contour_lx = 0.01;
+
+/// From positions relative to the car to a lamp's window, depth = shadow_near_m / z.
+glm::dmat4 lamp_clip(const LitLamp& lamp, const ShadowWindow& window, const glm::dvec3& ego_m);
+
+/// Largest distance between texel centres of a lamp's map as a tangent; the outermost texels lie outside the window.
+double texel_tangent(const ShadowWindow& window, const ShadowSettings& settings);
+
+/// A body as a lamp sees it: tangents in lamp space, with a margin, and where it begins.
+struct Caster {
+    double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
+    double nearest_m = 0.0; ///< along the lamp's axis
+    bool around = false;    ///< some of it lies beside or behind the lamp: no tangents
+};
+
+struct LampCasters {
+    LitLamp lamp;
+    glm::dvec3 lamp_m{0.0}; ///< relative to the car
+    ShadowWindow window;
+    glm::dmat4 clip{1.0};              ///< lamp_clip()
+    std::vector<std::uint32_t> pieces; ///< ascending
+    std::vector<Caster> bodies;
+};
+
+class ShadowCasters {
+  public:
+    ShadowCasters(const SceneBuffers& scene, const ShadowSettings& settings) : scene_(scene), settings_(settings) {}
+
+    void set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m);
+    const std::vector<LampCasters>& lamps() const { return lamps_; }
+    const glm::dvec3& ego_m() const { return ego_m_; }
+    /// Whether anything casts a shadow.
+    bool any() const;
+    /// Whether a shadow of any lamp may fall on the piece, or on targets so high above it. Errs towards yes.
+    bool reach(const Piece& piece, double raised_m) const;
+
+  private:
+    bool faces_lamp(const Piece& piece, const glm::dvec3& lamp_m) const;
+
+    const SceneBuffers& scene_;
+    ShadowSettings settings_;
+    std::vector<LampCasters> lamps_;
+    glm::dvec3 ego_m_{0.0};
+};
+
+} // namespace fernlicht::gl

@@ -1,0 +1,14 @@
+// Shadows in a drive file. Readers throw InputError (yaml_entry.h).
+#pragma once
+
+#include "scenarios/drives/shadow_settings.h"
+#include "scenarios/drives/yaml_entry.h"
+
+namespace fernlicht {
+
+/// `shadows`: true, false, a method's name, or a map with `method`.
+ShadowSettings read_shadows(const YamlMap& drive);
+/// YAML that is read back to the same.
+std::string write_shadows(const ShadowSettings& shadows);
+
+} // namespace fernlicht

@@ -1,0 +1,29 @@
+// How shadows of lamps are drawn (docs/shadows.md).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace fernlicht {
+
+/// none: light goes through everything. map: a depth map for each lamp.
+enum class ShadowMethod { none, map };
+
+struct ShadowMethodName {
+    ShadowMethod method;
+    std::string_view name; ///< as in files and on the command line
+};
+/// All of them, in the order of the table of techniques.
+std::span<const ShadowMethodName> shadow_method_names();
+std::string_view name(ShadowMethod method);
+
+struct ShadowSettings {
+    ShadowMethod method = ShadowMethod::map;
+    int width = 1024, height = 512; ///< texels of a map; 16..8192
+    double tolerance_m = 0.03;      ///< maps: shadows are looked up from points at least this far above a surface; > 0
+
+    bool operator==(const ShadowSettings&) const = default;
+    bool any() const { return method != ShadowMethod::none; }
+};
+
+} // namespace fernlicht
