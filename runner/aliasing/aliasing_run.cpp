@@ -6,6 +6,7 @@
 #include "runner/aliasing/motion.h"
 #include "runner/aliasing/over_moments.h"
 #include "runner/aliasing/road_edges.h"
+#include "runner/display/fit_tone_mapper.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
 #include "runner/progress.h"
@@ -333,6 +334,7 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
     result.view = checked_view(request);
     const Variant& variant = variant_of(request.drive, request.variant);
     const Stage stage(request.drive);
+    refuse_open_tone_mapper(stage.drive);
     Device device = open_device(request.backend);
     check_sanity(device);
     OutputFolder folder(request.folder);

@@ -2,6 +2,7 @@
 
 #include "renderer/reference/embree_scene.h"
 #include "renderer/reference/pixel_estimate.h"
+#include "runner/display/fit_tone_mapper.h"
 #include "runner/interruption.h"
 #include "runner/library_versions.h"
 #include "runner/output_folder.h"
@@ -130,6 +131,7 @@ void draw(ReferenceResult& result, const Stage& stage, const ReferenceRequest& r
 
 ReferenceResult run_reference(const ReferenceRequest& request) {
     const Stage stage(request.drive);
+    refuse_open_tone_mapper(stage.drive);
     ReferenceResult result = described(request, stage);
     ReferenceImage from;
     if (!request.resume && std::filesystem::exists(checkpoint_file(request.folder)))

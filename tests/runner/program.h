@@ -37,8 +37,8 @@ inline Outcome run_program(const std::string& arguments, const std::string& befo
     return run_shell(before + " '" FERNLICHT_BINARY "' " + arguments);
 }
 
-/// The program, interrupted as by Ctrl-C when it first writes `sign`, which tells how far it is.
-inline Outcome run_interrupted(const std::string& arguments, const std::string& sign) {
+/// The program, interrupted as by Ctrl-C when it first writes `sign`, which tells how far it is; `signals` of them at once.
+inline Outcome run_interrupted(const std::string& arguments, const std::string& sign, int signals = 1) {
     const std::string line = "echo $$; exec '" FERNLICHT_BINARY "' " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(line.c_str(), "r");
     Outcome outcome;
@@ -48,7 +48,8 @@ inline Outcome run_interrupted(const std::string& arguments, const std::string& 
     while (std::fgets(text.data(), text.size(), pipe)) {
         outcome.output += text.data();
         if (!asked && program > 0 && outcome.output.find(sign) != std::string::npos)
-            asked = ::kill(program, SIGINT) == 0;
+            for (int i = 0; i < signals; ++i)
+                asked = ::kill(program, SIGINT) == 0;
     }
     const int status = ::pclose(pipe);
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

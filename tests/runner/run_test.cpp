@@ -151,6 +151,14 @@ TEST(Run, AnInterruptedRunLeavesAValidReportThatSaysSo) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out/INCOMPLETE"));
 }
 
+TEST(Run, TwoSignalsAtOnceAreOneWish) { // sent to a process and to its group, as a terminal or a wrapper does
+    const TemporaryFolder folder;
+    const Outcome run =
+        run_interrupted("run " + library_file("drives/straight.yaml") + " --resolution 64x48 --out " + (folder / "out"), " moments, ", 2);
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_FALSE(report_of(folder / "out").at("complete").get<bool>());
+}
+
 TEST(Run, BadInputIsOneSentenceAndExitCodeTwo) {
     const TemporaryFolder folder;
     const std::string drive = library_file("drives/straight.yaml");

@@ -248,7 +248,7 @@ class PictureErrors : public testing::Test {
                     value *= factor;
             return [frame] { return frame; };
         };
-        ConfigurationErrors errors(references, renderer.technique(), {"photometric", 128, 96, 1024, 512, {}, ""}, view, 1.0);
+        ConfigurationErrors errors(references, renderer.technique(), {"photometric", 128, 96, {}, {}, ""}, view, 1.0);
         errors.add(0, draw);
         return errors.finish();
     }

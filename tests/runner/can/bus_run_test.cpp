@@ -156,6 +156,15 @@ TEST_F(BusRun, FaultsAreShownWithTheirPolicies) {
     EXPECT_THAT(csv, HasSubstr(",stale,0.5"));
 }
 
+TEST_F(BusRun, ASignalThatNoFrameHeldIsWarnedOf) {
+    std::ofstream(folder / "without.log") << recording_with([](double, std::string& line) { return line.substr(25, 4) != "120#"; });
+    const std::string out = run("--can-log " + (folder / "without.log"));
+    const Json report = Json::parse(content_of(out + "/report.json"));
+    EXPECT_THAT(report["warnings"].dump(),
+                HasSubstr("no frame held Turning.YawRate, which ego.yaw_rate_rad_s comes from, at any tick; policy: "));
+    EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("no frame held Turning.YawRate"));
+}
+
 TEST_F(BusRun, WithoutABusThereIsNoSection) {
     Report report = tests::sample_report(2);
     EXPECT_THAT(report_html(report, {}), Not(HasSubstr(">Signals</h3>")));

@@ -177,6 +177,17 @@ TEST(DisplayRun, PicturesWithoutACommonScaleAreNotCompared) {
     EXPECT_EQ(run_program("compare " + plain + " " + plain).exit_code, 0);
 }
 
+TEST(DisplayRun, WhatFitsNothingRefusesAMapperThatIsToBeFitted) {
+    const TemporaryFolder folder;
+    const std::string drive = drive_with(folder, "open", "tone_mapper: {kind: histogram, l_max_cdm2: all}\n");
+    for (const std::string command : {"reference ", "aliasing "}) {
+        const Outcome run = run_program(command + drive + " --out " + (folder / "o"));
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        EXPECT_THAT(run.output, testing::HasSubstr("as the resolved drive of a run has them")) << command;
+        EXPECT_FALSE(std::filesystem::exists(folder / "o"));
+    }
+}
+
 TEST(DisplayRun, RefusalsAreASentence) {
     const TemporaryFolder folder;
     const auto refused = [&](const std::string& lines) {
