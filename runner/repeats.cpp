@@ -17,11 +17,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_file_bytes = std::size_t{1} << 30;
 
-/// All results as JSON, without what is compared by itself and what only the first play has: accuracy, contact sheet.
+/// All results as JSON, without what is compared by itself and what only the first play has: accuracy, contact sheets.
 Json results_json(const PlayedVariant& played) {
     PlayedVariant plain = played;
     plain.error = {};
     plain.contact_sheet = {};
+    plain.more_sheets.clear();
     plain.verdicts.clear();
     plain.repeats = {};
     return played_json(plain);

@@ -161,9 +161,11 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
         write_file(options.folder / name, plots::png_of_svg(contact_sheet_svg(sheet)));
         played[i].contact_sheet = {sheet.moment.tick, sheet.moment.time_s, "driver", name, ""};
         const DisplaySheet shown = display_sheet(stage, stage.drive.variants[i], sheet.moment, device, plain);
-        if (!shown.mappers.empty())
-            write_file(options.folder / ("display-sheet-" + file_name_of(sheet.drive + "-" + sheet.variant) + ".png"),
-                       plots::png_of_svg(display_sheet_svg(shown)));
+        if (!shown.mappers.empty()) {
+            const std::string file = "display-sheet-" + file_name_of(sheet.drive + "-" + sheet.variant) + ".png";
+            write_file(options.folder / file, plots::png_of_svg(display_sheet_svg(shown)));
+            played[i].more_sheets.push_back({"by every tone mapper and eye", {sheet.moment.tick, sheet.moment.time_s, "driver", file, ""}});
+        }
     }
 }
 

@@ -40,7 +40,7 @@ const char* kind_name(TechniqueKind kind) {
     return "ours";
 }
 
-std::string techniques_text(std::span<const Technique> rows) {
+std::string techniques_text(std::span<const Technique> rows, ShadowMethods shadows) {
     std::string text;
     for (const Technique& row : rows) {
         text += text.empty() ? "" : "\n";
@@ -52,10 +52,17 @@ std::string techniques_text(std::span<const Technique> rows) {
             if (!words.empty())
                 text += fmt::format("    {:<8}  {}\n", what, words);
     }
+    for (const ShadowMethodName& row : shadows) {
+        text += fmt::format("\nshadows: {}  (of photometric)\n", row.name);
+        for (const auto& [what, words] :
+             {std::pair("origin", row.origin), std::pair("computes", row.computes), std::pair("ignores", row.ignores)})
+            if (!words.empty())
+                text += fmt::format("    {:<8}  {}\n", what, words);
+    }
     return text;
 }
 
-std::string techniques_json(std::span<const Technique> rows) {
+std::string techniques_json(std::span<const Technique> rows, ShadowMethods shadows) {
     Json list = Json::array();
     for (const Technique& row : rows)
         list.push_back({{"name", row.name},
@@ -69,10 +76,13 @@ std::string techniques_json(std::span<const Technique> rows) {
                         {"illuminance", row.illuminance},
                         {"target", row.target},
                         {"luminance", row.luminance}});
-    return json_text(Json{{"schema", "fernlicht techniques"}, {"schema_version", 1}, {"techniques", list}});
+    Json methods = Json::array();
+    for (const ShadowMethodName& row : shadows)
+        methods.push_back({{"name", row.name}, {"origin", row.origin}, {"computes", row.computes}, {"ignores", row.ignores}});
+    return json_text(Json{{"schema", "fernlicht techniques"}, {"schema_version", 1}, {"techniques", list}, {"shadow_methods", methods}});
 }
 
-std::string techniques_markdown(std::span<const Technique> rows) {
+std::string techniques_markdown(std::span<const Technique> rows, ShadowMethods shadows) {
     std::string text =
         "# Techniques\n\n"
         "The ways to light a scene that `--technique NAME` chooses from. This page is what `fernlicht techniques --markdown` prints; a "
@@ -91,6 +101,13 @@ std::string techniques_markdown(std::span<const Technique> rows) {
         text += fmt::format("| {} | `{}` | {} | {} | {} | {} | {} | {} |\n", row.thesis_row > 0 ? fmt::format("{}", row.thesis_row) : "",
                             row.name, kind_name(row.kind), cell(row.computes), cell(row.ignores), row.passes,
                             !row.illuminance ? "no" : (row.target ? "surfaces, target" : "surfaces"), cell(row.origin));
+    text += "\n## Shadow methods\n\n"
+            "How `photometric` draws the shadows of lamps, chosen by `--shadows NAME` or `shadows:` in a drive; what each is worth is in "
+            "[shadows](shadows.md). The published techniques cast none.\n\n"
+            "| name | computes | ignores | origin |\n"
+            "|---|---|---|---|\n";
+    for (const ShadowMethodName& row : shadows)
+        text += fmt::format("| `{}` | {} | {} | {} |\n", row.name, cell(row.computes), cell(row.ignores), cell(row.origin));
     return text;
 }
 

@@ -114,17 +114,34 @@ data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
     return maps;
 }
 
+/// By what differs in them, then by lamp set.
 data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
-    data sheets{List::list};
+    std::vector<std::pair<std::string, data>> kinds;
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const StoredFrame& sheet = drive.variants[i]->contact_sheet;
-        if (sheet.png.empty())
-            continue;
-        data part = picture(&sheet, folder, budget_bytes);
-        part.set("lamp", short_text(drive.variants[i]->variant, 40));
-        part.set("colour", variant_colour(i));
-        part.set("time", figure(sheet.time_s, 2));
-        sheets.push_back(part);
+        const PlayedVariant& played = *drive.variants[i];
+        std::vector<StoredSheet> all{{"in every technique", played.contact_sheet}};
+        all.insert(all.end(), played.more_sheets.begin(), played.more_sheets.end());
+        for (const StoredSheet& sheet : all) {
+            if (sheet.picture.png.empty())
+                continue;
+            data part = picture(&sheet.picture, folder, budget_bytes);
+            part.set("lamp", short_text(played.variant, 40));
+            part.set("colour", variant_colour(i));
+            part.set("time", figure(sheet.picture.time_s, 2));
+            part.set("what", sheet.what);
+            auto kind = std::ranges::find(kinds, sheet.what, &std::pair<std::string, data>::first);
+            if (kind == kinds.end())
+                kind = kinds.insert(kinds.end(), {sheet.what, data{List::list}});
+            kind->second.push_back(part);
+        }
+    }
+    data sheets{List::list};
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        data kind;
+        kind.set("what", kinds[k].first);
+        kind.set("kind", fmt::format("{}", k + 1));
+        kind.set("sheets", kinds[k].second);
+        sheets.push_back(kind);
     }
     return sheets;
 }
@@ -193,7 +210,7 @@ data moments_part(const ComparedDrive& drive, const std::filesystem::path& folde
     data part;
     const data sheets = contact_sheets(drive, folder, budget_bytes);
     part.set("has_sheets", sheets.is_non_empty_list());
-    part.set("sheets", sheets);
+    part.set("kinds", sheets);
     part.set("has_moments", !all.empty());
     part.set("moments", moments);
     part.set("last_moment", fmt::format("{}", shown.empty() ? 0 : shown.size() - 1));

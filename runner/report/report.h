@@ -156,6 +156,12 @@ struct Repeats {
 };
 
 /// One drive played with one lamp set.
+/// One moment side by side in several ways.
+struct StoredSheet {
+    std::string what; ///< what differs, as a heading ends: "by every tone mapper and eye"
+    StoredFrame picture;
+};
+
 struct PlayedVariant {
     std::string drive, variant, technique;
     std::vector<std::pair<std::string, std::string>> inputs; ///< what decides the results: "drive", "road", "lamp file 1" ... -> XXH3-128
@@ -164,6 +170,7 @@ struct PlayedVariant {
     int ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;
     StoredFrame contact_sheet;                        ///< one moment drawn in every technique; without a PNG where none was asked for
+    std::vector<StoredSheet> more_sheets;             ///< the same moment otherwise; only where contact_sheet is
     std::vector<LuxMap> maps;                         ///< at captured moments, at most as many as the page shows
     std::vector<ExtentRow> extents;                   ///< every moment
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed

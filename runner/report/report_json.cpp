@@ -225,6 +225,16 @@ Json contact_sheet_json(const StoredFrame& sheet) {
     return {{"frame", sheet.tick}, {"time_s", finite(sheet.time_s, "time")}, {"png", sheet.png}};
 }
 
+Json more_sheets_json(const std::vector<StoredSheet>& sheets) {
+    Json out = Json::array();
+    for (const StoredSheet& sheet : sheets)
+        out.push_back({{"what", sheet.what},
+                       {"frame", sheet.picture.tick},
+                       {"time_s", finite(sheet.picture.time_s, "time")},
+                       {"png", sheet.picture.png}});
+    return out;
+}
+
 /// Null where the run was told to leave it out.
 Json accuracy_json(const DriveError& error) {
     if (!error.measured())
@@ -364,6 +374,8 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
               {"speed_mps", speed},
               {"accuracy", accuracy_json(played.error)},
               {"extents", extents_json(played)}};
+    if (!played.more_sheets.empty())
+        json["more_sheets"] = more_sheets_json(played.more_sheets);
     if (!played.seeing.empty())
         json["seeing"] = seeing_json(played.seeing);
     if (!played.car.empty())

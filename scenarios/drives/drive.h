@@ -151,6 +151,7 @@ struct DriveEdits {
     std::vector<std::pair<std::string, std::filesystem::path>> lamps;
     std::optional<std::filesystem::path> road;
     std::optional<std::string> technique;
+    std::optional<std::string> shadows; ///< method by name
     std::optional<std::pair<int, int>> resolution;
     std::optional<bool> capture_all;
     std::vector<std::filesystem::path> road_folders; ///< where a storyboard's road is looked for, too

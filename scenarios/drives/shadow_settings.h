@@ -1,7 +1,9 @@
 // How shadows of lamps are drawn (docs/shadows.md).
 #pragma once
 
+#include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace fernlicht {
@@ -9,13 +11,17 @@ namespace fernlicht {
 /// none: light goes through everything. map: a depth map for each lamp.
 enum class ShadowMethod { none, map };
 
+/// A row of the table of shadow methods.
 struct ShadowMethodName {
     ShadowMethod method;
     std::string_view name; ///< as in files and on the command line
+    std::string_view origin, computes, ignores;
 };
 /// All of them, in the order of the table of techniques.
 std::span<const ShadowMethodName> shadow_method_names();
 std::string_view name(ShadowMethod method);
+/// Throws InputError, asked in that file, naming the nearest.
+ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in = {});
 
 struct ShadowSettings {
     ShadowMethod method = ShadowMethod::map;

@@ -110,6 +110,13 @@ TEST(ContactSheet, TwiceTheSameBytesInTheReportAndInTheBench) {
     const std::string page = content_of(folder / "a/report.html");
     EXPECT_THAT(page, HasSubstr("One moment in every technique"));
     EXPECT_THAT(page, HasSubstr("href=\"./" + name));
+    for (const auto& more : report.at("drives").at(0).at("more_sheets")) {
+        const std::string file = more.at("png");
+        EXPECT_TRUE(content_of(folder / ("a/" + file)) == content_of(folder / ("b/" + file)));
+        EXPECT_THAT(page, HasSubstr("One moment " + more.at("what").get<std::string>() + "</h3>"));
+        EXPECT_THAT(page, HasSubstr("href=\"./" + file));
+    }
+    EXPECT_EQ(report.at("drives").at(0).at("more_sheets").at(0).at("what"), "by every tone mapper and eye");
 }
 
 } // namespace

@@ -164,9 +164,10 @@ TEST(Run, BadInputIsOneSentenceAndExitCodeTwo) {
     const std::string drive = library_file("drives/straight.yaml");
     for (const std::string& arguments : std::vector<std::string>{
              "run /nonexistent.yaml", "run " + drive + " --lamp /nonexistent.ies", "run " + drive + " --road /dev/null",
-             "run " + drive + " --technique magic", "run " + drive + " --backend vulkan", "run " + drive + " --resolution 0x0",
-             "run " + drive + " --resolution 99999x99999", "run " + drive + " --frames 5:2", "run " + drive + " --frames 100000:100001",
-             "run " + drive + " --frames x", "run", "run " + drive + " --no-such-flag", "run " + drive + " " + drive, "nonsense"}) {
+             "run " + drive + " --technique magic", "run " + drive + " --shadows maps", "run " + drive + " --backend vulkan",
+             "run " + drive + " --resolution 0x0", "run " + drive + " --resolution 99999x99999", "run " + drive + " --frames 5:2",
+             "run " + drive + " --frames 100000:100001", "run " + drive + " --frames x", "run", "run " + drive + " --no-such-flag",
+             "run " + drive + " " + drive, "nonsense"}) {
         const Outcome run = run_program(arguments + " --out " + (folder / "out"));
         EXPECT_EQ(run.exit_code, 2) << arguments << '\n' << run.output;
         EXPECT_FALSE(std::filesystem::exists(folder / "out")) << arguments;
