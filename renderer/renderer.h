@@ -23,6 +23,8 @@ struct RendererSettings {
     bool sources = true; ///< faces of lamps and surfaces that shine by themselves are seen; false: their light alone
     bool traffic_levels =
         true; ///< lamps of others are drawn as coarsely as their light allows (docs/traffic.md); false: each with its beam
+    bool traffic_shadows =
+        true; ///< lamps of others cast shadows where `shadows` has any method; false: their light goes through everything
     ReadBack read_back = ReadBack::plain;
     bool profile = false;   ///< finish after each pass and time it; slower, so never together with frame times
     bool gpu_clock = false; ///< time passes by GL_TIME_ELAPSED; only where check_timer() has found it right

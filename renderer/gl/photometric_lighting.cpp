@@ -86,8 +86,13 @@ void PhotometricLighting::set_sun(const Shot& shot) {
     sun_needs_ = everything ? 1 + (shadows_ ? 1 : 0) : !shines ? 0 : sun_->casts() ? 2 : 1;
 }
 
-PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed,
-                                                               bool traffic, int sun) const {
+void PhotometricLighting::make_traffic_shadows(const Moment& moment) {
+    if (!traffic_shadows_ && !moment.other_lamps.empty() && settings_.shadows.any() && settings_.traffic_shadows && !scene_.flat())
+        traffic_shadows_ = std::make_unique<TrafficShadows>(context_, scene_, settings_.shadows, pruned_);
+}
+
+PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot, const Group& group, int sun) const {
+    const SurfaceClass& surface = group.surface;
     Features f;
     f.sun = sun;
     f.everything = !pruned_;
@@ -99,11 +104,12 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     f.air_lamps = f.fog && reflects && !shot.camera.is_map && !shot.moment.other_lamps.empty(); // though all may be too faint
     f.wet = reflects && (everything || shot.moment.weather.wetness > 0.0);
     f.wanted = wanted_bits(shot.wanted);
-    f.traffic = traffic || (!pruned_ && !shot.moment.other_lamps.empty());
-    if (lit || !pruned_ || (f.fog && reflects && !shot.camera.is_map)) // in fog, beams are seen from beside
+    f.traffic = group.traffic || (!pruned_ && !shot.moment.other_lamps.empty());
+    f.traffic_shadows = f.traffic && traffic_shadows_ && (group.traffic_shadowed || !pruned_);
+    if (group.lit || !pruned_ || (f.fog && reflects && !shot.camera.is_map)) // in fog, beams are seen from beside
         for (const Beam* beam : lamp_beams_)
             f.beams.push_back(beam->shape);
-    f.shadows = !f.beams.empty() && (shadowed || !pruned_) && shadows_;
+    f.shadows = !f.beams.empty() && (group.shadowed || !pruned_) && shadows_;
     if (pruned_ && reflects)
         f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive && settings_.sources,
                      surface.moving, surface.tinted && (!f.beams.empty() || f.traffic)};
@@ -140,6 +146,11 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
         define("TRAFFIC_CELLS_A_METRE", literal(1.0 / traffic_cell_m));
         define("TRAFFIC_CELLS_AHEAD", std::to_string(traffic_cells_ahead));
         define("TRAFFIC_CELLS_ACROSS", std::to_string(traffic_cells_across));
+        define("TRAFFIC_SHADOWS", flag(f.traffic_shadows));
+        if (f.traffic_shadows) {
+            const std::vector<Program::Define> more = traffic_shadows_->defines();
+            d.insert(d.end(), more.begin(), more.end());
+        }
     }
     if (f.surface.moving)
         define("MOVING", "1");
@@ -206,9 +217,9 @@ void PhotometricLighting::compile(const Features& features, const Shot& shot) {
 }
 
 PhotometricLighting::Features PhotometricLighting::background_features(const Shot& shot) const {
-    Features f = features_of(shot, {}, true, false, false, 0);
+    Features f = features_of(shot, {{}, true, false, false, false, {}}, 0);
     f.background = true;
-    f.shadows = f.sky = f.wet = f.traffic = false;
+    f.shadows = f.sky = f.wet = f.traffic = f.traffic_shadows = false;
     f.surface = {};
     return f;
 }
@@ -227,7 +238,7 @@ void PhotometricLighting::draw_background(const Shot& shot) {
 std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Shot& shot) {
     const glm::dvec3 ego_m = shot.moment.ego.position_m;
     const Frustum frustum(shot.camera.clip_from_ego);
-    std::map<std::tuple<SurfaceClass, bool, bool, bool>, std::vector<std::pair<double, std::uint32_t>>> sorted;
+    std::map<std::tuple<SurfaceClass, bool, bool, bool, bool>, std::vector<std::pair<double, std::uint32_t>>> sorted;
     std::vector<std::uint32_t> unseen, unseen_moving, seen;
     std::vector<double> distances;
     for (const std::uint32_t i : scene_.near(ego_m)) {
@@ -245,7 +256,7 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
         seen.push_back(i);
         distances.push_back(distance);
     }
-    traffic_.set(shot.moment, seen, shot.work);
+    traffic_.set(shot.moment, seen, shot.work, traffic_shadows_.get());
     for (std::size_t s = 0; s < seen.size(); ++s) {
         const std::uint32_t i = seen[s];
         const Piece& piece = scene_.pieces()[i];
@@ -256,19 +267,21 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
                   lamp_beams_[k]->bounds.most_towards(to_lamp_space(lamps_[k], centre - (lamps_[k].pose.position_m - ego_m)),
                                                       piece.radius_m + (shot.wanted.target ? settings_.target_height_m : 0.0)) > 0.0;
         const bool shadowed = lit && shadows_ && shadows_->reach(piece, shot.wanted.target ? settings_.target_height_m : 0.0);
-        sorted[{piece.surface, lit, shadowed, traffic_.any() && traffic_.reach(i)}].emplace_back(distances[s], i);
+        const bool traffic = traffic_.any() && traffic_.reach(i);
+        sorted[{piece.surface, lit, shadowed, traffic, traffic && traffic_shadows_ && traffic_shadows_->reach(i)}].emplace_back(
+            distances[s], i);
     }
     std::vector<Group> groups;
     for (auto& [key, pieces] : sorted) {
         std::ranges::sort(pieces);
-        Group group{std::get<0>(key), std::get<1>(key), std::get<2>(key), std::get<3>(key), {}};
+        Group group{std::get<0>(key), std::get<1>(key), std::get<2>(key), std::get<3>(key), std::get<4>(key), {}};
         std::ranges::transform(pieces, std::back_inserter(group.pieces), [](const auto& p) { return p.second; });
         groups.push_back(std::move(group));
     }
     if (!pruned_ && !unseen.empty())
-        groups.push_back({{}, true, true, true, std::move(unseen)}); // culled by nothing but the rasteriser
+        groups.push_back({{}, true, true, true, true, std::move(unseen)}); // culled by nothing but the rasteriser
     if (!pruned_ && !unseen_moving.empty())
-        groups.push_back({{.moving = true}, true, true, true, std::move(unseen_moving)});
+        groups.push_back({{.moving = true}, true, true, true, true, std::move(unseen_moving)});
     return groups;
 }
 
@@ -288,9 +301,20 @@ void PhotometricLighting::draw(const Shot& shot) {
         sun_->draw(shot.work);
         shot.clock.end();
     }
+    make_traffic_shadows(shot.moment);
+    std::vector<Group> groups;
+    if (traffic_shadows_) {
+        shot.clock.begin("shadow maps of others");
+        groups = groups_for(shot);
+        if (traffic_shadows_->any())
+            traffic_shadows_->draw(shot);
+        traffic_shadows_->bind();
+        shot.clock.end();
+    }
     shot.clock.begin("scene");
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
-    const std::vector<Group> groups = groups_for(shot);
+    if (!traffic_shadows_)
+        groups = groups_for(shot);
     list_.start(shot.moment.ego.position_m, scene_.moves() || traffic_.any());
     for (const Group& group : groups)
         list_.add(group.pieces, traffic_.any() ? &traffic_.lists() : nullptr);
@@ -302,8 +326,8 @@ void PhotometricLighting::draw(const Shot& shot) {
     for (std::size_t i = 0; i < lamp_beams_.size(); ++i)
         gl.BindTextureUnit(static_cast<GLuint>(i), lamp_beams_[i]->texture);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const Features f =
-            features_of(shot, groups[g].surface, groups[g].lit, groups[g].shadowed, groups[g].traffic && traffic_.any(), sun_needs_);
+        groups[g].traffic = groups[g].traffic && traffic_.any();
+        const Features f = features_of(shot, groups[g], sun_needs_);
         use(variant(f, shot.wanted), shot);
         list_.draw(static_cast<int>(g));
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
@@ -311,7 +335,8 @@ void PhotometricLighting::draw(const Shot& shot) {
         shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) + f.sun + (f.fog ? 1 : 0) +
                               (f.air_lamps ? air_lamps_.count() : 0) + (f.wet ? 1 : 0) + (f.surface.retroreflecting ? 1 : 0) +
                               (f.surface.tinted ? 1 : 0) + (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
-        const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0) + (f.sun > 1 ? 1 : 0);
+        const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0) +
+                             (f.sun > 1 ? 1 : 0) + (f.traffic_shadows ? 1 : 0);
         shot.work.samplers = std::max(shot.work.samplers, textures);
     }
     draw_background(shot);
@@ -322,8 +347,8 @@ void PhotometricLighting::draw(const Shot& shot) {
     ++shot.work.passes;
     shot.work.calls += static_cast<int>(groups.size());
     shot.work.triangles += list_.triangles();
-    shot.work.texture_bytes =
-        beams_.texture_bytes() + (shadows_ ? shadows_->texture_bytes() : 0) + scene_.texture_bytes() + (sun_ ? sun_->texture_bytes() : 0);
+    shot.work.texture_bytes = beams_.texture_bytes() + (shadows_ ? shadows_->texture_bytes() : 0) + scene_.texture_bytes() +
+                              (sun_ ? sun_->texture_bytes() : 0) + (traffic_shadows_ ? traffic_shadows_->texture_bytes() : 0);
     note_what_is_left_out(shot, groups);
 }
 
@@ -338,24 +363,28 @@ void PhotometricLighting::prepare(const Shot& shot) {
     set_sun(shot);
     if (sun_ && shadows_)
         sun_->compile();
+    make_traffic_shadows(shot.moment);
+    if (traffic_shadows_)
+        traffic_shadows_->compile();
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
     const bool others = !shot.moment.other_lamps.empty();
     if (others) {
-        traffic_.set(shot.moment, {}, shot.work);
+        traffic_.set(shot.moment, {}, shot.work, traffic_shadows_.get());
         traffic_.bind();
+        if (traffic_shadows_)
+            traffic_shadows_->bind();
         faces_.compile(shot);
         air_lamps_.set(shot.moment, shot.camera);
         air_lamps_.bind();
     }
     const int most_sun = sun_needs_ == 0 ? 0 : shadows_ && (!scene_.flat() || !pruned_) ? 2 : 1;
     for (const SurfaceClass& surface : scene_.classes())
-        for (const auto& [lit, shadowed, traffic] :
-             {std::tuple(false, false, false), std::tuple(true, false, false), std::tuple(true, true, false),
-              std::tuple(false, false, true), std::tuple(true, false, true), std::tuple(true, true, true)})
-            for (int sun = std::min(sun_needs_, 1); sun <= most_sun; ++sun)
-                if (!traffic || others)
-                    compile(features_of(shot, surface, lit, shadowed, traffic, sun), shot);
+        for (const auto& [lit, shadowed] : {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
+            for (const auto& [traffic, traffic_shadowed] : {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
+                for (int sun = std::min(sun_needs_, 1); sun <= most_sun; ++sun)
+                    if (!traffic || others)
+                        compile(features_of(shot, {surface, lit, shadowed, traffic, traffic_shadowed, {}}, sun), shot);
     if (fog_before_sky(shot) && (!lamps_.empty() || others))
         compile(background_features(shot), shot);
     context_.check("compiling variants");
@@ -381,6 +410,14 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
                 r.worst_drawn_lx, r.worst_left_out_lx));
     else if (shot.moment.other_lamps.empty())
         say("lamps of others", "there are none");
+    if (traffic_shadows_ && traffic_shadows_->units_left_out() > 0)
+        say(fmt::format("shadow maps of lamps of others: {} of {} pairs or single lamps whose light something may shade",
+                        traffic_shadows_->units_left_out(), traffic_shadows_->units() + traffic_shadows_->units_left_out()),
+            fmt::format("there are {} maps; by bounds they bring at most {:.2g} lx together to any place where shadows are then missing",
+                        most_traffic_maps, traffic_shadows_->worst_left_out_lx()));
+    else if (traffic_shadows_ && !traffic_shadows_->any())
+        say("shadow maps of lamps of others",
+            fmt::format("nothing stands where one brings more than {} lx", least_traffic_shadow * shot.moment.least_traffic_lx));
     if (!shadows_)
         say("shadow maps", "the drive switches them off");
     else if (!shadows_->needed())

@@ -28,7 +28,7 @@ class PhotometricLighting : public Lighting {
     struct Features {
         std::vector<int> beams; ///< one a lamp
         SurfaceClass surface;
-        bool shadows = false, sky = false, everything = false, by_vertex = true, traffic = false;
+        bool shadows = false, sky = false, everything = false, by_vertex = true, traffic = false, traffic_shadows = false;
         int sun = 0; ///< 0: neither sun nor moon, 1: shines, 2: casts shadows
         bool fog = false, air_lamps = false, wet = false, background = false;
         int wanted = 0;
@@ -42,7 +42,7 @@ class PhotometricLighting : public Lighting {
     /// Pieces that one variant draws.
     struct Group {
         SurfaceClass surface;
-        bool lit = true, shadowed = true, traffic = true;
+        bool lit = true, shadowed = true, traffic = true, traffic_shadowed = true;
         std::vector<std::uint32_t> pieces;
     };
     struct Packed { // std140, as in photometric_lamps.glsl
@@ -51,8 +51,9 @@ class PhotometricLighting : public Lighting {
 
     void set_lamps(const Shot& shot);
     void set_sun(const Shot& shot);
+    void make_traffic_shadows(const Moment& moment);
     std::vector<Group> groups_for(const Shot& shot);
-    Features features_of(const Shot& shot, const SurfaceClass& surface, bool lit, bool shadowed, bool traffic, int sun) const;
+    Features features_of(const Shot& shot, const Group& group, int sun) const;
     const Compiled& variant(const Features& features, const Wanted& wanted);
     void use(const Compiled& v, const Shot& shot) const;
     void compile(const Features& features, const Shot& shot);
@@ -67,6 +68,7 @@ class PhotometricLighting : public Lighting {
     Beams beams_;
     std::unique_ptr<Shadows> shadows_; ///< nullptr: none are cast
     TrafficLights traffic_;
+    std::unique_ptr<TrafficShadows> traffic_shadows_; ///< from the first moment on with lamps of others, unless none are cast
     AirLamps air_lamps_;
     LampFaces faces_;
     std::unique_ptr<SunLight> sun_; ///< from the first moment on in which sun or moon shines

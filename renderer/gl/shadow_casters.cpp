@@ -12,9 +12,10 @@
 namespace fernlicht::gl {
 namespace {
 
-constexpr double margin_texels = 2.6; // a look-up takes texels up to 1 away, from a point raised by 1.5 (see SHADOW_SPREAD)
-constexpr double margin_m = 0.05;     // or raised by the tolerance
+constexpr double margin_m = 0.05; // look-ups are raised by the tolerance at least
 constexpr double tangents_from_m = 0.1;
+
+} // namespace
 
 Corners in_lamp_space(const LitLamp& lamp, const glm::dvec3& offset_from_lamp, const Corners& corners) {
     Corners out{};
@@ -37,8 +38,8 @@ Caster caster_of(const Corners& box, double margin) {
     return caster;
 }
 
-/// The part of the box that lies beyond the caster's front against the frustum behind the caster: apart, where all of it is on the
-/// far side of one of the frustum's planes.
+// The part of the box that lies beyond the caster's front against the frustum behind the caster: apart, where all of it is on the far side
+// of one of the frustum's planes.
 bool shades(const Caster& caster, const Corners& box) {
     if (caster.around)
         return true;
@@ -64,8 +65,6 @@ bool shades(const Caster& caster, const Corners& box) {
              all([&](const glm::dvec3& p) { return p.y > caster.top * p.z + margin_m; }));
 }
 
-} // namespace
-
 glm::dmat4 lamp_clip(const LitLamp& lamp, const ShadowWindow& w, const glm::dvec3& ego_m) {
     const glm::dvec3 axes[3] = {-lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()}, at = lamp.pose.position_m - ego_m;
     glm::dmat4 lamp_from_ego(1.0);
@@ -79,9 +78,9 @@ double texel_tangent(const ShadowWindow& window, const ShadowSettings& settings)
     return std::max((window.right - window.left) / (settings.width - 2), (window.top - window.bottom) / (settings.height - 2));
 }
 
-bool ShadowCasters::faces_lamp(const Piece& piece, const glm::dvec3& lamp_m) const {
-    const glm::vec3 lamp(lamp_m + ego_m_ - piece.origin_m);
-    const auto first = scene_.planes().begin() + static_cast<std::ptrdiff_t>(piece.first_plane);
+bool faces_lamp(const SceneBuffers& scene, const Piece& piece, const glm::dvec3& lamp_m, const glm::dvec3& ego_m) {
+    const glm::vec3 lamp(lamp_m + ego_m - piece.origin_m);
+    const auto first = scene.planes().begin() + static_cast<std::ptrdiff_t>(piece.first_plane);
     return std::all_of(first, first + static_cast<std::ptrdiff_t>(piece.planes),
                        [&](const glm::vec4& plane) { return glm::dot(glm::vec3(plane), lamp) + plane.w > 0.0F; });
 }
@@ -102,7 +101,7 @@ void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<con
             const double distance = glm::length(from_lamp), nearest = distance - piece.radius_m;
             if (nearest > shadow_farthest_m || frustum.outside(centre_of(piece, ego_m), piece.radius_m))
                 continue;
-            if (!piece.casts || (piece.ground && !piece.above_ground && faces_lamp(piece, found.lamp_m)))
+            if (!piece.casts || (piece.ground && !piece.above_ground && faces_lamp(scene_, piece, found.lamp_m, ego_m)))
                 continue;
             const double most_cd = beams[i]->bounds.most_towards(to_lamp_space(lamps[i], from_lamp), piece.radius_m);
             if (most_cd == 0.0 || (nearest > 0.0 && most_cd < last_contour_lx * nearest * nearest))
@@ -110,7 +109,7 @@ void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<con
             found.pieces.push_back(k);
             for (const Corners& body : piece.bodies_m)
                 found.bodies.push_back(caster_of(in_lamp_space(found.lamp, piece.origin_m - ego_m - found.lamp_m, body),
-                                                 margin_texels * texel_tangent(found.window, settings_)));
+                                                 caster_margin_texels * texel_tangent(found.window, settings_)));
         }
         lamps_.push_back(std::move(found));
     }

@@ -27,6 +27,16 @@ struct Caster {
     double nearest_m = 0.0; ///< along the lamp's axis
     bool around = false;    ///< some of it lies beside or behind the lamp: no tangents
 };
+/// Boxes in lamp space. `margin`: added to the tangents.
+Corners in_lamp_space(const LitLamp& lamp, const glm::dvec3& offset_from_lamp, const Corners& corners);
+Caster caster_of(const Corners& box, double margin);
+/// Whether the caster's shadow may fall on the box. Errs towards yes.
+bool shades(const Caster& caster, const Corners& box);
+/// In texels of the map, for look-ups raised by 1.5: they take texels up to 1 away.
+inline constexpr double caster_margin_texels = 2.6;
+
+/// Whether all triangles of the ground face a lamp, which stands there relative to the car: it casts no shadow then.
+bool faces_lamp(const SceneBuffers& scene, const Piece& piece, const glm::dvec3& lamp_m, const glm::dvec3& ego_m);
 
 struct LampCasters {
     LitLamp lamp;
@@ -50,8 +60,6 @@ class ShadowCasters {
     bool reach(const Piece& piece, double raised_m) const;
 
   private:
-    bool faces_lamp(const Piece& piece, const glm::dvec3& lamp_m) const;
-
     const SceneBuffers& scene_;
     ShadowSettings settings_;
     std::vector<LampCasters> lamps_;

@@ -27,6 +27,11 @@ bool is_pair(const LitLamp& a, const LitLamp& b) {
 
 std::size_t texel_bytes(GLenum format) { return format == GL_RGBA32F ? 16 : format == GL_RG32F ? 8 : 4; }
 
+/// As a solid angle, up to a factor.
+double size_from_car(const glm::dvec3& centre_m, double radius_m) {
+    return radius_m * radius_m / std::max(glm::dot(centre_m, centre_m), radius_m * radius_m);
+}
+
 /// Sine of the steepest normal's angle from the vertical.
 double lean_of(const Piece& piece) {
     const double up = std::clamp(piece.least_up, 0.0, 1.0);
@@ -174,7 +179,10 @@ void TrafficLights::list(std::size_t number, const Place& place, double least, L
         if (each > 0.0 || one > 0.0)
             entries.emplace_back(static_cast<float>(number), static_cast<float>(each), static_cast<float>(one), static_cast<float>(cd));
     };
+    const std::size_t before = lists.fragment.size();
     add(lists.fragment, share.each, share.merged, -1.0);
+    if (lists.fragment.size() > before)
+        lists.receivers.push_back({static_cast<std::uint32_t>(number), 0, static_cast<std::uint32_t>(before), most});
     add(lists.vertex, 0.0, share.by_vertex, -1.0);
     if (share.point > 0.0)
         add(lists.vertex, 0.0, share.point, intensity_towards_cd(unit.middle, unit.middle.pose.position_m + place.centre_m - unit.at_m));
@@ -228,6 +236,24 @@ std::pair<std::uint32_t, std::uint32_t> TrafficLights::keep(const std::vector<gl
     const auto first = static_cast<std::uint32_t>(entries_.size());
     entries_.insert(entries_.end(), entries.begin(), entries.end());
     return {first, static_cast<std::uint32_t>(entries.size())};
+}
+
+std::pair<std::uint32_t, std::uint32_t> TrafficLights::keep(Lists& lists, const TrafficPlace& place) {
+    const auto [first, count] = keep(lists.fragment);
+    for (TrafficReceiver receiver : lists.receivers) {
+        receiver.entry += first;
+        receiver.place = static_cast<std::uint32_t>(places_.size());
+        receivers_.push_back(receiver);
+    }
+    places_.push_back(place);
+    return {first, count};
+}
+
+std::vector<TrafficSource> TrafficLights::sources() const {
+    std::vector<TrafficSource> sources;
+    for (const Unit& unit : units_)
+        sources.push_back({unit.middle, unit.apart_m, unit.lamps, unit.beam});
+    return sources;
 }
 
 void TrafficLights::Cell::add(const glm::dvec4& normal) {
@@ -308,18 +334,28 @@ void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint
                           true,
                           false,
                           &cell.normals};
-        const auto [first, count] = keep(lists_of(place, units, moment.least_traffic_lx, &work).fragment);
+        Lists lists = lists_of(place, units, moment.least_traffic_lx, &work);
+        TrafficPlace stands{{}, size_from_car(place.centre_m, place.radius_m)};
+        for (std::size_t k = 0; k < stands.box_m.size(); ++k)
+            stands.box_m[k] = glm::dvec3(at + ahead_ * ((k & 1) != 0 ? half : -half) + left * ((k & 2) != 0 ? half : -half),
+                                         (k & 4) != 0 ? cell.high : cell.low);
+        const auto [first, count] = keep(lists, stands);
         cells_[i] = {first, count};
     }
 }
 
-void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work) {
+void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work, TrafficShadows* shadows) {
     add_units(moment);
     entries_.clear();
+    receivers_.clear();
+    places_.clear();
     lists_.assign(scene_.pieces().size(), {});
     left_out_ = 0;
-    if (units_.empty())
+    if (units_.empty()) {
+        if (shadows != nullptr)
+            shadows->choose(moment, {}, {}, {}, entries_);
         return;
+    }
     const glm::dvec2 forward(moment.ego.forward());
     ahead_ = glm::length(forward) > 1e-6 ? glm::normalize(forward) : glm::dvec2(1.0, 0.0);
     bool on_ground = false;
@@ -333,9 +369,12 @@ void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& 
                           lean_of(piece),
                           piece.ground,
                           piece.surface.retroreflecting};
-        const Lists lists = lists_of(place, all, moment.least_traffic_lx, piece.ground ? nullptr : &work); // ground is counted by its cells
+        Lists lists = lists_of(place, all, moment.least_traffic_lx, piece.ground ? nullptr : &work); // ground is counted by its cells
+        TrafficPlace stands{piece.corners_m, piece.ground ? 0.0 : size_from_car(place.centre_m, place.radius_m), i};
+        for (glm::dvec3& corner : stands.box_m)
+            corner += piece.origin_m - moment.ego.position_m;
         std::uint32_t* const traffic = lists_[i].traffic;
-        std::tie(traffic[0], traffic[1]) = keep(lists.fragment);
+        std::tie(traffic[0], traffic[1]) = keep(lists, stands);
         std::tie(traffic[2], traffic[3]) = keep(lists.vertex);
         if (piece.ground && traffic[1] != 0) {
             traffic[1] |= is_ground_bit;
@@ -346,6 +385,8 @@ void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& 
     if (on_ground)
         list_cells(moment, drawn, work);
     left_out_ = static_cast<int>(std::ranges::count(units_, false, &Unit::used));
+    if (shadows != nullptr)
+        shadows->choose(moment, sources(), receivers_, places_, entries_);
     fill(unit_texels_, GL_RGBA32F, packed_);
     fill(entry_texels_, GL_RGBA32F, entries_);
     if (cd_texels_.room == 0)

@@ -8,6 +8,7 @@
 
 #include "renderer/gl/beams.h"
 #include "renderer/gl/draw_list.h"
+#include "renderer/gl/traffic_shadows.h"
 #include "renderer/renderer.h"
 #include "renderer/traffic_levels.h"
 
@@ -32,8 +33,8 @@ class TrafficLights {
     TrafficLights(Context& context, const SceneBuffers& scene, Beams& beams, bool levels, bool pruned)
         : context_(context), scene_(scene), beams_(beams), levels_(levels), pruned_(pruned) {}
 
-    /// Lists for the pieces that are drawn.
-    void set(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work);
+    /// Lists for the pieces that are drawn. `shadows`: chooses which units cast any; nullptr: none do.
+    void set(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work, TrafficShadows* shadows);
     bool any() const { return !units_.empty(); }
     std::size_t units() const { return units_.size(); }
     /// Whether any light of others may fall on the piece.
@@ -81,6 +82,7 @@ class TrafficLights {
     };
     struct Lists {
         std::vector<glm::vec4> fragment, vertex;
+        std::vector<TrafficReceiver> receivers;   ///< of `fragment`; entry: counted from its first
         double drawn_lx = 0.0, left_out_lx = 0.0; ///< bounds, summed over units
     };
     void add_units(const Moment& moment);
@@ -101,6 +103,9 @@ class TrafficLights {
     void list_cells(const Moment& moment, const std::vector<std::uint32_t>& drawn, Work& work);
     template <class T> void fill(Texels& texels, GLenum format, const std::vector<T>& values);
     std::pair<std::uint32_t, std::uint32_t> keep(const std::vector<glm::vec4>& entries);
+    /// The same of light by fragment, on a place that shadows may fall on.
+    std::pair<std::uint32_t, std::uint32_t> keep(Lists& lists, const TrafficPlace& place);
+    std::vector<TrafficSource> sources() const;
 
     Context& context_;
     const SceneBuffers& scene_;
@@ -109,6 +114,8 @@ class TrafficLights {
     std::vector<Unit> units_;
     std::vector<Packed> packed_;
     std::vector<glm::vec4> entries_;
+    std::vector<TrafficReceiver> receivers_;
+    std::vector<TrafficPlace> places_;
     std::vector<float> cd_;
     std::map<int, int> offsets_;
     std::map<int, TrafficBeam> bounds_;

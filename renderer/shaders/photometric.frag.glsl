@@ -1,7 +1,7 @@
 // Technique `photometric`: exact distance and cosine per fragment, intensity from the candela table, one shadow map per lamp,
 // diffuse and retroreflecting surfaces with their textures, uniform sky.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, FOG, AIR_LAMPS, WET, BACKGROUND, RETRO, RETRO_TINT, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
+// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, TRAFFIC, TRAFFIC_SHADOWS, FOG, AIR_LAMPS, WET, BACKGROUND, RETRO, RETRO_TINT, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
 // results are wanted (WANT_*). What is left out adds exactly +0 or multiplies by exactly 1.
 #include "photometric_lamps.glsl"
 #include "photometric_varyings.glsl"
@@ -89,6 +89,9 @@ float toned(float l) {
 #endif
 #if TRAFFIC
 #include "traffic_lamps.glsl"
+#if TRAFFIC_SHADOWS
+#include "traffic_shadows.glsl"
+#endif
 #endif
 #if AIR_LAMPS
 #include "air_lamps.glsl"
@@ -289,8 +292,13 @@ void main() {
             int end = end_of_traffic_lamps(entry);
             for (int lamp = first_traffic_lamp(entry); lamp < end; ++lamp) {
                 vec3 to_lamp = traffic_place(unit, lamp) - v_traffic_p;
-                float e_perp;
-                float e = traffic_lx(unit, entry, lamp, -to_lamp, n, e_perp);
+                float e_perp, whole;
+                float e = traffic_lx(unit, entry, lamp, -to_lamp, n, e_perp, whole);
+#if TRAFFIC_SHADOWS
+                float left = e > 0.0 ? traffic_left(unit, entry, lamp, v_traffic_p, n, whole) : 1.0;
+                e *= left;
+                e_perp *= left;
+#endif
                 others += vec4(unit.colour.rgb * e, e);
 #if WANT_SEEN && WET
                 wet += unit.colour.rgb * wet_light(albedo, n, normalize(to_lamp), -normalize(v_from_eye), e_perp);

@@ -131,8 +131,8 @@ void main() {
     for (uint k = 0u; k < traffic_lists.w; ++k) {
         vec4 entry = texelFetch(traffic_entries, int(traffic_lists.z + k));
         TrafficUnit unit = traffic_unit(int(entry.x));
-        float e_perp;
-        float e = traffic_lx(unit, entry, 2, p - traffic_place(unit, 2), normalize(n), e_perp);
+        float e_perp, whole;
+        float e = traffic_lx(unit, entry, 2, p - traffic_place(unit, 2), normalize(n), e_perp, whole);
         by_vertex += vec4(unit.colour.rgb * e, e);
     }
     v_traffic_light = by_vertex;

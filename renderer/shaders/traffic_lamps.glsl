@@ -11,7 +11,7 @@ struct TrafficUnit {
 };
 
 layout(binding = 18) uniform samplerBuffer traffic_units;   // as above
-layout(binding = 19) uniform samplerBuffer traffic_entries; // unit, weight of each lamp, of one for all, candela (below 0: by the beam)
+layout(binding = 19) uniform samplerBuffer traffic_entries; // unit, weight of each lamp, of one for all, candela (below 0: by the beam; below -1: with maps, see traffic_left())
 layout(binding = 20) uniform samplerBuffer traffic_cd;
 layout(binding = 21) uniform samplerBuffer traffic_cells; // first entry, entries
 
@@ -46,8 +46,8 @@ float traffic_intensity(TrafficUnit unit, vec3 w, float inverse_d) {
     return known > 0.0 ? cd : 0.0;
 }
 
-// lx on a surface with this unit normal, v from the lamp to it; e_perp: facing the lamp.
-float traffic_lx(TrafficUnit unit, vec4 entry, int lamp, vec3 v, vec3 n, OUT(float) e_perp) {
+// lx on a surface with this unit normal, v from the lamp to it; e_perp: facing the lamp; whole: without ramp and weights.
+float traffic_lx(TrafficUnit unit, vec4 entry, int lamp, vec3 v, vec3 n, OUT(float) e_perp, OUT(float) whole) {
     float share = lamp == 2 ? 1.0 : 0.5; // of intensity and of least lux
     float inverse_d = inversesqrt(max(dot(v, v), 1e-6));
     float cosine = max(-dot(n, v) * inverse_d, 0.0);
@@ -60,5 +60,6 @@ float traffic_lx(TrafficUnit unit, vec4 entry, int lamp, vec3 v, vec3 n, OUT(flo
     float e = facing * cosine, least = share * unit.position_m.w;
     float kept = (lamp == 2 ? entry.z : entry.y) * clamp((e - least) / least, 0.0, 1.0);
     e_perp = facing * kept;
+    whole = e;
     return e * kept;
 }
