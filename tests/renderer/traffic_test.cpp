@@ -137,8 +137,8 @@ TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
     }
 }
 
-/// By rays, which know the shadows that road users cast in others' light, against the drawing, which does not: the same where the twin
-/// finds no shadow, within what the levels may be off; and there are pixels in shadow.
+/// Against the reference's rays: the same where the twin finds no shadow, within what the levels may be off; and there are pixels in
+/// shadow.
 TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
     const Street street(oncoming(40.0, 3, 25.0));
     Moment moment = street.at(0.5);
@@ -174,6 +174,114 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
     RecordProperty("worst_share_above_0.5_lx", fmt::format("{}", worst_share));
     RecordProperty("pixels_compared", compared);
     RecordProperty("pixels_in_shadow", in_shadow);
+}
+
+/// Two cars behind each other, the second's lamps behind the first's body: drawn against the twin's rays, away from edges (where all twin
+/// pixels around see as much of the lamps), within what levels and the ramp of shadows may be off. What the twin lights is not darkened: no
+/// surface shades itself.
+TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
+    const Street street(oncoming(30.0, 2, 14.0));
+    Moment moment = street.at(0.5);
+    moment.lamps.clear();
+    moment.least_traffic_lx = 0.005;
+    const View view = driver(96, 64, 24.0);
+    const Frame frame = draw(street, moment, view, settings());
+    RendererSettings none = settings();
+    none.traffic_shadows = false;
+    const Frame bright = draw(street, moment, view, none);
+    const Twin shaded(street.scene, true), unshaded(street.scene, false);
+    Image<double> hidden(view.width_px, view.height_px), lx(view.width_px, view.height_px), bound(view.width_px, view.height_px);
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x) {
+            const TwinPixel with = shaded.pixel(moment, view, x + 0.5, y + 0.5), without = unshaded.pixel(moment, view, x + 0.5, y + 0.5);
+            const bool same = with.id != 0 && with.id == frame.ids.at(x, y);
+            hidden.at(x, y) = !same ? -1.0 : without.illuminance_lx > 0.0 ? 1.0 - with.illuminance_lx / without.illuminance_lx : 0.0;
+            lx.at(x, y) = with.illuminance_lx;
+            bound.at(x, y) = with.bound_lx;
+        }
+    int compared = 0, in_shadow = 0, wrong = 0, wrong_before = 0;
+    double worst = 0.0;
+    const double allowed = 2.0 * (worst_traffic_error + 2.0) * moment.least_traffic_lx;
+    for (int y = 2; y + 2 < view.height_px; ++y)
+        for (int x = 2; x + 2 < view.width_px; ++x) {
+            double least = 2.0, most = -2.0;
+            for (int k = 0; k < 25; ++k) {
+                least = std::min(least, hidden.at(x + k % 5 - 2, y + k / 5 - 2));
+                most = std::max(most, hidden.at(x + k % 5 - 2, y + k / 5 - 2));
+            }
+            if (least < 0.0 || most - least > 0.1)
+                continue;
+            ++compared;
+            const auto is_off = [&](const Frame& f) {
+                return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - lx.at(x, y)) >
+                       allowed + 4.0 * bound.at(x, y) + 0.02 * lx.at(x, y);
+            };
+            in_shadow += least > 0.1 ? 1 : 0;
+            wrong += is_off(frame) ? 1 : 0;
+            wrong_before += is_off(bright) ? 1 : 0;
+            worst = std::max(worst, std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - lx.at(x, y)));
+        }
+    EXPECT_GT(compared, 1000);
+    EXPECT_GT(in_shadow, 100);
+    EXPECT_GT(wrong_before, 100) << "without maps";
+    EXPECT_LE(wrong, in_shadow / 100);
+    RecordProperty("pixels_compared", compared);
+    RecordProperty("pixels_in_shadow", in_shadow);
+    RecordProperty("pixels_off", wrong);
+    RecordProperty("pixels_off_without_maps", wrong_before);
+    RecordProperty("worst_lx", fmt::format("{}", worst));
+}
+
+/// Without lamps of others, and in a drive without shadows, no byte and no program more.
+TEST_F(Traffic, ShadowsOfOthersCostNothingWhereThereAreNone) {
+    const Street street(oncoming(30.0, 2, 14.0));
+    for (const bool dark : {true, false}) {
+        Moment moment = street.at(0.5);
+        RendererSettings with = settings();
+        if (dark)
+            moment.other_lamps.clear();
+        else
+            with.shadows.method = ShadowMethod::none;
+        RendererSettings without = with;
+        without.traffic_shadows = false;
+        Renderer a(device_, street.scene, with), b(device_, street.scene, without);
+        a.prepare({moment}, driver(), everything);
+        b.prepare({moment}, driver(), everything);
+        const Frame one = a.draw(moment, driver(), everything), other = b.draw(moment, driver(), everything);
+        EXPECT_EQ(one.colour, other.colour);
+        EXPECT_EQ(one.illuminance_lx, other.illuminance_lx);
+        EXPECT_EQ(a.compiled_programs(), b.compiled_programs());
+        EXPECT_EQ(a.count(moment, driver(), everything).shadow_maps, b.count(moment, driver(), everything).shadow_maps);
+    }
+}
+
+/// Maps go to the pairs with most light on what may be in shadow; what is faint has none.
+TEST_F(Traffic, TheStrongestLampsHaveMaps) {
+    const Street street(oncoming(30.0, 12, 14.0, ", tail_cd: 0, brake_cd: 0"));
+    RendererSettings none = settings();
+    none.traffic_shadows = false;
+    Renderer renderer(device_, street.scene, settings()), without(device_, street.scene, none);
+    const auto maps = [&](const Moment& moment) { return renderer.count(moment, driver(), {.illuminance = true}).shadow_maps; };
+    const auto shadow_lx = [&](const Moment& moment) { // most that is taken away anywhere
+        return most_difference(renderer.draw(moment, driver(), {.illuminance = true}).illuminance_lx,
+                               without.draw(moment, driver(), {.illuminance = true}).illuminance_lx);
+    };
+    Moment moment = street.at(0.0);
+    moment.lamps.clear();
+    ASSERT_EQ(moment.other_lamps.size(), 24U);
+    EXPECT_EQ(maps(moment), 16) << "as many as there are";
+    const std::vector<LeftOut> left_out = renderer.left_out();
+    EXPECT_TRUE(std::ranges::any_of(left_out, [](const LeftOut& l) { return l.what.starts_with("shadow maps of lamps of others"); }));
+    const double all_lx = shadow_lx(moment);
+    EXPECT_GT(all_lx, 1.0);
+    for (std::size_t i = 6; i < moment.other_lamps.size(); ++i) // of the cars behind the third
+        moment.other_lamps[i].intensity_factor *= 1e-5;
+    EXPECT_EQ(maps(moment), 6);
+    EXPECT_NEAR(shadow_lx(moment), all_lx, 0.5 * all_lx);
+    for (LitLamp& lamp : moment.other_lamps)
+        lamp.intensity_factor = 1e-5;
+    EXPECT_EQ(maps(moment), 0);
+    EXPECT_EQ(shadow_lx(moment), 0.0);
 }
 
 /// What levels cost in lux against every lamp with its own beam, and that they save lamps.
@@ -232,9 +340,11 @@ TEST_F(Traffic, NothingPopsOnTheShippedDrive) {
     place_traffic(drive, network, route);
     Scene scene = build_scene(network, {.textures = false});
     add_road_users(scene, drive.traffic, drive.opened);
-    RendererSettings all = settings();
+    RendererSettings levels = settings();
+    levels.traffic_shadows = false; // their edges move
+    RendererSettings all = levels;
     all.traffic_levels = false;
-    Renderer renderer(device_, scene, settings()), fine(device_, scene, all);
+    Renderer renderer(device_, scene, levels), fine(device_, scene, all);
     double most = 0.0;
     int in_use = 0;
     for (const double from_s : {0.5, 2.0, 3.5}) {
