@@ -130,13 +130,16 @@ MediumStudy lamp_ways(const Moment& moment, const RendererSettings& drawn) {
     MediumStudy study{
         "street-lamps",
         fmt::format("Lamps beside the road, {}", std::ranges::count_if(moment.other_lamps, stands_beside)),
-        "light of any one lamp fainter than this is left out (traffic_light: least_lx); drawn without the shadows that the reference has",
+        "light of any one lamp fainter than this is left out (traffic_light: least_lx); shadows by maps but in the way without",
         {}};
     for (const double least_lx : {0.005, 0.05, 0.2, 1.0, 5.0}) {
         study.ways.push_back({fmt::format("from {:g} lx on", least_lx), "least_lx", fmt::format("{:g}", least_lx),
                               least_lx == moment.least_traffic_lx ? "as the drive is drawn" : "", moment, drawn});
         study.ways.back().moment.least_traffic_lx = least_lx;
     }
+    MediumWay bright{"without their shadows", "shadows", "none", "", moment, drawn};
+    bright.settings.traffic_shadows = false;
+    study.ways.push_back(std::move(bright));
     MediumWay none{"left out", "least_lx", "all", "", moment, drawn};
     std::erase_if(none.moment.other_lamps, stands_beside);
     study.ways.push_back(std::move(none));

@@ -183,6 +183,7 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     const Street street(oncoming(30.0, 2, 14.0));
     Moment moment = street.at(0.5);
     moment.lamps.clear();
+    std::erase_if(moment.other_lamps, [](const LitLamp& lamp) { return lamp.body == 0; });
     moment.least_traffic_lx = 0.005;
     const View view = driver(96, 64, 24.0);
     const Frame frame = draw(street, moment, view, settings());
@@ -201,7 +202,7 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
         }
     int compared = 0, in_shadow = 0, wrong = 0, wrong_before = 0;
     double worst = 0.0;
-    const double allowed = 2.0 * (worst_traffic_error + 2.0) * moment.least_traffic_lx;
+    const double allowed = (worst_traffic_error + 2.0) * moment.least_traffic_lx;
     for (int y = 2; y + 2 < view.height_px; ++y)
         for (int x = 2; x + 2 < view.width_px; ++x) {
             double least = 2.0, most = -2.0;
@@ -244,14 +245,18 @@ TEST_F(Traffic, ShadowsOfOthersCostNothingWhereThereAreNone) {
             with.shadows.method = ShadowMethod::none;
         RendererSettings without = with;
         without.traffic_shadows = false;
-        Renderer a(device_, street.scene, with), b(device_, street.scene, without);
-        a.prepare({moment}, driver(), everything);
-        b.prepare({moment}, driver(), everything);
-        const Frame one = a.draw(moment, driver(), everything), other = b.draw(moment, driver(), everything);
+        const auto drawn = [&](const RendererSettings& by) {
+            Renderer renderer(device_, street.scene, by);
+            renderer.prepare({moment}, driver(), everything);
+            Frame frame = renderer.draw(moment, driver(), everything);
+            return std::tuple(std::move(frame), renderer.compiled_programs(), renderer.count(moment, driver(), everything));
+        };
+        const auto [one, programs, work] = drawn(with);
+        const auto [other, other_programs, other_work] = drawn(without);
         EXPECT_EQ(one.colour, other.colour);
         EXPECT_EQ(one.illuminance_lx, other.illuminance_lx);
-        EXPECT_EQ(a.compiled_programs(), b.compiled_programs());
-        EXPECT_EQ(a.count(moment, driver(), everything).shadow_maps, b.count(moment, driver(), everything).shadow_maps);
+        EXPECT_EQ(programs, other_programs);
+        EXPECT_EQ(work, other_work);
     }
 }
 
@@ -276,12 +281,39 @@ TEST_F(Traffic, TheStrongestLampsHaveMaps) {
     EXPECT_GT(all_lx, 1.0);
     for (std::size_t i = 6; i < moment.other_lamps.size(); ++i) // of the cars behind the third
         moment.other_lamps[i].intensity_factor *= 1e-5;
-    EXPECT_EQ(maps(moment), 6);
+    EXPECT_EQ(maps(moment), 4) << "nothing stands before the first car";
     EXPECT_NEAR(shadow_lx(moment), all_lx, 0.5 * all_lx);
     for (LitLamp& lamp : moment.other_lamps)
         lamp.intensity_factor = 1e-5;
     EXPECT_EQ(maps(moment), 0);
     EXPECT_EQ(shadow_lx(moment), 0.0);
+}
+
+/// Eleven pairs and maps for eight: as the car, not the camera, moves on, they gain and lose them. All light that shadows take away from
+/// the picture changes steadily.
+TEST_F(Traffic, ShadowsDoNotPop) {
+    const Street street(oncoming(25.0, 11, 14.0, ", tail_cd: 0, brake_cd: 0"));
+    RendererSettings none = settings();
+    none.traffic_shadows = false;
+    Renderer renderer(device_, street.scene, settings()), without(device_, street.scene, none);
+    double before = 0.0, most = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        Moment moment = street.at(0.0);
+        moment.lamps.clear();
+        moment.ego.position_m += 0.25 * i * moment.ego.forward(); // one place in the row in 56 frames
+        View view = driver();
+        view.position_m.x -= 0.25 * i; // the camera stands
+        const Frame dark = renderer.draw(moment, view, {.illuminance = true}), bright = without.draw(moment, view, {.illuminance = true});
+        double taken = 0.0;
+        for (std::size_t k = 0; k < dark.illuminance_lx.size(); ++k)
+            taken += static_cast<double>(bright.illuminance_lx.pixels()[k]) - static_cast<double>(dark.illuminance_lx.pixels()[k]);
+        if (i > 0)
+            most = std::max(most, std::abs(taken - before) / before);
+        before = taken;
+    }
+    EXPECT_GT(before, 0.0);
+    EXPECT_LE(most, 0.05);
+    RecordProperty("most_share_a_frame", fmt::format("{}", most));
 }
 
 /// What levels cost in lux against every lamp with its own beam, and that they save lamps.
