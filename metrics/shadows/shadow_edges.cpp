@@ -1,0 +1,117 @@
+#include "metrics/shadows/shadow_edges.h"
+
+#include "metrics/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fernlicht {
+namespace {
+
+constexpr double cm_per_m = 100.0;
+
+/// Of the step before: the edge of the same direction nearest to where this one was; nullptr where that is another one.
+const MatchedEdge* same_edge(const EdgeMatch& step, const MatchedEdge& edge) {
+    const MatchedEdge* nearest = nullptr;
+    for (const MatchedEdge& other : step.matched)
+        if (other.truth.direction == edge.truth.direction &&
+            (!nearest || std::abs(other.truth.at_m - edge.truth.at_m) < std::abs(nearest->truth.at_m - edge.truth.at_m)))
+            nearest = &other;
+    return nearest && std::abs(nearest->truth.at_m - edge.truth.at_m) <= 0.5 * same_edge_m ? nearest : nullptr;
+}
+
+} // namespace
+
+std::vector<ShadowEdge> shadow_edges(const std::vector<std::optional<double>>& lit_shares, double pitch_m) {
+    constexpr double half = 0.5;
+    std::vector<ShadowEdge> edges;
+    for (std::size_t i = 1; i < lit_shares.size(); ++i) {
+        const std::optional<double>&a = lit_shares[i - 1], &b = lit_shares[i];
+        if (!a || !b || (*a >= half) == (*b >= half))
+            continue;
+        edges.push_back({pitch_m * (static_cast<double>(i - 1) + (half - *a) / (*b - *a)), *b > *a ? 1 : -1});
+    }
+    return edges;
+}
+
+EdgeMatch match_edges(const std::vector<ShadowEdge>& truth, const std::vector<ShadowEdge>& drawn, double same_m) {
+    // Needleman and Wunsch's alignment (1970): cost[i][j] of the first i true and j drawn edges.
+    const std::size_t rows = truth.size() + 1, columns = drawn.size() + 1;
+    const double alone = 0.5 * same_m;
+    std::vector<double> cost(rows * columns, 0.0);
+    const auto at = [&](std::size_t i, std::size_t j) -> double& { return cost[i * columns + j]; };
+    const auto together = [&](std::size_t i, std::size_t j) {
+        const ShadowEdge &t = truth[i - 1], &d = drawn[j - 1];
+        return t.direction == d.direction ? std::abs(t.at_m - d.at_m) : std::numeric_limits<double>::infinity();
+    };
+    for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t j = 0; j < columns; ++j) {
+            if (i == 0 || j == 0)
+                at(i, j) = alone * static_cast<double>(i + j);
+            else
+                at(i, j) = std::min({at(i - 1, j - 1) + together(i, j), at(i - 1, j) + alone, at(i, j - 1) + alone});
+        }
+    EdgeMatch match;
+    std::size_t i = truth.size(), j = drawn.size();
+    while (i > 0 || j > 0) {
+        if (i > 0 && j > 0 && together(i, j) < same_m && at(i, j) == at(i - 1, j - 1) + together(i, j)) {
+            match.matched.push_back({truth[i - 1], drawn[j - 1].at_m - truth[i - 1].at_m});
+            --i, --j;
+        } else if (i > 0 && (j == 0 || at(i, j) == at(i - 1, j) + alone)) {
+            ++match.lost;
+            --i;
+        } else {
+            ++match.invented;
+            --j;
+        }
+    }
+    std::ranges::reverse(match.matched);
+    return match;
+}
+
+EdgeMatch section_edges(const ShadowImages& images, int row, double pitch_m, double floor_lx) {
+    check_sizes(images);
+    std::vector<std::optional<double>> drawn, truth;
+    for (int x = 0; x < images.true_lx.width(); ++x) {
+        const auto degrees = shadow_degrees(images, x, row, floor_lx);
+        drawn.push_back(degrees ? std::optional(1.0 - degrees->drawn) : std::nullopt);
+        truth.push_back(degrees ? std::optional(1.0 - degrees->truth) : std::nullopt);
+    }
+    return match_edges(shadow_edges(truth, pitch_m), shadow_edges(drawn, pitch_m));
+}
+
+EdgeError edge_error(const std::vector<EdgeMatch>& sections) {
+    EdgeError result;
+    double squares = 0.0, worst = 0.0;
+    for (const EdgeMatch& section : sections) {
+        result.lost += section.lost;
+        result.invented += section.invented;
+        for (const MatchedEdge& edge : section.matched) {
+            ++result.edges;
+            squares += edge.error_m * edge.error_m;
+            worst = std::max(worst, std::abs(edge.error_m));
+        }
+    }
+    if (result.edges > 0) {
+        result.rms_cm = cm_per_m * std::sqrt(squares / static_cast<double>(result.edges));
+        result.worst_cm = cm_per_m * worst;
+    }
+    return result;
+}
+
+std::optional<double> shadow_crawl_cm(const std::vector<EdgeMatch>& steps) {
+    std::vector<double> changes;
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+        if (steps[k].true_edges() != steps[k - 1].true_edges())
+            continue;
+        for (const MatchedEdge& edge : steps[k].matched)
+            if (const MatchedEdge* const before = same_edge(steps[k - 1], edge))
+                changes.push_back(cm_per_m * (edge.error_m - before->error_m));
+    }
+    if (changes.size() < 2)
+        return std::nullopt;
+    return spread_of(changes)->standard_deviation;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,55 @@
+// Where shadows end: positions of edges along a cross-section, drawn against true, and how they move from step to step.
+#pragma once
+
+#include "metrics/shadows/shadow_area.h"
+
+#include <optional>
+#include <vector>
+
+namespace fernlicht {
+
+struct ShadowEdge {
+    double at_m = 0.0;
+    int direction = 0; ///< +1: into the light, along the section; -1: into the shadow
+
+    bool operator==(const ShadowEdge&) const = default;
+};
+
+/// Where lit_share = E / E_unshadowed crosses 50 %, straight between samples `pitch_m` apart, the first at 0. Where a sample is nullopt
+/// nothing is known, and there is no edge to either side.
+std::vector<ShadowEdge> shadow_edges(const std::vector<std::optional<double>>& lit_shares, double pitch_m);
+
+struct MatchedEdge {
+    ShadowEdge truth;
+    double error_m = 0.0; ///< drawn minus true
+};
+struct EdgeMatch {
+    std::vector<MatchedEdge> matched; ///< along the section
+    std::size_t lost = 0;             ///< true ones that are not drawn
+    std::size_t invented = 0;         ///< drawn ones that are not there
+    std::size_t true_edges() const { return matched.size() + lost; }
+};
+
+/// Farther from where it should be than this, an edge is another one.
+inline constexpr double same_edge_m = 1.0;
+
+/// Edges of the same direction in the same order, so that the sum of distances is least, with an edge that finds no partner as dear as half
+/// of `same_m`: two farther apart than that are not matched.
+EdgeMatch match_edges(const std::vector<ShadowEdge>& truth, const std::vector<ShadowEdge>& drawn, double same_m = same_edge_m);
+
+/// The same along a row of pixels, left to right.
+EdgeMatch section_edges(const ShadowImages& images, int row, double pitch_m, double floor_lx = shadow_floor_lx);
+
+/// r.m.s. and largest |error|, cm, of all matched edges; nullopt for none.
+struct EdgeError {
+    std::size_t edges = 0, lost = 0, invented = 0;
+    std::optional<double> rms_cm, worst_cm;
+};
+EdgeError edge_error(const std::vector<EdgeMatch>& sections);
+
+/// Standard deviation (n - 1) of the change of an edge's error from one step to the next, cm, over all edges and pairs of steps; 0 where
+/// all errors stay as they are. Steps are compared where both have the same true edges, by number and direction, and of them those drawn in
+/// both. nullopt for fewer than two changes.
+std::optional<double> shadow_crawl_cm(const std::vector<EdgeMatch>& steps);
+
+} // namespace fernlicht

@@ -1,0 +1,63 @@
+// Shadows of a scene as they are, by a ray from each pixel's centre to each lamp, for holding ways to draw them against.
+#pragma once
+
+#include "metrics/shadows/shadow_area.h"
+#include "renderer/reference/reference.h"
+#include "renderer/renderer.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace fernlicht {
+
+class ShadowTruth {
+  public:
+    /// `unshadowed` draws the scene without shadows, but for that as the ways that are held against it. `lamp_radius_m`: 0 for points, else
+    /// discs (area lamps), whose half shadows are estimated with some noise. All must outlive it. Rays are cast when a moment is first
+    /// asked for.
+    ShadowTruth(const Reference& rays, Renderer& unshadowed, const std::vector<Moment>& moments, const View& view,
+                double lamp_radius_m = 0.0);
+
+    const View& view() const { return view_; }
+    /// What the renderer, which draws the same scene and light, makes of the moment. Pixels in which it sees another mesh than the rays, or
+    /// none, do not count. Throws DeviceError, InputError.
+    ShadowImages images(Renderer& renderer, std::size_t moment);
+
+    struct Found {
+        Image<float> true_lx, unshadowed_lx, drawn_unshadowed_lx, luminance_cdm2; ///< luminance by rays, towards the camera
+        Image<std::uint32_t> ids;
+    };
+    const Found& of(std::size_t moment);
+
+  private:
+    const Reference& rays_;
+    Renderer& unshadowed_;
+    const std::vector<Moment>& moments_;
+    View view_;
+    double lamp_radius_m_;
+    std::vector<std::optional<Found>> found_;
+};
+
+/// The same settings without shadows and clocks.
+RendererSettings without_shadows(RendererSettings settings);
+
+/// The view at another size.
+View at_size(View view, int width_px, int height_px);
+
+/// Columns of the picture on which shadow_error() decides; rows as the view's ratio has it.
+inline constexpr int shadow_error_width_px = 160;
+
+/// How wrong the shadows of these moments are in a view, as drawn with `settings`: areas in pixels of the view drawn 160 wide, summed over
+/// the moments, so that wrong_share() is the share of what is lit without shadows that is wrongly lit or wrongly dark. Truth: a ray from
+/// the pixel's centre to each lamp, a point. Depends on nothing but its arguments. Throws DeviceError; InputError where the method
+/// refuses the scene.
+ShadowArea shadow_error(Device& device, const Scene& scene, const std::vector<Moment>& moments, const View& view,
+                        const RendererSettings& settings);
+
+/// The same of several ways to draw, which share the rays. `settings` differ in their shadows alone; nullopt: the method refuses.
+std::vector<std::optional<ShadowArea>> shadow_errors(Device& device, const Scene& scene, const std::vector<Moment>& moments,
+                                                     const View& view, const RendererSettings& light,
+                                                     const std::vector<ShadowSettings>& settings);
+
+} // namespace fernlicht
