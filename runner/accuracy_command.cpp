@@ -39,8 +39,9 @@ std::vector<std::string> diagrams_of(const std::vector<std::string>& lists) {
     const std::vector<std::string> known = diagram_names(), asked = items_of("--diagrams", lists);
     for (const std::string& name : asked)
         if (name != "all" && std::ranges::find(known, name) == known.end())
-            refuse_flag("--diagrams", name,
-                        "all, techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step or traffic");
+            refuse_flag(
+                "--diagrams", name,
+                "all, techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic or shadows");
     return std::ranges::find(asked, "all") != asked.end() ? known : asked;
 }
 
@@ -79,9 +80,10 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     const auto flags = std::make_shared<Flags>();
     CLI::App* sub = app.add_subcommand("accuracy", "hold the techniques against the reference: error beside run time");
     sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
-    sub->add_option("--diagrams", flags->diagrams,
-                    "all, or some of techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic; "
-                    "else techniques")
+    sub->add_option(
+           "--diagrams", flags->diagrams,
+           "all, or some of techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic, shadows; "
+           "else techniques")
         ->allow_extra_args(false);
     sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
     sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);

@@ -13,6 +13,7 @@
 #include "runner/reference_command.h"
 #include "runner/references_command.h"
 #include "runner/run_command.h"
+#include "runner/shadows_command.h"
 #include "runner/signals_command.h"
 #include "runner/stability_command.h"
 #include "runner/storyboard_command.h"
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
     fernlicht::add_compare_command(app, chosen);
     fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_aliasing_command(app, {argv, argv + argc}, chosen);
+    fernlicht::add_shadows_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);
     fernlicht::add_signals_command(app, chosen);

@@ -14,7 +14,8 @@ struct Configuration {
     int width_px = 0, height_px = 0;
     ShadowSettings shadows;
     std::optional<BeamTexels> beams; ///< nullopt: as fine as the technique takes them, in float
-    std::string varied; ///< what differs from the drive's own way beside the technique: "resolution", "shadow maps"; "" for nothing
+    std::string varied; ///< what differs from the drive's own way beside the technique: "resolution", "shadow maps", "shadow method"; ""
+                        ///< for nothing
 };
 std::string beams_text(const std::optional<BeamTexels>& beams); ///< "512x128x8"; "float" for nullopt
 std::string name_of(const Configuration& configuration);        ///< "photometric", "photometric, 512x384"
@@ -60,8 +61,9 @@ struct DriveAccuracy {
     ReferenceCost reference;
     std::vector<ConfigurationResult> configurations;
     std::vector<Simplification> simplifications;
-    std::optional<TwinAgreement> twin; ///< where photometric took part
-    std::vector<std::string> missing;  ///< what was not measured because the sweep was ended, one clause each
+    std::optional<TwinAgreement> twin;                               ///< where photometric took part
+    std::vector<std::string> missing;                                ///< what was not measured because the sweep was ended, one clause each
+    std::vector<std::pair<Configuration, std::string>> refused = {}; ///< ways that cannot draw the scene, and why
 };
 
 struct AccuracyResult {

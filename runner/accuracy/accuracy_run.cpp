@@ -31,8 +31,10 @@ bool asked_for(const AccuracyRequest& request, const char* diagram) {
 void add_sweep(const AccuracyRequest& request, const Stage& stage, Device& device, AccuracyResult& result) {
     std::optional<Progress> progress;
     int steps = 0;
+    SweepRequest sweep = request.sweep;
+    sweep.shadow_methods = asked_for(request, "shadows");
     result.drives.push_back(sweep_techniques(
-        stage, device, request.sweep,
+        stage, device, sweep,
         [&](std::size_t done, std::size_t all, const std::string&) {
             steps = static_cast<int>(all);
             if (!progress)
@@ -84,7 +86,8 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
 } // namespace
 
 std::vector<std::string> diagram_names() {
-    return {"techniques", "reference", "classical", "solvers", "control", "extent", "beam", "weather", "metrics", "step", "traffic"};
+    return {"techniques", "reference", "classical", "solvers", "control", "extent",
+            "beam",       "weather",   "metrics",   "step",    "traffic", "shadows"};
 }
 
 AccuracyResult run_accuracy(const AccuracyRequest& request) {
@@ -107,7 +110,7 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     for (const Stage& stage : stages) {
         add_inputs(result.context.inputs, stage.drive.opened);
         add_inputs(result.context.inputs, stage.network.opened);
-        if (asked_for(request, "techniques")) {
+        if (asked_for(request, "techniques") || asked_for(request, "shadows")) {
             if (!Interruption::asked())
                 add_sweep(request, stage, device, result);
             else

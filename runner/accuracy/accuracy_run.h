@@ -15,7 +15,7 @@ struct AccuracyRequest {
     bool quiet = false;
 };
 
-/// "techniques", "reference", "classical", "solvers", "control", "extent", "beam", "metrics", "step".
+/// "techniques", "reference", "classical", "solvers", "control", "extent", "beam", "metrics", "step", "shadows" ...
 std::vector<std::string> diagram_names();
 
 /// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.

@@ -17,6 +17,7 @@ WorkPrecisionRow row_of(const ConfigurationResult& found, std::size_t moments) {
     row.parameters = {{"technique", c.technique},
                       {"resolution", fmt::format("{}x{}", c.width_px, c.height_px)},
                       {"shadow maps", fmt::format("{}x{}", c.shadows.width, c.shadows.height)},
+                      {"shadows", std::string(name(c.shadows.method))},
                       {"beams", beams_text(c.beams)}};
     if (c.beams == eight_bit_texels && c.varied == "beams")
         row.note = "thesis";
@@ -74,6 +75,12 @@ WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int h
     for (const ConfigurationResult& found : drive.configurations)
         if (found.configuration.width_px == width_px && found.configuration.height_px == height_px)
             diagram.rows.push_back(row_of(found, drive.moments.size()));
+    for (const auto& [configuration, why] : drive.refused)
+        if (configuration.width_px == width_px && configuration.height_px == height_px) {
+            WorkPrecisionRow& row = diagram.rows.emplace_back();
+            row.label = name_of(configuration);
+            row.why_not = why;
+        }
     return diagram;
 }
 

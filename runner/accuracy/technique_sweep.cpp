@@ -72,7 +72,7 @@ ReferenceSettings reference_settings(const Drive& drive, const SweepRequest& req
     ReferenceSettings settings;
     settings.target_error = request.target_error;
     settings.most_samples = request.most_samples;
-    settings.shadows = drive.shadows.any();
+    settings.shadows = drive.shadows.any() || request.shadow_methods;
     settings.seed = request.seed;
     settings.target_height_m = drive.extent->target_height_m;
     return settings;
@@ -80,6 +80,25 @@ ReferenceSettings reference_settings(const Drive& drive, const SweepRequest& req
 
 Draw drawn_by(Renderer& renderer) {
     return [&renderer](const Moment& moment, const View& at, const Wanted& pictures) { return renderer.submit(moment, at, pictures); };
+}
+
+/// Without those whose shadow method refuses the scene, which the result names.
+std::vector<Configuration> drawable(std::vector<Configuration> configurations, const Stage& stage, const Drive& drive, Device& device,
+                                    const std::vector<Moment>& moments, DriveAccuracy& result) {
+    std::erase_if(configurations, [&](const Configuration& c) {
+        if (c.varied != "shadow method")
+            return false;
+        try {
+            Renderer renderer(device, stage.scene, settings_of(drive, c));
+            for (const Moment& moment : moments)
+                renderer.draw(moment, resized(view_to_compare(drive), 64, 48), {.illuminance = true});
+            return false;
+        } catch (const InputError& why) {
+            result.refused.emplace_back(c, why.what());
+            return true;
+        }
+    });
+    return configurations;
 }
 
 void add_contestants(Contestants& contestants, std::vector<ConfigurationErrors>& errors, const References& references, const Stage& stage,
@@ -165,6 +184,8 @@ std::string name_of(const Configuration& c) {
         name += fmt::format(", {}x{}", c.width_px, c.height_px);
     if (c.varied.find("shadow maps") != std::string::npos)
         name += fmt::format(", shadow maps {}x{}", c.shadows.width, c.shadows.height);
+    if (c.varied == "shadow method")
+        name += fmt::format(", shadows {}", fernlicht::name(c.shadows.method));
     if (c.varied.find("beams") != std::string::npos)
         name += ", beams " + beams_text(c.beams);
     return name;
@@ -214,6 +235,14 @@ std::vector<Configuration> configurations_of(const SweepRequest& request, const 
     };
     for (const Technique& row : rows)
         add(row, 0, 0, 0);
+    for (const Technique& row : rows)
+        if (request.shadow_methods && row.name == "photometric")
+            for (const ShadowMethodName& other : shadow_method_names())
+                if (other.method != drive.shadows.method) {
+                    add(row, 0, 0, 0);
+                    all.back().shadows.method = other.method;
+                    all.back().varied = "shadow method";
+                }
     for (const Technique& row : rows) {
         const bool ours = row.kind == TechniqueKind::ours, textures = ours || row.features.find("PROJECTED") != std::string_view::npos,
                    varied = row.name == "photometric" || row.name == "full";
@@ -248,7 +277,8 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
     References references(stage, drive, device, moments, reference_settings(drive, request));
     Contestants contestants;
     std::vector<ConfigurationErrors> errors;
-    add_contestants(contestants, errors, references, stage, drive, device, configurations_of(request, stage.drive));
+    add_contestants(contestants, errors, references, stage, drive, device,
+                    drawable(configurations_of(request, stage.drive), stage, drive, device, moments, result));
 
     const std::size_t pictures = contestants.sizes.size() + 1;
     const std::size_t steps = moments.size() * (pictures + errors.size()) + static_cast<std::size_t>(request.rounds);

@@ -14,6 +14,7 @@ struct SweepRequest {
     std::vector<std::pair<int, int>> resolutions; ///< pixels, the first for all; empty: the drive's, and 1/2 and 1/4 of it
     std::vector<std::pair<int, int>> shadow_maps; ///< texels, the first for all; empty: 1024 x 512, twice, 1/2 and 1/4 of it
     std::vector<std::optional<BeamTexels>> beams; ///< the first for all; empty: the drive's, and some finer and coarser ones
+    bool shadow_methods = false;                  ///< photometric by each shadow method, too; the reference then has shadows in any case
     bool full = false;                            ///< every technique with every resolution, shadow map and beam; else one varied at a time
     int moments = 3, rounds = 7;
     double target_error = 0.005; ///< wanted standard error of the reference, in shares
@@ -22,7 +23,7 @@ struct SweepRequest {
 };
 
 /// What is drawn, in order: each technique the drive's own way, then, one at a time, the other resolutions and
-/// beams (of `photometric` and `full`) and shadow maps (of `photometric`), as far as these techniques take part. Throws InputError for a
+/// beams (of `photometric` and `full`) and shadow maps and methods (of `photometric`), as far as these take part. Throws InputError for a
 /// technique that is unknown or comes twice.
 std::vector<Configuration> configurations_of(const SweepRequest& request, const Drive& drive);
 

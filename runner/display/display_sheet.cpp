@@ -2,7 +2,6 @@
 
 #include "metrics/display/tone_fit.h"
 #include "runner/display/shown_picture.h"
-#include "runner/plots/canvas.h"
 #include "runner/report/clean_text.h"
 #include "scenarios/display/tone_curve.h"
 
@@ -12,12 +11,6 @@
 
 namespace fernlicht {
 namespace {
-
-using plots::Canvas;
-
-constexpr int tile_px = 320, tiles_across = 3;
-constexpr plots::Colour sheet_ink{24, 24, 32}, sheet_faint{100, 100, 108};
-constexpr double sheet_edge_px = 16.0, tile_gap_px = 12.0, under_tile_px = 44.0, over_tiles_px = 62.0;
 
 View tile_view(const View& driver) {
     View view = driver;
@@ -42,18 +35,6 @@ std::string mapper_words(const ToneMapper& mapper) {
         words += fmt::format(", s {:.3g}", mapper.s);
     return words + fmt::format("; keeps {:.0f}, {:.0f}, {:.0f} %", 100.0 * contrast_kept(mapper, 0.1), 100.0 * contrast_kept(mapper, 1.0),
                                100.0 * contrast_kept(mapper, 10.0));
-}
-
-void draw_tiles(Canvas& canvas, const std::vector<DisplayTile>& tiles, double top, double tile_height) {
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const double left = sheet_edge_px + static_cast<double>(i % tiles_across) * (tile_px + tile_gap_px),
-                     at = top + static_cast<double>(i / tiles_across) * (tile_height + under_tile_px);
-        Image<plots::Colour> pixels(tiles[i].picture.width(), tiles[i].picture.height());
-        std::ranges::transform(tiles[i].picture.pixels(), pixels.data(), [](const Rgb8& p) { return plots::Colour{p.r, p.g, p.b}; });
-        canvas.picture(left, at, tile_px, tile_height, pixels);
-        canvas.text(left, at + tile_height + 15.0, tiles[i].name, {.size_px = 13.0, .colour = sheet_ink, .bold = true});
-        canvas.text(left, at + tile_height + 30.0, tiles[i].words, {.size_px = 12.0, .colour = sheet_faint});
-    }
 }
 
 } // namespace
@@ -104,27 +85,11 @@ DisplaySheet display_sheet(const Stage& stage, const Variant& variant, const Mom
 }
 
 std::string display_sheet_svg(const DisplaySheet& sheet) {
-    const double tile_height = sheet.mappers.empty() ? 0.0 : sheet.mappers.front().picture.height();
-    const auto rows = [](const std::vector<DisplayTile>& tiles) {
-        return static_cast<double>((tiles.size() + tiles_across - 1) / tiles_across);
-    };
-    const double first_px = over_tiles_px + rows(sheet.mappers) * (tile_height + under_tile_px),
-                 height_px = first_px + over_tiles_px + rows(sheet.eyes) * (tile_height + under_tile_px),
-                 width_px = 2.0 * sheet_edge_px + tiles_across * tile_px + (tiles_across - 1) * tile_gap_px;
-    Canvas canvas(width_px, height_px, "Contact sheet of tone mappers and eyes");
-    canvas.rectangle(0.0, 0.0, width_px, height_px, {.fill = "#ffffff"});
-    const auto head = [&](double top, const std::string& title, const std::string& words) {
-        canvas.text(sheet_edge_px, top + 26.0, title, {.size_px = 17.0, .colour = sheet_ink, .bold = true});
-        canvas.text(sheet_edge_px, top + 46.0, words, {.size_px = 13.0, .colour = sheet_faint});
-    };
-    head(0.0, "One moment through every tone mapper",
-         fmt::format("{}, {}: after {:.2f} s, {:.1f} m along the route; keeps: of a small contrast at 0.1, 1 and 10 cd/m2",
-                     short_text(sheet.title.empty() ? sheet.drive : sheet.title, 60), short_text(sheet.variant, 40), sheet.time_s,
-                     sheet.distance_m));
-    draw_tiles(canvas, sheet.mappers, over_tiles_px, tile_height);
-    head(first_px, "Through windscreen and eye", "each stage alone");
-    draw_tiles(canvas, sheet.eyes, first_px + over_tiles_px, tile_height);
-    return canvas.finish();
+    const std::string where = fmt::format(
+        "{}, {}: after {:.2f} s, {:.1f} m along the route; keeps: of a small contrast at 0.1, 1 and 10 cd/m2",
+        short_text(sheet.title.empty() ? sheet.drive : sheet.title, 60), short_text(sheet.variant, 40), sheet.time_s, sheet.distance_m);
+    return tile_sheet_svg("Contact sheet of tone mappers and eyes", {{"One moment through every tone mapper", where, sheet.mappers},
+                                                                     {"Through windscreen and eye", "each stage alone", sheet.eyes}});
 }
 
 } // namespace fernlicht

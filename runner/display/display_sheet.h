@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "runner/display/tile_sheet.h"
 #include "runner/stage.h"
 #include "scenarios/display/tone_mapper.h"
 
@@ -10,15 +11,10 @@
 
 namespace fernlicht {
 
-struct DisplayTile {
-    std::string name, words; ///< caption, two lines
-    Image<Rgb8> picture;     ///< as an sRGB display is told
-};
-
 struct DisplaySheet {
     std::string drive, title, variant;
     double time_s = 0.0, distance_m = 0.0;
-    std::vector<DisplayTile> mappers, eyes; ///< eyes: all by the drive's own tone mapper
+    std::vector<PictureTile> mappers, eyes; ///< eyes: all by the drive's own tone mapper
 };
 
 /// Draws the moment's driver's view 320 pixels wide; white, s and histogram are fitted to this one picture. Empty where the technique

@@ -1,0 +1,270 @@
+#include "runner/shadows/scene_study.h"
+
+#include "metrics/random_order.h"
+#include "runner/accuracy/accuracy_result.h"
+#include "runner/display/tile_sheet.h"
+#include "runner/shadows/shadow_truth.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+
+namespace fernlicht {
+namespace {
+
+RendererSettings settings_with(const ShadowScene& scene, const SceneStudyOptions& options, ShadowMethod method) {
+    RendererSettings settings = scene.light;
+    settings.shadows.method = method;
+    settings.shadows.width = options.width;
+    settings.shadows.height = options.height;
+    return settings;
+}
+
+/// Of the car's frame: the first lamp that shines, else the origin.
+double lamp_ahead_m(const Moment& moment) {
+    const Moment alone = first_lamp_alone(moment);
+    return alone.lamps.empty() ? 0.0 : to_local(moment.ego, alone.lamps.front().pose.position_m).x;
+}
+
+View from_above(double from_m, double to_m, double beside_m, int width_px, int height_px) {
+    View view;
+    view.name = "ground";
+    view.projection = Projection::map;
+    view.map_ahead_m = to_m;
+    view.map_behind_m = -from_m;
+    view.map_left_m = view.map_right_m = beside_m;
+    view.width_px = width_px;
+    view.height_px = height_px;
+    return view;
+}
+
+View ground_view(double lamp_m) {
+    return from_above(lamp_m, lamp_m + ground_ahead_m, ground_beside_m,
+                      static_cast<int>(std::lround(2.0 * ground_beside_m / ground_across_m)),
+                      static_cast<int>(std::lround(ground_ahead_m / ground_along_m)));
+}
+
+/// A row of pixels across the car's way.
+View section_view(double lamp_m, double ahead_m) {
+    const double x = lamp_m + ahead_m;
+    return from_above(x - 0.5 * edge_pixel_m, x + 0.5 * edge_pixel_m, section_half_m,
+                      static_cast<int>(std::lround(2.0 * section_half_m / edge_pixel_m)), 1);
+}
+
+View width_view(const View& view, int width_px) {
+    const double ratio = static_cast<double>(view.height_px) / view.width_px;
+    return at_size(view, width_px, std::max(1, static_cast<int>(std::lround(width_px * ratio))));
+}
+
+/// The truths that all methods of a scene share.
+struct SceneTruth {
+    Reference rays;
+    Renderer unshadowed;
+    std::vector<Moment> alone, steps; ///< of the first lamp: of each moment; the one shown, moved ahead step by step
+    std::size_t shown;
+    ShadowTruth ground, view, discs;
+    std::vector<ShadowTruth> sections;
+    ShadowTruth crawl;
+
+    static std::vector<Moment> alone_of(const std::vector<Moment>& moments) {
+        std::vector<Moment> alone;
+        for (const Moment& moment : moments)
+            alone.push_back(first_lamp_alone(moment));
+        return alone;
+    }
+    static std::vector<Moment> steps_from(const Moment& moment) {
+        std::vector<Moment> steps;
+        for (int i = 0; i < crawl_steps; ++i)
+            steps.push_back(moved_ahead(moment, i * crawl_step_m));
+        return steps;
+    }
+    SceneTruth(const ShadowScene& scene, Device& device, const SceneStudyOptions& options)
+        : rays(*scene.scene), unshadowed(device, *scene.scene, without_shadows(scene.light)), alone(alone_of(scene.moments)),
+          steps(steps_from(alone[scene.moments.size() / 2])), shown(scene.moments.size() / 2),
+          ground(rays, unshadowed, scene.moments, ground_view(lamp_ahead_m(scene.moments[shown]))),
+          view(rays, unshadowed, scene.moments, width_view(scene.view, tile_px)),
+          discs(rays, unshadowed, scene.moments, width_view(scene.view, shadow_error_width_px), options.lamp_radius_m),
+          crawl(rays, unshadowed, steps, section_view(lamp_ahead_m(alone[shown]), crawl_distance_m)) {
+        for (const double distance_m : edge_distances_m)
+            sections.emplace_back(rays, unshadowed, alone, section_view(lamp_ahead_m(alone[shown]), distance_m));
+    }
+    SceneTruth(const SceneTruth&) = delete;
+    SceneTruth& operator=(const SceneTruth&) = delete;
+};
+
+void measure_errors(SceneTruth& truth, const ShadowScene& scene, const SceneStudyOptions& options, Renderer& renderer, ShadowRow& row) {
+    for (std::size_t m = 0; m < scene.moments.size(); ++m) {
+        const ShadowArea ground = shadow_area(truth.ground.images(renderer, m), ground_along_m * ground_across_m);
+        row.ground_m2 += ground;
+        row.wrong_by_moment.push_back(ground.wrong_share());
+        const ShadowImages seen = truth.view.images(renderer, m);
+        row.view_px += shadow_area(seen);
+        row.spots += shadow_spots(seen, doubt_px);
+        if (m == truth.shown)
+            row.wrong = shadow_differences(seen);
+    }
+    if (options.lamp_radius_m > 0.0)
+        row.discs_px = shadow_area(truth.discs.images(renderer, truth.shown));
+    for (std::size_t d = 0; d < edge_distances_m.size(); ++d) {
+        std::vector<EdgeMatch> sections;
+        for (std::size_t m = 0; m < truth.alone.size(); ++m)
+            sections.push_back(section_edges(truth.sections[d].images(renderer, m), 0, edge_pixel_m));
+        row.edges[d] = edge_error(sections);
+    }
+    std::vector<EdgeMatch> steps;
+    for (std::size_t k = 0; k < truth.steps.size(); ++k)
+        steps.push_back(section_edges(truth.crawl.images(renderer, k), 0, edge_pixel_m));
+    row.crawl_cm = shadow_crawl_cm(steps);
+    if (!row.crawl_cm)
+        row.no_crawl = std::ranges::all_of(steps, [](const EdgeMatch& step) { return step.true_edges() == 0; })
+                           ? "no edge of a shadow there"
+                           : "no edge is drawn in steps one after the other";
+    row.luminance_cdm2 = renderer.draw(scene.moments[truth.shown], truth.view.view(), {.luminance = true}).luminance_cdm2;
+}
+
+/// What is drawn for times: nothing may be left over from the frame before, so the car always moves.
+std::vector<Moment> timed_moments(const ShadowScene& scene) {
+    std::vector<Moment> moments = scene.moments;
+    if (moments.size() == 1)
+        moments.push_back(moved_ahead(moments.front(), crawl_step_m));
+    return moments;
+}
+
+struct TimedMethod {
+    ShadowRow* row;
+    RendererSettings settings;
+};
+
+void time_frames(const std::vector<TimedMethod>& timed, const ShadowScene& scene, Device& device, const SceneStudyOptions& options,
+                 const std::vector<Moment>& moments, const View& view, const std::function<bool()>& stop) {
+    static constexpr Wanted wanted{.colour = true};
+    std::deque<Renderer> renderers;
+    std::vector<Contestant> contestants;
+    for (const TimedMethod& method : timed) {
+        Renderer* const renderer = &renderers.emplace_back(device, *scene.scene, method.settings);
+        renderer->prepare(moments, view, wanted);
+        for (const Moment& moment : moments)
+            method.row->work.push_back(renderer->count(moment, view, wanted));
+        contestants.push_back(
+            {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, wanted); }, [=] { renderer->finish(); }});
+    }
+    ContestOptions contest;
+    contest.moments = moments.size();
+    contest.rounds = static_cast<std::size_t>(options.rounds);
+    contest.frame_by_frame = false;
+    contest.seed = options.seed;
+    contest.go_on = [&](std::size_t) { return !stop(); };
+    contest.stop = stop;
+    Contest held = hold_contest(contestants, contest, real_clocks());
+    for (std::size_t i = 0; i < timed.size(); ++i)
+        timed[i].row->samples = std::move(held.samples[i]);
+}
+
+/// Each pass finished and timed by itself, methods in an order drawn anew for each round.
+void time_passes(const std::vector<TimedMethod>& timed, const ShadowScene& scene, Device& device, const SceneStudyOptions& options,
+                 const std::vector<Moment>& moments, const View& view, const std::function<bool()>& stop) {
+    static constexpr Wanted wanted{.colour = true};
+    std::deque<Renderer> renderers;
+    for (const TimedMethod& method : timed) {
+        RendererSettings settings = method.settings;
+        settings.profile = true;
+        renderers.emplace_back(device, *scene.scene, settings).prepare(moments, view, wanted);
+    }
+    std::vector<std::map<std::string, std::vector<double>>> samples(timed.size());
+    std::vector<std::vector<std::string>> order(timed.size()); // of passes, as they are drawn
+    std::mt19937_64 generator(options.seed);
+    for (int round = -1; round < options.rounds && !stop(); ++round) // the first warms up
+        for (const std::size_t i : random_order(timed.size(), generator)) {
+            std::map<std::string, double> frame;
+            for (const Moment& moment : moments)
+                for (const auto& [name, seconds] : renderers[i].draw(moment, view, wanted).pass_s) {
+                    if (!frame.contains(name) && std::ranges::find(order[i], name) == order[i].end())
+                        order[i].push_back(name);
+                    frame[name] += seconds / static_cast<double>(moments.size());
+                }
+            for (const auto& [name, seconds] : frame)
+                if (round >= 0)
+                    samples[i][name].push_back(seconds);
+        }
+    for (std::size_t i = 0; i < timed.size(); ++i)
+        for (const std::string& name : order[i])
+            if (const auto time = time_of(samples[i][name]))
+                timed[i].row->pass_s.emplace_back(name, *time);
+}
+
+Image<float> degrees_of(const ShadowTruth::Found& truth) {
+    const ShadowImages images{truth.true_lx, truth.true_lx, truth.unshadowed_lx, {}, {}};
+    Image<float> out(truth.true_lx.width(), truth.true_lx.height(), -1.0F);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            if (const auto degrees = shadow_degrees(images, x, y))
+                out.at(x, y) = static_cast<float>(degrees->truth);
+    return out;
+}
+
+/// Memory beside that of the scene drawn without shadows.
+void set_texture_bytes(const ShadowScene& scene, Device& device, const std::vector<Moment>& moments, const View& view,
+                       std::vector<ShadowRow>& rows) {
+    static constexpr Wanted wanted{.colour = true};
+    Renderer none(device, *scene.scene, without_shadows(scene.light));
+    std::uint64_t least = 0;
+    for (const Moment& moment : moments)
+        least = std::max(least, none.count(moment, view, wanted).texture_bytes);
+    for (ShadowRow& row : rows)
+        if (!row.work.empty()) {
+            const std::uint64_t most = std::ranges::max(row.work, {}, &Work::texture_bytes).texture_bytes;
+            row.texture_bytes = most > least ? most - least : 0;
+        }
+}
+
+} // namespace
+
+ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const SceneStudyOptions& options, const std::function<void()>& step,
+                              const std::function<bool()>& stop) {
+    ShadowSceneResult result;
+    result.name = scene.name;
+    result.title = scene.title;
+    result.of_drive = scene.of_drive;
+    result.width_px = options.timed_px.first;
+    result.height_px = options.timed_px.second;
+    for (const Moment& moment : scene.moments)
+        result.moments.emplace_back(moment.tick, moment.time_s);
+    if (stop())
+        return result;
+    SceneTruth truth(scene, device, options);
+    result.shown = truth.shown;
+    result.luminance_cdm2 = truth.view.of(truth.shown).luminance_cdm2;
+    result.degree = degrees_of(truth.view.of(truth.shown));
+    step();
+    for (const ShadowMethod method : options.methods) {
+        if (stop())
+            return result;
+        ShadowRow row;
+        row.method = method;
+        try {
+            Renderer renderer(device, *scene.scene, settings_with(scene, options, method));
+            measure_errors(truth, scene, options, renderer, row);
+        } catch (const InputError& refused) {
+            row = {};
+            row.method = method;
+            row.why_not = refused.what();
+        }
+        result.rows.push_back(std::move(row));
+        step();
+    }
+    std::vector<TimedMethod> timed;
+    for (ShadowRow& row : result.rows)
+        if (row.why_not.empty())
+            timed.push_back({&row, settings_with(scene, options, row.method)});
+    const std::vector<Moment> moments = timed_moments(scene);
+    const View view = at_size(scene.view, result.width_px, result.height_px);
+    time_frames(timed, scene, device, options, moments, view, stop);
+    time_passes(timed, scene, device, options, moments, view, stop);
+    set_texture_bytes(scene, device, moments, view, result.rows);
+    step();
+    return result;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,28 @@
+// One scene in all shadow methods: errors against rays, then times in turns.
+#pragma once
+
+#include "runner/shadows/shadow_result.h"
+#include "runner/shadows/stress_scenes.h"
+
+#include <functional>
+
+namespace fernlicht {
+
+struct SceneStudyOptions {
+    std::vector<ShadowMethod> methods;
+    int width = 1024, height = 512; ///< texels
+    double lamp_radius_m = 0.03;    ///< of discs; 0: not measured
+    int rounds = 7;
+    std::pair<int, int> timed_px{512, 384};
+    std::uint64_t seed = 1;
+};
+
+/// Steps that study_scene() tells of.
+inline std::size_t steps_of(const SceneStudyOptions& options) { return options.methods.size() + 2; }
+
+/// `step` is called after each step. When `stop` says so the study ends: methods that were not reached are missing, times of all are. A
+/// method that refuses the scene gets a row that says why. Throws DeviceError.
+ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const SceneStudyOptions& options, const std::function<void()>& step,
+                              const std::function<bool()>& stop);
+
+} // namespace fernlicht

@@ -1,0 +1,88 @@
+#include "runner/accuracy/figures.h"
+#include "runner/display/tile_sheet.h"
+#include "runner/plots/colour.h"
+#include "runner/report/clean_text.h"
+#include "runner/shadows/shadow_result.h"
+#include "scenarios/photometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+Rgb8 grey_pixel(double share) {
+    const auto code = static_cast<std::uint8_t>(std::lround(255.0 * photometry::srgb_encoded(std::clamp(share, 0.0, 1.0))));
+    return {code, code, code};
+}
+
+/// Luminance that one in a hundred pixels of the picture reaches; above 0.
+double white_of(const Image<float>& luminance) {
+    std::vector<float> sorted = luminance.pixels();
+    std::ranges::sort(sorted);
+    return sorted.empty() ? 1.0 : std::max(1e-6, static_cast<double>(sorted[sorted.size() * 99 / 100]));
+}
+
+/// Compressed so that the dark shows what is in it: L / (L + white / 10), white as white.
+Image<Rgb8> seen_picture(const Image<float>& luminance, double white_cdm2) {
+    Image<Rgb8> out(luminance.width(), luminance.height());
+    std::ranges::transform(luminance.pixels(), out.pixels().begin(), [&](float cdm2) {
+        const double share = static_cast<double>(cdm2) / white_cdm2;
+        return grey_pixel(1.1 * share / (share + 0.1));
+    });
+    return out;
+}
+
+Image<Rgb8> degree_picture(const Image<float>& degree) {
+    Image<Rgb8> out(degree.width(), degree.height());
+    std::ranges::transform(degree.pixels(), out.pixels().begin(), [](float value) {
+        return value < 0.0F ? Rgb8{120, 130, 150} : grey_pixel(0.9 * (1.0 - static_cast<double>(value)) + 0.02);
+    });
+    return out;
+}
+
+/// Orange: wrongly lit; blue: wrongly dark; white: right.
+Image<Rgb8> wrong_picture(const Image<float>& wrong, const Image<float>& degree) {
+    Image<Rgb8> out(wrong.width(), wrong.height());
+    for (std::size_t i = 0; i < wrong.size(); ++i) {
+        const plots::Colour colour = plots::diverging(static_cast<double>(wrong.pixels()[i]));
+        out.pixels()[i] = degree.pixels()[i] < 0.0F ? Rgb8{120, 130, 150} : Rgb8{colour.r, colour.g, colour.b};
+    }
+    return out;
+}
+
+std::string share_words(const ShadowArea& area) {
+    return fmt::format("of what is lit {} % wrongly lit, {} % wrongly dark", two_digits(100.0 * area.wrongly_lit_share()),
+                       two_digits(100.0 * area.wrongly_dark_share()));
+}
+
+std::string cost_words(const ShadowRow& row) {
+    std::string words;
+    if (const auto time = frame_time(row))
+        words = time_text(time->value) + " a frame";
+    if (row.texture_bytes)
+        words += fmt::format("{}{:.1f} MiB for shadows", words.empty() ? "" : ", ", static_cast<double>(*row.texture_bytes) / (1 << 20));
+    return words;
+}
+
+} // namespace
+
+std::string shadow_sheet_svg(const ShadowSceneResult& scene) {
+    const double white = white_of(scene.luminance_cdm2);
+    TileSection seen{short_text(scene.title, 90),
+                     fmt::format("luminance, white is {:.2g} cd/m2; by rays from each pixel's centre to lamps that are points", white),
+                     {{"by rays", "the truth that methods are held against", seen_picture(scene.luminance_cdm2, white)}}};
+    TileSection wrong{"Where shadows are wrong",
+                      "orange: wrongly lit; blue: wrongly dark; grey: below the floor without shadows, or nothing",
+                      {{"shadow by rays", "dark: no light of any lamp", degree_picture(scene.degree)}}};
+    for (const ShadowRow& row : scene.rows)
+        if (measured(row)) {
+            const std::string method(name(row.method));
+            seen.tiles.push_back({method, cost_words(row), seen_picture(row.luminance_cdm2, white)});
+            wrong.tiles.push_back({method, share_words(row.view_px), wrong_picture(row.wrong, scene.degree)});
+        }
+    return tile_sheet_svg("Shadow methods: " + scene.title, {seen, wrong});
+}
+
+} // namespace fernlicht

@@ -1,0 +1,107 @@
+#include "runner/shadows_command.h"
+
+#include "runner/flag_values.h"
+#include "runner/output_folder.h"
+#include "runner/run_context.h"
+#include "runner/run_drives.h"
+#include "runner/shadows/shadow_study.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct Flags {
+    std::vector<std::filesystem::path> drives;
+    std::string variant, backend = "auto", out, texels = "1024x512", resolution = "512x384";
+    std::vector<std::string> methods, scenes{"*"};
+    std::filesystem::path lamp = "scenarios/library/lamps/xenon-low.ies";
+    double lamp_radius_m = 0.03;
+    int moments = 3, rounds = 7;
+    std::uint64_t seed = 1;
+    bool quiet = false, markdown = false;
+};
+
+std::vector<ShadowMethod> methods_of(const std::vector<std::string>& lists) {
+    std::vector<ShadowMethod> methods;
+    for (const std::string& item : items_of("--methods", lists)) {
+        methods.push_back(shadow_method_named(item));
+        if (std::ranges::count(methods, methods.back()) > 1)
+            refuse_flag("--methods", item + " twice", "each method once");
+    }
+    if (methods.empty())
+        for (const ShadowMethodName& row : shadow_method_names())
+            methods.push_back(row.method);
+    return methods;
+}
+
+int shadows(const Flags& flags, const std::vector<std::string>& command) {
+    ShadowRequest request;
+    request.options.methods = methods_of(flags.methods);
+    const auto [width, height] = two_numbers("--map-texels", flags.texels, 'x', false, "WIDTHxHEIGHT, e.g. 1024x512");
+    if (std::min(width, height) < 16 || std::max(width, height) > 8192)
+        refuse_flag("--map-texels", flags.texels, "16 to 8192 each way");
+    request.options.width = width;
+    request.options.height = height;
+    if (!(flags.lamp_radius_m >= 0.0 && flags.lamp_radius_m <= 1.0))
+        refuse_flag("--lamp-radius", fmt::format("{}", flags.lamp_radius_m), "0 to 1 m");
+    request.options.lamp_radius_m = flags.lamp_radius_m;
+    request.options.rounds = flags.rounds;
+    request.options.timed_px = resolution_of(flags.resolution);
+    request.options.seed = flags.seed;
+    request.scenes = items_of("--scenes", flags.scenes);
+    request.lamp = flags.lamp;
+    for (const std::filesystem::path& file : flags.drives)
+        request.drives.push_back(read_drive(file));
+    refuse_equal_names(request.drives);
+    request.variant = flags.variant;
+    request.moments = flags.moments;
+    request.backend = flags.backend;
+    request.folder = flags.out.empty() ? default_output_folder("shadows", utc_now()) : std::filesystem::path(flags.out);
+    request.command = command;
+    request.quiet = flags.quiet;
+    const ShadowResult result = run_shadow_study(request);
+    fmt::print("{}\n{}\n", flags.markdown ? shadow_markdown(result) : shadow_text(result), (request.folder / "shadows.html").string());
+    if (!result.interrupted.empty())
+        fmt::print("incomplete: {}\n", result.interrupted);
+    for (const std::string& missing : result.missing)
+        fmt::print("missing: {}\n", missing);
+    return result.interrupted.empty() ? 0 : 1;
+}
+
+} // namespace
+
+void add_shadows_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<Flags>();
+    CLI::App* sub = app.add_subcommand("shadows", "how wrong each shadow method is against rays, and what it costs");
+    sub->add_option("DRIVE", flags->drives, "drive files (YAML), beside the scenes that are hard on shadows");
+    sub->add_option("--methods", flags->methods, "names with commas between them; else all")->allow_extra_args(false);
+    sub->add_option("--scenes", flags->scenes, "names of hard scenes, with * and ?, commas between; or none; else all")
+        ->allow_extra_args(false)
+        ->default_str("");
+    sub->add_option("--map-texels", flags->texels, "WIDTHxHEIGHT of each map")->capture_default_str();
+    sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
+    sub->add_option("--lamp", flags->lamp, "lamp file, the beam of the hard scenes")->capture_default_str();
+    sub->add_option("--lamp-radius", flags->lamp_radius_m, "m, of lamps as discs, for soft shadows; 0: not measured")
+        ->capture_default_str();
+    sub->add_option("--moments", flags->moments, "of each drive, spread evenly over it")->check(CLI::Range(1, 100))->capture_default_str();
+    sub->add_option("--rounds", flags->rounds, "of times; in each, every method draws the moments once")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the frames that are timed")->capture_default_str();
+    sub->add_option("--seed", flags->seed, "of the order in each round")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+        ->capture_default_str();
+    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
+    sub->add_flag("--markdown", flags->markdown, "prints the table of docs/shadows.md");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return shadows(*flags, command); }; });
+}
+
+} // namespace fernlicht

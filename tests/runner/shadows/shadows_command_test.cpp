@@ -1,0 +1,112 @@
+// `fernlicht shadows` through the program: scenes in, a table of methods out.
+#include "scenarios/drives/shadow_settings.h"
+#include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string small =
+    "shadows --quiet --rounds 3 --resolution 96x72 --map-texels 512x256 --lamp " + library_file("lamps/xenon-low.ies") + " ";
+
+const json& row_of(const json& scene, const std::string& method) {
+    for (const json& row : scene.at("rows"))
+        if (row.at("shadows") == method)
+            return row;
+    throw std::out_of_range(method);
+}
+
+TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program(small + "--moments 1 --methods none,map --scenes post-5,kerb --out " + (folder / "out ") +
+                                    library_file("drives/straight.yaml"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("edge 30 m"));
+    const json found = json::parse(content_of(folder / "out/shadows.json"));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/shadows/shadows.schema.json")));
+    EXPECT_THAT(schema.check(found), IsEmpty());
+    ASSERT_EQ(found.at("scenes").size(), 3U);
+    const json &post = found.at("scenes").at(0), &none = row_of(post, "none"), &map = row_of(post, "map");
+    EXPECT_EQ(post.at("name"), "post-5");
+    // Without shadows each truly shadowed place is wrongly lit, and no edge is drawn.
+    EXPECT_NEAR(none.at("ground_m2").at("wrongly_lit"), none.at("ground_m2").at("shadowed"), 1e-3);
+    EXPECT_LT(none.at("ground_m2").at("wrongly_dark"), 1e-4);
+    EXPECT_EQ(none.at("edges").at(0).at("lost"), 2);
+    EXPECT_EQ(none.at("edges").at(0).at("edges"), 0);
+    EXPECT_FALSE(none.at("crawl").at("not_measured").is_null());
+    EXPECT_EQ(none.at("texture_bytes"), 0);
+    // A map of 512 x 256 over a low beam: 0.1 to 0.2 m a texel at 30 m, edges within a texel and a half.
+    EXPECT_LT(map.at("ground_m2").at("wrong_share"), 0.5 * none.at("ground_m2").at("wrong_share").get<double>());
+    for (const json& edge : map.at("edges")) {
+        EXPECT_EQ(edge.at("edges"), 2) << edge;
+        EXPECT_GT(edge.at("rms_cm"), 0.0);
+        EXPECT_LT(edge.at("worst_cm"), 2.0 * edge.at("distance_m").get<double>()) << edge;
+    }
+    EXPECT_GT(map.at("edges").at(1).at("rms_cm"), map.at("edges").at(0).at("rms_cm"));
+    EXPECT_GT(map.at("crawl").at("cm"), 0.0);
+    EXPECT_EQ(map.at("texture_bytes"), 2 * 4 * 512 * 256); // two lamps
+    EXPECT_EQ(map.at("work").at("passes"), 3);
+    EXPECT_EQ(map.at("frame_s").size(), 3U);
+    EXPECT_THAT(map.at("passes").dump(), HasSubstr("shadow maps"));
+    for (const char* name :
+         {"shadows.csv", "shadows.html", "methods-kerb.png", "methods-straight-1.png", "shadows-all.svg", "shadows-post-5.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
+    EXPECT_THAT(content_of(folder / "out/shadows.html"), HasSubstr("Shadow methods"));
+}
+
+TEST(ShadowsCommand, TakesEveryMethodThereIs) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program(small + "--rounds 1 --lamp-radius 0 --scenes crest --out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json found = json::parse(content_of(folder / "out/shadows.json"));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/shadows/shadows.schema.json")));
+    EXPECT_THAT(schema.check(found), IsEmpty());
+    const json& scene = found.at("scenes").at(0);
+    EXPECT_EQ(scene.at("rows").size(), shadow_method_names().size());
+    for (const ShadowMethodName& method : shadow_method_names()) {
+        const json& row = row_of(scene, std::string(method.name));
+        if (row.at("not_measured").is_null())
+            EXPECT_TRUE(row.at("discs_px").is_null());
+        else
+            EXPECT_THAT(run.output, HasSubstr(std::string(method.name) + ": not measured, "));
+    }
+}
+
+TEST(ShadowsCommand, RefusesWhatIsNotThere) {
+    const TemporaryFolder folder;
+    const auto refused = [&](const std::string& flags) {
+        const Outcome run = run_program(small + "--out " + (folder / "out ") + flags);
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        return run.output;
+    };
+    EXPECT_THAT(refused("--methods mop"), HasSubstr("'mop'"));
+    EXPECT_THAT(refused("--methods map,map"), HasSubstr("each method once"));
+    EXPECT_THAT(refused("--scenes past-5"), HasSubstr("fits no scene"));
+    EXPECT_THAT(refused("--scenes none"), HasSubstr("DRIVE"));
+    EXPECT_THAT(refused("--map-texels 8x8"), HasSubstr("16 to 8192"));
+    EXPECT_THAT(refused("--scenes none --moments 99 " + library_file("drives/shelter.yaml")), HasSubstr("1 to 50"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST(ShadowsCommand, WritesWhatThereIsWhenInterrupted) {
+    const TemporaryFolder folder;
+    const Outcome run = run_interrupted("shadows --rounds 100000 --lamp-radius 0 --resolution 96x72 --lamp " +
+                                            library_file("lamps/xenon-low.ies") + " --scenes 'post-*' --out " + (folder / "out"),
+                                        "steps");
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("incomplete: interrupted by the user"));
+    const json found = json::parse(content_of(folder / "out/shadows.json"));
+    EXPECT_EQ(found.at("interrupted"), "interrupted by the user");
+    EXPECT_FALSE(found.at("missing").empty());
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
+}
+
+} // namespace
+} // namespace fernlicht
