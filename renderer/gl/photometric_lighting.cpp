@@ -54,8 +54,9 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, settings.beams),
-      shadows_(make_shadows(context, scene_, settings.shadows)), traffic_(context, scene_, beams_, settings.traffic_levels, pruned),
-      air_lamps_(context, beams_, pruned), faces_(context, settings.tone_mapper), list_(context, scene_),
+      shadows_(make_shadows(context, scene_, settings.shadows, {settings.target_height_m, pruned})),
+      traffic_(context, scene_, beams_, settings.traffic_levels, pruned), air_lamps_(context, beams_, pruned),
+      faces_(context, settings.tone_mapper), list_(context, scene_),
       block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
 
 void PhotometricLighting::set_lamps(const Shot& shot) {
@@ -358,8 +359,10 @@ void PhotometricLighting::prepare(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
     if (scene_.pieces().empty())
         return;
-    if (shadows_)
+    if (shadows_) {
+        shadows_->set(lamps_, lamp_beams_, shot.moment.ego.position_m);
         shadows_->compile(shot);
+    }
     set_sun(shot);
     if (sun_ && shadows_)
         sun_->compile();
@@ -419,9 +422,9 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
         say("shadow maps of lamps of others",
             fmt::format("nothing stands where one brings more than {} lx", least_traffic_shadow * shot.moment.least_traffic_lx));
     if (!shadows_)
-        say("shadow maps", "the drive switches them off");
+        say("shadows", "the drive switches them off");
     else if (!shadows_->needed())
-        say("shadow maps", scene_.flat() ? "the scene is flat, nothing stands in a beam" : "nothing stands in a beam");
+        say(shadows_->title(), scene_.flat() ? "the scene is flat, nothing stands in a beam" : "nothing stands in a beam");
     if (shot.moment.daylight.horizontal_illuminance_lx == 0.0)
         say("sky light", "it is night");
     if (shot.moment.weather.extinction_per_m == 0.0)

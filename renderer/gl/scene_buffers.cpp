@@ -221,6 +221,21 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
 
 bool SceneBuffers::has(bool (*property)(const SurfaceClass&)) const { return std::any_of(classes_.begin(), classes_.end(), property); }
 
+std::vector<glm::vec3> SceneBuffers::corners_of(const Piece& piece) const {
+    const GladGLContext& gl = context_.gl;
+    std::vector<GLuint> indices(piece.index_count);
+    gl.GetNamedBufferSubData(indices_, static_cast<GLintptr>(piece.first_index * sizeof(GLuint)),
+                             static_cast<GLsizeiptr>(indices.size() * sizeof(GLuint)), indices.data());
+    std::vector<GpuVertex> vertices(indices.empty() ? 0 : *std::ranges::max_element(indices) + std::size_t{1});
+    gl.GetNamedBufferSubData(vertices_, static_cast<GLintptr>(static_cast<std::size_t>(piece.base_vertex) * sizeof(GpuVertex)),
+                             static_cast<GLsizeiptr>(vertices.size() * sizeof(GpuVertex)), vertices.data());
+    context_.check("reading back a piece");
+    std::vector<glm::vec3> corners;
+    for (const GLuint i : indices)
+        corners.push_back(vertices[i].position_m);
+    return corners;
+}
+
 const std::vector<std::uint32_t>& SceneBuffers::near(const glm::dvec3& ego_m) const {
     const Cell here{cell_of(ego_m.x), cell_of(ego_m.y)};
     if (near_cell_ == here)

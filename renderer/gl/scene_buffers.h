@@ -80,6 +80,8 @@ class SceneBuffers {
     const std::vector<glm::vec4>& planes() const { return planes_; }
     /// The same triangles.
     const std::vector<GroundTriangle>& ground() const { return ground_; }
+    /// The piece's triangles, three places each, relative to its origin and not yet turned; read back from the GPU, so not for every frame.
+    std::vector<glm::vec3> corners_of(const Piece& piece) const;
     /// Each class of the scene once.
     const std::vector<SurfaceClass>& classes() const { return classes_; }
     /// Binds vertices, materials (storage block 1) and textures (unit 15), with the places of the pieces to be drawn and, where it is not

@@ -16,6 +16,7 @@ class ShadowMaps : public Shadows {
     void compile(const Shot& shot) override;
     std::vector<Program::Define> defines(const std::vector<const Beam*>& beams) const override;
     std::size_t texture_bytes() const override;
+    const char* title() const override { return "shadow maps"; }
 
   private:
     Program program_;

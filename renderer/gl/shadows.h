@@ -35,6 +35,8 @@ class Shadows {
     /// Of such a variant, once it is in use.
     virtual void set_uniforms(const Program&) const {}
     virtual std::size_t texture_bytes() const = 0;
+    /// What a report calls it where a moment does not need it: "shadow maps".
+    virtual const char* title() const = 0;
 
   protected:
     Context& context_;
@@ -43,7 +45,12 @@ class Shadows {
     ShadowCasters casters_;
 };
 
+/// What a method may want to know of the view's drawing.
+struct ShadowUse {
+    double target_height_m = 0.25; ///< of targets above surfaces (Wanted::target)
+    bool pruned = true;            ///< only pieces that reach() names are looked up
+};
 /// nullptr for ShadowMethod::none.
-std::unique_ptr<Shadows> make_shadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings);
+std::unique_ptr<Shadows> make_shadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, const ShadowUse& use);
 
 } // namespace fernlicht::gl

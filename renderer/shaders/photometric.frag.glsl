@@ -47,6 +47,9 @@ float intensity_towards(vec3 w, float inverse_d, float factor, sampler2D beam, v
 #ifdef SHADOW_MAPS
 #include "shadow_maps.glsl"
 #endif
+#ifdef SHADOW_MASK
+#include "shadow_mask.glsl"
+#endif
 #endif
 
 #endif

@@ -8,8 +8,9 @@
 
 namespace fernlicht {
 
-/// none: light goes through everything. map: a depth map for each lamp.
-enum class ShadowMethod { none, map };
+/// none: light goes through everything. under_car: the ground under bodies is dark. planar: shadows flattened onto the road's plane.
+/// volumes: the space behind silhouettes, by stencil. map: a depth map for each lamp.
+enum class ShadowMethod { none, under_car, planar, volumes, map };
 
 /// A row of the table of shadow methods.
 struct ShadowMethodName {
@@ -26,7 +27,8 @@ ShadowMethod shadow_method_named(const std::string& name, const std::filesystem:
 struct ShadowSettings {
     ShadowMethod method = ShadowMethod::map;
     int width = 1024, height = 512; ///< texels of a map; 16..8192
-    double tolerance_m = 0.03;      ///< maps: shadows are looked up from points at least this far above a surface; > 0
+    double tolerance_m = 0.03; ///< maps: shadows are looked up from points at least this far above a surface; volumes: of ground, lowered
+                               ///< by it; planar: ground lies so near to one plane; > 0
 
     bool operator==(const ShadowSettings&) const = default;
     bool any() const { return method != ShadowMethod::none; }
