@@ -413,12 +413,13 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
                 r.worst_drawn_lx, r.worst_left_out_lx));
     else if (shot.moment.other_lamps.empty())
         say("lamps of others", "there are none");
-    if (traffic_shadows_ && traffic_shadows_->units_left_out() > 0)
-        say(fmt::format("shadow maps of lamps of others: {} of {} pairs or single lamps whose light something may shade",
-                        traffic_shadows_->units_left_out(), traffic_shadows_->units() + traffic_shadows_->units_left_out()),
-            fmt::format("there are {} maps; by bounds they bring at most {:.2g} lx together to any place where shadows are then missing",
+    if (traffic_shadows_ && traffic_shadows_->most_units_left_out() > 0)
+        say(fmt::format("shadow maps of lamps of others: those of up to {} pairs or single lamps in a picture",
+                        traffic_shadows_->most_units_left_out()),
+            fmt::format("there are {} maps for the strongest; by bounds the others bring at most {:.2g} lx together to any place where "
+                        "their shadows may be missing",
                         most_traffic_maps, traffic_shadows_->worst_left_out_lx()));
-    else if (traffic_shadows_ && !traffic_shadows_->any())
+    else if (traffic_shadows_ && !traffic_shadows_->any() && !shot.moment.other_lamps.empty())
         say("shadow maps of lamps of others",
             fmt::format("nothing stands where one brings more than {} lx", least_traffic_shadow * shot.moment.least_traffic_lx));
     if (!shadows_)

@@ -161,7 +161,6 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
     chosen_.clear();
     reached_.assign(scene_.pieces().size(), false);
     casters_.clear();
-    units_ = without_ = 0;
     const double least_lx = least_traffic_shadow * moment.least_traffic_lx;
     const auto counts = [&](const TrafficReceiver& r) { return r.most_lx > least_lx; };
     std::vector<std::vector<std::uint32_t>> by_unit(units.size());
@@ -210,23 +209,26 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
     double strongest_left_out = 0.0;
     std::vector<int> first_map(units.size(), -1);
     std::vector<bool> left_out(units.size(), false);
-    for (std::size_t i = looked_at; i < order.size(); ++i)
+    std::size_t without = 0;
+    for (std::size_t i = looked_at; i < order.size(); ++i) {
         left_out[order[i]] = true;
+        for (const std::uint32_t r : by_unit[order[i]])
+            shadowed[r] = true; // as far as is known
+    }
     for (Candidate& one : candidates) {
-        if (without_ > 0 || chosen_.size() + one.maps.size() > most_traffic_maps) {
-            strongest_left_out = without_ > 0 ? strongest_left_out : one.score;
+        if (without > 0 || chosen_.size() + one.maps.size() > most_traffic_maps) {
+            strongest_left_out = without > 0 ? strongest_left_out : one.score;
             left_out[one.unit] = true;
-            ++without_;
+            ++without;
             continue;
         }
         first_map[one.unit] = static_cast<int>(chosen_.size());
-        ++units_;
         for (Map& map : one.maps) {
             map.weight = one.score; // by what is left out, below
             chosen_.push_back(std::move(map));
         }
     }
-    without_ += order.size() - looked_at;
+    most_units_left_out_ = std::max(most_units_left_out_, without + order.size() - looked_at);
     for (Map& map : chosen_)
         map.weight = strongest_left_out > 0.0
                          ? std::clamp((map.weight - strongest_left_out) / (traffic_map_handover * strongest_left_out), 0.0, 1.0)
@@ -241,7 +243,7 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
             if (const std::uint32_t piece = places[one.place].piece; piece != TrafficPlace::no_piece)
                 reached_[piece] = true;
         }
-        if (left_out[one.unit] && counts(one))
+        if (left_out[one.unit] && shadowed[r])
             missing_lx[one.place] += one.most_lx;
     }
     worst_left_out_lx_ = std::max(worst_left_out_lx_, *std::ranges::max_element(missing_lx));

@@ -65,10 +65,9 @@ class TrafficShadows {
     std::vector<Program::Define> defines() const;
     std::size_t texture_bytes() const;
 
-    std::size_t maps() const { return chosen_.size(); }
-    std::size_t units() const { return units_; }            ///< with maps
-    std::size_t units_left_out() const { return without_; } ///< that something shades, beyond the strongest
-    /// Most that these can bring together, over all places of all pictures, by bounds: what shadows can be missing there.
+    /// That something may shade, and that are not among the strongest: the most in any picture so far.
+    std::size_t most_units_left_out() const { return most_units_left_out_; }
+    /// Most that these bring together, over all places of all pictures, by bounds: what shadows can be missing there.
     double worst_left_out_lx() const { return worst_left_out_lx_; }
 
   private:
@@ -113,7 +112,7 @@ class TrafficShadows {
     std::vector<std::uint32_t> casters_; ///< what may cast, near the car
     std::vector<Map> chosen_;
     std::vector<bool> reached_;
-    std::size_t units_ = 0, without_ = 0;
+    std::size_t most_units_left_out_ = 0;
     double worst_left_out_lx_ = 0.0;
     std::vector<Layer> layers_;
     glm::dvec3 drawn_ego_m_{0.0};

@@ -298,7 +298,7 @@ void main() {
                 float e_perp, whole;
                 float e = traffic_lx(unit, entry, lamp, -to_lamp, n, e_perp, whole);
 #if TRAFFIC_SHADOWS
-                float left = e > 0.0 ? traffic_left(unit, entry, lamp, v_traffic_p, n, whole) : 1.0;
+                float left = traffic_left(unit, entry, lamp, v_traffic_p, n, whole);
                 e *= left;
                 e_perp *= left;
 #endif

@@ -19,15 +19,20 @@ float traffic_hidden(int map, vec3 p, vec3 n) {
 }
 
 // What is left of the light of one lamp of an entry: e, lx, without the shadow. A lamp that stands for two is hidden as far as these are.
+// No branches: llvmpipe would compute both sides; a loop it leaves where no fragment needs the second map.
 float traffic_left(TrafficUnit unit, vec4 entry, int lamp, vec3 p, vec3 n, float e) {
-    if (entry.w > -1.5)
-        return 1.0;
-    int code = int(-entry.w) - 2;
-    int map = code / 2;
-    bool two = code % 2 == 1;
-    float hidden = traffic_hidden(two && lamp == 1 ? map + 1 : map, p, n);
-    if (two && lamp == 2)
-        hidden = 0.5 * (hidden + traffic_hidden(map + 1, p, n));
+    bool casts = entry.w < -1.5;
+    int code = casts ? int(-entry.w) - 2 : 0;
+    bool two = (code & 1) == 1;
+    int first = code / 2 + (two && lamp == 1 ? 1 : 0);
+    int last = first + (two && lamp == 2 ? 1 : 0);
+    float hidden = 0.0;
+    int map = first;
+    do {
+        hidden += traffic_hidden(map, p, n);
+        ++map;
+    } while (map <= last);
     float least = (lamp == 2 ? 1.0 : 0.5) * TRAFFIC_SHADOW_LEAST * unit.position_m.w;
-    return 1.0 - hidden * clamp((e - least) / least, 0.0, 1.0);
+    float share = casts ? clamp((e - least) / least, 0.0, 1.0) / float(map - first) : 0.0;
+    return 1.0 - hidden * share;
 }

@@ -1,5 +1,6 @@
 // A frame with 0 to 400 oncoming cars on 17 km of straight road, lamps, bodies and faces, one car each 40 m or 25 m. Run with
 // --benchmark_filter=frame_with_traffic --benchmark_repetitions=21 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.01.
+// shadows: of these lamps; the own lamps' are there always.
 // What is drawn is made once for each number of cars, so that rounds alternate between them quickly.
 #include "renderer/renderer.h"
 #include "scenarios/drives/advance.h"
@@ -46,7 +47,7 @@ Drive oncoming(int cars, int every_m) {
 
 /// All that is drawn, and who draws it; uploaded and compiled.
 struct Stage {
-    Stage(Device& device, int cars, int every_m, bool levels) : drive(oncoming(cars, every_m)) {
+    Stage(Device& device, int cars, int every_m, bool levels, bool shadows) : drive(oncoming(cars, every_m)) {
         const RoadNetwork network = read_opendrive(drive.road_file);
         std::filesystem::remove(drive.road_file);
         const Route route(network, drive.start, drive.via);
@@ -56,6 +57,7 @@ struct Stage {
         add_road_users(scene, drive.traffic, opened);
         RendererSettings settings;
         settings.traffic_levels = levels;
+        settings.traffic_shadows = shadows;
         renderer.emplace(device, scene, settings);
         moment = moment_at(start(drive), drive, route, drive.variants.front());
         for (int warm_up = 0; warm_up < 2; ++warm_up)
@@ -74,11 +76,11 @@ struct Stage {
 
 void frame_with_traffic(benchmark::State& state) {
     static Device device = open_device("auto");
-    static std::map<std::tuple<int, int, bool>, std::unique_ptr<Stage>> stages;
+    static std::map<std::tuple<int, int, bool, bool>, std::unique_ptr<Stage>> stages;
     const auto arg = [&](std::size_t i) { return static_cast<int>(state.range(i)); };
-    std::unique_ptr<Stage>& stage = stages[{arg(0), arg(1), arg(2) != 0}];
+    std::unique_ptr<Stage>& stage = stages[{arg(0), arg(1), arg(2) != 0, arg(3) != 0}];
     if (!stage)
-        stage = std::make_unique<Stage>(device, arg(0), arg(1), arg(2) != 0);
+        stage = std::make_unique<Stage>(device, arg(0), arg(1), arg(2) != 0, arg(3) != 0);
     stage->draw(); // caches are another number of cars'
     for (auto _ : state)
         stage->draw();
@@ -88,18 +90,23 @@ void frame_with_traffic(benchmark::State& state) {
     state.counters["vertex"] = work.traffic_by_vertex;
     state.counters["point"] = work.traffic_point;
     state.counters["faces"] = work.traffic_faces;
+    state.counters["maps"] = work.shadow_maps;
     state.counters["draws"] = work.draws;
     state.counters["triangles"] = static_cast<double>(work.triangles);
 }
 BENCHMARK(frame_with_traffic)
-    ->ArgNames({"cars", "every_m", "levels"})
-    ->Args({0, 40, 1})
-    ->Args({1, 40, 1})
-    ->Args({10, 40, 1})
-    ->Args({100, 40, 1})
-    ->Args({400, 40, 1})
-    ->Args({100, 25, 1})
-    ->Args({100, 40, 0})
+    ->ArgNames({"cars", "every_m", "levels", "shadows"})
+    ->Args({0, 40, 1, 1})
+    ->Args({1, 40, 1, 1})
+    ->Args({10, 40, 1, 1})
+    ->Args({100, 40, 1, 1})
+    ->Args({400, 40, 1, 1})
+    ->Args({100, 25, 1, 1})
+    ->Args({100, 40, 0, 1})
+    ->Args({1, 40, 1, 0})
+    ->Args({10, 40, 1, 0})
+    ->Args({100, 40, 1, 0})
+    ->Args({100, 25, 1, 0})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();

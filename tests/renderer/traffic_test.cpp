@@ -5,6 +5,7 @@
 #include "renderer/traffic_levels.h"
 #include "renderer/twin.h"
 #include "scenarios/drives/advance.h"
+#include "scenarios/drives/staged_scene.h"
 #include "scenarios/light.h"
 #include "scenarios/roads/road_mesh.h"
 #include "scenarios/traffic/place_traffic.h"
@@ -233,6 +234,84 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     RecordProperty("worst_lx", fmt::format("{}", worst));
 }
 
+/// The village's lamps, which hang over cars that are parked, against the reference by the ray through each pixel's centre.
+TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
+    Drive drive = read_drive(FERNLICHT_SOURCE_DIR "/scenarios/library/drives/village-lit.yaml");
+    const RoadNetwork network = read_opendrive(drive.road_file);
+    const Route route(network, drive.start, drive.via);
+    const Scene scene = staged_scene(drive, network, route);
+    Moment moment = moment_at({0, 2.0, distance_m(drive.speed, 2.0), 13.9}, drive, route, drive.variants[0]);
+    moment.lamps.clear();
+    const View view = driver(240, 160, 40.0);
+    Renderer renderer(device_, scene, settings());
+    const Frame frame = renderer.draw(moment, view, everything);
+    RendererSettings none = settings();
+    none.traffic_shadows = false;
+    Renderer without(device_, scene, none);
+    const Frame lit = without.draw(moment, view, everything);
+    ReferenceSettings rays, through;
+    rays.footprint = through.footprint = Footprint::centre;
+    through.shadows = false;
+    const Reference reference(scene);
+    const ReferenceImage dark = reference.render(moment, view, everything, rays),
+                         bright = reference.render(moment, view, everything, through);
+    const auto hidden = [&](int x, int y) {
+        const double with = static_cast<double>(dark.illuminance_lx.mean.at(x, y)),
+                     all = static_cast<double>(bright.illuminance_lx.mean.at(x, y));
+        return dark.ids.at(x, y) == 0 || dark.ids.at(x, y) != frame.ids.at(x, y) ? -1.0 : all > 0.0 ? 1.0 - with / all : 0.0;
+    };
+    int compared = 0, in_shadow = 0, off = 0, off_before = 0;
+    for (int y = 1; y + 1 < view.height_px; ++y)
+        for (int x = 1; x + 1 < view.width_px; ++x) {
+            double least = 2.0, most = -2.0;
+            for (int k = 0; k < 9; ++k) {
+                least = std::min(least, hidden(x + k % 3 - 1, y + k / 3 - 1));
+                most = std::max(most, hidden(x + k % 3 - 1, y + k / 3 - 1));
+            }
+            const double truth = static_cast<double>(dark.illuminance_lx.mean.at(x, y));
+            if (least < 0.0 || most - least > 0.1 || truth < 0.02)
+                continue;
+            ++compared;
+            in_shadow += least > 0.05 ? 1 : 0;
+            const auto is_off = [&](const Frame& f) {
+                return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - truth) > 0.05 * truth + 0.1;
+            };
+            off += is_off(frame) ? 1 : 0;
+            off_before += is_off(lit) ? 1 : 0;
+        }
+    EXPECT_GT(compared, 3000);
+    EXPECT_GT(in_shadow, 100);
+    EXPECT_GT(off_before, 100) << "without maps";
+    EXPECT_LE(off, off_before / 20);
+    RecordProperty("pixels_compared", compared);
+    RecordProperty("pixels_in_shadow", in_shadow);
+    RecordProperty("pixels_off", off);
+    RecordProperty("pixels_off_without_maps", off_before);
+}
+
+/// Lamps in bodies, on and below the road, in one place, far away and far too bright: numbers everywhere, and pruning changes no byte.
+TEST_F(Traffic, ShadowsStandHardPlaces) {
+    const Street street(oncoming(30.0, 3, 14.0));
+    Renderer pruned(device_, street.scene, settings()), unpruned(device_, street.scene, settings("photometric-unpruned"));
+    const Moment before = street.at(0.5);
+    const glm::dvec3 ahead = before.other_lamps[0].pose.forward();
+    const View view = driver(60, 40);
+    for (const auto& [forward_m, up_m, factor] : {std::tuple(-2.0, 0.0, 1.0), std::tuple(-14.0, 0.3, 1e8), std::tuple(0.0, -0.65, 1.0),
+                                                  std::tuple(0.0, -3.0, 1e8), std::tuple(-1e9, 0.0, 1e8), std::tuple(8.0, 0.0, 1e-38)})
+        for (const double least_lx : {1e-9, 0.05, 100.0}) {
+            Moment moment = before;
+            moment.least_traffic_lx = least_lx;
+            for (LitLamp& lamp : moment.other_lamps) {
+                lamp.pose.position_m += forward_m * ahead + glm::dvec3(0.0, 0.0, up_m);
+                lamp.intensity_factor *= factor;
+            }
+            const Frame a = pruned.draw(moment, view, everything), b = unpruned.draw(moment, view, everything);
+            EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << forward_m << " " << up_m << " " << least_lx;
+            EXPECT_TRUE(std::ranges::all_of(a.illuminance_lx.pixels(), [](float lx) { return std::isfinite(lx) && lx >= 0.0F; }))
+                << forward_m << " " << up_m << " " << least_lx;
+        }
+}
+
 /// Without lamps of others, and in a drive without shadows, no byte and no program more.
 TEST_F(Traffic, ShadowsOfOthersCostNothingWhereThereAreNone) {
     const Street street(oncoming(30.0, 2, 14.0));
@@ -297,11 +376,11 @@ TEST_F(Traffic, ShadowsDoNotPop) {
     none.traffic_shadows = false;
     Renderer renderer(device_, street.scene, settings()), without(device_, street.scene, none);
     double before = 0.0, most = 0.0;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 16; ++i) {
         Moment moment = street.at(0.0);
         moment.lamps.clear();
-        moment.ego.position_m += 0.25 * i * moment.ego.forward(); // one place in the row in 56 frames
-        View view = driver();
+        moment.ego.position_m += 0.25 * i * moment.ego.forward();
+        View view = driver(120, 80);
         view.position_m.x -= 0.25 * i; // the camera stands
         const Frame dark = renderer.draw(moment, view, {.illuminance = true}), bright = without.draw(moment, view, {.illuminance = true});
         double taken = 0.0;
