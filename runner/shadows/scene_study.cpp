@@ -58,13 +58,55 @@ View width_view(const View& view, int width_px) {
     return at_size(view, width_px, std::max(1, static_cast<int>(std::lround(width_px * ratio))));
 }
 
+Image<float> degrees_of(const ShadowTruth::Found& truth) {
+    const ShadowImages images{truth.true_lx, truth.true_lx, truth.unshadowed_lx, {}, {}};
+    Image<float> out(truth.true_lx.width(), truth.true_lx.height(), -1.0F);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            if (const auto degrees = shadow_degrees(images, x, y))
+                out.at(x, y) = static_cast<float>(degrees->truth);
+    return out;
+}
+
+/// The part of a picture that is shown.
+struct ShownPart {
+    int left = 0, top = 0, width = 0, height = 0;
+    Image<float> of(const Image<float>& picture) const {
+        Image<float> out(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                out.at(x, y) = picture.at(left + x, top + y);
+        return out;
+    }
+};
+
+/// Half of the picture each way, about the middle of all shadow; `degree` below 0 where none counts.
+ShownPart part_with_shadow(const Image<float>& degree) {
+    double sum = 0.0, sum_x = 0.0, sum_y = 0.0;
+    for (int y = 0; y < degree.height(); ++y)
+        for (int x = 0; x < degree.width(); ++x) {
+            const double weight = std::max(0.0, static_cast<double>(degree.at(x, y)));
+            sum += weight;
+            sum_x += weight * x;
+            sum_y += weight * y;
+        }
+    ShownPart part{0, 0, degree.width() / 2, degree.height() / 2};
+    const auto from = [&](double middle, int size, int all) {
+        return std::clamp(static_cast<int>(std::lround(middle)) - size / 2, 0, all - size);
+    };
+    part.left = from(sum > 0.0 ? sum_x / sum : 0.5 * degree.width(), part.width, degree.width());
+    part.top = from(sum > 0.0 ? sum_y / sum : 0.5 * degree.height(), part.height, degree.height());
+    return part;
+}
+
 /// The truths that all methods of a scene share.
 struct SceneTruth {
     Reference rays;
     Renderer unshadowed;
     std::vector<Moment> alone, steps; ///< of the first lamp: of each moment; the one shown, moved ahead step by step
     std::size_t shown;
-    ShadowTruth ground, view, discs;
+    ShadowTruth ground, view, discs, picture;
+    ShownPart part; ///< of the picture
     std::vector<ShadowTruth> sections;
     ShadowTruth crawl;
 
@@ -86,6 +128,8 @@ struct SceneTruth {
           ground(rays, unshadowed, scene.moments, ground_view(lamp_ahead_m(scene.moments[shown]))),
           view(rays, unshadowed, scene.moments, width_view(scene.view, tile_px)),
           discs(rays, unshadowed, scene.moments, width_view(scene.view, shadow_error_width_px), options.lamp_radius_m),
+          picture(rays, unshadowed, scene.moments, width_view(scene.view, 2 * tile_px)),
+          part(part_with_shadow(degrees_of(picture.of(shown)))),
           crawl(rays, unshadowed, steps, section_view(lamp_ahead_m(alone[shown]), crawl_distance_m)) {
         for (const double distance_m : edge_distances_m)
             sections.emplace_back(rays, unshadowed, alone, section_view(lamp_ahead_m(alone[shown]), distance_m));
@@ -102,8 +146,6 @@ void measure_errors(SceneTruth& truth, const ShadowScene& scene, const SceneStud
         const ShadowImages seen = truth.view.images(renderer, m);
         row.view_px += shadow_area(seen);
         row.spots += shadow_spots(seen, doubt_px);
-        if (m == truth.shown)
-            row.wrong = shadow_differences(seen);
     }
     if (options.lamp_radius_m > 0.0)
         row.discs_px = shadow_area(truth.discs.images(renderer, truth.shown));
@@ -121,7 +163,8 @@ void measure_errors(SceneTruth& truth, const ShadowScene& scene, const SceneStud
         row.no_crawl = std::ranges::all_of(steps, [](const EdgeMatch& step) { return step.true_edges() == 0; })
                            ? "no edge of a shadow there"
                            : "no edge is drawn in steps one after the other";
-    row.luminance_cdm2 = renderer.draw(scene.moments[truth.shown], truth.view.view(), {.luminance = true}).luminance_cdm2;
+    row.wrong = truth.part.of(shadow_differences(truth.picture.images(renderer, truth.shown)));
+    row.luminance_cdm2 = truth.part.of(renderer.draw(scene.moments[truth.shown], truth.picture.view(), {.luminance = true}).luminance_cdm2);
 }
 
 /// What is drawn for times: nothing may be left over from the frame before, so the car always moves.
@@ -194,16 +237,6 @@ void time_passes(const std::vector<TimedMethod>& timed, const ShadowScene& scene
                 timed[i].row->pass_s.emplace_back(name, *time);
 }
 
-Image<float> degrees_of(const ShadowTruth::Found& truth) {
-    const ShadowImages images{truth.true_lx, truth.true_lx, truth.unshadowed_lx, {}, {}};
-    Image<float> out(truth.true_lx.width(), truth.true_lx.height(), -1.0F);
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            if (const auto degrees = shadow_degrees(images, x, y))
-                out.at(x, y) = static_cast<float>(degrees->truth);
-    return out;
-}
-
 /// Memory beside that of the scene drawn without shadows.
 void set_texture_bytes(const ShadowScene& scene, Device& device, const std::vector<Moment>& moments, const View& view,
                        std::vector<ShadowRow>& rows) {
@@ -235,8 +268,8 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
         return result;
     SceneTruth truth(scene, device, options);
     result.shown = truth.shown;
-    result.luminance_cdm2 = truth.view.of(truth.shown).luminance_cdm2;
-    result.degree = degrees_of(truth.view.of(truth.shown));
+    result.luminance_cdm2 = truth.part.of(truth.picture.of(truth.shown).luminance_cdm2);
+    result.degree = truth.part.of(degrees_of(truth.picture.of(truth.shown)));
     step();
     for (const ShadowMethod method : options.methods) {
         if (stop())

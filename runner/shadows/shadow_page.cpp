@@ -47,7 +47,7 @@ data error_part(const ShadowRow& row) {
     part.set("edges", edges);
     part.set("acne", fmt::format("{} / {}", row.spots.acne, row.spots.acne_px));
     part.set("leaks", fmt::format("{} / {}", row.spots.leaks, row.spots.leaks_px));
-    part.set("crawl", row.crawl_cm ? two_digits(*row.crawl_cm) : row.no_crawl);
+    part.set("crawl", row.crawl_cm ? two_digits(*row.crawl_cm) : "none there");
     const auto time = frame_time(row);
     const auto cpu = cpu_time(row);
     part.set("frame", time ? time_text(time->value) : "not measured");

@@ -37,7 +37,7 @@ struct ShadowRow {
     std::vector<std::pair<std::string, Interval>> pass_s; ///< by pass of a frame: each finished and timed by itself
     std::vector<Work> work;                               ///< by moment timed
     std::optional<std::uint64_t> texture_bytes;           ///< more than without shadows
-    Image<float> luminance_cdm2, wrong;                   ///< of the moment shown; true minus drawn degree of shadow
+    Image<float> luminance_cdm2, wrong;                   ///< of the moment shown, about its shadows; true minus drawn degree of shadow
 };
 
 struct ShadowSceneResult {

@@ -24,12 +24,12 @@ double white_of(const Image<float>& luminance) {
     return sorted.empty() ? 1.0 : std::max(1e-6, static_cast<double>(sorted[sorted.size() * 99 / 100]));
 }
 
-/// Compressed so that the dark shows what is in it: L / (L + white / 10), white as white.
+/// Compressed so that the dark shows what is in it: L / (L + 0.3 white), white as white.
 Image<Rgb8> seen_picture(const Image<float>& luminance, double white_cdm2) {
     Image<Rgb8> out(luminance.width(), luminance.height());
     std::ranges::transform(luminance.pixels(), out.pixels().begin(), [&](float cdm2) {
         const double share = static_cast<double>(cdm2) / white_cdm2;
-        return grey_pixel(1.1 * share / (share + 0.1));
+        return grey_pixel(1.3 * share / (share + 0.3));
     });
     return out;
 }
@@ -53,7 +53,7 @@ Image<Rgb8> wrong_picture(const Image<float>& wrong, const Image<float>& degree)
 }
 
 std::string share_words(const ShadowArea& area) {
-    return fmt::format("of what is lit {} % wrongly lit, {} % wrongly dark", two_digits(100.0 * area.wrongly_lit_share()),
+    return fmt::format("{} % wrongly lit, {} % wrongly dark", two_digits(100.0 * area.wrongly_lit_share()),
                        two_digits(100.0 * area.wrongly_dark_share()));
 }
 
@@ -71,11 +71,14 @@ std::string cost_words(const ShadowRow& row) {
 std::string shadow_sheet_svg(const ShadowSceneResult& scene) {
     const double white = white_of(scene.luminance_cdm2);
     TileSection seen{short_text(scene.title, 90),
-                     fmt::format("luminance, white is {:.2g} cd/m2; by rays from each pixel's centre to lamps that are points", white),
+                     fmt::format("the part of the view about its shadows: luminance, white is {:.2g} cd/m2; rays from each pixel's centre "
+                                 "to lamps that are points",
+                                 white),
                      {{"by rays", "the truth that methods are held against", seen_picture(scene.luminance_cdm2, white)}}};
-    TileSection wrong{"Where shadows are wrong",
-                      "orange: wrongly lit; blue: wrongly dark; grey: below the floor without shadows, or nothing",
-                      {{"shadow by rays", "dark: no light of any lamp", degree_picture(scene.degree)}}};
+    TileSection wrong{
+        "Where shadows are wrong",
+        "orange: wrongly lit; blue: wrongly dark; grey: below the floor without shadows, or nothing; shares are of the whole view",
+        {{"shadow by rays", "dark: no light of any lamp", degree_picture(scene.degree)}}};
     for (const ShadowRow& row : scene.rows)
         if (measured(row)) {
             const std::string method(name(row.method));
