@@ -279,6 +279,8 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
         try {
             Renderer renderer(device, *scene.scene, settings_with(scene, options, method));
             measure_errors(truth, scene, options, renderer, row);
+            for (const Moment& moment : timed_moments(scene)) // a method may refuse any of them
+                renderer.draw(moment, truth.discs.view(), {.colour = true});
         } catch (const InputError& refused) {
             row = {};
             row.method = method;
