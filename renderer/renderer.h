@@ -44,6 +44,7 @@ struct Work {
     std::uint64_t texture_bytes = 0;            ///< beams, shadow and light maps, surface textures
     /// Lamps of others on pieces in view, by how they are drawn, and their faces seen.
     int traffic_full = 0, traffic_merged = 0, traffic_by_vertex = 0, traffic_point = 0, traffic_faces = 0;
+    int shadow_maps_drawn = 0; ///< of the maps of own lamps, those that did not stand already
 
     bool operator==(const Work&) const = default;
 };

@@ -1,7 +1,10 @@
+#include "renderer/gl/one_map.h"
 #include "renderer/gl/planar_shadows.h"
 #include "renderer/gl/shadow_maps.h"
 #include "renderer/gl/shadow_volumes.h"
+#include "renderer/gl/soft_maps.h"
 #include "renderer/gl/under_car_shadows.h"
+#include "renderer/gl/warped_maps.h"
 
 namespace fernlicht::gl {
 
@@ -16,7 +19,17 @@ std::unique_ptr<Shadows> make_shadows(Context& context, const SceneBuffers& scen
     case ShadowMethod::volumes:
         return std::make_unique<ShadowVolumes>(context, scene, settings, use);
     case ShadowMethod::map:
+        if (settings.redraw_texels > 0.0)
+            return std::make_unique<ProjectedMaps>(context, scene, settings);
         break;
+    case ShadowMethod::one_map:
+        return std::make_unique<OneMap>(context, scene, settings);
+    case ShadowMethod::perspective_map:
+        return std::make_unique<WarpedMaps>(context, scene, settings, Warp::perspective);
+    case ShadowMethod::light_space_map:
+        return std::make_unique<WarpedMaps>(context, scene, settings, Warp::light_space);
+    case ShadowMethod::soft_map:
+        return std::make_unique<SoftMaps>(context, scene, settings);
     }
     return std::make_unique<ShadowMaps>(context, scene, settings);
 }

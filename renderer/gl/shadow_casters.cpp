@@ -7,12 +7,13 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 
 namespace fernlicht::gl {
 namespace {
 
-constexpr double margin_m = 0.05; // look-ups are raised by the tolerance at least
+constexpr double margin_m = shadow_slack_m; // look-ups are raised by the tolerance at least
 constexpr double tangents_from_m = 0.1;
 
 } // namespace
@@ -40,7 +41,7 @@ Caster caster_of(const Corners& box, double margin) {
 
 // The part of the box that lies beyond the caster's front against the frustum behind the caster: apart, where all of it is on the far side
 // of one of the frustum's planes.
-bool shades(const Caster& caster, const Corners& box) {
+bool shades(const Caster& caster, const Corners& box, double slack_m) {
     if (caster.around)
         return true;
     std::array<glm::dvec3, 20> points; // corners beyond the front, and where edges cross it
@@ -59,10 +60,10 @@ bool shades(const Caster& caster, const Corners& box) {
                 return false;
         return true;
     };
-    return !(all([&](const glm::dvec3& p) { return p.x < caster.left * p.z - margin_m; }) ||
-             all([&](const glm::dvec3& p) { return p.x > caster.right * p.z + margin_m; }) ||
-             all([&](const glm::dvec3& p) { return p.y < caster.bottom * p.z - margin_m; }) ||
-             all([&](const glm::dvec3& p) { return p.y > caster.top * p.z + margin_m; }));
+    return !(all([&](const glm::dvec3& p) { return p.x < caster.left * p.z - slack_m; }) ||
+             all([&](const glm::dvec3& p) { return p.x > caster.right * p.z + slack_m; }) ||
+             all([&](const glm::dvec3& p) { return p.y < caster.bottom * p.z - slack_m; }) ||
+             all([&](const glm::dvec3& p) { return p.y > caster.top * p.z + slack_m; }));
 }
 
 glm::dmat4 lamp_clip(const LitLamp& lamp, const ShadowWindow& w, const glm::dvec3& ego_m) {
@@ -107,11 +108,55 @@ void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<con
             if (most_cd == 0.0 || (nearest > 0.0 && most_cd < last_contour_lx * nearest * nearest))
                 continue;
             found.pieces.push_back(k);
-            for (const Corners& body : piece.bodies_m)
-                found.bodies.push_back(caster_of(in_lamp_space(found.lamp, piece.origin_m - ego_m - found.lamp_m, body),
-                                                 caster_margin_texels * texel_tangent(found.window, settings_)));
         }
+        add_bodies(found);
         lamps_.push_back(std::move(found));
+    }
+}
+
+void ShadowCasters::add_bodies(LampCasters& found) const {
+    for (const std::uint32_t k : found.pieces)
+        for (const Corners& body : scene_.pieces()[k].bodies_m)
+            found.bodies.push_back(caster_of(in_lamp_space(found.lamp, scene_.pieces()[k].origin_m - ego_m_ - found.lamp_m, body),
+                                             caster_margin_texels * texel_tangent(found.window, settings_)));
+}
+
+void ShadowCasters::merge(const LitLamp& lamp, const ShadowWindow& window) {
+    LampCasters one;
+    one.lamp = lamp;
+    one.lamp_m = lamp.pose.position_m - ego_m_;
+    one.window = window;
+    one.clip = lamp_clip(lamp, window, ego_m_);
+    for (const LampCasters& each : lamps_) {
+        std::vector<std::uint32_t> both;
+        if (each.lamp.intensity_factor > 0.0) {
+            std::ranges::set_union(one.pieces, each.pieces, std::back_inserter(both));
+            one.pieces = std::move(both);
+        }
+    }
+    add_bodies(one);
+    lamps_ = {std::move(one)};
+}
+
+void ShadowCasters::widen(std::size_t lamp, double tangent) {
+    for (Caster& caster : lamps_.at(lamp).bodies) {
+        caster.left -= tangent;
+        caster.right += tangent;
+        caster.bottom -= tangent;
+        caster.top += tangent;
+    }
+}
+
+void ShadowCasters::soften(double radius_m) {
+    for (LampCasters& lamp : lamps_) {
+        lamp.slack_m += radius_m;
+        for (Caster& caster : lamp.bodies) {
+            const double tangent = radius_m / std::max(caster.nearest_m, tangents_from_m);
+            caster.left -= tangent;
+            caster.right += tangent;
+            caster.bottom -= tangent;
+            caster.top += tangent;
+        }
     }
 }
 
@@ -127,7 +172,7 @@ bool ShadowCasters::reach(const Piece& piece, double raised_m) const {
         if (lamp.bodies.empty())
             continue;
         const Corners box = in_lamp_space(lamp.lamp, piece.origin_m - ego_m_ - lamp.lamp_m, raised);
-        if (std::ranges::any_of(lamp.bodies, [&](const Caster& caster) { return shades(caster, box); }))
+        if (std::ranges::any_of(lamp.bodies, [&](const Caster& caster) { return shades(caster, box, lamp.slack_m); }))
             return true;
     }
     return false;

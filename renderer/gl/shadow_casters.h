@@ -15,6 +15,9 @@ inline constexpr double shadow_farthest_m = 300.0;
 /// A shadow counts while the lamp's light on a surface facing it, without the shadow, is at least this: the beam's last contour.
 inline constexpr double last_contour_lx = 0.01;
 
+/// Receivers are looked up from points raised by the tolerance.
+inline constexpr double shadow_slack_m = 0.05;
+
 /// From positions relative to the car to a lamp's window, depth = shadow_near_m / z.
 glm::dmat4 lamp_clip(const LitLamp& lamp, const ShadowWindow& window, const glm::dvec3& ego_m);
 
@@ -30,8 +33,8 @@ struct Caster {
 /// Boxes in lamp space. `margin`: added to the tangents.
 Corners in_lamp_space(const LitLamp& lamp, const glm::dvec3& offset_from_lamp, const Corners& corners);
 Caster caster_of(const Corners& box, double margin);
-/// Whether the caster's shadow may fall on the box. Errs towards yes.
-bool shades(const Caster& caster, const Corners& box);
+/// Whether the caster's shadow may fall on the box, or so far beside it. Errs towards yes.
+bool shades(const Caster& caster, const Corners& box, double slack_m = shadow_slack_m);
 /// In texels of the map, for look-ups raised by 1.5: they take texels up to 1 away.
 inline constexpr double caster_margin_texels = 2.6;
 
@@ -45,6 +48,7 @@ struct LampCasters {
     glm::dmat4 clip{1.0};              ///< lamp_clip()
     std::vector<std::uint32_t> pieces; ///< ascending
     std::vector<Caster> bodies;
+    double slack_m = shadow_slack_m; ///< by which a receiver may lie beside where it is
 };
 
 class ShadowCasters {
@@ -52,6 +56,12 @@ class ShadowCasters {
     ShadowCasters(const SceneBuffers& scene, const ShadowSettings& settings) : scene_(scene), settings_(settings) {}
 
     void set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m);
+    /// One lamp in place of all that shine: what any of them has of pieces, seen from there. `window`: of the map from there.
+    void merge(const LitLamp& lamp, const ShadowWindow& window);
+    /// Shadows of one lamp may reach so far beside where reach() would have them: as a tangent seen from the lamp.
+    void widen(std::size_t lamp, double tangent);
+    /// Every lamp is a disc of this radius, so that shadows have penumbrae.
+    void soften(double radius_m);
     const std::vector<LampCasters>& lamps() const { return lamps_; }
     const glm::dvec3& ego_m() const { return ego_m_; }
     /// Whether anything casts a shadow.
@@ -60,6 +70,8 @@ class ShadowCasters {
     bool reach(const Piece& piece, double raised_m) const;
 
   private:
+    void add_bodies(LampCasters& found) const;
+
     const SceneBuffers& scene_;
     ShadowSettings settings_;
     std::vector<LampCasters> lamps_;

@@ -33,6 +33,7 @@ void ShadowMaps::draw(const Shot& shot) {
     work.shadow_maps += static_cast<int>(lamps.size());
     const glm::dvec3 ego_m = casters_.ego_m();
     if (clips != drawn_clips_ || pieces != drawn_pieces_ || ego_m != drawn_ego_m_ || scene_.placed() != drawn_placed_) {
+        work.shadow_maps_drawn += static_cast<int>(lamps.size());
         program_.use();
         // The outermost texels stay empty: what lies outside the window is lit.
         gl.Viewport(1, 1, settings_.width - 2, settings_.height - 2);

@@ -50,6 +50,9 @@ float intensity_towards(vec3 w, float inverse_d, float factor, sampler2D beam, v
 #ifdef SHADOW_MASK
 #include "shadow_mask.glsl"
 #endif
+#ifdef PROJECTED_SHADOW_MAPS
+#include "projected_shadow_maps.glsl"
+#endif
 #endif
 
 #endif

@@ -28,7 +28,7 @@ ShadowSettings read_shadows(const YamlMap& drive) {
             shadows.method = method_of(*given);
         return shadows;
     }
-    const YamlMap keys = given->map({"method", "map_texels", "tolerance_m"});
+    const YamlMap keys = given->map({"method", "map_texels", "tolerance_m", "redraw_texels", "lamp_radius_m", "lamp_places"});
     shadows.method = method_of(keys.require("method"));
     if (const auto texels = keys.find("map_texels")) {
         const std::vector<YamlEntry> sides = texels->list(2, 2);
@@ -36,12 +36,18 @@ ShadowSettings read_shadows(const YamlMap& drive) {
         shadows.height = sides[1].whole(least_texels, most_texels);
     }
     shadows.tolerance_m = keys.number_or("tolerance_m", shadows.tolerance_m, 1.0e-4, 1.0);
+    shadows.redraw_texels = keys.number_or("redraw_texels", shadows.redraw_texels, 0.0, 16.0);
+    shadows.lamp_radius_m = keys.number_or("lamp_radius_m", shadows.lamp_radius_m, 0.001, 0.5);
+    if (const auto places = keys.find("lamp_places"))
+        shadows.lamp_places = places->whole(1, 64);
     return shadows;
 }
 
 std::string write_shadows(const ShadowSettings& shadows) {
-    return fmt::format("shadows: {{method: {}, map_texels: [{}, {}], tolerance_m: {}}}\n", name(shadows.method), shadows.width,
-                       shadows.height, shadows.tolerance_m);
+    return fmt::format(
+        "shadows: {{method: {}, map_texels: [{}, {}], tolerance_m: {}, redraw_texels: {}, lamp_radius_m: {}, lamp_places: {}}}\n",
+        name(shadows.method), shadows.width, shadows.height, shadows.tolerance_m, shadows.redraw_texels, shadows.lamp_radius_m,
+        shadows.lamp_places);
 }
 
 } // namespace fernlicht

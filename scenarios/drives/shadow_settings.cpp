@@ -26,6 +26,15 @@ constexpr ShadowMethodName names[] = {
     {ShadowMethod::map, "map", "Williams 1978; Reeves, Salesin, Cook 1987",
      "a depth map for each lamp, fitted to its beam; four texels compared and weighted, from a point raised by what a texel spans there",
      "bodies lower than 1.5 texels; the extent of lamps; what stands farther than 300 m from a lamp"},
+    {ShadowMethod::one_map, "one-map", "Knebel 2004",
+     "one depth map for all lamps, from midway between those that shine, over all their beams",
+     "as map, and the lamps' distance from midway: edges shift by that times (distance over the caster's, less 1)"},
+    {ShadowMethod::perspective_map, "perspective-map", "Stamminger, Drettakis 2002",
+     "as map, warped by the view's perspective and fitted to what the view sees of the beam", "as map"},
+    {ShadowMethod::light_space_map, "light-space-map", "Wimmer, Scherzer, Purgathofer 2004",
+     "as map, warped by a perspective across the light and fitted to what the view sees of the beam", "as map"},
+    {ShadowMethod::soft_map, "soft-map", "Brotman, Badler 1984; Herf, Heckbert 1996",
+     "the mean over depth maps from places on the lamp's face, a disc: penumbrae", "as map, but for the extent of lamps"},
 };
 
 } // namespace

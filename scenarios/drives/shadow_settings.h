@@ -9,8 +9,9 @@
 namespace fernlicht {
 
 /// none: light goes through everything. under_car: the ground under bodies is dark. planar: shadows flattened onto the road's plane.
-/// volumes: the space behind silhouettes, by stencil. map: a depth map for each lamp.
-enum class ShadowMethod { none, under_car, planar, volumes, map };
+/// volumes: the space behind silhouettes, by stencil. map: a depth map for each lamp. one_map: one for all, from midway between those that
+/// shine. perspective_map, light_space_map: warped towards what the view sees. soft_map: several for each lamp, which is a disc.
+enum class ShadowMethod { none, under_car, planar, volumes, map, one_map, perspective_map, light_space_map, soft_map };
 
 /// A row of the table of shadow methods.
 struct ShadowMethodName {
@@ -29,6 +30,10 @@ struct ShadowSettings {
     int width = 1024, height = 512; ///< texels of a map; 16..8192
     double tolerance_m = 0.03; ///< maps: shadows are looked up from points at least this far above a surface; volumes: of ground, lowered
                                ///< by it; planar: ground lies so near to one plane; > 0
+
+    double redraw_texels = 0.0;  ///< maps: one is kept while no shadow's edge has moved by more than this; 0..16; 0: never
+    double lamp_radius_m = 0.06; ///< soft_map: of the discs that lamps are; 0.001..0.5
+    int lamp_places = 16;        ///< soft_map: maps of each lamp; 1..64
 
     bool operator==(const ShadowSettings&) const = default;
     bool any() const { return method != ShadowMethod::none; }

@@ -1,0 +1,73 @@
+// What the tests of shadow methods light: a road with posts, and where the edges of their shadows lie.
+#pragma once
+
+#include "renderer/renderer.h"
+#include "renderer/twin.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+
+namespace fernlicht::tests {
+
+/// The same light everywhere within 30 degrees to the sides, 8 up and 14 down.
+inline std::shared_ptr<const LampFile> even_beam() {
+    auto file = std::make_shared<LampFile>();
+    for (int i = -30; i <= 30; ++i)
+        file->table.h_deg.push_back(i);
+    for (int i = -14; i <= 8; ++i)
+        file->table.v_deg.push_back(i);
+    file->table.cd.assign(file->table.h_deg.size() * file->table.v_deg.size(), 10000.0);
+    return file;
+}
+
+inline LitLamp lamp_at(const char* name, const glm::dvec3& place, const std::shared_ptr<const LampFile>& file) {
+    LitLamp lamp;
+    lamp.name = name;
+    lamp.file = file;
+    lamp.pose = {place, axes_from_angles(0.0, -0.01, 0.0)};
+    lamp.intensity_factor = 1.0;
+    return lamp;
+}
+
+inline void add_sheet(Scene& scene, const char* name, std::uint32_t material, const glm::dvec3& at, const glm::vec3& a,
+                      const glm::vec3& b) {
+    Mesh mesh{name, at, {}, {}, {}};
+    const glm::vec3 n = glm::normalize(glm::cross(a, b));
+    for (const glm::vec3& p : {glm::vec3(0.0F), a, a + b, b})
+        mesh.vertices.push_back({p, n, {}});
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    mesh.batches = {{material, 0, 6}};
+    scene.meshes.push_back(std::move(mesh));
+}
+
+/// Of a width, upright, facing the car; its left side at y.
+struct Post {
+    double x = 0.0, y = 0.0, width = 0.3, height = 1.5;
+};
+
+/// A road, posts, and a wall across the road.
+inline Scene road_with(const std::vector<Post>& posts, double wall_x = 0.0) {
+    Scene scene;
+    scene.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}, {"board", SurfaceKind::board, glm::vec3(0.4F)}};
+    add_sheet(scene, "road", 0, {-5.0, -30.0, 0.0}, {300.0F, 0.0F, 0.0F}, {0.0F, 60.0F, 0.0F});
+    for (const Post& post : posts)
+        add_sheet(scene, "post", 1, {post.x, post.y, 0.0}, {0.0F, static_cast<float>(-post.width), 0.0F},
+                  {0.0F, 0.0F, static_cast<float>(post.height)});
+    if (wall_x > 0.0)
+        add_sheet(scene, "wall", 1, {wall_x, 20.0, 0.0}, {0.0F, -40.0F, 0.0F}, {0.0F, 0.0F, 4.0F});
+    return scene;
+}
+
+/// From where a driver sits, along the road.
+inline View driver_view(int width_px, int height_px) {
+    View view;
+    view.position_m = {1.5, 0.35, 1.2};
+    view.pitch_rad = radians(-3.0);
+    view.vertical_fov_rad = radians(30.0);
+    view.width_px = width_px;
+    view.height_px = height_px;
+    return view;
+}
+
+} // namespace fernlicht::tests
