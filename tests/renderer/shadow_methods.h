@@ -59,6 +59,26 @@ inline Scene road_with(const std::vector<Post>& posts, double wall_x = 0.0) {
     return scene;
 }
 
+/// A road in waves, whose crests the light grazes: crests shade what lies behind them, and must not shade themselves.
+inline Scene road_in_waves(double height_m, double length_m) {
+    Scene scene;
+    scene.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}};
+    Mesh mesh{"waves", {0.0, 0.0, 0.0}, {}, {}, {}};
+    const double k = 2.0 * pi / length_m;
+    for (int i = 0; i <= 200; ++i) {
+        const double x = -5.0 + i, z = 0.5 * height_m * (std::cos(k * x) - 1.0);
+        const glm::vec3 normal(glm::normalize(glm::dvec3(0.5 * height_m * k * std::sin(k * x), 0.0, 1.0)));
+        for (const double y : {-4.0, 4.0})
+            mesh.vertices.push_back({glm::vec3(glm::dvec3(x, y, z)), normal, {}});
+        const auto a = static_cast<std::uint32_t>(2 * i);
+        if (i < 200)
+            mesh.indices.insert(mesh.indices.end(), {a, a + 2, a + 3, a, a + 3, a + 1});
+    }
+    mesh.batches = {{0, 0, static_cast<std::uint32_t>(mesh.indices.size())}};
+    scene.meshes.push_back(std::move(mesh));
+    return scene;
+}
+
 /// From where a driver sits, along the road.
 inline View driver_view(int width_px, int height_px) {
     View view;
