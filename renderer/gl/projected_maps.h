@@ -23,6 +23,7 @@ class ProjectedMaps : public Shadows {
     std::vector<Program::Define> defines(const std::vector<const Beam*>& beams) const override;
     void set_uniforms(const Program& program) const override;
     std::size_t texture_bytes() const override;
+    const char* title() const override { return "shadow maps"; }
 
   protected:
     /// Fills casters_.
