@@ -137,8 +137,8 @@ TEST(MapWarp, ALampAtTheEyeThatLooksTheSameWayLeavesNothingToWarp) {
 /// Moved by what is raised, a point of a plane is nearer to the lamp than the plane in all texels about.
 TEST(MapWarp, SpreadIsThePlainMapsForAWindow) {
     const ShadowWindow window{-0.5, 0.5, -0.25, 0.25};
-    EXPECT_NEAR(spread_of(window_homography(window, 1024, 512), 1024, 512), 1.5 / 1022.0, 2e-6);
-    EXPECT_NEAR(spread_of(window_homography(window, 512, 512), 512, 512), 1.5 / 510.0, 1e-5);
+    EXPECT_NEAR(spread_of(window_homography(window, 1024, 512), 1024, 512), 1.5 / 1020.0, 1e-8);
+    EXPECT_NEAR(spread_of(window_homography(window, 512, 512), 512, 512), 1.5 / 510.0, 1e-8);
 }
 
 TEST(MapWarp, EdgesShiftByWhatALampsPlaceMakesOfThem) {
