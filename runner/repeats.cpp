@@ -23,6 +23,7 @@ Json results_json(const PlayedVariant& played) {
     plain.error = {};
     plain.contact_sheet = {};
     plain.more_sheets.clear();
+    plain.shadows = nullptr;
     plain.verdicts.clear();
     plain.repeats = {};
     return played_json(plain);

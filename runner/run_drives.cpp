@@ -20,6 +20,7 @@
 #include "runner/repeats.h"
 #include "runner/run_context.h"
 #include "runner/savings.h"
+#include "runner/shadows/choose_shadows.h"
 #include "runner/stage.h"
 #include "runner/summary.h"
 #include "scenarios/drives/advance.h"
@@ -170,6 +171,9 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
 }
 
 void run_drive(Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
+    std::shared_ptr<const ShadowChoice> shadows;
+    if (const auto chosen = choose_shadows(stage, device, settings_for(stage.drive, settings)))
+        shadows = std::make_shared<const ShadowChoice>(*chosen);
     fit_tone_mapper(stage, device, settings_for(stage.drive, settings));
     write_file(options.folder / (file_name_of(stage.drive.name) + ".yaml"), write_drive(stage.drive));
     add_inputs(report.context.inputs, stage.drive.opened);
@@ -182,6 +186,7 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
     log << drive_log_header << '\n';
     for (const Variant& variant : stage.drive.variants) {
         report.played.push_back(play_variant(stage, variant, renderer, options, writers, &log));
+        report.played.back().shadows = shadows;
         if (variant.motion && variant.motion->control)
             write_file(options.folder / ("signals-" + file_name_of(stage.drive.name + "-" + variant.name) + ".csv"),
                        signals_csv(stage.drive, *variant.motion->control, options.ticks.first, options.ticks.last));

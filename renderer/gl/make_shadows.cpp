@@ -6,6 +6,8 @@
 #include "renderer/gl/under_car_shadows.h"
 #include "renderer/gl/warped_maps.h"
 
+#include <stdexcept>
+
 namespace fernlicht::gl {
 
 std::unique_ptr<Shadows> make_shadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, const ShadowUse& use) {
@@ -18,6 +20,8 @@ std::unique_ptr<Shadows> make_shadows(Context& context, const SceneBuffers& scen
         return std::make_unique<PlanarShadows>(context, scene, settings, use);
     case ShadowMethod::volumes:
         return std::make_unique<ShadowVolumes>(context, scene, settings, use);
+    case ShadowMethod::automatic:
+        throw std::invalid_argument("shadows: auto is to be chosen before drawing (choose_shadows.h)");
     case ShadowMethod::map:
         if (settings.redraw_texels > 0.0)
             return std::make_unique<ProjectedMaps>(context, scene, settings);

@@ -11,6 +11,7 @@
 #include "runner/output_folder.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
+#include "runner/shadows/choose_shadows.h"
 #include "scenarios/drives/advance.h"
 
 #include <algorithm>
@@ -107,7 +108,8 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     result.most_samples = request.sweep.most_samples;
     const Interruption listening;
     const CpuUse before = cpu_use();
-    for (const Stage& stage : stages) {
+    for (Stage& stage : stages) {
+        choose_shadows(stage, device, {});
         add_inputs(result.context.inputs, stage.drive.opened);
         add_inputs(result.context.inputs, stage.network.opened);
         if (asked_for(request, "techniques") || asked_for(request, "shadows")) {

@@ -153,6 +153,7 @@ std::vector<WorkPrecision> weather_study(const Stage& stage, const Variant& vari
     std::erase_if(moment.other_lamps, [](const LitLamp& lamp) { return !stands_beside(lamp); });
     Configuration as_drawn;
     as_drawn.technique = "photometric";
+    as_drawn.shadows = stage.drive.shadows;
     const RendererSettings drawn = settings_of(stage.drive, as_drawn);
     std::vector<MediumStudy> studies;
     if (moment.weather.extinction_per_m > 0.0)

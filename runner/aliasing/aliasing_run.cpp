@@ -9,8 +9,10 @@
 #include "runner/display/fit_tone_mapper.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
+#include "runner/preparation.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
+#include "runner/shadows/choose_shadows.h"
 #include "runner/stage.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/photometry.h"
@@ -72,6 +74,7 @@ RendererSettings settings_of(const Drive& drive, const AliasingConfiguration& co
     Configuration same;
     same.technique = configuration.technique;
     same.beams = configuration.beams;
+    same.shadows = drive.shadows;
     return settings_of(drive, same);
 }
 
@@ -333,10 +336,11 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
     AliasingResult result;
     result.view = checked_view(request);
     const Variant& variant = variant_of(request.drive, request.variant);
-    const Stage stage(request.drive);
+    Stage stage(request.drive);
     refuse_open_tone_mapper(stage.drive);
     Device device = open_device(request.backend);
     check_sanity(device);
+    choose_shadows(stage, device, settings_for(device, false));
     OutputFolder folder(request.folder);
     result.context = make_context(device.info(), request.command, request.drive.seed);
     add_inputs(result.context.inputs, stage.drive.opened);

@@ -10,6 +10,7 @@
 #include "runner/plots/png.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
+#include "runner/shadows/choose_shadows.h"
 #include "runner/stage.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/values/errors.h"
@@ -159,12 +160,13 @@ std::vector<int> ticks_over(int count, int n) {
 
 BenchResult run_bench(const BenchRequest& request) {
     const std::vector<Technique> rows = chosen_techniques(request.techniques);
-    const Stage stage(request.drive);
+    Stage stage(request.drive);
     const Variant& variant = variant_named(stage.drive, request.variant);
     const View& view = view_to_time(stage.drive);
     const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
     Device device = open_device(request.backend);
     check_sanity(device);
+    choose_shadows(stage, device, {});
     OutputFolder folder(request.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
     BenchResult result = described(request, stage, variant, view, device);
     for (const Moment& moment : moments)

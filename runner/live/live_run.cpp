@@ -11,6 +11,7 @@
 #include "runner/output_folder.h"
 #include "runner/report/json_text.h"
 #include "runner/run_context.h"
+#include "runner/shadows/choose_shadows.h"
 #include "scenarios/can/bus_mapping.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/bus_play.h"
@@ -83,6 +84,7 @@ class LiveSession {
     static Drive staged(Drive drive, const LiveOptions& options) {
         if (!drive.can)
             throw InputError({drive.file, 0, 0, "can"}, "found none", "the key `can`, which ties signals of a bus to lamps (docs/can.md)");
+        refuse_open_shadows(drive);
         drive.live = true;
         change_mapping(drive, [&](BusMapping& mapping) {
             mapping.scripted = false;

@@ -123,6 +123,7 @@ data details_part(const ComparedDrive& drive) {
     part.set("has_left_out", left_out.is_non_empty_list());
     part.set("left_out", left_out);
     part.set("savings", savings_part(drive));
+    part.set("shadows", shadows_part(drive));
     set_list(part, "notes", merged(drive, &PlayedVariant::notes));
     return part;
 }

@@ -37,6 +37,9 @@ kainjow::mustache::data moments_part(const ComparedDrive& drive, const std::file
 /// Readings beside each other per lamp set; lamps with their files; what was left out and noted, once where it holds for all.
 kainjow::mustache::data details_part(const ComparedDrive& drive);
 
+/// How `shadows: auto` was decided.
+kainjow::mustache::data shadows_part(const ComparedDrive& drive);
+
 /// What leaving out saved each lamp set, in a sentence and in counts.
 kainjow::mustache::data savings_part(const ComparedDrive& drive);
 

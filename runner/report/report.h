@@ -156,6 +156,8 @@ struct Repeats {
 };
 
 /// One drive played with one lamp set.
+struct ShadowChoice;
+
 /// One moment side by side in several ways.
 struct StoredSheet {
     std::string what; ///< what differs, as a heading ends: "by every tone mapper and eye"
@@ -183,7 +185,8 @@ struct PlayedVariant {
     int warm_up_dropped = 0;
     Savings savings;
     DriveError error;
-    Readings readings; ///< summary of the drive and probes
+    std::shared_ptr<const ShadowChoice> shadows = nullptr; ///< how `shadows: auto` was decided; nullptr: the drive names its method
+    Readings readings;                                     ///< summary of the drive and probes
     Repeats repeats;
     std::vector<Verdict> verdicts;
     std::vector<std::string> left_out; ///< what the scene did not need, one sentence each

@@ -8,6 +8,7 @@
 #include "runner/report/report_writers.h"
 #include "runner/report/signals_json.h"
 #include "runner/report/verdict_json.h"
+#include "runner/shadows/choose_shadows.h"
 
 #include <algorithm>
 #include <array>
@@ -235,6 +236,28 @@ Json more_sheets_json(const std::vector<StoredSheet>& sheets) {
     return out;
 }
 
+Json shadow_choice_json(const ShadowChoice& choice) {
+    Json tried = Json::array();
+    for (const TriedShadows& one : choice.tried) {
+        Json row{{"method", name(one.method)}};
+        if (one.error) {
+            row["error"] = finite(*one.error, "shadow error");
+            row["worst_s"] = finite(one.worst_s, "time");
+            row["worst_variant"] = one.worst_set;
+        } else {
+            row["refused"] = one.refused;
+        }
+        tried.push_back(std::move(row));
+    }
+    return {{"chosen", name(choice.chosen)},
+            {"why", choice.why},
+            {"error_bound", choice.bound},
+            {"moments", choice.ticks},
+            {"moments_shadowed", choice.ticks_shadowed},
+            {"moments_compared", choice.compared},
+            {"tried", tried}};
+}
+
 /// Null where the run was told to leave it out.
 Json accuracy_json(const DriveError& error) {
     if (!error.measured())
@@ -374,6 +397,8 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
               {"speed_mps", speed},
               {"accuracy", accuracy_json(played.error)},
               {"extents", extents_json(played)}};
+    if (played.shadows)
+        json["shadow_choice"] = shadow_choice_json(*played.shadows);
     if (!played.more_sheets.empty())
         json["more_sheets"] = more_sheets_json(played.more_sheets);
     if (!played.seeing.empty())

@@ -41,10 +41,16 @@ constexpr ShadowMethodName names[] = {
 
 std::span<const ShadowMethodName> shadow_method_names() { return names; }
 
-std::string_view name(ShadowMethod method) { return std::ranges::find(names, method, &ShadowMethodName::method)->name; }
+std::string_view name(ShadowMethod method) {
+    if (method == ShadowMethod::automatic)
+        return "auto";
+    return std::ranges::find(names, method, &ShadowMethodName::method)->name;
+}
 
 ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in) {
-    std::vector<std::string> known;
+    if (name == "auto")
+        return ShadowMethod::automatic;
+    std::vector<std::string> known{"auto"};
     for (const ShadowMethodName& row : names) {
         if (row.name == name)
             return row.method;

@@ -8,10 +8,11 @@
 
 namespace fernlicht {
 
-/// none: light goes through everything. under_car: the ground under bodies is dark. planar: shadows flattened onto the road's plane.
-/// volumes: the space behind silhouettes, by stencil. map: a depth map for each lamp. one_map: one for all, from midway between those that
-/// shine. perspective_map, light_space_map: warped towards what the view sees. soft_map: several for each lamp, which is a disc.
-enum class ShadowMethod { none, under_car, planar, volumes, map, one_map, perspective_map, light_space_map, soft_map };
+/// automatic: to be chosen among the others for the drive (no row of the table). none: light goes through everything. under_car: the ground
+/// under bodies is dark. planar: shadows flattened onto the road's plane. volumes: the space behind silhouettes, by stencil. map: a depth
+/// map for each lamp. one_map: one for all, from midway between those that shine. perspective_map, light_space_map: warped towards what the
+/// view sees. soft_map: several for each lamp, which is a disc.
+enum class ShadowMethod { none, under_car, planar, volumes, map, one_map, perspective_map, light_space_map, soft_map, automatic };
 
 /// A row of the table of shadow methods.
 struct ShadowMethodName {
@@ -21,8 +22,8 @@ struct ShadowMethodName {
 };
 /// All of them, in the order of the table of techniques.
 std::span<const ShadowMethodName> shadow_method_names();
-std::string_view name(ShadowMethod method);
-/// Throws InputError, asked in that file, naming the nearest.
+std::string_view name(ShadowMethod method); ///< "auto" for automatic
+/// "auto" too. Throws InputError, asked in that file, naming the nearest.
 ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in = {});
 
 struct ShadowSettings {
@@ -34,6 +35,7 @@ struct ShadowSettings {
     double redraw_texels = 0.0;  ///< maps: one is kept while no shadow's edge has moved by more than this; 0..16; 0: never
     double lamp_radius_m = 0.06; ///< soft_map: of the discs that lamps are; 0.001..0.5
     int lamp_places = 16;        ///< soft_map: maps of each lamp; 1..64
+    double error_bound = 0.01;   ///< automatic: largest share of what is lit without shadows that may be drawn wrongly; 0..1
 
     bool operator==(const ShadowSettings&) const = default;
     bool any() const { return method != ShadowMethod::none; }

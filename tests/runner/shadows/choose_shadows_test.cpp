@@ -1,0 +1,107 @@
+// `shadows: auto` through the program: what it takes, what it says, and that the resolved drive needs no choice any more.
+#include "runner/shadows/choose_shadows.h"
+#include "tests/runner/program.h"
+
+#include <algorithm>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr const char* few = " --quiet --frames 20:22 --resolution 96x72 --capture all --no-accuracy --backend osmesa ";
+
+class AutomaticShadows : public testing::Test {
+  protected:
+    /// The shipped drive, short, with these shadows.
+    std::string drive_with(const std::string& drive, const std::string& shadows) {
+        std::string text = content_of(library_file("drives/" + drive + ".yaml"));
+        for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;)
+            text.replace(at, 3, library_file(""));
+        const std::string path = folder / (drive + ".yaml");
+        std::ofstream(path) << text << "shadows: " << shadows << "\n";
+        return path;
+    }
+    json played(const std::string& drive, const std::string& out) {
+        const Outcome run = run_program("run " + drive + few + "--out " + (folder / out));
+        EXPECT_LE(run.exit_code, 1) << run.output;
+        return json::parse(content_of(folder / (out + "/report.json"))).at("drives").at(0);
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(AutomaticShadows, NothingInABeamNeedsNone) {
+    const json choice = played(drive_with("straight", "auto"), "out").at("shadow_choice");
+    EXPECT_EQ(choice.at("chosen"), "none");
+    EXPECT_EQ(choice.at("moments_shadowed"), 0);
+    EXPECT_TRUE(choice.at("tried").empty());
+    EXPECT_THAT(choice.at("why").get<std::string>(), HasSubstr("nothing stands in a beam"));
+}
+
+TEST_F(AutomaticShadows, TheCheapestWithinTheBoundIsTakenAndTheResolvedDriveNamesIt) {
+    const json with_choice = played(drive_with("shelter", "{method: auto, error_bound: 0.05}"), "first");
+    const json& choice = with_choice.at("shadow_choice");
+    const json& tried = choice.at("tried");
+    ASSERT_GE(tried.size(), 2U);
+    EXPECT_EQ(tried.front().at("method"), "none");
+    EXPECT_GT(tried.front().at("error").get<double>(), 0.05);
+    EXPECT_LE(tried.back().at("error").get<double>(), 0.05);
+    EXPECT_EQ(choice.at("chosen"), tried.back().at("method"));
+    const json again = played(folder / "first/shelter.yaml", "second");
+    EXPECT_FALSE(again.contains("shadow_choice"));
+    for (const json& frame : with_choice.at("frames"))
+        EXPECT_TRUE(content_of(folder / ("first/" + frame.at("exr").get<std::string>())) ==
+                    content_of(folder / ("second/" + frame.at("exr").get<std::string>())));
+    const std::string page = content_of(folder / "first/report.html");
+    EXPECT_THAT(page, HasSubstr("How shadows are drawn"));
+    EXPECT_THAT(page, HasSubstr("<strong>" + choice.at("chosen").get<std::string>() + "</strong>"));
+}
+
+TEST_F(AutomaticShadows, WhereNoneStaysWithinTheLeastWrongIsTakenAndSaid) {
+    const json choice = played(drive_with("shelter", "{method: auto, error_bound: 0}"), "out").at("shadow_choice");
+    EXPECT_THAT(choice.at("why").get<std::string>(), HasSubstr("none stays within 0 %"));
+    EXPECT_EQ(choice.at("tried").size(), shadow_methods_by_cost().size());
+    double least = 2.0;
+    std::string method;
+    for (const json& tried : choice.at("tried"))
+        if (tried.contains("error") && tried.at("error") < least) {
+            least = tried.at("error");
+            method = tried.at("method");
+        }
+    EXPECT_EQ(choice.at("chosen"), method);
+}
+
+TEST_F(AutomaticShadows, EveryMethodOfTheTableIsTried) {
+    std::vector<ShadowMethod> all, tried = shadow_methods_by_cost();
+    for (const ShadowMethodName& row : shadow_method_names())
+        all.push_back(row.method);
+    EXPECT_THAT(tried, testing::UnorderedElementsAreArray(all));
+    EXPECT_EQ(tried.front(), ShadowMethod::none);
+}
+
+TEST_F(AutomaticShadows, WhatIsWrongIsOneSentence) {
+    const auto refused = [&](const std::string& arguments) {
+        const Outcome run = run_program(arguments);
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        EXPECT_EQ(std::ranges::count(run.output, '\n'), 1) << run.output;
+        return run.output;
+    };
+    const std::string drive = drive_with("straight", "{method: auto, error_bound: 2}");
+    EXPECT_THAT(refused("run " + drive + few + "--out " + (folder / "o")), HasSubstr("error_bound"));
+    EXPECT_THAT(refused("run " + drive_with("braking", "{method: volume}") + few + "--out " + (folder / "o")), HasSubstr("one of none"));
+    std::string text = content_of(library_file("drives/s-bend-can.yaml"));
+    for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;)
+        text.replace(at, 3, library_file(""));
+    std::ofstream(folder / "live.yaml") << text << "shadows: auto\n";
+    EXPECT_THAT(refused("live " + (folder / "live.yaml") + " --can-log " + library_file("can/s-bend.log") + " --out " + (folder / "o")),
+                HasSubstr("'auto'"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "o"));
+}
+
+} // namespace
+} // namespace fernlicht
