@@ -52,7 +52,7 @@ TEST_F(AutomaticShadows, TheCheapestWithinTheBoundIsTakenAndTheResolvedDriveName
     EXPECT_GT(tried.front().at("error").get<double>(), 0.05);
     EXPECT_LE(tried.back().at("error").get<double>(), 0.05);
     EXPECT_EQ(choice.at("chosen"), tried.back().at("method"));
-    const json again = played(folder / "first/shelter.yaml", "second");
+    const json again = played(folder / ("first/" + with_choice.at("drive").get<std::string>() + ".yaml"), "second");
     EXPECT_FALSE(again.contains("shadow_choice"));
     for (const json& frame : with_choice.at("frames"))
         EXPECT_TRUE(content_of(folder / ("first/" + frame.at("exr").get<std::string>())) ==
