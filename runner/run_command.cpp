@@ -156,7 +156,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     add_judging_flags(*sub, flags->judging);
     sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
     sub->add_flag("--profile", flags->profile, "time each pass (slows the frames down)");
-    sub->add_flag("--contact-sheet", flags->contact_sheet, "add one moment drawn in every technique");
+    sub->add_flag("--contact-sheet", flags->contact_sheet, "add one moment in every technique, tone mapper and shadow method");
     sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments lie from the reference");
     sub->add_flag("--quiet", flags->quiet, "no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });

@@ -21,6 +21,7 @@
 #include "runner/run_context.h"
 #include "runner/savings.h"
 #include "runner/shadows/choose_shadows.h"
+#include "runner/shadows/moment_sheet.h"
 #include "runner/stage.h"
 #include "runner/summary.h"
 #include "scenarios/drives/advance.h"
@@ -158,15 +159,19 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
     add_all_techniques(sheets, stage, device, plain);
     for (std::size_t i = 0; i < played.size(); ++i) {
         const ContactSheet& sheet = sheets[i];
-        const std::string name = "contact-sheet-" + file_name_of(sheet.drive + "-" + sheet.variant) + ".png";
-        write_file(options.folder / name, plots::png_of_svg(contact_sheet_svg(sheet)));
-        played[i].contact_sheet = {sheet.moment.tick, sheet.moment.time_s, "driver", name, ""};
-        const DisplaySheet shown = display_sheet(stage, stage.drive.variants[i], sheet.moment, device, plain);
-        if (!shown.mappers.empty()) {
-            const std::string file = "display-sheet-" + file_name_of(sheet.drive + "-" + sheet.variant) + ".png";
-            write_file(options.folder / file, plots::png_of_svg(display_sheet_svg(shown)));
-            played[i].more_sheets.push_back({"by every tone mapper and eye", {sheet.moment.tick, sheet.moment.time_s, "driver", file, ""}});
-        }
+        const Variant& variant = stage.drive.variants[i];
+        const auto stored = [&](const char* kind, const std::string& svg) {
+            const std::string file = kind + ("-" + file_name_of(sheet.drive + "-" + sheet.variant)) + ".png";
+            write_file(options.folder / file, plots::png_of_svg(svg));
+            return StoredFrame{sheet.moment.tick, sheet.moment.time_s, "driver", file, ""};
+        };
+        played[i].contact_sheet = stored("contact-sheet", contact_sheet_svg(sheet));
+        if (const DisplaySheet shown = display_sheet(stage, variant, sheet.moment, device, plain); !shown.mappers.empty())
+            played[i].more_sheets.push_back({"by every tone mapper and eye", stored("display-sheet", display_sheet_svg(shown))});
+        if (plain.technique == "photometric")
+            played[i].more_sheets.push_back(
+                {"in every shadow method",
+                 stored("shadow-sheet", shadow_sheet_svg(shadow_moment(stage, variant, sheet.moment, device, plain)))});
     }
 }
 

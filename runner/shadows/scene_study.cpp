@@ -269,7 +269,7 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
     SceneTruth truth(scene, device, options);
     result.shown = truth.shown;
     result.luminance_cdm2 = truth.part.of(truth.picture.of(truth.shown).luminance_cdm2);
-    result.degree = truth.part.of(degrees_of(truth.picture.of(truth.shown)));
+    result.degree = truth.part.of(true_degrees(truth.picture.of(truth.shown)));
     step();
     for (const ShadowMethod method : options.methods) {
         if (stop())

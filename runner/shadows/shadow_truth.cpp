@@ -28,6 +28,16 @@ View at_size(View view, int width_px, int height_px) {
     return view;
 }
 
+Image<float> true_degrees(const ShadowTruth::Found& truth) {
+    const ShadowImages images{truth.true_lx, truth.true_lx, truth.unshadowed_lx, {}, {}};
+    Image<float> out(truth.true_lx.width(), truth.true_lx.height(), -1.0F);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            if (const auto degrees = shadow_degrees(images, x, y))
+                out.at(x, y) = static_cast<float>(degrees->truth);
+    return out;
+}
+
 RendererSettings without_shadows(RendererSettings settings) {
     settings.shadows.method = ShadowMethod::none;
     settings.profile = settings.gpu_clock = false;

@@ -39,6 +39,9 @@ class ShadowTruth {
     std::vector<std::optional<Found>> found_;
 };
 
+/// Degree of shadow of each pixel, 0..1; -1 where it does not count.
+Image<float> true_degrees(const ShadowTruth::Found& truth);
+
 /// The same settings without shadows and clocks.
 RendererSettings without_shadows(RendererSettings settings);
 

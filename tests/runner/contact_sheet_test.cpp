@@ -117,6 +117,7 @@ TEST(ContactSheet, TwiceTheSameBytesInTheReportAndInTheBench) {
         EXPECT_THAT(page, HasSubstr("href=\"./" + file));
     }
     EXPECT_EQ(report.at("drives").at(0).at("more_sheets").at(0).at("what"), "by every tone mapper and eye");
+    EXPECT_EQ(report.at("drives").at(0).at("more_sheets").at(1).at("what"), "in every shadow method");
 }
 
 } // namespace
