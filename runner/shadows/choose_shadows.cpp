@@ -112,7 +112,9 @@ void try_methods(ShadowChoice& choice, Trial& trial) {
 
 } // namespace
 
-std::vector<ShadowMethod> shadow_methods_by_cost() { return {ShadowMethod::none, ShadowMethod::map}; }
+std::vector<ShadowMethod> shadow_methods_by_cost() {
+    return {ShadowMethod::none, ShadowMethod::under_car, ShadowMethod::planar, ShadowMethod::map, ShadowMethod::volumes};
+}
 
 std::optional<ShadowChoice> choose_shadows(Stage& stage, Device& device, const RendererSettings& settings) {
     Drive& drive = stage.drive;
