@@ -113,7 +113,8 @@ void try_methods(ShadowChoice& choice, Trial& trial) {
 } // namespace
 
 std::vector<ShadowMethod> shadow_methods_by_cost() {
-    return {ShadowMethod::none, ShadowMethod::under_car, ShadowMethod::planar, ShadowMethod::map, ShadowMethod::volumes};
+    using enum ShadowMethod;
+    return {none, under_car, planar, one_map, map, light_space_map, perspective_map, volumes, soft_map};
 }
 
 std::optional<ShadowChoice> choose_shadows(Stage& stage, Device& device, const RendererSettings& settings) {

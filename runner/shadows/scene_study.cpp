@@ -58,16 +58,6 @@ View width_view(const View& view, int width_px) {
     return at_size(view, width_px, std::max(1, static_cast<int>(std::lround(width_px * ratio))));
 }
 
-Image<float> degrees_of(const ShadowTruth::Found& truth) {
-    const ShadowImages images{truth.true_lx, truth.true_lx, truth.unshadowed_lx, {}, {}};
-    Image<float> out(truth.true_lx.width(), truth.true_lx.height(), -1.0F);
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            if (const auto degrees = shadow_degrees(images, x, y))
-                out.at(x, y) = static_cast<float>(degrees->truth);
-    return out;
-}
-
 /// The part of a picture that is shown.
 struct ShownPart {
     int left = 0, top = 0, width = 0, height = 0;
@@ -129,7 +119,7 @@ struct SceneTruth {
           view(rays, unshadowed, scene.moments, width_view(scene.view, tile_px)),
           discs(rays, unshadowed, scene.moments, width_view(scene.view, shadow_error_width_px), options.lamp_radius_m),
           picture(rays, unshadowed, scene.moments, width_view(scene.view, 2 * tile_px)),
-          part(part_with_shadow(degrees_of(picture.of(shown)))),
+          part(part_with_shadow(true_degrees(picture.of(shown)))),
           crawl(rays, unshadowed, steps, section_view(lamp_ahead_m(alone[shown]), crawl_distance_m)) {
         for (const double distance_m : edge_distances_m)
             sections.emplace_back(rays, unshadowed, alone, section_view(lamp_ahead_m(alone[shown]), distance_m));
