@@ -62,20 +62,26 @@ std::string input_text(const std::string& name, const Inputs& of_run) {
 
 bool usually_decides(const std::string& reading) { return std::ranges::find(usual_readings(), reading) != usual_readings().end(); }
 
+struct MovedReadings {
+    std::size_t count;
+    std::string text;
+};
+
 /// What other inputs came to: "of 859 readings 312 differ, the farthest off: ...". What usually decides goes before other readings, and
 /// all of these before their errors.
-std::string moved_readings(const AcceptedReference& run, const AcceptedReference& accepted, const ReferenceTolerance& tolerance) {
+MovedReadings moved_readings(const AcceptedReference& run, const AcceptedReference& accepted, const ReferenceTolerance& tolerance) {
     std::vector<ResultDifference> differences = compare_readings(run.readings, accepted.readings, tolerance);
     const std::size_t all = differences.size();
     std::erase_if(differences, [](const ResultDifference& difference) { return difference.agreement == Agreement::agrees; });
     if (differences.empty())
-        return fmt::format("all {} readings agree", all);
+        return {0, fmt::format("all {} readings agree", all)};
     const ResultDifference& farthest = *std::ranges::max_element(differences, {}, [](const ResultDifference& difference) {
         return std::tuple(usually_decides(difference.what), !says_how_exact(difference.what), difference.of_allowed);
     });
-    return fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
-                       usually_decides(farthest.what) ? "of those that usually decide the farthest off" : "the farthest off", farthest.what,
-                       farthest.text);
+    return {differences.size(),
+            fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
+                        usually_decides(farthest.what) ? "of those that usually decide the farthest off" : "the farthest off",
+                        farthest.what, farthest.text)};
 }
 
 /// Why there is nothing to judge by. Where all but the inputs is known, which of them are others, and what that came to.
@@ -83,27 +89,28 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
                              const ReferenceTolerance& tolerance) {
     const std::string text = fmt::format("nothing accepted in {} for {}", store.string(), key_text(run.key));
     std::string nearest;
-    std::size_t fewest = 0;
+    std::pair<std::size_t, std::size_t> fewest; // inputs, and readings where these are as many
     for (const StoredReference& entry : entries) {
         if (!same_but_inputs(entry.key, run.key))
             continue;
         const AcceptedReference accepted = load_reference(store, entry);
         const std::vector<std::string> others = other_inputs(run.producer.inputs, accepted.producer.inputs);
-        if (!nearest.empty() && others.size() >= fewest)
+        const MovedReadings moved = moved_readings(run, accepted, tolerance);
+        const std::pair differing(others.size(), moved.count);
+        if (!nearest.empty() && differing >= fewest)
             continue;
-        fewest = others.size();
+        fewest = differing;
         std::vector<std::string> texts;
         for (const std::string& other : others)
             texts.push_back(input_text(other, run.producer.inputs));
-        nearest = fmt::format(" with these inputs; {} had another {}: {}", short_id(entry.id), fmt::join(texts, ", "),
-                              moved_readings(run, accepted, tolerance));
+        nearest = fmt::format(" with these inputs; {} had another {}: {}", short_id(entry.id), fmt::join(texts, ", "), moved.text);
     }
     if (!nearest.empty())
         return text + nearest;
     for (const StoredReference& entry : entries)
         if (same_but_lamp_set(entry.key, run.key))
             return text + fmt::format("; of this drive {} ({}) is accepted: {}", printable(entry.key.variant), short_id(entry.id),
-                                      moved_readings(run, load_reference(store, entry), tolerance));
+                                      moved_readings(run, load_reference(store, entry), tolerance).text);
     for (const StoredReference& entry : entries)
         if (same_but_device(entry.key, run.key))
             return text + fmt::format("; {} is of {}", short_id(entry.id), device_text(entry.key));

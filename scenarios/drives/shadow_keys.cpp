@@ -1,6 +1,8 @@
 #include "scenarios/drives/shadow_keys.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <initializer_list>
 
 namespace fernlicht {
 namespace {
@@ -14,6 +16,42 @@ ShadowMethod method_of(const YamlEntry& entry) {
     names.emplace_back("auto");
     const std::size_t chosen = entry.choice(names);
     return chosen + 1 == names.size() ? ShadowMethod::automatic : shadow_method_names()[chosen].method;
+}
+
+bool is_one_of(ShadowMethod method, std::initializer_list<ShadowMethod> methods) {
+    return std::ranges::find(methods, method) != methods.end();
+}
+
+bool shadows_anything(ShadowMethod method) { return method != ShadowMethod::none; }
+bool draws_own_maps(ShadowMethod method) {
+    return !is_one_of(method, {ShadowMethod::none, ShadowMethod::under_car, ShadowMethod::planar, ShadowMethod::volumes});
+}
+bool has_discs(ShadowMethod method) { return is_one_of(method, {ShadowMethod::soft_map, ShadowMethod::automatic}); }
+bool is_to_be_chosen(ShadowMethod method) { return method == ShadowMethod::automatic; }
+
+/// A key, the methods that hear it, and its value as text. The first two are those of the maps of others' lamps, whatever the method.
+struct ShadowKey {
+    std::string_view key;
+    bool (*heard_by)(ShadowMethod);
+    std::string (*text)(const ShadowSettings&);
+};
+constexpr ShadowKey shadow_keys[] = {
+    {"map_texels", shadows_anything, [](const ShadowSettings& s) { return fmt::format("[{}, {}]", s.width, s.height); }},
+    {"tolerance_m", shadows_anything, [](const ShadowSettings& s) { return fmt::format("{}", s.tolerance_m); }},
+    {"redraw_texels", draws_own_maps, [](const ShadowSettings& s) { return fmt::format("{}", s.redraw_texels); }},
+    {"lamp_radius_m", has_discs, [](const ShadowSettings& s) { return fmt::format("{}", s.lamp_radius_m); }},
+    {"lamp_places", has_discs, [](const ShadowSettings& s) { return fmt::format("{}", s.lamp_places); }},
+    {"error_bound", is_to_be_chosen, [](const ShadowSettings& s) { return fmt::format("{}", s.error_bound); }},
+};
+
+void refuse_keys_without_effect(const YamlMap& keys, ShadowMethod method) {
+    std::string heard = "method";
+    for (const ShadowKey& row : shadow_keys)
+        if (row.heard_by(method))
+            heard += fmt::format(", {}", row.key);
+    for (const ShadowKey& row : shadow_keys)
+        if (const auto given = keys.find(row.key); given && !row.heard_by(method))
+            given->refuse(fmt::format("a key that method '{}' does not use", name(method)), fmt::format("none but {}", heard));
 }
 
 } // namespace
@@ -33,6 +71,7 @@ ShadowSettings read_shadows(const YamlMap& drive) {
     const YamlMap keys =
         given->map({"method", "map_texels", "tolerance_m", "redraw_texels", "lamp_radius_m", "lamp_places", "error_bound"});
     shadows.method = method_of(keys.require("method"));
+    refuse_keys_without_effect(keys, shadows.method);
     if (const auto texels = keys.find("map_texels")) {
         const std::vector<YamlEntry> sides = texels->list(2, 2);
         shadows.width = sides[0].whole(least_texels, most_texels);
@@ -48,10 +87,17 @@ ShadowSettings read_shadows(const YamlMap& drive) {
 }
 
 std::string write_shadows(const ShadowSettings& shadows) {
-    return fmt::format("shadows: {{method: {}, map_texels: [{}, {}], tolerance_m: {}, redraw_texels: {}, lamp_radius_m: {}, lamp_places: "
-                       "{}, error_bound: {}}}\n",
-                       name(shadows.method), shadows.width, shadows.height, shadows.tolerance_m, shadows.redraw_texels,
-                       shadows.lamp_radius_m, shadows.lamp_places, shadows.error_bound);
+    if (!shadows.any())
+        return "shadows: false\n";
+    const ShadowSettings usual;
+    std::string keys;
+    bool all_usual = shadows.method == usual.method;
+    for (const ShadowKey& row : shadow_keys)
+        if (row.heard_by(shadows.method)) {
+            keys += fmt::format(", {}: {}", row.key, row.text(shadows));
+            all_usual &= row.text(shadows) == row.text(usual);
+        }
+    return all_usual ? "shadows: true\n" : fmt::format("shadows: {{method: {}{}}}\n", name(shadows.method), keys);
 }
 
 } // namespace fernlicht

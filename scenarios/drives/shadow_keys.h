@@ -6,9 +6,10 @@
 
 namespace fernlicht {
 
-/// `shadows`: true, false, a method's name, or a map with `method`.
+/// `shadows`: true, false, a method's name, or a map with `method` and what that method uses; other keys are refused.
 ShadowSettings read_shadows(const YamlMap& drive);
 /// YAML that is read back to the same.
+/// What `read_shadows` reads; keys that the method does not use are left out.
 std::string write_shadows(const ShadowSettings& shadows);
 
 } // namespace fernlicht

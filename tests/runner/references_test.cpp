@@ -299,6 +299,20 @@ TEST_F(References, OfOtherInputsTheNearestAreNamed) {
     EXPECT_THAT(texts(other.judged(store)), HasSubstr(" had another road: all 2 readings agree"));
 }
 
+// Where as many inputs differ, those with the fewest readings that differ: of a whole drive and a part of it the one that was played.
+TEST_F(References, OfAsManyOtherInputsTheNearestReadingsAreNamed) {
+    for (const double value_m : {61.0, 60.0, 62.0}) {
+        StoredRun accepted(temporary.path() / std::to_string(value_m));
+        accepted.report.played[0].readings[0].value = value_m;
+        accepted.report.played[0].inputs = {{"drive", std::to_string(value_m)}, {"road", "this road"}};
+        write_report(accepted.report, accepted.folder);
+        accept_run(accepted.folder, store);
+    }
+    StoredRun other = run;
+    other.report.played[0].inputs = {{"drive", "a fourth drive"}, {"road", "this road"}};
+    EXPECT_THAT(texts(other.judged(store)), HasSubstr(" had another drive: all 2 readings agree"));
+}
+
 // One other class of device judges by the tolerance alone, and a verdict says so. Three others gave 60, 60.001 and 60.002 m: mean 60.001,
 // standard deviation 0.001; Student's t with 2 degrees of freedom at 0.001 is 31.6: chance reaches 31.6 * 0.001 * sqrt(4/3) = 0.036 m, with
 // rounding 0.097 m.

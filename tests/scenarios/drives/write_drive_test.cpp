@@ -195,8 +195,10 @@ class AnyDrive {
             return Limit{text(), number(-5.0, 0.0), coin() ? std::optional(number(0.0, 1e9)) : std::nullopt};
         });
         drive.shadows.method = shadow_method_names()[drive.seed % shadow_method_names().size()].method;
-        drive.shadows.width = coin() ? 1024 : 16;
-        drive.shadows.tolerance_m = number(0.001, 1.0);
+        if (drive.shadows.any() && coin()) { // nothing of what follows is written for none
+            drive.shadows.width = coin() ? 1024 : 16;
+            drive.shadows.tolerance_m = number(0.001, 1.0);
+        }
         if (coin())
             drive.beams = coin() ? eight_bit_texels : BeamTexels{2 + static_cast<int>(drive.seed % 100), 33, coin() ? 16 : 32};
         drive.textured = coin();
@@ -396,6 +398,9 @@ TEST_F(WriteDrive, TextureOptionsComeBack) {
     EXPECT_EQ(again.texture_h_extent_deg[1], 20.2);
     EXPECT_EQ(again.texture_v_extent_deg[0], again.texture_v_extent_deg[1]);
 }
+
+/// Drives that say nothing of shadows keep their text, and what is accepted of them, whatever methods and keys come to be.
+TEST_F(WriteDrive, UsualShadowsAreOneWord) { EXPECT_THAT(write_drive(read(minimal)), testing::HasSubstr("\nshadows: true\n")); }
 
 } // namespace
 } // namespace fernlicht
