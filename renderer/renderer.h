@@ -25,6 +25,9 @@ struct RendererSettings {
         true; ///< lamps of others are drawn as coarsely as their light allows (docs/traffic.md); false: each with its beam
     bool traffic_shadows =
         true; ///< lamps of others cast shadows where `shadows` has any method; false: their light goes through everything
+    std::shared_ptr<const View>
+        shadow_eye; ///< for measuring: maps that are fitted to a view are fitted to this one of the same moment,
+                    ///< whatever view is drawn; beyond what it sees they may hold no shadow. nullptr: the view drawn
     ReadBack read_back = ReadBack::plain;
     bool profile = false;   ///< finish after each pass and time it; slower, so never together with frame times
     bool gpu_clock = false; ///< time passes by GL_TIME_ELAPSED; only where check_timer() has found it right

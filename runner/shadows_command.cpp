@@ -21,7 +21,7 @@ struct Flags {
     std::string variant, backend = "auto", out, texels = "1024x512", resolution = "512x384";
     std::vector<std::string> methods, scenes{"*"};
     std::filesystem::path lamp = "scenarios/library/lamps/xenon-low.ies";
-    double lamp_radius_m = 0.03;
+    double lamp_radius_m = ShadowSettings{}.lamp_radius_m, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
     int moments = 3, rounds = 7;
     std::uint64_t seed = 1;
     bool quiet = false, markdown = false;
@@ -48,8 +48,11 @@ int shadows(const Flags& flags, const std::vector<std::string>& command) {
         refuse_flag("--map-texels", flags.texels, "16 to 8192 each way");
     request.options.width = width;
     request.options.height = height;
-    if (!(flags.lamp_radius_m >= 0.0 && flags.lamp_radius_m <= 1.0))
-        refuse_flag("--lamp-radius", fmt::format("{}", flags.lamp_radius_m), "0 to 1 m");
+    if (flags.lamp_radius_m != 0.0 && !(flags.lamp_radius_m >= 0.001 && flags.lamp_radius_m <= 0.5))
+        refuse_flag("--lamp-radius", fmt::format("{}", flags.lamp_radius_m), "0, or 0.001 to 0.5 m");
+    if (!(flags.vertical_fov_deg >= 1.0 && flags.vertical_fov_deg <= 120.0))
+        refuse_flag("--vertical-fov", fmt::format("{}", flags.vertical_fov_deg), "1 to 120 degrees");
+    request.vertical_fov_rad = radians(flags.vertical_fov_deg);
     request.options.lamp_radius_m = flags.lamp_radius_m;
     request.options.rounds = flags.rounds;
     request.options.timed_px = resolution_of(flags.resolution);
@@ -89,6 +92,8 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--lamp", flags->lamp, "lamp file, the beam of the hard scenes")->capture_default_str();
     sub->add_option("--lamp-radius", flags->lamp_radius_m, "m, of lamps as discs, for soft shadows; 0: not measured")
         ->capture_default_str();
+    sub->add_option("--vertical-fov", flags->vertical_fov_deg, "degrees, of the driver's view in the hard scenes, 4:3")
+        ->default_str(fmt::format("{:.1f}", flags->vertical_fov_deg));
     sub->add_option("--moments", flags->moments, "of each drive, spread evenly over it")->check(CLI::Range(1, 100))->capture_default_str();
     sub->add_option("--rounds", flags->rounds, "of times; in each, every method draws the moments once")
         ->check(CLI::Range(1, 100000))

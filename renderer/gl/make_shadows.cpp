@@ -29,9 +29,9 @@ std::unique_ptr<Shadows> make_shadows(Context& context, const SceneBuffers& scen
     case ShadowMethod::one_map:
         return std::make_unique<OneMap>(context, scene, settings);
     case ShadowMethod::perspective_map:
-        return std::make_unique<WarpedMaps>(context, scene, settings, Warp::perspective);
+        return std::make_unique<WarpedMaps>(context, scene, settings, Warp::perspective, use.eye);
     case ShadowMethod::light_space_map:
-        return std::make_unique<WarpedMaps>(context, scene, settings, Warp::light_space);
+        return std::make_unique<WarpedMaps>(context, scene, settings, Warp::light_space, use.eye);
     case ShadowMethod::soft_map:
         return std::make_unique<SoftMaps>(context, scene, settings);
     }

@@ -54,7 +54,7 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, settings.beams),
-      shadows_(make_shadows(context, scene_, settings.shadows, {settings.target_height_m, pruned})),
+      shadows_(make_shadows(context, scene_, settings.shadows, {settings.target_height_m, pruned, settings.shadow_eye})),
       traffic_(context, scene_, beams_, settings.traffic_levels, pruned), air_lamps_(context, beams_, pruned),
       faces_(context, settings.tone_mapper), list_(context, scene_),
       block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}

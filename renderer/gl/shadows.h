@@ -47,8 +47,9 @@ class Shadows {
 
 /// What a method may want to know of the view's drawing.
 struct ShadowUse {
-    double target_height_m = 0.25; ///< of targets above surfaces (Wanted::target)
-    bool pruned = true;            ///< only pieces that reach() names are looked up
+    double target_height_m = 0.25;             ///< of targets above surfaces (Wanted::target)
+    bool pruned = true;                        ///< only pieces that reach() names are looked up
+    std::shared_ptr<const View> eye = nullptr; ///< whose view maps are fitted to (RendererSettings::shadow_eye); nullptr: the one drawn
 };
 /// nullptr for ShadowMethod::none.
 std::unique_ptr<Shadows> make_shadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, const ShadowUse& use);

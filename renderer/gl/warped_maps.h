@@ -11,14 +11,16 @@ enum class Warp { perspective, light_space };
 /// plain map; it is the plain one for maps, which have no eye, and for pictures of targets, which stand outside what is seen.
 class WarpedMaps : public ProjectedMaps {
   public:
-    WarpedMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, Warp warp)
-        : ProjectedMaps(context, scene, settings), warp_(warp) {}
+    /// `eye`: whose view they are fitted to; nullptr: the one drawn.
+    WarpedMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, Warp warp, std::shared_ptr<const View> eye)
+        : ProjectedMaps(context, scene, settings), warp_(warp), eye_(std::move(eye)) {}
 
   protected:
     std::vector<MapPlan> plan(const Shot& shot) override;
 
   private:
     Warp warp_;
+    std::shared_ptr<const View> eye_;
 };
 
 } // namespace fernlicht::gl

@@ -1,6 +1,7 @@
 #include "runner/shadows/scene_study.h"
 
 #include "metrics/random_order.h"
+#include "renderer/camera.h"
 #include "runner/accuracy/accuracy_result.h"
 #include "runner/display/tile_sheet.h"
 #include "runner/shadows/shadow_truth.h"
@@ -19,6 +20,8 @@ RendererSettings settings_with(const ShadowScene& scene, const SceneStudyOptions
     settings.shadows.method = method;
     settings.shadows.width = options.width;
     settings.shadows.height = options.height;
+    if (options.lamp_radius_m > 0.0) // soft methods draw the discs that they are held against
+        settings.shadows.lamp_radius_m = options.lamp_radius_m;
     return settings;
 }
 
@@ -51,6 +54,26 @@ View section_view(double lamp_m, double ahead_m) {
     const double x = lamp_m + ahead_m;
     return from_above(x - 0.5 * edge_pixel_m, x + 0.5 * edge_pixel_m, section_half_m,
                       static_cast<int>(std::lround(2.0 * section_half_m / edge_pixel_m)), 1);
+}
+
+/// Of a section only what the eye sees counts: how high the ground lies there is as good as nothing beside how far away it is.
+void leave_out_unseen(ShadowImages& images, const Moment& moment, const View& section, const View& eye) {
+    const Camera above = camera_of(moment, section), seen = camera_of(moment, eye);
+    for (int y = 0; y < section.height_px; ++y)
+        for (int x = 0; x < section.width_px; ++x) {
+            const Ray ray = pixel_ray(above, section, x + 0.5, y + 0.5);
+            const glm::dvec3 ground =
+                ray.origin_m - ray.direction * (glm::dot(ray.origin_m, moment.ego.up()) / glm::dot(ray.direction, moment.ego.up()));
+            const glm::dvec4 clip = seen.clip_from_ego * glm::dvec4(ground, 1.0);
+            if (clip.w <= 0.0 || std::abs(clip.x) > clip.w)
+                images.counts.at(x, y) = 0;
+        }
+}
+
+EdgeMatch seen_edges(ShadowTruth& truth, Renderer& renderer, const std::vector<Moment>& moments, std::size_t moment, const View& eye) {
+    ShadowImages images = truth.images(renderer, moment);
+    leave_out_unseen(images, moments[moment], truth.view(), eye);
+    return section_edges(images, 0, edge_pixel_m);
 }
 
 View width_view(const View& view, int width_px) {
@@ -94,6 +117,8 @@ struct SceneTruth {
     Reference rays;
     Renderer unshadowed;
     std::vector<Moment> alone, steps; ///< of the first lamp: of each moment; the one shown, moved ahead step by step
+    /// Where edges are measured: one moment alone would say how they happen to lie among a map's texels.
+    const std::vector<Moment>& edge_moments() const { return alone.size() > 1 ? alone : steps; }
     std::size_t shown;
     ShadowTruth ground, view, discs, picture;
     ShownPart part; ///< of the picture
@@ -122,13 +147,13 @@ struct SceneTruth {
           part(part_with_shadow(true_degrees(picture.of(shown)))),
           crawl(rays, unshadowed, steps, section_view(lamp_ahead_m(alone[shown]), crawl_distance_m)) {
         for (const double distance_m : edge_distances_m)
-            sections.emplace_back(rays, unshadowed, alone, section_view(lamp_ahead_m(alone[shown]), distance_m));
+            sections.emplace_back(rays, unshadowed, edge_moments(), section_view(lamp_ahead_m(alone[shown]), distance_m));
     }
     SceneTruth(const SceneTruth&) = delete;
     SceneTruth& operator=(const SceneTruth&) = delete;
 };
 
-void measure_errors(SceneTruth& truth, const ShadowScene& scene, const SceneStudyOptions& options, Renderer& renderer, ShadowRow& row) {
+void measure_areas(SceneTruth& truth, const ShadowScene& scene, const SceneStudyOptions& options, Renderer& renderer, ShadowRow& row) {
     for (std::size_t m = 0; m < scene.moments.size(); ++m) {
         const ShadowArea ground = shadow_area(truth.ground.images(renderer, m), ground_along_m * ground_across_m);
         row.ground_m2 += ground;
@@ -139,22 +164,26 @@ void measure_errors(SceneTruth& truth, const ShadowScene& scene, const SceneStud
     }
     if (options.lamp_radius_m > 0.0)
         row.discs_px = shadow_area(truth.discs.images(renderer, truth.shown));
+    row.wrong = truth.part.of(shadow_differences(truth.picture.images(renderer, truth.shown)));
+    row.luminance_cdm2 = truth.part.of(renderer.draw(scene.moments[truth.shown], truth.picture.view(), {.luminance = true}).luminance_cdm2);
+}
+
+/// Seen from above, by a renderer whose maps are fitted to the scene's view.
+void measure_edges(SceneTruth& truth, const View& eye, Renderer& renderer, ShadowRow& row) {
     for (std::size_t d = 0; d < edge_distances_m.size(); ++d) {
         std::vector<EdgeMatch> sections;
-        for (std::size_t m = 0; m < truth.alone.size(); ++m)
-            sections.push_back(section_edges(truth.sections[d].images(renderer, m), 0, edge_pixel_m));
+        for (std::size_t m = 0; m < truth.edge_moments().size(); ++m)
+            sections.push_back(seen_edges(truth.sections[d], renderer, truth.edge_moments(), m, eye));
         row.edges[d] = edge_error(sections);
     }
     std::vector<EdgeMatch> steps;
     for (std::size_t k = 0; k < truth.steps.size(); ++k)
-        steps.push_back(section_edges(truth.crawl.images(renderer, k), 0, edge_pixel_m));
+        steps.push_back(seen_edges(truth.crawl, renderer, truth.steps, k, eye));
     row.crawl_cm = shadow_crawl_cm(steps);
     if (!row.crawl_cm)
         row.no_crawl = std::ranges::all_of(steps, [](const EdgeMatch& step) { return step.true_edges() == 0; })
                            ? "no edge of a shadow there"
                            : "no edge is drawn in steps one after the other";
-    row.wrong = truth.part.of(shadow_differences(truth.picture.images(renderer, truth.shown)));
-    row.luminance_cdm2 = truth.part.of(renderer.draw(scene.moments[truth.shown], truth.picture.view(), {.luminance = true}).luminance_cdm2);
 }
 
 /// What is drawn for times: nothing may be left over from the frame before, so the car always moves.
@@ -252,6 +281,7 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
     result.of_drive = scene.of_drive;
     result.width_px = options.timed_px.first;
     result.height_px = options.timed_px.second;
+    result.vertical_fov_rad = scene.view.vertical_fov_rad;
     for (const Moment& moment : scene.moments)
         result.moments.emplace_back(moment.tick, moment.time_s);
     if (stop())
@@ -268,7 +298,11 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
         row.method = method;
         try {
             Renderer renderer(device, *scene.scene, settings_with(scene, options, method));
-            measure_errors(truth, scene, options, renderer, row);
+            measure_areas(truth, scene, options, renderer, row);
+            RendererSettings from_above = settings_with(scene, options, method);
+            from_above.shadow_eye = std::make_shared<const View>(scene.view);
+            Renderer above(device, *scene.scene, from_above);
+            measure_edges(truth, scene.view, above, row);
             for (const Moment& moment : timed_moments(scene)) // a method may refuse any of them
                 renderer.draw(moment, truth.discs.view(), {.colour = true});
         } catch (const InputError& refused) {

@@ -10,8 +10,8 @@ namespace fernlicht {
 
 struct SceneStudyOptions {
     std::vector<ShadowMethod> methods;
-    int width = 1024, height = 512; ///< texels
-    double lamp_radius_m = 0.03;    ///< of discs; 0: not measured
+    int width = 1024, height = 512;                        ///< texels
+    double lamp_radius_m = ShadowSettings{}.lamp_radius_m; ///< of discs, of soft methods and of the truth; 0: the truth is not measured
     int rounds = 7;
     std::pair<int, int> timed_px{512, 384};
     std::uint64_t seed = 1;

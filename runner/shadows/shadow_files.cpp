@@ -80,6 +80,7 @@ Json scene_json(const ShadowSceneResult& scene) {
             {"title", scene.title},
             {"of_drive", scene.of_drive},
             {"moments", moments},
+            {"vertical_fov_deg", degrees(scene.vertical_fov_rad)},
             {"timed_px", {{"width", scene.width_px}, {"height", scene.height_px}}},
             {"rows", rows}};
 }

@@ -72,6 +72,7 @@ data scene_part(const ShadowSceneResult& scene, const std::vector<WorkPrecision>
         for (const auto& [tick, time_s] : scene.moments)
             moments += fmt::format("{}{:.2f} s", moments.empty() ? ", at " : ", ", time_s);
     part.set("moments", moments);
+    part.set("fov", fmt::format("{:.0f}", degrees(scene.vertical_fov_rad)));
     part.set("size", fmt::format("{} x {}", scene.width_px, scene.height_px));
     for (const ShadowRow& row : scene.rows)
         rows.push_back(error_part(row));

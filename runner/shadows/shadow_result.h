@@ -46,6 +46,7 @@ struct ShadowSceneResult {
     std::vector<std::pair<int, double>> moments; ///< tick and time in seconds
     std::size_t shown = 0;                       ///< of `moments`
     int width_px = 0, height_px = 0;             ///< of the view timed
+    double vertical_fov_rad = 0.0;               ///< of the view that maps are fitted to
     std::vector<ShadowRow> rows;
     Image<float> luminance_cdm2, degree; ///< by rays, of the moment shown; degree of shadow, below 0 where none counts
 };

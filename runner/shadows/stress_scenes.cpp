@@ -109,16 +109,16 @@ Scene with_fence() {
     return scene;
 }
 
-/// A body on four legs, light passes below.
-Scene with_car_close() {
+/// A body on four legs, light passes below. Its origin lies under the middle of its rear: it is one that can move.
+Scene with_car() {
     Scene scene = plane_road();
     const std::size_t first = scene.meshes.size();
-    const double x = left_lamp_m.x + 3.0;
-    add_box(scene, "body", {x, -0.9, 0.2}, {x + 4.2, 0.9, 1.4});
-    for (const double wheel : {x + 0.6, x + 3.0})
+    add_box(scene, "body", {0.0, -0.9, 0.2}, {4.2, 0.9, 1.4});
+    for (const double wheel : {0.6, 3.0})
         for (const double y : {-0.9, 0.7})
             add_box(scene, "wheel", {wheel, y, 0.0}, {wheel + 0.6, y + 0.2, 0.2});
     join(scene, first, "car");
+    scene.meshes.back().body = 0;
     return scene;
 }
 
@@ -146,16 +146,16 @@ Scene with_wall() {
     return scene;
 }
 
-View drivers_view() {
+View drivers_view(double vertical_fov_rad) {
     View view = stability::camera({1.3, 0.35, 1.2}, 0.0, radians(-1.0), 0.0, 1024, 768);
     view.name = "driver";
-    view.vertical_fov_rad = View{}.vertical_fov_rad;
+    view.vertical_fov_rad = vertical_fov_rad;
     return view;
 }
 
 } // namespace
 
-std::vector<ShadowScene> stress_scenes(const std::shared_ptr<const LampFile>& beam) {
+std::vector<ShadowScene> stress_scenes(const std::shared_ptr<const LampFile>& beam, double vertical_fov_rad) {
     Moment moment;
     for (const auto& [name, place] : {std::pair("left", left_lamp_m), std::pair("right", right_lamp_m)})
         moment.lamps.push_back({name, beam, Pose{place, glm::dmat3(1.0)}, 1.0, LampColour{}, 0.0});
@@ -163,13 +163,14 @@ std::vector<ShadowScene> stress_scenes(const std::shared_ptr<const LampFile>& be
     const auto add = [&](const char* name, const char* title, Scene scene, const View& view) {
         all.push_back({name, title, false, std::make_shared<const Scene>(std::move(scene)), {moment}, view, {}});
     };
-    const View driver = drivers_view();
+    const View driver = drivers_view(vertical_fov_rad);
     add("post-5", "A post 5 m away", with_post(5.0, -0.3), driver);
     add("post-20", "A post 20 m away", with_post(20.0, -0.9), driver);
     add("post-79", "A post 79 m away: light falls in at half a degree", with_post(79.0, -1.5), driver);
     add("kerb", "A kerb, 0.12 m high, along the road", with_kerb(), driver);
     add("fence", "A fence of pales 4 cm wide", with_fence(), driver);
-    add("car-close", "A car 3 m before the lamps; light passes below it", with_car_close(), driver);
+    add("car-close", "A car 3 m before the lamps; light passes below it", with_car(), driver);
+    all.back().moments[0].bodies = {{"car", Pose{{left_lamp_m.x + 3.0, 0.0, 0.0}, glm::dmat3(1.0)}, true, 0.0, false}};
     add("crest", "A crest, grazed by the light, and a post before it", crest_road(), driver);
     add("lamp-in-body", "Lamps inside housings that are open in front", with_housings(), driver);
     View behind_wall = driver;

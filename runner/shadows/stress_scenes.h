@@ -21,7 +21,8 @@ struct ShadowScene {
 
 /// The lamps stand 3.4 m before the car's origin, 0.65 m high and 1.2 m apart, both with this beam, unturned. A road that is a plane, but
 /// for the crest; things stand so far from the lamps as the name says.
-std::vector<ShadowScene> stress_scenes(const std::shared_ptr<const LampFile>& beam);
+/// Views are 4:3; 0 < fov < pi.
+std::vector<ShadowScene> stress_scenes(const std::shared_ptr<const LampFile>& beam, double vertical_fov_rad = View{}.vertical_fov_rad);
 
 /// The same car `ahead_m` farther along its heading: lamps, body and all that is its own.
 Moment moved_ahead(Moment moment, double ahead_m);

@@ -36,14 +36,14 @@ TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
     // Without shadows each truly shadowed place is wrongly lit, and no edge is drawn.
     EXPECT_NEAR(none.at("ground_m2").at("wrongly_lit"), none.at("ground_m2").at("shadowed"), 1e-3);
     EXPECT_LT(none.at("ground_m2").at("wrongly_dark"), 1e-4);
-    EXPECT_EQ(none.at("edges").at(0).at("lost"), 2);
+    EXPECT_EQ(none.at("edges").at(0).at("lost"), 18); // two in each of nine steps
     EXPECT_EQ(none.at("edges").at(0).at("edges"), 0);
     EXPECT_FALSE(none.at("crawl").at("not_measured").is_null());
     EXPECT_EQ(none.at("texture_bytes"), 0);
     // A map of 512 x 256 over a low beam: 0.1 to 0.2 m a texel at 30 m, edges within a texel and a half.
     EXPECT_LT(map.at("ground_m2").at("wrong_share"), 0.5 * none.at("ground_m2").at("wrong_share").get<double>());
     for (const json& edge : map.at("edges")) {
-        EXPECT_EQ(edge.at("edges"), 2) << edge;
+        EXPECT_EQ(edge.at("edges"), 18) << edge;
         EXPECT_GT(edge.at("rms_cm"), 0.0);
         EXPECT_LT(edge.at("worst_cm"), 2.0 * edge.at("distance_m").get<double>()) << edge;
     }
@@ -58,6 +58,41 @@ TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / name)) << name;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
     EXPECT_THAT(content_of(folder / "out/shadows.html"), HasSubstr("Shadow methods"));
+}
+
+// Maps of one size: what the view does not see costs the warped ones no texels. A view 15 degrees high sees less than a fourth of the
+// beam's width.
+TEST(ShadowsCommand, WarpedMapsGainWhereTheViewIsNarrow) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program(small +
+                                    "--rounds 1 --lamp-radius 0 --vertical-fov 15 --scenes post-20 "
+                                    "--methods map,perspective-map,light-space-map --out " +
+                                    (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json scene = json::parse(content_of(folder / "out/shadows.json")).at("scenes").at(0);
+    EXPECT_NEAR(scene.at("vertical_fov_deg"), 15.0, 1e-9);
+    const json& map = row_of(scene, "map");
+    for (const char* const method : {"perspective-map", "light-space-map"}) {
+        const json& warped = row_of(scene, method);
+        EXPECT_EQ(warped.at("texture_bytes"), map.at("texture_bytes"));
+        for (const std::size_t distance : {1U, 2U}) {
+            EXPECT_EQ(warped.at("edges").at(distance).at("edges"), 18);
+            EXPECT_LT(warped.at("edges").at(distance).at("rms_cm"), 0.5 * map.at("edges").at(distance).at("rms_cm").get<double>())
+                << method;
+        }
+    }
+}
+
+// Lamps as discs of 6 cm: half shadows around a post's, which hard edges lack.
+TEST(ShadowsCommand, SoftMapsAreNearerToDiscs) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program(small + "--rounds 1 --scenes post-5 --methods map,soft-map --out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json found = json::parse(content_of(folder / "out/shadows.json"));
+    EXPECT_EQ(found.at("lamp_radius_m"), 0.06);
+    const json& scene = found.at("scenes").at(0);
+    EXPECT_LT(row_of(scene, "soft-map").at("discs_px").at("wrong_share"),
+              0.4 * row_of(scene, "map").at("discs_px").at("wrong_share").get<double>());
 }
 
 TEST(ShadowsCommand, TakesEveryMethodThereIs) {
@@ -90,6 +125,8 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
     EXPECT_THAT(refused("--scenes past-5"), HasSubstr("fits no scene"));
     EXPECT_THAT(refused("--scenes none"), HasSubstr("DRIVE"));
     EXPECT_THAT(refused("--map-texels 8x8"), HasSubstr("16 to 8192"));
+    EXPECT_THAT(refused("--vertical-fov 0"), HasSubstr("1 to 120 degrees"));
+    EXPECT_THAT(refused("--lamp-radius 0.7"), HasSubstr("0.001 to 0.5 m"));
     EXPECT_THAT(refused("--scenes none --moments 99 " + library_file("drives/shelter.yaml")), HasSubstr("1 to 50"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
