@@ -292,11 +292,14 @@ void main() {
 #if WANT_SEEN && WET
         PRECISE vec3 wet = vec3(0.0);
 #endif
-        for (uint k = 0u; k < list.y; ++k) {
+        // Conditions at the loops' ends: llvmpipe runs a body once more, for no fragment, before it leaves by a condition at the beginning.
+        uint k = 0u;
+        if (list.y > 0u) do {
             vec4 entry = texelFetch(traffic_entries, int(list.x + k));
             TrafficUnit unit = traffic_unit(int(entry.x));
+            int lamp = first_traffic_lamp(entry);
             int end = end_of_traffic_lamps(entry);
-            for (int lamp = first_traffic_lamp(entry); lamp < end; ++lamp) {
+            do {
                 vec3 to_lamp = traffic_place(unit, lamp) - v_traffic_p;
                 float e_perp, whole;
                 float e = traffic_lx(unit, entry, lamp, -to_lamp, n, e_perp, whole);
@@ -313,8 +316,10 @@ void main() {
                 returned += TINTED(unit.colour.rgb) *
                             retro_luminance(rl, e_perp, e, quick_observation_angle(to_lamp, v_traffic_eye.xyz - v_traffic_eye.w * v_traffic_p), v_retro.x, v_retro.y);
 #endif
-            }
-        }
+                ++lamp;
+            } while (lamp < end);
+            ++k;
+        } while (k < list.y);
         illuminance += others.w;
 #if WANT_SEEN
         light += DRY(vec3(diffuse_luminance(albedo.r, others.r), diffuse_luminance(albedo.g, others.g), diffuse_luminance(albedo.b, others.b)) + returned);

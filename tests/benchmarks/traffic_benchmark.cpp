@@ -1,6 +1,7 @@
 // A frame with 0 to 400 oncoming cars on 17 km of straight road, lamps, bodies and faces, one car each 40 m or 25 m. Run with
 // --benchmark_filter=frame_with_traffic --benchmark_repetitions=21 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.01.
-// shadows: of these lamps; the own lamps' are there always.
+// shadows: of these lamps; the own lamps' are there always. moving: each frame is the next of 16 a sixtieth of a second apart, in which all
+// cars drive, so that no map stands already; else one moment.
 // What is drawn is made once for each number of cars, so that rounds alternate between them quickly.
 #include "renderer/renderer.h"
 #include "scenarios/drives/advance.h"
@@ -20,6 +21,9 @@
 
 namespace fernlicht {
 namespace {
+
+constexpr int moving_frames = 16;
+constexpr double frames_a_second = 60.0;
 
 /// Two lanes of 17 km and a row of cars that come, the first 40 m ahead.
 Drive oncoming(int cars, int every_m) {
@@ -47,7 +51,7 @@ Drive oncoming(int cars, int every_m) {
 
 /// All that is drawn, and who draws it; uploaded and compiled.
 struct Stage {
-    Stage(Device& device, int cars, int every_m, bool levels, bool shadows) : drive(oncoming(cars, every_m)) {
+    Stage(Device& device, int cars, int every_m, bool levels, bool shadows, bool moving) : drive(oncoming(cars, every_m)) {
         const RoadNetwork network = read_opendrive(drive.road_file);
         std::filesystem::remove(drive.road_file);
         const Route route(network, drive.start, drive.via);
@@ -59,32 +63,38 @@ struct Stage {
         settings.traffic_levels = levels;
         settings.traffic_shadows = shadows;
         renderer.emplace(device, scene, settings);
-        moment = moment_at(start(drive), drive, route, drive.variants.front());
+        for (int frame = 0; frame < (moving ? moving_frames : 1); ++frame) {
+            const double time_s = frame / frames_a_second;
+            moments.push_back(moment_at({frame, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants.front()));
+        }
+        renderer->prepare(moments, drive.views.front(), {.colour = true});
         for (int warm_up = 0; warm_up < 2; ++warm_up)
             draw();
     }
+    const Moment& next() { return moments[drawn++ % moments.size()]; }
     void draw() {
-        renderer->render(moment, drive.views.front(), {.colour = true});
+        renderer->render(next(), drive.views.front(), {.colour = true});
         renderer->finish();
     }
 
     Drive drive;
     Scene scene;
     std::optional<Renderer> renderer;
-    Moment moment;
+    std::vector<Moment> moments;
+    std::size_t drawn = 0;
 };
 
 void frame_with_traffic(benchmark::State& state) {
     static Device device = open_device("auto");
-    static std::map<std::tuple<int, int, bool, bool>, std::unique_ptr<Stage>> stages;
+    static std::map<std::tuple<int, int, bool, bool, bool>, std::unique_ptr<Stage>> stages;
     const auto arg = [&](std::size_t i) { return static_cast<int>(state.range(i)); };
-    std::unique_ptr<Stage>& stage = stages[{arg(0), arg(1), arg(2) != 0, arg(3) != 0}];
+    std::unique_ptr<Stage>& stage = stages[{arg(0), arg(1), arg(2) != 0, arg(3) != 0, arg(4) != 0}];
     if (!stage)
-        stage = std::make_unique<Stage>(device, arg(0), arg(1), arg(2) != 0, arg(3) != 0);
+        stage = std::make_unique<Stage>(device, arg(0), arg(1), arg(2) != 0, arg(3) != 0, arg(4) != 0);
     stage->draw(); // caches are another number of cars'
     for (auto _ : state)
         stage->draw();
-    const Work work = stage->renderer->count(stage->moment, stage->drive.views.front(), {.colour = true});
+    const Work work = stage->renderer->count(stage->moments.front(), stage->drive.views.front(), {.colour = true});
     state.counters["full"] = work.traffic_full;
     state.counters["merged"] = work.traffic_merged;
     state.counters["vertex"] = work.traffic_by_vertex;
@@ -95,18 +105,24 @@ void frame_with_traffic(benchmark::State& state) {
     state.counters["triangles"] = static_cast<double>(work.triangles);
 }
 BENCHMARK(frame_with_traffic)
-    ->ArgNames({"cars", "every_m", "levels", "shadows"})
-    ->Args({0, 40, 1, 1})
-    ->Args({1, 40, 1, 1})
-    ->Args({10, 40, 1, 1})
-    ->Args({100, 40, 1, 1})
-    ->Args({400, 40, 1, 1})
-    ->Args({100, 25, 1, 1})
-    ->Args({100, 40, 0, 1})
-    ->Args({1, 40, 1, 0})
-    ->Args({10, 40, 1, 0})
-    ->Args({100, 40, 1, 0})
-    ->Args({100, 25, 1, 0})
+    ->ArgNames({"cars", "every_m", "levels", "shadows", "moving"})
+    ->Args({0, 40, 1, 1, 0})
+    ->Args({1, 40, 1, 1, 0})
+    ->Args({10, 40, 1, 1, 0})
+    ->Args({100, 40, 1, 1, 0})
+    ->Args({400, 40, 1, 1, 0})
+    ->Args({100, 25, 1, 1, 0})
+    ->Args({100, 40, 0, 1, 0})
+    ->Args({1, 40, 1, 0, 0})
+    ->Args({10, 40, 1, 0, 0})
+    ->Args({100, 40, 1, 0, 0})
+    ->Args({100, 25, 1, 0, 0})
+    ->Args({1, 40, 1, 1, 1})
+    ->Args({10, 40, 1, 1, 1})
+    ->Args({100, 40, 1, 1, 1})
+    ->Args({1, 40, 1, 0, 1})
+    ->Args({10, 40, 1, 0, 1})
+    ->Args({100, 40, 1, 0, 1})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
