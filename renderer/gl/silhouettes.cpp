@@ -1,6 +1,7 @@
 #include "renderer/gl/silhouettes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -44,8 +45,8 @@ Silhouettes::Silhouettes(const std::vector<glm::vec3>& corners) {
         }
         triangles_.push_back(t);
     }
-    // Bodies: places joined by triangles.
-    std::vector<std::uint32_t> joined(places_.size());
+    // Bodies: edges joined by triangles.
+    std::vector<std::uint32_t> joined(edges_.size());
     std::iota(joined.begin(), joined.end(), 0U);
     const auto root = [&](std::uint32_t i) {
         while (joined[i] != i)
@@ -54,13 +55,13 @@ Silhouettes::Silhouettes(const std::vector<glm::vec3>& corners) {
     };
     for (const Triangle& t : triangles_)
         for (const std::size_t k : {1U, 2U})
-            joined[root(t.corners[k])] = root(t.corners[0]);
+            joined[root(t.edges[k])] = root(t.edges[0]);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::map<std::uint32_t, std::uint32_t> numbers;
     std::vector<int> uneven(edges_.size(), 0);
     std::vector<std::uint32_t> body_of_edge(edges_.size(), 0);
     for (Triangle& t : triangles_) {
-        const auto [it, fresh] = numbers.try_emplace(root(t.corners[0]), static_cast<std::uint32_t>(bodies_.size()));
+        const auto [it, fresh] = numbers.try_emplace(root(t.edges[0]), static_cast<std::uint32_t>(bodies_.size()));
         if (fresh)
             bodies_.push_back({true, glm::dvec3(infinity), glm::dvec3(-infinity)});
         t.body = it->second;
@@ -73,6 +74,16 @@ Silhouettes::Silhouettes(const std::vector<glm::vec3>& corners) {
     }
     for (std::size_t e = 0; e < edges_.size(); ++e)
         bodies_[body_of_edge[e]].closed = bodies_[body_of_edge[e]].closed && uneven[e] == 0;
+    // Six times the volume, by tetrahedra from the middle of the box.
+    std::vector<double> volumes(bodies_.size(), 0.0);
+    for (const Triangle& t : triangles_) {
+        const Body& body = bodies_[t.body];
+        volumes[t.body] -= glm::dot(t.normal, 0.5 * (body.low + body.high)) + t.offset;
+    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const glm::dvec3 size = bodies_[i].high - bodies_[i].low;
+        bodies_[i].closed = bodies_[i].closed && volumes[i] > -1e-9 * std::pow(glm::length(size), 3.0);
+    }
 }
 
 std::size_t Silhouettes::closed_bodies() const {

@@ -29,7 +29,8 @@ class Silhouettes {
     void add_hulls(const glm::dvec3& lamp_m, Casting casting, const std::vector<bool>& casts, std::vector<glm::vec4>& corners) const;
 
     std::size_t triangles() const { return triangles_.size(); }
-    /// Bodies are triangles that share corners. Closed: at each edge as many triangles run one way as the other.
+    /// Bodies are triangles that share edges. Closed: at each edge as many triangles run one way as the other, and the lit sides lie
+    /// outside (the volume that they enclose is not negative), so that light meets a lit side before it meets a back.
     struct Body {
         bool closed = true;
         glm::dvec3 low, high; ///< of the box round it

@@ -40,7 +40,10 @@ void StencilVolumes::begin(const Camera& camera) const {
     const glm::mat4 clip(camera.clip_from_ego);
     gl.UniformMatrix4fv(clip_, 1, GL_FALSE, &clip[0][0]);
     gl.Uniform1f(farthest_, camera.is_map ? farthest_in_maps : 0.0F);
-    gl.Enable(GL_DEPTH_CLAMP); // what lies beyond a map's depth counts where it ends
+    // What lies beyond a map's depth counts where it ends. A perspective has no end, and what is nearer than its near plane does not
+    // matter: kept, its depth near / w would be so large that floats between it and infinity could not tell hull and surface apart.
+    if (camera.is_map)
+        gl.Enable(GL_DEPTH_CLAMP);
     gl.StencilFunc(GL_ALWAYS, 0, 0xFF);
     gl.StencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
     gl.StencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);

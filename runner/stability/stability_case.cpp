@@ -1,5 +1,6 @@
 #include "runner/stability/stability_case.h"
 
+#include "runner/stability/shadow_method_cases.h"
 #include "runner/stability/traffic_cases.h"
 
 #include "scenarios/values/errors.h"
@@ -85,8 +86,9 @@ StabilityRow judge(const StabilityCase& one, StabilityBench& bench) {
 const std::vector<StabilityCase>& stability_cases() {
     static const std::vector<StabilityCase> all = [] {
         std::vector<StabilityCase> cases;
-        for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases, geometry_cases, shadow_cases, road_cases, image_cases,
-                                  comparison_cases, time_cases, number_cases, motion_cases, weather_cases, traffic_cases, equation_cases})
+        for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases, geometry_cases, shadow_cases, shadow_plane_cases,
+                                  shadow_map_cases, shadow_volume_cases, road_cases, image_cases, comparison_cases, time_cases,
+                                  number_cases, motion_cases, weather_cases, traffic_cases, equation_cases})
             for (StabilityCase& one : family())
                 cases.push_back(std::move(one));
         return cases;

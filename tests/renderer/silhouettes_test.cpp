@@ -114,6 +114,24 @@ TEST(Silhouettes, OpenSheetsFinsAndFlippedTrianglesGiveClosedHulls) {
         }
 }
 
+/// Of a closed body fronts alone cast; inside out those are the far sides, and within it light would reach what the near sides hide.
+TEST(Silhouettes, BodiesInsideOutCastFromAllTriangles) {
+    Corners inside_out = cube();
+    for (std::size_t i = 0; i < inside_out.size(); i += 3)
+        std::swap(inside_out[i + 1], inside_out[i + 2]);
+    EXPECT_EQ(Silhouettes(inside_out).closed_bodies(), 0U);
+    EXPECT_EQ(hulls(Silhouettes(inside_out), {-5.0, 0.5, 0.5}).size() / 3, 2U * 12U + 4U * 2U * 2U) << "two layers, each with its walls";
+    Corners both = cube(); // and its mirror image at a corner: that one place does not make it one body
+    for (const glm::vec3& p : inside_out)
+        both.push_back(p + 1.0F);
+    EXPECT_EQ(Silhouettes(both).bodies().size(), 2U);
+    EXPECT_EQ(Silhouettes(both).closed_bodies(), 1U);
+    Corners sheet; // from both sides: no volume, and a front towards every lamp
+    add(sheet, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    add(sheet, {0, 0, 0}, {0, 1, 0}, {1, 0, 0});
+    EXPECT_EQ(Silhouettes(sheet).closed_bodies(), 1U);
+}
+
 TEST(Silhouettes, HullsHoldWhatTheLampDoesNotSeeAndNothingElse) {
     Corners shapes = cube();
     for (const glm::vec3& p : cube()) // a second cube, half its size, beside
