@@ -5,6 +5,7 @@
 #include "runner/accuracy/reference_shots.h"
 #include "runner/accuracy/solver_diagrams.h"
 #include "runner/accuracy/studies.h"
+#include "runner/accuracy/traffic_shadow_study.h"
 #include "runner/accuracy/traffic_study.h"
 #include "runner/accuracy/weather_study.h"
 #include "runner/interruption.h"
@@ -81,6 +82,8 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
     add("metrics", [&] { return metrics_study(stage, variant, device, go_on); });
     if (!stage.drive.traffic.empty())
         add("traffic", [&] { return traffic_study(stage, variant, device, go_on); });
+    if ((!stage.drive.traffic.empty() || !stage.drive.street_lamps.empty()) && stage.drive.shadows.any())
+        add("traffic", [&] { return traffic_shadow_study(stage, variant, device, go_on); });
     add("step", [&] { return step_study(stage, variant, go_on); });
 }
 
