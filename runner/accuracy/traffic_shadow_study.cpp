@@ -49,6 +49,7 @@ WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, D
     const std::vector<Moment> timed_moments = moments_at({std::max(0, middle - 1), middle}, stage, variant); // in turn: all maps are drawn
     const double floor_lx = std::max(shadow_floor_lx, all.front().least_traffic_lx);
     ShadowArea area;
+    std::string bright; // errors where shadows are drawn in full
     const auto add = [&](const RendererSettings& own, std::string label) {
         if (!go_on())
             return false;
@@ -62,9 +63,8 @@ WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, D
         }
         WorkPrecisionRow row;
         row.label = std::move(label);
-        row.note = fmt::format("{}{:.2g} % where it brings {:g} lx and more",
-                               own.shadows == stage.drive.shadows && own.traffic_shadows ? "the drive's own; " : "",
-                               100.0 * whole.wrong_share(), fully_shadowed * floor_lx);
+        row.note = own.shadows == stage.drive.shadows && own.traffic_shadows ? "the drive's own" : "";
+        bright += fmt::format("{}{} {:.2g} %", bright.empty() ? "" : ", ", row.label, 100.0 * whole.wrong_share());
         const bool drawn = own.traffic_shadows;
         row.parameters = {{"traffic_shadows", drawn ? "yes" : "no"},
                           {"map_texels", drawn ? fmt::format("{}x{}", own.shadows.width / 2, own.shadows.height / 2) : "none"}};
@@ -94,6 +94,7 @@ WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, D
                     "{} pixels wide; own lamps are off. A pixel that is half as dark as it should be counts half. Of {:.0f} "
                     "pixels with at least {:g} lx {:.0f} lie in shadow",
                     others.size(), shadow_error_width_px, area.counted, floor_lx, area.shadowed),
+        fmt::format("where others bring {:g} lx and more: {}", fully_shadowed * floor_lx, bright),
         "times: the middle moment and the one before it in turn, own lamps on, whose maps have four times as many texels and grow as these "
         "do"};
     return diagram;
