@@ -423,7 +423,7 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
         say("shadow maps of lamps of others",
             fmt::format("nothing stands where one brings more than {} lx", least_traffic_shadow * shot.moment.least_traffic_lx));
     if (!shadows_)
-        say("shadows", "the drive switches them off");
+        say("shadows", "the shadow method is none");
     else if (!shadows_->needed())
         say(shadows_->title(), scene_.flat() ? "the scene is flat, nothing stands in a beam" : "nothing stands in a beam");
     if (shot.moment.daylight.horizontal_illuminance_lx == 0.0)

@@ -5,6 +5,8 @@
 namespace fernlicht::gl {
 
 std::vector<glm::dvec2> places_on_disc(double radius_m, int count) {
+    if (count == 1)
+        return {{0.0, 0.0}}; // a point, looked up as a single map is
     const double golden_angle = pi * (3.0 - std::sqrt(5.0));
     std::vector<glm::dvec2> places;
     for (int k = 0; k < count; ++k) {

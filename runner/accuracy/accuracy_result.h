@@ -89,8 +89,11 @@ WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int h
 WorkPrecision resolutions_diagram(const DriveAccuracy& drive);
 /// The same way with other shadow maps: pixels of the view that are off by more than a fifth over time a frame.
 WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive);
+/// By the same measure all techniques, and photometric by each shadow method, at the drive's resolution; no rows where no methods were
+/// tried.
+WorkPrecision shadow_methods_diagram(const DriveAccuracy& drive);
 /// The first for the drive's own resolution and each other at which more than two ways were measured, then the others where there is
-/// more than one resolution or shadow map.
+/// more than one resolution, shadow map or shadow method.
 std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
 
 /// Tables for a terminal. Lines end with a newline.

@@ -26,7 +26,7 @@ View small_enough(const View& view) {
 ReferenceSettings settings_for(const Drive& drive) {
     ReferenceSettings settings;
     settings.most_samples = most_samples;
-    settings.shadows = drive.shadows.any();
+    settings.shadows = drive.shadows.things_cast;
     settings.seed = drive.seed;
     if (drive.extent)
         settings.target_height_m = drive.extent->target_height_m;

@@ -46,7 +46,7 @@ std::vector<WorkPrecision> reference_study(const Stage& stage, const Variant& va
         settings.integrator = integrator;
         settings.target_error = never;
         settings.least_samples = settings.most_samples = samples;
-        settings.shadows = stage.drive.shadows.any();
+        settings.shadows = stage.drive.shadows.things_cast;
         settings.seed = from_seed;
         return reference.render(moment, view, {.illuminance = true}, settings);
     };

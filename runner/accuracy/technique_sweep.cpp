@@ -72,7 +72,7 @@ ReferenceSettings reference_settings(const Drive& drive, const SweepRequest& req
     ReferenceSettings settings;
     settings.target_error = request.target_error;
     settings.most_samples = request.most_samples;
-    settings.shadows = drive.shadows.any() || request.shadow_methods;
+    settings.shadows = drive.shadows.things_cast || request.shadow_methods;
     settings.seed = request.seed;
     settings.target_height_m = drive.extent->target_height_m;
     return settings;

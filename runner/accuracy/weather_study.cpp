@@ -45,7 +45,7 @@ class MediaBench {
           timed_(resized(*driver_view(stage.drive), timed_width, timed_height)) {
         ReferenceSettings settings;
         settings.footprint = Footprint::centre;
-        settings.shadows = stage.drive.shadows.any();
+        settings.shadows = stage.drive.shadows.things_cast;
         truth_ = Reference(scene_).render(moment, compared_, {.luminance = true}, settings);
     }
 

@@ -82,9 +82,9 @@ ReferenceResult described(const ReferenceRequest& request, const Stage& stage) {
                          "a perspective view: a map's pixels are those of the drive file");
     result.wanted = {.illuminance = true, .target = is_map, .luminance = !is_map};
     result.settings = request.settings;
-    result.settings.shadows = drive.shadows.any();
+    result.settings.shadows = drive.shadows.things_cast;
     result.settings.most_samples = reference::most_samples_used(request.settings);
-    if (!drive.shadows.any() &&
+    if (!drive.shadows.things_cast &&
         (request.settings.integrator == Integrator::radiosity || request.settings.integrator == Integrator::photon_map))
         throw InputError({drive.file, 0, 0, "--integrator"},
                          "found " + integrator_name(request.settings.integrator) + " for a drive without shadows",

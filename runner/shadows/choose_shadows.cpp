@@ -29,6 +29,14 @@ template <class One> std::vector<One> evenly_spread(const std::vector<One>& all,
     return some;
 }
 
+/// Whether the moment drawn last has shadows of the own lamps or of others'; those of sun and moon are looked for where these shine.
+bool is_shadowed(const Moment& moment, const Renderer& renderer) {
+    const std::vector<LeftOut> left_out = renderer.left_out();
+    const auto needed = [&](std::string_view what) { return std::ranges::find(left_out, what, &LeftOut::what) == left_out.end(); };
+    return needed("shadow maps") || (!moment.other_lamps.empty() && needed("shadow maps of lamps of others")) ||
+           moment.daylight.direct() != nullptr;
+}
+
 /// Maps are drawn where anything casts: the smallest ones of the smallest picture tell.
 ShadowedMoments shadowed_moments(const Stage& stage, Device& device, const View& view, RendererSettings settings, const Variant& variant) {
     settings.shadows = {};
@@ -41,8 +49,7 @@ ShadowedMoments shadowed_moments(const Stage& stage, Device& device, const View&
     std::vector<int> shadowed;
     for (const Moment& moment : moments_at(all, stage, variant)) {
         renderer.render(moment, small, {.illuminance = true});
-        const std::vector<LeftOut> left_out = renderer.left_out();
-        if (std::ranges::find(left_out, "shadow maps", &LeftOut::what) == left_out.end())
+        if (is_shadowed(moment, renderer))
             shadowed.push_back(moment.tick);
     }
     renderer.finish();
@@ -92,7 +99,7 @@ class Trial {
     std::vector<ShadowTruth> truths_;
 };
 
-std::string percent_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
+std::string percent_text(double share) { return fmt::format("{:.{}g} %", 100.0 * share, share < 0.995 ? 2 : 3); }
 
 void try_methods(ShadowChoice& choice, Trial& trial) {
     for (const ShadowMethod method : shadow_methods_by_cost()) {
@@ -106,8 +113,8 @@ void try_methods(ShadowChoice& choice, Trial& trial) {
     }
     const auto least = std::ranges::min_element(choice.tried, {}, [](const TriedShadows& t) { return t.error.value_or(2.0); });
     choice.chosen = least->method;
-    choice.why = fmt::format("none stays within {}; it errs least: {} in the worst of {} moments", percent_text(choice.bound),
-                             percent_text(least->error.value_or(1.0)), choice.compared);
+    choice.why = fmt::format("no method stays within {}; {} errs least: {} in the worst of {} moments", percent_text(choice.bound),
+                             name(choice.chosen), percent_text(least->error.value_or(1.0)), choice.compared);
 }
 
 } // namespace

@@ -32,7 +32,7 @@ struct ShadowChoice {
 std::vector<ShadowMethod> shadow_methods_by_cost();
 
 /// Decides a drive's `shadows: auto`, in this order:
-/// 1. In which moments does anything stand in a beam? In none: `none`.
+/// 1. In which moments does anything stand in a beam of the own or of others' lamps, or in the light of sun or moon? In none: `none`.
 /// 2. Up to 8 of these moments a lamp set, evenly spread, are drawn in the driver's view 160 pixels wide by one method after the other,
 ///    cheapest first, and held against a ray from each pixel to each lamp (shadow_truth.h).
 /// 3. The first method whose worst moment stays within the bound is taken. Where none does, the one with the least error is, and a note

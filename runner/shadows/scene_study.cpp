@@ -27,8 +27,8 @@ RendererSettings settings_with(const ShadowScene& scene, const SceneStudyOptions
 
 /// Of the car's frame: the first lamp that shines, else the origin.
 double lamp_ahead_m(const Moment& moment) {
-    const Moment alone = first_lamp_alone(moment);
-    return alone.lamps.empty() ? 0.0 : to_local(moment.ego, alone.lamps.front().pose.position_m).x;
+    const auto shining = std::ranges::find_if(moment.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor > 0.0; });
+    return shining == moment.lamps.end() ? 0.0 : to_local(moment.ego, shining->pose.position_m).x;
 }
 
 View from_above(double from_m, double to_m, double beside_m, int width_px, int height_px) {
@@ -163,7 +163,10 @@ void measure_areas(SceneTruth& truth, const ShadowScene& scene, const SceneStudy
         row.spots += shadow_spots(seen, doubt_px);
     }
     if (options.lamp_radius_m > 0.0)
-        row.discs_px = shadow_area(truth.discs.images(renderer, truth.shown));
+        for (std::size_t m = 0; m < scene.moments.size(); ++m) {
+            const ShadowArea discs = shadow_area(truth.discs.images(renderer, m));
+            row.discs_px = row.discs_px ? * row.discs_px += discs : discs;
+        }
     row.wrong = truth.part.of(shadow_differences(truth.picture.images(renderer, truth.shown)));
     row.luminance_cdm2 = truth.part.of(renderer.draw(scene.moments[truth.shown], truth.picture.view(), {.luminance = true}).luminance_cdm2);
 }

@@ -27,7 +27,7 @@ struct ShadowRow {
     ShadowMethod method = ShadowMethod::none;
     std::string why_not;                                  ///< why nothing was measured; "" where it was
     ShadowArea ground_m2, view_px;                        ///< lamps as points
-    std::optional<ShadowArea> discs_px;                   ///< lamps as discs, of the moment shown
+    std::optional<ShadowArea> discs_px;                   ///< lamps as discs
     std::vector<double> wrong_by_moment;                  ///< share of the ground
     ShadowSpots spots;                                    ///< in the view
     std::array<EdgeError, edge_distances_m.size()> edges; ///< in the light of one lamp

@@ -20,6 +20,12 @@ ShadowArea error_over_moments(ShadowTruth& truth, Renderer& renderer, std::size_
     return sum;
 }
 
+/// Where less light is drawn than there is (faint lamps of others are left out), a share of the one is no share of the other.
+bool like_light(float drawn_lx, float true_lx) {
+    constexpr float most_apart = 0.2F;
+    return std::abs(drawn_lx - true_lx) <= most_apart * std::max(drawn_lx, true_lx);
+}
+
 } // namespace
 
 View at_size(View view, int width_px, int height_px) {
@@ -71,8 +77,12 @@ ShadowImages ShadowTruth::images(Renderer& renderer, std::size_t moment) {
     Frame drawn = renderer.draw(moments_[moment], view_, {.illuminance = true, .ids = true});
     ShadowImages images{std::move(drawn.illuminance_lx), truth.true_lx, truth.unshadowed_lx, truth.drawn_unshadowed_lx,
                         Image<std::uint8_t>(view_.width_px, view_.height_px)};
-    std::ranges::transform(drawn.ids.pixels(), truth.ids.pixels(), images.counts.pixels().begin(),
-                           [](std::uint32_t a, std::uint32_t b) { return static_cast<std::uint8_t>(a == b && a != 0 ? 1 : 0); });
+    for (std::size_t i = 0; i < images.counts.pixels().size(); ++i) {
+        const std::uint32_t id = truth.ids.pixels()[i];
+        const bool counts =
+            id != 0 && drawn.ids.pixels()[i] == id && like_light(truth.drawn_unshadowed_lx.pixels()[i], truth.unshadowed_lx.pixels()[i]);
+        images.counts.pixels()[i] = static_cast<std::uint8_t>(counts ? 1 : 0);
+    }
     return images;
 }
 

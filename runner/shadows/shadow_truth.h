@@ -21,7 +21,7 @@ class ShadowTruth {
 
     const View& view() const { return view_; }
     /// What the renderer, which draws the same scene and light, makes of the moment. Pixels in which it sees another mesh than the rays, or
-    /// none, do not count. Throws DeviceError, InputError.
+    /// none, do not count, nor do those whose light without shadows as drawn is off by more than a fifth. Throws DeviceError, InputError.
     ShadowImages images(Renderer& renderer, std::size_t moment);
 
     struct Found {

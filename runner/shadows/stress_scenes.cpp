@@ -192,8 +192,13 @@ Moment moved_ahead(Moment moment, double ahead_m) {
 }
 
 Moment first_lamp_alone(Moment moment) {
-    const auto first = std::ranges::find_if(moment.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor > 0.0; });
-    moment.lamps = first == moment.lamps.end() ? std::vector<LitLamp>{} : std::vector<LitLamp>{*first};
+    constexpr double next_to_nothing = 1e-6;
+    bool first = true;
+    for (LitLamp& lamp : moment.lamps)
+        if (lamp.intensity_factor > 0.0) {
+            lamp.intensity_factor *= first ? 1.0 : next_to_nothing;
+            first = false;
+        }
     moment.other_lamps.clear();
     moment.daylight = {};
     return moment;

@@ -26,7 +26,8 @@ std::vector<ShadowScene> stress_scenes(const std::shared_ptr<const LampFile>& be
 
 /// The same car `ahead_m` farther along its heading: lamps, body and all that is its own.
 Moment moved_ahead(Moment moment, double ahead_m);
-/// The light of the first lamp that shines alone: no other lamps, no sky.
+/// The light of the first lamp that shines alone: no lamps of others, no sky, the car's other lamps dimmed to a millionth. They still
+/// shine: one map for all stands where it stands with them.
 Moment first_lamp_alone(Moment moment);
 
 } // namespace fernlicht

@@ -6,6 +6,7 @@
 #include "runner/lamp_against.h"
 #include "runner/output_folder.h"
 #include "runner/run_context.h"
+#include "runner/shadows/choose_shadows.h"
 #include "runner/stage.h"
 #include "runner/study/study_maps.h"
 #include "scenarios/drives/advance.h"
@@ -36,8 +37,10 @@ std::vector<StudyCell> wanted_cells(const Study& study, const std::string& only)
 
 std::vector<Planned> plan(const Study& study, const std::string& only) {
     std::vector<Planned> planned;
-    for (const StudyCell& cell : wanted_cells(study, only))
+    for (const StudyCell& cell : wanted_cells(study, only)) {
         planned.push_back({cell, cell_drive(study, cell)});
+        refuse_open_shadows(planned.back().drive); // each cell would choose for itself
+    }
     const StudyCell* last = nullptr;
     for (const Planned& one : planned) { // roads and techniques too, once each
         if (!last || last->drive != one.cell.drive || last->technique != one.cell.technique || last->mirror != one.cell.mirror)

@@ -94,7 +94,7 @@ void apply_edits(Drive& drive, const DriveEdits& edits, LampShelf& shelf) {
     if (edits.technique)
         drive.technique = *edits.technique;
     if (edits.shadows)
-        drive.shadows.method = shadow_method_named(*edits.shadows, drive.file);
+        set_shadow_method(drive.shadows, shadow_method_named(*edits.shadows, drive.file));
     if (edits.resolution)
         replace_resolution(drive, *edits.resolution);
     if (edits.capture_all)

@@ -62,9 +62,10 @@ ShadowSettings read_shadows(const YamlMap& drive) {
     if (!given)
         return shadows;
     if (given->is_scalar()) {
-        if (given->value().text == "true" || given->value().text == "false")
-            shadows.method = given->flag() ? ShadowMethod::map : ShadowMethod::none;
-        else
+        if (given->value().text == "true" || given->value().text == "false") {
+            shadows.things_cast = given->flag();
+            shadows.method = shadows.things_cast ? ShadowMethod::map : ShadowMethod::none;
+        } else
             shadows.method = method_of(*given);
         return shadows;
     }
@@ -88,7 +89,7 @@ ShadowSettings read_shadows(const YamlMap& drive) {
 
 std::string write_shadows(const ShadowSettings& shadows) {
     if (!shadows.any())
-        return "shadows: false\n";
+        return shadows.things_cast ? "shadows: none\n" : "shadows: false\n";
     const ShadowSettings usual;
     std::string keys;
     bool all_usual = shadows.method == usual.method;

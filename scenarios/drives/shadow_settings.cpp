@@ -47,6 +47,11 @@ std::string_view name(ShadowMethod method) {
     return std::ranges::find(names, method, &ShadowMethodName::method)->name;
 }
 
+void set_shadow_method(ShadowSettings& shadows, ShadowMethod method) {
+    shadows.method = method;
+    shadows.things_cast |= method != ShadowMethod::none;
+}
+
 ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in) {
     if (name == "auto")
         return ShadowMethod::automatic;

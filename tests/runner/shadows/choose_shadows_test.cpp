@@ -62,9 +62,30 @@ TEST_F(AutomaticShadows, TheCheapestWithinTheBoundIsTakenAndTheResolvedDriveName
     EXPECT_THAT(page, HasSubstr("<strong>" + choice.at("chosen").get<std::string>() + "</strong>"));
 }
 
+/// Own lamps that reach nothing are no reason to leave out what others' lamps throw.
+TEST_F(AutomaticShadows, OthersLampsAreAskedToo) {
+    const json choice = played(drive_with("oncoming", "{method: auto, error_bound: 1}"), "out").at("shadow_choice");
+    EXPECT_GT(choice.at("moments_shadowed"), 0);
+    std::string text = content_of(drive_with("oncoming", "{method: auto, error_bound: 0.004}"));
+    const std::string own = "variants:";
+    ASSERT_NE(text.find(own), std::string::npos);
+    std::ofstream(folder / "oncoming.yaml") << text << "changes: [{at_s: 0, level: 0}]\n";
+    const json dark = played(folder / "oncoming.yaml", "dark").at("shadow_choice");
+    EXPECT_GT(dark.at("moments_shadowed"), 0);
+    EXPECT_NE(dark.at("chosen"), "none");
+}
+
+TEST_F(AutomaticShadows, StudiesWhoseCellsWouldChooseEachForItselfRefuse) {
+    std::ofstream(folder / "study.yaml") << "fernlicht_study: 1\ntitle: t\nlamps: {a: {low: " << library_file("lamps/halogen-low.ies")
+                                         << ", source: filament}}\ndrives: [" << drive_with("straight", "auto") << "]\n";
+    const Outcome run = run_program("study " + (folder / "study.yaml") + " --quiet --out " + (folder / "s"));
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("'auto'"));
+}
+
 TEST_F(AutomaticShadows, WhereNoneStaysWithinTheLeastWrongIsTakenAndSaid) {
     const json choice = played(drive_with("shelter", "{method: auto, error_bound: 0}"), "out").at("shadow_choice");
-    EXPECT_THAT(choice.at("why").get<std::string>(), HasSubstr("none stays within 0 %"));
+    EXPECT_THAT(choice.at("why").get<std::string>(), HasSubstr("no method stays within 0 %; "));
     EXPECT_EQ(choice.at("tried").size(), shadow_methods_by_cost().size());
     double least = 2.0;
     std::string method;

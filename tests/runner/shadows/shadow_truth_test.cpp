@@ -61,8 +61,12 @@ TEST(StressScenes, MovingAheadTakesTheLampsAlong) {
     EXPECT_NEAR(moved.lamps[0].pose.position_m.y, moment.lamps[0].pose.position_m.y + 2.0, 1e-12);
     moment.lamps[0].intensity_factor = 0.0;
     const Moment alone = first_lamp_alone(moment);
-    ASSERT_EQ(alone.lamps.size(), 1U);
-    EXPECT_EQ(alone.lamps[0].name, "right");
+    EXPECT_EQ(alone.lamps[0].intensity_factor, 0.0);
+    EXPECT_EQ(alone.lamps[1].intensity_factor, 1.0);
+    moment.lamps[0].intensity_factor = 0.5;
+    EXPECT_EQ(first_lamp_alone(moment).lamps[0].intensity_factor, 0.5);
+    EXPECT_LT(first_lamp_alone(moment).lamps[1].intensity_factor, 1e-5);
+    EXPECT_GT(first_lamp_alone(moment).lamps[1].intensity_factor, 0.0); // it still shines
 }
 
 } // namespace

@@ -121,6 +121,7 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
         return run.output;
     };
     EXPECT_THAT(refused("--methods mop"), HasSubstr("'mop'"));
+    EXPECT_THAT(refused("--methods auto"), HasSubstr("by their names"));
     EXPECT_THAT(refused("--methods map,map"), HasSubstr("each method once"));
     EXPECT_THAT(refused("--scenes past-5"), HasSubstr("fits no scene"));
     EXPECT_THAT(refused("--scenes none"), HasSubstr("DRIVE"));
