@@ -47,7 +47,7 @@ struct Work {
     std::uint64_t texture_bytes = 0;            ///< beams, shadow and light maps, surface textures
     /// Lamps of others on pieces in view, by how they are drawn, and their faces seen.
     int traffic_full = 0, traffic_merged = 0, traffic_by_vertex = 0, traffic_point = 0, traffic_faces = 0;
-    int shadow_maps_drawn = 0; ///< of the maps of own lamps, those that did not stand already
+    int shadow_maps_drawn = 0; ///< of shadow_maps, those that did not stand already
 
     bool operator==(const Work&) const = default;
 };
@@ -89,6 +89,11 @@ class Renderer {
     /// with.
     std::optional<double> beam_error(const LampFile& lamp) const;
     int compiled_programs() const;
+    /// Of all pictures drawn so far: shadow maps looked up, and those of them that were drawn for it.
+    struct ShadowMapsUsed {
+        long long used = 0, drawn = 0;
+    };
+    ShadowMapsUsed shadow_maps_used() const;
 
   private:
     struct State;

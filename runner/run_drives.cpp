@@ -71,6 +71,7 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
                            std::ostream* log = nullptr) {
     prepare(renderer, stage.drive, stage.route, variant, options.ticks);
     const int compiled = renderer.compiled_programs();
+    const Renderer::ShadowMapsUsed maps_before = renderer.shadow_maps_used();
     const std::string label = stage.drive.name + ", " + variant.name;
     Progress progress(label, ticks_to_play(stage.drive, options.ticks), options.quiet);
     PlayOptions play_options;
@@ -92,6 +93,10 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
             fmt::format("{} shader variants were compiled during the drive: times of their first frames include that", late));
     for (const LeftOut& left : renderer.left_out())
         played.left_out.push_back(left.what + ": " + left.why);
+    const Renderer::ShadowMapsUsed maps = renderer.shadow_maps_used();
+    if (const long long kept = (maps.used - maps_before.used) - (maps.drawn - maps_before.drawn); kept > 0)
+        played.left_out.push_back(fmt::format("drawing {} of the {} shadow maps that pictures looked up: they stood from a picture before",
+                                              kept, maps.used - maps_before.used));
     std::ranges::copy(notes_for(stage, variant, renderer), std::back_inserter(played.notes));
     std::ranges::copy(summarise(played, stage.drive), std::back_inserter(played.readings));
     Readings judged = played.readings;

@@ -90,6 +90,7 @@ void NaiveLighting::draw_shadow_maps(const Shot& shot) {
         gl.UniformMatrix4fv(depth_.uniform("clip_from_ego"), 1, GL_FALSE, &clip_float[0][0]);
         draw_pieces(clip, shot.moment.ego.position_m, false, shadow_farthest_m, shot.work);
         ++shot.work.shadow_maps;
+        ++shot.work.shadow_maps_drawn;
     }
     gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
 }

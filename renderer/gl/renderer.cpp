@@ -40,6 +40,11 @@ struct Renderer::State {
     int programs_before;
     std::unique_ptr<gl::Lighting> lighting;
     std::list<KnownTargets> targets; ///< used last stands first
+    ShadowMapsUsed shadow_maps;
+    void add(const Work& work) {
+        shadow_maps.used += work.shadow_maps;
+        shadow_maps.drawn += work.shadow_maps_drawn;
+    }
 };
 
 std::shared_ptr<gl::Targets> Renderer::State::targets_for(const View& view, const Wanted& wanted) {
@@ -97,6 +102,7 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& a
     PassClock passes(s.context, s.settings.profile, s.settings.gpu_clock);
     Work work;
     s.with_shot(moment, view, wanted, passes, work, [&](const gl::Shot& shot) { s.lighting->draw(shot); });
+    s.add(work);
     const std::shared_ptr<gl::Targets> targets = s.targets_for(view, wanted);
     if (s.settings.read_back == ReadBack::overlapped) {
         const auto reading = std::make_shared<gl::Targets::Reading>(targets->start_read());
@@ -120,6 +126,7 @@ void Renderer::render(const Moment& moment, const View& view, const Wanted& want
     PassClock passes(state_->context, false, false);
     Work work;
     state_->with_shot(moment, view, available(wanted), passes, work, [&](const gl::Shot& shot) { state_->lighting->draw(shot); });
+    state_->add(work);
     state_->context.gl.Flush();
 }
 
@@ -144,6 +151,8 @@ Work Renderer::count(const Moment& moment, const View& view, const Wanted& wante
 
 std::vector<LeftOut> Renderer::left_out() const { return state_->lighting->left_out(); }
 std::optional<double> Renderer::beam_error(const LampFile& lamp) const { return state_->lighting->beam_error(lamp); }
+Renderer::ShadowMapsUsed Renderer::shadow_maps_used() const { return state_->shadow_maps; }
+
 int Renderer::compiled_programs() const { return state_->context.compiled_programs - state_->programs_before; }
 
 } // namespace fernlicht

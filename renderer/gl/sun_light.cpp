@@ -89,6 +89,7 @@ void SunLight::draw(Work& work) {
     const glm::dmat4 window = window_from_ego();
     ++work.shadow_maps;
     if (drawn_window_ != window || casters_ != drawn_ || ego_m_ != drawn_ego_m_) {
+        ++work.shadow_maps_drawn;
         program_.use();
         gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
         const float far_away = 0.0F;

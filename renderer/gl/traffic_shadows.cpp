@@ -292,6 +292,7 @@ void TrafficShadows::draw_layer(const Map& map, Work& work) {
     list_.upload();
     list_.draw(0);
     ++work.passes;
+    ++work.shadow_maps_drawn;
     work.draws += static_cast<int>(map.pieces.size());
     work.triangles += list_.triangles();
 }

@@ -80,7 +80,9 @@ std::string shadow_sheet_svg(const ShadowSceneResult& scene) {
         "orange: wrongly lit; blue: wrongly dark; grey: below the floor without shadows, or nothing; shares are of the whole view",
         {{"shadow by rays", "dark: no light of any lamp", degree_picture(scene.degree)}}};
     for (const ShadowRow& row : scene.rows)
-        if (measured(row)) {
+        if (!measured(row)) {
+            seen.words += fmt::format("; {} refuses the scene", name(row.method));
+        } else {
             const std::string method(name(row.method));
             seen.tiles.push_back({method, cost_words(row), seen_picture(row.luminance_cdm2, white)});
             wrong.tiles.push_back({method, share_words(row.view_px), wrong_picture(row.wrong, scene.degree)});

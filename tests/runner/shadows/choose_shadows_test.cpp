@@ -75,6 +75,20 @@ TEST_F(AutomaticShadows, OthersLampsAreAskedToo) {
     EXPECT_NE(dark.at("chosen"), "none");
 }
 
+/// How many maps the bound saves stands in the report: all pictures of a moment share theirs, and with a bound so do moments.
+TEST_F(AutomaticShadows, ReportsTellOfMapsThatStood) {
+    const auto kept = [&](const std::string& shadows, const std::string& out) {
+        const json drive = played(drive_with("first-light", shadows), out);
+        for (const json& left : drive.at("left_out")) {
+            int stood = 0, used = 0;
+            if (std::sscanf(left.get<std::string>().c_str(), "drawing %d of the %d shadow maps", &stood, &used) == 2)
+                return static_cast<double>(stood) / used;
+        }
+        return 0.0;
+    };
+    EXPECT_GT(kept("{method: map, redraw_texels: 16}", "bound"), kept("map", "exact"));
+}
+
 TEST_F(AutomaticShadows, StudiesWhoseCellsWouldChooseEachForItselfRefuse) {
     std::ofstream(folder / "study.yaml") << "fernlicht_study: 1\ntitle: t\nlamps: {a: {low: " << library_file("lamps/halogen-low.ies")
                                          << ", source: filament}}\ndrives: [" << drive_with("straight", "auto") << "]\n";
