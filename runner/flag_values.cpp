@@ -1,9 +1,11 @@
 #include "runner/flag_values.h"
 
+#include "scenarios/drives/drive_keys.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <charconv>
+#include <fmt/format.h>
 
 namespace fernlicht {
 
@@ -42,7 +44,10 @@ std::vector<std::string> items_of(const char* flag, const std::vector<std::strin
 }
 
 std::pair<int, int> resolution_of(const std::string& text) {
-    return two_numbers("--resolution", text, 'x', false, "WIDTHxHEIGHT, e.g. 1024x768");
+    const auto [width, height] = two_numbers("--resolution", text, 'x', false, "WIDTHxHEIGHT, e.g. 1024x768");
+    if (std::min(width, height) < 1 || std::max(width, height) > largest_view_px)
+        refuse_flag("--resolution", text, fmt::format("sides from 1 to {} pixels", largest_view_px).c_str());
+    return {width, height};
 }
 
 double share_of(const char* flag, const std::string& text) {

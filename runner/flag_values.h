@@ -20,7 +20,7 @@ std::pair<int, int> two_numbers(const char* flag, const std::string& text, char 
 /// The items of "a,b" and of a flag given several times, in order. Throws InputError naming the flag for an item that is empty.
 std::vector<std::string> items_of(const char* flag, const std::vector<std::string>& lists);
 
-/// "1024x768". Throws InputError naming --resolution.
+/// "1024x768", sides from 1 to largest_view_px. Throws InputError naming --resolution.
 std::pair<int, int> resolution_of(const std::string& text);
 
 /// A share above 0 and up to 1: "0.5%" and "0.005" are the same. Throws InputError naming the flag.

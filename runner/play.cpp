@@ -58,6 +58,7 @@ class Pictures {
     void finish(bool all_played) {
         played_.maps = maps_.finish(all_played);
         std::ranges::copy(display_.times(), std::back_inserter(played_.passes));
+        played_.display = display_.seen();
     }
 
   private:

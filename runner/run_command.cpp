@@ -24,8 +24,8 @@ struct Flags {
     std::string road, technique, resolution, frames, capture, backend = "auto", out;
     JudgingFlags judging;
     std::vector<std::string> road_folders;
-    std::string replay, ego, can_start, can_channel, shadows;
-    std::optional<std::string> can_log;
+    std::string replay, ego, can_start, can_channel;
+    std::optional<std::string> can_log, shadows;
     bool lenient = false;
     bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
 };
@@ -40,8 +40,8 @@ DriveEdits edits_of(const Flags& flags) {
         edits.road = flags.road;
     if (!flags.technique.empty())
         edits.technique = flags.technique;
-    if (!flags.shadows.empty())
-        edits.shadows = flags.shadows;
+    if (flags.shadows)
+        edits.shadows = name(shadow_method_named(*flags.shadows, {}, "--shadows"));
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
     for (const std::string& folder : flags.road_folders)
@@ -148,7 +148,9 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--can-start", flags->can_start, "stamp in the log that is the drive's 0 s, in s; by default that of its first frame");
     sub->add_option("--can-channel", flags->can_channel, "frames of this channel alone");
     sub->add_option("--technique", flags->technique, "how to light the scene");
-    sub->add_option("--shadows", flags->shadows, "how shadows are drawn, as `fernlicht techniques` lists them");
+    sub->add_option_function<std::string>(
+        "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
+        "how shadows are drawn, as `fernlicht techniques` lists them");
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
     sub->add_option("--frames", flags->frames, "FIRST:LAST moments to play, from 0");

@@ -282,6 +282,20 @@ void note_parts(const std::deque<Stage>& stages, const TickRange& ticks, Report&
                                                   stage.drive.name, asked, all));
 }
 
+/// So that nobody takes a technique's own shadows, or none, for those of the method that was asked for.
+void note_shadows(const std::vector<Drive>& drives, Report& report) {
+    for (const Drive& drive : drives) {
+        const Technique& technique = technique_named(drive.technique, drive.file);
+        const ShadowMethod method = drive.shadows.method;
+        const bool draws_all = technique.kind == TechniqueKind::ours && technique.name != "photometric-naive";
+        if (draws_all || method == ShadowMethod::map || method == ShadowMethod::none) // these two nobody needs to ask for
+            continue;
+        report.warnings.push_back(fmt::format(
+            "{}: shadows by '{}' were asked for, and technique {} does not use it: {}", drive.name, name(method), technique.name,
+            technique.kind == TechniqueKind::ours ? "its shadows are those of a map for each lamp" : "it draws no shadows of lamps"));
+    }
+}
+
 /// So that nobody takes what policies made up for what a car said.
 void note_buses(const std::deque<Stage>& stages, Report& report) {
     for (const Stage& stage : stages)
@@ -333,11 +347,13 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
         report.interrupted = error.what();
         note_parts(stages, options.ticks, report);
         note_buses(stages, report);
+        note_shadows(drives, report);
         write_report(report, options.folder);
         throw;
     }
     note_parts(stages, options.ticks, report);
     note_buses(stages, report);
+    note_shadows(drives, report);
     write_report(report, options.folder);
     if (report.complete)
         folder.finish();

@@ -30,7 +30,7 @@ struct Flags {
 std::vector<ShadowMethod> methods_of(const std::vector<std::string>& lists) {
     std::vector<ShadowMethod> methods;
     for (const std::string& item : items_of("--methods", lists)) {
-        methods.push_back(shadow_method_named(item));
+        methods.push_back(shadow_method_named(item, {}, "--methods"));
         if (methods.back() == ShadowMethod::automatic)
             refuse_flag("--methods", "auto", "methods by their names: auto takes one of them (fernlicht run DRIVE --shadows auto)");
         if (std::ranges::count(methods, methods.back()) > 1)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <tbb/parallel_for.h>
+#include <vector>
 
 namespace fernlicht {
 namespace {
@@ -80,6 +81,17 @@ Image<glm::u16vec3> display_picture(const DisplayProfile& profile, const ToneMap
         }
     });
     return codes;
+}
+
+double mean_shown_cdm2(const DisplayProfile& profile, const Image<glm::u16vec3>& codes) {
+    const std::size_t most = profile.bits == 16 ? 65535 : 255;
+    std::vector<double> shares(most + 1);
+    for (std::size_t code = 0; code <= most; ++code)
+        shares[code] = std::min(decoded(profile, static_cast<double>(code) / static_cast<double>(most)), 1.0);
+    glm::dvec3 sum(0.0);
+    for (const glm::u16vec3& code : codes.pixels())
+        sum += glm::dvec3(shares[code.r], shares[code.g], shares[code.b]);
+    return profile.black_cdm2 + (profile.xyz_from_rgb * sum).y / static_cast<double>(codes.size());
 }
 
 } // namespace fernlicht

@@ -24,4 +24,7 @@ glm::dvec3 display_code(const DisplayProfile& profile, const ToneMapper& mapper,
 /// Three codes a pixel of profile.bits each; rounded to the nearest.
 Image<glm::u16vec3> display_picture(const DisplayProfile& profile, const ToneMapper& mapper, const Image<glm::vec3>& light);
 
+/// Mean luminance of the display over the pixels of such a picture, black included, cd/m2; not empty.
+double mean_shown_cdm2(const DisplayProfile& profile, const Image<glm::u16vec3>& codes);
+
 } // namespace fernlicht

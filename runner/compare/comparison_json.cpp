@@ -61,6 +61,7 @@ std::string comparison_json(const PictureComparison& comparison, const PicturePa
     return json_text({{"schema", "fernlicht comparison"},
                       {"schema_version", 1},
                       {"kind", "pictures"},
+                      {"notes", pair.notes},
                       {"reference", pair.reference.string()},
                       {"tested", pair.tested.string()},
                       {"width_px", pair.width},

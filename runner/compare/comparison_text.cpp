@@ -76,6 +76,8 @@ std::string comparison_text(const PictureComparison& comparison, const PicturePa
     std::string text = fmt::format("reference A  {}\ntested B     {}\n{} x {} pixels, {:.4f} pixels per degree; differences are B - A\n",
                                    printable(pair.reference.string(), 400), printable(pair.tested.string(), 400), pair.width, pair.height,
                                    comparison.pixels_per_degree);
+    for (const std::string& note : pair.notes)
+        text += "note: " + note + '\n';
     for (const LayerComparison& layer : comparison.layers) {
         text += '\n';
         append_values(text, layer);

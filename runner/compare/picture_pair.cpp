@@ -89,12 +89,18 @@ void read_linear(PicturePair& pair, bool common_alone) {
             pair.alone.push_back(channel.name);
 }
 
-/// Pictures shown in different ways have no common scale, and differences of colours are made for sRGB.
-void check_shown_alike(const PicturePair& pair) {
+/// Pictures shown in different ways have no common scale, and differences of colours are made for sRGB. Of pictures of others, and of such
+/// that passed through other programs, nothing is known: where one alone tells, a note says so.
+void check_shown_alike(PicturePair& pair) {
     const PictureTags a = read_png_tags(pair.reference), b = read_png_tags(pair.tested);
     if (!a.shown_by.empty() && !b.shown_by.empty() && a.shown_by != b.shown_by)
         throw InputError({pair.tested, 0, 0, {}}, "was shown by '" + printable(b.shown_by, 200) + "'",
                          "'" + printable(a.shown_by, 200) + "' as the reference, or the EXRs of the same moments");
+    if (a.shown_by.empty() != b.shown_by.empty())
+        pair.notes.push_back(fmt::format(
+            "{} was shown by '{}', and {} does not tell (no fernlicht:shown_by): whether the two have a common "
+            "scale is not known",
+            a.shown_by.empty() ? "B" : "A", printable(a.shown_by.empty() ? b.shown_by : a.shown_by, 200), a.shown_by.empty() ? "A" : "B"));
     for (const auto& [tags, file] : {std::pair(&a, &pair.reference), std::pair(&b, &pair.tested)})
         if (!tags->icc.empty())
             throw InputError({*file, 0, 0, {}}, "has the colour space of a display, by an ICC profile",

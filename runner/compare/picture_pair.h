@@ -24,6 +24,7 @@ struct PicturePair {
     Image<Rgb8> reference_display, tested_display; ///< empty for linear pictures
     std::vector<LinearPair> linear;                ///< empty for display pictures
     std::vector<std::string> alone;                ///< channels that one file alone has, where that is allowed
+    std::vector<std::string> notes;                ///< what is not known of the pair, one sentence each
     bool is_display() const { return !reference_display.empty(); }
 };
 

@@ -103,12 +103,16 @@ std::string why_not_view(const View* before, const View* now) {
     return *before == *now ? "" : "it looks from another place, another way or over another field";
 }
 
-/// Whether two PNGs were shown in different ways, or one that cannot be compared. Runs of older versions say it by their tone mapper alone.
+/// Whether two PNGs were shown in different ways, or one that cannot be compared. Runs of older versions, which knew nothing but sRGB, say
+/// it by their tone mapper alone.
 bool other_display(const RunDrive& before, const RunDrive& now, const FramePair& pair) {
     const PictureTags a = read_png_tags(before.folder / pair.file(pair.old_frame)),
                       b = read_png_tags(now.folder / pair.file(pair.new_frame));
-    return before.tone_mapper != now.tone_mapper || (!a.shown_by.empty() && !b.shown_by.empty() && a.shown_by != b.shown_by) ||
-           !a.icc.empty() || !b.icc.empty();
+    const auto is_other = [](const std::string& tag, const std::string& than) {
+        return than.empty() ? !tag.ends_with("; display srgb") : tag != than;
+    };
+    const bool other = a.shown_by.empty() ? !b.shown_by.empty() && is_other(b.shown_by, {}) : is_other(a.shown_by, b.shown_by);
+    return before.tone_mapper != now.tone_mapper || other || !a.icc.empty() || !b.icc.empty();
 }
 
 /// Frames that both have, and in words which were left out.

@@ -30,9 +30,9 @@ Image<Rgb8> shown_tile(const Image<glm::vec3>& light, const View& view, const Di
 
 /// "white 103 cd/m2, s 20; keeps 98, 84, 34 %"
 std::string mapper_words(const ToneMapper& mapper) {
-    std::string words = fmt::format("white {:.3g} cd/m2", mapper.l_max_cdm2);
+    std::string words = fmt::format("white {:.4g} cd/m2", mapper.l_max_cdm2);
     if (mapper.kind == ToneMapperKind::rational || mapper.kind == ToneMapperKind::logarithmic)
-        words += fmt::format(", s {:.3g}", mapper.s);
+        words += fmt::format(", s {:.4g}", mapper.s);
     return words + fmt::format("; keeps {:.0f}, {:.0f}, {:.0f} %", 100.0 * contrast_kept(mapper, 0.1), 100.0 * contrast_kept(mapper, 1.0),
                                100.0 * contrast_kept(mapper, 10.0));
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "metrics/display/exposure.h"
+#include "runner/display/seen_display.h"
 #include "runner/report/report.h"
 #include "scenarios/drives/frame.h"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 
@@ -29,11 +31,14 @@ class DisplayStep {
     WritePicture writer() const;
     /// What each stage took, a sample a picture. After all is written.
     std::vector<PassTime> times() const;
+    /// How the pictures are seen; nullptr where the profile does not say from where, or how large its pixels are. After all is written.
+    std::shared_ptr<const SeenDisplay> seen() const;
 
   private:
-    struct Times {
+    struct Written {
         std::mutex mutex;
         std::vector<PassTime> stages;
+        std::map<std::string, std::map<std::filesystem::path, double>> mean_cdm2; ///< by view and file, so that sums have one order
     };
     ToneMapper mapper() const;
 
@@ -42,7 +47,7 @@ class DisplayStep {
     std::optional<AdaptedLuminance> adapted_;
     double first_cdm2_ = 0.0; ///< what the eye was adapted to at first, where white is the tone mapper's
     std::string icc_;
-    std::shared_ptr<Times> times_;
+    std::shared_ptr<Written> written_;
 };
 
 } // namespace fernlicht

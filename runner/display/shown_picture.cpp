@@ -68,7 +68,7 @@ std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
     if (display.windscreen)
         text += fmt::format("; windscreen {:g} haze {:g}", display.windscreen->transmittance, display.windscreen->haze);
     if (display.veil)
-        text += fmt::format("; eye of {:g} years", display.veil->age_years);
+        text += fmt::format("; eye of {:g} years, pigmentation {:g}", display.veil->age_years, display.veil->pigmentation);
     if (display.night_colours)
         text += "; colours at night";
     if (display.night_sharpness)

@@ -124,6 +124,7 @@ data details_part(const ComparedDrive& drive) {
     part.set("left_out", left_out);
     part.set("savings", savings_part(drive));
     part.set("shadows", shadows_part(drive));
+    part.set("display", display_part(drive));
     set_list(part, "notes", merged(drive, &PlayedVariant::notes));
     return part;
 }

@@ -40,6 +40,9 @@ kainjow::mustache::data details_part(const ComparedDrive& drive);
 /// How `shadows: auto` was decided.
 kainjow::mustache::data shadows_part(const ComparedDrive& drive);
 
+/// How pictures are seen on the display of the drive's profile.
+kainjow::mustache::data display_part(const ComparedDrive& drive);
+
 /// What leaving out saved each lamp set, in a sentence and in counts.
 kainjow::mustache::data savings_part(const ComparedDrive& drive);
 

@@ -157,6 +157,7 @@ struct Repeats {
 
 /// One drive played with one lamp set.
 struct ShadowChoice;
+struct SeenDisplay;
 
 /// One moment side by side in several ways.
 struct StoredSheet {
@@ -186,6 +187,7 @@ struct PlayedVariant {
     Savings savings;
     DriveError error;
     std::shared_ptr<const ShadowChoice> shadows = nullptr; ///< how `shadows: auto` was decided; nullptr: the drive names its method
+    std::shared_ptr<const SeenDisplay> display = nullptr;  ///< how pictures are seen; nullptr: the display says not where it is seen from
     Readings readings;                                     ///< summary of the drive and probes
     Repeats repeats;
     std::vector<Verdict> verdicts;

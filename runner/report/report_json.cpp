@@ -1,6 +1,7 @@
 #include "runner/accuracy/errors_json.h"
 #include "runner/bench/bench_result.h"
 #include "runner/context_json.h"
+#include "runner/display/seen_display.h"
 #include "runner/live/live_figures.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/extent_summary.h"
@@ -258,6 +259,30 @@ Json shadow_choice_json(const ShadowChoice& choice) {
             {"tried", tried}};
 }
 
+Json seen_display_json(const SeenDisplay& seen) {
+    Json views = Json::array();
+    for (const SeenView& view : seen.views) {
+        const std::optional<double> resolved = view.resolved();
+        Json row{{"view", view.view},
+                 {"scene_pixel_arcmin", finite(view.size.scene_pixel_arcmin, "angle of a pixel")},
+                 {"display_pixel_arcmin", finite(view.size.display_pixel_arcmin, "angle of a pixel")},
+                 {"magnification", finite(view.size.magnification(), "magnification")},
+                 {"life_size_m", finite(view.size.life_size_m, "viewing distance")},
+                 {"finer_than_eye_by_day", view.finer_by_day()},
+                 {"pictures", view.pictures},
+                 {"mean_cdm2", optional_number(view.mean_cdm2, "luminance of the display")},
+                 {"resolved_arcmin", optional_number(resolved, "what the eye resolves")},
+                 {"finer_than_eye", resolved ? Json(view.size.display_pixel_arcmin <= *resolved) : Json(nullptr)}};
+        if (!view.mean_cdm2)
+            row["not_measured"] = "no picture of this view was shown by the profile";
+        views.push_back(std::move(row));
+    }
+    return {{"profile", seen.profile},
+            {"viewing_distance_m", finite(seen.viewing_distance_m, "viewing distance")},
+            {"pixel_pitch_mm", finite(seen.pixel_pitch_mm, "pixel pitch")},
+            {"views", views}};
+}
+
 /// Null where the run was told to leave it out.
 Json accuracy_json(const DriveError& error) {
     if (!error.measured())
@@ -399,6 +424,8 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
               {"extents", extents_json(played)}};
     if (played.shadows)
         json["shadow_choice"] = shadow_choice_json(*played.shadows);
+    if (played.display)
+        json["display"] = seen_display_json(*played.display);
     if (!played.more_sheets.empty())
         json["more_sheets"] = more_sheets_json(played.more_sheets);
     if (!played.seeing.empty())

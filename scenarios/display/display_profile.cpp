@@ -11,7 +11,7 @@ namespace {
 
 // SMPTE ST 2084:2014, equations 4.1 and 5.2.
 constexpr double pq_m1 = 2610.0 / 16384.0, pq_m2 = 128.0 * 2523.0 / 4096.0, pq_c1 = 3424.0 / 4096.0, pq_c2 = 32.0 * 2413.0 / 4096.0,
-                 pq_c3 = 32.0 * 2392.0 / 4096.0, pq_most_cdm2 = 10000.0;
+                 pq_c3 = 32.0 * 2392.0 / 4096.0;
 
 double pq_luminance(double code) {
     const double e = std::pow(std::max(code, 0.0), 1.0 / pq_m2);
@@ -33,8 +33,10 @@ glm::dvec3 unit_xyz(const glm::dvec2& chromaticity) {
 
 double DisplayProfile::white_cdm2() const { return xyz_from_rgb[0].y + xyz_from_rgb[1].y + xyz_from_rgb[2].y; }
 
-double DisplayProfile::pixel_deg() const {
-    return 2.0 * std::atan(0.5e-3 * pixel_pitch_mm / viewing_distance_m) * 180.0 / std::numbers::pi;
+std::optional<double> DisplayProfile::pixel_deg() const {
+    if (!viewing_distance_m || !pixel_pitch_mm)
+        return std::nullopt;
+    return 2.0 * std::atan(0.5e-3 * *pixel_pitch_mm / *viewing_distance_m) * 180.0 / std::numbers::pi;
 }
 
 glm::dmat3 xyz_from_light() { return {{0.4124, 0.2126, 0.0193}, {0.3576, 0.7152, 0.1192}, {0.1805, 0.0722, 0.9505}}; }

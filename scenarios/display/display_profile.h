@@ -6,9 +6,13 @@
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 namespace fernlicht {
+
+/// What SMPTE ST 2084 ends at.
+inline constexpr double pq_most_cdm2 = 10000.0;
 
 /// From a code, 0..1, to the share of a channel's full light, 0..1.
 enum class TransferKind {
@@ -32,13 +36,13 @@ struct DisplayProfile {
     TransferKind transfer = TransferKind::srgb;
     double gamma = 2.2; ///< TransferKind::gamma alone; 0.1 to 10
     GamutRule gamut = GamutRule::keep_luminance;
-    int bits = 8; ///< of a channel: 8 or 16 in files
-    double viewing_distance_m = 0.6, pixel_pitch_mm = 0.27;
+    int bits = 8;                                             ///< of a channel: 8 or 16 in files
+    std::optional<double> viewing_distance_m, pixel_pitch_mm; ///< nullopt: not known; else above 0
 
     double white_cdm2() const; ///< what (1, 1, 1) adds to black
     double peak_cdm2() const { return black_cdm2 + white_cdm2(); }
-    /// What one pixel spans for the eye, degrees: 2 atan(pitch / (2 distance)).
-    double pixel_deg() const;
+    /// What one pixel in the middle spans for the beholder, degrees: 2 atan(pitch / (2 distance)). nullopt where either is not known.
+    std::optional<double> pixel_deg() const;
 
     bool operator==(const DisplayProfile&) const = default;
 };

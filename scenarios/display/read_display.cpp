@@ -39,6 +39,8 @@ glm::dmat3 read_light(const YamlMap& keys, double black_cdm2) {
     const double peak_cdm2 = peak ? peak->number_above(black_cdm2, most_cdm2) : 0.0;
     if (given->first == "primaries") {
         const YamlMap primaries = given->second.map({"red", "green", "blue", "white"});
+        if (const auto unit = keys.find("unit"))
+            unit->refuse("a unit beside primaries", "none: it is that of rgb_to_xyz; primaries take peak_cdm2, in cd/m2");
         if (!peak)
             keys.refuse_missing("peak_cdm2", "the luminance of white, cd/m2; primaries alone say nothing of it");
         try {
@@ -76,6 +78,15 @@ void read_transfer(const YamlMap& keys, DisplayProfile& profile) {
     profile.gamma = transfer.map({"gamma"}).require("gamma").number(0.1, 10.0);
 }
 
+void refuse_white_beyond_pq(const YamlMap& keys, const DisplayProfile& profile) {
+    if (profile.transfer != TransferKind::pq || profile.peak_cdm2() <= pq_most_cdm2 * (1.0 + 1.0e-9))
+        return;
+    const auto peak = keys.find("peak_cdm2");
+    (peak ? *peak : keys.require("rgb_to_xyz"))
+        .refuse(fmt::format("a peak of {:g} cd/m2 with transfer: pq", profile.peak_cdm2()),
+                fmt::format("at most {:g}, where the codes of SMPTE ST 2084 end", pq_most_cdm2));
+}
+
 } // namespace
 
 DisplayProfile read_display_profile(const std::filesystem::path& path, FilesRead& opened) {
@@ -92,6 +103,7 @@ DisplayProfile read_display_profile(const std::filesystem::path& path, FilesRead
     profile.black_cdm2 = keys.number_or("black_cdm2", 0.0, 0.0, most_cdm2);
     profile.xyz_from_rgb = read_light(keys, profile.black_cdm2);
     read_transfer(keys, profile);
+    refuse_white_beyond_pq(keys, profile);
     if (const auto gamut = keys.find("gamut"))
         profile.gamut = gamut->choice({"keep-luminance", "clip"}) == 0 ? GamutRule::keep_luminance : GamutRule::clip;
     profile.bits = profile.transfer == TransferKind::pq ? 16 : 8;
@@ -113,9 +125,11 @@ std::string write_display_profile(const DisplayProfile& profile) {
     text += fmt::format("unit: cd/m2\nblack_cdm2: {}\n", profile.black_cdm2);
     text += profile.transfer == TransferKind::gamma ? fmt::format("transfer: {{gamma: {}}}\n", profile.gamma)
                                                     : fmt::format("transfer: {}\n", kinds[static_cast<int>(profile.transfer)]);
-    text += fmt::format("gamut: {}\nbits: {}\nviewing_distance_m: {}\npixel_pitch_mm: {}\n",
-                        profile.gamut == GamutRule::clip ? "clip" : "keep-luminance", profile.bits, profile.viewing_distance_m,
-                        profile.pixel_pitch_mm);
+    text += fmt::format("gamut: {}\nbits: {}\n", profile.gamut == GamutRule::clip ? "clip" : "keep-luminance", profile.bits);
+    if (profile.viewing_distance_m)
+        text += fmt::format("viewing_distance_m: {}\n", *profile.viewing_distance_m);
+    if (profile.pixel_pitch_mm)
+        text += fmt::format("pixel_pitch_mm: {}\n", *profile.pixel_pitch_mm);
     return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include "scenarios/display/tone_curve.h"
 #include "scenarios/drives/yaml_text.h"
+#include "scenarios/values/errors.h"
 
 #include <fmt/format.h>
 
@@ -11,13 +12,21 @@ namespace {
 constexpr double most_s = 1.0e6, least_l_max_cdm2 = 1.0e-6, most_l_max_cdm2 = 1.0e9; // the GPU divides by it in float
 constexpr std::size_t most_knots = 10000;
 
+/// A number that words may stand for, which were looked for before.
+double number_beside_words(const YamlEntry& entry, double least, double greatest, std::string_view words) {
+    try {
+        return entry.number(least, greatest);
+    } catch (const InputError&) {
+        entry.refuse(fmt::format("a number from {:g} to {:g}, {}", least, greatest, words));
+    }
+}
+
 void read_white(const YamlEntry& entry, ToneMapper& mapper) {
     if (entry.is_scalar() && (entry.value().text == "all" || entry.value().text == "surfaces"))
         mapper.white = entry.value().text == "all" ? WhitePoint::all : WhitePoint::surfaces;
-    else if (!entry.is_scalar())
-        entry.refuse("a number of cd/m2, `all` or `surfaces`");
     else
-        mapper.l_max_cdm2 = entry.number(least_l_max_cdm2, most_l_max_cdm2);
+        mapper.l_max_cdm2 = number_beside_words(entry, least_l_max_cdm2, most_l_max_cdm2,
+                                                "in cd/m2, `all` (the brightest of the drive) or `surfaces` (of what does not shine)");
 }
 
 void read_curve(const YamlEntry& entry, ToneMapper& mapper) {
@@ -68,7 +77,7 @@ ToneMapper read_tone_mapper(const YamlMap& drive) {
         if (mapper.fitted_s && mapper.kind != ToneMapperKind::rational)
             s->refuse("'fitted'", "a number: only `kind: rational` has an s that is fitted");
         if (!mapper.fitted_s)
-            mapper.s = s->number(1.0, most_s);
+            mapper.s = number_beside_words(*s, 1.0, most_s, "or, with `kind: rational`, `fitted`");
     }
     if (const auto l_max = keys.find("l_max_cdm2"))
         read_white(*l_max, mapper);

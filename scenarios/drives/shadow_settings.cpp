@@ -52,7 +52,7 @@ void set_shadow_method(ShadowSettings& shadows, ShadowMethod method) {
     shadows.things_cast |= method != ShadowMethod::none;
 }
 
-ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in) {
+ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in, const char* asked_by) {
     if (name == "auto")
         return ShadowMethod::automatic;
     std::vector<std::string> known{"auto"};
@@ -62,7 +62,7 @@ ShadowMethod shadow_method_named(const std::string& name, const std::filesystem:
         known.emplace_back(row.name);
     }
     const std::string nearest = nearest_name(name, known);
-    throw InputError({asked_in, 0, 0, "shadows"}, "found '" + printable(name) + "'",
+    throw InputError({asked_in, 0, 0, asked_by}, "found '" + printable(name) + "'",
                      fmt::format("one of {}{}", fmt::join(known, ", "), nearest.empty() ? "" : " (nearest: '" + nearest + "')"));
 }
 

@@ -23,8 +23,8 @@ struct ShadowMethodName {
 /// All of them, in the order of the table of techniques.
 std::span<const ShadowMethodName> shadow_method_names();
 std::string_view name(ShadowMethod method); ///< "auto" for automatic
-/// "auto" too. Throws InputError, asked in that file, naming the nearest.
-ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in = {});
+/// "auto" too. Throws InputError, asked in that file by that key or flag, naming the nearest.
+ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in = {}, const char* asked_by = "shadows");
 
 struct ShadowSettings {
     ShadowMethod method = ShadowMethod::map;

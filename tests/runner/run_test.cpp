@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fmt/format.h>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -173,6 +174,48 @@ TEST(Run, BadInputIsOneSentenceAndExitCodeTwo) {
         EXPECT_FALSE(std::filesystem::exists(folder / "out")) << arguments;
         EXPECT_LT(run.output.size(), 800U) << run.output;
     }
+}
+
+/// Not the drive, which may say nothing of shadows.
+TEST(Run, AWrongShadowMethodIsThatOfTheFlag) {
+    const TemporaryFolder folder;
+    const std::string drive = library_file("drives/straight.yaml");
+    for (const auto& [method, says] : {std::pair("foo", "--shadows: found 'foo', expected one of auto, none"),
+                                       std::pair("volume", "(nearest: 'volumes')"), std::pair("''", "--shadows: found ''")}) {
+        const Outcome run = run_program("run " + drive + " --shadows " + method + " --out " + (folder / "out"));
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        EXPECT_THAT(run.output, testing::AllOf(testing::HasSubstr(says), testing::Not(testing::HasSubstr("straight.yaml"))));
+        EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    }
+}
+
+/// Naive techniques have a map, published ones no shadows: neither hears of the method, and the report says so first.
+TEST(Run, AShadowMethodThatTheTechniqueDoesNotUseIsAWarning) {
+    const TemporaryFolder folder;
+    const auto warnings = [&](const std::string& name, const std::string& flags) {
+        const std::string out = folder / name;
+        const Outcome run =
+            run_program("run " + library_file("drives/straight.yaml") +
+                        " --quiet --frames 3:4 --resolution 64x48 --no-accuracy --backend osmesa " + flags + " --out " + out);
+        EXPECT_LE(run.exit_code, 1) << run.output;
+        const json report = report_of(out);
+        std::string all;
+        for (const json& warning : report.at("warnings"))
+            if (warning.get<std::string>().find("shadows by") != std::string::npos)
+                all += warning.get<std::string>() + '\n';
+        EXPECT_THAT(run.output, testing::HasSubstr(all.empty() ? "" : "warning: " + all));
+        return all;
+    };
+    EXPECT_EQ(
+        warnings("naive", "--technique photometric-naive --shadows volumes"),
+        "straight-1: shadows by 'volumes' were asked for, and technique photometric-naive does not use it: its shadows are those of a "
+        "map for each lamp\n");
+    EXPECT_THAT(warnings("full", "--technique full --shadows auto"),
+                testing::HasSubstr("shadows by 'auto' were asked for, and technique full does not use it: it draws no shadows of lamps"));
+    EXPECT_THAT(content_of(folder / "full/report.html"), testing::HasSubstr("it draws no shadows of lamps"));
+    EXPECT_EQ(warnings("map", "--technique photometric-naive --shadows map"), "");
+    EXPECT_EQ(warnings("none", "--technique full --shadows none"), "");
+    EXPECT_EQ(warnings("ours", "--technique photometric-unpruned --shadows volumes"), "");
 }
 
 TEST(Run, NothingIsOverwritten) {

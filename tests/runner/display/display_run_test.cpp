@@ -1,11 +1,13 @@
 // Tone mappers and displays through the program: what a drive asks for is what its pictures are, and what it does not ask for changes
 // nothing.
 #include "metrics/display/display_colour.h"
+#include "metrics/display/night_vision.h"
 #include "runner/display/icc_profile.h"
 #include "runner/display/shown_picture.h"
 #include "runner/picture_file.h"
 #include "scenarios/display/tone_curve.h"
 #include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +78,7 @@ TEST(DisplayRun, PicturesSayWhatTheyWereShownBy) {
                    ", windscreen: {haze: 0.02}, eye: {veil: {age_years: 60}, colours: true, sharpness: true}}\n");
     EXPECT_THAT(read_png_tags(out + picture).shown_by,
                 testing::MatchesRegex("linear white=50 cd/m2; display projector \\([0-9a-f]*\\); windscreen 0.75 haze "
-                                      "0.02; eye of 60 years; colours at night; sharpness at night"));
+                                      "0.02; eye of 60 years, pigmentation 0.5; colours at night; sharpness at night"));
     const json report = json::parse(content_of(out + "/report.json"));
     std::vector<std::string> passes;
     for (const json& row : report.at("timing"))
@@ -170,11 +172,80 @@ TEST(DisplayRun, PicturesWithoutACommonScaleAreNotCompared) {
     DisplaySettings projector;
     projector.profile = read_display_profile(library_file("displays/projector.yaml"), opened);
     EXPECT_THAT(compared(stored("profile", projector, {})), testing::HasSubstr("display projector"));
+    DisplaySettings eye;
+    eye.veil = EyeVeil{60.0, 0.0};
+    const std::string dark = stored("dark", eye, {});
+    eye.veil->pigmentation = 1.2;
+    const Outcome eyes = run_program("compare " + dark + " " + stored("light", eye, {}));
+    EXPECT_EQ(eyes.exit_code, 2);
+    EXPECT_THAT(eyes.output, testing::AllOf(testing::HasSubstr("eye of 60 years, pigmentation 1.2'"),
+                                            testing::HasSubstr("expected 'rational s=20 white=100 cd/m2; display srgb; eye of 60 years, "
+                                                               "pigmentation 0'")));
     write_png(Image<Rgb8>(16, 16), {shown_by(projector, {}), icc_profile(*projector.profile)}, folder / "icc.png");
     const Outcome same = run_program("compare " + (folder / "icc.png") + " " + (folder / "icc.png"));
     EXPECT_EQ(same.exit_code, 2);
     EXPECT_THAT(same.output, testing::HasSubstr("ICC profile"));
     EXPECT_EQ(run_program("compare " + plain + " " + plain).exit_code, 0);
+}
+
+/// Of others, or of programs that drop what a PNG carries: nothing is known, and where one alone tells, it is said.
+TEST(DisplayRun, PicturesThatDoNotTellHowTheyWereShownAreComparedWithANote) {
+    const TemporaryFolder folder;
+    write_png(Image<Rgb8>(16, 16, {20, 30, 40}), {shown_by({}, {}), ""}, folder / "ours.png");
+    write_png(Image<Rgb8>(16, 16, {20, 30, 40}), folder / "others.png");
+    const std::string ours = folder / "ours.png", others = folder / "others.png";
+    const Outcome one = run_program("compare " + ours + " " + others), other = run_program("compare " + others + " " + ours);
+    EXPECT_EQ(one.exit_code, 0) << one.output;
+    EXPECT_THAT(one.output, testing::HasSubstr("note: A was shown by 'rational s=20 white=100 cd/m2; display srgb', and B does not tell"));
+    EXPECT_THAT(other.output, testing::HasSubstr("note: B was shown by"));
+    EXPECT_THAT(run_program("compare " + others + " " + others).output, testing::Not(testing::HasSubstr("note:")));
+    EXPECT_THAT(run_program("compare " + ours + " " + ours).output, testing::Not(testing::HasSubstr("note:")));
+    const json written = json::parse(run_program("compare --json " + ours + " " + others).output);
+    EXPECT_EQ(written.at("notes").size(), 1U);
+    FilesRead opened;
+    EXPECT_THAT(tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/compare/compare.schema.json", opened))).check(written),
+                testing::IsEmpty());
+}
+
+/// A projector from 2.5 m (2.1 mm a pixel) with the view's 72 rows, and one that says only half of it.
+TEST(DisplayRun, TheReportSaysHowLargePicturesAreSeen) {
+    const TemporaryFolder folder;
+    const std::string out = played(folder, "seen", "display: " + library_file("displays/projector.yaml") + "\n");
+    const json report = json::parse(content_of(out + "/report.json"));
+    FilesRead opened;
+    EXPECT_THAT(tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/report/report.schema.json", opened))).check(report),
+                testing::IsEmpty());
+    const json& display = report.at("drives").at(0).at("display");
+    EXPECT_EQ(display.at("profile"), "projector");
+    const json& view = display.at("views").at(0);
+    EXPECT_EQ(view.at("view"), "driver");
+    EXPECT_EQ(view.at("pictures"), 3);
+    EXPECT_NEAR(view.at("display_pixel_arcmin").get<double>(), 2.8877, 1.0e-3);
+    const double scene = view.at("scene_pixel_arcmin"), mean = view.at("mean_cdm2");
+    EXPECT_NEAR(view.at("magnification").get<double>(), 2.8877 / scene, 1.0e-3);
+    EXPECT_NEAR(view.at("life_size_m").get<double>(), 0.0021 / (scene / 60.0 * 3.14159265 / 180.0), 1.0e-3);
+    EXPECT_FALSE(view.at("finer_than_eye_by_day").get<bool>());
+    // Mean luminance as the files have it, not as the run says.
+    FilesRead ignored;
+    const DisplayProfile profile = read_display_profile(library_file("displays/projector.yaml"), ignored);
+    double sum = 0.0;
+    for (const char* tick : {"20", "21", "22"}) {
+        const Image<Rgb8> shown = read_png(out + "/frames/oncoming-1-halogen/driver-0000" + tick + ".png");
+        for (const Rgb8& pixel : shown.pixels())
+            sum += shown_xyz(profile, glm::dvec3(pixel.r, pixel.g, pixel.b) / 255.0).y / static_cast<double>(shown.size());
+    }
+    EXPECT_NEAR(mean, sum / 3.0, 1.0e-9);
+    EXPECT_NEAR(view.at("resolved_arcmin").get<double>(), 30.0 / acuity_cycles_per_deg(mean), 1.0e-9);
+    EXPECT_EQ(view.at("finer_than_eye").get<bool>(), 2.8877 <= view.at("resolved_arcmin").get<double>());
+    EXPECT_THAT(content_of(out + "/report.html"),
+                testing::AllOf(testing::HasSubstr("How the pictures are seen on the display"), testing::HasSubstr("looked at from 2.5 m")));
+
+    std::string half = content_of(library_file("displays/projector.yaml"));
+    half.erase(half.find("viewing_distance_m"), half.find("pixel_pitch_mm") - half.find("viewing_distance_m"));
+    std::ofstream(folder / "half.yaml") << half;
+    const std::string unknown = played(folder, "unknown", "display: " + (folder / "half.yaml") + "\n");
+    EXPECT_FALSE(json::parse(content_of(unknown + "/report.json")).at("drives").at(0).contains("display"));
+    EXPECT_THAT(content_of(unknown + "/report.html"), testing::Not(testing::HasSubstr("How the pictures are seen")));
 }
 
 TEST(DisplayRun, WhatFitsNothingRefusesAMapperThatIsToBeFitted) {
@@ -197,6 +268,12 @@ TEST(DisplayRun, RefusalsAreASentence) {
     };
     EXPECT_THAT(refused("tone_mapper: {kind: linear, s: fitted}\n"), testing::HasSubstr("only `kind: rational`"));
     EXPECT_THAT(refused("tone_mapper: {s: fitted}\ntechnique: full\n"), testing::HasSubstr("computes no luminance"));
+    EXPECT_THAT(refused("tone_mapper: {s: fit}\n"), testing::HasSubstr("tone_mapper.s: found 'fit', expected a number from 1 to 1e+06, or, "
+                                                                       "with `kind: rational`, `fitted`"));
+    EXPECT_THAT(refused("tone_mapper: {l_max_cdm2: none}\n"),
+                testing::AllOf(testing::HasSubstr("tone_mapper.l_max_cdm2: found 'none'"), testing::HasSubstr("`all`"),
+                               testing::HasSubstr("`surfaces`")));
+    EXPECT_THAT(refused("tone_mapper: {l_max_cdm2: [1]}\n"), testing::HasSubstr("`surfaces`"));
     EXPECT_THAT(refused("display: nowhere.yaml\n"), testing::HasSubstr("nowhere.yaml"));
     EXPECT_THAT(refused("display: {eye: {age: 3}}\n"), testing::HasSubstr("display.eye"));
     EXPECT_THAT(refused("display: {windscreen: {haze: 0.5}}\n"), testing::HasSubstr("0.3"));

@@ -120,8 +120,13 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
         EXPECT_EQ(run.exit_code, 2) << run.output;
         return run.output;
     };
-    EXPECT_THAT(refused("--methods mop"), HasSubstr("'mop'"));
+    EXPECT_THAT(refused("--methods mop"), HasSubstr("--methods: found 'mop'"));
     EXPECT_THAT(refused("--methods auto"), HasSubstr("by their names"));
+    for (const std::string sides : {"0x0", "16385x1"}) {
+        const Outcome run = run_program("shadows --resolution " + sides + " --out " + (folder / "out"));
+        EXPECT_EQ(run.exit_code, 2);
+        EXPECT_THAT(run.output, HasSubstr("--resolution: found '" + sides + "', expected sides from 1 to 16384 pixels"));
+    }
     EXPECT_THAT(refused("--methods map,map"), HasSubstr("each method once"));
     EXPECT_THAT(refused("--scenes past-5"), HasSubstr("fits no scene"));
     EXPECT_THAT(refused("--scenes none"), HasSubstr("DRIVE"));

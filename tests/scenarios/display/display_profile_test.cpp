@@ -57,7 +57,7 @@ TEST(DisplayProfile, ShippedFiguresAreTheirs) {
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(srgb.xyz_from_rgb[i][k], built_in.xyz_from_rgb[i][k], 1.0e-12);
-    EXPECT_NEAR(srgb.pixel_deg(), 0.0258, 1.0e-4); // 0.27 mm from 0.6 m: atan(0.00045) = 1.55'
+    EXPECT_NEAR(srgb.pixel_deg().value(), 0.0258, 1.0e-4); // 0.27 mm from 0.6 m: atan(0.00045) = 1.55'
     const DisplayProfile projector = read_display_profile(folder / "projector.yaml", opened);
     EXPECT_NEAR(projector.peak_cdm2(), 120.0, 1.0e-9);
     EXPECT_NEAR(projector.white_cdm2(), 119.88, 1.0e-9);
@@ -110,6 +110,22 @@ TEST(DisplayProfile, PrimariesOfSrgbGiveItsMatrix) {
     EXPECT_THROW(xyz_from_primaries({0.64, 0.0}, {0.30, 0.60}, {0.15, 0.06}, {0.31, 0.33}, 1.0), std::invalid_argument);
 }
 
+TEST(DisplayProfile, PqEndsWhereItsStandardDoes) {
+    const std::string lines = "fernlicht_display: 1\nprimaries: {red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, "
+                              "0.329]}\nblack_cdm2: 0.7\ntransfer: pq\npeak_cdm2: ";
+    EXPECT_NEAR(profile_of(lines + "10000\n").peak_cdm2(), 10000.0, 1.0e-8);
+    EXPECT_THROW(profile_of(lines + "10000.1\n"), InputError);
+}
+
+TEST(DisplayProfile, WhereItIsSeenFromMayBeUnknown) {
+    const std::string lines = "fernlicht_display: 1\nrgb_to_xyz: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntransfer: srgb\n";
+    const DisplayProfile unknown = profile_of(lines), half = profile_of(lines + "pixel_pitch_mm: 0.3\n");
+    EXPECT_FALSE(unknown.pixel_deg());
+    EXPECT_FALSE(half.pixel_deg());
+    EXPECT_EQ(profile_of(write_display_profile(half)), half);
+    EXPECT_NEAR(profile_of(lines + "pixel_pitch_mm: 0.3\nviewing_distance_m: 1\n").pixel_deg().value(), 0.0171887, 1.0e-6);
+}
+
 struct Refusal {
     const char *name, *text, *says;
 };
@@ -129,6 +145,8 @@ constexpr const char* srgb_lines = "primaries: {red: [0.64, 0.33], green: [0.3, 
 const std::string no_peak = std::string("fernlicht_display: 1\n") + srgb_lines + "transfer: srgb\n";
 const std::string bad_bits = no_peak + "peak_cdm2: 80\nbits: 10\n";
 const std::string dark_white = no_peak + "peak_cdm2: 1\nblack_cdm2: 2\n";
+const std::string beyond_pq = std::string("fernlicht_display: 1\n") + srgb_lines + "peak_cdm2: 20000\ntransfer: pq\n";
+const std::string unit_of_primaries = no_peak + "peak_cdm2: 80\nunit: W/(sr m2)\n";
 const std::string typo = no_peak + "peak_cdm2: 80\nblak_cdm2: 2\n";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -139,6 +157,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Bits", bad_bits.c_str(), "8 or 16"}, Refusal{"BlackAboveWhite", dark_white.c_str(), "peak_cdm2"},
         Refusal{"UnknownKey", typo.c_str(), "black_cdm2"},
         Refusal{"NoInverse", "fernlicht_display: 1\nrgb_to_xyz: [[1, 2, 3], [2, 4, 6], [1, 1, 1]]\ntransfer: srgb\n", "inverse"},
+        Refusal{"PeakBeyondPq", beyond_pq.c_str(), "profile.yaml:3:12: peak_cdm2: a peak of 20000 cd/m2 with transfer: pq"},
+        Refusal{"MatrixBeyondPq", "fernlicht_display: 1\ntransfer: pq\nrgb_to_xyz: [[1, 0, 0], [0, 10001, 0], [0, 0, 1]]\n",
+                "profile.yaml:3:13: rgb_to_xyz: a peak of 10001 cd/m2"},
+        Refusal{"UnitOfPrimaries", unit_of_primaries.c_str(), "profile.yaml:5:7: unit: a unit beside primaries"},
         Refusal{"TwoRows", "fernlicht_display: 1\nrgb_to_xyz: [[1, 2, 3], [2, 4, 6]]\ntransfer: srgb\n", "rgb_to_xyz"},
         Refusal{"Gamma", "fernlicht_display: 1\nrgb_to_xyz: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntransfer: {gamma: 0}\n", "gamma"},
         Refusal{"Transfer", "fernlicht_display: 1\nrgb_to_xyz: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntransfer: rec709\n", "linear"}),
