@@ -95,6 +95,8 @@ TEST(AccuracyRun, ShadowMethodsStandBesideTheTechniques) {
     const json& all = accuracy.at("drives").at(0).at("configurations");
     EXPECT_GT(row_of(all, "photometric, shadows none").at("whole_view").at("mean"),
               row_of(all, "photometric").at("whole_view").at("mean").get<double>());
+    for (const json& reach : row_of(all, "photometric").at("reach")) // of the own lamps, in both: another car comes towards us here
+        EXPECT_TRUE(reach.at("plane") != "road" || std::abs(reach.at("worst_m").get<double>()) < 1.0) << reach;
 }
 
 TEST(AccuracyRun, OneRoundMakesNobodySurelyFaster) {
