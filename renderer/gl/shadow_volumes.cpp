@@ -11,6 +11,10 @@ namespace {
 /// by more than a float of reversed depth rounds, so that a front is never taken to lie behind itself.
 constexpr double gap_m = 1e-3, gap_share = 1e-4;
 
+/// Hulls of ground, whose triangles turned away are fronts and receivers at once, lie lower by this: what grazing ground hides lower than
+/// that is lost, and from a fifth of it on pictures of a road from above begin to shade themselves.
+constexpr double ground_lowered_m = 5e-4;
+
 glm::dquat turn_of_mesh(const Piece& piece) {
     return {static_cast<double>(piece.turn.w), static_cast<double>(piece.turn.x), static_cast<double>(piece.turn.y),
             static_cast<double>(piece.turn.z)};
@@ -38,6 +42,12 @@ const Silhouettes& ShadowVolumes::silhouettes_of(const Pieces& pieces) {
         corners.insert(corners.end(), more.begin(), more.end());
     }
     return silhouettes_.emplace(pieces, Silhouettes(corners)).first->second;
+}
+
+bool ShadowVolumes::in_use(const Pieces& pieces) const {
+    return std::ranges::any_of(hulls_, [&](const std::vector<Hulls>& of_lamp) {
+        return std::ranges::any_of(of_lamp, [&](const Hulls& hulls) { return hulls.pieces == pieces; });
+    });
 }
 
 void ShadowVolumes::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
@@ -101,6 +111,7 @@ void ShadowVolumes::before_marking(const Shot& shot) {
                 all.insert(all.end(), hulls.corners.begin(), hulls.corners.end());
             }
         volumes_.upload(all);
+        std::erase_if(silhouettes_, [&](const auto& kept) { return !in_use(kept.first); }); // a long drive passes many
     }
     shot.clock.end();
 }
@@ -117,7 +128,7 @@ void ShadowVolumes::mark_hidden(const Shot& shot, std::size_t lamp, double raise
         placed.lamp_m = casters_.lamps()[lamp].lamp_m;
         placed.gap_m = piece.ground ? 0.0 : gap_m;
         placed.gap_share = piece.ground ? 0.0 : gap_share;
-        placed.lowered_m = raised_m + (piece.ground ? settings_.tolerance_m : 0.0);
+        placed.lowered_m = raised_m + (piece.ground ? ground_lowered_m : 0.0);
         placed.first = hulls.first;
         placed.count = hulls.corners.size();
         volumes_.draw(placed);

@@ -35,11 +35,12 @@ class ShadowVolumes : public ShadowMask {
         std::size_t first = 0; ///< in what is uploaded
     };
     const Silhouettes& silhouettes_of(const Pieces& pieces);
+    bool in_use(const Pieces& pieces) const;
     std::vector<bool> casting_bodies(const Silhouettes& silhouettes, const Piece& piece, std::size_t lamp) const;
 
-    std::vector<const Beam*> beams_; ///< by lamp
-    std::map<Pieces, Silhouettes> silhouettes_;
-    std::vector<std::vector<Hulls>> hulls_; ///< by lamp
+    std::vector<const Beam*> beams_;            ///< by lamp
+    std::map<Pieces, Silhouettes> silhouettes_; ///< of what casts now
+    std::vector<std::vector<Hulls>> hulls_;     ///< by lamp
     StencilVolumes volumes_;
 };
 

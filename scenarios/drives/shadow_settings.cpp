@@ -22,7 +22,7 @@ constexpr ShadowMethodName names[] = {
      "shadows on upright things; the extent of lamps; what stands farther than 300 m from a lamp"},
     {ShadowMethod::volumes, "volumes", "Crow 1977; Everitt, Kilgard 2002; Aldridge, Woods 2004",
      "silhouettes extruded away from each lamp to infinity, counted in a stencil buffer behind each pixel's surface",
-     "ground that hides other ground by less than tolerance_m; the extent of lamps; what stands farther than 300 m from a lamp"},
+     "ground that hides other ground by less than 0.5 mm; the extent of lamps; what stands farther than 300 m from a lamp"},
     {ShadowMethod::map, "map", "Williams 1978; Reeves, Salesin, Cook 1987",
      "a depth map for each lamp, fitted to its beam; four texels compared and weighted, from a point raised by what a texel spans there",
      "bodies lower than 1.5 texels; the extent of lamps; what stands farther than 300 m from a lamp"},

@@ -29,8 +29,8 @@ ShadowMethod shadow_method_named(const std::string& name, const std::filesystem:
 struct ShadowSettings {
     ShadowMethod method = ShadowMethod::map;
     int width = 1024, height = 512; ///< texels of a map; 16..8192
-    double tolerance_m = 0.03; ///< maps: shadows are looked up from points at least this far above a surface; volumes: of ground, lowered
-                               ///< by it; planar: ground lies so near to one plane; > 0
+    double tolerance_m = 0.03; ///< maps, those of others' lamps too: shadows are looked up from points at least this far above a surface;
+                               ///< planar: ground lies so near to one plane; > 0
 
     double redraw_texels = 0.0;  ///< maps: one is kept while no shadow's edge has moved by more than this; 0..16; 0: never
     double lamp_radius_m = 0.06; ///< soft_map: of the discs that lamps are; 0.001..0.5
