@@ -88,12 +88,12 @@ std::string stored_text(const AcceptedReference& reference, const Stored& stored
     return fmt::format("{}  {}: {}{}", short_id(stored.id), cell_text(reference.key), stored.is_new ? "new" : "accepted before", removed);
 }
 
-struct Flags {
+struct AcceptFlags {
     std::string run, to = "references", note;
     bool add = false, replace = false, readings_only = false;
 };
 
-int accept(const Flags& flags) {
+int accept(const AcceptFlags& flags) {
     if (flags.add && flags.replace)
         throw InputError({{}, 0, 0, "--add"}, "found --replace, too", "one of the two");
     if (flags.add && flags.note.empty())
@@ -178,7 +178,7 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
 }
 
 void add_accept_command(CLI::App& app, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<AcceptFlags>();
     CLI::App* command = app.add_subcommand("accept", "take a run's results as references for later runs; judges nothing");
     command->add_option("RUN", flags->run, "folder of a complete run or study, or of a picture by `fernlicht reference`")->required();
     command->add_option("--to,--store", flags->to, "folder of references")->capture_default_str();

@@ -16,7 +16,7 @@ namespace fernlicht {
 namespace {
 
 /// The flags as typed.
-struct Flags {
+struct AccuracyFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> techniques, resolutions, shadow_maps, beams;
     std::string variant, target_error = "0.5%", backend = "auto", out;
@@ -45,7 +45,7 @@ std::vector<std::string> diagrams_of(const std::vector<std::string>& lists) {
     return std::ranges::find(asked, "all") != asked.end() ? known : asked;
 }
 
-int accuracy(const Flags& flags, const std::vector<std::string>& command) {
+int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command) {
     AccuracyRequest request;
     request.diagrams = diagrams_of(flags.diagrams);
     request.sweep = flags.sweep;
@@ -77,7 +77,7 @@ int accuracy(const Flags& flags, const std::vector<std::string>& command) {
 } // namespace
 
 void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<AccuracyFlags>();
     CLI::App* sub = app.add_subcommand("accuracy", "hold the techniques against the reference: error beside run time");
     sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
     sub->add_option(

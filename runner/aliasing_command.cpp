@@ -16,7 +16,7 @@ namespace fernlicht {
 namespace {
 
 /// The flags as typed.
-struct Flags {
+struct AliasingFlags {
     std::filesystem::path drive;
     std::optional<double> moment_s;
     std::string variant, frames, resolution, backend = "auto", out, picture = "luminance";
@@ -44,7 +44,7 @@ template <class Value> void check_once(const char* flag, const std::vector<Value
                 refuse_flag(flag, texts[i] + " twice", "each value once");
 }
 
-AliasingRequest request_of(const Flags& flags) {
+AliasingRequest request_of(const AliasingFlags& flags) {
     AliasingRequest request;
     DriveEdits edits;
     if (!flags.resolution.empty())
@@ -88,7 +88,7 @@ AliasingRequest request_of(const Flags& flags) {
     return request;
 }
 
-SequenceRequest sequence_request_of(const Flags& flags) {
+SequenceRequest sequence_request_of(const AliasingFlags& flags) {
     SequenceRequest request;
     request.sequence = flags.sequence;
     if (!flags.against.empty())
@@ -113,7 +113,7 @@ SequenceRequest sequence_request_of(const Flags& flags) {
     return request;
 }
 
-AliasingResult run(const Flags& flags, const std::vector<std::string>& command, std::filesystem::path& folder) {
+AliasingResult run(const AliasingFlags& flags, const std::vector<std::string>& command, std::filesystem::path& folder) {
     const auto place = [&](const std::string& name) {
         folder = flags.out.empty() ? default_output_folder(name + "-aliasing", utc_now()) : std::filesystem::path(flags.out);
         return folder;
@@ -130,7 +130,7 @@ AliasingResult run(const Flags& flags, const std::vector<std::string>& command, 
     return run_aliasing(request);
 }
 
-int aliasing(const Flags& flags, const std::vector<std::string>& command) {
+int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command) {
     if (flags.sequence.empty() == flags.drive.empty())
         throw InputError({{}, 0, 0, "DRIVE"}, flags.drive.empty() ? "is missing" : "found --sequence too",
                          "a drive file, or --sequence with a folder of frames");
@@ -147,7 +147,7 @@ int aliasing(const Flags& flags, const std::vector<std::string>& command) {
 } // namespace
 
 void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<AliasingFlags>();
     CLI::App* sub = app.add_subcommand("aliasing", "how much of what a picture shows is not there, by how it is drawn");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML)");
     sub->add_option("--moment", flags->moment_s, "seconds into the drive; the nearest moment is drawn; else its middle");

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* default_drive = "scenarios/library/drives/bench.yaml";
 
 /// The flags as typed.
-struct Flags {
+struct BenchFlags {
     std::filesystem::path drive = default_drive;
     std::string variant, resolution, backend = "auto", out;
     std::vector<std::string> techniques;
@@ -25,7 +25,7 @@ struct Flags {
     bool quiet = false;
 };
 
-int bench(const Flags& flags, const std::vector<std::string>& command) {
+int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     if (flags.rounds < 1 || flags.rounds > 100000)
         refuse_flag("--rounds", fmt::format("{}", flags.rounds), "1 to 100000");
     DriveEdits edits;
@@ -53,7 +53,7 @@ int bench(const Flags& flags, const std::vector<std::string>& command) {
 } // namespace
 
 void add_bench_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<BenchFlags>();
     CLI::App* sub = app.add_subcommand("bench", "time the techniques against one another");
     sub->add_option("--drive", flags->drive, "drive file (YAML) whose moments are drawn")->capture_default_str();
     sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");

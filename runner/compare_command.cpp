@@ -19,7 +19,7 @@
 namespace fernlicht {
 namespace {
 
-struct Flags {
+struct CompareFlags {
     std::filesystem::path reference, tested, out;
     std::string strictness, pictures = "3", regulation, noise;
     bool lamps = false;
@@ -29,7 +29,7 @@ struct Flags {
 
 enum class ComparedKind { pictures, runs, lamps };
 
-double pixels_per_degree(const Flags& flags, int height_px) {
+double pixels_per_degree(const CompareFlags& flags, int height_px) {
     const auto in_range = [](const char* flag, double value) {
         if (!(value >= 1.0 && value <= 1000.0))
             throw InputError({{}, 0, 0, flag}, fmt::format("found {:g} pixels per degree", value), "1 to 1000 of them");
@@ -44,7 +44,7 @@ double pixels_per_degree(const Flags& flags, int height_px) {
     return in_range("--view-fov", pixels_per_degree_of_view(radians(*flags.view_fov_deg), height_px));
 }
 
-int compare_two_pictures(const Flags& flags) {
+int compare_two_pictures(const CompareFlags& flags) {
     std::optional<StrictnessClass> strictness;
     if (!flags.strictness.empty())
         strictness = read_strictness(flags.strictness);
@@ -78,7 +78,7 @@ std::size_t pictured_moments(const std::string& text) {
     return moments;
 }
 
-int compare_runs_of(const Flags& flags) {
+int compare_runs_of(const CompareFlags& flags) {
     if (flags.view_fov_deg)
         throw InputError({{}, 0, 0, "--view-fov"}, "found beside two runs", "none: the drives say what their views see");
     CompareRunsRequest request;
@@ -106,7 +106,7 @@ const char* name_of(ComparedKind kind) {
 }
 
 /// What belongs to another kind of comparison is refused rather than ignored.
-void refuse_foreign_flags(const Flags& flags, ComparedKind kind) {
+void refuse_foreign_flags(const CompareFlags& flags, ComparedKind kind) {
     const auto refuse = [](bool given, const char* flag, const char* expected) {
         if (given)
             throw InputError({{}, 0, 0, flag}, "found beside what it says nothing of", expected);
@@ -122,7 +122,7 @@ void refuse_foreign_flags(const Flags& flags, ComparedKind kind) {
     refuse(flags.view_fov_deg.has_value(), "--view-fov", "two pictures");
 }
 
-int compare(const Flags& flags) {
+int compare(const CompareFlags& flags) {
     const ComparedKind first = kind_of(flags.reference, flags.lamps), second = kind_of(flags.tested, flags.lamps);
     if (first != second)
         throw InputError({flags.tested, 0, 0, {}}, fmt::format("is {}", name_of(second)),
@@ -140,7 +140,7 @@ int compare(const Flags& flags) {
 } // namespace
 
 void add_compare_command(CLI::App& app, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<CompareFlags>();
     CLI::App* sub = app.add_subcommand(
         "compare", "tells how two pictures, two runs or two lamps differ: in numbers, in pictures, and whether they are alike enough");
     sub->add_option("A", flags->reference,

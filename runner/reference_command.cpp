@@ -16,7 +16,7 @@ namespace fernlicht {
 namespace {
 
 /// The flags as typed.
-struct Flags {
+struct ReferenceFlags {
     std::filesystem::path drive;
     std::vector<std::string> lamps;
     std::string variant, view, road, resolution, out, target_error = "0.5%", integrator = "direct";
@@ -45,7 +45,7 @@ const std::vector<Belonging>& belongings() {
 }
 
 /// Refuses what would be ignored.
-void check_given(const Flags& flags) {
+void check_given(const ReferenceFlags& flags) {
     const auto is_given = [&](const char* flag) { return std::ranges::count(flags.given, flag) > 0; };
     for (const Belonging& one : belongings())
         if (is_given(one.flag) && !std::ranges::count(one.users, *integrator_of(flags.integrator))) {
@@ -64,7 +64,7 @@ void check_given(const Flags& flags) {
             refuse_flag(flag, *text, "something, or the option left out");
 }
 
-DriveEdits edits_of(const Flags& flags) {
+DriveEdits edits_of(const ReferenceFlags& flags) {
     DriveEdits edits;
     for (const std::string& lamp : flags.lamps) {
         const std::size_t at = lamp.find('=');
@@ -77,7 +77,7 @@ DriveEdits edits_of(const Flags& flags) {
     return edits;
 }
 
-ReferenceSettings settings_of(const Flags& flags) {
+ReferenceSettings settings_of(const ReferenceFlags& flags) {
     ReferenceSettings settings;
     settings.integrator = *integrator_of(flags.integrator);
     settings.most_smooth = flags.most_smooth;
@@ -91,7 +91,7 @@ ReferenceSettings settings_of(const Flags& flags) {
 }
 
 /// `reference` draws, `references` looks after what was accepted: who took the one for the other is led there.
-void check_name(const Flags& flags) {
+void check_name(const ReferenceFlags& flags) {
     std::error_code ignored;
     for (const char* action : {"list", "show", "diff", "remove"})
         if (flags.drive == action && !std::filesystem::exists(flags.drive, ignored))
@@ -99,7 +99,7 @@ void check_name(const Flags& flags) {
                              fmt::format("a drive file; accepted results are looked at with `fernlicht references {}`", action));
 }
 
-int draw_reference(const Flags& flags, const std::vector<std::string>& command) {
+int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& command) {
     check_name(flags);
     check_given(flags);
     if (flags.resume && flags.out.empty())
@@ -125,7 +125,7 @@ int draw_reference(const Flags& flags, const std::vector<std::string>& command) 
     return result.interrupted.empty() ? 0 : 1;
 }
 
-void add_solver_options(CLI::App& sub, Flags& flags) {
+void add_solver_options(CLI::App& sub, ReferenceFlags& flags) {
     SolverSettings& solver = flags.solver;
     sub.add_option("--smooth-depth", flags.most_smooth, "whitted: mirrors and boundaries of glass in a row")
         ->check(CLI::Range(0, 64))
@@ -152,7 +152,7 @@ void add_solver_options(CLI::App& sub, Flags& flags) {
 } // namespace
 
 void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<ReferenceFlags>();
     CLI::App* sub = app.add_subcommand("reference", "draw one moment by rays, each pixel with its standard error (not: `references`)");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
     sub->add_option("--moment", flags->moment_s,

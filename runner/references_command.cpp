@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The flags as typed.
-struct Flags {
+struct ReferencesFlags {
     std::string store = "references";
     std::string word, other;
     std::vector<std::string> words;
@@ -65,7 +65,7 @@ void refuse_missing(const std::string& store) {
         throw InputError({store, 0, 0, {}}, "is no folder", "one that `fernlicht accept` made, named by --store");
 }
 
-int list(const Flags& flags) {
+int list(const ReferencesFlags& flags) {
     refuse_missing(flags.store);
     const FolderLock lock(flags.store, FolderLock::For::reading);
     const std::vector<StoredReference> entries = list_references(flags.store);
@@ -144,7 +144,7 @@ void print_device_spread(const DeviceSpread& spread) {
         fmt::print("\n{}", table(rows));
 }
 
-int show(const Flags& flags) {
+int show(const ReferencesFlags& flags) {
     const FolderLock lock(flags.store, FolderLock::For::reading);
     const StoredReference entry = choose_reference(flags.store, flags.word);
     const AcceptedReference reference = load_reference(flags.store, entry);
@@ -211,7 +211,7 @@ void print_other_keys(const AcceptedReference& a, const AcceptedReference& b) {
             fmt::print("another {}\n", printable(name));
 }
 
-int diff(const Flags& flags) {
+int diff(const ReferencesFlags& flags) {
     const FolderLock lock(flags.store, FolderLock::For::reading);
     const StoredReference entry = choose_reference(flags.store, flags.word);
     const AcceptedReference accepted = load_reference(flags.store, entry);
@@ -229,7 +229,7 @@ int diff(const Flags& flags) {
     return readings + frames == 0 ? 0 : 1;
 }
 
-int remove(const Flags& flags) {
+int remove(const ReferencesFlags& flags) {
     if (flags.words.empty() && !flags.unreferenced)
         throw InputError({{}, 0, 0, "remove"}, "found no ID", "one or more, or --unreferenced");
     std::vector<std::string> ids;
@@ -248,10 +248,10 @@ int remove(const Flags& flags) {
 } // namespace
 
 void add_references_command(CLI::App& app, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<ReferencesFlags>();
     CLI::App* command = app.add_subcommand("references", "list, show, compare and remove accepted results (not: `reference DRIVE`)");
     command->require_subcommand(0, 1);
-    const auto add = [&](const char* name, const char* text, int (*action)(const Flags&)) {
+    const auto add = [&](const char* name, const char* text, int (*action)(const ReferencesFlags&)) {
         CLI::App* sub = command->add_subcommand(name, text);
         sub->add_option("--store", flags->store, "folder of references")->capture_default_str();
         sub->callback([flags, action, &chosen] { chosen = [flags, action] { return action(*flags); }; });

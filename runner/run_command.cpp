@@ -18,7 +18,7 @@ namespace fernlicht {
 namespace {
 
 /// The flags as typed.
-struct Flags {
+struct RunFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> lamps;
     std::string road, technique, resolution, frames, capture, backend = "auto", out;
@@ -30,7 +30,7 @@ struct Flags {
     bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
 };
 
-DriveEdits edits_of(const Flags& flags) {
+DriveEdits edits_of(const RunFlags& flags) {
     DriveEdits edits;
     for (const std::string& lamp : flags.lamps) {
         const std::size_t at = lamp.find('=');
@@ -90,7 +90,7 @@ void print_verdicts(const Report& report) {
     fmt::print("{}\n", line);
 }
 
-int run(const Flags& flags, const std::vector<std::string>& command) {
+int run(const RunFlags& flags, const std::vector<std::string>& command) {
     RunOptions options;
     options.backend = flags.backend;
     options.ticks = tick_range(flags.frames);
@@ -130,7 +130,7 @@ TickRange tick_range(const std::string& frames) {
 }
 
 void add_run_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<RunFlags>();
     CLI::App* sub = app.add_subcommand("run", "play drives, measure, and write a report");
     sub->add_option("DRIVE", flags->drives,
                     "drive files (YAML), or storyboards (OpenSCENARIO, .xosc): played with halogen low beams on all cars")

@@ -16,7 +16,7 @@ namespace fernlicht {
 namespace {
 
 /// The flags as typed.
-struct Flags {
+struct ShadowsFlags {
     std::vector<std::filesystem::path> drives;
     std::string variant, backend = "auto", out, texels = "1024x512", resolution = "512x384";
     std::vector<std::string> methods, scenes{"*"};
@@ -42,7 +42,7 @@ std::vector<ShadowMethod> methods_of(const std::vector<std::string>& lists) {
     return methods;
 }
 
-int shadows(const Flags& flags, const std::vector<std::string>& command) {
+int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) {
     ShadowRequest request;
     request.options.methods = methods_of(flags.methods);
     const auto [width, height] = two_numbers("--map-texels", flags.texels, 'x', false, "WIDTHxHEIGHT, e.g. 1024x512");
@@ -82,7 +82,7 @@ int shadows(const Flags& flags, const std::vector<std::string>& command) {
 } // namespace
 
 void add_shadows_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<ShadowsFlags>();
     CLI::App* sub = app.add_subcommand("shadows", "how wrong each shadow method is against rays, and what it costs");
     sub->add_option("DRIVE", flags->drives, "drive files (YAML), beside the scenes that are hard on shadows");
     sub->add_option("--methods", flags->methods, "names with commas between them; else all")->allow_extra_args(false);

@@ -14,7 +14,7 @@
 namespace fernlicht {
 namespace {
 
-struct Flags {
+struct StabilityFlags {
     std::vector<std::string> only{"*"};
     std::string backend = "auto", out;
     bool json = false, markdown = false, list = false, thorough = false;
@@ -69,7 +69,7 @@ std::vector<const StabilityCase*> chosen_cases(const std::vector<std::string>& p
     return chosen;
 }
 
-int try_cases(const Flags& flags) {
+int try_cases(const StabilityFlags& flags) {
     const std::vector<const StabilityCase*> cases = chosen_cases(items_of("--only", flags.only));
     if (flags.list) {
         for (const StabilityCase* one : cases)
@@ -100,7 +100,7 @@ int try_cases(const Flags& flags) {
 } // namespace
 
 void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<StabilityFlags>();
     CLI::App* sub =
         app.add_subcommand("stability", "try extreme and degenerate inputs, each held against a bound; exit code 1 when one fails");
     CLI::Option* only = sub->add_option("--only", flags->only, "names of cases, with * and ?, commas between: 'lamp/*,table/zero'")

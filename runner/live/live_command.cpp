@@ -18,7 +18,7 @@ namespace {
 constexpr int interrupted_code = 130; ///< as a shell has it for what SIGINT ended
 
 /// The flags as typed.
-struct Flags {
+struct LiveFlags {
     std::filesystem::path drive;
     std::string interface, log, start, variant, record, resolution, backend = "auto", out;
     double duration_s = 0.0, listen_s = 0.5;
@@ -26,7 +26,7 @@ struct Flags {
     bool no_wait = false, no_draw = false, lossless = false;
 };
 
-Drive drive_of(const Flags& flags) {
+Drive drive_of(const LiveFlags& flags) {
     DriveEdits edits;
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
@@ -47,7 +47,7 @@ bool lost(const LiveFigures& live) {
     return live.socket.dropped + live.socket.superseded + live.socket.not_sent + live.not_recorded > 0 || !live.socket.outages.empty();
 }
 
-void check_bus_flags(const Flags& flags) {
+void check_bus_flags(const LiveFlags& flags) {
     if (flags.interface.empty() == flags.log.empty())
         throw InputError({{}, 0, 0, "--can"},
                          flags.log.empty() ? "found neither an interface nor a recording" : "found an interface and a recording",
@@ -76,7 +76,7 @@ Report run_and_name(Drive drive, const LiveOptions& options) {
     }
 }
 
-int live(const Flags& flags, const std::vector<std::string>& command) {
+int live(const LiveFlags& flags, const std::vector<std::string>& command) {
     check_bus_flags(flags);
     LiveOptions options;
     options.interface = flags.interface;
@@ -106,7 +106,7 @@ int live(const Flags& flags, const std::vector<std::string>& command) {
 } // namespace
 
 void add_live_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<LiveFlags>();
     CLI::App* sub = app.add_subcommand("live", "drive against the clock: inputs from a CAN bus, outputs onto it");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML) with the key `can`")->required();
     sub->add_option("--can", flags->interface, "CAN interface of the kernel, e.g. can0 or vcan0");

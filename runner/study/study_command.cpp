@@ -16,7 +16,7 @@ namespace fernlicht {
 namespace {
 
 /// The flags as typed.
-struct Flags {
+struct StudyFlags {
     std::filesystem::path file;
     std::string backend = "auto", frames, out, only;
     JudgingFlags judging;
@@ -29,7 +29,7 @@ int list_cells(const Study& study) {
     return 0;
 }
 
-int study(const Flags& flags, const std::vector<std::string>& command) {
+int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     const Study study = read_study(flags.file);
     if (flags.list)
         return list_cells(study);
@@ -53,7 +53,7 @@ int study(const Flags& flags, const std::vector<std::string>& command) {
 } // namespace
 
 void add_study_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
-    const auto flags = std::make_shared<Flags>();
+    const auto flags = std::make_shared<StudyFlags>();
     CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and tell what differs beyond noise");
     sub->add_option("FILE", flags->file, "study file (YAML)")->required();
     sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");

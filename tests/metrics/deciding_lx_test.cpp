@@ -12,7 +12,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::straight_grid;
+using tests::straight_grid;
 
 const std::vector<double> limits_lx{1.0, 3.0, 5.0, 10.0};
 

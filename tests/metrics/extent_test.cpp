@@ -9,10 +9,10 @@
 namespace fernlicht {
 namespace {
 
-using testing::extent_of;
-using testing::lit_by;
-using testing::straight_grid;
-using testing::two_lanes;
+using tests::extent_of;
+using tests::lit_by;
+using tests::straight_grid;
+using tests::two_lanes;
 
 constexpr double pi_ = 3.14159265358979323846;
 

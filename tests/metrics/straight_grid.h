@@ -3,7 +3,7 @@
 
 #include "metrics/extent.h"
 
-namespace fernlicht::testing {
+namespace fernlicht::tests {
 
 struct StraightGrid {
     double ahead_m = 100.0, beside_m = 20.0, along_m = 0.5, across_m = 0.125;
@@ -52,4 +52,4 @@ inline LaneExtent extent_of(const std::vector<LaneExtent>& extents, const std::s
     throw std::out_of_range("no extent of lane " + lane);
 }
 
-} // namespace fernlicht::testing
+} // namespace fernlicht::tests

@@ -10,8 +10,8 @@
 namespace fernlicht {
 namespace {
 
-using testing::extent_of;
-using testing::straight_grid;
+using tests::extent_of;
+using tests::straight_grid;
 
 LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double pitch_rad = 0.0) {
     auto file = std::make_shared<LampFile>();
@@ -29,7 +29,7 @@ CandelaTable cut_off_at_horizon(double cd) {
     return {{-180.0, 180.0}, {-90.0, 0.0, 1e-9, 90.0}, {cd, cd, cd, cd, 0.0, 0.0, 0.0, 0.0}, {}, BetweenSamples::linear_cd};
 }
 
-Moment moment_with(std::vector<LitLamp> lamps) {
+Moment moment_of(std::vector<LitLamp> lamps) {
     Moment moment;
     moment.lamps = std::move(lamps);
     return moment;
@@ -41,7 +41,7 @@ LitLamp dipped_lamp() { return lamp_with(cut_off_at_horizon(50000.0), {0.0, 0.0,
 TEST(TwinIlluminance, IsTheLawOfLampAndRoad) {
     ExtentGrid grid = straight_grid({.ahead_m = 60.0, .target_height_m = 0.25});
     const Moment moment =
-        moment_with({lamp_with(everywhere(10000.0), {-0.2, 0.6, 0.65}), lamp_with(everywhere(10000.0), {-0.2, -0.6, 0.65})});
+        moment_of({lamp_with(everywhere(10000.0), {-0.2, 0.6, 0.65}), lamp_with(everywhere(10000.0), {-0.2, -0.6, 0.65})});
     const auto road = twin_illuminance_lx(grid, moment, ExtentPlane::road);
     const auto target = twin_illuminance_lx(grid, moment, ExtentPlane::target);
     for (std::size_t row = 0; row < grid.ahead_m.size(); row += 7)
@@ -63,8 +63,8 @@ TEST(TwinIlluminance, LampsThatAreOffAddExactlyNothing) {
     LitLamp on = lamp_with(everywhere(1000.0), {0.0, 0.0, 0.65}), off = on;
     off.intensity_factor = 0.0;
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        EXPECT_EQ(twin_illuminance_lx(grid, moment_with({on}), plane), twin_illuminance_lx(grid, moment_with({off, on, off}), plane));
-        for (const double lx : twin_illuminance_lx(grid, moment_with({off}), plane))
+        EXPECT_EQ(twin_illuminance_lx(grid, moment_of({on}), plane), twin_illuminance_lx(grid, moment_of({off, on, off}), plane));
+        for (const double lx : twin_illuminance_lx(grid, moment_of({off}), plane))
             ASSERT_EQ(lx, 0.0);
     }
 }
@@ -79,7 +79,7 @@ TEST(TwinIlluminance, TheSkyLightsTheRoadAndNotTheTarget) {
 
 TEST(TwinIlluminance, ThreadsDoNotChangeABit) {
     const ExtentGrid grid = straight_grid({});
-    const Moment moment = moment_with({dipped_lamp(), lamp_with(everywhere(1234.5), {0.1, 0.6, 0.7})});
+    const Moment moment = moment_of({dipped_lamp(), lamp_with(everywhere(1234.5), {0.1, 0.6, 0.7})});
     const auto with_all = twin_illuminance_lx(grid, moment, ExtentPlane::road);
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(with_all, twin_illuminance_lx(grid, moment, ExtentPlane::road));
@@ -87,7 +87,7 @@ TEST(TwinIlluminance, ThreadsDoNotChangeABit) {
 
 TEST(TwinExtent, BareLampReachesWhereTheLawSays) {
     const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .target_height_m = 0.25});
-    const Moment moment = moment_with({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})});
+    const Moment moment = moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})});
     const auto road = measure_extent(grid, twin_illuminance_lx(grid, moment, ExtentPlane::road), ExtentPlane::road, {3.0}, {});
     const auto target = measure_extent(grid, twin_illuminance_lx(grid, moment, ExtentPlane::target), ExtentPlane::target, {1.0}, {});
     EXPECT_NEAR(extent_of(road, "own", 3.0).reach_centre_m, std::sqrt(std::pow(6500.0 / 3.0, 2.0 / 3.0) - 0.65 * 0.65), 3e-3);
@@ -97,7 +97,7 @@ TEST(TwinExtent, BareLampReachesWhereTheLawSays) {
 // At the cut-off I / 65^2 = 11.8 lx: every lower limit ends there, 65 m ahead on the road, h / tan(dip). 65 m is a row of the grid.
 TEST(TwinExtent, CutOffEndsTheReach) {
     const ExtentGrid grid = straight_grid({.ahead_m = 100.0, .across_m = 0.5});
-    const auto lx = twin_illuminance_lx(grid, moment_with({dipped_lamp()}), ExtentPlane::target);
+    const auto lx = twin_illuminance_lx(grid, moment_of({dipped_lamp()}), ExtentPlane::target);
     const auto extents = measure_extent(grid, lx, ExtentPlane::target, {1.0, 5.0}, {});
     EXPECT_NEAR(extent_of(extents, "own", 1.0).reach_centre_m, 65.0, 0.5);
     EXPECT_NEAR(extent_of(extents, "own", 5.0).reach_centre_m, 65.0, 0.5);
@@ -108,7 +108,7 @@ TEST(TwinExtent, CutOffEndsTheReach) {
 // degrees is h sin(0.2 deg) / (2 sin(dip - 0.1 deg) sin(dip + 0.1 deg)), 3 % more, since the reach curves upwards.
 TEST(ReachSensitivity, CutOffAnswersToAimAndNotToFlux) {
     const ExtentGrid grid = straight_grid({.ahead_m = 100.0, .beside_m = 1.0});
-    const auto sensitivities = reach_sensitivity(grid, moment_with({dipped_lamp()}), {1.0, 3.0});
+    const auto sensitivities = reach_sensitivity(grid, moment_of({dipped_lamp()}), {1.0, 3.0});
     ASSERT_EQ(sensitivities.size(), 4U);
     const double dip = std::atan(0.01), tenth = radians(0.1);
     const double central_m = 0.65 * std::sin(2.0 * tenth) / (2.0 * std::sin(dip - tenth) * std::sin(dip + tenth));
@@ -125,7 +125,7 @@ TEST(ReachSensitivity, CutOffAnswersToAimAndNotToFlux) {
 // Constant intensity does not care for aim; d' = sqrt(I / E) answers to flux: (sqrt(1.1) - sqrt(0.9)) / 2 of the distance.
 TEST(ReachSensitivity, BareLampAnswersToFluxAndNotToAim) {
     const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .beside_m = 1.0, .target_height_m = 0.65});
-    const auto sensitivities = reach_sensitivity(grid, moment_with({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})}), {1.0});
+    const auto sensitivities = reach_sensitivity(grid, moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})}), {1.0});
     ASSERT_EQ(sensitivities.size(), 2U);
     EXPECT_EQ(sensitivities[1].plane, ExtentPlane::target);
     EXPECT_NEAR(sensitivities[1].metres_per_tenth_flux, 100.0 * 0.5 * (std::sqrt(1.1) - std::sqrt(0.9)), 1e-5);
@@ -134,9 +134,9 @@ TEST(ReachSensitivity, BareLampAnswersToFluxAndNotToAim) {
 
 TEST(ReachSensitivity, HasNothingToSayOfADarkOrUnendingReach) {
     const ExtentGrid grid = straight_grid({.ahead_m = 50.0, .beside_m = 1.0});
-    EXPECT_TRUE(reach_sensitivity(grid, moment_with({}), {1.0}).empty());
-    EXPECT_TRUE(reach_sensitivity(grid, moment_with({lamp_with(everywhere(1e7), {0.0, 0.0, 0.65})}), {1.0}).empty());
-    EXPECT_TRUE(reach_sensitivity({}, moment_with({}), {1.0}).empty());
+    EXPECT_TRUE(reach_sensitivity(grid, moment_of({}), {1.0}).empty());
+    EXPECT_TRUE(reach_sensitivity(grid, moment_of({lamp_with(everywhere(1e7), {0.0, 0.0, 0.65})}), {1.0}).empty());
+    EXPECT_TRUE(reach_sensitivity({}, moment_of({}), {1.0}).empty());
 }
 
 } // namespace

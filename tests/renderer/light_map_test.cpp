@@ -10,7 +10,7 @@
 namespace fernlicht {
 namespace {
 
-Moment two_lamps() {
+Moment two_dim_lamps() {
     static const auto file = std::make_shared<LampFile>(lamp_of_model(lamp_models()[0]));
     Moment moment;
     for (const double side : {0.6, -0.6})
@@ -47,7 +47,7 @@ TEST(LightMapAxis, IsEvenOrGrowsAndComesBack) {
 }
 
 TEST(LightMap, GroundIsTheLampsLightAtItsNodes) {
-    Moment moment = two_lamps();
+    Moment moment = two_dim_lamps();
     const LightMap2d map = bake_ground(moment);
     ASSERT_EQ(map.lx.size(), 512u * 256u);
     EXPECT_EQ(map.bytes(), 524'288u);
@@ -84,7 +84,7 @@ TEST(LightMap, GroundUnderAnEvenLampIsInClosedForm) {
 }
 
 TEST(LightMap, VolumeIsTheFacingIlluminanceAtItsNodes) {
-    const Moment moment = two_lamps();
+    const Moment moment = two_dim_lamps();
     const VolumeMapExtent extent{{0.0, 100.0, 64, 8.0}, {-25.0, 25.0, 32, 1.0}, {-2.0, 6.0, 16, 1.0}};
     const LightMap3d map = bake_volume(moment, extent);
     ASSERT_EQ(map.bytes(), 64u * 32u * 16u * 4u);
@@ -118,7 +118,7 @@ TEST(LightMap, VolumeHasNoPoleInALamp) {
 TEST(LightMap, MovingCarAndLampsTogetherChangesNothing) {
     const GroundMapExtent ground{{0.0, 100.0, 64, 16.0}, {-25.0, 25.0, 32, 1.0}};
     const VolumeMapExtent volume{{0.0, 100.0, 32, 8.0}, {-25.0, 25.0, 16, 1.0}, {-2.0, 6.0, 8, 1.0}};
-    const Moment here = two_lamps(), there = moved(here, {{4.2e6, -1.7e6, 310.0}, axes_from_angles(2.0, 0.08, -0.03)});
+    const Moment here = two_dim_lamps(), there = moved(here, {{4.2e6, -1.7e6, 310.0}, axes_from_angles(2.0, 0.08, -0.03)});
     const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
         ASSERT_EQ(a.size(), b.size());
         for (std::size_t i = 0; i < a.size(); ++i) // 1e-9 m of a map's coordinates, at a cut-off of some 500 per radian
@@ -129,7 +129,7 @@ TEST(LightMap, MovingCarAndLampsTogetherChangesNothing) {
 }
 
 TEST(LightMap, LampsThatAreOffAndTheSkyAddNothing) {
-    Moment moment = two_lamps();
+    Moment moment = two_dim_lamps();
     const LightMap2d lit = bake_ground(moment, {{0.0, 50.0, 16, 1.0}, {-5.0, 5.0, 8, 1.0}});
     moment.daylight.horizontal_illuminance_lx = 100.0;
     EXPECT_EQ(bake_ground(moment, {lit.ahead, lit.left}).lx, lit.lx);
@@ -142,7 +142,7 @@ TEST(LightMap, LampsThatAreOffAndTheSkyAddNothing) {
 }
 
 TEST(LightMap, FinerMapsErrLess) {
-    const Moment moment = two_lamps();
+    const Moment moment = two_dim_lamps();
     const LightMap2d coarse = bake_ground(moment, {{0.0, 100.0, 128, 16.0}, {-25.0, 25.0, 64, 1.0}}), fine = bake_ground(moment);
     ASSERT_TRUE(coarse.error.p95_relative && fine.error.p95_relative);
     EXPECT_LT(*fine.error.p95_relative, 0.5 * *coarse.error.p95_relative);
@@ -156,7 +156,7 @@ TEST(LightMap, FinerMapsErrLess) {
 }
 
 TEST(LightMap, AxesWithoutCellsOrLengthAreRefused) {
-    const Moment moment = two_lamps();
+    const Moment moment = two_dim_lamps();
     EXPECT_THROW(bake_ground(moment, {{0.0, 1.0, 0, 1.0}, {0.0, 1.0, 1, 1.0}}), std::invalid_argument);
     EXPECT_THROW(bake_ground(moment, {{0.0, 0.0, 4, 1.0}, {0.0, 1.0, 4, 1.0}}), std::invalid_argument);
     EXPECT_THROW(bake_ground(moment, {{0.0, 1.0, 4, 0.0}, {0.0, 1.0, 4, 1.0}}), std::invalid_argument);

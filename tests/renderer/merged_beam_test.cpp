@@ -11,7 +11,7 @@
 namespace fernlicht {
 namespace {
 
-LitLamp lamp_at(glm::dvec3 position, double yaw_rad, double factor = 1.0) {
+LitLamp turned_lamp(glm::dvec3 position, double yaw_rad, double factor = 1.0) {
     static const auto file = std::make_shared<LampFile>(lamp_of_model(lamp_models()[0]));
     return {"lamp", file, Pose{position, axes_from_angles(yaw_rad, 0.0, 0.0)}, factor, {}, 0.0};
 }
@@ -23,7 +23,7 @@ double merged_lx(const ProjectedBeam& beam, const Pose& pose, const glm::dvec3& 
 }
 
 TEST(MergedBeam, StandsMidwayAlongTheMeanAxis) {
-    const std::vector<LitLamp> lamps{lamp_at({3.5, 0.6, 0.6}, 0.1), lamp_at({3.5, -0.6, 0.7}, 0.3)};
+    const std::vector<LitLamp> lamps{turned_lamp({3.5, 0.6, 0.6}, 0.1), turned_lamp({3.5, -0.6, 0.7}, 0.3)};
     const Pose pose = merged_pose(lamps);
     EXPECT_NEAR(glm::distance(pose.position_m, glm::dvec3(3.5, 0.0, 0.65)), 0.0, 1e-12);
     EXPECT_NEAR(glm::distance(pose.forward(), glm::dvec3(std::cos(0.2), std::sin(0.2), 0.0)), 0.0, 1e-12);
@@ -32,20 +32,20 @@ TEST(MergedBeam, StandsMidwayAlongTheMeanAxis) {
 }
 
 TEST(MergedBeam, LampsThatAreOffDoNotMoveIt) {
-    const std::vector<LitLamp> lamps{lamp_at({3.5, 0.6, 0.6}, 0.1), lamp_at({3.5, -0.6, 0.7}, 3.0, 0.0)};
+    const std::vector<LitLamp> lamps{turned_lamp({3.5, 0.6, 0.6}, 0.1), turned_lamp({3.5, -0.6, 0.7}, 3.0, 0.0)};
     EXPECT_EQ(merged_pose(lamps).position_m, glm::dvec3(3.5, 0.6, 0.6));
     EXPECT_EQ(merged_pose({}), Pose());
     EXPECT_EQ(make_merged_beam({}, {4, 4, 32}).scale_lx, 0.0);
 }
 
 TEST(MergedBeam, AxesThatCancelAreRefused) {
-    const std::vector<LitLamp> lamps{lamp_at({3.5, 0.6, 0.6}, 0.0), lamp_at({-1.0, 0.6, 0.6}, pi)};
+    const std::vector<LitLamp> lamps{turned_lamp({3.5, 0.6, 0.6}, 0.0), turned_lamp({-1.0, 0.6, 0.6}, pi)};
     EXPECT_THROW(merged_pose(lamps), InputError);
 }
 
 TEST(MergedBeam, IsExactAt25MetresAndWrongNearer) {
     Moment moment;
-    moment.lamps = {lamp_at({3.5, 0.6, 0.65}, 0.02), lamp_at({3.5, -0.6, 0.65}, -0.01, 0.7)};
+    moment.lamps = {turned_lamp({3.5, 0.6, 0.65}, 0.02), turned_lamp({3.5, -0.6, 0.65}, -0.01, 0.7)};
     const Pose pose = merged_pose(moment.lamps);
     const ProjectedBeam beam = make_merged_beam(moment.lamps, {512, 256, 32});
     double worst_nearer = 0.0;
@@ -64,7 +64,7 @@ TEST(MergedBeam, IsExactAt25MetresAndWrongNearer) {
 }
 
 TEST(MergedBeam, OneLampIsItsOwnProjection) {
-    const std::vector<LitLamp> one{lamp_at({1.0, 2.0, 0.5}, 0.4)};
+    const std::vector<LitLamp> one{turned_lamp({1.0, 2.0, 0.5}, 0.4)};
     const ProjectedBeam merged = make_merged_beam(one, {128, 64, 8}), own = make_projected_beam(one[0].file->table, {128, 64, 8});
     EXPECT_NEAR(merged.window.left, own.window.left, 1e-12);
     EXPECT_NEAR(merged.window.top, own.window.top, 1e-12);
@@ -73,7 +73,7 @@ TEST(MergedBeam, OneLampIsItsOwnProjection) {
 }
 
 TEST(MergedBeam, SeesBothWindowsWhole) {
-    const std::vector<LitLamp> lamps{lamp_at({3.5, 5.0, 0.65}, 0.1), lamp_at({3.5, -5.0, 0.65}, -0.1)};
+    const std::vector<LitLamp> lamps{turned_lamp({3.5, 5.0, 0.65}, 0.1), turned_lamp({3.5, -5.0, 0.65}, -0.1)};
     const TangentWindow own = lit_window(lamps[0].file->table);
     const ProjectedBeam beam = make_merged_beam(lamps, {64, 32, 32});
     EXPECT_LT(beam.window.left, own.left);
@@ -82,7 +82,7 @@ TEST(MergedBeam, SeesBothWindowsWhole) {
 }
 
 TEST(MergedBeam, GoesWithTheCar) {
-    std::vector<LitLamp> lamps{lamp_at({3.5, 0.6, 0.65}, 0.02), lamp_at({3.5, -0.6, 0.65}, -0.01)};
+    std::vector<LitLamp> lamps{turned_lamp({3.5, 0.6, 0.65}, 0.02), turned_lamp({3.5, -0.6, 0.65}, -0.01)};
     const ProjectedBeam at_origin = make_merged_beam(lamps, {64, 32, 32});
     const Pose car{{3e6, -2e6, 400.0}, axes_from_angles(1.0, 0.05, 0.02)};
     const Pose before = compose(car, merged_pose(lamps));

@@ -40,7 +40,7 @@ Moment two_low_beams() {
     return moment;
 }
 
-View driver() {
+View over_the_bonnet() {
     View view;
     view.name = "driver";
     view.position_m = {1.3, 0.35, 1.2};
@@ -53,7 +53,7 @@ View driver() {
 TEST(OwnCar, HidesWhatIsBehindItAndTakesNoLight) {
     constexpr Wanted wanted{.illuminance = true, .luminance = true, .ids = true};
     Drive drive;
-    drive.views = {driver()};
+    drive.views = {over_the_bonnet()};
     drive.own_car.emplace().model = std::make_shared<const Model>(car_body({}));
     const Scene without = level_road();
     Scene with = without;
@@ -63,7 +63,7 @@ TEST(OwnCar, HidesWhatIsBehindItAndTakesNoLight) {
     moment.bodies.push_back({"own car", moment.ego, true, 0.0, true});
     Device device = open_device("auto");
     Renderer plain(device, without, {}), body(device, with, {});
-    const Frame a = plain.draw(two_low_beams(), driver(), wanted), b = body.draw(moment, driver(), wanted);
+    const Frame a = plain.draw(two_low_beams(), over_the_bonnet(), wanted), b = body.draw(moment, over_the_bonnet(), wanted);
     const Twin twin(with, true);
     std::size_t hidden = 0, road = 0;
     for (std::size_t i = 0; i < a.ids.size(); ++i) {
@@ -79,11 +79,11 @@ TEST(OwnCar, HidesWhatIsBehindItAndTakesNoLight) {
     EXPECT_GT(road, a.ids.size() / 10);
     // The eye looks down onto the bonnet, where twin and renderer see the sky's light alone.
     const int x = 80, y = 100;
-    const TwinPixel pixel = twin.pixel(moment, driver(), x + 0.5, y + 0.5);
+    const TwinPixel pixel = twin.pixel(moment, over_the_bonnet(), x + 0.5, y + 0.5);
     EXPECT_EQ(pixel.id, b.ids.at(x, y));
     EXPECT_NEAR(static_cast<double>(b.illuminance_lx.at(x, y)), pixel.illuminance_lx, 1e-5);
     moment.bodies.clear();
-    EXPECT_EQ(body.draw(moment, driver(), wanted).illuminance_lx, a.illuminance_lx) << "and is gone where the moment has none";
+    EXPECT_EQ(body.draw(moment, over_the_bonnet(), wanted).illuminance_lx, a.illuminance_lx) << "and is gone where the moment has none";
 }
 
 /// A wall that returns 100 cd/(lx m2) at the observation angle of the picture: red against white.
@@ -102,7 +102,7 @@ TEST(RetroTint, RedIsRedAndAsBrightAsItsFigure) {
         moment.daylight.horizontal_illuminance_lx = 0.0;
         for (LitLamp& lamp : moment.lamps)
             lamp.colour = colour_of_temperature(kelvin);
-        View view = driver();
+        View view = over_the_bonnet();
         view.pitch_rad = radians(-1.5);
         view.vertical_fov_rad = radians(6.0);
         RendererSettings settings;

@@ -18,7 +18,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr Wanted everything{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+constexpr Wanted all_pictures{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 void expect_same_bytes(const Frame& a, const Frame& b, const std::string& what) {
     EXPECT_EQ(a.colour, b.colour) << what;
@@ -115,7 +115,7 @@ RandomScene random_scene(std::uint64_t seed, const Features& on) {
     return out;
 }
 
-View driver() {
+View driver_160() {
     View view;
     view.position_m = {1.5, 0.35, 1.2};
     view.pitch_rad = radians(-3.0);
@@ -133,8 +133,8 @@ class PruningTest : public testing::Test {
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, s.scene, settings);
         if (work != nullptr)
-            *work = renderer.count(s.moment, driver(), everything);
-        return renderer.draw(s.moment, driver(), everything);
+            *work = renderer.count(s.moment, driver_160(), all_pictures);
+        return renderer.draw(s.moment, driver_160(), all_pictures);
     }
     Device device_ = open_device("auto");
 };
@@ -223,13 +223,13 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
                 moments.push_back(moment);
         }
         for (const View& view : drive.views) {
-            pruned.prepare(moments, view, everything);
-            unpruned.prepare(moments, view, everything);
+            pruned.prepare(moments, view, all_pictures);
+            unpruned.prepare(moments, view, all_pictures);
         }
         const int compiled = pruned.compiled_programs();
         for (const Moment& moment : moments)
             for (const View& view : drive.views)
-                expect_same_bytes(pruned.draw(moment, view, everything), unpruned.draw(moment, view, everything),
+                expect_same_bytes(pruned.draw(moment, view, all_pictures), unpruned.draw(moment, view, all_pictures),
                                   variant.name + ", " + view.name + ", " + std::to_string(moment.time_s) + " s");
         EXPECT_EQ(pruned.compiled_programs(), compiled) << "nothing compiles once a drive is prepared";
         EXPECT_GT(compiled, 1);

@@ -9,8 +9,8 @@ namespace {
 
 using namespace tests;
 
-constexpr double sky_lx = 3.4;
-constexpr Wanted lux_and_ids{.illuminance = true, .ids = true};
+constexpr double moonless_lx = 3.4;
+constexpr Wanted lux_and_surfaces{.illuminance = true, .ids = true};
 
 /// Symmetric: a projection with q = 1 + z would move the axis of any other.
 CandelaTable round_beam() {
@@ -79,7 +79,7 @@ TEST_F(PublishedTest, LightBehindTheLampGoesWhereTheTestsLetIt) {
 }
 
 TEST_F(PublishedTest, EachPairDiffersInPixelsOrInWork) {
-    const Moment moment = two_lamps(sky_lx);
+    const Moment moment = two_lamps(moonless_lx);
     const Scene scene = ground_and_board(moment.ego, 20);
     const View view = view_towards(0.0, -4.0);
     constexpr Wanted wanted{.colour = true, .illuminance = true};
@@ -109,7 +109,7 @@ TEST_F(PublishedTest, EachPairDiffersInPixelsOrInWork) {
 }
 
 TEST_F(PublishedTest, WorkIsCounted) {
-    const Moment moment = two_lamps(sky_lx);
+    const Moment moment = two_lamps(moonless_lx);
     const Scene scene = ground_and_board(moment.ego, 4);
     const auto work = [&](const char* technique) {
         return renderer(technique, scene).count(moment, view_towards(0.0, -4.0), {.colour = true});
@@ -130,7 +130,7 @@ TEST_F(PublishedTest, WorkIsCounted) {
 }
 
 TEST_F(PublishedTest, TwoPassesAddUpToOne) {
-    const Moment moment = two_lamps(sky_lx);
+    const Moment moment = two_lamps(moonless_lx);
     Scene scene = ground_and_board(moment.ego, 40);
     scene.meshes.pop_back(); // the board glows, in one of them with its distance
     const View view = view_towards(0.0, -4.0);
@@ -216,7 +216,7 @@ TEST_F(PublishedTest, SheetingGlowsAndFades) {
 }
 
 TEST_F(PublishedTest, NothingCompilesOrIsMadeAfterPreparing) {
-    const Moment moment = two_lamps(sky_lx);
+    const Moment moment = two_lamps(moonless_lx);
     Moment dark = moment;
     dark.lamps[0].intensity_factor = 0.0;
     const Scene scene = ground_and_board(moment.ego, 4);
@@ -237,24 +237,24 @@ TEST_F(PublishedTest, NothingCompilesOrIsMadeAfterPreparing) {
 }
 
 TEST_F(PublishedTest, BakedLightIsMadeAnewForMovedLampsAndNotForAMovedCar) {
-    Moment moment = two_lamps(sky_lx);
+    Moment moment = two_lamps(moonless_lx);
     const Scene scene = ground_and_board(moment.ego, 20);
     const View view = view_towards(0.0, -4.0);
     for (const char* technique : {"merged-beams", "light-map-2d", "light-map-3d"}) {
         Renderer r = renderer(technique, scene);
-        const std::size_t bytes = r.count(moment, view, lux_and_ids).texture_bytes;
+        const std::size_t bytes = r.count(moment, view, lux_and_surfaces).texture_bytes;
         Moment further = moment;
         const glm::dvec3 step = moment.ego.forward() * 1.2345;
         further.ego.position_m += step;
         for (LitLamp& lamp : further.lamps)
             lamp.pose.position_m += step;
-        EXPECT_EQ(r.count(further, view, lux_and_ids).texture_bytes, bytes) << technique;
+        EXPECT_EQ(r.count(further, view, lux_and_surfaces).texture_bytes, bytes) << technique;
         Moment dimmed = moment;
         for (LitLamp& lamp : dimmed.lamps)
             lamp.intensity_factor *= 0.5;
-        const Frame bright = r.draw(moment, view, lux_and_ids), dim = r.draw(dimmed, view, lux_and_ids);
-        EXPECT_EQ(r.count(dimmed, view, lux_and_ids).texture_bytes, 2 * bytes) << technique;
-        const float sky = static_cast<float>(sky_lx), full_lx = bright.illuminance_lx.at(48, 45) - sky;
+        const Frame bright = r.draw(moment, view, lux_and_surfaces), dim = r.draw(dimmed, view, lux_and_surfaces);
+        EXPECT_EQ(r.count(dimmed, view, lux_and_surfaces).texture_bytes, 2 * bytes) << technique;
+        const float sky = static_cast<float>(moonless_lx), full_lx = bright.illuminance_lx.at(48, 45) - sky;
         EXPECT_GT(full_lx, 1.0F);
         EXPECT_NEAR(dim.illuminance_lx.at(48, 45) - sky, 0.5F * full_lx, 1e-3F * full_lx) << technique;
     }

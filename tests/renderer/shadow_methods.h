@@ -11,7 +11,7 @@
 namespace fernlicht::tests {
 
 /// The same light everywhere within 30 degrees to the sides, 8 up and 14 down.
-inline std::shared_ptr<const LampFile> even_beam() {
+inline std::shared_ptr<const LampFile> evenly_bright() {
     auto file = std::make_shared<LampFile>();
     for (int i = -30; i <= 30; ++i)
         file->table.h_deg.push_back(i);

@@ -21,7 +21,7 @@ ShadowSettings method(ShadowMethod which) {
 
 Moment with_lamps(const std::vector<double>& sides) {
     Moment moment;
-    const auto file = even_beam();
+    const auto file = evenly_bright();
     for (std::size_t i = 0; i < sides.size(); ++i)
         moment.lamps.push_back(lamp_at(i == 0 ? "left" : "right", {lamp_x, sides[i], lamp_z}, file));
     return moment;

@@ -72,7 +72,7 @@ Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
     return moment;
 }
 
-View driver() {
+View driver_96() {
     View view;
     view.position_m = {1.5, 0.35, 1.2};
     view.pitch_rad = radians(-3.0);
@@ -87,14 +87,14 @@ class TwinTest : public testing::Test {
     Device device_ = open_device("auto");
 };
 
-struct Comparison {
+struct TwinComparison {
     int compared = 0, beyond = 0;
     double worst_ratio = 0.0, worst_relative_luminance = 0.0;
 };
 
 /// Compares every pixel whose corners all show the same mesh.
-Comparison compare(const Frame& frame, const Twin& twin, const Moment& moment, const View& view) {
-    Comparison result;
+TwinComparison compare(const Frame& frame, const Twin& twin, const Moment& moment, const View& view) {
+    TwinComparison result;
     for (int y = 0; y < view.height_px; ++y)
         for (int x = 0; x < view.width_px; ++x) {
             const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
@@ -120,7 +120,7 @@ Comparison compare(const Frame& frame, const Twin& twin, const Moment& moment, c
     return result;
 }
 
-constexpr Wanted everything{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+constexpr Wanted all_of_both{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 TEST_F(TwinTest, DriverIsSane) { EXPECT_LT(check_sanity(device_), sanity_bound); }
 
@@ -131,7 +131,7 @@ TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
     Renderer renderer(device_, scene, settings);
     for (const double sky_lx : {0.0, 3.4}) {
         const Moment moment = two_lamps({}, sky_lx);
-        const Comparison c = compare(renderer.draw(moment, driver(), everything), Twin(scene, false), moment, driver());
+        const TwinComparison c = compare(renderer.draw(moment, driver_96(), all_of_both), Twin(scene, false), moment, driver_96());
         RecordProperty("worst_ratio_to_bound_ppm", static_cast<int>(1e6 * c.worst_ratio));
         EXPECT_GT(c.compared, 3000);
         EXPECT_EQ(c.beyond, 0) << "worst " << c.worst_ratio << " of the bound";
@@ -146,18 +146,18 @@ TEST_F(TwinTest, TheBoundIsNotSlack) {
     settings.shadows.method = ShadowMethod::none;
     Renderer renderer(device_, scene, settings);
     const Moment moment = two_lamps({});
-    const Frame frame = renderer.draw(moment, driver(), everything);
+    const Frame frame = renderer.draw(moment, driver_96(), all_of_both);
     Moment one_lamp = moment;
     one_lamp.lamps.pop_back();
-    EXPECT_GT(compare(frame, Twin(scene, false), one_lamp, driver()).beyond, 1000);
+    EXPECT_GT(compare(frame, Twin(scene, false), one_lamp, driver_96()).beyond, 1000);
     Moment shifted = moment;
     for (LitLamp& lamp : shifted.lamps)
         lamp.pose.axes = axes_from_angles(0.0, radians(0.01), 0.0);
-    EXPECT_GT(compare(frame, Twin(scene, false), shifted, driver()).beyond, 1000);
+    EXPECT_GT(compare(frame, Twin(scene, false), shifted, driver_96()).beyond, 1000);
     Moment brighter = moment;
     for (LitLamp& lamp : brighter.lamps)
         lamp.intensity_factor = 1.0005;
-    EXPECT_GT(compare(frame, Twin(scene, false), brighter, driver()).beyond, 1000);
+    EXPECT_GT(compare(frame, Twin(scene, false), brighter, driver_96()).beyond, 1000);
 }
 
 TEST_F(TwinTest, UtmCoordinatesGiveTheSameFrame) {
@@ -165,15 +165,15 @@ TEST_F(TwinTest, UtmCoordinatesGiveTheSameFrame) {
     const Scene here = small_scene({}), there = small_scene(far);
     RendererSettings settings;
     Renderer at_origin(device_, here, settings);
-    const Frame a = at_origin.draw(two_lamps({}), driver(), everything);
+    const Frame a = at_origin.draw(two_lamps({}), driver_96(), all_of_both);
     Renderer at_utm(device_, there, settings);
-    const Frame b = at_utm.draw(two_lamps(far), driver(), everything);
+    const Frame b = at_utm.draw(two_lamps(far), driver_96(), all_of_both);
     const Twin twin(here, false);
     const Moment moment = two_lamps({});
     int differing = 0;
     for (int y = 0; y < a.ids.height(); ++y)
         for (int x = 0; x < a.ids.width(); ++x) {
-            const TwinPixel truth = twin.pixel(moment, driver(), x + 0.5, y + 0.5);
+            const TwinPixel truth = twin.pixel(moment, driver_96(), x + 0.5, y + 0.5);
             const double difference =
                 std::abs(static_cast<double>(a.illuminance_lx.at(x, y)) - static_cast<double>(b.illuminance_lx.at(x, y)));
             differing += difference > 2.0 * truth.bound_lx + 1e-9 ? 1 : 0;
@@ -222,7 +222,7 @@ TEST_F(TwinTest, TwiceTheSameBytes) {
     const Moment moment = two_lamps({}, 1.0);
     const auto draw = [&] {
         Renderer renderer(device_, scene, {});
-        return renderer.draw(moment, driver(), everything);
+        return renderer.draw(moment, driver_96(), all_of_both);
     };
     const Frame a = draw(), b = draw();
     EXPECT_EQ(a.colour, b.colour);
@@ -237,7 +237,7 @@ TEST_F(TwinTest, ABlackLampGivesExactlyZero) {
     for (LitLamp& lamp : moment.lamps)
         lamp.intensity_factor = 0.0;
     Renderer renderer(device_, scene, {});
-    const Frame frame = renderer.draw(moment, driver(), everything);
+    const Frame frame = renderer.draw(moment, driver_96(), all_of_both);
     for (const float e : frame.illuminance_lx.pixels())
         ASSERT_EQ(e, 0.0F);
 }
@@ -250,13 +250,13 @@ TEST_F(TwinTest, RetroreflectionAtTheThirtyMetreGeometryIsMeasuredInTheImage) {
     moment.lamps.resize(1);
     moment.lamps[0].colour = {};
     moment.lamps[0].pose = {glm::dvec3(0.0, 0.0, 0.65), axes_from_angles(0.0, -std::atan(0.65 / 30.0) * 1.5, 0.0)};
-    View view = driver();
+    View view = driver_96();
     view.position_m = {0.0, 0.0, 1.2};
     view.pitch_rad = -std::atan(1.2 / 30.0);
     view.vertical_fov_rad = radians(2.0);
     view.width_px = view.height_px = 33;
     Renderer renderer(device_, scene, {});
-    const Frame frame = renderer.draw(moment, view, everything);
+    const Frame frame = renderer.draw(moment, view, all_of_both);
     const double luminance = static_cast<double>(frame.luminance_cdm2.at(16, 16)),
                  illuminance = static_cast<double>(frame.illuminance_lx.at(16, 16));
     const double cosine = 0.65 / std::hypot(30.0, 0.65);

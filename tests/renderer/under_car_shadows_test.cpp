@@ -9,10 +9,10 @@ namespace {
 constexpr glm::dvec2 car_low{-1.0, -0.9}, car_high{3.0, 0.9};
 
 /// A car 4 m long that stands askew 12 m ahead.
-struct Street {
+struct StreetAtNight {
     Scene scene = level_road_for_shadows();
     Moment moment;
-    Street() {
+    StreetAtNight() {
         Mesh car{"car", {0.0, 0.0, 0.0}, {}, {}, {}};
         car.body = 0;
         add_box(car, 1, {car_low, 0.2F}, {car_high, 1.4F});
@@ -35,7 +35,7 @@ TEST(ConvexHull, GoesRoundTheOutermostPoints) {
 }
 
 TEST_F(UnderCar, TheGroundWithinTheOutlineIsDarkAndAllElseIsAsWithoutShadows) {
-    const Street s;
+    const StreetAtNight s;
     const View map = map_for_shadows(30.0, 10.0, 10);
     const Frame with = drawn_with(device_, s.scene, s.moment, map, ShadowMethod::under_car),
                 without = drawn_with(device_, s.scene, s.moment, map, ShadowMethod::none);
@@ -57,7 +57,7 @@ TEST_F(UnderCar, TheGroundWithinTheOutlineIsDarkAndAllElseIsAsWithoutShadows) {
 }
 
 TEST_F(UnderCar, UprightThingsStayAsLitAsWithoutShadows) {
-    Street s;
+    StreetAtNight s;
     Mesh wall{"wall", {16.0, 0.0, 0.0}, {}, {}, {}}; // behind the car, in its shadow if it cast one
     add_box(wall, 1, {0, -3, 0}, {0.2F, 3, 2});
     s.scene.meshes.push_back(wall);
@@ -76,14 +76,14 @@ TEST_F(UnderCar, UprightThingsStayAsLitAsWithoutShadows) {
 }
 
 TEST_F(UnderCar, PrunedAndUnprunedGiveTheSameBytes) {
-    const Street s;
+    const StreetAtNight s;
     for (const View& view : {driver_for_shadows(), map_for_shadows(30.0, 10.0, 5)})
         expect_equal_frames(drawn_with(device_, s.scene, s.moment, view, ShadowMethod::under_car),
                             drawn_with(device_, s.scene, s.moment, view, ShadowMethod::under_car, "photometric-unpruned"), view.name);
 }
 
 TEST_F(UnderCar, CostsNothingWhereNoLampShinesOnACar) {
-    Street s;
+    StreetAtNight s;
     RendererSettings settings;
     settings.shadows.method = ShadowMethod::under_car;
     Renderer renderer(device_, s.scene, settings);

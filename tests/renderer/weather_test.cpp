@@ -12,7 +12,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr Wanted drawn{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+constexpr Wanted all_drawn{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 LitLamp beam(const glm::dvec3& at) {
     auto file = std::make_shared<LampFile>();
@@ -44,7 +44,7 @@ Scene road(double albedo) {
     return scene;
 }
 
-View ahead() {
+View ahead_in_weather() {
     View view = camera({1.3, 0.35, 1.2}, 0, -1, 30, 32);
     view.height_px = 24;
     return view;
@@ -53,14 +53,14 @@ View ahead() {
 class DrawnWeather : public testing::Test {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const char* technique = "photometric", int samples = 32, Work* work = nullptr,
-               const View& view = ahead()) {
+               const View& view = ahead_in_weather()) {
         RendererSettings settings;
         settings.technique = technique;
         settings.fog_samples = samples;
         Renderer renderer(device_, scene, settings);
         if (work != nullptr)
-            *work = renderer.count(moment, view, drawn);
-        return renderer.draw(moment, view, drawn);
+            *work = renderer.count(moment, view, all_drawn);
+        return renderer.draw(moment, view, all_drawn);
     }
     Device device_ = open_device("auto");
 };
@@ -68,7 +68,7 @@ class DrawnWeather : public testing::Test {
 /// Black ground and no sky: what is seen is the air alone. Float against double at the same places, in every pixel, sky and surfaces.
 TEST_F(DrawnWeather, AirlightIsThatOfDoublePrecision) {
     const Scene scene = road(0.0);
-    const View view = ahead();
+    const View view = ahead_in_weather();
     for (const Weather& fog : {Weather{0.001, 1.0, 0.85, 0.0}, Weather{0.03, 0.9, 0.5, 0.0}, Weather{0.5, 1.0, 0.9, 0.0}}) {
         const Moment moment = in(fog);
         const Frame frame = draw(scene, moment);
@@ -96,7 +96,7 @@ TEST_F(DrawnWeather, AirlightIsThatOfDoublePrecision) {
 /// Everything together against the twin, which integrates until nothing moves: what 32 midpoints leave, and 128.
 TEST_F(DrawnWeather, MeetsTheTwinWithMoreMidpoints) {
     const Scene scene = road(0.1);
-    View view = ahead();
+    View view = ahead_in_weather();
     view.width_px = 16;
     view.height_px = 12;
     Moment moment = in({0.03, 1.0, 0.85, 0.0}, 2.0);
@@ -127,7 +127,7 @@ TEST_F(DrawnWeather, MeetsTheTwinWithMoreMidpoints) {
 
 TEST_F(DrawnWeather, WetRoadIsTheTwins) {
     const Scene scene = road(0.1);
-    const View view = ahead();
+    const View view = ahead_in_weather();
     for (const double wetness : {0.4, 1.0})
         for (const bool sun : {false, true}) {
             Moment moment = in({0.0, 1.0, 0.85, wetness}, 3.0);
@@ -208,7 +208,7 @@ std::vector<LitLamp> others() {
 /// The air alone, lit by others' lamps: never off by more than what may be left out and what 128 midpoints leave.
 TEST_F(DrawnWeather, BeamsOfOthersAreSeenInTheFog) {
     const Scene scene = road(0.0);
-    View view = ahead();
+    View view = ahead_in_weather();
     view.width_px = 16;
     view.height_px = 12;
     for (const Weather& fog : {Weather{0.03, 1.0, 0.85, 0.0}, Weather{0.005, 1.0, 0.5, 0.0}}) {
@@ -276,7 +276,7 @@ TEST(ReferenceWeather, AgreesWithTheTwin) {
     moment.daylight.sun = {radians(80.0), radians(20.0), 40.0};
     ReferenceSettings settings;
     settings.footprint = Footprint::centre;
-    View view = ahead();
+    View view = ahead_in_weather();
     view.width_px = 16;
     view.height_px = 12;
     const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);

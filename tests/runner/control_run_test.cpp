@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-constexpr const char* small = " --quiet --no-accuracy --resolution 96x72 ";
+constexpr const char* small_frames = " --quiet --no-accuracy --resolution 96x72 ";
 
 /// The shipped S-bends at 72 km/h for four seconds. From 150 m a left bend begins, from 250 to 370 m it has a radius of 150 m.
 std::string drive_text(double from_m, const std::string& control) {
@@ -65,7 +65,7 @@ class ControlRunTest : public testing::Test {
     Ran run(double from_m, const std::string& control) {
         std::ofstream(folder_ / "bends.yaml") << drive_text(from_m, control);
         const std::string out = folder_ / fmt::format("out{}", ++runs_);
-        const Outcome outcome = run_program("run " + (folder_ / "bends.yaml") + small + "--out " + out);
+        const Outcome outcome = run_program("run " + (folder_ / "bends.yaml") + small_frames + "--out " + out);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
         return {Json::parse(content_of(out + "/report.json")), table_of(content_of(out + "/signals-bends-moving.csv")),
                 content_of(out + "/report.html")};

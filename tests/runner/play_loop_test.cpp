@@ -59,12 +59,12 @@ namespace fernlicht {
 namespace {
 
 /// The straight with a small grid, 10 moments a second.
-struct Stage {
+struct Played {
     Drive drive = read_drive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives/straight.yaml", {});
     RoadNetwork network = read_opendrive(drive.road_file);
     Route route{network, drive.start, drive.via};
 
-    Stage() {
+    Played() {
         drive.extent->ahead_m = 30.0;
         drive.extent->beside_m = 6.0;
         drive.duration_s = 1000.0;
@@ -118,7 +118,7 @@ const Reading& named(const Readings& readings, const std::string& name) {
 }
 
 TEST(PlayLoop, MeasuresEveryMomentInOrder) {
-    const Stage stage;
+    const Played stage;
     Writers writers;
     const PlayedVariant played = stage.play_with(evenly(20.0F), 25, writers);
     ASSERT_EQ(played.extents.size(), 25U);
@@ -135,7 +135,7 @@ TEST(PlayLoop, MeasuresEveryMomentInOrder) {
 }
 
 TEST(PlayLoop, StopsAtTheMomentThatWasAskedForAndKeepsWhatWasMeasured) {
-    const Stage stage;
+    const Played stage;
     Writers writers;
     PlayOptions options;
     options.go_on = [](int done) { return done < 7; };
@@ -145,7 +145,7 @@ TEST(PlayLoop, StopsAtTheMomentThatWasAskedForAndKeepsWhatWasMeasured) {
 }
 
 TEST(PlayLoop, ThrowsWhatMeasuringThrewElsewhere) {
-    const Stage stage;
+    const Played stage;
     Writers writers;
     EXPECT_THROW(stage.play_with(evenly(std::numeric_limits<float>::quiet_NaN()), 4, writers), std::invalid_argument);
     const Draw failing = [](const Moment& moment, const View& view, const Wanted& wanted) -> Pending {
@@ -157,7 +157,7 @@ TEST(PlayLoop, ThrowsWhatMeasuringThrewElsewhere) {
 }
 
 TEST(PlayLoop, HoldsAsManyPicturesForALongDriveAsForAShortOne) {
-    Stage stage;
+    Played stage;
     stage.drive.capture.all = stage.drive.capture.exr = true; // 256 KiB a picture and more than one picture a moment
     const TemporaryFolder folder;
     const auto most_bytes = [&](int moments) {
@@ -234,7 +234,7 @@ TEST(FrameTimes, OfTooFewMomentsAreNotMeasured) {
 }
 
 TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
-    Stage stage;
+    Played stage;
     stage.drive.technique = "merged-beam";
     stage.drive.limits = {{"reach_1lx_road_own_m", 10.0, {}}, {"probe_near_lx", {}, 1000.0}, {"probe_near_twin_lx", {}, 1000.0}};
     Writers writers;
@@ -270,7 +270,7 @@ TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
 }
 
 TEST(TechniqueWithoutIlluminance, MayKnowTheSurfaceAndNotTargets) {
-    const Stage stage;
+    const Played stage;
     Writers writers;
     const PlayedVariant played = stage.play_with(without_lux(true), 4, writers);
     const Readings readings = summarise(played, stage.drive);

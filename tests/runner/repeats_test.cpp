@@ -96,12 +96,12 @@ TEST(FirstDifference, NamesThePlace) {
     EXPECT_EQ(first_difference(R"({"a": 1})", R"({"b": 1})"), ": {\"b\":1}, at first {\"a\":1}");
 }
 
-const std::string small = " --quiet --no-accuracy --frames 0:3 --resolution 64x48 --capture all ";
+const std::string four_small = " --quiet --no-accuracy --frames 0:3 --resolution 64x48 --capture all ";
 
 TEST(Repeat, EqualPlaysAreOneGreenVerdictAndTheirFramesAreKeptOnce) {
     const TemporaryFolder folder;
     const Outcome run = run_program("run " + library_file("drives/worked-example.yaml") + " " + library_file("drives/straight.yaml") +
-                                    small + "--repeat 3 --out " + (folder / "out"));
+                                    four_small + "--repeat 3 --out " + (folder / "out"));
     ASSERT_LE(run.exit_code, 1) << run.output;
     const json report = json::parse(content_of(folder / "out/report.json"));
     EXPECT_EQ(report.at("verdict_counts").at("flaky"), 0);
@@ -119,8 +119,8 @@ TEST(Repeat, EqualPlaysAreOneGreenVerdictAndTheirFramesAreKeptOnce) {
 TEST(Repeat, APictureThatDiffersIsFlakyInEveryReport) {
     const TemporaryFolder folder;
     const std::string out = folder / "out", script = folder / "flip.sh";
-    std::ofstream(script) << "'" FERNLICHT_BINARY "' run " << library_file("drives/worked-example.yaml") << small << "--repeat 2 --out "
-                          << out << " & run=$!\nuntil [ $(find " << out
+    std::ofstream(script) << "'" FERNLICHT_BINARY "' run " << library_file("drives/worked-example.yaml") << four_small
+                          << "--repeat 2 --out " << out << " & run=$!\nuntil [ $(find " << out
                           << "/frames -name '*.png' 2>/dev/null | wc -l) -ge 2 ]; do kill -0 $run || exit 77; done\n"
                           << "printf X | dd of=$(find " << out
                           << "/frames -name '*.png' | sort | head -1) bs=1 seek=60 conv=notrunc 2>/dev/null\n"

@@ -12,13 +12,14 @@ namespace {
 using namespace osc;
 using testing::HasSubstr;
 
-constexpr const char* small = " --quiet --no-accuracy --resolution 96x72 --capture all --frames 0:30 ";
+constexpr const char* small_thirty = " --quiet --no-accuracy --resolution 96x72 --capture all --frames 0:30 ";
 
 const std::string lights_off =
     R"(<PrivateAction><AppearanceAction><LightStateAction transitionTime="0"><LightType><VehicleLight vehicleLightType="lowBeam"/></LightType>
 <LightState mode="off"/></LightStateAction></AppearanceAction></PrivateAction>)";
 
-const std::string two_cars = of("Ego", teleport(on_lane(-1, 50.0)) + speed("20")) + of("Other", teleport(on_lane(-1, 80.0)) + speed("15"));
+const std::string two_cars_apart =
+    of("Ego", teleport(on_lane(-1, 50.0)) + speed("20")) + of("Other", teleport(on_lane(-1, 80.0)) + speed("15"));
 
 std::string drive_text(const std::string& more = {}) {
     return fmt::format(R"(fernlicht: 1
@@ -55,8 +56,8 @@ void write(const std::filesystem::path& path, const std::string& text) { std::of
 TEST(StoryRun, CarsAreWhereTheStoryboardHasThemAndTheLogPlaysAgain) {
     const TemporaryFolder folder;
     write(folder / "told.yaml", drive_text());
-    write(folder / "told.xosc", scenario_text(two_cars, story(event("dark", lights_off, at_time(1.0)), "Other") + stop_at(10.0)));
-    const Outcome first = run_program("run " + (folder / "told.yaml") + small + "--out " + (folder / "a"));
+    write(folder / "told.xosc", scenario_text(two_cars_apart, story(event("dark", lights_off, at_time(1.0)), "Other") + stop_at(10.0)));
+    const Outcome first = run_program("run " + (folder / "told.yaml") + small_thirty + "--out " + (folder / "a"));
     ASSERT_EQ(first.exit_code, 0) << first.output;
     const std::string log = content_of(folder / "a/drive-log-told.csv");
     const auto x_m = [&](int tick, const std::string& kind, const std::string& name) {
@@ -69,8 +70,8 @@ TEST(StoryRun, CarsAreWhereTheStoryboardHasThemAndTheLogPlaysAgain) {
     EXPECT_THAT(log, HasSubstr("halogen,30,1.5,body,"));
     EXPECT_THAT(log, testing::Not(testing::ContainsRegex("halogen,30,1.5,light,[^\n]*Other left\n"))); // switched off after 1 s
 
-    const Outcome again =
-        run_program("run " + (folder / "told.yaml") + small + "--replay " + (folder / "a/drive-log-told.csv") + " --out " + (folder / "b"));
+    const Outcome again = run_program("run " + (folder / "told.yaml") + small_thirty + "--replay " + (folder / "a/drive-log-told.csv") +
+                                      " --out " + (folder / "b"));
     ASSERT_EQ(again.exit_code, 0) << again.output;
     EXPECT_EQ(log, content_of(folder / "b/drive-log-told.csv"));
     int frames = 0;
@@ -82,7 +83,7 @@ TEST(StoryRun, CarsAreWhereTheStoryboardHasThemAndTheLogPlaysAgain) {
     EXPECT_GE(frames, 31);
 
     // The resolved drive stands for the first.
-    const Outcome resolved = run_program("run " + (folder / "a/told.yaml") + small + "--out " + (folder / "c"));
+    const Outcome resolved = run_program("run " + (folder / "a/told.yaml") + small_thirty + "--out " + (folder / "c"));
     ASSERT_EQ(resolved.exit_code, 0) << resolved.output;
     EXPECT_EQ(log, content_of(folder / "c/drive-log-told.csv"));
 
@@ -92,7 +93,7 @@ TEST(StoryRun, CarsAreWhereTheStoryboardHasThemAndTheLogPlaysAgain) {
     moved.replace(moved.find(",10,0.5,ego," + place), 12 + place.size(), ",10,0.5,ego," + fmt::format("{}", std::stod(place) + 1.0));
     write(folder / "moved.csv", moved);
     const Outcome other =
-        run_program("run " + (folder / "told.yaml") + small + "--replay " + (folder / "moved.csv") + " --out " + (folder / "d"));
+        run_program("run " + (folder / "told.yaml") + small_thirty + "--replay " + (folder / "moved.csv") + " --out " + (folder / "d"));
     ASSERT_EQ(other.exit_code, 0) << other.output;
     EXPECT_FALSE(content_of(folder / "a/frames/told-halogen/driver-000010.png") ==
                  content_of(folder / "d/frames/told-halogen/driver-000010.png"));
@@ -103,10 +104,10 @@ TEST(StoryRun, CarsAreWhereTheStoryboardHasThemAndTheLogPlaysAgain) {
 TEST(StoryRun, WhatCannotBePlayedIsOneSentence) {
     const TemporaryFolder folder;
     const std::string swarm = "<GlobalAction><TrafficAction trafficName=\"t\"><TrafficSwarmAction/></TrafficAction></GlobalAction>";
-    const std::string text = scenario_text(two_cars, story(event("e", swarm, at_time(1.0))) + stop_at(10.0));
+    const std::string text = scenario_text(two_cars_apart, story(event("e", swarm, at_time(1.0))) + stop_at(10.0));
     write(folder / "told.yaml", drive_text());
     write(folder / "told.xosc", text);
-    const std::string run = "run " + (folder / "told.yaml") + small;
+    const std::string run = "run " + (folder / "told.yaml") + small_thirty;
     const Outcome refused = run_program(run + "--out " + (folder / "a"));
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.output, HasSubstr("told.xosc:"));
@@ -120,7 +121,7 @@ TEST(StoryRun, WhatCannotBePlayedIsOneSentence) {
     EXPECT_THAT(both.output, HasSubstr("storyboard"));
 
     write(folder / "told.yaml", drive_text());
-    write(folder / "told.xosc", scenario_text(two_cars, stop_at(10.0)));
+    write(folder / "told.xosc", scenario_text(two_cars_apart, stop_at(10.0)));
     write(folder / "short.csv", "no log\n");
     const Outcome no_log = run_program(run + "--replay " + (folder / "short.csv") + " --out " + (folder / "d"));
     EXPECT_EQ(no_log.exit_code, 2);
@@ -145,7 +146,7 @@ TEST(StoryRun, WhatCannotBePlayedIsOneSentence) {
 
     const std::string play = "storyboard " + (folder / "told.xosc") + " --duration 1 --quiet --out ";
     EXPECT_EQ(run_program(play + (folder / "told.xosc")).exit_code, 2);
-    EXPECT_EQ(content_of(folder / "told.xosc"), scenario_text(two_cars, stop_at(10.0)));
+    EXPECT_EQ(content_of(folder / "told.xosc"), scenario_text(two_cars_apart, stop_at(10.0)));
     EXPECT_EQ(run_program(play + (folder / "tracks.csv")).exit_code, 0);
     EXPECT_EQ(run_program(play + (folder / "tracks.csv")).exit_code, 2);
     EXPECT_EQ(run_program(play + (folder / "tracks.csv") + " --force").exit_code, 0);

@@ -3,14 +3,21 @@
 
 #include "scenarios/values/image.h"
 
+#include <numbers>
+
 namespace fernlicht {
 
-/// `value(x, y)` in pixels of the display, at the centres of samples of 1 / k pixel.
-template <class Value> Image<float> drawn(int width_px, int height_px, int k, Value value) {
-    Image<float> picture(width_px * k, height_px * k);
+constexpr double pi = std::numbers::pi;
+constexpr double ppd = 20.0;     ///< pixels of the display a degree
+constexpr double rate_hz = 32.0; ///< of pictures
+constexpr int k = 8;             ///< samples of a pixel of the display, each way
+
+/// `value(x, y)` in pixels of the display, at the centres of samples of 1 / samples of a pixel.
+template <class Value> Image<float> drawn(int width_px, int height_px, int samples, Value value) {
+    Image<float> picture(width_px * samples, height_px * samples);
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 0; x < picture.width(); ++x)
-            picture.at(x, y) = static_cast<float>(value((x + 0.5) / k, (y + 0.5) / k));
+            picture.at(x, y) = static_cast<float>(value((x + 0.5) / samples, (y + 0.5) / samples));
     return picture;
 }
 

@@ -9,8 +9,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr int k = 8;
-
 /// A line through the middle of 128 x 128 pixels; `ramp_px` wide, 0: a step.
 auto slanted(double degrees, double ramp_px, double shift_px = 0.0) {
     const double angle = degrees * std::numbers::pi / 180.0;

@@ -8,7 +8,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr int k = 8, side = 160;
+constexpr int side = 160;
 
 /// A mark 12 pixels wide through the middle, its borders `degrees` from upright; ten times as bright as the road, under light that falls
 /// off to the right by a third.

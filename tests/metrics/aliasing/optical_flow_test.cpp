@@ -10,8 +10,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr double pi = std::numbers::pi, ppd = 20.0, rate_hz = 32.0;
-
 /// Waves in many directions, all below 0.16 cycles per pixel: what any display shows without aliasing. Brightness 0.05 to 0.35 cd/m2.
 double waves(double x, double y) {
     double sum = 0.0;

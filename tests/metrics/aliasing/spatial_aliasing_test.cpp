@@ -11,9 +11,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr double pi = std::numbers::pi, ppd = 20.0;
-constexpr int k = 8;
-
 /// cos(pi a r^2): its frequency along x is a x, up to 0.8 cycles per pixel at the edges of 128 x 128 pixels.
 double zone_plate(double x, double y) {
     constexpr double a = 0.8 / 64.0;

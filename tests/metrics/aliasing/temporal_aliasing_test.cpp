@@ -11,8 +11,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr double pi = std::numbers::pi, ppd = 20.0, rate_hz = 32.0;
-
 /// One track for each pixel of a row of `width`, moving by `speed_px` a frame where it stays within.
 std::vector<PixelTrack> tracks_along_x(int width, int frames, double speed_px) {
     std::vector<PixelTrack> tracks;

@@ -10,7 +10,7 @@ namespace {
 
 using tests::DirectFlip;
 
-Image<glm::vec3> grey(int width, int height, const std::vector<float>& values) {
+Image<glm::vec3> grey_scene(int width, int height, const std::vector<float>& values) {
     Image<glm::vec3> image(width, height);
     for (std::size_t i = 0; i < image.size(); ++i)
         image.pixels()[i] = glm::vec3(values[i % values.size()]);
@@ -33,7 +33,7 @@ double shown_as_085() {
 
 // Largest 8, median 0.5: sixteen to one is four stops. Start shows 8 as 0.85, stop 0.5.
 TEST(FlipHdr, ExposuresByHand) {
-    const ExposureRange range = exposures_for(grey(5, 1, {0.1F, 0.2F, 0.5F, 1.0F, 8.0F}));
+    const ExposureRange range = exposures_for(grey_scene(5, 1, {0.1F, 0.2F, 0.5F, 1.0F, 8.0F}));
     EXPECT_NEAR(aces(8.0 * std::exp2(range.start)), 0.85, 1e-9);
     EXPECT_NEAR(range.start, std::log2(shown_as_085() / 8.0), 1e-9);
     EXPECT_NEAR(range.stop - range.start, 4.0, 1e-6);
@@ -42,33 +42,33 @@ TEST(FlipHdr, ExposuresByHand) {
 
 // More than half is black, as in most night pictures: the median of the four lit pixels stands in. 32 to 4: three stops.
 TEST(FlipHdr, BlackNightsAreExposedForWhatIsLit) {
-    const ExposureRange range = exposures_for(grey(10, 1, {0, 0, 0, 0, 0, 0, 1.0F, 2.0F, 4.0F, 32.0F}));
+    const ExposureRange range = exposures_for(grey_scene(10, 1, {0, 0, 0, 0, 0, 0, 1.0F, 2.0F, 4.0F, 32.0F}));
     EXPECT_NEAR(range.stop - range.start, 3.0, 1e-6);
     EXPECT_EQ(range.count, 3);
 }
 
 TEST(FlipHdr, ExtremesKeepTheRangeBounded) {
-    const ExposureRange deep = exposures_for(grey(3, 1, {1e-38F, 1e-38F, 1e30F}));
+    const ExposureRange deep = exposures_for(grey_scene(3, 1, {1e-38F, 1e-38F, 1e30F}));
     EXPECT_DOUBLE_EQ(deep.stop - deep.start, most_stops);
     EXPECT_EQ(deep.count, static_cast<int>(most_stops));
-    const ExposureRange flat = exposures_for(grey(3, 1, {2.0F}));
+    const ExposureRange flat = exposures_for(grey_scene(3, 1, {2.0F}));
     EXPECT_DOUBLE_EQ(flat.start, flat.stop);
     EXPECT_EQ(flat.count, 2);
-    const auto bright = grey(4, 4, {1e30F, 1.0F}), dark = grey(4, 4, {1e-30F, 1.0F});
+    const auto bright = grey_scene(4, 4, {1e30F, 1.0F}), dark = grey_scene(4, 4, {1e-30F, 1.0F});
     for (const auto map = flip_hdr(bright, dark, exposures_for(dark)); const float e : map.pixels())
         EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
 }
 
 // All but dark: exposures of more than 2^127 are no floats.
 TEST(FlipHdr, NextToNoLightIsStillCompared) {
-    const auto faint = grey(4, 4, {0.0F, 1e-40F, 1e-39F}), none = grey(4, 4, {0.0F});
+    const auto faint = grey_scene(4, 4, {0.0F, 1e-40F, 1e-39F}), none = grey_scene(4, 4, {0.0F});
     const auto map = flip_hdr(none, faint, exposures_for(faint));
     for (const float e : map.pixels())
         EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
 }
 
 TEST(FlipHdr, TheSameIsZero) {
-    const auto picture = grey(30, 20, {0.0F, 0.01F, 3.0F, 200.0F, 1e4F});
+    const auto picture = grey_scene(30, 20, {0.0F, 0.01F, 3.0F, 200.0F, 1e4F});
     for (const auto map = flip_hdr(picture, picture, exposures_for(picture)); const float e : map.pixels())
         EXPECT_EQ(e, 0.0F);
 }
@@ -85,7 +85,7 @@ TEST(FlipHdr, IsTheWorstOfAllExposures) {
             lit.push_back(static_cast<float>(beam));
             other.push_back(static_cast<float>(y > 13 && x > 20 ? 0.5 * beam : beam));
         }
-    const auto reference = grey(width, height, lit), tested = grey(width, height, other);
+    const auto reference = grey_scene(width, height, lit), tested = grey_scene(width, height, other);
     const ExposureRange range = exposures_for(reference);
     ASSERT_GE(range.count, 3);
     const DirectFlip direct(width, height, default_pixels_per_degree);
@@ -115,13 +115,13 @@ TEST(FlipHdr, IsTheWorstOfAllExposures) {
 }
 
 TEST(FlipHdr, WrongInputIsRefused) {
-    const auto light = grey(2, 2, {1.0F}), none = grey(2, 2, {0.0F}), negative = grey(2, 2, {1.0F, -1.0F}),
-               infinite = grey(2, 2, {std::numeric_limits<float>::infinity()});
+    const auto light = grey_scene(2, 2, {1.0F}), none = grey_scene(2, 2, {0.0F}), negative = grey_scene(2, 2, {1.0F, -1.0F}),
+               infinite = grey_scene(2, 2, {std::numeric_limits<float>::infinity()});
     EXPECT_THROW(exposures_for(none), std::invalid_argument);
     EXPECT_THROW(exposures_for(Image<float>{}), std::invalid_argument);
     EXPECT_THROW(exposures_for(negative), std::invalid_argument);
     EXPECT_THROW(flip_hdr(infinite, light, exposures_for(light)), std::invalid_argument);
-    EXPECT_THROW(flip_hdr(grey(2, 3, {1.0F}), light, exposures_for(light)), std::invalid_argument);
+    EXPECT_THROW(flip_hdr(grey_scene(2, 3, {1.0F}), light, exposures_for(light)), std::invalid_argument);
 }
 
 } // namespace

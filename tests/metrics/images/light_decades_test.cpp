@@ -14,7 +14,7 @@ TEST(LightDecades, PeakIsFourAndTheDarkIsZero) {
     for (int x = 2; x < 6; ++x)
         EXPECT_NEAR(static_cast<double>(decades.at(x, 0)), 0.0, 1e-6);
     EXPECT_EQ(peak_of(light), 100.0);
-    EXPECT_EQ(peak_of({}), 0.0);
+    EXPECT_EQ(peak_of(Image<float>()), 0.0);
     EXPECT_THROW(decades_of(light, 0.0), std::invalid_argument);
 }
 

@@ -21,7 +21,7 @@ ReferenceSettings radiosity(double patch_m, int rays, bool final_gather) {
 }
 
 /// Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom; seeds are fixed.
-void expect_estimate(const Estimate& estimate, double truth, double bias, int x = 0, int y = 0) {
+void expect_radiosity(const Estimate& estimate, double truth, double bias, int x = 0, int y = 0) {
     EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + bias * truth);
 }
 
@@ -97,14 +97,14 @@ TEST(Radiosity, PlatesExchangeTheViewFactor) {
     ReferenceSettings settings = radiosity(0.25, 4096, false);
     settings.least_samples = 4096; // light differs from patch to patch within the one pixel
     const ReferenceImage black = Reference(plates(0.0, 0.0, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, settings);
-    expect_estimate(black.illuminance_lx, pi * 100.0 * f12, 1e-4); // the factor has five digits
+    expect_radiosity(black.illuminance_lx, pi * 100.0 * f12, 1e-4); // the factor has five digits
     EXPECT_LT(black.illuminance_lx.standard_error.at(0, 0), 0.01 * pi * 100.0 * f12);
     const ReferenceImage gathered =
         Reference(plates(0.0, 0.0, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, radiosity(0.25, 256, true));
-    expect_estimate(gathered.illuminance_lx, pi * 100.0 * f12, 1e-4);
+    expect_radiosity(gathered.illuminance_lx, pi * 100.0 * f12, 1e-4);
     const ReferenceImage white = Reference(plates(0.8, 0.6, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, radiosity(5.0, 4096, false));
     const double rho = static_cast<double>(0.8F) * static_cast<double>(0.6F);
-    expect_estimate(white.illuminance_lx, pi * 100.0 * f12 / (1.0 - rho * f12 * f12), 1e-3); // (rho F^2)^2, of the halves' difference
+    expect_radiosity(white.illuminance_lx, pi * 100.0 * f12 / (1.0 - rho * f12 * f12), 1e-3); // (rho F^2)^2, of the halves' difference
 }
 
 TEST(Radiosity, MeetsPathsInARoomWithALampAndALedge) {
@@ -155,7 +155,7 @@ TEST(Radiosity, TheSkyIsThatWhichThingsLetThrough) {
         ReferenceSettings settings = radiosity(0.5, 1024, gather);
         settings.solver.reach_m = 2.0;
         const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 0.1, 1), lux, settings);
-        expect_estimate(image.illuminance_lx, 40.0 * (1.0 - hidden), 0.003); // the mean over patches of half a metre
+        expect_radiosity(image.illuminance_lx, 40.0 * (1.0 - hidden), 0.003); // the mean over patches of half a metre
     }
 }
 

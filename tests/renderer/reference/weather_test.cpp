@@ -27,7 +27,7 @@ Moment in_fog(double extinction_per_m, double albedo = 1.0, double asymmetry = 0
 }
 
 /// Five standard errors (path_test.cpp).
-void expect_estimate(const Estimate& estimate, double truth, int x = 0, int y = 0) {
+void expect_in_weather(const Estimate& estimate, double truth, int x = 0, int y = 0) {
     EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + 1e-5 * truth);
 }
 
@@ -39,9 +39,9 @@ TEST(ReferenceFog, WhiteFogChangesNothingInAnEvenRoom) {
     for (const double asymmetry : {0.0, 0.85}) {
         const ReferenceImage image =
             Reference(scene).render(in_fog(0.7, 1.0, asymmetry), camera({0.2, 0.1, -0.3}, 20, 10, 60, 2), everything, by(Integrator::path));
-        expect_estimate(image.luminance_cdm2, 6.0, 0, 0);
-        expect_estimate(image.luminance_cdm2, 6.0, 1, 1);
-        expect_estimate(image.illuminance_lx, 6.0 * pi, 1, 0);
+        expect_in_weather(image.luminance_cdm2, 6.0, 0, 0);
+        expect_in_weather(image.luminance_cdm2, 6.0, 1, 1);
+        expect_in_weather(image.illuminance_lx, 6.0 * pi, 1, 0);
     }
     ReferenceSettings once = by(Integrator::path);
     once.most_scatterings = 1;
@@ -126,8 +126,8 @@ TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
         settings.footprint = Footprint::centre;
         const ReferenceImage seen = Reference(scene).render(moment, camera({0, 0, 0}, 180, 0, 2, 1), everything, settings),
                              mirrored = Reference(scene).render(moment, camera({0, 0, 0}, 0, 0, 2, 1), everything, settings);
-        expect_estimate(seen.luminance_cdm2, 50.0 * std::exp(-0.05 * 12.0));
-        expect_estimate(mirrored.luminance_cdm2, static_cast<double>(mirror.mirror) * 50.0 * std::exp(-0.05 * (8.0 + 20.0)));
+        expect_in_weather(seen.luminance_cdm2, 50.0 * std::exp(-0.05 * 12.0));
+        expect_in_weather(mirrored.luminance_cdm2, static_cast<double>(mirror.mirror) * 50.0 * std::exp(-0.05 * (8.0 + 20.0)));
     }
 }
 
@@ -204,7 +204,7 @@ TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
         settings.footprint = Footprint::centre;
         const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
         EXPECT_LT(image.luminance_cdm2.standard_error.at(0, 0), 0.01 * truth);
-        expect_estimate(image.luminance_cdm2, truth);
+        expect_in_weather(image.luminance_cdm2, truth);
     }
 }
 

@@ -13,8 +13,8 @@ namespace {
 using testing::HasSubstr;
 
 /// For 1 s.
-struct Straight : OneLampStraight {
-    explicit Straight(double cd, double sp_ratio = 1.5) : OneLampStraight(cd, 1.0, sp_ratio) {}
+struct SeenStraight : OneLampStraight {
+    explicit SeenStraight(double cd, double sp_ratio = 1.5) : OneLampStraight(cd, 1.0, sp_ratio) {}
 };
 double cube(double x) { return x * x * x; }
 
@@ -36,7 +36,7 @@ double asphalt_cdm2(double cd, double d, double left, double eye_back) {
 }
 
 TEST(Seeing, ATargetStandsOutAsAdrianSays) {
-    Straight straight(20000.0);
+    SeenStraight straight(20000.0);
     straight.drive.seeing.visibility = VisibilityParameters{.level = 2.0, .distances_m = {50.0}};
     const Readings readings = straight.played().readings();
     const double eye_back = straight.drive.bumper_m - 1.3;
@@ -52,7 +52,7 @@ TEST(Seeing, ATargetStandsOutAsAdrianSays) {
 }
 
 TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
-    Straight straight(20000.0);
+    SeenStraight straight(20000.0);
     straight.drive.seeing.visibility = VisibilityParameters{.reflectance = 0.5, .level = 20.0, .distances_m = {}};
     const double from_m = value(straight.played().readings(), "detection_own_m");
     straight.drive.seeing.visibility->distances_m = {from_m - 0.5, from_m + 0.5};
@@ -74,7 +74,7 @@ TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
 
 // On the road E = I h / (x^2 + y^2 + h^2)^1.5 from the lamp: along the middle d lg E / dx = -3 x / (x^2 + h^2) / ln 10.
 TEST(Seeing, EvennessOfOneLampAlone) {
-    Straight straight(20000.0);
+    SeenStraight straight(20000.0);
     straight.drive.seeing.homogeneity = HomogeneityParameters{0.01, 80.0, 1.2};
     const Readings readings = straight.played().readings();
     const auto lg = [](double x) { return -1.5 * std::log10(x * x + 0.65 * 0.65); };
@@ -96,7 +96,7 @@ TEST(Seeing, EvennessOfOneLampAlone) {
 
 // 50 m ahead: the right edge 1.75 m beside the lamp, boards 2 m farther and 2 m up, one 5.5 m over the lane.
 TEST(Seeing, KerbAndBoardsByHand) {
-    Straight straight(20000.0);
+    SeenStraight straight(20000.0);
     straight.drive.seeing.places = PlaceParameters{true, true, true, {50.0}};
     const Readings readings = straight.played().readings();
     const auto square = [](double beside, double height) { return 2500.0 + beside * beside + height * height; };

@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr std::int64_t ms = 1'000'000;
+constexpr std::int64_t a_millisecond_ns = 1'000'000;
 
 CanSignal signal_of(const char* name, std::uint16_t start, std::uint16_t length, double factor, const char* unit) {
     CanSignal made;
@@ -87,12 +87,12 @@ TEST(BusOutputs, SendEachMessageAtItsCycleWithWhatHeldThen) {
     table.of(1, lamp_signal::swivel) = 0.017453292519943295 * -2.0; // -200 = 0xff38
     outputs.set(table);
     EXPECT_THAT(lines(outputs.due(0)), ElementsAre("(0000000000.000000) vcan0 210#009600C8", "(0000000000.000000) vcan0 210#0338FFC8"));
-    EXPECT_EQ(outputs.next_ns(), 50 * ms);
-    EXPECT_THAT(outputs.due(49 * ms), IsEmpty());
+    EXPECT_EQ(outputs.next_ns(), 50 * a_millisecond_ns);
+    EXPECT_THAT(outputs.due(49 * a_millisecond_ns), IsEmpty());
     table.of(0, lamp_signal::level) = 0.5; // 50 % is 100 = 0x64
-    EXPECT_EQ(lines(outputs.due(50 * ms)).front(), "(0000000000.050000) vcan0 210#009600C8") << "not told yet";
+    EXPECT_EQ(lines(outputs.due(50 * a_millisecond_ns)).front(), "(0000000000.050000) vcan0 210#009600C8") << "not told yet";
     outputs.set(table);
-    EXPECT_EQ(lines(outputs.due(150 * ms)).back(), "(0000000000.150000) vcan0 210#0338FF64");
+    EXPECT_EQ(lines(outputs.due(150 * a_millisecond_ns)).back(), "(0000000000.150000) vcan0 210#0338FF64");
     EXPECT_EQ(outputs.sent(), 8U);
     EXPECT_THAT(outputs.notes(), IsEmpty());
 }
@@ -106,7 +106,7 @@ TEST(BusOutputs, CutsWhatDoesNotFitAndKeepsWhatIsLost) {
     table.of(0, lamp_signal::swivel) = 1.0; // 57 degrees of at most 15
     table.of(0, lamp_signal::level) = std::nan("");
     outputs.set(table);
-    EXPECT_EQ(lines(outputs.due(50 * ms)).front(), "(0000000000.050000) can0 210#00DC0514");
+    EXPECT_EQ(lines(outputs.due(50 * a_millisecond_ns)).front(), "(0000000000.050000) can0 210#00DC0514");
     EXPECT_THAT(outputs.notes(),
                 ElementsAre("Status.Left of lamp.left.swivel_rad was beyond -15 to 15 in 1 frames of those sent, and cut to that",
                             "Status.Level of lamp.left.level was lost in 1 frames of those sent, which repeat what was sent before"));
@@ -123,7 +123,7 @@ TEST(BusOutputs, SendLabelsOfTheNearestValue) {
     EXPECT_EQ(lines(outputs.due(0)).front(), "(0000000000.000000) can0 18FF2011#07");
     table[signal::control_mode] = 1.0;
     outputs.set(table);
-    EXPECT_EQ(lines(outputs.due(100 * ms)).front(), "(0000000000.100000) can0 18FF2011#09");
+    EXPECT_EQ(lines(outputs.due(100 * a_millisecond_ns)).front(), "(0000000000.100000) can0 18FF2011#09");
 }
 
 TEST(BusOutputs, AreRefusedWhereNothingSaysHow) {

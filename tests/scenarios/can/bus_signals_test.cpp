@@ -12,7 +12,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
 
-constexpr std::int64_t ms = 1'000'000;
+constexpr std::int64_t millisecond_ns = 1'000'000;
 
 /// Speed: 16 bits Intel at byte 0, 0.01 km/h, 0 to 300. Turn: at byte 2, 8 bits, labels. Same speed again in another message.
 CanDatabase cockpit() {
@@ -88,11 +88,11 @@ BusSignals bus_of(const BusInput& input) { return {mapping_of({input}), {cockpit
 
 TEST(BusSignals, AFreshSignalHasItsValueAgeAndLastChange) {
     BusSignals bus = bus_of(speed_input());
-    bus.take(ten_mps(-5 * ms));
-    bus.take(ten_mps(4 * ms));
-    bus.take(frame(12 * ms, 0x100, {0x20, 0x1c, 0})); // 72 km/h
-    bus.take(frame(18 * ms, 0x100, {0x20, 0x1c, 0}));
-    const BusValue value = bus.at(20 * ms).front();
+    bus.take(ten_mps(-5 * millisecond_ns));
+    bus.take(ten_mps(4 * millisecond_ns));
+    bus.take(frame(12 * millisecond_ns, 0x100, {0x20, 0x1c, 0})); // 72 km/h
+    bus.take(frame(18 * millisecond_ns, 0x100, {0x20, 0x1c, 0}));
+    const BusValue value = bus.at(20 * millisecond_ns).front();
     EXPECT_EQ(value.state, BusState::fresh);
     EXPECT_EQ(value.value, 72.0 / 3.6) << "exactly as a drive file's speed_kmh";
     EXPECT_DOUBLE_EQ(value.age_s, 0.002);
@@ -145,21 +145,21 @@ TEST_P(Policies, HandOverWhatTheySay) {
     input.policies[static_cast<std::size_t>(with.state)] = with.policy;
     BusSignals bus = bus_of(input);
     if (with.state != BusState::missing) {
-        for (const std::int64_t at : {0 * ms, 10 * ms}) {
+        for (const std::int64_t at : {0 * millisecond_ns, 10 * millisecond_ns}) {
             bus.take(ten_mps(at));
             bus.take(frame(at, 0x18ff0000, {0x10, 0x0e}, true));
         }
-        EXPECT_EQ(bus.at(20 * ms).front().value, 10.0);
+        EXPECT_EQ(bus.at(20 * millisecond_ns).front().value, 10.0);
     }
     if (with.state == BusState::out_of_range)
-        bus.take(frame(55 * ms, 0x100, {0xff, 0xff, 0})); // 655.35 km/h of at most 300
+        bus.take(frame(55 * millisecond_ns, 0x100, {0xff, 0xff, 0})); // 655.35 km/h of at most 300
     if (with.state == BusState::contradictory) {
-        bus.take(ten_mps(55 * ms));
-        bus.take(frame(55 * ms, 0x18ff0000, {0x20, 0x1c}, true)); // 20 m/s
+        bus.take(ten_mps(55 * millisecond_ns));
+        bus.take(frame(55 * millisecond_ns, 0x18ff0000, {0x20, 0x1c}, true)); // 20 m/s
     }
     if (with.policy == BusPolicy::fail) {
         try {
-            bus.at(60 * ms);
+            bus.at(60 * millisecond_ns);
             FAIL() << "not refused";
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), HasSubstr("drive.yaml:7:3: can.inputs.ego.speed_mps: ego.speed_mps of Cockpit.Speed is "));
@@ -171,7 +171,7 @@ TEST_P(Policies, HandOverWhatTheySay) {
         }
         return;
     }
-    const BusValue value = bus.at(60 * ms).front();
+    const BusValue value = bus.at(60 * millisecond_ns).front();
     EXPECT_EQ(value.state, with.state);
     EXPECT_TRUE(value.policy_acted);
     if (std::isnan(with.value))
@@ -200,20 +200,20 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(BusSignals, AreStaleAfterThreeCyclesOrWhatTheMappingSays) {
     BusSignals by_cycle = bus_of(speed_input()); // 10 ms
     by_cycle.take(ten_mps(0));
-    EXPECT_EQ(by_cycle.at(30 * ms).front().state, BusState::fresh) << "exactly three cycles old";
-    EXPECT_EQ(by_cycle.at(31 * ms).front().state, BusState::stale);
+    EXPECT_EQ(by_cycle.at(30 * millisecond_ns).front().state, BusState::fresh) << "exactly three cycles old";
+    EXPECT_EQ(by_cycle.at(31 * millisecond_ns).front().state, BusState::stale);
     BusInput patient = speed_input();
     patient.stale_after_s = 0.5;
     BusSignals by_mapping = bus_of(patient);
     by_mapping.take(ten_mps(0));
-    EXPECT_EQ(by_mapping.at(500 * ms).front().state, BusState::fresh);
-    EXPECT_EQ(by_mapping.at(501 * ms).front().state, BusState::stale);
+    EXPECT_EQ(by_mapping.at(500 * millisecond_ns).front().state, BusState::fresh);
+    EXPECT_EQ(by_mapping.at(501 * millisecond_ns).front().state, BusState::stale);
     BusInput event = speed_input(); // a message without a cycle never is
     event.name = "ego.yaw_rate_rad_s";
     event.source = {"Event", "YawRate"};
     BusSignals never = bus_of(event);
     never.take(frame(0, 0x200, {0, 0, 0, 0, 0, 0, 0, 0}));
-    EXPECT_EQ(never.at(3'600'000 * ms).front().state, BusState::fresh);
+    EXPECT_EQ(never.at(3'600'000 * millisecond_ns).front().state, BusState::fresh);
 }
 
 TEST(BusSignals, ASecondSourceThatIsNotFreshDoesNotContradict) {
@@ -224,11 +224,11 @@ TEST(BusSignals, ASecondSourceThatIsNotFreshDoesNotContradict) {
     bus.take(ten_mps(0));
     EXPECT_EQ(bus.at(0).front().state, BusState::fresh);
     EXPECT_EQ(bus.records().front().unchecked, 1U);
-    bus.take(frame(1 * ms, 0x18ff0000, {0x11, 0x0e}, true)); // 0.01 km/h more than no tolerance allows
-    EXPECT_EQ(bus.at(20 * ms).front().state, BusState::contradictory);
-    EXPECT_DOUBLE_EQ(bus.at(20 * ms).front().other, 36.01 / 3.6);
-    bus.take(ten_mps(1100 * ms));
-    EXPECT_EQ(bus.at(1101 * ms).front().state, BusState::fresh) << "the second is stale";
+    bus.take(frame(1 * millisecond_ns, 0x18ff0000, {0x11, 0x0e}, true)); // 0.01 km/h more than no tolerance allows
+    EXPECT_EQ(bus.at(20 * millisecond_ns).front().state, BusState::contradictory);
+    EXPECT_DOUBLE_EQ(bus.at(20 * millisecond_ns).front().other, 36.01 / 3.6);
+    bus.take(ten_mps(1100 * millisecond_ns));
+    EXPECT_EQ(bus.at(1101 * millisecond_ns).front().state, BusState::fresh) << "the second is stale";
     EXPECT_EQ(bus.records().front().unchecked, 2U);
 }
 
@@ -275,10 +275,10 @@ TEST(BusSignals, DoublesThatAreNoNumbersAreOutOfRange) {
 
 TEST(BusSignals, AFrameFromThePastCountsAsNow) {
     BusSignals bus = bus_of(speed_input());
-    bus.take(ten_mps(100 * ms));
-    bus.take(frame(90 * ms, 0x100, {0x20, 0x1c, 0}));
-    EXPECT_EQ(bus.at(100 * ms).front().value, 20.0) << "the one taken last";
-    EXPECT_EQ(bus.at(100 * ms).front().age_s, 0.0);
+    bus.take(ten_mps(100 * millisecond_ns));
+    bus.take(frame(90 * millisecond_ns, 0x100, {0x20, 0x1c, 0}));
+    EXPECT_EQ(bus.at(100 * millisecond_ns).front().value, 20.0) << "the one taken last";
+    EXPECT_EQ(bus.at(100 * millisecond_ns).front().age_s, 0.0);
 }
 
 std::string refused(const BusInput& input) {

@@ -18,9 +18,9 @@ using testing::HasSubstr;
 const std::filesystem::path build = std::filesystem::path(FERNLICHT_BINARY).parent_path();
 const std::vector<ControlledLamp> lamps{{"left", {3.4, 0.6, 0.65}, 0.0}, {"high", {3.4, 0.5, 0.65}, 0.0, {{-4.0, 0.0}, {0.0, 4.0}}}};
 
-ControlParameters with(const std::filesystem::path& library, const std::string& parameters = "") {
+ControlParameters with(const std::filesystem::path& compiled_plugin, const std::string& parameters = "") {
     ControlParameters control;
-    control.plugins = {{library, parameters, {"left", "high"}}};
+    control.plugins = {{compiled_plugin, parameters, {"left", "high"}}};
     control.plugins[0].give_up_s = 0.4;
     return control;
 }
@@ -40,7 +40,8 @@ ControlRun run(
 }
 
 /// Builds a library whose step() has the body; "" for one without the interface's function.
-std::filesystem::path library(const std::string& name, const std::string& step, const std::string& version = "FERNLICHT_CONTROL_VERSION") {
+std::filesystem::path compiled_plugin(const std::string& name, const std::string& step,
+                                      const std::string& version = "FERNLICHT_CONTROL_VERSION") {
     const std::filesystem::path folder = testing::TempDir();
     const std::filesystem::path source = folder / (name + ".c"), out = folder / (name + ".so");
     std::ofstream(source) << fmt::format(
@@ -97,19 +98,20 @@ TEST(Plugin, OwnPeriodAndOthersLampsAreKept) {
 
 TEST(Plugin, UnusableLibrariesAreRefused) {
     EXPECT_THAT(refusal("/nowhere/law.so"), HasSubstr("cannot be loaded"));
-    EXPECT_THAT(refusal(library("no-entry", "")), HasSubstr("no function fernlicht_control_plugin()"));
-    EXPECT_THAT(refusal(library("version", "in = in;", "7")), HasSubstr("version 7 of the interface, expected version 1"));
-    EXPECT_THAT(refusal(library("answers", "return 3;")), HasSubstr("step() of 'answers' failed with 3 at 0 s"));
+    EXPECT_THAT(refusal(compiled_plugin("no-entry", "")), HasSubstr("no function fernlicht_control_plugin()"));
+    EXPECT_THAT(refusal(compiled_plugin("version", "in = in;", "7")), HasSubstr("version 7 of the interface, expected version 1"));
+    EXPECT_THAT(refusal(compiled_plugin("answers", "return 3;")), HasSubstr("step() of 'answers' failed with 3 at 0 s"));
 }
 
 TEST(Plugin, CrashesAreErrors) {
-    EXPECT_THAT(refusal(library("segv", "*(volatile int*)0 = 1;")), HasSubstr("a segmentation fault in step() of 'segv' at 0 s"));
-    EXPECT_THAT(refusal(library("aborts", "if (in->time_s > 0.5) abort();")), HasSubstr("abort() in step() of 'aborts' at 0.52 s"));
-    EXPECT_THAT(refusal(library("loops", "for (volatile int i = 0; ; ) i = i;")), HasSubstr("no return within 0.4 s"));
+    EXPECT_THAT(refusal(compiled_plugin("segv", "*(volatile int*)0 = 1;")), HasSubstr("a segmentation fault in step() of 'segv' at 0 s"));
+    EXPECT_THAT(refusal(compiled_plugin("aborts", "if (in->time_s > 0.5) abort();")), HasSubstr("abort() in step() of 'aborts' at 0.52 s"));
+    EXPECT_THAT(refusal(compiled_plugin("loops", "for (volatile int i = 0; ; ) i = i;")), HasSubstr("no return within 0.4 s"));
 }
 
 TEST(Plugin, CommandsThatAreNoneAreLeftOut) {
-    const ControlRun odd = run(with(library("odd", "out->lamps[0].swivel_rad = in->time_s < 1 ? 0.05 : NAN; out->lamps[0].level = 7;")));
+    const ControlRun odd =
+        run(with(compiled_plugin("odd", "out->lamps[0].swivel_rad = in->time_s < 1 ? 0.05 : NAN; out->lamps[0].level = 7;")));
     EXPECT_NEAR(odd.swivel_rad(0, 1.95), 0.05, 1e-9) << "the last good command holds";
     EXPECT_EQ(odd.level(0, 1.95), 1.0);
     EXPECT_THAT(odd.notes, testing::Contains("control law 'odd': 150 commands were no numbers or out of range, and left out"));

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path library = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
+const std::filesystem::path shipped_drives = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
 
 struct Simulated {
     Drive drive;
@@ -30,29 +30,29 @@ struct Simulated {
     }
 };
 
-double pitch_rad(const Pose& pose) { return std::atan2(pose.forward().z, std::hypot(pose.forward().x, pose.forward().y)); }
+double climb_rad(const Pose& pose) { return std::atan2(pose.forward().z, std::hypot(pose.forward().x, pose.forward().y)); }
 
 TEST(Motion, ADriveWithoutAVehicleStaysOnRails) {
-    const Simulated played(read_drive(library / "straight.yaml"));
+    const Simulated played(read_drive(shipped_drives / "straight.yaml"));
     EXPECT_EQ(played.drive.variants[0].motion, nullptr);
     EXPECT_EQ(played.at(3.0).ego, ego_pose(played.route, distance_m(played.drive.speed, 3.0), played.drive.wheelbase_m));
 }
 
 TEST(Motion, AVehicleMustBeSimulatedFirst) {
-    const Drive drive = read_drive(library / "braking.yaml");
+    const Drive drive = read_drive(shipped_drives / "braking.yaml");
     const RoadNetwork network = read_opendrive(drive.road_file);
     EXPECT_THROW(moment_at(start(drive), drive, Route(network, drive.start), drive.variants[0]), std::logic_error);
 }
 
 TEST(Motion, BrakingDipsTheLampsAndLevellingLiftsThem) {
-    const Simulated played(read_drive(library / "braking.yaml"));
-    EXPECT_NEAR(pitch_rad(played.at(1.0).ego), 0.0, 2e-3) << "steady speed: only the drag pitches";
+    const Simulated played(read_drive(shipped_drives / "braking.yaml"));
+    EXPECT_NEAR(climb_rad(played.at(1.0).ego), 0.0, 2e-3) << "steady speed: only the drag pitches";
     const Moment fixed = played.at(4.5), levelled = played.at(4.5, 1);
-    EXPECT_LT(pitch_rad(fixed.ego), radians(-1.2));
+    EXPECT_LT(climb_rad(fixed.ego), radians(-1.2));
     EXPECT_EQ(fixed.ego, levelled.ego) << "lamps do not act on the car";
-    EXPECT_NEAR(pitch_rad(fixed.lamps[0].pose), pitch_rad(fixed.ego), 1e-12);
+    EXPECT_NEAR(climb_rad(fixed.lamps[0].pose), climb_rad(fixed.ego), 1e-12);
     // Levelling knows the springs, not the tyres, whose part is a tenth.
-    EXPECT_NEAR(pitch_rad(levelled.lamps[0].pose), 0.15 * pitch_rad(fixed.ego), 0.1 * -pitch_rad(fixed.ego));
+    EXPECT_NEAR(climb_rad(levelled.lamps[0].pose), 0.15 * climb_rad(fixed.ego), 0.1 * -climb_rad(fixed.ego));
     EXPECT_NEAR(fixed.speed_mps, speed_mps(played.drive.speed, 4.5), 0.6);
     EXPECT_THAT(played.drive.notes, testing::Contains(HasSubstr("vehicle: dormand-prince for")));
     EXPECT_THAT(played.drive.notes, testing::Not(testing::Contains(HasSubstr("levelling")))) << "they would stand under both lamp sets";
@@ -61,7 +61,7 @@ TEST(Motion, BrakingDipsTheLampsAndLevellingLiftsThem) {
 }
 
 TEST(Motion, DoesNotKnowTheFrameRate) {
-    Drive drive = read_drive(library / "braking.yaml");
+    Drive drive = read_drive(shipped_drives / "braking.yaml");
     const Simulated coarse(drive);
     drive.step_s = 1.0e-6;
     const Simulated fine(drive);
@@ -75,7 +75,7 @@ TEST(Motion, DoesNotKnowTheFrameRate) {
 }
 
 TEST(Motion, FollowsTheCountryRoad) {
-    Drive drive = read_drive(library / "country.yaml");
+    Drive drive = read_drive(shipped_drives / "country.yaml");
     drive.vehicle = VehicleParameters{};
     drive.variants[0].swivel = SwivelParameters{};
     const Simulated played(drive);
@@ -93,7 +93,7 @@ TEST(Motion, FollowsTheCountryRoad) {
 }
 
 TEST(Motion, AStepInTheRoadIsFeltByEachAxleInTurn) {
-    Drive drive = read_drive(library / "straight.yaml");
+    Drive drive = read_drive(shipped_drives / "straight.yaml");
     drive.vehicle = VehicleParameters{};
     drive.vehicle->road_steps = {{60.0, 0.03}, {120.0, -0.03}};
     drive.vehicle->tolerance = 1.0e-9;
@@ -120,7 +120,7 @@ TEST(Motion, AStepInTheRoadIsFeltByEachAxleInTurn) {
 
 TEST(Motion, ACarThatCannotBrakeIsCutAtTheRoutesEnd) {
     // To rest in 2 s from 50 m/s, 2.5 g: by plan it stops 10 m before the end.
-    Drive drive = read_drive(library / "straight.yaml");
+    Drive drive = read_drive(shipped_drives / "straight.yaml");
     drive.start.s_m = 930.0 - drive.bumper_m;
     drive.speed = {{0.0, 50.0}, {0.2, 50.0}, {2.2, 0.0}};
     drive.vehicle = VehicleParameters{};
@@ -133,7 +133,7 @@ TEST(Motion, ACarThatCannotBrakeIsCutAtTheRoutesEnd) {
 
 /// What simulate() says of the braking drive with this car; "" where it plays.
 std::string refusal(const VehicleParameters& car, std::vector<SpeedPoint> speed = {}) {
-    Drive drive = read_drive(library / "braking.yaml");
+    Drive drive = read_drive(shipped_drives / "braking.yaml");
     drive.vehicle = car;
     if (!speed.empty())
         drive.speed = std::move(speed);
@@ -166,7 +166,7 @@ TEST(Motion, RefusesACarThatLeavesItsModel) {
 }
 
 TEST(Motion, WheelsThatHopOverAnEdgeAreANote) {
-    Drive drive = read_drive(library / "straight.yaml");
+    Drive drive = read_drive(shipped_drives / "straight.yaml");
     drive.vehicle = VehicleParameters{};
     EXPECT_THAT(Simulated(drive).drive.notes, testing::Not(testing::Contains(HasSubstr("leave the road"))));
     // Tyres are pressed in by 20 mm at rest: behind an edge 50 mm lower the wheels hang in the air until the springs have pushed them down.

@@ -8,7 +8,7 @@
 namespace fernlicht {
 namespace {
 
-Lane lane(int id, const char* type, double width) {
+Lane lane_across(int id, const char* type, double width) {
     Lane lane;
     lane.id = id;
     lane.type = type;
@@ -33,7 +33,7 @@ Road road_with(MarkKind centre, MarkKind edge) {
     road.plan.push_back(element);
     LaneSection section;
     section.end_m = 100.0;
-    section.lanes = {lane(1, "driving", 3.0), lane(0, "none", 0.0), lane(-1, "driving", 3.0)};
+    section.lanes = {lane_across(1, "driving", 3.0), lane_across(0, "none", 0.0), lane_across(-1, "driving", 3.0)};
     section.lanes[1].marks.push_back(mark(centre));
     section.lanes[2].marks.push_back(mark(edge));
     road.sections.push_back(section);
@@ -125,7 +125,7 @@ TEST(MeshCrossSection, DashesFinerThanAPictureAreSolid) {
 
 TEST(MeshCrossSection, RaisedSidewalkHasAKerbFace) {
     Road road = road_with(MarkKind::none, MarkKind::none);
-    Lane walk = lane(-2, "sidewalk", 2.0);
+    Lane walk = lane_across(-2, "sidewalk", 2.0);
     walk.heights.push_back({0.0, 0.12, 0.15});
     road.sections[0].lanes.push_back(walk);
     const std::vector<Strip> strips = SectionProfile(road, road.sections[0]).strips(50.0, 50.0);

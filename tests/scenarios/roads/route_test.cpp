@@ -15,7 +15,7 @@ namespace {
 using namespace opendrive_text;
 using testing::HasSubstr;
 
-RoadNetwork network_of(const std::string& roads) {
+RoadNetwork network_with(const std::string& roads) {
     const TemporaryFile written(file(roads));
     return read_opendrive(written.path());
 }
@@ -35,7 +35,7 @@ void expect_position(const Pose& pose, double x, double y, double tolerance = 1e
 }
 
 TEST(Route, RightLaneRunsAlongS) {
-    const RoadNetwork network = network_of(road({}));
+    const RoadNetwork network = network_with(road({}));
     const Route route(network, {});
     EXPECT_NEAR(route.length_m(), 100.0, 1e-9);
     expect_position(route.pose(30.0), 30.0, -1.75);
@@ -47,7 +47,7 @@ TEST(Route, RightLaneRunsAlongS) {
 }
 
 TEST(Route, LeftLaneRunsAgainstS) {
-    const RoadNetwork network = network_of(road({}));
+    const RoadNetwork network = network_with(road({}));
     const Route route(network, {"1", 1, 100.0});
     expect_position(route.pose(30.0), 70.0, 1.75);
     expect_position(route.pose(30.0, 1.0), 70.0, 0.75); // left of one who drives towards -x is -y
@@ -60,7 +60,7 @@ TEST(Route, LeftLaneRunsAgainstS) {
 TEST(Route, LeftHandTrafficStartsOnTheLeft) {
     RoadText text;
     text.attributes = R"(rule="LHT" junction="-1")";
-    const RoadNetwork network = network_of(road(text));
+    const RoadNetwork network = network_with(road(text));
     const Route route(network, {});
     expect_position(route.pose(30.0), 30.0, 1.75);
     EXPECT_NEAR(route.pose(30.0).forward().x, 1.0, 1e-12);
@@ -72,7 +72,7 @@ TEST(Route, CrossSectionAsTheDriverSeesIt) {
     RoadText text;
     text.lanes =
         section(0.0, lane(2, "1.5", {}, "sidewalk") + lane(1, "3.0"), lane(-1, "3.5") + lane(-2, "2.0", {}, "shoulder") + lane(-3, "0"));
-    const RoadNetwork network = network_of(road(text));
+    const RoadNetwork network = network_with(road(text));
     const CrossSection ahead = Route(network, {}).cross_section(10.0);
     ASSERT_EQ(ahead.lanes.size(), 4U);
     const std::vector<std::string> names{"left 2", "left 1", "own", "right 1"};
@@ -101,7 +101,7 @@ TEST(Route, CrossSectionAsTheDriverSeesIt) {
 TEST(Route, DistanceIsThatOfTheLane) {
     RoadText text;
     text.plan = geometry(0.0, 0.0, 0.0, 0.0, 100.0, R"(<arc curvature="0.02"/>)");
-    const RoadNetwork network = network_of(road(text));
+    const RoadNetwork network = network_with(road(text));
     const Route outer(network, {});
     EXPECT_NEAR(outer.length_m(), 100.0 * (50.0 + 1.75) / 50.0, 1e-9);
     const double turned = 20.0 / 51.75;
@@ -123,7 +123,7 @@ TEST(Route, DistanceIsMetresOnTheSurface) {
         <superelevation s="60" a="0.06" b="0" c="0" d="0"/></lateralProfile>)";
     text.lanes = R"(<laneOffset s="0" a="0" b="0" c="0" d="0"/><laneOffset s="80" a="0" b="0.01" c="0" d="0"/>)" +
                  section(0.0, "", R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0.0001" d="-5e-7"/></lane>)");
-    const RoadNetwork network = network_of(road(text));
+    const RoadNetwork network = network_with(road(text));
     const Route route(network, {});
     double worst = 0.0, walked = 0.0;
     for (double d = 0.0; d + 0.05 <= route.length_m(); d += 0.05) {
@@ -140,7 +140,7 @@ TEST(Route, PoseIsOrthonormalAndAlongTheLane) {
     text.profiles = R"(<elevationProfile><elevation s="0" a="0" b="0.1" c="0" d="0"/></elevationProfile>
         <lateralProfile><superelevation s="0" a="0.05" b="0" c="0" d="0"/></lateralProfile>)";
     text.lanes = section(0.0, lane(1), R"(<lane id="-1" type="driving"><width sOffset="0" a="2" b="0.02" c="0" d="0"/></lane>)");
-    const RoadNetwork network = network_of(road(text));
+    const RoadNetwork network = network_with(road(text));
     for (const auto& start : {Route::Start{"1", -1, 0.0}, Route::Start{"1", 1, 100.0}}) {
         const Route route(network, start);
         for (double d = 1.0; d < 90.0; d += 10.0) {
@@ -158,7 +158,7 @@ TEST(Route, FollowsLaneLinksOverSections) {
         section(0.0, "", lane(-1, "3.5", R"(<successor id="-2"/>)")) +
         section(40.0, "", lane(-1, "3", R"(<successor id="-1"/>)") + lane(-2, "3.5", R"(<predecessor id="-1"/><successor id="-1"/>)")) +
         section(70.0, "", lane(-1, "3.5", R"(<predecessor id="-2"/>)"));
-    const RoadNetwork network = network_of(road(text));
+    const RoadNetwork network = network_with(road(text));
     const Route route(network, {});
     ASSERT_EQ(route.legs().size(), 3U);
     EXPECT_EQ(route.legs()[1].lane, -2);
@@ -170,10 +170,10 @@ TEST(Route, FollowsLaneLinksOverSections) {
 TEST(Route, LaneWithoutLinkGoesOnWhereItsCentreDoes) {
     RoadText text;
     text.lanes = section(0.0, lane(1), lane(-1)) + section(50.0, lane(1), lane(-1, "3.4"));
-    const RoadNetwork same = network_of(road(text));
+    const RoadNetwork same = network_with(road(text));
     EXPECT_NEAR(Route(same, {}).length_m(), 100.0, 1e-6);
     text.lanes = section(0.0, lane(1), lane(-1)) + section(50.0, lane(1), lane(-1, "8"));
-    const RoadNetwork ends = network_of(road(text));
+    const RoadNetwork ends = network_with(road(text));
     EXPECT_NEAR(Route(ends, {}).length_m(), 50.0, 1e-9);
 }
 
@@ -186,7 +186,7 @@ TEST(Route, CrossesARoadBorderIntoAReversedRoad) {
     second.link = R"(<successor elementType="road" elementId="1" contactPoint="end"/>)";
     second.plan = geometry(0.0, 200.0, 0.0, pi, 100.0);
     second.lanes = section(0.0, lane(1, "3.5", R"(<successor id="-1"/>)"), lane(-1, "3.5", R"(<successor id="1"/>)"));
-    const RoadNetwork network = network_of(road(first) + road(second));
+    const RoadNetwork network = network_with(road(first) + road(second));
     EXPECT_TRUE(network.warnings.empty()) << network.warnings.front();
     const Route route(network, {});
     EXPECT_NEAR(route.length_m(), 200.0, 1e-9);
@@ -223,14 +223,14 @@ std::string fork() {
 }
 
 TEST(Route, TakesTheLeastTurnAtAJunction) {
-    const RoadNetwork network = network_of(fork());
+    const RoadNetwork network = network_with(fork());
     const Route route(network, {});
     EXPECT_NEAR(route.length_m(), 220.0, 1e-9);
     EXPECT_EQ(route.place(150.0).first, "2");
 }
 
 TEST(Route, ViaNamesTheRoadBehindOrWithinTheJunction) {
-    const RoadNetwork network = network_of(fork());
+    const RoadNetwork network = network_with(fork());
     EXPECT_EQ(Route(network, {}, {"3"}).place(180.0).first, "3");
     EXPECT_EQ(Route(network, {}, {"11"}).place(180.0).first, "3");
     EXPECT_EQ(Route(network, {}, {"1", "10", "2"}).place(180.0).first, "2");
@@ -238,7 +238,7 @@ TEST(Route, ViaNamesTheRoadBehindOrWithinTheJunction) {
 }
 
 TEST(Route, RefusesWhatDoesNotExist) {
-    const RoadNetwork network = network_of(fork());
+    const RoadNetwork network = network_with(fork());
     EXPECT_THAT(refusal(network, {"7", 0, 0.0}), HasSubstr("found no road '7', expected one of the roads 1, 11, 10, 2, 3"));
     EXPECT_THAT(refusal(network, {"1", -4, 0.0}), HasSubstr("found no lane -4 at s = 0 m of road '1', expected one of the lanes -1"));
     EXPECT_THAT(refusal(network, {"1", 0, 100.5}), HasSubstr("outside road '1'"));
@@ -254,7 +254,7 @@ TEST(Route, ARingIsDrivenOnceRound) {
     ring.link =
         R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="1" contactPoint="start"/>)";
     ring.lanes = section(0.0, "", lane(-1, "3.5", R"(<predecessor id="-1"/><successor id="-1"/>)"));
-    const RoadNetwork network = network_of(road(ring));
+    const RoadNetwork network = network_with(road(ring));
     EXPECT_NEAR(Route(network, {}).length_m(), 2.0 * pi * 51.75, 1e-9);
 }
 

@@ -19,7 +19,7 @@ void expect_uv(const glm::vec2& found, float u, float v) {
     EXPECT_EQ(found.y, v);
 }
 
-RoadNetwork library_road(const char* name) {
+RoadNetwork shipped_road(const char* name) {
     return read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads" / name);
 }
 
@@ -62,7 +62,7 @@ TEST(TexturePosition, RoadMeshesHaveTheirTexturesInTrueSize) {
     options.textures = true;
     for (const char* name : {"country.xodr", "village.xodr"}) {
         SCOPED_TRACE(name);
-        const Scene scene = build_scene(library_road(name), options);
+        const Scene scene = build_scene(shipped_road(name), options);
         std::size_t checked = 0;
         for (const Mesh& mesh : scene.meshes)
             for (const Batch& batch : mesh.batches) {
@@ -86,7 +86,7 @@ TEST(TexturePosition, RoadMeshesHaveTheirTexturesInTrueSize) {
 }
 
 TEST(TexturePosition, RoadsHaveTexturesOnlyWhenAsked) {
-    const RoadNetwork network = library_road("village.xodr");
+    const RoadNetwork network = shipped_road("village.xodr");
     RoadMeshOptions with, without;
     with.textures = true;
     without.textures = false;
