@@ -31,22 +31,26 @@ void ShadowMask::set_lamps(const std::vector<LitLamp>& lamps, const glm::dvec3& 
     ego_m_ = ego_m;
 }
 
-ShadowMask::Canvas& ShadowMask::canvas_for(const View& view) {
+ShadowMask::Canvas ShadowMask::make_canvas(int width, int height) {
+    Canvas canvas{width, height, make_texture(context_, GL_R16UI, width, height),
+                  make_texture(context_, GL_DEPTH32F_STENCIL8, width, height), make_framebuffer(context_)};
+    const GladGLContext& gl = context_.gl;
+    gl.NamedFramebufferTexture(canvas.framebuffer, GL_COLOR_ATTACHMENT0, canvas.mask, 0);
+    gl.NamedFramebufferTexture(canvas.framebuffer, GL_DEPTH_STENCIL_ATTACHMENT, canvas.depth, 0);
+    if (const GLenum status = gl.CheckNamedFramebufferStatus(canvas.framebuffer, GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
+        throw DeviceError(fmt::format("{} cannot draw a shadow mask of {} x {} pixels (status 0x{:04x})", context_.info.gl_renderer, width,
+                                      height, status));
+    return canvas;
+}
+
+const ShadowMask::Canvas& ShadowMask::canvas_for(const View& view) {
     const auto known =
         std::ranges::find_if(canvases_, [&](const Canvas& c) { return c.width == view.width_px && c.height == view.height_px; });
     if (known != canvases_.end()) {
         canvases_.splice(canvases_.begin(), canvases_, known);
         return canvases_.front();
     }
-    Canvas canvas{view.width_px, view.height_px, make_texture(context_, GL_R16UI, view.width_px, view.height_px),
-                  make_texture(context_, GL_DEPTH32F_STENCIL8, view.width_px, view.height_px), make_framebuffer(context_)};
-    const GladGLContext& gl = context_.gl;
-    gl.NamedFramebufferTexture(canvas.framebuffer, GL_COLOR_ATTACHMENT0, canvas.mask, 0);
-    gl.NamedFramebufferTexture(canvas.framebuffer, GL_DEPTH_STENCIL_ATTACHMENT, canvas.depth, 0);
-    if (const GLenum status = gl.CheckNamedFramebufferStatus(canvas.framebuffer, GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
-        throw DeviceError(fmt::format("{} cannot draw a shadow mask of {} x {} pixels (status 0x{:04x})", context_.info.gl_renderer,
-                                      view.width_px, view.height_px, status));
-    canvases_.push_front(std::move(canvas));
+    canvases_.push_front(make_canvas(view.width_px, view.height_px));
     if (canvases_.size() > most_canvases)
         canvases_.pop_back();
     return canvases_.front();
@@ -150,9 +154,10 @@ void ShadowMask::draw(const Shot& shot) {
     shot.clock.end();
 }
 
-void ShadowMask::compile(const Shot& shot) {
+/// Into one pixel, which is let go: whether any picture will need a mask is not known yet.
+void ShadowMask::compile(const Shot& /*shot*/) {
     const GladGLContext& gl = context_.gl;
-    const Canvas& canvas = canvas_for(shot.view);
+    const Canvas canvas = make_canvas(1, 1);
     gl.BindFramebuffer(GL_FRAMEBUFFER, canvas.framebuffer);
     gl.Viewport(0, 0, canvas.width, canvas.height);
     gl.Enable(GL_STENCIL_TEST);

@@ -46,7 +46,8 @@ class ShadowMask : public Shadows {
         Texture mask, depth;
         Framebuffer framebuffer;
     };
-    Canvas& canvas_for(const View& view);
+    Canvas make_canvas(int width, int height);
+    const Canvas& canvas_for(const View& view);
     void draw_depth(const Shot& shot);
     void set_bits(GLuint bits) const;
 
@@ -55,7 +56,7 @@ class ShadowMask : public Shadows {
     GLint depth_clip_, bits_;
     VertexArray nothing_;
     DrawList list_;
-    std::list<Canvas> canvases_; ///< used last stands first
+    std::list<Canvas> canvases_; ///< of the sizes that shadows were drawn in; used last stands first
     std::vector<LitLamp> lamps_;
     glm::dvec3 ego_m_{0.0};
 };

@@ -285,5 +285,31 @@ TEST_F(ShadowVolumesTest, CostNothingWhereNothingStandsInABeam) {
     }
 }
 
+/// The mask's textures are made when something first casts, whatever was prepared; pictures do not depend on it.
+TEST_F(ShadowVolumesTest, TexturesAreMadeWhenSomethingFirstCasts) {
+    const Scene scene = busy_scene();
+    Moment near = busy_moment(0.0), away = near;
+    for (LitLamp& lamp : away.lamps)
+        lamp.pose.axes = axes_from_angles(pi, 0.0, 0.0); // backwards, where nothing stands
+    const View view = driver_for_shadows();
+    RendererSettings settings;
+    settings.shadows.method = ShadowMethod::none;
+    Renderer none(device_, scene, settings);
+    const std::size_t least = none.count(near, view, all_results).texture_bytes;
+    for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar, ShadowMethod::under_car}) {
+        settings.shadows.method = method;
+        Renderer renderer(device_, scene, settings);
+        renderer.prepare({away, near}, view, all_results);
+        expect_equal_frames(renderer.draw(away, view, all_results), none.draw(away, view, all_results), std::string(name(method)));
+        EXPECT_EQ(renderer.count(away, view, all_results).texture_bytes, least) << name(method);
+        // One picture: 2 bytes a pixel of the mask, 8 of depth and stencil; drawn again it needs no more.
+        const std::size_t mask = 10 * static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
+        for (int i = 0; i < 2; ++i)
+            EXPECT_EQ(renderer.count(near, view, all_results).texture_bytes, least + mask) << name(method);
+        expect_equal_frames(renderer.draw(near, view, all_results), drawn_with(device_, scene, near, view, method),
+                            std::string(name(method)) + ", alone");
+    }
+}
+
 } // namespace
 } // namespace fernlicht

@@ -23,8 +23,9 @@ const json& row_of(const json& scene, const std::string& method) {
 
 TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
     const TemporaryFolder folder;
-    const Outcome run = run_program(small + "--rounds 3 --map-texels 512x256 --moments 1 --methods none,map --scenes post-5,kerb --out " +
-                                    (folder / "out ") + library_file("drives/straight.yaml"));
+    const Outcome run =
+        run_program(small + "--rounds 3 --map-texels 512x256 --moments 1 --methods none,map,under-car,volumes --scenes post-5,kerb --out " +
+                    (folder / "out ") + library_file("drives/straight.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, HasSubstr("edge 30 m"));
     const json found = json::parse(content_of(folder / "out/shadows.json"));
@@ -49,7 +50,11 @@ TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
     }
     EXPECT_GT(map.at("edges").at(1).at("rms_cm"), map.at("edges").at(0).at("rms_cm"));
     EXPECT_GT(map.at("crawl").at("cm"), 0.0);
-    EXPECT_EQ(map.at("texture_bytes"), 2 * 4 * 512 * 256); // two lamps
+    EXPECT_EQ(map.at("texture_bytes"), 2 * 4 * 512 * 256);                // two lamps
+    EXPECT_EQ(row_of(post, "volumes").at("texture_bytes"), 10 * 96 * 72); // mask, depth and stencil of the view
+    EXPECT_EQ(row_of(post, "under-car").at("texture_bytes"), 0);          // no body moves
+    for (const json& row : found.at("scenes").at(2).at("rows"))           // nothing stands in a beam
+        EXPECT_EQ(row.at("texture_bytes"), 0) << row.at("shadows");
     EXPECT_EQ(map.at("work").at("passes"), 3);
     EXPECT_EQ(map.at("frame_s").size(), 3U);
     EXPECT_THAT(map.at("passes").dump(), HasSubstr("shadow maps"));
