@@ -14,6 +14,9 @@ constexpr std::size_t most_lamps_by_vertex = 4;
 /// Of the sky behind fog: beyond all that is drawn.
 constexpr double background_m = 5000.0;
 
+/// Headlamps bring less to a road: bounds beyond this say nothing.
+constexpr double most_useful_bound_lx = 1000.0;
+
 const char* flag(bool on) { return on ? "1" : "0"; }
 
 /// "vec4(...), vec4(...)": constants of a variant, one a lamp.
@@ -416,9 +419,13 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
     if (traffic_shadows_ && traffic_shadows_->most_units_left_out() > 0)
         say(fmt::format("shadow maps of lamps of others: those of up to {} pairs or single lamps in a picture",
                         traffic_shadows_->most_units_left_out()),
-            fmt::format("there are {} maps for the strongest; by bounds the others bring at most {:.2g} lx together to any place where "
-                        "their shadows may be missing",
-                        most_traffic_maps, traffic_shadows_->worst_left_out_lx()));
+            fmt::format("there are {} maps for the strongest; ", most_traffic_maps) +
+                (traffic_shadows_->worst_left_out_lx() <= most_useful_bound_lx
+                     ? fmt::format("by bounds the others bring at most {:.2g} lx together to any place where their shadows may be missing",
+                                   traffic_shadows_->worst_left_out_lx())
+                     : "no useful bound is known of the others' light whose shadows may be missing: one of them stands within the radius "
+                       "of a "
+                       "piece that it may light, and bounds take a piece's nearest point"));
     else if (traffic_shadows_ && !traffic_shadows_->any() && !shot.moment.other_lamps.empty())
         say("shadow maps of lamps of others",
             fmt::format("nothing stands where one brings more than {} lx", least_traffic_shadow * shot.moment.least_traffic_lx));

@@ -395,6 +395,29 @@ TEST_F(Traffic, ShadowsDoNotPop) {
     RecordProperty("most_share_a_frame", fmt::format("{}", most));
 }
 
+/// Twelve pairs and maps for eight. The bound on the light whose shadows may be missing stands in the report where it says something:
+/// bodies that stand 60 m from each other's lamps get little, those next to another's lamps may get any light.
+TEST_F(Traffic, ReportsTheBoundOfMissingShadowsWhereItIsOfUse) {
+    const auto reason = [&](double every_m) {
+        const Street street(oncoming(25.0, 12, every_m));
+        Renderer renderer(device_, street.scene, settings());
+        renderer.draw(street.at(0.0), driver(120, 80), {.illuminance = true});
+        for (const LeftOut& one : renderer.left_out())
+            if (one.what.starts_with("shadow maps of lamps of others: those of up to"))
+                return one.why;
+        return std::string("none");
+    };
+    const std::string apart = reason(60.0), close = reason(6.0);
+    const std::string before = "by bounds the others bring at most ";
+    ASSERT_NE(apart.find(before), std::string::npos) << apart;
+    const double lx = std::stod(apart.substr(apart.find(before) + before.size()));
+    EXPECT_GT(lx, 0.0);
+    EXPECT_LT(lx, 1000.0);
+    EXPECT_NE(close.find("no useful bound is known of the others' light whose shadows may be missing: one of them stands"),
+              std::string::npos)
+        << close;
+}
+
 /// What levels cost in lux against every lamp with its own beam, and that they save lamps.
 TEST_F(Traffic, LevelsStayWithinTheirBound) {
     const Street street(oncoming(30.0, 8, 40.0));
