@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <initializer_list>
 
 namespace fernlicht {
@@ -9,11 +10,16 @@ namespace {
 
 constexpr int least_texels = 16, most_texels = 8192;
 
-ShadowMethod method_of(const YamlEntry& entry) {
+std::vector<std::string_view> words_for_methods() {
     std::vector<std::string_view> names;
     for (const ShadowMethodName& row : shadow_method_names())
         names.push_back(row.name);
-    names.emplace_back("auto");
+    names.push_back(name(ShadowMethod::automatic));
+    return names;
+}
+
+ShadowMethod method_of(const YamlEntry& entry) {
+    const std::vector<std::string_view> names = words_for_methods();
     const std::size_t chosen = entry.choice(names);
     return chosen + 1 == names.size() ? ShadowMethod::automatic : shadow_method_names()[chosen].method;
 }
@@ -69,6 +75,8 @@ ShadowSettings read_shadows(const YamlMap& drive) {
             shadows.method = method_of(*given);
         return shadows;
     }
+    if (given->value().kind != YamlValue::Kind::map)
+        given->refuse(fmt::format("true, false, one of {}, or a map with keys such as method", fmt::join(words_for_methods(), ", ")));
     const YamlMap keys =
         given->map({"method", "map_texels", "tolerance_m", "redraw_texels", "lamp_radius_m", "lamp_places", "error_bound"});
     shadows.method = method_of(keys.require("method"));

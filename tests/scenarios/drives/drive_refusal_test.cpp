@@ -23,6 +23,12 @@ TEST_F(DriveRefusal, UnknownKeysNameTheNearestAtEveryLevel) {
                 HasSubstr("drive.yaml:5:31: variants.a.lamps.left.flie: unknown key, expected 'file'"));
 }
 
+TEST_F(DriveRefusal, ShadowsThatAreNeitherMethodNorMap) {
+    for (const char* value : {"null", "[map]"})
+        EXPECT_THAT(refusal(minimal + "shadows: " + value + "\n"), AllOf(HasSubstr("shadows: found"), HasSubstr("one of none, under-car"),
+                                                                         HasSubstr("auto, or a map with keys such as method")));
+}
+
 TEST_F(DriveRefusal, MissingKeys) {
     EXPECT_THAT(refusal("road: road.xodr\n"), HasSubstr("fernlicht: missing"));
     EXPECT_THAT(refusal("fernlicht: 1\n"), HasSubstr("road: missing"));
