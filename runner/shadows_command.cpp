@@ -10,29 +10,45 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace fernlicht {
 namespace {
+
+constexpr const char* default_lamp = "scenarios/library/lamps/xenon-low.ies";
 
 /// The flags as typed.
 struct ShadowsFlags {
     std::vector<std::filesystem::path> drives;
     std::string variant, backend = "auto", out, texels = "1024x512", resolution = "512x384";
     std::vector<std::string> methods, scenes{"*"};
-    std::filesystem::path lamp = "scenarios/library/lamps/xenon-low.ies";
+    std::filesystem::path lamp = default_lamp;
     double lamp_radius_m = ShadowSettings{}.lamp_radius_m, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
     int moments = 3, rounds = 7;
     std::uint64_t seed = 1;
     bool quiet = false, markdown = false;
 };
 
+/// One of those that draw: not auto, which takes one of them.
+ShadowMethod drawn_method_named(const std::string& item) {
+    std::vector<std::string_view> known;
+    for (const ShadowMethodName& row : shadow_method_names()) {
+        if (row.name == item)
+            return row.method;
+        known.push_back(row.name);
+    }
+    if (item == name(ShadowMethod::automatic))
+        refuse_flag("--methods", item, "methods by their names: auto takes one of them (fernlicht run DRIVE --shadows auto)");
+    const std::string nearest = nearest_name(item, known);
+    throw InputError({{}, 0, 0, "--methods"}, "found '" + printable(item) + "'",
+                     fmt::format("one of {}{}", fmt::join(known, ", "), nearest.empty() ? "" : " (nearest: '" + nearest + "')"));
+}
+
 std::vector<ShadowMethod> methods_of(const std::vector<std::string>& lists) {
     std::vector<ShadowMethod> methods;
     for (const std::string& item : items_of("--methods", lists)) {
-        methods.push_back(shadow_method_named(item, {}, "--methods"));
-        if (methods.back() == ShadowMethod::automatic)
-            refuse_flag("--methods", "auto", "methods by their names: auto takes one of them (fernlicht run DRIVE --shadows auto)");
+        methods.push_back(drawn_method_named(item));
         if (std::ranges::count(methods, methods.back()) > 1)
             refuse_flag("--methods", item + " twice", "each method once");
     }
@@ -60,6 +76,11 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.options.timed_px = resolution_of(flags.resolution);
     request.options.seed = flags.seed;
     request.scenes = items_of("--scenes", flags.scenes);
+    if (request.scenes.size() > 1 && std::ranges::count(request.scenes, "none") > 0)
+        refuse_flag("--scenes", fmt::format("{}", fmt::join(request.scenes, ",")), "none alone, or names of scenes");
+    if (request.scenes.front() != "none" && flags.lamp == default_lamp && !std::filesystem::exists(flags.lamp))
+        throw InputError({{}, 0, 0, "--lamp"}, fmt::format("found no {} from here", default_lamp),
+                         "to be run from the repository's root, or --lamp FILE, the beam of the hard scenes, or --scenes none");
     request.lamp = flags.lamp;
     for (const std::filesystem::path& file : flags.drives)
         request.drives.push_back(read_drive(file));
@@ -91,7 +112,8 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
         ->default_str("");
     sub->add_option("--map-texels", flags->texels, "WIDTHxHEIGHT of each map")->capture_default_str();
     sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
-    sub->add_option("--lamp", flags->lamp, "lamp file, the beam of the hard scenes")->capture_default_str();
+    sub->add_option("--lamp", flags->lamp, "lamp file, the beam of the hard scenes; the default is found from the repository's root")
+        ->capture_default_str();
     sub->add_option("--lamp-radius", flags->lamp_radius_m, "m, of lamps as discs, for soft shadows; 0: not measured")
         ->capture_default_str();
     sub->add_option("--vertical-fov", flags->vertical_fov_deg, "degrees, of the driver's view in the hard scenes, 4:3")

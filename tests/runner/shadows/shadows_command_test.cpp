@@ -126,7 +126,16 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
         return run.output;
     };
     EXPECT_THAT(refused("--methods mop"), HasSubstr("--methods: found 'mop'"));
+    EXPECT_THAT(refused("--methods mop"), HasSubstr("expected one of none, under-car, "));
     EXPECT_THAT(refused("--methods auto"), HasSubstr("by their names"));
+    EXPECT_THAT(refused("--scenes none,post-5"), HasSubstr("--scenes: found 'none,post-5', expected none alone"));
+    const Outcome nowhere = run_program("shadows --lamp nowhere.ies --out " + (folder / "out"));
+    EXPECT_EQ(nowhere.exit_code, 2);
+    EXPECT_THAT(nowhere.output, HasSubstr("nowhere.ies: --lamp: is not there, expected a lamp file"));
+    const Outcome elsewhere = run_program("shadows --out " + (folder / "out"), "cd " + (folder / "") + " &&");
+    EXPECT_EQ(elsewhere.exit_code, 2);
+    EXPECT_THAT(elsewhere.output, HasSubstr("--lamp: found no scenarios/library/lamps/xenon-low.ies from here, expected to be run from the "
+                                            "repository's root, or --lamp FILE"));
     for (const std::string sides : {"0x0", "16385x1"}) {
         const Outcome run = run_program("shadows --resolution " + sides + " --out " + (folder / "out"));
         EXPECT_EQ(run.exit_code, 2);
