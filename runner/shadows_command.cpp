@@ -128,7 +128,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
         ->capture_default_str();
     sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
-    sub->add_flag("--markdown", flags->markdown, "prints the table of docs/shadows.md");
+    sub->add_flag("--markdown", flags->markdown, "prints the table as docs/shadow-tables.md has it");
     sub->add_flag("--quiet", flags->quiet, "no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return shadows(*flags, command); }; });
 }

@@ -3,6 +3,7 @@
 #include "runner/display/tile_sheet.h"
 #include "runner/shadows/scene_study.h"
 #include "runner/shadows/shadow_truth.h"
+#include "runner/shadows/shown_picture.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -24,8 +25,10 @@ ShadowSceneResult shadow_moment(const Stage& stage, const Variant& variant, cons
     Renderer unshadowed(device, stage.scene, without_shadows(settings));
     const std::vector<Moment> moments{moment};
     ShadowTruth truth(rays, unshadowed, moments, view);
-    result.luminance_cdm2 = truth.of(0).luminance_cdm2;
+    result.whole_view = true;
     result.degree = true_degrees(truth.of(0));
+    result.luminance_cdm2 = shaded_by_rays(unshadowed.draw(moment, view, {.luminance = true}).luminance_cdm2, result.degree);
+    result.white_cdm2 = white_of_ground(result.luminance_cdm2, truth.of(0).ids, stage.scene);
     for (const ShadowMethodName& one : shadow_method_names()) {
         ShadowRow row;
         row.method = one.method;

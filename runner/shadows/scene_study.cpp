@@ -5,6 +5,7 @@
 #include "runner/accuracy/accuracy_result.h"
 #include "runner/display/tile_sheet.h"
 #include "runner/shadows/shadow_truth.h"
+#include "runner/shadows/shown_picture.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -84,8 +85,8 @@ View width_view(const View& view, int width_px) {
 /// The part of a picture that is shown.
 struct ShownPart {
     int left = 0, top = 0, width = 0, height = 0;
-    Image<float> of(const Image<float>& picture) const {
-        Image<float> out(width, height);
+    template <class T> Image<T> of(const Image<T>& picture) const {
+        Image<T> out(width, height);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 out.at(x, y) = picture.at(left + x, top + y);
@@ -291,8 +292,11 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
         return result;
     SceneTruth truth(scene, device, options);
     result.shown = truth.shown;
-    result.luminance_cdm2 = truth.part.of(truth.picture.of(truth.shown).luminance_cdm2);
-    result.degree = truth.part.of(true_degrees(truth.picture.of(truth.shown)));
+    const ShadowTruth::Found& rays = truth.picture.of(truth.shown);
+    const Image<float> free = truth.unshadowed.draw(scene.moments[truth.shown], truth.picture.view(), {.luminance = true}).luminance_cdm2;
+    result.degree = truth.part.of(true_degrees(rays));
+    result.luminance_cdm2 = shaded_by_rays(truth.part.of(free), result.degree);
+    result.white_cdm2 = white_of_ground(result.luminance_cdm2, truth.part.of(rays.ids), *scene.scene);
     step();
     for (const ShadowMethod method : options.methods) {
         if (stop())

@@ -48,7 +48,9 @@ struct ShadowSceneResult {
     int width_px = 0, height_px = 0;             ///< of the view timed
     double vertical_fov_rad = 0.0;               ///< of the view that maps are fitted to
     std::vector<ShadowRow> rows;
-    Image<float> luminance_cdm2, degree; ///< by rays, of the moment shown; degree of shadow, below 0 where none counts
+    bool whole_view = false;             ///< what is shown of it: all, or half of it each way, about its shadows
+    Image<float> luminance_cdm2, degree; ///< of the moment shown: shaded_by_rays(); degree of shadow by rays, below 0 where none counts
+    double white_cdm2 = 1.0;             ///< white_of_ground()
 };
 
 struct ShadowResult {
@@ -76,7 +78,7 @@ std::string shadow_sheet_svg(const ShadowSceneResult& scene);
 
 /// Tables for a terminal. Lines end with a newline.
 std::string shadow_text(const ShadowResult& result);
-/// The table of docs/shadows.md.
+/// A table as docs/shadow-tables.md has them.
 std::string shadow_markdown(const ShadowResult& result);
 /// docs/shadows.md and shadows.schema.json describe it.
 std::string shadow_json(const ShadowResult& result);

@@ -2,6 +2,7 @@
 #include "runner/display/tile_sheet.h"
 #include "runner/plots/colour.h"
 #include "runner/report/clean_text.h"
+#include "runner/shadows/shadow_figures.h"
 #include "runner/shadows/shadow_result.h"
 #include "scenarios/photometry.h"
 
@@ -15,13 +16,6 @@ namespace {
 Rgb8 grey_pixel(double share) {
     const auto code = static_cast<std::uint8_t>(std::lround(255.0 * photometry::srgb_encoded(std::clamp(share, 0.0, 1.0))));
     return {code, code, code};
-}
-
-/// Luminance that one in a hundred pixels of the picture reaches; above 0.
-double white_of(const Image<float>& luminance) {
-    std::vector<float> sorted = luminance.pixels();
-    std::ranges::sort(sorted);
-    return sorted.empty() ? 1.0 : std::max(1e-6, static_cast<double>(sorted[sorted.size() * 99 / 100]));
 }
 
 /// Compressed so that the dark shows what is in it: L / (L + 0.3 white), white as white.
@@ -53,8 +47,8 @@ Image<Rgb8> wrong_picture(const Image<float>& wrong, const Image<float>& degree)
 }
 
 std::string share_words(const ShadowArea& area) {
-    return fmt::format("{} % wrongly lit, {} % wrongly dark", two_digits(100.0 * area.wrongly_lit_share()),
-                       two_digits(100.0 * area.wrongly_dark_share()));
+    return fmt::format("{} % wrongly lit, {} % wrongly dark", shadow_percent(area.wrongly_lit_share()),
+                       shadow_percent(area.wrongly_dark_share()));
 }
 
 std::string cost_words(const ShadowRow& row) {
@@ -69,16 +63,17 @@ std::string cost_words(const ShadowRow& row) {
 } // namespace
 
 std::string shadow_sheet_svg(const ShadowSceneResult& scene) {
-    const double white = white_of(scene.luminance_cdm2);
+    const double white = scene.white_cdm2;
     TileSection seen{short_text(scene.title, 90),
-                     fmt::format("the part of the view about its shadows: luminance, white is {:.2g} cd/m2; rays from each pixel's centre "
-                                 "to lamps that are points",
-                                 white),
-                     {{"by rays", "the truth that methods are held against", seen_picture(scene.luminance_cdm2, white)}}};
-    TileSection wrong{
-        "Where shadows are wrong",
-        "orange: wrongly lit; blue: wrongly dark; grey: below the floor without shadows, or nothing; shares are of the whole view",
-        {{"shadow by rays", "dark: no light of any lamp", degree_picture(scene.degree)}}};
+                     fmt::format("{}: luminance, white is {} cd/m2, which one in a hundred of the ground's pixels exceeds",
+                                 scene.whole_view ? "the whole view" : "a quarter of the view, about its shadows",
+                                 shadow_figure(white, 1e-4)),
+                     {{"by rays", "drawn without shadows, times the rays' share of the light", seen_picture(scene.luminance_cdm2, white)}}};
+    TileSection wrong{"Where shadows are wrong",
+                      "orange: wrongly lit; blue: wrongly dark, against rays from pixels' centres; grey: below the floor without shadows, "
+                      "or nothing; shares "
+                      "are of the whole view",
+                      {{"shadow by rays", "dark: no light of any lamp, points", degree_picture(scene.degree)}}};
     for (const ShadowRow& row : scene.rows)
         if (!measured(row)) {
             seen.words += fmt::format("; {} refuses the scene", name(row.method));

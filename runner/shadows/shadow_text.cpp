@@ -1,6 +1,7 @@
 #include "runner/accuracy/figures.h"
 #include "runner/bench/aligned_table.h"
 #include "runner/report/clean_text.h"
+#include "runner/shadows/shadow_figures.h"
 #include "runner/shadows/shadow_result.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 
 /// "1.3", with "-2" for lost and "+1" for invented edges; "-" where there is none.
 std::string edge_cell(const EdgeError& edge) {
-    std::string text = edge.rms_cm ? two_digits(*edge.rms_cm) : "-";
+    std::string text = edge.rms_cm ? shadow_cm(*edge.rms_cm) : "-";
     if (edge.lost > 0)
         text += fmt::format(" \xE2\x88\x92{}", edge.lost);
     if (edge.invented > 0)
@@ -30,16 +31,16 @@ std::vector<std::string> cells_of(const ShadowRow& row) {
     const auto work = typical_work(row.work);
     const auto time = frame_time(row);
     const auto cpu = cpu_time(row);
-    cells.push_back(two_digits(100.0 * row.ground_m2.wrong_share()));
-    cells.push_back(two_digits(row.ground_m2.wrongly_lit));
-    cells.push_back(two_digits(row.ground_m2.wrongly_dark));
-    cells.push_back(two_digits(100.0 * row.view_px.wrong_share()));
-    cells.push_back(row.discs_px ? two_digits(100.0 * row.discs_px->wrong_share()) : "-");
+    cells.push_back(shadow_percent(row.ground_m2.wrong_share()));
+    cells.push_back(shadow_m2(row.ground_m2.wrongly_lit));
+    cells.push_back(shadow_m2(row.ground_m2.wrongly_dark));
+    cells.push_back(shadow_percent(row.view_px.wrong_share()));
+    cells.push_back(row.discs_px ? shadow_percent(row.discs_px->wrong_share()) : "-");
     for (const EdgeError& edge : row.edges)
         cells.push_back(edge_cell(edge));
     cells.push_back(spots_cell(row.spots.acne, row.spots.acne_px));
     cells.push_back(spots_cell(row.spots.leaks, row.spots.leaks_px));
-    cells.push_back(row.crawl_cm ? two_digits(*row.crawl_cm) : "-");
+    cells.push_back(row.crawl_cm ? shadow_cm(*row.crawl_cm) : "-");
     cells.push_back(time ? fmt::format("{:.1f}", 1e3 * time->value) : "-");
     cells.push_back(cpu ? fmt::format("{:.1f}", 1e3 * *cpu) : "-");
     cells.push_back(row.texture_bytes ? fmt::format("{:.1f}", static_cast<double>(*row.texture_bytes) / (1 << 20)) : "-");
@@ -91,10 +92,12 @@ std::string shadow_markdown(const ShadowResult& result) {
     for (const ShadowSceneResult& scene : result.scenes)
         for (const ShadowRow& row : scene.rows) {
             std::vector<std::string> cells = cells_of(row);
-            cells.resize(heads().size(), "-");
+            if (!measured(row))
+                cells = {cells.front(), "refused"};
+            cells.resize(heads().size());
             out += "| " + scene.name + " |";
             for (const std::string& cell : cells)
-                out += " " + cell + " |";
+                out += (cell.empty() ? "" : " ") + cell + " |";
             out += "\n";
         }
     return out;

@@ -25,7 +25,7 @@ class ShadowTruth {
     ShadowImages images(Renderer& renderer, std::size_t moment);
 
     struct Found {
-        Image<float> true_lx, unshadowed_lx, drawn_unshadowed_lx, luminance_cdm2; ///< luminance by rays, towards the camera
+        Image<float> true_lx, unshadowed_lx, drawn_unshadowed_lx;
         Image<std::uint32_t> ids;
     };
     const Found& of(std::size_t moment);
