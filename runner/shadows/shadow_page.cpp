@@ -3,6 +3,7 @@
 #include "runner/accuracy/figures.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/page_parts.h"
+#include "runner/shadows/shadow_figures.h"
 #include "runner/shadows/shadow_result.h"
 
 #include <fmt/format.h>
@@ -14,14 +15,19 @@ namespace {
 using kainjow::mustache::data;
 using List = data::type;
 
-std::string edge_words(const EdgeError& edge) {
+/// Of a cell, each unbroken.
+std::vector<std::string> edge_words(const EdgeError& edge) {
     if (edge.edges + edge.lost + edge.invented == 0)
-        return "none there";
-    std::string words = edge.rms_cm ? fmt::format("{} / {}", two_digits(*edge.rms_cm), two_digits(*edge.worst_cm)) : "";
+        return {"none there"};
+    std::vector<std::string> words;
+    if (edge.rms_cm)
+        words.push_back(fmt::format("{} / {}", shadow_cm(*edge.rms_cm), shadow_cm(*edge.worst_cm)));
     if (edge.lost > 0)
-        words += fmt::format("{}{} of {} lost", words.empty() ? "" : ", ", edge.lost, edge.lost + edge.edges);
+        words.push_back(fmt::format("{} of {} lost", edge.lost, edge.lost + edge.edges));
     if (edge.invented > 0)
-        words += fmt::format("{}{} invented", words.empty() ? "" : ", ", edge.invented);
+        words.push_back(fmt::format("{} invented", edge.invented));
+    for (std::size_t i = 0; i + 1 < words.size(); ++i)
+        words[i] += ",";
     return words;
 }
 
@@ -32,22 +38,23 @@ data error_part(const ShadowRow& row) {
     part.set("why_not", clean_text(row.why_not));
     if (!measured(row))
         return part;
-    const auto percent = [](double share) { return two_digits(100.0 * share); };
-    part.set("wrong", percent(row.ground_m2.wrong_share()));
-    part.set("lit", two_digits(row.ground_m2.wrongly_lit));
-    part.set("dark", two_digits(row.ground_m2.wrongly_dark));
-    part.set("view", percent(row.view_px.wrong_share()));
-    part.set("discs", row.discs_px ? percent(row.discs_px->wrong_share()) : "");
+    part.set("wrong", shadow_percent(row.ground_m2.wrong_share()));
+    part.set("lit", shadow_m2(row.ground_m2.wrongly_lit));
+    part.set("dark", shadow_m2(row.ground_m2.wrongly_dark));
+    part.set("view", shadow_percent(row.view_px.wrong_share()));
+    part.set("discs", row.discs_px ? shadow_percent(row.discs_px->wrong_share()) : "");
     data edges{List::list};
     for (const EdgeError& edge : row.edges) {
-        data cell;
-        cell.set("text", edge_words(edge));
+        data cell, words{List::list};
+        for (const std::string& word : edge_words(edge))
+            words.push_back(word);
+        cell.set("words", words);
         edges.push_back(cell);
     }
     part.set("edges", edges);
     part.set("acne", fmt::format("{} / {}", row.spots.acne, row.spots.acne_px));
     part.set("leaks", fmt::format("{} / {}", row.spots.leaks, row.spots.leaks_px));
-    part.set("crawl", row.crawl_cm ? two_digits(*row.crawl_cm) : "none there");
+    part.set("crawl", row.crawl_cm ? shadow_cm(*row.crawl_cm) : "none there");
     const auto time = frame_time(row);
     const auto cpu = cpu_time(row);
     part.set("frame", time ? time_text(time->value) : "not measured");
@@ -106,7 +113,10 @@ std::string shadow_html(const ShadowResult& result) {
     page.set("texels", fmt::format("{} x {}", result.map_width, result.map_height));
     page.set("floor", fmt::format("{:g}", shadow_floor_lx));
     page.set("radius", fmt::format("{:g}", 100.0 * result.lamp_radius_m));
-    page.set("has_discs", result.lamp_radius_m > 0.0);
+    const bool has_discs = result.lamp_radius_m > 0.0;
+    page.set("has_discs", has_discs);
+    page.set("view_columns", has_discs ? "2" : "1");
+    page.set("all_columns", has_discs ? "11" : "10");
     page.set("step", fmt::format("{:g}", crawl_step_m));
     page.set("crawl_at", fmt::format("{:g}", crawl_distance_m));
     page.set("has_all", together);
