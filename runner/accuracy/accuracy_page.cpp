@@ -81,6 +81,8 @@ data drive_part(const DriveAccuracy& drive) {
     data part, rows{List::list};
     part.set("title", short_text(drive.title, 160));
     part.set("variant", short_text(drive.variant, 40));
+    part.set("has_choice", !drive.shadow_choice.empty());
+    part.set("choice", clean_text(drive.shadow_choice));
     part.set("reference",
              fmt::format("{:.1f} s, {:.1f} million rays, {:.0f} samples a pixel in the median, {:.0f} at most", drive.reference.seconds,
                          1e-6 * static_cast<double>(drive.reference.rays), drive.reference.median_samples, drive.reference.most_samples));

@@ -64,6 +64,7 @@ struct DriveAccuracy {
     std::optional<TwinAgreement> twin;                               ///< where photometric took part
     std::vector<std::string> missing;                                ///< what was not measured because the sweep was ended, one clause each
     std::vector<std::pair<Configuration, std::string>> refused = {}; ///< ways that cannot draw the scene, and why
+    std::string shadow_choice = {}; ///< where the drive says `shadows: auto`: what was chosen and why, a clause
 };
 
 struct AccuracyResult {

@@ -30,7 +30,8 @@ bool asked_for(const AccuracyRequest& request, const char* diagram) {
     return std::ranges::find(request.diagrams, diagram) != request.diagrams.end();
 }
 
-void add_sweep(const AccuracyRequest& request, const Stage& stage, Device& device, AccuracyResult& result) {
+void add_sweep(const AccuracyRequest& request, const Stage& stage, const std::optional<ShadowChoice>& choice, Device& device,
+               AccuracyResult& result) {
     std::optional<Progress> progress;
     int steps = 0;
     SweepRequest sweep = request.sweep;
@@ -47,6 +48,8 @@ void add_sweep(const AccuracyRequest& request, const Stage& stage, Device& devic
         Interruption::asked));
     if (result.drives.back().missing.empty())
         progress->done(steps);
+    if (choice)
+        result.drives.back().shadow_choice = fmt::format("auto chose {}: {}", name(choice->chosen), choice->why);
     std::ranges::move(sweep_diagrams(result.drives.back()), std::back_inserter(result.diagrams));
 }
 
@@ -112,12 +115,12 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     const Interruption listening;
     const CpuUse before = cpu_use();
     for (Stage& stage : stages) {
-        choose_shadows(stage, device, {});
+        const std::optional<ShadowChoice> choice = choose_shadows(stage, device, {});
         add_inputs(result.context.inputs, stage.drive.opened);
         add_inputs(result.context.inputs, stage.network.opened);
         if (asked_for(request, "techniques") || asked_for(request, "shadows")) {
             if (!Interruption::asked())
-                add_sweep(request, stage, device, result);
+                add_sweep(request, stage, choice, device, result);
             else
                 result.missing.push_back(fmt::format("drive {}: not begun", stage.drive.name));
         }

@@ -105,6 +105,8 @@ std::string accuracy_text(const AccuracyResult& result) {
         text += fmt::format("\n{}, {}: {}; the reference took {:.1f} s, {:.1f} million rays, {:.0f} samples a pixel in the median\n",
                             drive.drive, drive.variant, counted(drive.moments.size(), "moment"), drive.reference.seconds,
                             1e-6 * static_cast<double>(drive.reference.rays), drive.reference.median_samples);
+        if (!drive.shadow_choice.empty())
+            text += fmt::format("Shadows where no method is named: {}\n", drive.shadow_choice);
         text += "Error of illuminance in % (road: median, 95 %, 99 %, worst pixel, % of its area beyond 1, 5 and 20 %; whole view and "
                 "target: 95 %),\n"
                 "of luminance (95 %), worst error of reach at 1 and 5 lx, time a frame, textures\n";

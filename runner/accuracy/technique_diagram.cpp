@@ -65,6 +65,28 @@ WorkPrecisionRow view_row_of(const ConfigurationResult& found, std::size_t momen
     return row;
 }
 
+bool has_shadow_methods(const DriveAccuracy& drive) {
+    return std::ranges::any_of(drive.configurations,
+                               [](const ConfigurationResult& found) { return found.configuration.varied == "shadow method"; });
+}
+
+/// Beside photometric by other shadow methods the drive's own is named, too.
+std::string label_among_methods(Configuration c) {
+    if (c.technique == "photometric" && c.varied.empty())
+        c.varied = "shadow method";
+    return name_of(c);
+}
+
+/// Of the drive's own shadow method.
+std::string own_method_note(const DriveAccuracy& drive) {
+    const auto own =
+        std::ranges::find_if(drive.configurations, [](const ConfigurationResult& found) { return found.configuration.varied.empty(); });
+    return own == drive.configurations.end()
+               ? "the drive's own shadow method is not among those that were drawn"
+               : fmt::format("shadows where no method is named: {}, the drive's own{}", name(own->configuration.shadows.method),
+                             drive.shadow_choice.empty() ? "" : " (" + drive.shadow_choice + ")");
+}
+
 /// What the bars of times are.
 std::string times_note(const DriveAccuracy& drive) {
     std::optional<Interval> time;
@@ -97,9 +119,15 @@ WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int h
                                         "from the least to the most of the moments",
                                         counted(drive.moments.size(), "moment")));
     diagram.notes.push_back(times_note(drive));
+    const bool methods = has_shadow_methods(drive);
+    if (methods)
+        diagram.notes.push_back(own_method_note(drive));
     for (const ConfigurationResult& found : drive.configurations)
-        if (found.configuration.width_px == width_px && found.configuration.height_px == height_px)
+        if (found.configuration.width_px == width_px && found.configuration.height_px == height_px) {
             diagram.rows.push_back(row_of(found, drive.moments.size()));
+            if (methods)
+                diagram.rows.back().label = label_among_methods(found.configuration);
+        }
     for (const auto& [configuration, why] : drive.refused)
         if (configuration.width_px == width_px && configuration.height_px == height_px) {
             WorkPrecisionRow& row = diagram.rows.emplace_back();
@@ -154,12 +182,12 @@ WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive) {
 
 WorkPrecision shadow_methods_diagram(const DriveAccuracy& drive) {
     WorkPrecision diagram = view_diagram(drive, "shadow-methods-", "Shadow methods and techniques");
-    if (std::ranges::none_of(drive.configurations,
-                             [](const ConfigurationResult& found) { return found.configuration.varied == "shadow method"; }))
+    if (!has_shadow_methods(drive))
         return diagram;
+    diagram.notes.push_back(own_method_note(drive));
     for (const ConfigurationResult& found : drive.configurations)
         if (const Configuration& c = found.configuration; c.varied.empty() || c.varied == "shadow method")
-            diagram.rows.push_back(view_row_of(found, drive.moments.size(), name_of(c)));
+            diagram.rows.push_back(view_row_of(found, drive.moments.size(), label_among_methods(c)));
     return diagram;
 }
 

@@ -78,6 +78,34 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr("not measured"));
 }
 
+/// A short moment of a drive that leaves the method to us: what is drawn by is named wherever it is shown.
+TEST(AccuracyRun, NamesTheShadowMethodThatAutoChose) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "auto.yaml") << "fernlicht: 1\nname: auto-1\nroad: \"" << library_file("roads/straight.xodr")
+                                        << "\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 0.2\nshadows: auto\nvariants:\n  one: {file: \""
+                                        << library_file("lamps/halogen-low.ies") << "\"}\n";
+    const Outcome run =
+        run_program("accuracy --quiet --diagrams shadows --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --beams float "
+                    "--techniques photometric --shadow-maps 64x64 --out " +
+                    (folder / "out ") + (folder / "auto.yaml"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const std::string choice = "auto chose none: nothing stands in a beam in any of 2 moments";
+    EXPECT_THAT(run.output, HasSubstr("Shadows where no method is named: " + choice));
+    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/accuracy/accuracy.schema.json")));
+    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    const json& drive = accuracy.at("drives").at(0);
+    EXPECT_EQ(drive.at("shadow_choice"), choice);
+    EXPECT_EQ(row_of(drive.at("configurations"), "photometric").at("shadows"), "none");
+    EXPECT_EQ(row_of(drive.at("configurations"), "photometric, shadows map").at("shadows"), "map");
+    ASSERT_EQ(accuracy.at("diagrams").size(), 2U);
+    for (const json& diagram : accuracy.at("diagrams")) {
+        EXPECT_EQ(row_of(diagram.at("rows"), "photometric, shadows none").at("parameters").at("shadows"), "none");
+        EXPECT_THAT(diagram.at("notes").dump(), HasSubstr("shadows where no method is named: none, the drive's own (" + choice));
+    }
+    EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr("Shadows where no method is named: " + choice));
+}
+
 TEST(AccuracyRun, ShadowMethodsStandBesideTheTechniques) {
     const TemporaryFolder folder;
     const Outcome run =
@@ -91,6 +119,9 @@ TEST(AccuracyRun, ShadowMethodsStandBesideTheTechniques) {
     const json& rows = accuracy.at("diagrams").at(0).at("rows");
     EXPECT_EQ(rows.size(), 1 + shadow_method_names().size()); // light-map-2d; photometric by the drive's own and each other method
     EXPECT_EQ(row_of(rows, "photometric, shadows none").at("parameters").at("shadows"), "none");
+    EXPECT_EQ(row_of(rows, "photometric, shadows map").at("parameters").at("shadows"), "map"); // the drive's own, named like the others
+    EXPECT_THAT(accuracy.at("diagrams").at(0).at("notes").dump(), HasSubstr("shadows where no method is named: map, the drive's own\""));
+    EXPECT_TRUE(accuracy.at("drives").at(0).at("shadow_choice").is_null());
     // Held against the light with shadows, in which light without any is too bright.
     const json& all = accuracy.at("drives").at(0).at("configurations");
     EXPECT_GT(row_of(all, "photometric, shadows none").at("whole_view").at("mean"),
