@@ -20,7 +20,8 @@ struct BenchFlags {
     std::filesystem::path drive = default_drive;
     std::string variant, resolution, backend = "auto", out;
     std::vector<std::string> techniques;
-    int frames = 8, rounds = 21;
+    std::optional<int> frames;
+    int rounds = 21;
     std::uint64_t seed = 1;
     bool quiet = false;
 };
@@ -58,7 +59,8 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--drive", flags->drive, "drive file (YAML) whose moments are drawn")->capture_default_str();
     sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
     sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);
-    sub->add_option("--frames", flags->frames, "moments, spread evenly over the drive")->capture_default_str();
+    sub->add_option("--frames", flags->frames,
+                    fmt::format("moments, spread evenly over the drive; else {}, or all that it has", usual_bench_moments));
     sub->add_option("--rounds", flags->rounds, "in each, every technique draws the moments once")->capture_default_str();
     sub->add_option("--seed", flags->seed, "of the order in each round")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))

@@ -163,7 +163,9 @@ BenchResult run_bench(const BenchRequest& request) {
     Stage stage(request.drive);
     const Variant& variant = variant_named(stage.drive, request.variant);
     const View& view = view_to_time(stage.drive);
-    const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
+    const int ticks = tick_count(stage.drive);
+    const std::vector<Moment> moments =
+        moments_at(ticks_over(ticks, request.moments.value_or(std::min(usual_bench_moments, ticks))), stage, variant);
     Device device = open_device(request.backend);
     check_sanity(device);
     choose_shadows(stage, device, {});

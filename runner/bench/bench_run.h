@@ -5,11 +5,14 @@
 
 namespace fernlicht {
 
+inline constexpr int usual_bench_moments = 8;
+
 struct BenchRequest {
     Drive drive;
     std::string variant;                 ///< "": the drive's first
     std::vector<std::string> techniques; ///< empty: all. The reference takes part in any case
-    int moments = 8, rounds = 21;
+    std::optional<int> moments;          ///< nullopt: usual_bench_moments, or all of a drive that has fewer
+    int rounds = 21;
     std::uint64_t seed = 1;
     std::string backend = "auto";
     std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane

@@ -91,6 +91,21 @@ TEST(BenchRun, RefusesWhatItCannotUseAndLeavesNoFolder) {
     }
 }
 
+/// Without --frames, a drive of fewer than eight moments is drawn at all that it has.
+TEST(BenchRun, TakesAllMomentsOfAShortDrive) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "short.yaml") << "fernlicht: 1\nroad: \"" << library_file("roads/straight.xodr")
+                                         << "\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 0.3\nvariants:\n  one: {file: \""
+                                         << library_file("lamps/halogen-low.ies") << "\"}\n";
+    const std::string bench_short =
+        "bench --quiet --rounds 1 --resolution 64x48 --techniques photometric --drive " + (folder / "short.yaml");
+    const Outcome run = run_program(bench_short + " --out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_EQ(json::parse(content_of(folder / "out/bench.json")).at("settings").at("moments").size(), 3U);
+    EXPECT_THAT(run_program(bench_short + " --frames 8 --out " + (folder / "again")).output,
+                HasSubstr("--frames: found 8, expected 1 to 3, the drive's moments"));
+}
+
 TEST(BenchRun, EndsAfterARoundWhenInterrupted) {
     const TemporaryFolder folder;
     const Outcome run =
