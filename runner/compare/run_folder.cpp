@@ -23,6 +23,14 @@ YamlValue only(const YamlValue& document, std::initializer_list<std::string_view
     return part;
 }
 
+/// Runs of older versions wrote an s, 1 or 20, that `linear` and `histogram` did not use either.
+void drop_unused_s(YamlValue& part) {
+    for (YamlMember& member : part.members)
+        if (const YamlValue* kind = member.key == "tone_mapper" ? member_of(member.value, "kind") : nullptr;
+            kind && (kind->text == "linear" || kind->text == "histogram"))
+            std::erase_if(member.value.members, [](const YamlMember& key) { return key.key == "s"; });
+}
+
 double grid_cell_m(const YamlValue& document, const fs::path& file, double otherwise) {
     const YamlValue* measure = member_of(document, "measure");
     const YamlValue* extent = measure ? member_of(*measure, "extent") : nullptr;
@@ -34,7 +42,8 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
     const fs::path file = folder / (file_name_of(drive.drive) + ".yaml");
     FilesRead ignored;
     drive.resolved = parse_yaml(read_file(file, ignored, most_bytes), file);
-    const YamlValue part = only(drive.resolved, {"views", "tone_mapper", "display", "speed", "step_s"});
+    YamlValue part = only(drive.resolved, {"views", "tone_mapper", "display", "speed", "step_s"});
+    drop_unused_s(part);
     const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "display", "speed", "step_s"});
     drive.views = read_views(keys, ignored);
     drive.tone_mapper = read_tone_mapper(keys);

@@ -6,6 +6,7 @@
 
 namespace fernlicht {
 
+/// `tone_mapper`: a kind, or a map with the keys that its kind uses.
 ToneMapper read_tone_mapper(const YamlMap& drive);
 /// `display`: a profile's file, or a map. `opened` gets the file.
 DisplaySettings read_display(const YamlMap& drive, FilesRead& opened);

@@ -115,6 +115,29 @@ TEST(DisplayRun, WhiteOfSurfacesClipsTheLightSources) {
     EXPECT_EQ(brightest(read_png(folder / "surfaces" + picture)), 255.0);
 }
 
+/// A curve has its own white, e^3 cd/m2; a plain word is that kind; a kind writes what it uses; and what is written is read to the same.
+TEST(DisplayRun, ResolvedToneMappersSayWhatTheyUseAndNoMore) {
+    const TemporaryFolder folder;
+    const auto written = [&](const std::string& name, const std::string& mapper) {
+        const std::string out = played(folder, name, "tone_mapper: " + mapper + "\n"), resolved = content_of(out + "/oncoming-1.yaml");
+        const std::size_t at = resolved.find("tone_mapper: ");
+        const std::string line = resolved.substr(at, resolved.find('\n', at) - at);
+        const std::string again = folder / (name + "-again");
+        EXPECT_LE(run_program("run " + out + "/oncoming-1.yaml" + few + "--out " + again).exit_code, 1);
+        EXPECT_THAT(content_of(again + "/oncoming-1.yaml"), testing::HasSubstr(line + "\n"));
+        EXPECT_EQ(content_of(again + picture), content_of(out + picture)) << mapper;
+        return line;
+    };
+    const std::string curve = written("curve", "{kind: histogram, curve: [[-4.6, -5.3], [0, -1.6], [3.0, 0]]}");
+    EXPECT_THAT(curve,
+                testing::StartsWith("tone_mapper: {kind: histogram, l_max_cdm2: 20.085536923187668, curve: [[-4.6, -5.3], [0, -1.6], ["));
+    EXPECT_THAT(read_png_tags(folder / "curve" + picture).shown_by, testing::HasSubstr(" white=20.0855 cd/m2"));
+    EXPECT_THAT(written("rounded", "{kind: histogram, l_max_cdm2: 100, curve: [[-4.6, -5.3], [0, -1.6], [4.605, 0]]}"),
+                testing::HasSubstr("l_max_cdm2: 100, curve: [[-4.6, -5.3], [0, -1.6], [4.605170"));
+    EXPECT_EQ(written("linear", "linear"), "tone_mapper: {kind: linear, l_max_cdm2: 100}");
+    EXPECT_EQ(written("word", "logarithmic"), "tone_mapper: {kind: logarithmic, s: 20, l_max_cdm2: 100}");
+}
+
 TEST(DisplayRun, VeilAndWindscreenDoWhatTheySay) {
     const TemporaryFolder folder;
     const auto mean = [&](const std::string& name, const std::string& lines) {
@@ -266,7 +289,18 @@ TEST(DisplayRun, RefusalsAreASentence) {
         EXPECT_EQ(run.exit_code, 2) << run.output;
         return run.output;
     };
-    EXPECT_THAT(refused("tone_mapper: {kind: linear, s: fitted}\n"), testing::HasSubstr("only `kind: rational`"));
+    EXPECT_THAT(refused("tone_mapper: {kind: linear, s: fitted}\n"),
+                testing::HasSubstr("tone_mapper.s: a key that kind 'linear' does not use, expected none but kind, l_max_cdm2"));
+    EXPECT_THAT(refused("tone_mapper: {kind: histogram, s: 20}\n"),
+                testing::HasSubstr("tone_mapper.s: a key that kind 'histogram' does not use, expected none but kind, l_max_cdm2, curve"));
+    EXPECT_THAT(refused("tone_mapper: {kind: logarithmic, s: fitted}\n"), testing::HasSubstr("only `kind: rational`"));
+    EXPECT_THAT(refused("tone_mapper: histogramm\n"), testing::HasSubstr("(nearest: 'histogram')"));
+    EXPECT_THAT(refused("tone_mapper: [histogram]\n"), testing::HasSubstr("expected linear, rational, logarithmic, histogram, or a map"));
+    EXPECT_THAT(refused("tone_mapper: {kind: histogram, l_max_cdm2: 100, curve: [[-4.6, -5.3], [0, -1.6], [3.0, 0]]}\n"),
+                testing::HasSubstr("tone_mapper.l_max_cdm2: 100 as white, expected the luminance of the curve's last knot, exp(3) = "
+                                   "20.09 cd/m2, within 1 %, or no l_max_cdm2"));
+    EXPECT_THAT(refused("tone_mapper: {kind: histogram, l_max_cdm2: all, curve: [[-4.6, -5.3], [3.0, 0]]}\n"),
+                testing::HasSubstr("all as white"));
     EXPECT_THAT(refused("tone_mapper: {s: fitted}\ntechnique: full\n"), testing::HasSubstr("computes no luminance"));
     EXPECT_THAT(refused("tone_mapper: {s: fit}\n"), testing::HasSubstr("tone_mapper.s: found 'fit', expected a number from 1 to 1e+06, or, "
                                                                        "with `kind: rational`, `fitted`"));

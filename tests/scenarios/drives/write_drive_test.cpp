@@ -169,7 +169,11 @@ class AnyDrive {
         for (int i = 0; i <= whole(0, 6); ++i)
             drive.views.push_back(coin() ? camera(i) : map(i));
         drive.capture = {number(0.0, 10.0), coin(), coin(), coin()};
-        drive.tone_mapper = {coin() ? ToneMapperKind::logarithmic : ToneMapperKind::linear, number(1.0, 99.0), number(0.1, 1e4), {}};
+        const bool logarithmic = coin(); // linear has no s
+        drive.tone_mapper = {logarithmic ? ToneMapperKind::logarithmic : ToneMapperKind::linear,
+                             logarithmic ? number(1.0, 99.0) : ToneMapper{}.s,
+                             number(0.1, 1e4),
+                             {}};
         drive.technique = name();
         if (coin())
             drive.extent =
