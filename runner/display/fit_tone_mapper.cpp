@@ -76,10 +76,16 @@ void fit_tone_mapper(Stage& stage, Device& device, const RendererSettings& setti
     }
     mapper.white = WhitePoint::given;
     mapper.fitted_s = false;
-    stage.drive.notes.push_back(fmt::format(
-        "tone mapper fitted to {} moments of each lamp set ({} to {:.3g} cd/m2, log-mean {:.3g}): {}, white {:.4g} cd/m2{}",
-        spread_ticks(tick_count(stage.drive)).size(), "0", luminances.all.most_cdm2(), luminances.all.log_mean_cdm2(), name(mapper.kind),
-        mapper.l_max_cdm2, mapper.kind == ToneMapperKind::rational ? fmt::format(", s {:.4g}", mapper.s) : std::string()));
+    const std::size_t count = spread_ticks(tick_count(stage.drive)).size();
+    const std::string moments = count == 1 ? "1 moment" : fmt::format("{} moments", count);
+    const std::string result = fmt::format("{}, white {:.4g} cd/m2{}", name(mapper.kind), mapper.l_max_cdm2,
+                                           mapper.kind == ToneMapperKind::rational ? fmt::format(", s {:.4g}", mapper.s) : "");
+    const double log_mean_cdm2 = luminances.all.log_mean_cdm2();
+    stage.drive.notes.push_back(
+        log_mean_cdm2 == 0.0
+            ? fmt::format("tone mapper: nothing to fit to, as {} of each lamp set had no light (above 1e-6 cd/m2): {}", moments, result)
+            : fmt::format("tone mapper fitted to {} of each lamp set (0 to {:.3g} cd/m2, log-mean {:.3g}): {}", moments,
+                          luminances.all.most_cdm2(), log_mean_cdm2, result));
 }
 
 void refuse_open_tone_mapper(const Drive& drive) {
