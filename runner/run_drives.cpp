@@ -9,6 +9,7 @@
 #include "runner/control/bus_report.h"
 #include "runner/control/signals_csv.h"
 #include "runner/display/display_sheet.h"
+#include "runner/display/display_warnings.h"
 #include "runner/display/fit_tone_mapper.h"
 #include "runner/interruption.h"
 #include "runner/limits.h"
@@ -296,6 +297,14 @@ void note_shadows(const std::vector<Drive>& drives, Report& report) {
     }
 }
 
+/// So that nobody takes what a display hides for what lamps do not light.
+void note_displays(const std::vector<Drive>& drives, Report& report) {
+    for (const Drive& drive : drives)
+        if (drive.display.profile)
+            for (const std::string& warning : display_warnings(*drive.display.profile))
+                report.warnings.push_back(fmt::format("{}: {}", drive.name, warning));
+}
+
 /// So that nobody takes what policies made up for what a car said.
 void note_buses(const std::deque<Stage>& stages, Report& report) {
     for (const Stage& stage : stages)
@@ -348,12 +357,14 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
         note_parts(stages, options.ticks, report);
         note_buses(stages, report);
         note_shadows(drives, report);
+        note_displays(drives, report);
         write_report(report, options.folder);
         throw;
     }
     note_parts(stages, options.ticks, report);
     note_buses(stages, report);
     note_shadows(drives, report);
+    note_displays(drives, report);
     write_report(report, options.folder);
     if (report.complete)
         folder.finish();

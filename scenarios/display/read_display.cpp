@@ -30,13 +30,20 @@ glm::dvec2 read_chromaticity(const YamlMap& primaries, const char* key) {
     return {xy[0], xy[1]};
 }
 
+double read_peak(const YamlEntry& entry, double black_cdm2) {
+    const double peak_cdm2 = entry.number_above(0.0, most_cdm2);
+    if (!(peak_cdm2 > black_cdm2))
+        entry.refuse(fmt::format("a peak of {:g} cd/m2 with black_cdm2: {:g}", peak_cdm2, black_cdm2), "more than black_cdm2");
+    return peak_cdm2;
+}
+
 /// Light of full red, green and blue, from the matrix or the primaries; luminances as the file has them or, with `white_cdm2`, scaled.
 glm::dmat3 read_light(const YamlMap& keys, double black_cdm2) {
     const auto given = keys.one_of({"rgb_to_xyz", "primaries"});
     if (!given)
         keys.refuse_missing("rgb_to_xyz", "a matrix of three rows X, Y, Z, or `primaries`");
     const auto peak = keys.find("peak_cdm2");
-    const double peak_cdm2 = peak ? peak->number_above(black_cdm2, most_cdm2) : 0.0;
+    const double peak_cdm2 = peak ? read_peak(*peak, black_cdm2) : 0.0;
     if (given->first == "primaries") {
         const YamlMap primaries = given->second.map({"red", "green", "blue", "white"});
         if (const auto unit = keys.find("unit"))
