@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 namespace fernlicht {
 namespace {
@@ -68,25 +69,28 @@ DisplaySheet display_sheet(const Stage& stage, const Variant& variant, const Mom
     add("histogram adjustment", histogram_mapper(all, brightest, 1.0e-3));
     add("rational", mapper(ToneMapperKind::rational, 20.0, 100.0));
     add("rational, fitted", mapper(ToneMapperKind::rational, fitted_s(all.log_mean_cdm2(), brightest_surface, 0.18), brightest_surface));
-    const auto add_eye = [&](const char* name, const char* words, const DisplaySettings& display) {
+    const auto add_eye = [&](const char* name, const std::string& words, const DisplaySettings& display) {
         sheet.eyes.push_back({name, words, shown_tile(frame.light, view, display, stage.drive.tone_mapper)});
     };
-    DisplaySettings windscreen, young, old, night;
+    const double pixel_arcmin = 60.0 * glm::degrees(2.0 * std::atan(std::tan(0.5 * view.vertical_fov_rad) / view.height_px));
+    DisplaySettings windscreen, young, old, colours, sharpness;
     windscreen.windscreen = Windscreen{0.75, 0.03};
     young.veil = EyeVeil{25.0, 0.5};
     old.veil = EyeVeil{75.0, 0.5};
-    night.night_colours = night.night_sharpness = true;
+    colours.night_colours = sharpness.night_sharpness = true;
     add_eye("as it is", "the drive's own tone mapper, as in all of this row", {});
     add_eye("windscreen", "transmittance 0.75, haze 3 %: a worn one", windscreen);
     add_eye("veil, 25 years", "the CIE's general glare equation", young);
     add_eye("veil, 75 years", "the same eye later", old);
-    add_eye("colours and sharpness at night", "what cones leave to rods", night);
+    add_eye("colours at night", "CIE 191: what cones leave to rods is grey", colours);
+    add_eye("sharpness at night", fmt::format("what the eye resolves; a pixel here spans {:.1f}′", pixel_arcmin), sharpness);
     return sheet;
 }
 
 std::string display_sheet_svg(const DisplaySheet& sheet) {
     const std::string where = fmt::format(
-        "{}, {}: after {:.2f} s, {:.1f} m along the route; keeps: of a small contrast at 0.1, 1 and 10 cd/m2",
+        "{}, {}: after {:.2f} s, {:.1f} m along the route; keeps: of a small contrast at 0.1, 1 and 10 cd/m2; colours that "
+        "sRGB does not hold keep their luminance, here and below",
         short_text(sheet.title.empty() ? sheet.drive : sheet.title, 60), short_text(sheet.variant, 40), sheet.time_s, sheet.distance_m);
     return tile_sheet_svg("Contact sheet of tone mappers and eyes", {{"One moment through every tone mapper", where, sheet.mappers},
                                                                      {"Through windscreen and eye", "each stage alone", sheet.eyes}});
