@@ -11,8 +11,7 @@
 namespace fernlicht {
 
 DisplayStep::DisplayStep(const Drive& drive)
-    : drive_(drive), after_drawing_(drive.display.after_drawing() || drive.tone_mapper.kind == ToneMapperKind::histogram),
-      written_(std::make_shared<Written>()) {
+    : drive_(drive), after_drawing_(is_shown_after_drawing(drive.display, drive.tone_mapper)), written_(std::make_shared<Written>()) {
     if (const auto& adaptation = drive.display.adaptation)
         adapted_.emplace(adaptation->brighter_s, adaptation->darker_s);
     if (drive.display.profile && !is_srgb(*drive.display.profile))

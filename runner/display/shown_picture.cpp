@@ -54,6 +54,10 @@ ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const 
     return shown;
 }
 
+bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& mapper) {
+    return display.after_drawing() || mapper.kind == ToneMapperKind::histogram;
+}
+
 std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
     std::string text = std::string(name(mapper.kind));
     if (mapper.kind == ToneMapperKind::rational || mapper.kind == ToneMapperKind::logarithmic)
@@ -61,6 +65,8 @@ std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
     if (mapper.kind == ToneMapperKind::histogram)
         text += fmt::format(" curve={}", content_hash(mapper.curve.data(), mapper.curve.size() * sizeof(ToneKnot)).substr(0, 8));
     text += fmt::format(" white={:.6g} cd/m2; display {}", mapper.l_max_cdm2, display.profile ? display.profile->name : "srgb");
+    if (!display.profile && is_shown_after_drawing(display, mapper))
+        text += ", luminance kept";
     if (display.profile) {
         const std::string profile = write_display_profile(*display.profile);
         text += fmt::format(" ({})", content_hash(profile.data(), profile.size()).substr(0, 8));

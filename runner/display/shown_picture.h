@@ -23,7 +23,11 @@ struct ShownPicture {
 /// profile: sRGB.
 ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper);
 
-/// What pictures were shown by, in one line: "rational s=20 white=100 cd/m2; display srgb". Pictures with different lines have no common
+/// Whether pictures are made of coloured light by `show`, and not by the drawing itself, which clips each channel and has no curves.
+bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& mapper);
+
+/// What pictures were shown by, in one line: "rational s=20 white=100 cd/m2; display srgb" as drawn, "...; display srgb, luminance kept"
+/// where they are shown after drawing without a profile, whose own rule is part of its hash. Pictures with different lines have no common
 /// scale.
 std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper);
 

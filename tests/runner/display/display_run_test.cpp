@@ -201,9 +201,14 @@ TEST(DisplayRun, PicturesWithoutACommonScaleAreNotCompared) {
     eye.veil->pigmentation = 1.2;
     const Outcome eyes = run_program("compare " + dark + " " + stored("light", eye, {}));
     EXPECT_EQ(eyes.exit_code, 2);
-    EXPECT_THAT(eyes.output, testing::AllOf(testing::HasSubstr("eye of 60 years, pigmentation 1.2'"),
-                                            testing::HasSubstr("expected 'rational s=20 white=100 cd/m2; display srgb; eye of 60 years, "
-                                                               "pigmentation 0'")));
+    EXPECT_THAT(eyes.output,
+                testing::AllOf(testing::HasSubstr("eye of 60 years, pigmentation 1.2'"),
+                               testing::HasSubstr("expected 'rational s=20 white=100 cd/m2; display srgb, luminance kept; eye of 60 years, "
+                                                  "pigmentation 0'")));
+    // The same tone mapper and display, each channel clipped as drawn and with luminance kept.
+    DisplaySettings clear;
+    clear.windscreen = Windscreen{1.0, 0.0};
+    EXPECT_THAT(compared(stored("kept", clear, {})), testing::HasSubstr("display srgb, luminance kept; windscreen 1 haze 0'"));
     write_png(Image<Rgb8>(16, 16), {shown_by(projector, {}), icc_profile(*projector.profile)}, folder / "icc.png");
     const Outcome same = run_program("compare " + (folder / "icc.png") + " " + (folder / "icc.png"));
     EXPECT_EQ(same.exit_code, 2);
@@ -271,6 +276,46 @@ TEST(DisplayRun, TheReportSaysHowLargePicturesAreSeen) {
     EXPECT_THAT(content_of(unknown + "/report.html"), testing::Not(testing::HasSubstr("How the pictures are seen")));
 }
 
+/// Profiles that are no mistake, and make pictures that nobody would want.
+TEST(DisplayRun, DisplaysThatHideWhatWasDrawnAreWarnedOf) {
+    const TemporaryFolder folder;
+    int runs = 0;
+    const auto warnings = [&](const std::string& name, const std::string& from, const std::string& to) {
+        std::string profile = content_of(library_file("displays/" + name + ".yaml"));
+        if (!from.empty())
+            profile.replace(profile.find(from), from.size(), to);
+        std::ofstream(folder / "display.yaml") << profile;
+        const json report = json::parse(
+            content_of(played(folder, "r" + std::to_string(++runs), "display: " + (folder / "display.yaml") + "\n") + "/report.json"));
+        std::string all;
+        for (const json& warning : report.at("warnings"))
+            all += warning.get<std::string>() + "\n";
+        return all;
+    };
+    EXPECT_THAT(
+        warnings("projector", "black_cdm2: 0.12", "black_cdm2: 60"),
+        testing::HasSubstr("oncoming-1: display 'display' has a contrast of 2 : 1 (peak 120 cd/m2, black 60 cd/m2), less than the 3 : 1"));
+    EXPECT_THAT(warnings("projector", "black_cdm2: 0.12", "black_cdm2: 39"), testing::Not(testing::HasSubstr("contrast")));
+    // ST 2084: from 1 cd/m2 to the code of 8 bits above it, 7.92 %.
+    EXPECT_THAT(warnings("hdr-monitor", "bits: 16", "bits: 8"),
+                testing::HasSubstr("transfer: pq in 8 bits, where ITU-R BT.2100 has 10 or 12: its codes are 7.9 % of luminance apart"));
+    EXPECT_THAT(warnings("hdr-monitor", "", ""), testing::Not(testing::HasSubstr("display '")));
+}
+
+/// Nothing shines: what was to be fitted is said not to be.
+TEST(DisplayRun, AToneMapperIsNotSaidToBeFittedToTheDark) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "off.yaml")
+        << "fernlicht: 1\nname: off\nspeed_kmh: 60\nduration_s: 0.4\nroad: " << library_file("roads/straight.xodr")
+        << "\nvariants: {off: {level: 0, file: " << library_file("lamps/halogen-low.ies")
+        << "}}\nviews: {driver: {resolution_px: [32, 24]}}\nmeasure: {extent: false}\ntone_mapper: histogram\n";
+    const Outcome run = run_program("run " + (folder / "off.yaml") + " --quiet --no-accuracy --backend osmesa --out " + (folder / "out"));
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    const std::string report = content_of(folder / "out/report.json");
+    EXPECT_THAT(report, testing::ContainsRegex("tone mapper: nothing to fit to, as [0-9]+ moments of each lamp set had no light"));
+    EXPECT_THAT(report, testing::Not(testing::HasSubstr("tone mapper fitted")));
+}
+
 TEST(DisplayRun, WhatFitsNothingRefusesAMapperThatIsToBeFitted) {
     const TemporaryFolder folder;
     const std::string drive = drive_with(folder, "open", "tone_mapper: {kind: histogram, l_max_cdm2: all}\n");
@@ -308,6 +353,11 @@ TEST(DisplayRun, RefusalsAreASentence) {
                 testing::AllOf(testing::HasSubstr("tone_mapper.l_max_cdm2: found 'none'"), testing::HasSubstr("`all`"),
                                testing::HasSubstr("`surfaces`")));
     EXPECT_THAT(refused("tone_mapper: {l_max_cdm2: [1]}\n"), testing::HasSubstr("`surfaces`"));
+    std::string black = content_of(library_file("displays/projector.yaml"));
+    black.replace(black.find("black_cdm2: 0.12"), 16, "black_cdm2: 120");
+    std::ofstream(folder / "black.yaml") << black;
+    EXPECT_THAT(refused("display: " + (folder / "black.yaml") + "\n"),
+                testing::HasSubstr("peak_cdm2: a peak of 120 cd/m2 with black_cdm2: 120, expected more than black_cdm2"));
     EXPECT_THAT(refused("display: nowhere.yaml\n"), testing::HasSubstr("nowhere.yaml"));
     EXPECT_THAT(refused("display: {eye: {age: 3}}\n"), testing::HasSubstr("display.eye"));
     EXPECT_THAT(refused("display: {windscreen: {haze: 0.5}}\n"), testing::HasSubstr("0.3"));
