@@ -208,6 +208,13 @@ TEST_F(RunCompare, WhatDoesNotBelongTogetherIsLeftOutAndNamed) {
         EXPECT_THAT(frame.at("new_file").get<std::string>(), HasSubstr(".exr"));
 }
 
+TEST_F(RunCompare, RunsOfOlderVersionsMayHaveAnSThatTheirToneMapperDoesNotUse) {
+    play("linear", edited("halogen", "{kind: rational, s: 20, ", "{kind: linear, "), "", "--frames 0:1");
+    std::filesystem::rename(edited("linear", "{kind: linear, ", "{kind: linear, s: 1, "), at("linear/straight-1.yaml"));
+    const Outcome run = compare("linear", "linear");
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+}
+
 TEST_F(RunCompare, TechniquesThatComputeOtherThingsAreComparedInWhatBothHave) {
     const Outcome run = run_program("run " + library_file("drives/straight.yaml") + " --lamp " + library_file("lamps/halogen-low.ies") +
                                     " --technique full --resolution 96x72 --frames 0:5 --no-accuracy --quiet --out " + at("full"));
