@@ -1,6 +1,7 @@
 #include "runner/preparation.h"
 
 #include "renderer/timer_check.h"
+#include "runner/display/display_step.h"
 #include "scenarios/drives/advance.h"
 
 #include <algorithm>
@@ -31,10 +32,11 @@ RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
 
 std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive) {
     std::vector<std::pair<View, Wanted>> pictures;
+    const DisplayStep display(drive);
     for (const View& view : drive.views)
-        pictures.emplace_back(view, stored_results(view, drive.capture));
+        pictures.emplace_back(view, display.with_light(stored_results(view, drive.capture), view, true, false));
     if (!drive.views.empty())
-        pictures.emplace_back(drive.views.front(), Wanted{.colour = true});
+        pictures.emplace_back(drive.views.front(), display.with_light({.colour = true}, drive.views.front(), false, true));
     View map;
     map.projection = Projection::map;
     map.map_ahead_m = map.map_left_m = map.map_right_m = 1.0;

@@ -80,6 +80,7 @@ TEST(DisplayRun, PicturesSayWhatTheyWereShownBy) {
                 testing::MatchesRegex("linear white=50 cd/m2; display projector \\([0-9a-f]*\\); windscreen 0.75 haze "
                                       "0.02; eye of 60 years, pigmentation 0.5; colours at night; sharpness at night"));
     const json report = json::parse(content_of(out + "/report.json"));
+    EXPECT_THAT(content_of(out + "/report.json"), testing::Not(testing::HasSubstr("compiled during the drive")));
     std::vector<std::string> passes;
     for (const json& row : report.at("timing"))
         passes.push_back(row.at("pass").get<std::string>());
@@ -156,6 +157,7 @@ TEST(DisplayRun, AdaptationNeedsNoMoreThanItsPictures) {
     const TemporaryFolder folder;
     const std::string out = played(folder, "adapting", "display: {adaptation: {brighter_s: 0.05, darker_s: 0.05}}\n");
     EXPECT_THAT(read_png_tags(out + picture).shown_by, testing::EndsWith("; adapting"));
+    EXPECT_THAT(content_of(out + "/report.json"), testing::Not(testing::HasSubstr("compiled during the drive")));
     EXPECT_THAT(read_png_tags(out + "/frames/oncoming-1-halogen/driver-000020.png").shown_by, testing::HasSubstr("white=100 cd/m2"));
     EXPECT_THAT(read_png_tags(out + picture).shown_by, testing::Not(testing::HasSubstr("white=100 cd/m2")));
 }
