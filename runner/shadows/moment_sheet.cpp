@@ -27,8 +27,9 @@ ShadowSceneResult shadow_moment(const Stage& stage, const Variant& variant, cons
     ShadowTruth truth(rays, unshadowed, moments, view);
     result.whole_view = true;
     result.degree = true_degrees(truth.of(0));
-    result.luminance_cdm2 = shaded_by_rays(unshadowed.draw(moment, view, {.luminance = true}).luminance_cdm2, result.degree);
-    result.white_cdm2 = white_of_ground(result.luminance_cdm2, truth.of(0).ids, stage.scene);
+    const Image<float> free = unshadowed.draw(moment, view, {.luminance = true}).luminance_cdm2;
+    result.luminance_cdm2 = shaded_by_rays(free, result.degree);
+    result.white_cdm2 = white_of_ground(free, truth.of(0).ids, stage.scene);
     for (const ShadowMethodName& one : shadow_method_names()) {
         ShadowRow row;
         row.method = one.method;

@@ -293,10 +293,11 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
     SceneTruth truth(scene, device, options);
     result.shown = truth.shown;
     const ShadowTruth::Found& rays = truth.picture.of(truth.shown);
-    const Image<float> free = truth.unshadowed.draw(scene.moments[truth.shown], truth.picture.view(), {.luminance = true}).luminance_cdm2;
+    const Image<float> free =
+        truth.part.of(truth.unshadowed.draw(scene.moments[truth.shown], truth.picture.view(), {.luminance = true}).luminance_cdm2);
     result.degree = truth.part.of(true_degrees(rays));
-    result.luminance_cdm2 = shaded_by_rays(truth.part.of(free), result.degree);
-    result.white_cdm2 = white_of_ground(result.luminance_cdm2, truth.part.of(rays.ids), *scene.scene);
+    result.luminance_cdm2 = shaded_by_rays(free, result.degree);
+    result.white_cdm2 = white_of_ground(free, truth.part.of(rays.ids), *scene.scene);
     step();
     for (const ShadowMethod method : options.methods) {
         if (stop())

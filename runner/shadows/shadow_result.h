@@ -50,7 +50,7 @@ struct ShadowSceneResult {
     std::vector<ShadowRow> rows;
     bool whole_view = false;             ///< what is shown of it: all, or half of it each way, about its shadows
     Image<float> luminance_cdm2, degree; ///< of the moment shown: shaded_by_rays(); degree of shadow by rays, below 0 where none counts
-    double white_cdm2 = 1.0;             ///< white_of_ground()
+    double white_cdm2 = 1.0;             ///< white_of_ground() without shadows
 };
 
 struct ShadowResult {

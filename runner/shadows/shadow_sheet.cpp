@@ -66,9 +66,10 @@ std::string shadow_sheet_svg(const ShadowSceneResult& scene) {
     const double white = scene.white_cdm2;
     TileSection seen{
         short_text(scene.title, 90),
-        fmt::format("{}: luminance, white is {} cd/m2, which one in a hundred of the ground's pixels exceeds; by rays: as drawn "
-                    "without shadows, times the rays' share of the light",
-                    scene.whole_view ? "the whole view" : "a quarter of the view, about its shadows", shadow_figure(white, 1e-4)),
+        fmt::format(
+            "{}: luminance, white is {} cd/m2, which one in a hundred of the ground's pixels exceeds without shadows; by rays: as drawn "
+            "without shadows, times the rays' share of the light",
+            scene.whole_view ? "the whole view" : "a quarter of the view, about its shadows", shadow_figure(white, 1e-4)),
         {{"by rays", "the truth that methods are held against", seen_picture(scene.luminance_cdm2, white)}}};
     TileSection wrong{"Where shadows are wrong",
                       "orange: wrongly lit; blue: wrongly dark, against rays from pixels' centres; grey: below the floor without shadows, "
