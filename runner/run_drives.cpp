@@ -98,6 +98,11 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     if (const long long kept = (maps.used - maps_before.used) - (maps.drawn - maps_before.drawn); kept > 0)
         played.left_out.push_back(fmt::format("drawing {} of the {} shadow maps that pictures looked up: they stood from a picture before",
                                               kept, maps.used - maps_before.used));
+    else if (const double bound = stage.drive.shadows.redraw_texels; bound > 0.0 && maps.used > maps_before.used)
+        played.notes.push_back(
+            fmt::format("shadows: redraw_texels {:g}: none of the {} shadow maps that pictures looked up stood, as edges "
+                        "moved by more from each picture to the next",
+                        bound, maps.used - maps_before.used));
     std::ranges::copy(notes_for(stage, variant, renderer), std::back_inserter(played.notes));
     std::ranges::copy(summarise(played, stage.drive), std::back_inserter(played.readings));
     Readings judged = played.readings;

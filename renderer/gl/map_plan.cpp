@@ -50,7 +50,7 @@ double edge_shift(const MapPlan& then, const MapPlan& now) {
     for (const Caster& body : now.bodies) {
         // (X - m_x) / (Z - m_z) - X / Z = (X / Z * m_z - m_x) / (Z - m_z), and so for Y
         const double nearest = body.nearest_m - m.z;
-        if (body.around || nearest <= 0.0)
+        if (nearest <= 0.0)
             return unknown;
         const double aside = std::max(std::abs(body.left), std::abs(body.right)),
                      above = std::max(std::abs(body.bottom), std::abs(body.top));

@@ -146,7 +146,7 @@ bool ProjectedMaps::stands(const Kept& kept, const MapPlan& plan, const LampCast
             const Caster& c = plan.bodies[body];
             const double widest = std::max({std::abs(c.left), std::abs(c.right), std::abs(c.bottom), std::abs(c.top)});
             if (by > 0.0)
-                moved = std::max(moved, c.around || c.nearest_m <= by ? 2.0 * bound + 1.0 : by * (1.0 + widest) / (c.nearest_m - by));
+                moved = std::max(moved, c.nearest_m <= by ? 2.0 * bound + 1.0 : by * (1.0 + widest) / (c.nearest_m - by));
         }
     }
     return turned <= bound && edge_shift(kept.plan, plan) + moved <= bound;

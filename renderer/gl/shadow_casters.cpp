@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 namespace fernlicht::gl {
 namespace {
@@ -37,6 +39,33 @@ Caster caster_of(const Corners& box, double margin) {
         caster.nearest_m = std::min(caster.nearest_m, corner.z - margin_m);
     }
     return caster;
+}
+
+double begins_in_window(const std::vector<glm::dvec3>& triangles, const ShadowWindow& w) {
+    const std::array<glm::dvec4, 5> inside{glm::dvec4(0.0, 0.0, 1.0, -shadow_near_m), glm::dvec4(1.0, 0.0, -w.left, 0.0),
+                                           glm::dvec4(-1.0, 0.0, w.right, 0.0), glm::dvec4(0.0, 1.0, -w.bottom, 0.0),
+                                           glm::dvec4(0.0, -1.0, w.top, 0.0)};
+    double nearest = std::numeric_limits<double>::infinity();
+    std::vector<glm::dvec3> polygon, cut;
+    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+        polygon.assign({triangles[i], triangles[i + 1], triangles[i + 2]});
+        for (const glm::dvec4& plane : inside) {
+            const auto above = [&](const glm::dvec3& p) { return glm::dot(glm::dvec3(plane), p) + plane.w; };
+            cut.clear();
+            for (std::size_t k = 0; k < polygon.size(); ++k) {
+                const glm::dvec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+                const double at_a = above(a), at_b = above(b);
+                if (at_a >= 0.0)
+                    cut.push_back(a);
+                if ((at_a >= 0.0) != (at_b >= 0.0))
+                    cut.push_back(a + (b - a) * (at_a / (at_a - at_b)));
+            }
+            std::swap(polygon, cut);
+        }
+        for (const glm::dvec3& p : polygon)
+            nearest = std::min(nearest, p.z);
+    }
+    return nearest;
 }
 
 // The part of the box that lies beyond the caster's front against the frustum behind the caster: apart, where all of it is on the far side
@@ -89,6 +118,9 @@ bool faces_lamp(const SceneBuffers& scene, const Piece& piece, const glm::dvec3&
 void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
     ego_m_ = ego_m;
     lamps_.clear();
+    constexpr std::size_t most_read = 4096;
+    if (corners_.size() > most_read) // a long drive passes many
+        corners_.clear();
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         LampCasters found;
         found.lamp = lamps[i];
@@ -114,11 +146,37 @@ void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<con
     }
 }
 
-void ShadowCasters::add_bodies(LampCasters& found) const {
-    for (const std::uint32_t k : found.pieces)
-        for (const Corners& body : scene_.pieces()[k].bodies_m)
-            found.bodies.push_back(caster_of(in_lamp_space(found.lamp, scene_.pieces()[k].origin_m - ego_m_ - found.lamp_m, body),
-                                             caster_margin_texels * texel_tangent(found.window, settings_)));
+double ShadowCasters::begins_in(const LampCasters& lamp, std::uint32_t piece, const ShadowWindow& window) {
+    const Piece& of = scene_.pieces()[piece];
+    auto known = corners_.find(piece);
+    if (known == corners_.end())
+        known = corners_.emplace(piece, scene_.corners_of(of)).first;
+    const glm::dquat turn(static_cast<double>(of.turn.w), static_cast<double>(of.turn.x), static_cast<double>(of.turn.y),
+                          static_cast<double>(of.turn.z));
+    std::vector<glm::dvec3> triangles;
+    for (const glm::vec3& corner : known->second)
+        triangles.push_back(to_lamp_space(lamp.lamp, of.origin_m - ego_m_ - lamp.lamp_m + turn * glm::dvec3(corner)));
+    return begins_in_window(triangles, window);
+}
+
+/// Bodies beside and behind the lamp have the window's tangents, and begin where they do in the window: what a map may be kept for.
+void ShadowCasters::add_bodies(LampCasters& found) {
+    const double margin = caster_margin_texels * texel_tangent(found.window, settings_),
+                 more = margin + 2.0 * settings_.redraw_texels * texel_tangent(found.window, settings_);
+    const ShadowWindow window{found.window.left - more, found.window.right + more, found.window.bottom - more, found.window.top + more};
+    for (const std::uint32_t k : found.pieces) {
+        std::optional<double> begins_m;
+        for (const Corners& body : scene_.pieces()[k].bodies_m) {
+            const glm::dvec3 offset = scene_.pieces()[k].origin_m - ego_m_ - found.lamp_m;
+            Caster caster = caster_of(in_lamp_space(found.lamp, offset, body), margin);
+            if (caster.around && settings_.redraw_texels > 0.0) {
+                if (!begins_m)
+                    begins_m = begins_in(found, k, window);
+                caster = {window.left, window.right, window.bottom, window.top, *begins_m - margin_m, true};
+            }
+            found.bodies.push_back(caster);
+        }
+    }
 }
 
 void ShadowCasters::merge(const LitLamp& lamp, const ShadowWindow& window) {

@@ -8,6 +8,8 @@
 #include "renderer/gl/scene_buffers.h"
 #include "scenarios/drives/shadow_settings.h"
 
+#include <map>
+
 namespace fernlicht::gl {
 
 inline constexpr double shadow_near_m = 0.05;
@@ -28,13 +30,16 @@ double texel_tangent(const ShadowWindow& window, const ShadowSettings& settings)
 struct Caster {
     double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
     double nearest_m = 0.0; ///< along the lamp's axis
-    bool around = false;    ///< some of it lies beside or behind the lamp: no tangents
+    bool around = false;    ///< some of it lies beside or behind the lamp: no tangents of its own
 };
 /// Boxes in lamp space. `margin`: added to the tangents.
 Corners in_lamp_space(const LitLamp& lamp, const glm::dvec3& offset_from_lamp, const Corners& corners);
 Caster caster_of(const Corners& box, double margin);
 /// Whether the caster's shadow may fall on the box, or so far beside it. Errs towards yes.
 bool shades(const Caster& caster, const Corners& box, double slack_m = shadow_slack_m);
+/// Where what of these triangles, three places each in lamp space, lies in the window begins, along the lamp's axis; infinite where
+/// nothing does.
+double begins_in_window(const std::vector<glm::dvec3>& triangles, const ShadowWindow& window);
 /// In texels of the map, for look-ups raised by 1.5: they take texels up to 1 away.
 inline constexpr double caster_margin_texels = 2.6;
 
@@ -70,12 +75,14 @@ class ShadowCasters {
     bool reach(const Piece& piece, double raised_m) const;
 
   private:
-    void add_bodies(LampCasters& found) const;
+    void add_bodies(LampCasters& found);
+    double begins_in(const LampCasters& lamp, std::uint32_t piece, const ShadowWindow& window);
 
     const SceneBuffers& scene_;
     ShadowSettings settings_;
     std::vector<LampCasters> lamps_;
     glm::dvec3 ego_m_{0.0};
+    std::map<std::uint32_t, std::vector<glm::vec3>> corners_; ///< of pieces about the lamps
 };
 
 } // namespace fernlicht::gl

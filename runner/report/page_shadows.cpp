@@ -27,6 +27,8 @@ kainjow::mustache::data shadows_part(const ComparedDrive& drive) {
         row.set("error", figure(100.0 * tried.error.value_or(0.0), 2));
         row.set("time", figure(tried.worst_s, 2));
         row.set("lamp", short_text(tried.worst_set, 40));
+        row.set("view", short_text(tried.worst_view, 40));
+        row.set("pictures", fmt::format("{}", tried.pictures));
         row.set("refused", clean_text(tried.refused));
         rows.push_back(row);
     }

@@ -245,6 +245,8 @@ Json shadow_choice_json(const ShadowChoice& choice) {
             row["error"] = finite(*one.error, "shadow error");
             row["worst_s"] = finite(one.worst_s, "time");
             row["worst_variant"] = one.worst_set;
+            row["worst_view"] = one.worst_view;
+            row["pictures"] = one.pictures;
         } else {
             row["refused"] = one.refused;
         }

@@ -151,8 +151,19 @@ TEST(MapWarp, EdgesShiftByWhatALampsPlaceMakesOfThem) {
     now.from.position_m.y = 0.0;
     now.from.position_m.x = 0.5; // ahead: (X / (Z - m) - X / Z) at the outer side
     EXPECT_NEAR(edge_shift(then, now), std::hypot(0.1, 0.05) * 0.5 / 9.5, 1e-12);
-    now.bodies[0].around = true;
+    now.bodies[0].nearest_m = 0.4; // the lamp has passed where it begins
     EXPECT_TRUE(std::isinf(edge_shift(then, now)));
+}
+
+/// A wall along the lamp's axis begins where it enters the window, not beside the lamp.
+TEST(MapWarp, BodiesAroundTheLampBeginWhereTheyEnterTheWindow) {
+    const ShadowWindow window{-0.5, 0.5, -0.25, 0.25};
+    const std::vector<glm::dvec3> wall{{2.0, -1.0, -50.0}, {2.0, -1.0, 80.0}, {2.0, 3.0, 80.0},
+                                       {2.0, -1.0, -50.0}, {2.0, 3.0, 80.0},  {2.0, 3.0, -50.0}};
+    EXPECT_NEAR(begins_in_window(wall, window), 4.0, 1e-12);
+    EXPECT_NEAR(begins_in_window({wall[0], wall[1], {2.0, -0.9, 80.0}}, {-0.5, 0.5, -0.1, 0.1}), 9.542, 1e-3); // low: by its upper edge
+    EXPECT_NEAR(begins_in_window({{-5.0, -5.0, 0.0}, {5.0, -5.0, 0.0}, {0.0, 5.0, 0.1}}, window), shadow_near_m, 1e-12);
+    EXPECT_TRUE(std::isinf(begins_in_window({{-5.0, -5.0, -1.0}, {5.0, -5.0, -1.0}, {0.0, 5.0, -1.0}}, window)));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 namespace fernlicht {
 namespace {
@@ -13,21 +14,22 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* few = " --quiet --frames 20:22 --resolution 96x72 --capture all --no-accuracy --backend osmesa ";
+constexpr const char* few = " --quiet --resolution 96x72 --capture all --no-accuracy --backend osmesa ";
 
 class AutomaticShadows : public testing::Test {
   protected:
-    /// The shipped drive, short, with these shadows.
+    /// The first seconds of a shipped drive, with these shadows.
     std::string drive_with(const std::string& drive, const std::string& shadows) {
         std::string text = content_of(library_file("drives/" + drive + ".yaml"));
         for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;)
             text.replace(at, 3, library_file(""));
+        text = std::regex_replace(text, std::regex("\nduration_s: [0-9.]+"), "\nduration_s: 0.8");
         const std::string path = folder / (drive + ".yaml");
         std::ofstream(path) << text << "shadows: " << shadows << "\n";
         return path;
     }
-    json played(const std::string& drive, const std::string& out) {
-        const Outcome run = run_program("run " + drive + few + "--out " + (folder / out));
+    json played(const std::string& drive, const std::string& out, const std::string& frames = "3:5") {
+        const Outcome run = run_program("run " + drive + few + "--frames " + frames + " --out " + (folder / out));
         EXPECT_LE(run.exit_code, 1) << run.output;
         return json::parse(content_of(folder / (out + "/report.json"))).at("drives").at(0);
     }
@@ -62,6 +64,22 @@ TEST_F(AutomaticShadows, TheCheapestWithinTheBoundIsTakenAndTheResolvedDriveName
     EXPECT_THAT(page, HasSubstr("<strong>" + choice.at("chosen").get<std::string>() + "</strong>"));
 }
 
+/// A mirror in which nothing is lit is right by any method, and decides nothing.
+TEST_F(AutomaticShadows, TheWorstOfAllViewsDecides) {
+    std::string text = content_of(drive_with("shelter", "{method: auto, error_bound: 0.05}"));
+    const std::string views = "\nviews:\n";
+    ASSERT_NE(text.find(views), std::string::npos);
+    text.insert(text.find(views) + views.size(), "  behind: {yaw_deg: 180, resolution_px: [96, 72]}\n");
+    std::ofstream(folder / "shelter.yaml") << text;
+    const json choice = played(folder / "shelter.yaml", "out").at("shadow_choice");
+    EXPECT_NE(choice.at("chosen"), "none");
+    const json& none = choice.at("tried").front();
+    EXPECT_GT(none.at("error").get<double>(), 0.05);
+    EXPECT_NE(none.at("worst_view"), "behind");
+    const json& taken = choice.at("tried").back();
+    EXPECT_EQ(taken.at("pictures"), 3 * choice.at("moments_compared").get<int>());
+}
+
 /// Own lamps that reach nothing are no reason to leave out what others' lamps throw.
 TEST_F(AutomaticShadows, OthersLampsAreAskedToo) {
     const json choice = played(drive_with("oncoming", "{method: auto, error_bound: 1}"), "out").at("shadow_choice");
@@ -78,7 +96,7 @@ TEST_F(AutomaticShadows, OthersLampsAreAskedToo) {
 /// How many maps the bound saves stands in the report: all pictures of a moment share theirs, and with a bound so do moments.
 TEST_F(AutomaticShadows, ReportsTellOfMapsThatStood) {
     const auto kept = [&](const std::string& shadows, const std::string& out) {
-        const json drive = played(drive_with("first-light", shadows), out);
+        const json drive = played(drive_with("first-light", shadows), out, "20:22");
         for (const json& left : drive.at("left_out")) {
             int stood = 0, used = 0;
             if (std::sscanf(left.get<std::string>().c_str(), "drawing %d of the %d shadow maps", &stood, &used) == 2)
