@@ -15,6 +15,9 @@ constexpr double gap_m = 1e-3, gap_share = 1e-4;
 /// that is lost, and from a fifth of it on pictures of a road from above begin to shade themselves.
 constexpr double ground_lowered_m = 5e-4;
 
+/// Silhouettes that no picture has asked for this long are dropped.
+constexpr std::size_t kept_for_pictures = 64;
+
 glm::dquat turn_of_mesh(const Piece& piece) {
     return {static_cast<double>(piece.turn.w), static_cast<double>(piece.turn.x), static_cast<double>(piece.turn.y),
             static_cast<double>(piece.turn.z)};
@@ -34,20 +37,16 @@ ShadowVolumes::ShadowVolumes(Context& context, const SceneBuffers& scene, const 
     : ShadowMask(context, scene, settings, use), volumes_(context) {}
 
 const Silhouettes& ShadowVolumes::silhouettes_of(const Pieces& pieces) {
-    if (const auto known = silhouettes_.find(pieces); known != silhouettes_.end())
-        return known->second;
+    if (const auto known = silhouettes_.find(pieces); known != silhouettes_.end()) {
+        known->second.used = pictures_;
+        return known->second.silhouettes;
+    }
     std::vector<glm::vec3> corners;
     for (const std::uint32_t i : pieces) {
         const std::vector<glm::vec3> more = scene_.corners_of(scene_.pieces()[i]);
         corners.insert(corners.end(), more.begin(), more.end());
     }
-    return silhouettes_.emplace(pieces, Silhouettes(corners)).first->second;
-}
-
-bool ShadowVolumes::in_use(const Pieces& pieces) const {
-    return std::ranges::any_of(hulls_, [&](const std::vector<Hulls>& of_lamp) {
-        return std::ranges::any_of(of_lamp, [&](const Hulls& hulls) { return hulls.pieces == pieces; });
-    });
+    return silhouettes_.emplace(pieces, Kept{Silhouettes(corners), pictures_}).first->second.silhouettes;
 }
 
 void ShadowVolumes::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
@@ -76,6 +75,7 @@ std::vector<bool> ShadowVolumes::casting_bodies(const Silhouettes& silhouettes, 
 void ShadowVolumes::before_marking(const Shot& shot) {
     shot.clock.begin("shadow volumes: silhouettes");
     bool changed = false;
+    ++pictures_;
     hulls_.resize(casters_.lamps().size());
     for (std::size_t lamp = 0; lamp < hulls_.size(); ++lamp) {
         const LampCasters& casters = casters_.lamps()[lamp];
@@ -111,8 +111,9 @@ void ShadowVolumes::before_marking(const Shot& shot) {
                 all.insert(all.end(), hulls.corners.begin(), hulls.corners.end());
             }
         volumes_.upload(all);
-        std::erase_if(silhouettes_, [&](const auto& kept) { return !in_use(kept.first); }); // a long drive passes many
     }
+    std::erase_if(silhouettes_,
+                  [&](const auto& kept) { return kept.second.used + kept_for_pictures < pictures_; }); // a long drive passes many
     shot.clock.end();
 }
 

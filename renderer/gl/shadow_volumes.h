@@ -34,13 +34,17 @@ class ShadowVolumes : public ShadowMask {
         std::vector<glm::vec4> corners;
         std::size_t first = 0; ///< in what is uploaded
     };
+    struct Kept {
+        Silhouettes silhouettes;
+        std::size_t used = 0; ///< by this picture at last
+    };
     const Silhouettes& silhouettes_of(const Pieces& pieces);
-    bool in_use(const Pieces& pieces) const;
     std::vector<bool> casting_bodies(const Silhouettes& silhouettes, const Piece& piece, std::size_t lamp) const;
 
-    std::vector<const Beam*> beams_;            ///< by lamp
-    std::map<Pieces, Silhouettes> silhouettes_; ///< of what casts now
-    std::vector<std::vector<Hulls>> hulls_;     ///< by lamp
+    std::vector<const Beam*> beams_; ///< by lamp
+    std::map<Pieces, Kept> silhouettes_;
+    std::size_t pictures_ = 0;
+    std::vector<std::vector<Hulls>> hulls_; ///< by lamp
     StencilVolumes volumes_;
 };
 
