@@ -1,5 +1,6 @@
 #include "runner/shadows/choose_shadows.h"
 
+#include "runner/shadows/shadow_figures.h"
 #include "runner/shadows/shadow_truth.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/values/errors.h"
@@ -176,10 +177,10 @@ class Trial {
     std::vector<Kept> kept_; ///< what every method is asked for first
 };
 
-std::string percent_text(double share) { return fmt::format("{:.{}g} %", 100.0 * share, share < 0.995 ? 2 : 3); }
+std::string bound_text(const ShadowChoice& choice) { return fmt::format("{:.6g} %", 100.0 * choice.bound); }
 
 std::string worst_text(const TriedShadows& tried) {
-    return fmt::format("{} in the worst of {} pictures, view '{}' after {:.2f} s", percent_text(*tried.error), tried.pictures,
+    return fmt::format("{} % in the worst of {} pictures, view '{}' after {:.2f} s", shadow_percent(*tried.error), tried.pictures,
                        tried.worst_view, tried.worst_s);
 }
 
@@ -189,7 +190,7 @@ void try_methods(ShadowChoice& choice, Trial& trial) {
         if (!tried.error || *tried.error > choice.bound)
             continue;
         choice.chosen = method;
-        choice.why = fmt::format("the cheapest whose error stays within {}: {}", percent_text(choice.bound), worst_text(tried));
+        choice.why = fmt::format("the cheapest whose error stays within {}: {}", bound_text(choice), worst_text(tried));
         return;
     }
     for (TriedShadows& tried : choice.tried)
@@ -197,8 +198,7 @@ void try_methods(ShadowChoice& choice, Trial& trial) {
             tried = trial.over_kept(tried.method);
     const auto least = std::ranges::min_element(choice.tried, {}, [](const TriedShadows& t) { return t.error.value_or(2.0); });
     choice.chosen = least->method;
-    choice.why =
-        fmt::format("no method stays within {}; {} errs least: {}", percent_text(choice.bound), name(choice.chosen), worst_text(*least));
+    choice.why = fmt::format("no method stays within {}; {} errs least: {}", bound_text(choice), name(choice.chosen), worst_text(*least));
 }
 
 } // namespace
