@@ -63,7 +63,7 @@ std::vector<unsigned char> deciding_points(const ExtentGrid& grid, const std::ve
     const auto most = spread_both_ways(sides, columns, [](LimitSide a, LimitSide b) { return std::max(a, b); });
     std::vector<unsigned char> decides(sides.size());
     for (std::size_t i = 0; i < sides.size(); ++i)
-        decides[i] = fewest[i] != most[i] || most[i] == undecided ? 1 : 0;
+        decides[i] = fewest[i] != most[i] || most[i] == undecided_side ? 1 : 0;
     if (columns > 1)
         mark_jumps(grid, decides);
     return decides;

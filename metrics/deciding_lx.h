@@ -11,20 +11,20 @@
 
 namespace fernlicht {
 
-/// Number of limits that an illuminance reaches; `undecided` where its bounds do not tell.
+/// Number of limits that an illuminance reaches; `undecided_side` where its bounds do not tell.
 using LimitSide = std::uint8_t;
-inline constexpr LimitSide undecided = 255;
+inline constexpr LimitSide undecided_side = 255;
 inline LimitSide limit_side(const LuxBounds& bounds, const std::vector<double>& limits_lx) {
     constexpr double hair = 1e-9; // what lies between two points is interpolated, and rounded
     const double low_lx = bounds.low_lx * (1.0 - hair), high_lx = bounds.high_lx * (1.0 + hair);
-    if (!(std::isfinite(low_lx) && std::isfinite(high_lx)) || limits_lx.size() >= undecided)
-        return undecided;
+    if (!(std::isfinite(low_lx) && std::isfinite(high_lx)) || limits_lx.size() >= undecided_side)
+        return undecided_side;
     unsigned low = 0, high = 0;
     for (const double limit : limits_lx) {
         low += low_lx >= limit ? 1U : 0U;
         high += high_lx >= limit ? 1U : 0U;
     }
-    return low == high ? static_cast<LimitSide>(low) : undecided;
+    return low == high ? static_cast<LimitSide>(low) : undecided_side;
 }
 
 /// Row-major, like `sides`: 1 where a point within two rows and two columns, itself included, is undecided or lies on another side of a

@@ -34,6 +34,17 @@ int complain(ExitCode code, const std::exception& error) {
     return code;
 }
 
+void refuse_unknown_command(const CLI::App& app, const std::string& word) {
+    std::string commands;
+    bool known = word.starts_with('-'); // a flag
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        known = known || command->check_name(word);
+        commands += (commands.empty() ? "" : ", ") + command->get_name();
+    }
+    if (!known)
+        throw fernlicht::InputError({}, fmt::format("'{}' is no command", word), "one of " + commands);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -62,6 +73,8 @@ int main(int argc, char** argv) {
     fernlicht::add_accept_command(app, chosen);
     fernlicht::add_references_command(app, chosen);
     try {
+        if (argc > 1)
+            refuse_unknown_command(app, argv[1]);
         app.parse(argc, argv);
         return chosen();
     } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <tuple>
 

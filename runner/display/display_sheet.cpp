@@ -78,7 +78,7 @@ DisplaySheet display_sheet(const Stage& stage, const Variant& variant, const Mom
     young.veil = EyeVeil{25.0, 0.5};
     old.veil = EyeVeil{75.0, 0.5};
     colours.night_colours = sharpness.night_sharpness = true;
-    add_eye("as it is", "the drive's own tone mapper, as in all of this row", {});
+    add_eye("as it is", "the drive's own tone mapper, as in all of these", {});
     add_eye("windscreen", "transmittance 0.75, haze 3 %: a worn one", windscreen);
     add_eye("veil, 25 years", "the CIE's general glare equation", young);
     add_eye("veil, 75 years", "the same eye later", old);

@@ -21,11 +21,11 @@ TEST(LimitSide, IsTheNumberOfLimitsThatBothBoundsReach) {
     EXPECT_EQ(limit_side({1.01, 2.99}, limits_lx), 1);
     EXPECT_EQ(limit_side({5.1, 9.9}, limits_lx), 3);
     EXPECT_EQ(limit_side({11.0, 1e6}, limits_lx), 4);
-    EXPECT_EQ(limit_side({0.99, 1.01}, limits_lx), undecided);
-    EXPECT_EQ(limit_side({1.0, 1.0}, limits_lx), undecided) << "a limit itself lies too near to tell";
-    EXPECT_EQ(limit_side({}, limits_lx), undecided);
-    EXPECT_EQ(limit_side({20.0, NAN}, limits_lx), undecided);
-    EXPECT_EQ(limit_side({NAN, 20.0}, limits_lx), undecided);
+    EXPECT_EQ(limit_side({0.99, 1.01}, limits_lx), undecided_side);
+    EXPECT_EQ(limit_side({1.0, 1.0}, limits_lx), undecided_side) << "a limit itself lies too near to tell";
+    EXPECT_EQ(limit_side({}, limits_lx), undecided_side);
+    EXPECT_EQ(limit_side({20.0, NAN}, limits_lx), undecided_side);
+    EXPECT_EQ(limit_side({NAN, 20.0}, limits_lx), undecided_side);
 }
 
 // Rows of 4 m by columns of 1 m: no lane's edge moves across columns.
@@ -35,7 +35,7 @@ TEST(DecidingPoints, AreTwoRowsAndColumnsAroundADifference) {
     ASSERT_EQ(columns, 13U);
     ASSERT_EQ(rows, 11U);
     for (const auto& [other, row, column] :
-         {std::tuple(LimitSide{2}, 5, 6), std::tuple(undecided, 0, 12), std::tuple(LimitSide{0}, 10, 1)}) {
+         {std::tuple(LimitSide{2}, 5, 6), std::tuple(undecided_side, 0, 12), std::tuple(LimitSide{0}, 10, 1)}) {
         std::vector<LimitSide> sides(grid.surface.size(), 1);
         sides[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] = other;
         const std::vector<unsigned char> decides = deciding_points(grid, sides);
@@ -45,7 +45,7 @@ TEST(DecidingPoints, AreTwoRowsAndColumnsAroundADifference) {
                           std::abs(r - row) <= 2 && std::abs(c - column) <= 2)
                     << r << ", " << c;
     }
-    const std::vector<unsigned char> none = deciding_points(grid, std::vector<LimitSide>(grid.surface.size(), undecided));
+    const std::vector<unsigned char> none = deciding_points(grid, std::vector<LimitSide>(grid.surface.size(), undecided_side));
     EXPECT_EQ(std::count(none.begin(), none.end(), 1), std::ssize(none)) << "where nothing is known, everything decides";
 }
 

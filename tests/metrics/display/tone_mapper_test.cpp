@@ -86,7 +86,8 @@ TEST_P(ToneMappers, ContrastKeptIsTheSlopeInLogarithms) {
     EXPECT_EQ(contrast_kept(mapper, 2.0 * mapper.l_max_cdm2), 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(, ToneMappers, testing::ValuesIn(mappers()));
+INSTANTIATE_TEST_SUITE_P(, ToneMappers, testing::ValuesIn(mappers()),
+                         [](const auto& test) { return std::string(name(test.param.kind)) + std::to_string(test.index); });
 
 TEST(ToneCurve, ACurveThatIsNotFoundYetIsLinear) {
     ToneMapper open;
