@@ -2,6 +2,7 @@
 
 #include "renderer/timer_check.h"
 #include "runner/display/display_step.h"
+#include "runner/map_of.h"
 #include "scenarios/drives/advance.h"
 
 #include <algorithm>
@@ -37,10 +38,7 @@ std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive) {
         pictures.emplace_back(view, display.with_light(stored_results(view, drive.capture), view, true, false));
     if (!drive.views.empty())
         pictures.emplace_back(drive.views.front(), display.with_light({.colour = true}, drive.views.front(), false, true));
-    View map;
-    map.projection = Projection::map;
-    map.map_ahead_m = map.map_left_m = map.map_right_m = 1.0;
-    map.width_px = map.height_px = 4; // variants do not depend on the size
+    const View map = map_of("map", 0.0, 1.0, 1.0, 4, 4); // variants do not depend on the size
     if (drive.extent)
         pictures.emplace_back(map, Wanted{.illuminance = true, .target = true});
     if (!drive.probes.empty())

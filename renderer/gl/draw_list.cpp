@@ -83,4 +83,17 @@ void DrawList::draw(int call) const {
                                           static_cast<GLsizei>(c.count), 0);
 }
 
+void DrawList::compile_depth_pass(const Program& program, const Framebuffer& target, int width, int height) {
+    const GladGLContext& gl = context_.gl;
+    const Texture scratch = make_texture(context_, GL_DEPTH_COMPONENT32F, width, height);
+    gl.NamedFramebufferTexture(target, GL_DEPTH_ATTACHMENT, scratch, 0);
+    gl.NamedFramebufferDrawBuffer(target, GL_NONE);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target);
+    program.use();
+    start(glm::dvec3(0.0), scene_.moves());
+    const int nothing = add_nothing();
+    upload();
+    draw(nothing);
+}
+
 } // namespace fernlicht::gl

@@ -1,6 +1,7 @@
 // What is drawn in one pass: visible pieces, grouped by the variant that draws them, near ones first.
 #pragma once
 
+#include "renderer/gl/program.h"
 #include "renderer/gl/scene_buffers.h"
 
 #include <span>
@@ -29,6 +30,8 @@ class DrawList {
     int add_nothing();
     void upload();
     void draw(int call) const;
+    /// Makes the driver compile a program that draws depth alone, without drawing any: into a texture of this size that is thrown away.
+    void compile_depth_pass(const Program& program, const Framebuffer& target, int width, int height);
 
     std::uint64_t triangles() const { return triangles_; }
     int calls() const { return static_cast<int>(calls_.size()); }

@@ -71,16 +71,7 @@ void ShadowMaps::draw(const Shot& shot) {
 }
 
 void ShadowMaps::compile(const Shot& /*shot*/) {
-    const GladGLContext& gl = context_.gl;
-    const Texture scratch = make_texture(context_, GL_DEPTH_COMPONENT32F, settings_.width, settings_.height);
-    gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, scratch, 0);
-    gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
-    program_.use();
-    list_.start(glm::dvec3(0.0), scene_.moves());
-    list_.add_nothing();
-    list_.upload();
-    list_.draw(0);
+    list_.compile_depth_pass(program_, target_, settings_.width, settings_.height);
     context_.check("compiling the shadow pass");
 }
 

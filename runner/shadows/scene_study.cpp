@@ -4,6 +4,7 @@
 #include "renderer/camera.h"
 #include "runner/accuracy/accuracy_result.h"
 #include "runner/display/tile_sheet.h"
+#include "runner/map_of.h"
 #include "runner/shadows/shadow_truth.h"
 #include "runner/shadows/shown_picture.h"
 #include "scenarios/values/errors.h"
@@ -32,29 +33,17 @@ double lamp_ahead_m(const Moment& moment) {
     return shining == moment.lamps.end() ? 0.0 : to_local(moment.ego, shining->pose.position_m).x;
 }
 
-View from_above(double from_m, double to_m, double beside_m, int width_px, int height_px) {
-    View view;
-    view.name = "ground";
-    view.projection = Projection::map;
-    view.map_ahead_m = to_m;
-    view.map_behind_m = -from_m;
-    view.map_left_m = view.map_right_m = beside_m;
-    view.width_px = width_px;
-    view.height_px = height_px;
-    return view;
-}
-
 View ground_view(double lamp_m) {
-    return from_above(lamp_m, lamp_m + ground_ahead_m, ground_beside_m,
-                      static_cast<int>(std::lround(2.0 * ground_beside_m / ground_across_m)),
-                      static_cast<int>(std::lround(ground_ahead_m / ground_along_m)));
+    return map_of("ground", lamp_m, lamp_m + ground_ahead_m, ground_beside_m,
+                  static_cast<int>(std::lround(2.0 * ground_beside_m / ground_across_m)),
+                  static_cast<int>(std::lround(ground_ahead_m / ground_along_m)));
 }
 
 /// A row of pixels across the car's way.
 View section_view(double lamp_m, double ahead_m) {
     const double x = lamp_m + ahead_m;
-    return from_above(x - 0.5 * edge_pixel_m, x + 0.5 * edge_pixel_m, section_half_m,
-                      static_cast<int>(std::lround(2.0 * section_half_m / edge_pixel_m)), 1);
+    return map_of("ground", x - 0.5 * edge_pixel_m, x + 0.5 * edge_pixel_m, section_half_m,
+                  static_cast<int>(std::lround(2.0 * section_half_m / edge_pixel_m)), 1);
 }
 
 /// Of a section only what the eye sees counts: how high the ground lies there is as good as nothing beside how far away it is.

@@ -1,4 +1,5 @@
 // Shadow maps against rays: surfaces that shade themselves, and light that leaks.
+#include "runner/map_of.h"
 #include "runner/stability/trial.h"
 
 #include <algorithm>
@@ -74,17 +75,6 @@ void judge_count(Found& worst, const Count& found, const std::string& where) {
     worst.add(found.lit == 0 || found.dark == 0 ? std::nan("") : found.acne + found.leaks, text);
 }
 
-View from_above(double from_m, double to_m, double beside_m, int width_px, int height_px) {
-    View view;
-    view.projection = Projection::map;
-    view.map_ahead_m = to_m;
-    view.map_behind_m = -from_m;
-    view.map_left_m = view.map_right_m = beside_m;
-    view.width_px = width_px;
-    view.height_px = height_px;
-    return view;
-}
-
 /// A road in waves, whose crests the light grazes: crests shade what lies behind them, and must not shade themselves.
 Found waves(StabilityBench& bench) {
     Found worst;
@@ -105,7 +95,7 @@ Found waves(StabilityBench& bench) {
         scene.meshes.push_back(std::move(mesh));
         Moment moment;
         moment.lamps = {lamp(cut_off_table(), {0.0, 0.0, 0.65})};
-        judge_count(worst, count(bench, scene, moment, from_above(2.0, 190.0, 3.5, 12, 376)),
+        judge_count(worst, count(bench, scene, moment, map_of("map", 2.0, 190.0, 3.5, 12, 376)),
                     fmt::format("waves of {} m over {} m", height_m, length_m));
     }
     return worst;
@@ -122,7 +112,7 @@ Found boards(StabilityBench& bench) {
     Moment moment;
     moment.lamps = {lamp(cut_off_table(), {0.0, 0.0, 0.65})};
     Found worst;
-    judge_count(worst, count(bench, scene, moment, from_above(5.0, 280.0, 6.0, 48, 550)), "road behind boards");
+    judge_count(worst, count(bench, scene, moment, map_of("map", 5.0, 280.0, 6.0, 48, 550)), "road behind boards");
     return worst;
 }
 

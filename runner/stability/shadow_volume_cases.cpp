@@ -1,4 +1,5 @@
 // Shadow volumes against rays: bodies of all kinds, lamps and cameras in all places.
+#include "runner/map_of.h"
 #include "runner/stability/shadow_method_cases.h"
 #include "runner/stability/shadow_trial.h"
 
@@ -254,13 +255,7 @@ Found volumes_from_above(StabilityBench& bench) {
         const Scene scene =
             street_with({distance_m, 0.0, std::max(0.65 - 0.05 * distance_m, size_m)}, box({0.2 * size_m, size_m, size_m}, 0.2));
         ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
-        View view;
-        view.projection = Projection::map;
-        view.map_ahead_m = 149.0;
-        view.map_behind_m = 0.0;
-        view.map_left_m = view.map_right_m = 8.0;
-        view.width_px = 33;
-        view.height_px = 150;
+        const View view = map_of("map", 0.0, 149.0, 8.0, 33, 150);
         judge_tally(worst, trial.tally(lit_from({0.0, 0.0, 0.65}), view, doubt_of_volumes()), fmt::format("caster {} m away", distance_m));
     }
     return worst;

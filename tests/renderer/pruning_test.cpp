@@ -7,6 +7,7 @@
 #include "scenarios/drives/tell_story.h"
 #include "scenarios/drives/told_story.h"
 #include "scenarios/roads/road_mesh.h"
+#include "tests/renderer/same_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +20,6 @@ namespace fernlicht {
 namespace {
 
 constexpr Wanted all_pictures{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
-
-void expect_same_bytes(const Frame& a, const Frame& b, const std::string& what) {
-    EXPECT_EQ(a.colour, b.colour) << what;
-    EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << what;
-    EXPECT_EQ(a.target_lx, b.target_lx) << what;
-    EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << what;
-    EXPECT_EQ(a.depth_m, b.depth_m) << what;
-    EXPECT_EQ(a.ids, b.ids) << what;
-}
 
 std::shared_ptr<LampFile> round_beam(double peak_cd, double half_deg) {
     auto file = std::make_shared<LampFile>();
@@ -145,7 +137,7 @@ TEST_F(PruningTest, PrunedAndUnprunedGiveTheSameBytesOverRandomScenes) {
         const auto toss = [&] { return random() % 2 == 0; };
         const Features on{toss(), toss(), toss(), toss(), toss(), toss(), toss()};
         const RandomScene s = random_scene(seed, on);
-        expect_same_bytes(draw(s, "photometric"), draw(s, "photometric-unpruned"), "seed " + std::to_string(seed));
+        expect_same_frames(draw(s, "photometric"), draw(s, "photometric-unpruned"), "seed " + std::to_string(seed));
     }
 }
 
@@ -229,8 +221,8 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
         const int compiled = pruned.compiled_programs();
         for (const Moment& moment : moments)
             for (const View& view : drive.views)
-                expect_same_bytes(pruned.draw(moment, view, all_pictures), unpruned.draw(moment, view, all_pictures),
-                                  variant.name + ", " + view.name + ", " + std::to_string(moment.time_s) + " s");
+                expect_same_frames(pruned.draw(moment, view, all_pictures), unpruned.draw(moment, view, all_pictures),
+                                   variant.name + ", " + view.name + ", " + std::to_string(moment.time_s) + " s");
         EXPECT_EQ(pruned.compiled_programs(), compiled) << "nothing compiles once a drive is prepared";
         EXPECT_GT(compiled, 1);
     }

@@ -3,6 +3,7 @@
 
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
+#include "tests/renderer/same_frames.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -91,15 +92,6 @@ inline Frame drawn_with(Device& device, const Scene& scene, const Moment& moment
     settings.shadows.method = method;
     Renderer renderer(device, scene, settings);
     return renderer.draw(moment, view, all_results);
-}
-
-inline void expect_equal_frames(const Frame& a, const Frame& b, const std::string& what) {
-    EXPECT_EQ(a.colour, b.colour) << what;
-    EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << what;
-    EXPECT_EQ(a.target_lx, b.target_lx) << what;
-    EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << what;
-    EXPECT_EQ(a.depth_m, b.depth_m) << what;
-    EXPECT_EQ(a.ids, b.ids) << what;
 }
 
 /// Which pixels of a picture one lamp does not light though without shadows it would: by the renderer and by rays in double precision.
