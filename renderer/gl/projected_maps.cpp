@@ -1,5 +1,6 @@
 #include "renderer/gl/projected_maps.h"
 #include "renderer/gl/shader_text.h"
+#include "renderer/gl/shadow_texture.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -44,24 +45,9 @@ ProjectedMaps::ProjectedMaps(Context& context, const SceneBuffers& scene, const 
       matrix_(program_.uniform("clip_from_ego")), list_(context, scene), target_(make_framebuffer(context)) {}
 
 Texture ProjectedMaps::make_map() const {
-    const GladGLContext& gl = context_.gl;
-    Texture texture;
-    if (layered()) {
-        GLuint name = 0;
-        gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
-        texture = Texture(context_, name);
-        gl.TextureStorage3D(name, 1, GL_DEPTH_COMPONENT32F, settings_.width, settings_.height, static_cast<GLsizei>(places_.size()));
-        gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    } else {
-        texture = make_texture(context_, GL_DEPTH_COMPONENT32F, settings_.width, settings_.height);
-    }
-    gl.TextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    gl.TextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
-    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    context_.check("making a shadow map");
-    return texture;
+    return make_shadow_texture(context_, {settings_.width, settings_.height, layered() ? static_cast<int>(places_.size()) : 0,
+                                          fmt::format("each lamp by '{}'", name(settings_.method)),
+                                          layered() ? "a smaller map_texels or fewer lamp_places" : "a smaller map_texels"});
 }
 
 /// Lamps of one name are told apart by their order.

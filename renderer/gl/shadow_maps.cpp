@@ -1,5 +1,6 @@
 #include "renderer/gl/shadow_maps.h"
 #include "renderer/gl/shader_text.h"
+#include "renderer/gl/shadow_texture.h"
 
 #include <algorithm>
 
@@ -16,14 +17,10 @@ void ShadowMaps::draw(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
     Work& work = shot.work;
     const std::vector<LampCasters>& lamps = casters_.lamps();
-    while (textures_.size() < lamps.size()) {
-        Texture texture = make_texture(context_, GL_DEPTH_COMPONENT32F, settings_.width, settings_.height);
-        gl.TextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-        gl.TextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
-        gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        textures_.push_back(std::move(texture));
-    }
+    while (textures_.size() < lamps.size())
+        textures_.push_back(
+            make_shadow_texture(context_, {settings_.width, settings_.height, 0, fmt::format("each lamp by '{}'", name(settings_.method)),
+                                           "a smaller map_texels"}));
     std::vector<glm::dmat4> clips;
     std::vector<std::vector<std::uint32_t>> pieces;
     for (const LampCasters& lamp : lamps) {

@@ -1,6 +1,7 @@
 #include "renderer/gl/traffic_shadows.h"
 
 #include "renderer/gl/shader_text.h"
+#include "renderer/gl/shadow_texture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,22 +46,8 @@ TrafficShadows::TrafficShadows(Context& context, const SceneBuffers& scene, cons
     context_.gl.CreateTextures(GL_TEXTURE_BUFFER, 1, &name);
     map_texels_ = Texture(context_, name);
     context_.gl.TextureBuffer(name, GL_RGBA32F, map_buffer_);
-    make_texture_array();
-}
-
-void TrafficShadows::make_texture_array() {
-    const GladGLContext& gl = context_.gl;
-    GLuint name = 0;
-    gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
-    maps_ = Texture(context_, name);
-    gl.TextureStorage3D(name, 1, GL_DEPTH_COMPONENT32F, settings_.width, settings_.height, static_cast<GLsizei>(most_traffic_maps));
-    gl.TextureParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    gl.TextureParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
-    gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    context_.check("making shadow maps of others' lamps");
+    maps_ = make_shadow_texture(context_, {settings_.width, settings_.height, static_cast<int>(most_traffic_maps), "lamps of others",
+                                           "a smaller map_texels, or shadows: none"});
 }
 
 /// What stands where the unit brings more than `least_lx` to a surface facing it: nothing in the shadow of all else gets more than that.

@@ -95,7 +95,6 @@ class TrafficShadows {
     Candidate candidate(std::uint32_t number, const TrafficSource& unit, double least_lx) const;
     static bool shaded(const Candidate& candidate, const Corners& box_m);
     void place_in_layers(std::vector<char>& to_draw);
-    void make_texture_array();
     void draw_layer(const Map& map, Work& work);
 
     Context& context_;

@@ -2,6 +2,7 @@
 
 #include "metrics/random_order.h"
 #include "renderer/camera.h"
+#include "renderer/shadow_memory.h"
 #include "runner/accuracy/accuracy_result.h"
 #include "runner/display/tile_sheet.h"
 #include "runner/map_of.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <fmt/format.h>
 #include <map>
 
 namespace fernlicht {
@@ -192,19 +194,35 @@ struct TimedMethod {
     RendererSettings settings;
 };
 
-void time_frames(const std::vector<TimedMethod>& timed, const ShadowScene& scene, Device& device, const SceneStudyOptions& options,
+/// What a method that cannot be drawn after all leaves of its row.
+ShadowRow row_without(ShadowMethod method, const std::string& why_not) {
+    ShadowRow row;
+    row.method = method;
+    row.why_not = why_not;
+    return row;
+}
+
+/// All methods' maps are there at once here: those that find no room beside the others are taken out of `timed`.
+void time_frames(std::vector<TimedMethod>& timed, const ShadowScene& scene, Device& device, const SceneStudyOptions& options,
                  const std::vector<Moment>& moments, const View& view, const std::function<bool()>& stop) {
     static constexpr Wanted wanted{.colour = true};
     std::deque<Renderer> renderers;
     std::vector<Contestant> contestants;
     for (const TimedMethod& method : timed) {
         Renderer* const renderer = &renderers.emplace_back(device, *scene.scene, method.settings);
-        renderer->prepare(moments, view, wanted);
-        for (const Moment& moment : moments)
-            method.row->work.push_back(renderer->count(moment, view, wanted));
+        try {
+            renderer->prepare(moments, view, wanted);
+            for (const Moment& moment : moments)
+                method.row->work.push_back(renderer->count(moment, view, wanted));
+        } catch (const ShadowMemoryError& refused) {
+            renderers.pop_back();
+            *method.row = row_without(method.row->method, fmt::format("beside the other methods: {}", refused.what()));
+            continue;
+        }
         contestants.push_back(
             {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, wanted); }, [=] { renderer->finish(); }});
     }
+    std::erase_if(timed, [](const TimedMethod& method) { return !measured(*method.row); });
     ContestOptions contest;
     contest.moments = moments.size();
     contest.rounds = static_cast<std::size_t>(options.rounds);
@@ -303,9 +321,9 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
             for (const Moment& moment : timed_moments(scene)) // a method may refuse any of them
                 renderer.draw(moment, truth.discs.view(), {.colour = true});
         } catch (const InputError& refused) {
-            row = {};
-            row.method = method;
-            row.why_not = refused.what();
+            row = row_without(method, refused.what());
+        } catch (const ShadowMemoryError& refused) {
+            row = row_without(method, refused.what());
         }
         result.rows.push_back(std::move(row));
         step();

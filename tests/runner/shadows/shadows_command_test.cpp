@@ -1,7 +1,7 @@
 // `fernlicht shadows` through the program: scenes in, a table of methods out.
 #include "scenarios/drives/shadow_settings.h"
-#include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
+#include "tests/runner/shadows/short_drive.h"
 
 #include <gmock/gmock.h>
 
@@ -116,6 +116,36 @@ TEST(ShadowsCommand, TakesEveryMethodThereIs) {
         else
             EXPECT_THAT(run.output, HasSubstr(std::string(method.name) + ": not measured, "));
     }
+}
+
+// 4 GiB for a lamp: the method that finds no room for its maps costs the others nothing. llvmpipe, whose limits are known, draws.
+TEST(ShadowsCommand, NamesTheMethodWhoseMapsAreTooLarge) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program(small +
+                                    "--backend osmesa --rounds 1 --lamp-radius 0 --map-texels 8192x8192 --scenes post-5 "
+                                    "--methods soft-map,volumes --out " +
+                                    (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("soft-map: not measured, shadows: found 16 maps of 8192 x 8192 texels for each lamp by 'soft-map', "
+                                      "4096 MiB, for which "));
+    EXPECT_THAT(run.output, HasSubstr("expected a smaller map_texels or fewer lamp_places\n"));
+    const json scene = json::parse(content_of(folder / "out/shadows.json")).at("scenes").at(0);
+    EXPECT_FALSE(row_of(scene, "soft-map").at("not_measured").is_null());
+    const json& volumes = row_of(scene, "volumes");
+    EXPECT_TRUE(volumes.at("not_measured").is_null());
+    EXPECT_LT(volumes.at("ground_m2").at("wrong_share"), 0.001);
+    EXPECT_EQ(volumes.at("frame_s").size(), 1U);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
+}
+
+TEST(ShadowsCommand, RunsSayHowMuchRoomMapsWouldTake) {
+    const TemporaryFolder folder;
+    const std::string drive = short_drive(folder, "first-light", "{method: soft-map, map_texels: [8192, 8192], lamp_places: 64}");
+    const Outcome run =
+        run_program("run " + drive + " --quiet --resolution 96x72 --no-accuracy --backend osmesa --out " + (folder / "out"));
+    EXPECT_EQ(run.exit_code, 3) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("shadows: found 64 maps of 8192 x 8192 texels for each lamp by 'soft-map', 16384 MiB, for which "));
+    EXPECT_THAT(run.output, HasSubstr("expected a smaller map_texels or fewer lamp_places"));
 }
 
 TEST(ShadowsCommand, RefusesWhatIsNotThere) {
