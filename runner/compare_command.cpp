@@ -31,7 +31,7 @@ enum class ComparedKind { pictures, runs, lamps };
 
 double pixels_per_degree(const CompareFlags& flags, int height_px) {
     const auto in_range = [](const char* flag, double value) {
-        if (!(value >= 1.0 && value <= 1000.0))
+        if (!has_flip_at(value))
             throw InputError({{}, 0, 0, flag}, fmt::format("found {:g} pixels per degree", value), "1 to 1000 of them");
         return value;
     };

@@ -20,8 +20,9 @@ template <class Picture> void check(const Picture& tested, const Picture& refere
                                                 reference.width(), reference.height()));
     if (tested.empty())
         throw std::invalid_argument("empty pictures cannot be compared");
-    if (!(pixels_per_degree >= 1.0 && pixels_per_degree <= 1000.0))
-        throw std::invalid_argument(fmt::format("{} pixels per degree are not from 1 to 1000", pixels_per_degree));
+    if (!has_flip_at(pixels_per_degree))
+        throw std::invalid_argument(
+            fmt::format("{} pixels per degree are not from {} to {}", pixels_per_degree, least_pixels_per_degree, most_pixels_per_degree));
 }
 
 /// Calls `work(tile, memory)` for all tiles of a picture, several at once.

@@ -12,6 +12,11 @@ namespace fernlicht {
 
 /// Of the papers: a screen 3840 pixels and 0.7 m wide, 0.7 m away.
 inline constexpr double default_pixels_per_degree = 67.02064327658226;
+/// What FLIP is taken at: coarser, its filters are less than a pixel; finer, they are larger than pictures.
+inline constexpr double least_pixels_per_degree = 1.0, most_pixels_per_degree = 1000.0;
+inline bool has_flip_at(double pixels_per_degree) {
+    return pixels_per_degree >= least_pixels_per_degree && pixels_per_degree <= most_pixels_per_degree;
+}
 
 /// At the middle of a screen: distance * pixels / width, per degree. All above 0.
 double pixels_per_degree_of_screen(double distance_m, double width_m, int width_px);
@@ -19,7 +24,7 @@ double pixels_per_degree_of_screen(double distance_m, double width_m, int width_
 double pixels_per_degree_of_view(double vertical_fov_rad, int height_px);
 
 /// Of 8-bit sRGB pictures, both ways the same. Throws std::invalid_argument for sizes that differ, empty pictures, and pixels per degree
-/// outside 1 to 1000.
+/// without FLIP.
 Image<float> flip_ldr(const Image<Rgb8>& tested, const Image<Rgb8>& reference, double pixels_per_degree = default_pixels_per_degree);
 
 /// Exposures in stops (powers of two), from the one that shows the brightest pixel to the one that shows the middle one.

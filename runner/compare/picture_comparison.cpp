@@ -132,8 +132,12 @@ LayerComparison compare_display(const PicturePair& pair, double pixels_per_degre
     add_structure(layer.values, tested_luma, reference_luma, 255.0);
     layer.colours = ciede2000_map(tested, reference);
     add_colours(layer.values, layer.colours);
-    layer.flip = flip_ldr(tested, reference, pixels_per_degree);
-    add_flip(layer.values, layer.flip);
+    if (const std::string why = why_no_flip_at(pixels_per_degree); !why.empty()) {
+        add_not_measured(layer.values, "flip_mean", "", why);
+    } else {
+        layer.flip = flip_ldr(tested, reference, pixels_per_degree);
+        add_flip(layer.values, layer.flip);
+    }
     std::vector<Image<float>> tested_channels, reference_channels;
     for (int c = 0; c < 3; ++c) {
         tested_channels.push_back(channel_of(tested, c));
@@ -154,15 +158,15 @@ double mean_of(const Image<float>& image) {
 }
 
 /// As is for what FLIP can be taken of; otherwise why not.
-std::string why_no_flip(const LinearPair& pair) {
+std::string why_no_flip(const LinearPair& pair, double pixels_per_degree) {
     if (!(peak_of(pair.reference) > 0.0))
         return "the reference has no light, so no exposure";
     const auto negative = [](const Image<float>& image) { return std::ranges::any_of(image.pixels(), [](float v) { return v < 0.0F; }); };
-    return negative(pair.reference) || negative(pair.tested) ? "a luminance is below 0" : "";
+    return negative(pair.reference) || negative(pair.tested) ? "a luminance is below 0" : why_no_flip_at(pixels_per_degree);
 }
 
 void add_luminance_flip(LayerComparison& layer, const LinearPair& pair, double pixels_per_degree) {
-    if (const std::string why = why_no_flip(pair); !why.empty()) {
+    if (const std::string why = why_no_flip(pair, pixels_per_degree); !why.empty()) {
         add_not_measured(layer.values, "flip_mean", "", why);
         return;
     }
@@ -201,6 +205,12 @@ LayerComparison compare_linear(const LinearPair& pair, double pixels_per_degree,
 
 bool PictureComparison::passed() const {
     return std::ranges::all_of(layers, [](const LayerComparison& layer) { return !layer.strictness || layer.strictness->passed; });
+}
+
+std::string why_no_flip_at(double pixels_per_degree) {
+    return has_flip_at(pixels_per_degree) ? ""
+                                          : fmt::format("{:.4g} pixels per degree, and FLIP is taken at {} to {}", pixels_per_degree,
+                                                        least_pixels_per_degree, most_pixels_per_degree);
 }
 
 PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness) {

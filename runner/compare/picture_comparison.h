@@ -38,10 +38,14 @@ struct PictureComparison {
     bool passed() const; ///< true where no strictness was asked for
 };
 
+/// Why FLIP is not measured at these pixels per degree, as "0.73 pixels per degree, and FLIP is taken at 1 to 1000"; "" where it is.
+std::string why_no_flip_at(double pixels_per_degree);
+
 /// Display pictures: levels, PSNR with peak 255, SSIM and MS-SSIM of luma (range 255), CIEDE2000, FLIP. Linear: in the unit, PSNR with the
 /// reference's largest value as peak, SSIM and MS-SSIM over four decades of light (light_decades.h), and, of luminance, FLIP for high
 /// dynamic range. What a picture cannot have (MS-SSIM of a small one, PSNR of two alike) is not measured, with the reason. Throws
-/// InputError where a mask does not fit. Linear pictures that nobody looks at (maps) have 0 pixels per degree and no FLIP.
+/// InputError where a mask does not fit. Linear pictures that nobody looks at (maps) have 0 pixels per degree and no FLIP; where FLIP is
+/// not taken at the pixels per degree of others, it is not measured.
 PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness);
 
 } // namespace fernlicht

@@ -171,15 +171,21 @@ void drop_maps(PictureComparison& comparison) {
 }
 
 void compare_frames(DriveComparison& drive, const RunComparison& runs, const RunCompareOptions& options) {
-    std::set<std::string> alone; // another technique computes other quantities
+    std::set<std::string> alone;                // another technique computes other quantities
+    std::map<std::string, std::string> no_flip; // by view, why
     for (FramePair& frame : drive.frames) {
         const PicturePair pair = frame_pictures(frame, runs);
-        frame.comparison = compare_pictures(pair, frame_density(frame, options), options.strictness);
+        const double density = frame_density(frame, options);
+        if (frame.view->projection != Projection::map && !has_flip_at(density))
+            no_flip[frame.view->name] = why_no_flip_at(density);
+        frame.comparison = compare_pictures(pair, density, options.strictness);
         drop_maps(frame.comparison);
         alone.insert(pair.alone.begin(), pair.alone.end());
     }
     for (const std::string& channel : alone)
         drive.left_out.push_back(fmt::format("the channel {}, which one run's EXRs alone have", printable(channel)));
+    for (const auto& [view, why] : no_flip)
+        drive.left_out.push_back(fmt::format("FLIP of the view {}: {}; --ppd gives others", printable(view), why));
 }
 
 /// Of each deciding reading its largest real change, and of these the three largest.
@@ -205,7 +211,7 @@ void note_what_was_not_judged(RunComparison& runs) {
     for (const DriveComparison& drive : runs.drives) {
         for (const std::string& sentence : drive.left_out)
             if (!sentence.starts_with("readings") && !sentence.starts_with("all readings") && !sentence.starts_with("reach") &&
-                !sentence.starts_with("the tables"))
+                !sentence.starts_with("the tables") && !sentence.starts_with("FLIP")) // a class that asks for FLIP says so itself
                 runs.not_judged.push_back(drive.name + ": " + sentence);
         if (drive.frames.empty())
             runs.not_judged.push_back(drive.name + ": no stored frame that both runs have");

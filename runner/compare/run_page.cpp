@@ -186,6 +186,8 @@ data frames_part(const DriveComparison& drive) {
                 row.set(name, optional_number(value_in(layer, name)));
                 row.set(name + std::string("_key"), sort_key(value_in(layer, name)));
             }
+            if (const auto flip = std::ranges::find(layer.values, "flip_mean", &ComparedValue::name); flip != layer.values.end())
+                row.set("flip_mean", optional_number(flip->value, "not measured"));
             row.set("drawn", !frame.folder.empty());
             row.set("link", relative_link(frame.folder + "/" + (frame.files.empty() ? "" : frame.files.front())));
             list.push_back(row);

@@ -208,6 +208,47 @@ TEST_F(RunCompare, WhatDoesNotBelongTogetherIsLeftOutAndNamed) {
         EXPECT_THAT(frame.at("new_file").get<std::string>(), HasSubstr(".exr"));
 }
 
+// 64 x 48 over 60 degrees: 24 / tan(30 degrees) pi / 180 = 0.7255 pixels per degree; 320 x 240 over 0.2: 120 / tan(0.1) pi / 180 = 1200.
+TEST_F(RunCompare, ViewsTooCoarseOrTooFineForFlipAreComparedInAllElse) {
+    std::string drive = content_of(library_file("drives/straight.yaml"));
+    for (std::size_t at = 0; (at = drive.find(": ../", at)) != std::string::npos;)
+        drive.replace(at + 2, 3, library_file(""));
+    const std::string old_view = "driver: {pitch_deg: -1, resolution_px: [1024, 768]}";
+    ASSERT_THAT(drive, HasSubstr(old_view));
+    drive.replace(drive.find(old_view), old_view.size(),
+                  "driver: {resolution_px: [64, 48], vertical_fov_deg: 60}\n"
+                  "  tele: {resolution_px: [320, 240], vertical_fov_deg: 0.2}");
+    std::ofstream(at("extreme.yaml")) << drive;
+    play("cast", at("extreme.yaml"), "--shadows map", "--frames 0:1");
+    play("plain", at("extreme.yaml"), "--shadows none", "--frames 0:1");
+    const Outcome outcome = compare("cast", "plain", "--json --strictness same-picture --out " + at("extreme"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output; // a class that asks for no FLIP is kept without
+    const json found = json::parse(outcome.output).at("drives").at(0);
+    const std::map<std::string, std::string> expected{{"driver", "0.7255 pixels per degree, and FLIP is taken at 1 to 1000"},
+                                                      {"tele", "1200 pixels per degree, and FLIP is taken at 1 to 1000"}};
+    std::size_t missing = 0, measured = 0;
+    for (const json& frame : found.at("frames"))
+        for (const json& layer : frame.at("layers"))
+            for (const json& figure : layer.at("values")) {
+                measured += figure.at("name") == "ssim" && figure.at("value").is_number() ? 1U : 0U;
+                if (figure.at("name") == "flip_mean") {
+                    EXPECT_EQ(figure.at("not_measured"), expected.at(frame.at("view")));
+                    ++missing;
+                }
+            }
+    EXPECT_EQ(missing, 4U) << "two views, PNG and luminance";
+    EXPECT_GT(measured, missing);
+    for (const auto& [view, why] : expected)
+        EXPECT_THAT(joined(found.at("left_out")), HasSubstr("FLIP of the view " + view + ": " + why));
+    EXPECT_THAT(content_of(at("extreme/report.html")), HasSubstr("FLIP of the view tele"));
+    std::ofstream(at("flip.yaml")) << "name: seen\ndisplay:\n  mean_flip: {at_most: 0.5}\n";
+    const Outcome judged = compare("cast", "plain", "--strictness " + at("flip.yaml"));
+    EXPECT_EQ(judged.exit_code, 1);
+    EXPECT_THAT(judged.output, HasSubstr("1200 pixels per degree"));
+    // Who says how large a pixel looks has FLIP.
+    EXPECT_THAT(compare("cast", "plain", "--ppd 60").output, Not(HasSubstr("FLIP of the view")));
+}
+
 TEST_F(RunCompare, RunsOfOlderVersionsMayHaveAnSThatTheirToneMapperDoesNotUse) {
     play("linear", edited("halogen", "{kind: rational, s: 20, ", "{kind: linear, "), "", "--frames 0:1");
     std::filesystem::rename(edited("linear", "{kind: linear, ", "{kind: linear, s: 1, "), at("linear/straight-1.yaml"));
