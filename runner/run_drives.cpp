@@ -21,6 +21,7 @@
 #include "runner/repeats.h"
 #include "runner/run_context.h"
 #include "runner/savings.h"
+#include "runner/shadows/check_planar.h"
 #include "runner/shadows/choose_shadows.h"
 #include "runner/shadows/moment_sheet.h"
 #include "runner/stage.h"
@@ -345,6 +346,8 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     Device device = open_device(options.backend);
     check_sanity(device);
     const RendererSettings settings = settings_for(device, options.profile);
+    for (const Stage& stage : stages)
+        check_planar_shadows(stage, device, options.ticks);
     OutputFolder folder(options.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
     Report report;
     report.context = make_context(device.info(), options.command, drives.front().seed);

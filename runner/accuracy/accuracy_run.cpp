@@ -12,6 +12,7 @@
 #include "runner/output_folder.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
+#include "runner/shadows/check_planar.h"
 #include "runner/shadows/choose_shadows.h"
 #include "scenarios/drives/advance.h"
 
@@ -105,6 +106,8 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     }
     Device device = open_device(request.backend);
     check_sanity(device);
+    for (const Stage& stage : stages)
+        check_planar_shadows(stage, device);
     OutputFolder folder(request.folder);
     AccuracyResult result;
     result.context = make_context(device.info(), request.command, request.sweep.seed);

@@ -12,6 +12,7 @@
 #include "runner/preparation.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
+#include "runner/shadows/check_planar.h"
 #include "runner/shadows/choose_shadows.h"
 #include "runner/stage.h"
 #include "scenarios/drives/advance.h"
@@ -341,6 +342,7 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
     Device device = open_device(request.backend);
     check_sanity(device);
     choose_shadows(stage, device, settings_for(device, false));
+    check_planar_shadows(stage, device, moments_at(ticks, stage, variant));
     OutputFolder folder(request.folder);
     result.context = make_context(device.info(), request.command, request.drive.seed);
     add_inputs(result.context.inputs, stage.drive.opened);

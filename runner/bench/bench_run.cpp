@@ -10,6 +10,7 @@
 #include "runner/plots/png.h"
 #include "runner/progress.h"
 #include "runner/run_context.h"
+#include "runner/shadows/check_planar.h"
 #include "runner/shadows/choose_shadows.h"
 #include "runner/stage.h"
 #include "scenarios/drives/advance.h"
@@ -169,6 +170,7 @@ BenchResult run_bench(const BenchRequest& request) {
     Device device = open_device(request.backend);
     check_sanity(device);
     choose_shadows(stage, device, {});
+    check_planar_shadows(stage, device, moments);
     OutputFolder folder(request.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
     BenchResult result = described(request, stage, variant, view, device);
     for (const Moment& moment : moments)

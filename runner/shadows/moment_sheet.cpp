@@ -1,10 +1,10 @@
 #include "runner/shadows/moment_sheet.h"
 
+#include "renderer/shadow_memory.h"
 #include "runner/display/tile_sheet.h"
 #include "runner/shadows/scene_study.h"
 #include "runner/shadows/shadow_truth.h"
 #include "runner/shadows/shown_picture.h"
-#include "scenarios/values/errors.h"
 
 #include <algorithm>
 
@@ -33,6 +33,11 @@ ShadowSceneResult shadow_moment(const Stage& stage, const Variant& variant, cons
     for (const ShadowMethodName& one : shadow_method_names()) {
         ShadowRow row;
         row.method = one.method;
+        const auto refuse = [&](const std::exception& why) {
+            row = {};
+            row.method = one.method;
+            row.why_not = why.what();
+        };
         try {
             RendererSettings own = settings;
             own.shadows.method = one.method;
@@ -42,9 +47,9 @@ ShadowSceneResult shadow_moment(const Stage& stage, const Variant& variant, cons
             row.wrong = shadow_differences(seen);
             row.luminance_cdm2 = renderer.draw(moment, view, {.luminance = true}).luminance_cdm2;
         } catch (const InputError& refused) {
-            row = {};
-            row.method = one.method;
-            row.why_not = refused.what();
+            refuse(refused);
+        } catch (const ShadowMemoryError& refused) {
+            refuse(refused);
         }
         result.rows.push_back(std::move(row));
     }
