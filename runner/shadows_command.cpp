@@ -24,7 +24,7 @@ struct ShadowsFlags {
     std::string variant, backend = "auto", out, texels = "1024x512", resolution = "512x384";
     std::vector<std::string> methods, scenes{"*"};
     std::filesystem::path lamp = default_lamp;
-    double lamp_radius_m = ShadowSettings{}.lamp_radius_m, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
+    double lamp_radius_m = ShadowSettings{}.lamp_radius_m, floor_lx = shadow_floor_lx, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
     int moments = 3, rounds = 7;
     std::uint64_t seed = 1;
     bool quiet = false, markdown = false;
@@ -68,10 +68,13 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.options.height = height;
     if (flags.lamp_radius_m != 0.0 && !(flags.lamp_radius_m >= 0.001 && flags.lamp_radius_m <= 0.5))
         refuse_flag("--lamp-radius", fmt::format("{}", flags.lamp_radius_m), "0, or 0.001 to 0.5 m");
+    if (!(flags.floor_lx >= shadow_floor_lx && flags.floor_lx <= 10.0))
+        refuse_flag("--floor", fmt::format("{}", flags.floor_lx), "0.001 to 10 lx");
     if (!(flags.vertical_fov_deg >= 1.0 && flags.vertical_fov_deg <= 120.0))
         refuse_flag("--vertical-fov", fmt::format("{}", flags.vertical_fov_deg), "1 to 120 degrees");
     request.vertical_fov_rad = radians(flags.vertical_fov_deg);
     request.options.lamp_radius_m = flags.lamp_radius_m;
+    request.options.floor_lx = flags.floor_lx;
     request.options.rounds = flags.rounds;
     request.options.timed_px = resolution_of(flags.resolution);
     request.options.seed = flags.seed;
@@ -116,6 +119,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
         ->capture_default_str();
     sub->add_option("--lamp-radius", flags->lamp_radius_m, "m, of lamps as discs, for soft shadows; 0: not measured")
         ->capture_default_str();
+    sub->add_option("--floor", flags->floor_lx, "lx: what gets less without shadows does not count")->capture_default_str();
     sub->add_option("--vertical-fov", flags->vertical_fov_deg, "degrees, of the driver's view in the hard scenes, 4:3")
         ->default_str(fmt::format("{:.1f}", flags->vertical_fov_deg));
     sub->add_option("--moments", flags->moments, "of each drive, spread evenly over it")->check(CLI::Range(1, 100))->capture_default_str();

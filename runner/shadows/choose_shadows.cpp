@@ -1,5 +1,6 @@
 #include "runner/shadows/choose_shadows.h"
 
+#include "metrics/pixel_errors.h"
 #include "runner/shadows/shadow_figures.h"
 #include "runner/shadows/shadow_truth.h"
 #include "scenarios/drives/advance.h"
@@ -14,7 +15,8 @@ namespace {
 
 constexpr std::size_t most_moments = 64, most_pictures = 256, least_moments = 8;
 constexpr int scan_width_px = 16, scan_height_px = 12, scan_texels = 16;
-constexpr double compared_px = 160.0 * 120.0; ///< of a picture
+constexpr double compared_px = 160.0 * 120.0;             ///< of a picture
+constexpr double deciding_lx = ErrorRule{}.relative_from; ///< what gets less without shadows decides nothing, as in accuracy sections
 
 /// Of one lamp set.
 struct ShadowedMoments {
@@ -135,7 +137,9 @@ class Trial {
         return own;
     }
 
-    ShadowTruth truth_of(const Picture& picture) { return {rays_, unshadowed_, picture.series->set->moments, picture.series->view}; }
+    ShadowTruth truth_of(const Picture& picture) {
+        return {rays_, unshadowed_, picture.series->set->moments, picture.series->view, 0.0, deciding_lx};
+    }
     void keep(const Picture& picture) { kept_.push_back({picture, truth_of(picture)}); }
     bool is_kept(const Picture& picture) const { return std::ranges::find(kept_, picture, &Kept::picture) != kept_.end(); }
 
@@ -205,7 +209,7 @@ void try_methods(ShadowChoice& choice, Trial& trial) {
 
 std::vector<ShadowMethod> shadow_methods_by_cost() {
     using enum ShadowMethod;
-    return {none, under_car, planar, one_map, map, light_space_map, perspective_map, volumes, soft_map};
+    return {none, under_car, planar, map, one_map, volumes, perspective_map, light_space_map, soft_map};
 }
 
 std::optional<ShadowChoice> choose_shadows(Stage& stage, Device& device, const RendererSettings& settings) {

@@ -13,7 +13,7 @@ namespace fernlicht {
 /// What trying one method came to.
 struct TriedShadows {
     ShadowMethod method = ShadowMethod::none;
-    std::optional<double> error; ///< worst picture: share of what is lit without shadows that is wrongly lit or wrongly dark
+    std::optional<double> error; ///< worst picture: share of what is lit without shadows, by 0.05 lx or more, that is wrongly lit or dark
     double worst_s = 0.0;        ///< at this time
     std::string worst_set;       ///< with this lamp set
     std::string worst_view;      ///< in this view
@@ -37,8 +37,8 @@ std::vector<ShadowMethod> shadow_methods_by_cost();
 /// 1. In which moments does anything stand in a beam of the own or of others' lamps, or in the light of sun or moon? In none: `none`.
 /// 2. Of these moments up to 64 a lamp set, evenly spread (fewer where there are many lamp sets and views: 256 pictures in all), are
 ///    drawn in every view of the drive, about 160 x 120 pixels large, by one method after the other, cheapest first, and held against a
-///    ray from each pixel to each lamp (shadow_truth.h): first eight of each lamp set and view and those that ruled out another method,
-///    then the others, until one is wrong by more than the bound.
+///    ray from each pixel to each lamp (shadow_truth.h), where there would be 0.05 lx or more without shadows: first eight of each lamp set
+///    and view and those that ruled out another method, then the others, until one is wrong by more than the bound.
 /// 3. The first method that stays within the bound in all of them is taken. Where none does, the one that errs least in those of the first
 ///    sort is, and a note says so. Between these moments a method may err by more.
 /// No clock decides: the same drive gives the same choice. Sets stage.drive.shadows.method, adds a note, and returns what was found;

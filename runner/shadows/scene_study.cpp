@@ -132,14 +132,15 @@ struct SceneTruth {
     SceneTruth(const ShadowScene& scene, Device& device, const SceneStudyOptions& options)
         : rays(*scene.scene), unshadowed(device, *scene.scene, without_shadows(scene.light)), alone(alone_of(scene.moments)),
           steps(steps_from(alone[scene.moments.size() / 2])), shown(scene.moments.size() / 2),
-          ground(rays, unshadowed, scene.moments, ground_view(lamp_ahead_m(scene.moments[shown]))),
-          view(rays, unshadowed, scene.moments, width_view(scene.view, tile_px)),
-          discs(rays, unshadowed, scene.moments, width_view(scene.view, shadow_error_width_px), options.lamp_radius_m),
-          picture(rays, unshadowed, scene.moments, width_view(scene.view, 2 * tile_px)),
-          part(part_with_shadow(true_degrees(picture.of(shown)))),
-          crawl(rays, unshadowed, steps, section_view(lamp_ahead_m(alone[shown]), crawl_distance_m)) {
+          ground(rays, unshadowed, scene.moments, ground_view(lamp_ahead_m(scene.moments[shown])), 0.0, options.floor_lx),
+          view(rays, unshadowed, scene.moments, width_view(scene.view, tile_px), 0.0, options.floor_lx),
+          discs(rays, unshadowed, scene.moments, width_view(scene.view, shadow_error_width_px), options.lamp_radius_m, options.floor_lx),
+          picture(rays, unshadowed, scene.moments, width_view(scene.view, 2 * tile_px), 0.0, options.floor_lx),
+          part(part_with_shadow(true_degrees(picture.of(shown), options.floor_lx))),
+          crawl(rays, unshadowed, steps, section_view(lamp_ahead_m(alone[shown]), crawl_distance_m), 0.0, options.floor_lx) {
         for (const double distance_m : edge_distances_m)
-            sections.emplace_back(rays, unshadowed, edge_moments(), section_view(lamp_ahead_m(alone[shown]), distance_m));
+            sections.emplace_back(rays, unshadowed, edge_moments(), section_view(lamp_ahead_m(alone[shown]), distance_m), 0.0,
+                                  options.floor_lx);
     }
     SceneTruth(const SceneTruth&) = delete;
     SceneTruth& operator=(const SceneTruth&) = delete;
@@ -302,7 +303,7 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
     const ShadowTruth::Found& rays = truth.picture.of(truth.shown);
     const Image<float> free =
         truth.part.of(truth.unshadowed.draw(scene.moments[truth.shown], truth.picture.view(), {.luminance = true}).luminance_cdm2);
-    result.degree = truth.part.of(true_degrees(rays));
+    result.degree = truth.part.of(true_degrees(rays, options.floor_lx));
     result.luminance_cdm2 = shaded_by_rays(free, result.degree);
     result.white_cdm2 = white_of_ground(free, truth.part.of(rays.ids), *scene.scene);
     step();

@@ -12,6 +12,7 @@ struct SceneStudyOptions {
     std::vector<ShadowMethod> methods;
     int width = 1024, height = 512;                        ///< texels
     double lamp_radius_m = ShadowSettings{}.lamp_radius_m; ///< of discs, of soft methods and of the truth; 0: the truth is not measured
+    double floor_lx = shadow_floor_lx;                     ///< below this without shadows nothing counts
     int rounds = 7;
     std::pair<int, int> timed_px{512, 384};
     std::uint64_t seed = 1;

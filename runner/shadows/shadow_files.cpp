@@ -101,7 +101,7 @@ std::string shadow_json(const ShadowResult& result) {
                           {"rounds", result.rounds},
                           {"map_texels", {{"width", result.map_width}, {"height", result.map_height}}},
                           {"lamp_radius_m", result.lamp_radius_m},
-                          {"floor_lx", shadow_floor_lx},
+                          {"floor_lx", result.floor_lx},
                           {"scenes", scenes}});
 }
 

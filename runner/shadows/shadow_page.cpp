@@ -111,7 +111,7 @@ std::string shadow_html(const ShadowResult& result) {
     page.set("is_interrupted", !result.interrupted.empty());
     page.set("missing", missing);
     page.set("texels", fmt::format("{} x {}", result.map_width, result.map_height));
-    page.set("floor", fmt::format("{:g}", shadow_floor_lx));
+    page.set("floor", fmt::format("{:g}", result.floor_lx));
     page.set("radius", fmt::format("{:g}", 100.0 * result.lamp_radius_m));
     const bool has_discs = result.lamp_radius_m > 0.0;
     page.set("has_discs", has_discs);

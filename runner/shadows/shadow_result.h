@@ -57,7 +57,7 @@ struct ShadowResult {
     RunContext context;
     std::size_t cores = 0, rounds = 0;
     int map_width = 0, map_height = 0; ///< texels of the methods that have maps
-    double lamp_radius_m = 0.0;
+    double lamp_radius_m = 0.0, floor_lx = shadow_floor_lx;
     OtherUse others;
     std::string interrupted;
     std::vector<std::string> missing; ///< because of that, one clause each

@@ -90,6 +90,7 @@ ShadowResult run_shadow_study(const ShadowRequest& request) {
     result.map_width = request.options.width;
     result.map_height = request.options.height;
     result.lamp_radius_m = request.options.lamp_radius_m;
+    result.floor_lx = request.options.floor_lx;
     const Interruption listening;
     const CpuUse before = cpu_use();
     Progress progress("shadows", static_cast<int>(scenes.size() * steps_of(request.options)), request.quiet, "steps");

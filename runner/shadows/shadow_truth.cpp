@@ -34,12 +34,12 @@ View at_size(View view, int width_px, int height_px) {
     return view;
 }
 
-Image<float> true_degrees(const ShadowTruth::Found& truth) {
+Image<float> true_degrees(const ShadowTruth::Found& truth, double floor_lx) {
     const ShadowImages images{truth.true_lx, truth.true_lx, truth.unshadowed_lx, {}, {}};
     Image<float> out(truth.true_lx.width(), truth.true_lx.height(), -1.0F);
     for (int y = 0; y < out.height(); ++y)
         for (int x = 0; x < out.width(); ++x)
-            if (const auto degrees = shadow_degrees(images, x, y))
+            if (const auto degrees = shadow_degrees(images, x, y, floor_lx))
                 out.at(x, y) = static_cast<float>(degrees->truth);
     return out;
 }
@@ -51,8 +51,9 @@ RendererSettings without_shadows(RendererSettings settings) {
 }
 
 ShadowTruth::ShadowTruth(const Reference& rays, Renderer& unshadowed, const std::vector<Moment>& moments, const View& view,
-                         double lamp_radius_m)
-    : rays_(rays), unshadowed_(unshadowed), moments_(moments), view_(view), lamp_radius_m_(lamp_radius_m), found_(moments.size()) {}
+                         double lamp_radius_m, double floor_lx)
+    : rays_(rays), unshadowed_(unshadowed), moments_(moments), view_(view), lamp_radius_m_(lamp_radius_m), floor_lx_(floor_lx),
+      found_(moments.size()) {}
 
 const ShadowTruth::Found& ShadowTruth::of(std::size_t moment) {
     std::optional<Found>& found = found_.at(moment);
@@ -80,8 +81,9 @@ ShadowImages ShadowTruth::images(Renderer& renderer, std::size_t moment) {
                         Image<std::uint8_t>(view_.width_px, view_.height_px)};
     for (std::size_t i = 0; i < images.counts.pixels().size(); ++i) {
         const std::uint32_t id = truth.ids.pixels()[i];
-        const bool counts =
-            id != 0 && drawn.ids.pixels()[i] == id && like_light(truth.drawn_unshadowed_lx.pixels()[i], truth.unshadowed_lx.pixels()[i]);
+        const float free_lx = truth.unshadowed_lx.pixels()[i];
+        const bool counts = id != 0 && drawn.ids.pixels()[i] == id && static_cast<double>(free_lx) > floor_lx_ &&
+                            like_light(truth.drawn_unshadowed_lx.pixels()[i], free_lx);
         images.counts.pixels()[i] = static_cast<std::uint8_t>(counts ? 1 : 0);
     }
     return images;
