@@ -100,6 +100,23 @@ TEST(ShadowsCommand, SoftMapsAreNearerToDiscs) {
               0.4 * row_of(scene, "map").at("discs_px").at("wrong_share").get<double>());
 }
 
+TEST(ShadowsCommand, CountsFromTheFloorOn) {
+    const TemporaryFolder folder;
+    const auto found = [&](const std::string& floor) {
+        const Outcome run = run_program(small + "--rounds 1 --lamp-radius 0 --methods none --scenes post-20 --floor " + floor + " --out " +
+                                        (folder / floor));
+        EXPECT_EQ(run.exit_code, 0) << run.output;
+        const json all = json::parse(content_of(folder / (floor + "/shadows.json")));
+        EXPECT_EQ(all.at("floor_lx"), std::stod(floor));
+        EXPECT_THAT(content_of(folder / (floor + "/shadows.html")), HasSubstr(floor + " lx"));
+        return row_of(all.at("scenes").at(0), "none");
+    };
+    const json faint = found("0.001"), bright = found("2");
+    for (const char* what : {"ground_m2", "view_px"})
+        EXPECT_LT(bright.at(what).at("counted"), 0.9 * faint.at(what).at("counted").get<double>()) << what;
+    EXPECT_GT(bright.at("ground_m2").at("counted"), 0.0);
+}
+
 TEST(ShadowsCommand, TakesEveryMethodThereIs) {
     const TemporaryFolder folder;
     const Outcome run = run_program(small + "--rounds 1 --lamp-radius 0 --scenes crest --out " + (folder / "out"));
@@ -158,6 +175,7 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
     EXPECT_THAT(refused("--methods mop"), HasSubstr("--methods: found 'mop'"));
     EXPECT_THAT(refused("--methods mop"), HasSubstr("expected one of none, under-car, "));
     EXPECT_THAT(refused("--methods auto"), HasSubstr("by their names"));
+    EXPECT_THAT(refused("--floor 0"), HasSubstr("--floor: found '0', expected 0.001 to 10 lx"));
     EXPECT_THAT(refused("--scenes none,post-5"), HasSubstr("--scenes: found 'none,post-5', expected none alone"));
     const Outcome nowhere = run_program("shadows --lamp nowhere.ies --out " + (folder / "out"));
     EXPECT_EQ(nowhere.exit_code, 2);
