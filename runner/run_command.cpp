@@ -121,11 +121,12 @@ TickRange tick_range(const std::string& frames) {
     TickRange range;
     if (frames.empty())
         return range;
-    const auto [first, last] = two_numbers("--frames", frames, ':', true, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
+    constexpr const char* expected = "FIRST:LAST with FIRST 0 or more and FIRST <= LAST, e.g. 0:59";
+    const auto [first, last] = two_numbers("--frames", frames, ':', true, expected);
     range.first = first < 0 ? 0 : first;
     range.last = last < 0 ? range.last : last;
     if (range.first > range.last)
-        refuse_flag("--frames", frames, "FIRST:LAST with FIRST <= LAST, e.g. 0:59");
+        refuse_flag("--frames", frames, expected);
     return range;
 }
 

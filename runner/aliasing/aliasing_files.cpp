@@ -225,6 +225,8 @@ std::string aliasing_text(const AliasingResult& result) {
             why += row.temporal ? motion_text(*row.by_flow) + "\n"
                                 : name_of(row.configuration) + ": flicker not measured, " + row.no_temporal + "\n";
     }
+    for (const std::string& note : result.notes)
+        why += "note: " + note + "\n";
     const auto& [first, first_s] = result.moments.front();
     const auto& [last, last_s] = result.moments.back();
     out += result.title + (result.variant.empty() ? "" : ", " + result.variant);
@@ -262,6 +264,7 @@ std::string aliasing_json(const AliasingResult& result) {
                           {"schema_version", 2},
                           {"context", context_json(result.context)},
                           {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
+                          {"notes", result.notes},
                           {"drive", result.drive},
                           {"title", result.title},
                           {"variant", result.variant},

@@ -76,6 +76,8 @@ data notes_part(const AliasingResult& result) {
     for (const AliasingRow& row : result.rows)
         if (row.by_flow && row.temporal)
             notes.push_back(motion_text(*row.by_flow));
+    for (const std::string& note : result.notes)
+        notes.push_back(clean_text(note));
     return notes;
 }
 

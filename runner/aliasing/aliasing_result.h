@@ -71,6 +71,7 @@ struct AliasingResult {
     double level_lx = 0.0;          ///< of the line whose jaggedness is measured
     std::vector<AliasingRow> rows;
     std::vector<FlowComparison> flows; ///< empty where not asked for
+    std::vector<std::string> notes;    ///< what is not known of frames of others, one sentence each
     std::string interrupted;           ///< "" where all was measured
 };
 

@@ -2,6 +2,7 @@
 
 #include "metrics/images/srgb.h"
 #include "runner/aliasing/aliasing_result.h"
+#include "runner/display/shown_alike.h"
 #include "runner/picture_file.h"
 #include "scenarios/values/errors.h"
 
@@ -130,11 +131,18 @@ SequenceFrames read_sequence(const std::filesystem::path& path_or_pattern, const
     std::map<int, std::filesystem::path> files = numbered_files(Which(path_or_pattern));
     check_numbers(path_or_pattern, files, range);
     SequenceFrames frames;
+    frames.first = files.begin()->second;
     frames.displayed = files.begin()->second.extension() == ".png";
     for (const auto& [number, path] : files) {
         read_file(path, frames.opened); // for the record of what was read
         frames.numbers.push_back(number);
         frames.luminance_cdm2.push_back(frames.displayed ? displayed_luminance(read_png(path)) : linear_luminance(path));
+        if (frames.displayed) {
+            const std::string note =
+                check_shown_alike({frames.first, frames.first.filename().string()}, {path, path.filename().string()}, "the first frame");
+            if (!note.empty() && frames.notes.empty())
+                frames.notes.push_back(note);
+        }
         const Image<float>&first = frames.luminance_cdm2.front(), &last = frames.luminance_cdm2.back();
         if (last.width() != first.width() || last.height() != first.height())
             throw InputError({path, 0, 0, {}}, fmt::format("has {} x {} pixels", last.width(), last.height()),

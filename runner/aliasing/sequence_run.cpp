@@ -4,6 +4,7 @@
 #include "runner/aliasing/flow_measures.h"
 #include "runner/aliasing/over_moments.h"
 #include "runner/aliasing/sequence_frames.h"
+#include "runner/display/shown_alike.h"
 #include "runner/interruption.h"
 #include "runner/output_folder.h"
 #include "runner/progress.h"
@@ -76,6 +77,12 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
     const Image<float>& first = drawn.luminance_cdm2.front();
     AliasingResult result;
     result.supersample = request.against ? factor_of(*request.against, drawn, fine) : 0;
+    result.notes = drawn.notes;
+    result.notes.insert(result.notes.end(), fine.notes.begin(), fine.notes.end());
+    if (request.against && drawn.displayed)
+        if (const std::string note = check_shown_alike({drawn.first, "the sequence"}, {fine.first, "--against"}, "the sequence");
+            !note.empty())
+            result.notes.push_back(note);
     result.pixels_per_degree =
         request.pixels_per_degree ? *request.pixels_per_degree : pixels_per_degree_of_view(radians(*request.view_fov_deg), first.height());
     OutputFolder folder(request.folder);

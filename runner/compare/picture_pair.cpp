@@ -1,5 +1,6 @@
 #include "runner/compare/picture_pair.h"
 
+#include "runner/display/shown_alike.h"
 #include "runner/picture_file.h"
 #include "scenarios/values/errors.h"
 
@@ -89,24 +90,6 @@ void read_linear(PicturePair& pair, bool common_alone) {
             pair.alone.push_back(channel.name);
 }
 
-/// Pictures shown in different ways have no common scale, and differences of colours are made for sRGB. Of pictures of others, and of such
-/// that passed through other programs, nothing is known: where one alone tells, a note says so.
-void check_shown_alike(PicturePair& pair) {
-    const PictureTags a = read_png_tags(pair.reference), b = read_png_tags(pair.tested);
-    if (!a.shown_by.empty() && !b.shown_by.empty() && a.shown_by != b.shown_by)
-        throw InputError({pair.tested, 0, 0, {}}, "was shown by '" + printable(b.shown_by, 200) + "'",
-                         "'" + printable(a.shown_by, 200) + "' as the reference, or the EXRs of the same moments");
-    if (a.shown_by.empty() != b.shown_by.empty())
-        pair.notes.push_back(fmt::format(
-            "{} was shown by '{}', and {} does not tell (no fernlicht:shown_by): whether the two have a common "
-            "scale is not known",
-            a.shown_by.empty() ? "B" : "A", printable(a.shown_by.empty() ? b.shown_by : a.shown_by, 200), a.shown_by.empty() ? "A" : "B"));
-    for (const auto& [tags, file] : {std::pair(&a, &pair.reference), std::pair(&b, &pair.tested)})
-        if (!tags->icc.empty())
-            throw InputError({*file, 0, 0, {}}, "has the colour space of a display, by an ICC profile",
-                             "sRGB, which differences of colours are made for; EXRs of the same moments can be compared");
-}
-
 PicturePair read_pair(const std::filesystem::path& reference, const std::filesystem::path& tested, bool common_alone) {
     PicturePair pair;
     pair.reference = reference;
@@ -119,7 +102,8 @@ PicturePair read_pair(const std::filesystem::path& reference, const std::filesys
         read_linear(pair, common_alone);
         return pair;
     }
-    check_shown_alike(pair);
+    if (const std::string note = check_shown_alike({reference, "A"}, {tested, "B"}, "the reference"); !note.empty())
+        pair.notes.push_back(note);
     pair.reference_display = read_png(reference);
     pair.tested_display = read_png(tested);
     pair.width = pair.reference_display.width();

@@ -176,6 +176,14 @@ TEST(Run, BadInputIsOneSentenceAndExitCodeTwo) {
     }
 }
 
+TEST(Run, FramesSayWhatTheyMustBe) {
+    for (const char* frames : {"-3:2", "5:2", "x"}) {
+        const Outcome outcome = run_program("run " + library_file("drives/straight.yaml") + " --frames=" + frames);
+        EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+        EXPECT_NE(outcome.output.find("expected FIRST:LAST with FIRST 0 or more and FIRST <= LAST"), std::string::npos) << outcome.output;
+    }
+}
+
 /// Not the drive, which may say nothing of shadows.
 TEST(Run, AWrongShadowMethodIsThatOfTheFlag) {
     const TemporaryFolder folder;

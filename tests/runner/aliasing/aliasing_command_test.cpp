@@ -1,4 +1,6 @@
+#include "runner/display/icc_profile.h"
 #include "runner/picture_file.h"
+#include "scenarios/display/display_profile.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
@@ -250,6 +252,55 @@ TEST(AliasingCommand, RefusesFramesThatAreNoSequence) {
         EXPECT_EQ(run.exit_code, 2) << flags << run.output;
         EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
     }
+}
+
+/// The ring again, saying how it was shown; frames from `other_from` on say something else.
+void write_shown_ring(const std::string& folder, int k, const PictureTags& tags, int other_from = 9, const PictureTags& other = {}) {
+    write_ring(folder, 9, k, true, 0.0);
+    for (int t = 0; t < 9; ++t) {
+        const std::string file = folder + "/frame_" + std::to_string(1000 + t) + ".png";
+        write_png(read_png(file), t < other_from ? tags : other, file);
+    }
+}
+
+TEST(AliasingCommand, RefusesFramesThatWereShownInDifferentWays) {
+    const TemporaryFolder folder;
+    const PictureTags usual{"rational s=20 white=100 cd/m2; display srgb", ""}, linear{"linear white=50 cd/m2; display srgb", ""};
+    write_shown_ring(folder / "usual", 1, usual);
+    write_shown_ring(folder / "fine", 4, usual);
+    write_shown_ring(folder / "fine-linear", 4, linear);
+    write_shown_ring(folder / "mixed", 1, usual, 5, linear);
+    write_shown_ring(folder / "fine-unknown", 4, {});
+    FilesRead opened;
+    write_shown_ring(folder / "profile", 1,
+                     {usual.shown_by, icc_profile(read_display_profile(library_file("displays/projector.yaml"), opened))});
+    const std::string start = "aliasing --quiet --rate 30 --ppd 20 --sequence ";
+    for (const auto& [flags, sentence] :
+         {std::pair(
+              (folder / "usual") + " --against " + (folder / "fine-linear"),
+              std::string("frame_1000.png: was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 white=100 cd/m2; "
+                          "display srgb' as the sequence, or the EXRs of the same moments")),
+          std::pair(folder / "mixed",
+                    std::string("frame_1005.png: was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 "
+                                "white=100 cd/m2; display srgb' as the first frame")),
+          std::pair(folder / "profile", std::string("frame_1000.png: has the colour space of a display, by an ICC profile"))}) {
+        const Outcome run = run_program(start + flags + " --out " + (folder / "refused"));
+        EXPECT_EQ(run.exit_code, 2) << flags << run.output;
+        EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
+        EXPECT_FALSE(std::filesystem::exists(folder / "refused")) << flags;
+    }
+    // The same words as those of `compare`.
+    const Outcome compared = run_program("compare " + (folder / "usual/frame_1000.png") + " " + (folder / "mixed/frame_1008.png"));
+    EXPECT_EQ(compared.exit_code, 2);
+    EXPECT_THAT(compared.output, HasSubstr("was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 white=100 cd/m2; "
+                                           "display srgb' as the reference, or the EXRs of the same moments"));
+    sequence_found(folder, "--sequence " + (folder / "usual") + " --against " + (folder / "fine"), "alike");
+    sequence_found(folder, "--sequence " + (folder / "usual") + " --against " + (folder / "fine-unknown"), "unknown");
+    const auto notes = [&](const std::string& out) { return json::parse(content_of(folder / (out + "/aliasing.json"))).at("notes"); };
+    EXPECT_EQ(notes("alike").size(), 0U);
+    ASSERT_EQ(notes("unknown").size(), 1U);
+    EXPECT_THAT(notes("unknown").at(0).get<std::string>(), HasSubstr("--against does not tell (no fernlicht:shown_by)"));
+    EXPECT_THAT(content_of(folder / "unknown/aliasing.html"), HasSubstr("--against does not tell"));
 }
 
 TEST(AliasingCommand, WhatHasNoLuminanceIsNotMeasuredUnlessAsDisplayed) {
