@@ -4,6 +4,7 @@
 #include "runner/frame_times.h"
 #include "runner/lux_map.h"
 #include "runner/probe_fold.h"
+#include "runner/report/drawn_by.h"
 #include "runner/seeing/seeing_fold.h"
 #include "scenarios/drives/advance.h"
 #include "scenarios/drives/drive_log.h"
@@ -155,6 +156,7 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
     played.title = drive.title;
     played.variant = variant.name;
     played.technique = drive.technique;
+    played.drawn_by = std::make_shared<const DrawnBy>(drawn_by(drive));
     for (const MountedLamp& lamp : variant.lamps)
         played.lamps.emplace_back(lamp.name, lamp.file->name);
     played.ticks_planned = ticks_to_play(drive, options.ticks);

@@ -19,6 +19,7 @@
 #include "runner/progress.h"
 #include "runner/references.h"
 #include "runner/repeats.h"
+#include "runner/report/drawn_by.h"
 #include "runner/run_context.h"
 #include "runner/savings.h"
 #include "runner/shadows/check_planar.h"
@@ -292,14 +293,10 @@ void note_parts(const std::deque<Stage>& stages, const TickRange& ticks, Report&
 /// So that nobody takes a technique's own shadows, or none, for those of the method that was asked for.
 void note_shadows(const std::vector<Drive>& drives, Report& report) {
     for (const Drive& drive : drives) {
-        const Technique& technique = technique_named(drive.technique, drive.file);
-        const ShadowMethod method = drive.shadows.method;
-        const bool draws_all = technique.kind == TechniqueKind::ours && technique.name != "photometric-naive";
-        if (draws_all || method == ShadowMethod::map || method == ShadowMethod::none) // these two nobody needs to ask for
-            continue;
-        report.warnings.push_back(fmt::format(
-            "{}: shadows by '{}' were asked for, and technique {} does not use it: {}", drive.name, name(method), technique.name,
-            technique.kind == TechniqueKind::ours ? "its shadows are those of a map for each lamp" : "it draws no shadows of lamps"));
+        const std::string instead = shadows_instead(drive);
+        if (!instead.empty() && drive.shadows.method != ShadowMethod::map) // which nobody needs to ask for
+            report.warnings.push_back(fmt::format("{}: shadows by '{}' were asked for, and technique {} does not use it: {}", drive.name,
+                                                  name(drive.shadows.method), drive.technique, instead));
     }
 }
 

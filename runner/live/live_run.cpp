@@ -9,6 +9,7 @@
 #include "runner/live/live_drawing.h"
 #include "runner/live/live_loop.h"
 #include "runner/output_folder.h"
+#include "runner/report/drawn_by.h"
 #include "runner/report/json_text.h"
 #include "runner/run_context.h"
 #include "runner/shadows/choose_shadows.h"
@@ -209,8 +210,10 @@ PlayedVariant LiveSession::result(const LiveFigures& figures) {
     }
     played.notes.emplace_back(
         "a live drive measures punctuality and loss; reach, glare and costs are measured when its recording is played");
-    if (drawing_)
+    if (drawing_) {
+        played.drawn_by = std::make_shared<const DrawnBy>(drawn_by(drive));
         drawing_->finish(played);
+    }
     return played;
 }
 

@@ -1,14 +1,55 @@
 #include "runner/display/seen_display.h"
+#include "runner/display/shown_picture.h"
 #include "runner/report/clean_text.h"
+#include "runner/report/drawn_by.h"
 #include "runner/report/page_parts.h"
+#include "scenarios/display/tone_curve.h"
 
 #include <fmt/format.h>
 
 namespace fernlicht {
 
+namespace {
+
+/// "1.57", "0.00012", "54.8": three digits.
+std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
+
+kainjow::mustache::data shown_by_part(const DrawnBy& drawn) {
+    using kainjow::mustache::data;
+    const DisplayProfile display = display_of(drawn);
+    const ToneMapper& mapper = drawn.tone_mapper;
+    const bool has_s = mapper.kind == ToneMapperKind::rational || mapper.kind == ToneMapperKind::logarithmic;
+    data part, stages{data::type::list};
+    part.set("shown_by", clean_text(shown_by(drawn.display, mapper)));
+    part.set("as_usual", drawn.shown_as_usual());
+    part.set("mapper", std::string(name(mapper.kind)));
+    part.set("s", has_s ? ", s = " + three_digits(mapper.s) : "");
+    part.set("white", fmt::format("{:.4g}", mapper.l_max_cdm2));
+    part.set("display", drawn.display.profile ? short_text(display.name, 60) : "sRGB, no profile");
+    part.set("title", drawn.display.profile && !display.title.empty() ? " (" + short_text(display.title, 80) + ")" : "");
+    part.set("peak", fmt::format("{:.4g}", display.peak_cdm2()));
+    part.set("black", three_digits(display.black_cdm2));
+    part.set("bits", fmt::format("{}", display.bits));
+    part.set("gamut", display.gamut == GamutRule::clip ? "are clipped in each channel" : "keep their luminance and become paler");
+    for (const std::string& stage : display_stages(drawn))
+        stages.push_back(stage);
+    part.set("has_stages", stages.is_non_empty_list());
+    part.set("stages", stages);
+    part.set("adapts", drawn.display.adaptation.has_value());
+    part.set("seen_first", drawn.display.windscreen || drawn.display.veil || drawn.display.night_colours || drawn.display.night_sharpness);
+    part.set("low", three_digits(shown_cdm2(drawn, 0.1)));
+    part.set("middle", three_digits(shown_cdm2(drawn, 1.0)));
+    part.set("high", three_digits(shown_cdm2(drawn, 10.0)));
+    return part;
+}
+
+} // namespace
+
 kainjow::mustache::data display_part(const ComparedDrive& drive) {
     using kainjow::mustache::data;
     data part, rows{data::type::list};
+    if (const DrawnBy* const drawn = drive.variants.front()->drawn_by.get())
+        part.set("shown", shown_by_part(*drawn));
     const SeenDisplay* const first = drive.variants.front()->display.get();
     part.set("was_seen", first != nullptr);
     if (first == nullptr)

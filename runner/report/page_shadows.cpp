@@ -1,6 +1,8 @@
 #include "runner/report/clean_text.h"
+#include "runner/report/drawn_by.h"
 #include "runner/report/page_parts.h"
 #include "runner/shadows/choose_shadows.h"
+#include "scenarios/drives/shadow_keys.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +11,20 @@ namespace fernlicht {
 kainjow::mustache::data shadows_part(const ComparedDrive& drive) {
     using kainjow::mustache::data;
     data part;
+    const DrawnBy* const drawn = drive.variants.front()->drawn_by.get();
+    part.set("was_drawn", drawn != nullptr);
+    if (drawn) {
+        std::string settings;
+        for (const auto& [key, text] : used_shadow_keys(drawn->shadows))
+            if (key != "redraw_texels" || drawn->shadows.redraw_texels > 0.0)
+                settings += fmt::format("{}{} {}", settings.empty() ? "" : ", ", key, text);
+        part.set("method", std::string(name(drawn->shadows.method)));
+        part.set("settings", settings.empty() ? "" : " (" + settings + ")");
+        part.set("casts_nothing", !drawn->shadows.things_cast);
+        part.set("has_instead", !drawn->shadows_instead.empty());
+        part.set("instead", drawn->shadows_instead);
+        part.set("technique", clean_text(drive.variants.front()->technique));
+    }
     const ShadowChoice* const choice = drive.variants.front()->shadows.get();
     part.set("was_chosen", choice != nullptr);
     if (choice == nullptr)

@@ -156,6 +156,7 @@ struct Repeats {
 };
 
 /// One drive played with one lamp set.
+struct DrawnBy;
 struct ShadowChoice;
 struct SeenDisplay;
 
@@ -186,6 +187,7 @@ struct PlayedVariant {
     int warm_up_dropped = 0;
     Savings savings;
     DriveError error;
+    std::shared_ptr<const DrawnBy> drawn_by = nullptr;     ///< shadow method, tone mapper and display; nullptr: nothing was drawn
     std::shared_ptr<const ShadowChoice> shadows = nullptr; ///< how `shadows: auto` was decided; nullptr: the drive names its method
     std::shared_ptr<const SeenDisplay> display = nullptr;  ///< how pictures are seen; nullptr: the display says not where it is seen from
     Readings readings;                                     ///< summary of the drive and probes

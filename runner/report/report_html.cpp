@@ -71,9 +71,10 @@ data plots_part(const ComparedDrive& drive) {
     part.set("signal_sentence", signal_sentence(drive));
     part.set("has_seen", has_seen);
     part.set("seen", seen);
-    part.set("has_timing", add(timings, timing_svg(drive)));
+    const data passes = timing_table(drive);
+    part.set("has_timing", add(timings, timing_svg(drive)) || passes.is_non_empty_list()); // short runs have tables alone
     part.set("timings", timings);
-    part.set("passes", timing_table(drive));
+    part.set("passes", passes);
     part.set("throughput", throughput_table(drive));
     return part;
 }

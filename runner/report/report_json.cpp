@@ -2,14 +2,18 @@
 #include "runner/bench/bench_result.h"
 #include "runner/context_json.h"
 #include "runner/display/seen_display.h"
+#include "runner/display/shown_picture.h"
 #include "runner/live/live_figures.h"
 #include "runner/report/clean_text.h"
+#include "runner/report/drawn_by.h"
 #include "runner/report/extent_summary.h"
 #include "runner/report/json_text.h"
 #include "runner/report/report_writers.h"
 #include "runner/report/signals_json.h"
 #include "runner/report/verdict_json.h"
 #include "runner/shadows/choose_shadows.h"
+#include "scenarios/display/tone_curve.h"
+#include "scenarios/drives/shadow_keys.h"
 
 #include <algorithm>
 #include <array>
@@ -261,6 +265,34 @@ Json shadow_choice_json(const ShadowChoice& choice) {
             {"tried", tried}};
 }
 
+Json drawn_shadows_json(const DrawnBy& drawn) {
+    Json settings = Json::object();
+    for (const auto& [key, text] : used_shadow_keys(drawn.shadows)) // numbers and lists of them, which JSON writes as YAML does
+        settings[std::string(key)] = Json::parse(text);
+    return {{"method", name(drawn.shadows.method)},
+            {"things_cast", drawn.shadows.things_cast},
+            {"settings", settings},
+            {"not_used", drawn.shadows_instead.empty() ? Json(nullptr) : Json(drawn.shadows_instead)}};
+}
+
+Json shown_by_json(const DrawnBy& drawn) {
+    const DisplayProfile display = display_of(drawn);
+    const bool has_s = drawn.tone_mapper.kind == ToneMapperKind::rational || drawn.tone_mapper.kind == ToneMapperKind::logarithmic;
+    Json shown = Json::array();
+    for (const double seen : {0.1, 1.0, 10.0})
+        shown.push_back({{"seen_cdm2", seen}, {"shown_cdm2", seven_digits(shown_cdm2(drawn, seen), "luminance of the display")}});
+    return {{"text", shown_by(drawn.display, drawn.tone_mapper)},
+            {"tone_mapper", name(drawn.tone_mapper.kind)},
+            {"s", has_s ? Json(finite(drawn.tone_mapper.s, "s")) : Json(nullptr)},
+            {"white_cdm2", finite(drawn.tone_mapper.l_max_cdm2, "white")},
+            {"display", display.name},
+            {"gamut", display.gamut == GamutRule::clip ? "clip" : "keep-luminance"},
+            {"peak_cdm2", seven_digits(display.peak_cdm2(), "peak")},
+            {"black_cdm2", finite(display.black_cdm2, "black")},
+            {"stages", display_stages(drawn)},
+            {"luminances", shown}};
+}
+
 Json seen_display_json(const SeenDisplay& seen) {
     Json views = Json::array();
     for (const SeenView& view : seen.views) {
@@ -424,6 +456,10 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
               {"speed_mps", speed},
               {"accuracy", accuracy_json(played.error)},
               {"extents", extents_json(played)}};
+    if (played.drawn_by) {
+        json["shadows"] = drawn_shadows_json(*played.drawn_by);
+        json["shown_by"] = shown_by_json(*played.drawn_by);
+    }
     if (played.shadows)
         json["shadow_choice"] = shadow_choice_json(*played.shadows);
     if (played.display)

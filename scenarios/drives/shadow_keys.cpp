@@ -95,6 +95,14 @@ ShadowSettings read_shadows(const YamlMap& drive) {
     return shadows;
 }
 
+std::vector<std::pair<std::string_view, std::string>> used_shadow_keys(const ShadowSettings& shadows) {
+    std::vector<std::pair<std::string_view, std::string>> used;
+    for (const ShadowKey& row : shadow_keys)
+        if (row.heard_by(shadows.method))
+            used.emplace_back(row.key, row.text(shadows));
+    return used;
+}
+
 std::string write_shadows(const ShadowSettings& shadows) {
     if (!shadows.any())
         return shadows.things_cast ? "shadows: none\n" : "shadows: false\n";

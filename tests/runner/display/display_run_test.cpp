@@ -88,6 +88,95 @@ TEST(DisplayRun, PicturesSayWhatTheyWereShownBy) {
                                                "display: sharpness at night", "display: tone mapper and display"}));
 }
 
+json drive_in(const std::string& out) {
+    const json report = json::parse(content_of(out + "/report.json"));
+    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/report/report.schema.json")));
+    EXPECT_THAT(schema.check(report), testing::IsEmpty());
+    return report.at("drives").at(0);
+}
+
+// rational with s = 20 and white at 100 cd/m2 shows 0.1 cd/m2 with 2 / 101.9 of white, 10 with 200 / 290.
+TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
+    const TemporaryFolder folder;
+    const auto shown = [](const json& drive, std::size_t i) {
+        return drive.at("shown_by").at("luminances").at(i).at("shown_cdm2").get<double>();
+    };
+    const std::string plain = played(folder, "plain", "");
+    json drive = drive_in(plain);
+    EXPECT_EQ(drive.at("shown_by").at("text"), "rational s=20 white=100 cd/m2; display srgb");
+    EXPECT_EQ(drive.at("shown_by").at("gamut"), "clip");
+    EXPECT_THAT(drive.at("shown_by").at("stages"), testing::IsEmpty());
+    EXPECT_NEAR(shown(drive, 0), 80.0 * 2.0 / 101.9, 1e-5);
+    EXPECT_EQ(drive.at("shadows"), json::parse(R"({"method": "map", "things_cast": true, "not_used": null,
+        "settings": {"map_texels": [1024, 512], "tolerance_m": 0.03, "redraw_texels": 0}})"));
+    const std::string short_page = content_of(plain + "/report.html");
+    EXPECT_THAT(short_page,
+                testing::HasSubstr("By <code>rational s=20 white=100 cd/m2; display srgb</code>: 0.1, 1 and 10 cd/m² as 1.57, 13.4 "
+                                   "and 55.2 cd/m² where white is 80 cd/m²"));
+    EXPECT_THAT(short_page, testing::HasSubstr("Shadows by <code>map</code> (map_texels [1024, 512], tolerance_m 0.03)"));
+    EXPECT_THAT(short_page, testing::Not(testing::HasSubstr("<li>Tone mapper")));
+
+    const std::string all = played(
+        folder, "all",
+        "shadows: {method: soft-map, lamp_places: 2, redraw_texels: 0.5}\ndisplay: {profile: " + library_file("displays/hdr-monitor.yaml") +
+            ", windscreen: {haze: 0.02}, eye: {veil: {age_years: 60}, colours: true, sharpness: true}, "
+            "adaptation: {brighter_s: 0.5, darker_s: 10}}\n");
+    drive = drive_in(all);
+    EXPECT_NEAR(shown(drive, 0), 0.001 + 999.999 * 2.0 / 101.9, 1e-4);
+    EXPECT_NEAR(shown(drive, 2), 0.001 + 999.999 * 200.0 / 290.0, 1e-3);
+    EXPECT_EQ(drive.at("shown_by").at("display"), "hdr-monitor");
+    EXPECT_EQ(drive.at("shown_by").at("gamut"), "keep-luminance");
+    const json stages{"windscreen, transmittance 0.75, haze 0.02", "veil in an eye of 60 years, pigmentation 0.5", "colours at night",
+                      "sharpness at night",
+                      "adaptation: white follows the driver's picture, in 0.5 s towards brighter and 10 s towards darker light"};
+    EXPECT_EQ(drive.at("shown_by").at("stages"), stages);
+    EXPECT_EQ(drive.at("shadows").at("settings").at("lamp_places"), 2);
+    const std::string page = content_of(all + "/report.html");
+    for (const char* words :
+         {"<li>windscreen, transmittance 0.75, haze 0.02</li>", "<li>veil in an eye of 60 years, pigmentation 0.5</li>",
+          "<li>colours at night</li>", "<li>sharpness at night</li>", "<li>adaptation: white follows",
+          "Tone mapper <code>rational</code>, s = 20, white at 100 cd/m² at first",
+          "Display <code>hdr-monitor</code> (HDR monitor, 1000 cd/m2): peak 1000 cd/m², black 0.001 cd/m², 16 bits; colours "
+          "that it does not hold keep their luminance",
+          "0.1, 1 and 10 cd/m² is shown with 19.6, 168 and 690 cd/m² at first", "redraw_texels 0.5, lamp_radius_m 0.06, lamp_places 2)",
+          "<td>display: veil in the eye</td>", "<td>display: tone mapper and display</td>"})
+        EXPECT_THAT(page, testing::HasSubstr(words));
+
+    // Published techniques have shadows of their own, or none.
+    const std::string full = folder / "full";
+    const Outcome run = run_program("run " + drive_with(folder, "full", "shadows: volumes\n") + few + "--technique full --out " + full);
+    EXPECT_LE(run.exit_code, 1) << run.output;
+    EXPECT_EQ(drive_in(full).at("shadows").at("not_used"), "it draws no shadows of lamps");
+    EXPECT_THAT(content_of(full + "/report.html"), testing::HasSubstr("technique <code>full</code> does not use it: it draws no shadows"));
+}
+
+// As docs/display.md says: white at the display's peak shows L as L + black (1 - L / peak). The codes that are written are decoded for the
+// mean, and 16 bits of PQ are 0.0003 apart.
+TEST(DisplayRun, WhiteAtThePeakOfAnHdrDisplayShowsLuminancesOneToOne) {
+    const TemporaryFolder folder;
+    const std::string out =
+        played(folder, "one",
+               "tone_mapper: {kind: linear, l_max_cdm2: 1000}\ndisplay: {profile: " + library_file("displays/hdr-monitor.yaml") + "}\n");
+    const json drive = drive_in(out);
+    for (const auto& [i, seen] : {std::pair(0, 0.1), std::pair(1, 1.0), std::pair(2, 10.0)})
+        EXPECT_NEAR(drive.at("shown_by").at("luminances").at(static_cast<std::size_t>(i)).at("shown_cdm2").get<double>(),
+                    seen + 0.001 * (1.0 - seen / 1000.0), 1e-6 * seen);
+    double sum = 0.0;
+    std::size_t pixels = 0;
+    for (const char* tick : {"20", "21", "22"})
+        for (const PictureChannel& channel : read_exr(out + "/frames/oncoming-1-halogen/driver-0000" + tick + ".exr"))
+            if (channel.name == "luminance.cdm2")
+                for (const float l : channel.values.pixels()) {
+                    const double shown = std::min(static_cast<double>(l), 1000.0);
+                    sum += shown + 0.001 * (1.0 - shown / 1000.0);
+                    ++pixels;
+                }
+    ASSERT_EQ(pixels, std::size_t{3 * 96 * 72});
+    const json& view = drive.at("display").at("views").at(0);
+    ASSERT_EQ(view.at("pictures"), 3);
+    EXPECT_NEAR(view.at("mean_cdm2").get<double>() / (sum / static_cast<double>(pixels)), 1.0, 0.005);
+}
+
 TEST(DisplayRun, FittedNumbersStandInTheResolvedDriveWhichGivesTheSamePictures) {
     for (const std::string mapper : {"{kind: rational, s: fitted, l_max_cdm2: surfaces}", "{kind: linear, l_max_cdm2: all}",
                                      "{kind: histogram, l_max_cdm2: surfaces}"}) {
