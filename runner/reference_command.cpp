@@ -1,5 +1,6 @@
 #include "runner/reference_command.h"
 
+#include "runner/accuracy/lamp_discs.h"
 #include "runner/flag_values.h"
 #include "runner/output_folder.h"
 #include "runner/reference/reference_run.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace fernlicht {
@@ -20,7 +22,8 @@ struct ReferenceFlags {
     std::filesystem::path drive;
     std::vector<std::string> lamps;
     std::string variant, view, road, resolution, out, target_error = "0.5%", integrator = "direct";
-    double moment_s = 0.0, lamp_radius_m = 0.0;
+    double moment_s = 0.0;
+    std::optional<double> lamp_radius_m; ///< not given: as the drive draws them
     int most_smooth = ReferenceSettings{}.most_smooth;
     SolverSettings solver;
     bool no_gather = false;
@@ -84,7 +87,6 @@ ReferenceSettings settings_of(const ReferenceFlags& flags) {
     settings.solver = flags.solver;
     settings.solver.final_gather = !flags.no_gather;
     settings.target_error = share_of("--target-error", flags.target_error);
-    settings.lamp_radius_m = flags.lamp_radius_m;
     settings.most_samples = flags.most_samples;
     settings.seed = flags.seed;
     return settings;
@@ -107,6 +109,7 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
     ReferenceRequest request;
     request.settings = settings_of(flags);
     request.drive = read_drive(flags.drive, edits_of(flags));
+    request.settings.lamp_radius_m = flags.lamp_radius_m.value_or(lamp_disc_radius_m(request.drive));
     request.variant = flags.variant;
     request.view = flags.view;
     request.moment_s = flags.moment_s;
@@ -171,9 +174,10 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
                     "in a pixel's mean, whatever its error; a power of two, others are rounded down; at least 128 where light bounces")
         ->check(CLI::Range(16, 1 << 24))
         ->capture_default_str();
-    sub->add_option("--lamp-radius", flags->lamp_radius_m, "metres; lamps are discs of this radius. 0: points")
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
+    sub->add_option(
+           "--lamp-radius", flags->lamp_radius_m,
+           "metres; lamps are discs of this radius, 0: points; else lamp_radius_m of a drive with shadows by soft-map, 0 of others")
+        ->check(CLI::Range(0.0, 1.0));
     sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
         ->allow_extra_args(false);
     sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");

@@ -83,6 +83,9 @@ struct AccuracyResult {
 /// none.
 std::optional<Interval> time_of(const std::vector<double>& seconds);
 
+/// Where soft-map is among what was drawn: that its lamps are discs and those of the one reference points. A clause.
+std::optional<std::string> point_lamps_note(const DriveAccuracy& drive);
+
 /// At one resolution: error of illuminance on the road (95 % of the pixels) over time a frame; bars: the moments' least and most, the
 /// median's 95 % interval or, of fewer than six rounds, their least and most.
 WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px);

@@ -107,6 +107,8 @@ std::string accuracy_text(const AccuracyResult& result) {
                             1e-6 * static_cast<double>(drive.reference.rays), drive.reference.median_samples);
         if (!drive.shadow_choice.empty())
             text += fmt::format("Shadows where no method is named: {}\n", drive.shadow_choice);
+        if (const auto note = point_lamps_note(drive))
+            text += fmt::format("Note: {}\n", *note);
         text += "Error of illuminance in % (road: median, 95 %, 99 %, worst pixel, % of its area beyond 1, 5 and 20 %; whole view and "
                 "target: 95 %),\n"
                 "of luminance (95 %), worst error of reach at 1 and 5 lx, time a frame, textures\n";

@@ -1,6 +1,7 @@
 #include "runner/accuracy/drive_error.h"
 
 #include "renderer/reference/reference.h"
+#include "runner/accuracy/lamp_discs.h"
 #include "runner/accuracy/picture_errors.h"
 #include "runner/bench/bench_run.h"
 #include "runner/extent_fold.h"
@@ -27,6 +28,7 @@ ReferenceSettings settings_for(const Drive& drive) {
     ReferenceSettings settings;
     settings.most_samples = most_samples;
     settings.shadows = drive.shadows.things_cast;
+    settings.lamp_radius_m = lamp_disc_radius_m(drive);
     settings.seed = drive.seed;
     if (drive.extent)
         settings.target_height_m = drive.extent->target_height_m;
@@ -61,11 +63,12 @@ void add_target_and_luminance(const Stage& stage, const std::vector<Moment>& mom
 }
 
 /// What the run measured of these moments against a map of the reference's, one ray a pixel: a lux map has no noise then, and its pixels of
-/// a quarter of a metre are their centres to some millimetres of reach.
+/// a quarter of a metre are their centres to some millimetres of reach. Lamps are points: discs would bring noise and 16 times the rays.
 std::vector<ReachError> errors_of_reach(const Stage& stage, const PlayedVariant& played, const std::vector<Moment>& moments,
                                         const Reference& reference, DriveError& error) {
     ReferenceSettings settings = settings_for(stage.drive);
     settings.footprint = Footprint::centre;
+    settings.lamp_radius_m = 0.0;
     const Draw draw = [&](const Moment& at, const View& view, const Wanted& wanted) {
         ReferenceImage image = reference.render(at, view, wanted, settings);
         error.rays += image.rays;
@@ -101,6 +104,7 @@ DriveError measure_drive_error(const Stage& stage, const Variant& variant, const
     DriveError error;
     error.width_px = view.width_px;
     error.height_px = view.height_px;
+    error.lamp_radius_m = lamp_disc_radius_m(stage.drive);
     for (const int tick : ticks_over(played.ticks_done, std::min(most_moments, played.ticks_done)))
         error.ticks.push_back(first_tick + tick);
     const ReferenceSettings settings = settings_for(stage.drive);

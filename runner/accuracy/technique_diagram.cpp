@@ -107,6 +107,19 @@ std::optional<Interval> time_of(const std::vector<double>& seconds) {
     return Interval{spread->median, spread->minimum, spread->maximum, spread->count};
 }
 
+std::optional<std::string> point_lamps_note(const DriveAccuracy& drive) {
+    const auto soft = std::ranges::find_if(drive.configurations, [](const ConfigurationResult& found) {
+        const std::string& technique = found.configuration.technique;
+        return found.configuration.shadows.method == ShadowMethod::soft_map && technique.starts_with("photometric") &&
+               technique != "photometric-naive";
+    });
+    if (soft == drive.configurations.end())
+        return std::nullopt;
+    return fmt::format("lamps are points in the reference: the half shadows of soft-map, whose lamps are discs of {:g} cm radius, count as "
+                       "its errors here; `fernlicht shadows` holds it against discs (discs %)",
+                       100.0 * soft->configuration.shadows.lamp_radius_m);
+}
+
 WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px) {
     WorkPrecision diagram;
     diagram.name = fmt::format("techniques-{}-{}x{}", drive.drive, width_px, height_px);
@@ -119,6 +132,8 @@ WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int h
                                         "from the least to the most of the moments",
                                         counted(drive.moments.size(), "moment")));
     diagram.notes.push_back(times_note(drive));
+    if (const auto note = point_lamps_note(drive))
+        diagram.notes.push_back(*note);
     const bool methods = has_shadow_methods(drive);
     if (methods)
         diagram.notes.push_back(own_method_note(drive));
@@ -146,6 +161,8 @@ WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
     diagram.time_name = "time a frame";
     diagram.notes.emplace_back("reach on the own lane's centre, on the road and, where the technique has it, on targets, against the "
                                "reference's finest map; maps for reach have as many pixels each way as the view has, in the same ratio");
+    if (const auto note = point_lamps_note(drive))
+        diagram.notes.push_back(*note);
     for (const ConfigurationResult& found : drive.configurations) {
         const auto others = std::ranges::count_if(drive.configurations, [&](const ConfigurationResult& other) {
             return other.configuration.technique == found.configuration.technique &&
@@ -172,6 +189,8 @@ WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
 
 WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive) {
     WorkPrecision diagram = view_diagram(drive, "shadow-maps-", "Shadow maps");
+    if (const auto note = point_lamps_note(drive))
+        diagram.notes.push_back(*note);
     for (const ConfigurationResult& found : drive.configurations) {
         const Configuration& c = found.configuration;
         if (c.technique == "photometric" && (c.varied.empty() || c.varied == "shadow maps"))
@@ -184,6 +203,8 @@ WorkPrecision shadow_methods_diagram(const DriveAccuracy& drive) {
     WorkPrecision diagram = view_diagram(drive, "shadow-methods-", "Shadow methods and techniques");
     if (!has_shadow_methods(drive))
         return diagram;
+    if (const auto note = point_lamps_note(drive))
+        diagram.notes.push_back(*note);
     diagram.notes.push_back(own_method_note(drive));
     for (const ConfigurationResult& found : drive.configurations)
         if (const Configuration& c = found.configuration; c.varied.empty() || c.varied == "shadow method")

@@ -66,6 +66,14 @@ data reach_rows(const DriveError& error) {
     return rows;
 }
 
+/// Where lamps of the reference are no points.
+std::string lamp_discs(const DriveError& error) {
+    return error.lamp_radius_m > 0.0
+               ? fmt::format(", with lamps that are discs of {:g} cm radius, as soft-map draws them (for reach, points)",
+                             100.0 * error.lamp_radius_m)
+               : "";
+}
+
 } // namespace
 
 data error_part(const ComparedDrive& drive) {
@@ -81,9 +89,10 @@ data error_part(const ComparedDrive& drive) {
         set.set("colour", variant_colour(i));
         if (error.measured()) {
             set.set("sentence",
-                    fmt::format("{} against {} moment{} at {} × {} pixels{}, which took {} s; {}", clean_text(played.technique),
+                    fmt::format("{} against {} moment{} at {} × {} pixels{}{}, which took {} s; {}", clean_text(played.technique),
                                 error.ticks.size(), error.ticks.size() == 1 ? "" : "s", error.width_px, error.height_px,
-                                error.ticks.size() > 1 ? ", targets and luminance in the middle one" : "", figure(error.seconds, 1),
+                                error.ticks.size() > 1 ? ", targets and luminance in the middle one" : "", lamp_discs(error),
+                                figure(error.seconds, 1),
                                 played.throughput.view_s ? fmt::format("a frame of the run takes {}", time_text(*played.throughput.view_s))
                                                          : "too few moments were played to time a frame"));
             rows = error_rows(error);

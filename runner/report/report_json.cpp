@@ -321,16 +321,19 @@ Json seen_display_json(const SeenDisplay& seen) {
 Json accuracy_json(const DriveError& error) {
     if (!error.measured())
         return error.not_measured.empty() ? Json(nullptr) : Json{{"not_measured", error.not_measured}};
-    return {{"frames", error.ticks},
-            {"width_px", error.width_px},
-            {"height_px", error.height_px},
-            {"rays", error.rays},
-            {"road", errors_json(error.road, "", error.ticks)},
-            {"road_p95_by_moment", error.road_p95},
-            {"whole_view", errors_json(error.whole, "", error.ticks)},
-            {"target", errors_json(error.target, error.no_target, error.ticks)},
-            {"luminance", errors_json(error.luminance, error.no_luminance, error.ticks)},
-            {"reach", reach_json(error.reach)}};
+    Json out = {{"frames", error.ticks},
+                {"width_px", error.width_px},
+                {"height_px", error.height_px},
+                {"rays", error.rays},
+                {"road", errors_json(error.road, "", error.ticks)},
+                {"road_p95_by_moment", error.road_p95},
+                {"whole_view", errors_json(error.whole, "", error.ticks)},
+                {"target", errors_json(error.target, error.no_target, error.ticks)},
+                {"luminance", errors_json(error.luminance, error.no_luminance, error.ticks)},
+                {"reach", reach_json(error.reach)}};
+    if (error.lamp_radius_m > 0.0)
+        out["lamp_radius_m"] = finite(error.lamp_radius_m, "radius of lamps");
+    return out;
 }
 
 /// Columns with an entry per moment; only the actuators that the lamp set has.
