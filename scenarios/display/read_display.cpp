@@ -3,6 +3,8 @@
 #include "scenarios/drives/yaml_entry.h"
 #include "scenarios/drives/yaml_text.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
@@ -12,7 +14,8 @@ namespace fernlicht {
 namespace {
 
 constexpr std::size_t most_profile_bytes = std::size_t{1} << 20;
-constexpr double lumens_per_watt = 683.0, least_white_cdm2 = 1.0e-3, most_cdm2 = 1.0e5;
+constexpr double lumens_per_watt = 683.0, least_white_cdm2 = 1.0e-3, most_cdm2 = 1.0e5,
+                 rounding_of_colours = 1.0e-3; ///< of what files give to three digits
 
 glm::dmat3 read_matrix(const YamlEntry& entry) {
     const std::vector<YamlEntry> rows = entry.list(3, 3);
@@ -26,7 +29,11 @@ glm::dmat3 read_matrix(const YamlEntry& entry) {
 }
 
 glm::dvec2 read_chromaticity(const YamlMap& primaries, const char* key) {
-    const std::vector<double> xy = primaries.require(key).numbers(2, 2, 0.0, 1.0);
+    const YamlEntry entry = primaries.require(key);
+    const std::vector<double> xy = entry.numbers(2, 2, -most_cdm2, most_cdm2);
+    if (xy[0] < 0.0 || xy[1] <= 0.0 || xy[0] + xy[1] > 1.0 + rounding_of_colours)
+        entry.refuse(fmt::format("found [{}, {}], a chromaticity that no light has", xy[0], xy[1]),
+                     "x, y with x at least 0, y above 0 and x + y at most 1");
     return {xy[0], xy[1]};
 }
 
@@ -35,6 +42,18 @@ double read_peak(const YamlEntry& entry, double black_cdm2) {
     if (!(peak_cdm2 > black_cdm2))
         entry.refuse(fmt::format("a peak of {:g} cd/m2 with black_cdm2: {:g}", peak_cdm2, black_cdm2), "more than black_cdm2");
     return peak_cdm2;
+}
+
+/// Light has no negative X, Y or Z; a rounded matrix may, by a digit.
+void refuse_impossible_light(const glm::dmat3& matrix, const YamlEntry& entry) {
+    for (int channel = 0; channel < 3; ++channel) {
+        const glm::dvec3& light = matrix[channel];
+        for (int row = 0; row < 3; ++row)
+            if (light[row] < -rounding_of_colours * std::max({light.x, light.y, light.z}))
+                entry.refuse(fmt::format("found a {} channel with {} = {:g}, which no light has",
+                                         std::array{"red", "green", "blue"}[static_cast<std::size_t>(channel)], "XYZ"[row], light[row]),
+                             "columns of X, Y, Z that are not below 0");
+    }
 }
 
 /// Light of full red, green and blue, from the matrix or the primaries; luminances as the file has them or, with `white_cdm2`, scaled.
@@ -66,6 +85,7 @@ glm::dmat3 read_light(const YamlMap& keys, double black_cdm2) {
         given->second.refuse(fmt::format("a white of {:.3g} cd/m2", white_cdm2), fmt::format("{:g} to {:g}", least_white_cdm2, most_cdm2));
     if (peak)
         matrix *= (peak_cdm2 - black_cdm2) / white_cdm2;
+    refuse_impossible_light(matrix, given->second);
     if (matrix[0].y < 0.0 || matrix[1].y < 0.0 || matrix[2].y < 0.0)
         given->second.refuse("a channel of negative luminance", "a row Y of numbers that are not below 0");
     const double scale = std::cbrt(std::abs(glm::determinant(matrix)));

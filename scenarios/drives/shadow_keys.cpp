@@ -1,6 +1,7 @@
 #include "scenarios/drives/shadow_keys.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <initializer_list>
@@ -91,7 +92,11 @@ ShadowSettings read_shadows(const YamlMap& drive) {
     shadows.lamp_radius_m = keys.number_or("lamp_radius_m", shadows.lamp_radius_m, 0.001, 0.5);
     if (const auto places = keys.find("lamp_places"))
         shadows.lamp_places = places->whole(1, 64);
-    shadows.error_bound = keys.number_or("error_bound", shadows.error_bound, 0.0, 1.0);
+    if (const auto bound = keys.find("error_bound")) {
+        shadows.error_bound = bound->number(-HUGE_VAL, HUGE_VAL);
+        if (!(shadows.error_bound >= 0.0 && shadows.error_bound < 1.0)) // 1 would bind nothing
+            bound->refuse("a share from 0 to below 1 (0.01 is 1 %)");
+    }
     return shadows;
 }
 

@@ -9,7 +9,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr double map_px_per_m = 4.0;
+constexpr double map_px_per_m = 4.0, least_fov_deg = 0.01, most_fov_deg = 179.0;
 constexpr std::size_t most_views = 64, most_set_bytes = std::size_t{1} << 20;
 
 View driver_view() {
@@ -61,9 +61,10 @@ void read_perspective(View& view, const YamlMap& keys) {
     view.pitch_rad = keys.angle_rad("pitch", 90.0).value_or(0.0);
     view.roll_rad = keys.angle_rad("roll", 360.0).value_or(0.0);
     view.mirrored = keys.flag_or("mirrored", false);
-    view.vertical_fov_rad = keys.angle_rad("vertical_fov", 179.0).value_or(standard.vertical_fov_rad);
-    if (view.vertical_fov_rad < radians(0.01))
-        keys.entry().refuse("a vertical field of view below 0.01 degrees", "0.01 to 179 degrees");
+    view.vertical_fov_rad = standard.vertical_fov_rad;
+    if (const auto given = keys.one_of({"vertical_fov_deg", "vertical_fov_rad"}))
+        view.vertical_fov_rad = given->first == "vertical_fov_deg" ? radians(given->second.number(least_fov_deg, most_fov_deg))
+                                                                   : given->second.number(radians(least_fov_deg), radians(most_fov_deg));
 }
 
 View read_view(const std::string& name, const YamlEntry& entry) {

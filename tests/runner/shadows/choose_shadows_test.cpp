@@ -82,7 +82,7 @@ TEST_F(AutomaticShadows, TheWorstOfAllViewsDecides) {
 
 /// Own lamps that reach nothing are no reason to leave out what others' lamps throw.
 TEST_F(AutomaticShadows, OthersLampsAreAskedToo) {
-    const json choice = played(drive_with("oncoming", "{method: auto, error_bound: 1}"), "out").at("shadow_choice");
+    const json choice = played(drive_with("oncoming", "{method: auto, error_bound: 0.9}"), "out").at("shadow_choice");
     EXPECT_GT(choice.at("moments_shadowed"), 0);
     std::string text = content_of(drive_with("oncoming", "{method: auto, error_bound: 0.004}"));
     const std::string own = "variants:";
@@ -144,8 +144,12 @@ TEST_F(AutomaticShadows, WhatIsWrongIsOneSentence) {
         EXPECT_EQ(std::ranges::count(run.output, '\n'), 1) << run.output;
         return run.output;
     };
-    const std::string drive = drive_with("straight", "{method: auto, error_bound: 2}");
-    EXPECT_THAT(refused("run " + drive + few + "--out " + (folder / "o")), HasSubstr("error_bound"));
+    for (const std::string bound : {"1", "2", "-0.1"}) {
+        const std::string drive = drive_with("straight", "{method: auto, error_bound: " + bound + "}");
+        EXPECT_THAT(refused("run " + drive + few + "--out " + (folder / "o")),
+                    HasSubstr("expected a share from 0 to below 1 (0.01 is 1 %)"))
+            << bound;
+    }
     EXPECT_THAT(refused("run " + drive_with("braking", "{method: volume}") + few + "--out " + (folder / "o")), HasSubstr("one of none"));
     std::string text = content_of(library_file("drives/s-bend-can.yaml"));
     for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;)

@@ -142,6 +142,13 @@ TEST_P(DisplayRefusals, NameTheirPlace) {
 }
 
 constexpr const char* srgb_lines = "primaries: {red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329]}\n";
+std::string with_primaries(const std::string& red, const std::string& blue, const std::string& white) {
+    return "fernlicht_display: 1\nprimaries: {red: " + red + ", green: [0.3, 0.6], blue: " + blue + ", white: " + white +
+           "}\ntransfer: srgb\npeak_cdm2: 80\n";
+}
+const std::string beyond_light = with_primaries("[0.8, 0.8]", "[0.15, 0.06]", "[0.3127, 0.329]");
+const std::string negative_x = with_primaries("[0.64, 0.33]", "[-0.1, 0.06]", "[0.3127, 0.329]");
+const std::string no_y = with_primaries("[0.64, 0.33]", "[0.15, 0.06]", "[0.3127, 0]");
 const std::string no_peak = std::string("fernlicht_display: 1\n") + srgb_lines + "transfer: srgb\n";
 const std::string bad_bits = no_peak + "peak_cdm2: 80\nbits: 10\n";
 const std::string dark_white = no_peak + "peak_cdm2: 1\nblack_cdm2: 2\n";
@@ -160,6 +167,14 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"PeakBeyondPq", beyond_pq.c_str(), "profile.yaml:3:12: peak_cdm2: a peak of 20000 cd/m2 with transfer: pq"},
         Refusal{"MatrixBeyondPq", "fernlicht_display: 1\ntransfer: pq\nrgb_to_xyz: [[1, 0, 0], [0, 10001, 0], [0, 0, 1]]\n",
                 "profile.yaml:3:13: rgb_to_xyz: a peak of 10001 cd/m2"},
+        Refusal{"RedBeyondLight", beyond_light.c_str(),
+                "profile.yaml:2:18: primaries.red: found [0.8, 0.8], a chromaticity that no light has, expected x, y with x at least 0, "
+                "y above 0 and x + y at most 1"},
+        Refusal{"NegativeX", negative_x.c_str(), "primaries.blue: found [-0.1, 0.06], a chromaticity that no light has"},
+        Refusal{"NoY", no_y.c_str(), "primaries.white: found [0.3127, 0], a chromaticity that no light has"},
+        Refusal{"NegativeZ",
+                "fernlicht_display: 1\nrgb_to_xyz: [[0.4, 0.36, 0.18], [0.21, 0.72, 0.07], [0.02, -0.2, 0.95]]\ntransfer: srgb\n",
+                "profile.yaml:2:13: rgb_to_xyz: found a green channel with Z = -0.2, which no light has"},
         Refusal{"UnitOfPrimaries", unit_of_primaries.c_str(), "profile.yaml:5:7: unit: a unit beside primaries"},
         Refusal{"TwoRows", "fernlicht_display: 1\nrgb_to_xyz: [[1, 2, 3], [2, 4, 6]]\ntransfer: srgb\n", "rgb_to_xyz"},
         Refusal{"Gamma", "fernlicht_display: 1\nrgb_to_xyz: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntransfer: {gamma: 0}\n", "gamma"},

@@ -59,6 +59,12 @@ TEST_F(DriveRefusal, MissingFilesAreNamedWithTheLineThatAsks) {
     EXPECT_THAT(refusal(minimal + "changes: [{at_s: 1, file: none.ies}]\n"), HasSubstr("changes[0].file: there is no file none.ies"));
 }
 
+TEST_F(DriveRefusal, FieldsOfViewHaveOneRange) {
+    for (const char* bad : {"180", "0", "-40"})
+        EXPECT_THAT(refusal(minimal + fmt::format("views: {{v: {{vertical_fov_deg: {}}}}}\n", bad)),
+                    HasSubstr(fmt::format("views.v.vertical_fov_deg: found '{}', expected a number from 0.01 to 179", bad)));
+}
+
 TEST_F(DriveRefusal, NumbersOutOfRange) {
     const auto with_duration = [&](const std::string& keys) {
         return refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nvariants: {a: {file: low.ies}}\n" + keys);

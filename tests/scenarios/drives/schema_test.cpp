@@ -216,6 +216,8 @@ TEST_F(Schema, AgreesWithTheReader) {
         "shadows: {method: soft-map, lamp_places: 4, lamp_radius_m: 0.1}",
         "shadows: {method: soft-map, error_bound: 0.1}",
         "shadows: {method: auto, error_bound: 0.1, lamp_places: 4}",
+        "shadows: {method: auto, error_bound: 0}",
+        "shadows: {method: auto, error_bound: 1}",
         "shadows: {error_bound: 0.1}",
         "beams: float",
         "beams: eight-bit",

@@ -94,6 +94,8 @@ class SchemaCheck {
             return unless(!value.is_number() || value <= rule);
         if (keyword == "exclusiveMinimum")
             return unless(!value.is_number() || value > rule);
+        if (keyword == "exclusiveMaximum")
+            return unless(!value.is_number() || value < rule);
         if (keyword == "minLength")
             return unless(!value.is_string() || value.get<std::string>().size() >= rule);
         if (keyword == "pattern")
