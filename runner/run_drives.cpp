@@ -39,6 +39,7 @@
 #include <fstream>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -86,7 +87,17 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
         progress.done(done);
         return !Interruption::asked();
     };
-    const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) { return renderer.submit(moment, view, wanted); };
+    Renderer::ShadowMapsUsed first; // of the moments' first pictures: what stands then is an earlier moment's
+    int last_seen_tick = -1;
+    const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) {
+        const Renderer::ShadowMapsUsed before = renderer.shadow_maps_used();
+        Pending frame = renderer.submit(moment, view, wanted);
+        if (const Renderer::ShadowMapsUsed after = renderer.shadow_maps_used(); std::exchange(last_seen_tick, moment.tick) != moment.tick) {
+            first.used += after.used - before.used;
+            first.drawn += after.drawn - before.drawn;
+        }
+        return frame;
+    };
     PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
     const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
     played.bus = bus_report(stage.drive, variant, std::max(0, options.ticks.first), last_tick);
@@ -98,13 +109,15 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
         played.left_out.push_back(left.what + ": " + left.why);
     const Renderer::ShadowMapsUsed maps = renderer.shadow_maps_used();
     if (const long long kept = (maps.used - maps_before.used) - (maps.drawn - maps_before.drawn); kept > 0)
-        played.left_out.push_back(fmt::format("drawing {} of the {} shadow maps that pictures looked up: they stood from a picture before",
-                                              kept, maps.used - maps_before.used));
-    else if (const double bound = stage.drive.shadows.redraw_texels; bound > 0.0 && maps.used > maps_before.used)
+        played.left_out.push_back(fmt::format("drawing {} of the {} shadow maps that pictures looked up: they stood from a picture before, "
+                                              "as pictures of one moment share theirs; of the {} that the first pictures of moments looked "
+                                              "up, {} stood from an earlier moment",
+                                              kept, maps.used - maps_before.used, first.used, first.used - first.drawn));
+    if (const double bound = stage.drive.shadows.redraw_texels; bound > 0.0 && first.used > 0 && first.used == first.drawn)
         played.notes.push_back(
-            fmt::format("shadows: redraw_texels {:g}: none of the {} shadow maps that pictures looked up stood, as edges "
-                        "moved by more from each picture to the next",
-                        bound, maps.used - maps_before.used));
+            fmt::format("shadows: redraw_texels {:g}: none of the {} shadow maps that the first pictures of moments looked up stood, as "
+                        "edges moved by more from each moment to the next",
+                        bound, first.used));
     std::ranges::copy(notes_for(stage, variant, renderer), std::back_inserter(played.notes));
     std::ranges::copy(summarise(played, stage.drive), std::back_inserter(played.readings));
     Readings judged = played.readings;

@@ -25,7 +25,7 @@ std::string times_words(const std::vector<WorkPrecisionRow>& rows) {
     for (const WorkPrecisionRow& row : rows)
         if (row.seconds && (!fewest || row.seconds->samples < fewest->samples))
             fewest = row.seconds;
-    return fewest ? "times are " + timings_text(*fewest) : "times were not taken";
+    return fewest ? "horizontal bars: times are " + timings_text(*fewest) : "times were not taken";
 }
 
 WorkPrecisionRow diagram_row(const ShadowRow& found, const ShadowSceneResult& scene) {
@@ -49,7 +49,7 @@ WorkPrecision scene_diagram(const ShadowSceneResult& scene) {
     WorkPrecision diagram = empty_diagram("shadows-" + scene.name, "Shadow methods: " + scene.title);
     for (const ShadowRow& row : scene.rows)
         diagram.rows.push_back(diagram_row(row, scene));
-    diagram.notes = {fmt::format("{}, {} x {} pixels; lamps are points; bars of errors from the least to the most of the moments",
+    diagram.notes = {fmt::format("{}, {} x {} pixels; lamps are points; vertical bars from the least to the most of the moments",
                                  counted(scene.moments.size(), "moment"), scene.width_px, scene.height_px),
                      times_words(diagram.rows)};
     return diagram;
@@ -66,6 +66,8 @@ WorkPrecision scenes_diagram(const ShadowResult& result) {
         for (const ShadowSceneResult& scene : result.scenes) {
             if (i >= scene.rows.size() || !measured(scene.rows[i]) || scene.rows[i].samples.frame_s.empty()) {
                 row.why_not = "not measured in " + scene.name;
+                if (i < scene.rows.size() && !measured(scene.rows[i]))
+                    row.why_not += ": " + scene.rows[i].why_not;
                 break;
             }
             const ShadowRow& found = scene.rows[i];
@@ -81,7 +83,7 @@ WorkPrecision scenes_diagram(const ShadowResult& result) {
         }
         diagram.rows.push_back(std::move(row));
     }
-    diagram.notes = {fmt::format("mean over {}, each with the same weight; bars of errors from the best to the worst scene",
+    diagram.notes = {fmt::format("mean over {}, each with the same weight; vertical bars from the best to the worst scene",
                                  counted(result.scenes.size(), "scene")),
                      times_words(diagram.rows)};
     return diagram;

@@ -70,6 +70,20 @@ data error_part(const ShadowRow& row) {
     return part;
 }
 
+/// What a diagram's marks and bars are, and who is not in it.
+data caption_parts(const WorkPrecision& diagram) {
+    data sentences{List::list};
+    for (std::string note : diagram.notes) {
+        if (note.front() >= 'a' && note.front() <= 'z')
+            note.front() = static_cast<char>(note.front() - 'a' + 'A');
+        sentences.push_back(clean_text(note));
+    }
+    for (const WorkPrecisionRow& row : diagram.rows)
+        if (!row.measured())
+            sentences.push_back(clean_text(fmt::format("Not in the diagram: {}, {}", row.label, row.why_not)));
+    return sentences;
+}
+
 data scene_part(const ShadowSceneResult& scene, const std::vector<WorkPrecision>& diagrams) {
     data part, rows{List::list}, figures{List::list};
     part.set("title", short_text(scene.title, 160));
@@ -89,6 +103,7 @@ data scene_part(const ShadowSceneResult& scene, const std::vector<WorkPrecision>
         if (diagram.name == "shadows-" + scene.name) {
             data figure;
             figure.set("svg", work_precision_svg(diagram));
+            figure.set("caption", caption_parts(diagram));
             figures.push_back(figure);
         }
     part.set("figures", figures);
@@ -121,6 +136,7 @@ std::string shadow_html(const ShadowResult& result) {
     page.set("crawl_at", fmt::format("{:g}", crawl_distance_m));
     page.set("has_all", together);
     page.set("all", together ? work_precision_svg(diagrams.front()) : "");
+    page.set("all_caption", together ? caption_parts(diagrams.front()) : data{List::list});
     page.set("scenes", scenes);
     page.set("context", context_part(result.context));
     kainjow::mustache::mustache page_template{std::string(report_file("shadows.html.mustache"))};

@@ -11,6 +11,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 const std::string small = "shadows --quiet --resolution 96x72 --lamp " + library_file("lamps/xenon-low.ies") + " ";
 
@@ -62,7 +63,10 @@ TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
          {"shadows.csv", "shadows.html", "methods-kerb.png", "methods-straight-1.png", "shadows-all.svg", "shadows-post-5.png"})
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / name)) << name;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
-    EXPECT_THAT(content_of(folder / "out/shadows.html"), HasSubstr("Shadow methods"));
+    const std::string page = content_of(folder / "out/shadows.html");
+    EXPECT_THAT(page, HasSubstr("Shadow methods"));
+    EXPECT_THAT(page, HasSubstr("Mean over 3 scenes, each with the same weight; vertical bars from the best to the worst scene."));
+    EXPECT_THAT(page, Not(HasSubstr("Not in the diagram")));
 }
 
 // Maps of one size: what the view does not see costs the warped ones no texels. A view 15 degrees high sees less than a fourth of the
@@ -148,6 +152,7 @@ TEST(ShadowsCommand, NamesTheMethodWhoseMapsAreTooLarge) {
     EXPECT_THAT(run.output, HasSubstr("expected a smaller map_texels or fewer lamp_places\n"));
     const json scene = json::parse(content_of(folder / "out/shadows.json")).at("scenes").at(0);
     EXPECT_FALSE(row_of(scene, "soft-map").at("not_measured").is_null());
+    EXPECT_THAT(content_of(folder / "out/shadows.html"), HasSubstr("<p>Not in the diagram: soft-map, shadows: found 16 maps of "));
     const json& volumes = row_of(scene, "volumes");
     EXPECT_TRUE(volumes.at("not_measured").is_null());
     EXPECT_LT(volumes.at("ground_m2").at("wrong_share"), 0.001);
