@@ -25,7 +25,7 @@ std::string times_words(const std::vector<WorkPrecisionRow>& rows) {
     for (const WorkPrecisionRow& row : rows)
         if (row.seconds && (!fewest || row.seconds->samples < fewest->samples))
             fewest = row.seconds;
-    return fewest ? "horizontal bars: times are " + timings_text(*fewest) : "times were not taken";
+    return fewest ? "horizontally, times are " + timings_text(*fewest) : "times were not taken";
 }
 
 WorkPrecisionRow diagram_row(const ShadowRow& found, const ShadowSceneResult& scene) {

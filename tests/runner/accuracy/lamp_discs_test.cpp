@@ -45,9 +45,8 @@ TEST(LampDiscs, AreThoseOfTheDriveInItsReference) {
     EXPECT_EQ(drawn(soft_30_cm, "--lamp-radius 0.3", "flag").at("lamp_radius_m"), 0.3);
     EXPECT_EQ(drawn("map", "", "map").at("lamp_radius_m"), 0.0);
     const auto picture = [&](const char* out) { return content_of(folder / (std::string(out) + "/reference.exr")); };
-    EXPECT_EQ(picture("drive"), picture("flag"));
-    EXPECT_NE(picture("drive"), picture("points"));
-    EXPECT_EQ(picture("map"), picture("points"));
+    EXPECT_TRUE(picture("drive") == picture("flag"));
+    EXPECT_FALSE(picture("drive") == picture("points"));
 }
 
 // One truth for all methods has points: page, text and JSON say what that does to soft-map, where it takes part.
