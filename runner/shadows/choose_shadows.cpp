@@ -1,6 +1,7 @@
 #include "runner/shadows/choose_shadows.h"
 
 #include "metrics/pixel_errors.h"
+#include "renderer/shadow_memory.h"
 #include "runner/shadows/shadow_figures.h"
 #include "runner/shadows/shadow_truth.h"
 #include "scenarios/drives/advance.h"
@@ -95,6 +96,9 @@ class Trial {
         } catch (const InputError& refusal) {
             found.error.reset();
             found.refused = refusal.what();
+        } catch (const ShadowMemoryError& no_room) {
+            found.error.reset();
+            found.refused = no_room.what();
         }
         return found;
     }

@@ -129,6 +129,18 @@ TEST_F(AutomaticShadows, WhereNoneStaysWithinTheLeastWrongIsTakenAndSaid) {
     EXPECT_EQ(choice.at("chosen"), method);
 }
 
+/// Maps that find no room are no reason to give up: other methods are tried.
+TEST_F(AutomaticShadows, MethodsWithoutRoomArePassedOver) {
+    const json choice =
+        played(drive_with("first-light", "{method: auto, error_bound: 0, map_texels: [8192, 8192], lamp_places: 64}"), "out")
+            .at("shadow_choice");
+    const json& soft = choice.at("tried").back();
+    EXPECT_EQ(soft.at("method"), "soft-map");
+    EXPECT_FALSE(soft.contains("error") && !soft.at("error").is_null());
+    EXPECT_THAT(soft.dump(), HasSubstr("map_texels"));
+    EXPECT_NE(choice.at("chosen"), "soft-map");
+}
+
 TEST_F(AutomaticShadows, EveryMethodOfTheTableIsTried) {
     std::vector<ShadowMethod> all, tried = shadow_methods_by_cost();
     for (const ShadowMethodName& row : shadow_method_names())
