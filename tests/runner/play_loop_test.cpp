@@ -235,11 +235,11 @@ TEST(FrameTimes, OfTooFewMomentsAreNotMeasured) {
 
 TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
     Played stage;
-    stage.drive.technique = "merged-beam";
+    stage.drive.technique = "merged-beams";
     stage.drive.limits = {{"reach_1lx_road_own_m", 10.0, {}}, {"probe_near_lx", {}, 1000.0}, {"probe_near_twin_lx", {}, 1000.0}};
     Writers writers;
     PlayedVariant played = stage.play_with(without_lux(false), 5, writers);
-    const std::string why = "technique merged-beam does not compute an illuminance";
+    const std::string why = "technique merged-beams does not compute an illuminance";
     EXPECT_TRUE(played.maps.empty());
     ASSERT_EQ(played.extents.size(), 5U);
     EXPECT_TRUE(played.extents[0].rendered.empty());
