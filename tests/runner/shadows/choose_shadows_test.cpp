@@ -1,12 +1,11 @@
 // `shadows: auto` through the program: what it takes, what it says, and that the resolved drive needs no choice any more.
 #include "runner/shadows/choose_shadows.h"
-#include "tests/runner/program.h"
+#include "tests/runner/shadows/short_drive.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 namespace fernlicht {
 namespace {
@@ -18,16 +17,7 @@ constexpr const char* few = " --quiet --resolution 96x72 --capture all --no-accu
 
 class AutomaticShadows : public testing::Test {
   protected:
-    /// The first seconds of a shipped drive, with these shadows.
-    std::string drive_with(const std::string& drive, const std::string& shadows) {
-        std::string text = content_of(library_file("drives/" + drive + ".yaml"));
-        for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;)
-            text.replace(at, 3, library_file(""));
-        text = std::regex_replace(text, std::regex("\nduration_s: [0-9.]+"), "\nduration_s: 0.8");
-        const std::string path = folder / (drive + ".yaml");
-        std::ofstream(path) << text << "shadows: " << shadows << "\n";
-        return path;
-    }
+    std::string drive_with(const std::string& drive, const std::string& shadows) { return short_drive(folder, drive, shadows); }
     json played(const std::string& drive, const std::string& out, const std::string& frames = "3:5") {
         const Outcome run = run_program("run " + drive + few + "--frames " + frames + " --out " + (folder / out));
         EXPECT_LE(run.exit_code, 1) << run.output;
