@@ -32,8 +32,10 @@ class Device {
     std::unique_ptr<gl::Context> context_;
 };
 
-/// Opens "auto", "egl", "egl-device=N" or "osmesa". auto: the first hardware EGL device, else EGL without a surface, else OSMesa.
-/// Throws InputError for an unknown name, DeviceError with every attempt and why it failed.
+inline constexpr const char* backend_names = "auto, egl, egl-device=N, osmesa or software";
+
+/// Opens one of `backend_names`. auto: the first hardware EGL device, else EGL without a surface, else OSMesa. software: Mesa on the CPU,
+/// whatever GPU there is, by EGL or else by OSMesa. Throws InputError for an unknown name, DeviceError with every attempt and why it failed.
 Device open_device(const std::string& backend);
 
 /// What `doctor` tells of one way to draw.

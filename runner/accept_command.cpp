@@ -90,16 +90,19 @@ std::string stored_text(const AcceptedReference& reference, const Stored& stored
 
 struct AcceptFlags {
     std::string run, to = "references", note;
-    bool add = false, replace = false, readings_only = false;
+    bool add = false, replace = false, replace_class = false, readings_only = false;
 };
 
 int accept(const AcceptFlags& flags) {
-    if (flags.add && flags.replace)
-        throw InputError({{}, 0, 0, "--add"}, "found --replace, too", "one of the two");
+    if (flags.add + flags.replace + flags.replace_class > 1)
+        throw InputError({{}, 0, 0, "accept"}, "found more than one of --add, --replace and --replace-class", "one of them");
     if (flags.add && flags.note.empty())
         throw InputError({{}, 0, 0, "--add"}, "found no --note",
                          "the reason why several results are right, e.g. --note \"two drivers round differently\"");
-    const Acceptance how = flags.add ? Acceptance::add : flags.replace ? Acceptance::replace : Acceptance::first;
+    const Acceptance how = flags.add             ? Acceptance::add
+                           : flags.replace       ? Acceptance::replace
+                           : flags.replace_class ? Acceptance::replace_class
+                                                 : Acceptance::first;
     const Accepted accepted = accept_run(flags.run, flags.to, how, flags.note, flags.readings_only);
     std::size_t frames = 0, readings = 0;
     for (std::size_t i = 0; i < accepted.references.size(); ++i) {
@@ -183,6 +186,8 @@ void add_accept_command(CLI::App& app, std::function<int()>& chosen) {
     command->add_option("RUN", flags->run, "folder of a complete run or study, or of a picture by `fernlicht reference`")->required();
     command->add_option("--to,--store", flags->to, "folder of references")->capture_default_str();
     command->add_flag("--replace", flags->replace, "these are right in place of what was accepted under the same keys");
+    command->add_flag("--replace-class", flags->replace_class,
+                      "these are right in place of all that was accepted for their class of device; other classes keep theirs");
     command->add_flag("--add", flags->add, "these are right as well: a run passes that agrees with either; needs --note");
     command->add_flag("--readings-only", flags->readings_only,
                       "leave the frames out: a thousandth of the size; pictures are then not compared");

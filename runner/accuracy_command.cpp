@@ -1,5 +1,6 @@
 #include "runner/accuracy_command.h"
 
+#include "renderer/device.h"
 #include "runner/accuracy/accuracy_run.h"
 #include "runner/flag_values.h"
 #include "runner/output_folder.h"
@@ -109,7 +110,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--seed", flags->sweep.seed, "of the reference and of the order in each round")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
-    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
     sub->add_flag("--quiet", flags->quiet, "no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return accuracy(*flags, command); }; });

@@ -1,5 +1,6 @@
 #include "runner/aliasing_command.h"
 
+#include "renderer/device.h"
 #include "runner/aliasing/aliasing_run.h"
 #include "runner/aliasing/sequence_run.h"
 #include "runner/flag_values.h"
@@ -177,7 +178,7 @@ void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command
         ->capture_default_str();
     sub->add_option("--level", flags->level_lx, "lux of the line whose jaggedness is measured")->capture_default_str();
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the view; else the drive's");
-    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
     sub->add_flag("--quiet", flags->quiet, "no progress");
     for (const char* of_drives : {"--moment", "--variant", "--techniques", "--beams", "--samples", "--filter", "--supersample", "--picture",

@@ -1,5 +1,6 @@
 #include "runner/bench_command.h"
 
+#include "renderer/device.h"
 #include "runner/bench/bench_run.h"
 #include "runner/flag_values.h"
 #include "runner/output_folder.h"
@@ -66,7 +67,7 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT; else the drive's");
-    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
     sub->add_flag("--quiet", flags->quiet, "no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return bench(*flags, command); }; });

@@ -169,7 +169,7 @@ Stored place(const fs::path& store, std::vector<StoredReference>& entries, Store
                              "--replace, if these are right in their place, or --add, if either is right");
     if (!stored.is_new && !entry.note.empty())
         known->note = entry.note;
-    if (how == Acceptance::replace)
+    if (how == Acceptance::replace || how == Acceptance::replace_class)
         stored.removed = std::erase_if(entries, is_other);
     if (stored.is_new)
         entries.push_back(std::move(entry));
@@ -222,6 +222,11 @@ std::vector<Stored> store_references(const fs::path& store, const std::vector<Ac
         entry.played_utc = played_utc;
         outcome.push_back(place(store, entries, std::move(entry), reference, how));
     }
+    if (how == Acceptance::replace_class && !outcome.empty())
+        outcome.front().removed += std::erase_if(entries, [&](const StoredReference& entry) {
+            return std::ranges::any_of(to_write, [&](const auto& taken) { return device_text(taken.key) == device_text(entry.key); }) &&
+                   std::ranges::none_of(outcome, [&](const Stored& stored) { return stored.id == entry.id; });
+        });
     for (const AcceptedReference& reference : to_write)
         write_reference(store, reference);
     write_index(store, entries);

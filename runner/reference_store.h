@@ -28,14 +28,15 @@ AcceptedReference load_reference(const std::filesystem::path& store, const Store
 std::vector<StoredReference> with_prefix(const std::vector<StoredReference>& entries, const std::string& prefix);
 
 enum class Acceptance {
-    first,   ///< only where nothing else is accepted
-    add,     ///< beside what is there: either will do
-    replace, ///< in place of all that is there under the same key
+    first,         ///< only where nothing else is accepted
+    add,           ///< beside what is there: either will do
+    replace,       ///< in place of all that is there under the same key
+    replace_class, ///< in place of all that is there for the same class of device, whatever its drive
 };
 struct Stored {
     std::string id;
     bool is_new = false;     ///< false: these results were accepted before
-    std::size_t removed = 0; ///< others that were under the key
+    std::size_t removed = 0; ///< others that were under the key; with replace_class the first has all that are gone
 };
 /// Takes all of these (their frames are copied) or none; other keys stay. Interrupted at any moment, the store holds either everything
 /// from before or everything new. Waits while another process changes the store.

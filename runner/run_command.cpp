@@ -1,5 +1,6 @@
 #include "runner/run_command.h"
 
+#include "renderer/device.h"
 #include "runner/can/log_flags.h"
 #include "runner/flag_values.h"
 #include "runner/judging_flags.h"
@@ -152,7 +153,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option_function<std::string>(
         "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
         "how shadows are drawn, as `fernlicht techniques` lists them");
-    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
     sub->add_option("--frames", flags->frames, "FIRST:LAST moments to play, from 0");
     sub->add_option("--capture", flags->capture, "all: store every frame");

@@ -1,5 +1,6 @@
 #include "runner/shadows_command.h"
 
+#include "renderer/device.h"
 #include "runner/flag_values.h"
 #include "runner/output_folder.h"
 #include "runner/run_context.h"
@@ -130,7 +131,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--seed", flags->seed, "of the order in each round")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
-    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
     sub->add_flag("--markdown", flags->markdown, "prints the table as docs/shadow-tables.md has it");
     sub->add_flag("--quiet", flags->quiet, "no progress");

@@ -1,5 +1,6 @@
 #include "runner/stability_command.h"
 
+#include "renderer/device.h"
 #include "runner/flag_values.h"
 #include "runner/stability/stability_text.h"
 #include "scenarios/values/errors.h"
@@ -113,7 +114,7 @@ void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
     CLI::Option* markdown = sub->add_flag("--markdown", flags->markdown, "prints the table of docs/accuracy.md")->excludes(json);
     sub->add_flag("--list", flags->list, "names the cases and tries none")->excludes(json)->excludes(markdown);
     sub->add_flag("--thorough", flags->thorough, "searches ten times as long");
-    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "folder in which the files that the cases write are kept");
     sub->callback([flags, &chosen] { chosen = [flags] { return try_cases(*flags); }; });
 }

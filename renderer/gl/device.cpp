@@ -82,13 +82,27 @@ BackendAttempt try_in_child(const std::string& name) {
     return attempt;
 }
 
-std::vector<std::string> order_of_auto() {
-    std::vector<std::string> names;
+/// "auto": a GPU, else Mesa without a surface, else OSMesa. "software": the same of what draws on the CPU, EGL's devices in the second
+/// place.
+std::unique_ptr<gl::Context> open_first(bool software) {
+    std::vector<std::string> names{"egl", "osmesa"};
+    std::vector<std::string> devices;
     for (const gl::EglDevice& device : gl::list_egl_devices())
-        if (!device.software)
-            names.push_back(fmt::format("egl-device={}", device.index));
-    names.insert(names.end(), {"egl", "osmesa"});
-    return names;
+        if (device.software == software)
+            devices.push_back(fmt::format("egl-device={}", device.index));
+    names.insert(names.begin() + (software ? 1 : 0), devices.begin(), devices.end());
+    std::string failures;
+    for (const std::string& name : names) {
+        try {
+            std::unique_ptr<gl::Context> context = open_named(name);
+            if (!software || context->info.software)
+                return context;
+            failures += fmt::format("; {}: draws on {}", name, context->info.gl_renderer);
+        } catch (const DeviceError& error) {
+            failures += fmt::format("; {}", error.what());
+        }
+    }
+    throw DeviceError(fmt::format("nothing here can draw{}{}", software ? " on the CPU" : "", ":" + failures.substr(1)));
 }
 
 } // namespace
@@ -99,19 +113,11 @@ Device::Device(Device&&) noexcept = default;
 const DeviceInfo& Device::info() const { return context_->info; }
 
 Device open_device(const std::string& backend) {
-    if (backend != "auto" && !is_known(backend))
-        throw InputError({{}, 0, 0, "--backend"}, "found '" + printable(backend) + "'", "auto, egl, egl-device=N or osmesa");
-    if (backend != "auto")
-        return Device(open_named(backend));
-    std::string failures;
-    for (const std::string& name : order_of_auto()) {
-        try {
-            return Device(open_named(name));
-        } catch (const DeviceError& error) {
-            failures += (failures.empty() ? "" : "; ") + std::string(error.what());
-        }
-    }
-    throw DeviceError("nothing here can draw: " + failures);
+    if (backend == "auto" || backend == "software")
+        return Device(open_first(backend == "software"));
+    if (!is_known(backend))
+        throw InputError({{}, 0, 0, "--backend"}, "found '" + printable(backend) + "'", backend_names);
+    return Device(open_named(backend));
 }
 
 std::vector<BackendAttempt> try_all_backends() {

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <embree3/rtcore.h>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <tbb/parallel_for.h>
+#if __has_include(<embree4/rtcore.h>) // CMake, too, takes 4 before 3
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
 
 namespace fernlicht::reference {
 namespace {
@@ -36,6 +40,47 @@ std::size_t triangle_count(const Mesh& mesh) {
 void meet_tbb_first() {
     tbb::parallel_for(0, 1, [](int) {});
 }
+
+// How rays are asked for in Embree 4, and in 3. Those of a packet lie side by side: "coherent".
+#if RTC_VERSION_MAJOR >= 4
+void intersect(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &ray); }
+void occlude(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray); }
+void intersect(RTCScene scene, const int* valid, RTCRayHit16& rays) {
+    RTCIntersectArguments coherent;
+    rtcInitIntersectArguments(&coherent);
+    coherent.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect16(valid, scene, &rays, &coherent);
+}
+void occlude(RTCScene scene, const int* valid, RTCRay16& rays) {
+    RTCOccludedArguments coherent;
+    rtcInitOccludedArguments(&coherent);
+    coherent.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcOccluded16(valid, scene, &rays, &coherent);
+}
+#else
+RTCIntersectContext context(RTCIntersectContextFlags flags) {
+    RTCIntersectContext made;
+    rtcInitIntersectContext(&made);
+    made.flags = flags;
+    return made;
+}
+void intersect(RTCScene scene, RTCRayHit& ray) {
+    RTCIntersectContext alone = context(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    rtcIntersect1(scene, &alone, &ray);
+}
+void occlude(RTCScene scene, RTCRay& ray) {
+    RTCIntersectContext alone = context(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    rtcOccluded1(scene, &alone, &ray);
+}
+void intersect(RTCScene scene, const int* valid, RTCRayHit16& rays) {
+    RTCIntersectContext coherent = context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+    rtcIntersect16(valid, scene, &coherent, &rays);
+}
+void occlude(RTCScene scene, const int* valid, RTCRay16& rays) {
+    RTCIntersectContext coherent = context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+    rtcOccluded16(valid, scene, &coherent, &rays);
+}
+#endif
 
 } // namespace
 
@@ -151,8 +196,6 @@ SurfaceHit EmbreeScene::hit_on(const Ray& ray, std::uint32_t mesh_index, std::ui
 }
 
 std::optional<SurfaceHit> EmbreeScene::cast(const Ray& ray, bool ground_only) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit found{};
     const glm::vec3 origin(ray.origin_m), direction(ray.direction);
     found.ray = {origin.x,
@@ -168,7 +211,7 @@ std::optional<SurfaceHit> EmbreeScene::cast(const Ray& ray, bool ground_only) co
                  0,
                  0};
     found.hit.geomID = found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree_->scene, &context, &found);
+    intersect(embree_->scene, found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
     return hit_on(ray, found.hit.geomID, found.hit.primID);
@@ -176,9 +219,6 @@ std::optional<SurfaceHit> EmbreeScene::cast(const Ray& ray, bool ground_only) co
 
 LaneMask EmbreeScene::cast(const std::array<Ray, packet_size>& rays, LaneMask lanes, bool ground_only,
                            std::array<SurfaceHit, packet_size>& hits) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     alignas(64) RTCRayHit16 found;
     alignas(64) std::array<int, packet_size> valid;
     for (std::size_t i = 0; i < packet_size; ++i) {
@@ -190,7 +230,7 @@ LaneMask EmbreeScene::cast(const std::array<Ray, packet_size>& rays, LaneMask la
         found.ray.mask[i] = ground_only ? ground_mask : all_mask, found.ray.id[i] = 0, found.ray.flags[i] = 0;
         found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect16(valid.data(), embree_->scene, &context, &found);
+    intersect(embree_->scene, valid.data(), found);
     LaneMask hit_lanes = 0;
     for (std::size_t i = 0; i < packet_size; ++i)
         if (valid[i] != 0 && found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
@@ -205,19 +245,14 @@ bool EmbreeScene::visible(const SurfaceHit& from, const glm::dvec3& to_m) const 
 }
 
 bool EmbreeScene::visible(const glm::dvec3& from_m, const glm::dvec3& to_m) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     const glm::vec3 origin(from_m), direction(to_m - from_m);
     RTCRay ray{origin.x, origin.y, origin.z, 0.0F, direction.x, direction.y, direction.z, 0.0F, segment_end, casters_mask, 0, 0};
-    rtcOccluded1(embree_->scene, &context, &ray);
+    occlude(embree_->scene, ray);
     return ray.tfar >= 0.0F; // Embree makes it negative where something was met
 }
 
 LaneMask EmbreeScene::visible(const std::array<glm::dvec3, packet_size>& from_m, const std::array<glm::dvec3, packet_size>& to_m,
                               LaneMask lanes) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     alignas(64) RTCRay16 ray;
     alignas(64) std::array<int, packet_size> valid;
     for (std::size_t i = 0; i < packet_size; ++i) {
@@ -228,7 +263,7 @@ LaneMask EmbreeScene::visible(const std::array<glm::dvec3, packet_size>& from_m,
         ray.tnear[i] = 0.0F, ray.tfar[i] = segment_end, ray.time[i] = 0.0F;
         ray.mask[i] = casters_mask, ray.id[i] = 0, ray.flags[i] = 0;
     }
-    rtcOccluded16(valid.data(), embree_->scene, &context, &ray);
+    occlude(embree_->scene, valid.data(), ray);
     LaneMask seen = 0;
     for (std::size_t i = 0; i < packet_size; ++i)
         if (valid[i] != 0 && ray.tfar[i] >= 0.0F)

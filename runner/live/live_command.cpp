@@ -1,5 +1,6 @@
 #include "runner/live/live_command.h"
 
+#include "renderer/device.h"
 #include "runner/flag_values.h"
 #include "runner/live/live_run.h"
 #include "runner/output_folder.h"
@@ -123,7 +124,7 @@ void add_live_command(CLI::App& app, const std::vector<std::string>& command, st
     sub->add_flag("--no-wait", flags->no_wait, "of a recording: as fast as it goes, without pictures");
     sub->add_flag("--lossless", flags->lossless,
                   "exit code 1 when a frame was dropped, not sent or not recorded, or the interface was away");
-    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
     sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return live(*flags, command); }; });

@@ -1,5 +1,6 @@
 #include "runner/models/model_command.h"
 
+#include "renderer/device.h"
 #include "renderer/renderer.h"
 #include "runner/models/model_picture.h"
 #include "runner/picture_file.h"
@@ -146,7 +147,7 @@ void add_model_command(CLI::App& app, std::function<int()>& chosen) {
     command->add_option("--scale", request->scale, "metres in a unit of the file")->check(CLI::Range(1.0e-4, 1.0e4))->capture_default_str();
     command->add_option("--lamp", request->lamp, "halogen-low, halogen-high, xenon-low or xenon-high")->capture_default_str();
     command->add_option("--technique", request->technique, "how it is lit")->capture_default_str();
-    command->add_option("--backend", request->backend, "auto, egl, egl-device=N or osmesa")->capture_default_str();
+    command->add_option("--backend", request->backend, backend_names)->capture_default_str();
     command->add_flag("--json", request->json, "prints JSON");
     command->add_flag("--force", request->force, "lets --picture and --write replace a file that is there");
     command->callback([request, &chosen] { chosen = [request] { return model_command(*request); }; });

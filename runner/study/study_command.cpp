@@ -1,5 +1,6 @@
 #include "runner/study/study_command.h"
 
+#include "renderer/device.h"
 #include "runner/judging_flags.h"
 #include "runner/output_folder.h"
 #include "runner/run_command.h"
@@ -59,7 +60,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
     sub->add_flag("--resume", flags->resume,
                   "go on in the --out folder of this study: finished cells are kept, others played, the report is written anew");
-    sub->add_option("--backend", flags->backend, "auto, egl, egl-device=N or osmesa");
+    sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--frames", flags->frames, "FIRST:LAST moments of each drive to play, from 0");
     add_judging_flags(*sub, flags->judging);
     sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments of each cell lie from the reference");

@@ -303,8 +303,8 @@ LampRun ControlLoop::lamp_at(std::size_t lamp, double time_s) const {
     now.measured_pitch = held(run.measured_pitch);
     for (const Driven& driven : driven_)
         if (driven.lamp == lamp && driven.actuator)
-            (driven.actual == lamp_signal::swivel ? now.measured_swivel
-                                                  : now.measured_pitch) = {{0.0, driven.actuator->so_far().angle_rad(time_s)}};
+            (driven.actual == lamp_signal::swivel ? now.measured_swivel : now.measured_pitch)
+                .assign(1, {0.0, driven.actuator->so_far().angle_rad(time_s)});
     return now;
 }
 

@@ -40,13 +40,13 @@ expect() {
 
 export CODE=0
 expect 0 "nightly: JUnit  out/nightly-1/junit.xml"
-[[ $(<"$tree/out/nightly-1/report.html") == "scenarios/library/studies/standard.yaml references osmesa " ]] || { echo "played something else"; ((++failures)); }
+[[ $(<"$tree/out/nightly-1/report.html") == "scenarios/library/studies/standard.yaml references software " ]] || { echo "played something else"; ((++failures)); }
 FERNLICHT_BACKEND=egl FERNLICHT_REFERENCES=/elsewhere expect 0 "out/mine/report.html" other.yaml out/mine --only straight
 [[ $(<"$tree/out/mine/report.html") == "other.yaml /elsewhere egl --only straight" ]] || { echo "took other files"; ((++failures)); }
 CODE=1 expect 1 "accept"
 CODE=3 expect 3 "left no report"
 
-# ci/accept-nightly: both parts into one new folder, in place of the old; nothing where the study is not green.
+# ci/accept-nightly: both parts into a copy that takes the place of the old; nothing where the study is not green.
 cp "$source_tree/ci/accept-nightly" "$tree/ci/"
 cat >"$tree/build/release/fernlicht" <<'END'
 #!/bin/sh
@@ -61,12 +61,20 @@ if CODE=1 accept why; then echo "accepted what is not green"; ((++failures)); fi
 [[ $(<"$tree/references/index.json") == old ]] || { echo "touched what was accepted"; ((++failures)); }
 rm "$tree/calls"
 CODE=0 accept "a reason" || { echo "did not accept"; cat "$tree/said"; ((++failures)); }
-[[ $(<"$tree/references/index.json") == $'a reason\na reason' ]] || { echo "kept the old or lost a part"; ((++failures)); }
+[[ $(<"$tree/references/index.json") == $'old\na reason\na reason' ]] || { echo "lost what was there, or a part"; ((++failures)); }
 diff - "$tree/calls" <<'END' || ((++failures))
-study scenarios/library/studies/standard.yaml --backend osmesa --no-accuracy --quiet --out WORK/whole
-study scenarios/library/studies/standard.yaml --backend osmesa --no-accuracy --quiet --out WORK/two --only straight --frames 0:4
-accept WORK/whole --to WORK/references --readings-only --note a reason
+study scenarios/library/studies/standard.yaml --backend software --no-accuracy --quiet --out WORK/whole
+study scenarios/library/studies/standard.yaml --backend software --no-accuracy --quiet --out WORK/two --only straight --frames 0:4
+accept WORK/whole --to WORK/references --readings-only --note a reason --replace-class
 accept WORK/two --to WORK/references --readings-only --note a reason
 END
 [[ -z $(compgen -G "$tree/.accept-nightly.*") ]] || { echo "left its scratch folder"; ((++failures)); }
+printf '#!/bin/sh\necho "$*" >>calls\n' >"$tree/ci/fresh"
+chmod +x "$tree/ci/fresh"
+rm "$tree/calls"
+accept --both "a reason" || { echo "did not accept for both"; cat "$tree/said"; ((++failures)); }
+diff - "$tree/calls" <<'END' || ((++failures))
+--suite bookworm ci/accept-nightly a reason
+--suite trixie ci/accept-nightly a reason
+END
 ((failures == 0))

@@ -29,6 +29,7 @@ esac
 END
 stand_in apt-cache <<'END'
 #!/bin/sh
+[ "$2" != libosmesa6 ] || exit 1
 [ -e "$TREE/known" ] || [ -e "$TREE/lists" ]
 END
 stand_in sudo <<'END'
@@ -78,6 +79,15 @@ expect "old lists: install fails, update, install" 0 3
 touch "$tree/broken"
 expect "nothing helps: said and failed" 1 3
 says "could not install"
+
+rm "$tree/broken"
+printf 'libosmesa6 run? draws\n' >>"$tree/ci/packages"
+printf 'cmake\nlibegl1\nshellcheck\n' >"$tree/installed"
+expect "what Debian has no more: not asked for again" 0 0
+says "this Debian has no libosmesa6"
+printf 'cmake\n' >"$tree/installed"
+expect "nor in the way of the rest" 0 1
+says "installing 2 of 4 packages: libegl1 shellcheck"
 
 expect "unknown group" 1 0 tests
 says "no group 'tests'"

@@ -214,6 +214,23 @@ TEST_F(References, ReplacingTakesItsOwnKeysAndLeavesOthers) {
     EXPECT_EQ(state_of(store).size(), 1U + 2U + 4U) << "index, results and frames; those of the old halogen are gone";
 }
 
+TEST_F(References, ReplacingAClassLeavesOtherDevices) {
+    accept_run(run.folder, store);
+    StoredRun elsewhere(temporary.path() / "elsewhere", 1.01);
+    elsewhere.report.context.gl_renderer = "llvmpipe (LLVM 19.1.7, 256 bits)";
+    write_report(elsewhere.report, elsewhere.folder);
+    accept_run(elsewhere.folder, store);
+    StoredRun brighter(temporary.path() / "brighter", 1.5);
+    brighter.report.played.pop_back(); // halogen alone
+    write_report(brighter.report, brighter.folder);
+    const Accepted accepted = accept_run(brighter.folder, store, Acceptance::replace_class);
+    EXPECT_EQ(accepted.stored[0].removed, 2U) << "the other lamp set's, too";
+    EXPECT_EQ(list_references(store).size(), 3U);
+    EXPECT_TRUE(all_pass(elsewhere.judged(store)));
+    EXPECT_TRUE(all_pass(brighter.judged(store)));
+    EXPECT_FALSE(all_pass(judge_against_references(run.report.played[1], run.report.context, run.folder, store, "photometric")));
+}
+
 TEST_F(References, OfSeveralAcceptedAnyWholeOneWillDo) {
     accept_run(run.folder, store);
     StoredRun brighter(temporary.path() / "brighter", 1.5);

@@ -204,7 +204,7 @@ TEST(Run, AShadowMethodThatTheTechniqueDoesNotUseIsAWarning) {
         const std::string out = folder / name;
         const Outcome run =
             run_program("run " + library_file("drives/straight.yaml") +
-                        " --quiet --frames 3:4 --resolution 64x48 --no-accuracy --backend osmesa " + flags + " --out " + out);
+                        " --quiet --frames 3:4 --resolution 64x48 --no-accuracy --backend software " + flags + " --out " + out);
         EXPECT_LE(run.exit_code, 1) << run.output;
         const json report = report_of(out);
         std::string all;

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* few = " --quiet --frames 20:22 --resolution 96x72 --capture all --no-accuracy --backend osmesa ";
+constexpr const char* few = " --quiet --frames 20:22 --resolution 96x72 --capture all --no-accuracy --backend software ";
 constexpr const char* picture = "/frames/oncoming-1-halogen/driver-000021.png";
 
 /// The shipped drive with oncoming cars, halogen alone and nothing measured, with other lines at its end.
@@ -400,7 +400,7 @@ TEST(DisplayRun, AToneMapperIsNotSaidToBeFittedToTheDark) {
         << "fernlicht: 1\nname: off\nspeed_kmh: 60\nduration_s: 0.4\nroad: " << library_file("roads/straight.xodr")
         << "\nvariants: {off: {level: 0, file: " << library_file("lamps/halogen-low.ies")
         << "}}\nviews: {driver: {resolution_px: [32, 24]}}\nmeasure: {extent: false}\ntone_mapper: histogram\n";
-    const Outcome run = run_program("run " + (folder / "off.yaml") + " --quiet --no-accuracy --backend osmesa --out " + (folder / "out"));
+    const Outcome run = run_program("run " + (folder / "off.yaml") + " --quiet --no-accuracy --backend software --out " + (folder / "out"));
     EXPECT_EQ(run.exit_code, 0) << run.output;
     const std::string report = content_of(folder / "out/report.json");
     EXPECT_THAT(report, testing::ContainsRegex("tone mapper: nothing to fit to, as [0-9]+ moments of each lamp set had no light"));

@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* few = " --quiet --resolution 96x72 --capture all --no-accuracy --backend osmesa ";
+constexpr const char* few = " --quiet --resolution 96x72 --capture all --no-accuracy --backend software ";
 
 class AutomaticShadows : public testing::Test {
   protected:

@@ -143,7 +143,7 @@ TEST(ShadowsCommand, TakesEveryMethodThereIs) {
 TEST(ShadowsCommand, NamesTheMethodWhoseMapsAreTooLarge) {
     const TemporaryFolder folder;
     const Outcome run = run_program(small +
-                                    "--backend osmesa --rounds 1 --lamp-radius 0 --map-texels 8192x8192 --scenes post-5 "
+                                    "--backend software --rounds 1 --lamp-radius 0 --map-texels 8192x8192 --scenes post-5 "
                                     "--methods soft-map,volumes --out " +
                                     (folder / "out"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
@@ -164,7 +164,7 @@ TEST(ShadowsCommand, RunsSayHowMuchRoomMapsWouldTake) {
     const TemporaryFolder folder;
     const std::string drive = short_drive(folder, "first-light", "{method: soft-map, map_texels: [8192, 8192], lamp_places: 64}");
     const Outcome run =
-        run_program("run " + drive + " --quiet --resolution 96x72 --no-accuracy --backend osmesa --out " + (folder / "out"));
+        run_program("run " + drive + " --quiet --resolution 96x72 --no-accuracy --backend software --out " + (folder / "out"));
     EXPECT_EQ(run.exit_code, 3) << run.output;
     EXPECT_THAT(run.output, HasSubstr("shadows: found 64 maps of 8192 x 8192 texels for each lamp by 'soft-map', 16384 MiB, for which "));
     EXPECT_THAT(run.output, HasSubstr("expected a smaller map_texels or fewer lamp_places"));
