@@ -2,6 +2,7 @@
 #include "scenarios/display/tone_curve.h"
 #include "scenarios/values/files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>

@@ -123,7 +123,7 @@ class AnyDrive {
         drive.step_s = number(0.001, 1.0);
         drive.daylight = {name(), number(0.0, 27000.0)};
         if (coin())
-            (coin() ? drive.daylight.sun : drive.daylight.moon) = {number(-6.0, 6.0), number(-0.01, 1.5), number(0.0, 1e5)};
+            (coin() ? drive.daylight.sun : drive.daylight.moon) = DirectLight{number(-6.0, 6.0), number(-0.01, 1.5), number(0.0, 1e5)};
         if (coin()) {
             drive.daylight.clock = SkyClock{2026,
                                             whole(1, 12),
