@@ -1,6 +1,7 @@
 // Chance that is the same on every machine. std::mt19937_64 is specified to the bit; std::shuffle and the standard's distributions are not.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <random>

@@ -1,5 +1,6 @@
 #include "scenarios/control/bend_light.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fernlicht {

@@ -3,6 +3,7 @@
 #include "scenarios/control/first_order.h"
 #include "scenarios/values/pose.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace fernlicht {

@@ -2,6 +2,7 @@
 
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 

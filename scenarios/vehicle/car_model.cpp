@@ -2,6 +2,7 @@
 
 #include "scenarios/vehicle/dual.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fernlicht {

@@ -3,6 +3,7 @@
 
 #include "metrics/regulation/aim.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
 

@@ -2,6 +2,7 @@
 #include "renderer/reference/reference.h"
 #include "tests/renderer/shadow_methods.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

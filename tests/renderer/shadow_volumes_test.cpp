@@ -2,6 +2,7 @@
 #include "renderer/camera.h"
 #include "tests/renderer/shadow_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 

@@ -3,6 +3,8 @@
 
 #include "tests/renderer/shadow_scene.h"
 
+#include <algorithm>
+
 namespace fernlicht {
 namespace {
 

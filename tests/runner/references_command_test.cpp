@@ -3,6 +3,7 @@
 #include "tests/runner/program.h"
 #include "tests/runner/stored_run.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

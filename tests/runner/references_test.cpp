@@ -9,6 +9,7 @@
 #include "tests/runner/program.h"
 #include "tests/runner/stored_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <gmock/gmock.h>

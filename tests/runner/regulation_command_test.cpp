@@ -2,6 +2,7 @@
 #include "metrics/regulation/regulation.h"
 #include "tests/runner/program.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <sstream>

@@ -6,6 +6,7 @@
 #include "tests/runner/program.h"
 #include "tests/scenarios/openscenario/story_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -2,6 +2,7 @@
 
 #include "tests/metrics/images/direct_flip.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <limits>
 

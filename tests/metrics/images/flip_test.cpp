@@ -5,6 +5,7 @@
 #include "tests/metrics/images/direct_flip.h"
 #include "tests/metrics/images/made_pictures.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numeric>

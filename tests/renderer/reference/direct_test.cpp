@@ -4,6 +4,7 @@
 #include "renderer/reference/embree_scene.h"
 #include "renderer/twin.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -3,6 +3,7 @@
 #include "scenarios/can/frame_bits.h"
 #include "tests/scenarios/can/random_frames.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace fernlicht {

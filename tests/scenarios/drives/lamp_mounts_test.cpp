@@ -9,6 +9,7 @@
 #include "scenarios/traffic/road_user_mesh.h"
 #include "tests/scenarios/drives/drive_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>

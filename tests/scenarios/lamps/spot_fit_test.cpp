@@ -4,6 +4,7 @@
 #include "scenarios/lamps/spot_directions.h"
 #include "scenarios/values/pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>

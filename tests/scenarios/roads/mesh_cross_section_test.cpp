@@ -1,6 +1,7 @@
 // Strips of a cross-section: side by side, in the right colours, dashes where they belong.
 #include "scenarios/roads/mesh_cross_section.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -3,6 +3,8 @@
 
 #include "tests/scenarios/roads/mesh_checks.h"
 
+#include <algorithm>
+
 namespace fernlicht::mesh_checks {
 
 struct NearestPlace {

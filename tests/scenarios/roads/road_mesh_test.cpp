@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/roads/mesh_distance.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <filesystem>
