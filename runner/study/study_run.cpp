@@ -130,6 +130,9 @@ void refuse_other_cells(const std::vector<Planned>& planned, const StudyOptions&
 
 /// A new folder, or with --resume that of a study that was stopped, or of one that ended, whose report is then written anew.
 OutputFolder folder_for(const std::vector<Planned>& planned, const StudyOptions& options) {
+    if (!options.resume && is_marked_incomplete(options.folder) && fs::is_directory(options.folder / "cells"))
+        throw InputError({options.folder, 0, 0, "--out"}, "holds a study that did not end",
+                         "--resume to go on with it, or a new or an empty folder");
     if (!options.resume)
         return OutputFolder(options.folder);
     if (is_marked_incomplete(options.folder) || !fs::is_regular_file(options.folder / "study.json"))

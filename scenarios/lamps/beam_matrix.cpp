@@ -122,12 +122,22 @@ class Cells {
     char separator_;
 };
 
+void take_first_row(std::string_view line, const Cells& cells, const InputError::Where& at, MeasuredGrid& grid) {
+    const std::vector<std::string_view> row = cells.of(line);
+    grid.h_line = at.line;
+    InputError::Where where = at;
+    where.key = "horizontal angle";
+    for (std::size_t i = 1; i < row.size(); ++i)
+        grid.h_deg.push_back(cells.number(row[i], where));
+}
+
 void take_row(std::string_view line, const Cells& cells, const InputError::Where& at, MeasuredGrid& grid) {
     const std::vector<std::string_view> row = cells.of(line);
     InputError::Where where = at;
     if (row.size() != grid.h_deg.size() + 1)
         throw InputError(where, fmt::format("found {} cells", row.size()),
-                         fmt::format("{}: a vertical angle and one per horizontal angle", grid.h_deg.size() + 1));
+                         fmt::format("{}: a vertical angle and one per horizontal angle{}", grid.h_deg.size() + 1,
+                                     row.size() > grid.h_deg.size() ? "; where numbers have decimal commas, semicolons separate" : ""));
     if (grid.cd.size() + grid.h_deg.size() > max_lamp_samples)
         throw InputError(where, "the matrix goes on", fmt::format("at most {} cells", max_lamp_samples));
     where.key = "vertical angle";
@@ -162,8 +172,14 @@ double cd_per_lux(const MatrixHeader& header, double h_deg, double v_deg) {
     return facing / (cosine * cosine * cosine);
 }
 
-MeasuredGrid read_matrix(const std::filesystem::path& path, std::string_view text, MatrixHeader& header, LampFile& lamp) {
+struct Matrix {
     MeasuredGrid grid;
+    std::vector<std::size_t> lines; ///< of the rows
+};
+
+Matrix read_matrix(const std::filesystem::path& path, std::string_view text, MatrixHeader& header, LampFile& lamp) {
+    Matrix matrix;
+    MeasuredGrid& grid = matrix.grid;
     LineReader lines(text);
     std::string_view line;
     std::optional<Cells> cells;
@@ -173,24 +189,27 @@ MeasuredGrid read_matrix(const std::filesystem::path& path, std::string_view tex
             continue;
         if (trimmed(line).starts_with('#')) {
             take_header_line(trimmed(line), at, header, lamp);
-        } else if (!cells) {
-            cells.emplace(line);
-            const std::vector<std::string_view> row = cells->of(line);
-            grid.h_line = lines.number();
-            InputError::Where where = at;
-            where.key = "horizontal angle";
-            for (std::size_t i = 1; i < row.size(); ++i)
-                grid.h_deg.push_back(cells->number(row[i], where));
-        } else {
-            grid.v_line = grid.v_line == 0 ? lines.number() : grid.v_line;
-            take_row(line, *cells, at, grid);
+            continue;
+        }
+        try {
+            if (cells) {
+                take_row(line, *cells, at, grid);
+                matrix.lines.push_back(lines.number());
+            } else {
+                cells.emplace(line);
+                take_first_row(line, *cells, at, grid);
+            }
+        } catch (const InputError&) {
+            refuse_decimal_commas(line, lines.number() - 1, path); // a comma in the first row separates
+            throw;
         }
     }
     if (!header.unit_given)
         throw InputError({path, lines.number(), 0, "unit"}, "is not given", "a line '# unit: lx' or '# unit: cd'");
     if (!cells || grid.v_deg.empty())
         throw InputError({path, lines.number(), 0, {}}, "the file ends before the matrix", "horizontal angles, then rows");
-    return grid;
+    grid.v_line = matrix.lines.front();
+    return matrix;
 }
 
 } // namespace
@@ -214,14 +233,16 @@ LampFile read_beam_matrix(const std::filesystem::path& path, std::string_view te
     lamp.format = "beam matrix";
     lamp.name = path.stem().string();
     MatrixHeader header;
-    MeasuredGrid grid = read_matrix(path, text, header, lamp);
+    Matrix matrix = read_matrix(path, text, header, lamp);
+    MeasuredGrid& grid = matrix.grid;
     check_angles(grid, header, path);
     if (header.lux)
         for (std::size_t v = 0; v < grid.v_deg.size(); ++v)
             for (std::size_t h = 0; h < grid.h_deg.size(); ++h)
                 grid.cd[v * grid.h_deg.size() + h] *= cd_per_lux(header, grid.h_deg[h], grid.v_deg[v]);
+    refuse_negative(
+        grid, path, [&](std::size_t at) { return matrix.lines[at / grid.h_deg.size()]; }, lamp.notes);
     put_in_order(grid, path, lamp.notes);
-    refuse_negative(grid, path, lamp.notes);
     CandelaTable table{grid.h_deg, grid.v_deg, grid.cd, {}, options.rule};
     check_angles(grid, header, path); // repeated angles may have left a single one
     if (header.gaps)

@@ -211,8 +211,10 @@ LampFile read_eulumdat(const std::filesystem::path& path, std::string_view text,
         lamp.notes.push_back(fmt::format("The intensities are multiplied by the conversion factor {}.", conversion));
     }
     MeasuredGrid grid = read_planes(in, layout, lamps.flux_lm / 1000.0 * conversion, path);
+    const std::size_t planes = grid.h_deg.size(), first_line = in.next_number() - grid.cd.size(); // a value a line, plane by plane
+    refuse_negative(
+        grid, path, [&](std::size_t at) { return first_line + at % planes * grid.v_deg.size() + at / planes; }, lamp.notes);
     put_in_order(grid, path, lamp.notes);
-    refuse_negative(grid, path, lamp.notes);
     lamp.format = fmt::format("EULUMDAT, Isym {}", layout.symmetry);
     lamp.name = path.stem().string();
     for (const std::size_t i : {std::size_t{3}, std::size_t{2}}) // number, then luminaire

@@ -193,6 +193,60 @@ Axes first_axes(const Native& native) {
     return axes;
 }
 
+/// Light within a cell: the native table's, where it has data, at 8 x 8 places.
+double native_light(const Native& native, double h0, double h1, double v0, double v1) {
+    constexpr int parts = 8;
+    double sum = 0.0;
+    for (int j = 0; j < parts; ++j) {
+        const double v = v0 + (v1 - v0) * (j + 0.5) / parts;
+        for (int i = 0; i < parts; ++i)
+            sum += native.at(h0 + (h1 - h0) * (i + 0.5) / parts, v).cd * std::cos(radians(v));
+    }
+    return sum / (parts * parts) * radians(h1 - h0) * radians(v1 - v0);
+}
+
+/// Each sample without data that has some beside it takes their mean; the cells it is a corner of are settled with it.
+void fill_border(const std::vector<unsigned char>& known, CandelaTable& table) {
+    const auto columns = static_cast<std::ptrdiff_t>(table.h_deg.size()), rows = static_cast<std::ptrdiff_t>(table.v_deg.size());
+    for (std::ptrdiff_t y = 0; y < rows; ++y)
+        for (std::ptrdiff_t x = 0; x < columns; ++x) {
+            if (known[static_cast<std::size_t>(y * columns + x)])
+                continue;
+            double sum = 0.0;
+            int count = 0;
+            for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(y - 1, 0); j <= std::min(y + 1, rows - 1); ++j)
+                for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(x - 1, 0); i <= std::min(x + 1, columns - 1); ++i)
+                    if (const auto at = static_cast<std::size_t>(j * columns + i); known[at]) {
+                        sum += table.cd[at];
+                        ++count;
+                    }
+            if (count > 0)
+                table.cd[static_cast<std::size_t>(y * columns + x)] = sum / count;
+        }
+}
+
+/// Where data end inside cells, as many of these cells are data as hold the light of all their parts that have data: each is in or out,
+/// and what that adds or takes is made up for by the next.
+void settle_border(const Native& native, const std::vector<unsigned char>& known, CandelaTable& table) {
+    fill_border(known, table);
+    const std::size_t width = table.h_deg.size();
+    double surplus_lm = 0.0;
+    for (std::size_t y = 0; y + 1 < table.v_deg.size(); ++y)
+        for (std::size_t x = 0; x + 1 < width; ++x) {
+            const std::size_t i = y * width + x;
+            const int corners = known[i] + known[i + 1] + known[i + width] + known[i + width + 1];
+            bool gap = corners < 4;
+            if (const double h0 = table.h_deg[x], h1 = table.h_deg[x + 1], v0 = table.v_deg[y], v1 = table.v_deg[y + 1]; gap) {
+                surplus_lm -= native_light(native, h0, h1, v0, v1);
+                const std::vector<double> cd{table.cd[i], table.cd[i + 1], table.cd[i + width], table.cd[i + width + 1]};
+                const double whole_lm = corners > 0 ? flux_lm({{h0, h1}, {v0, v1}, cd, {}, table.rule}) : 0.0;
+                gap = corners == 0 || surplus_lm + whole_lm / 2.0 > 0.0;
+                surplus_lm += gap ? 0.0 : whole_lm;
+            }
+            table.gaps.push_back(gap);
+        }
+}
+
 CandelaTable sampled(const Native& native, const Axes& axes) {
     CandelaTable out{axes.h, axes.v, {}, {}, native.table.rule};
     std::vector<unsigned char> known;
@@ -206,12 +260,7 @@ CandelaTable sampled(const Native& native, const Axes& axes) {
         }
     if (std::all_of(known.begin(), known.end(), [](unsigned char k) { return k != 0; }))
         return out;
-    const std::size_t width = axes.h.size();
-    for (std::size_t y = 0; y + 1 < axes.v.size(); ++y)
-        for (std::size_t x = 0; x + 1 < width; ++x) {
-            const std::size_t i = y * width + x;
-            out.gaps.push_back(!(known[i] && known[i + 1] && known[i + width] && known[i + width + 1]));
-        }
+    settle_border(native, known, out);
     return out;
 }
 
@@ -223,8 +272,8 @@ double worst_difference_cd(const Native& native, const CandelaTable& table) {
         for (int i = 1; i <= count; ++i) {
             const double a = i * 0.7548776662466927, b = i * 0.5698402909980532;
             const double h = h0 + (h1 - h0) * (a - std::floor(a)), v = v0 + (v1 - v0) * (b - std::floor(b));
-            if (has_data(table, h, v))
-                worst = std::max(worst, std::abs(intensity_cd(table, h, v) - native.at(h, v).cd));
+            if (const Native::Sample sample = native.at(h, v); sample.known && has_data(table, h, v))
+                worst = std::max(worst, std::abs(intensity_cd(table, h, v) - sample.cd));
         }
     };
     probe(table.h_deg.front(), table.h_deg.back(), table.v_deg.front(), table.v_deg.back(), 40'000);

@@ -29,8 +29,10 @@ AngleSystem flat_screen();
 AngleSystem beam_along_nadir();
 
 /// The table `native` over the angles of `system`, brought onto H and V. The axes hold the native angles, the peak's direction, and as
-/// many more as bring the difference between the two tables below 0.1 % of the peak, up to half a million samples. Cells that are not
-/// wholly inside the native data are gaps. Adds a note with the size and the worst difference found by probing.
+/// many more as bring the difference between the two tables below 0.1 % of the peak, up to half a million samples. Of the cells in which
+/// the native data end, at most 0.1 degrees wide where the samples suffice, as many are data as hold the light of those parts that have
+/// data: the flux stays, and the border runs to the cell. The others are gaps. Adds a note with the size and the worst difference found by
+/// probing.
 CandelaTable on_un_goniometer(const CandelaTable& native, const AngleSystem& system, Notes& notes);
 
 } // namespace fernlicht

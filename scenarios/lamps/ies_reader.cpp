@@ -32,12 +32,15 @@ class IesNumbers {
         const std::string_view text = token(name);
         return whole_number(text, least, most, where(name));
     }
-    std::vector<double> numbers(const char* name, std::size_t count) {
+    /// `lines`, if given, gets the line of each.
+    std::vector<double> numbers(const char* name, std::size_t count, std::vector<std::size_t>* lines = nullptr) {
         std::vector<double> out; // grows with what is there, not with what the header promises
         for (std::size_t i = 0; i < count; ++i) {
             if (!more())
                 throw InputError({path_, lines_.number(), 0, name}, fmt::format("the file ends after {} of {}", i, count), "all of them");
             out.push_back(number(name));
+            if (lines)
+                lines->push_back(lines_.number());
         }
         return out;
     }
@@ -67,6 +70,16 @@ class IesNumbers {
     std::string_view line_;
     std::size_t begin_ = 0, end_ = 0;
 };
+
+/// What `read` gives. Where it fails, decimal commas are named before what they led to: in an IES file a comma separates.
+template <class Read> auto unless_commas(std::string_view text, std::size_t lines_before, const std::filesystem::path& path, Read read) {
+    try {
+        return read();
+    } catch (const InputError&) {
+        refuse_decimal_commas(text, lines_before, path);
+        throw;
+    }
+}
 
 /// Lamp-to-luminaire geometry, angles and factors. Gives the factor of the lamp as it was measured, at tilt 0.
 double tilt_factor(IesNumbers& numbers, Notes& notes) {
@@ -98,10 +111,12 @@ double read_tilt(const IesHeader& header, IesNumbers& numbers, const std::filesy
         if (!std::filesystem::exists(file))
             throw InputError(where, fmt::format("there is no file '{}' beside this one", printable(header.tilt)),
                              "NONE, INCLUDE or a file");
-        const std::string text = to_utf8(read_file(file, opened, max_lamp_text_bytes));
+        const std::string text = lamp_text(read_file(file, opened, max_lamp_text_bytes), file);
         LineReader lines(text);
         IesNumbers tilt_numbers(file, lines);
-        factor = tilt_factor(tilt_numbers, notes);
+        factor = unless_commas(text, 0, file, [&] { return tilt_factor(tilt_numbers, notes); });
+        if (tilt_numbers.more())
+            refuse_decimal_commas(text, 0, file);
     }
     if (!(factor > 0.0))
         throw InputError(where, fmt::format("the factor at tilt 0 is {}", factor), "a factor above 0");
@@ -113,6 +128,7 @@ struct Photometry {
     double factor = 1.0; ///< cd per listed value
     std::optional<double> lamp_flux_lm;
     MeasuredGrid grid;
+    std::vector<std::size_t> lines; ///< of the intensities, plane by plane
 };
 
 void check_range(const std::vector<double>& angles, double least, double most, const InputError::Where& where) {
@@ -170,13 +186,11 @@ Photometry read_photometry(IesNumbers& numbers, int edition, const std::filesyst
     p.grid.v_deg = numbers.numbers("vertical angle", nv);
     p.grid.h_line = next_line();
     p.grid.h_deg = numbers.numbers("horizontal angle", nh);
-    const std::vector<double> planes = numbers.numbers("candela value", nv * nh);
+    const std::vector<double> planes = numbers.numbers("candela value", nv * nh, &p.lines);
     p.grid.cd.resize(planes.size());
     for (std::size_t h = 0; h < nh; ++h)
         for (std::size_t v = 0; v < nv; ++v)
             p.grid.cd[v * nh + h] = planes[h * nv + v] * p.factor;
-    if (numbers.more())
-        notes.push_back(fmt::format("Line {} goes on after the last candela value: not read.", numbers.line_number()));
     p.type = checked_type(code, p.grid, path, notes);
     return p;
 }
@@ -230,13 +244,23 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
     lamp.opened = std::move(opened);
     LineReader lines(text);
     IesHeader header = read_ies_header(lines, path, lamp.notes);
+    const std::string_view rest = lines.rest();
     IesNumbers numbers(path, lines);
-    const double tilt = read_tilt(header, numbers, path, lamp.opened, lamp.notes);
-    Photometry p = read_photometry(numbers, header.edition, path, lamp.notes);
+    double tilt = 1.0;
+    Photometry p = unless_commas(rest, header.tilt_line, path, [&] {
+        tilt = read_tilt(header, numbers, path, lamp.opened, lamp.notes);
+        return read_photometry(numbers, header.edition, path, lamp.notes);
+    });
+    if (numbers.more()) {
+        refuse_decimal_commas(rest, header.tilt_line, path);
+        lamp.notes.push_back(fmt::format("Line {} goes on after the last candela value: not read.", numbers.line_number()));
+    }
     for (double& cd : p.grid.cd)
         cd *= tilt;
+    const std::size_t planes = p.grid.h_deg.size();
+    refuse_negative(
+        p.grid, path, [&](std::size_t at) { return p.lines[at % planes * p.grid.v_deg.size() + at / planes]; }, lamp.notes);
     put_in_order(p.grid, path, lamp.notes);
-    refuse_negative(p.grid, path, lamp.notes);
     lamp.format = fmt::format("IES LM-63-{}, type {}", header.edition, p.type);
     lamp.declared_flux_lm = p.lamp_flux_lm;
     lamp.labels = std::move(header.labels);

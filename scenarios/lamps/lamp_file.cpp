@@ -21,7 +21,7 @@ LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions&
         check_invariants(lamp.table);
         return lamp;
     }
-    const std::string text = to_utf8(bytes);
+    const std::string text = lamp_text(bytes, path);
     const std::string extension = uppercase(path.extension().string());
     // By content first; a file whose content says nothing is what its name says, so that its reader can tell what is wrong with it.
     if (looks_like_ies(text))

@@ -1,10 +1,39 @@
 #include "scenarios/lamps/lamp_text.h"
 
+#include "scenarios/values/files.h"
+
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht {
+namespace {
+
+constexpr std::string_view blanks{" \t\v\f\0", 5};
+
+[[noreturn]] void refuse_comma(const InputError::Where& where, std::string_view text, const std::string& pointed) {
+    throw InputError(where, "has decimal commas", fmt::format("points: write {} for {}", pointed, text));
+}
+
+/// Of text in UTF-16 every second byte is 0 as long as it is plain.
+bool is_utf16(const std::string& bytes) {
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
+        return true;
+    const std::size_t looked_at = std::min<std::size_t>(bytes.size(), 64) / 2 * 2;
+    std::size_t zeros[2] = {0, 0};
+    for (std::size_t i = 0; i < looked_at; ++i)
+        zeros[i % 2] += bytes[i] == '\0';
+    return looked_at >= 8 && std::min(zeros[0], zeros[1]) == 0 && std::max(zeros[0], zeros[1]) * 4 > looked_at;
+}
+
+} // namespace
+
+std::string lamp_text(const std::string& bytes, const std::filesystem::path& path) {
+    if (is_utf16(bytes))
+        throw InputError({path, 0, 0, {}}, "is encoded in UTF-16", "UTF-8 or Windows-1252: save it as one of these");
+    return to_utf8(bytes);
+}
 
 bool LineReader::next(std::string_view& line) {
     if (rest_.empty())
@@ -20,7 +49,6 @@ bool LineReader::next(std::string_view& line) {
 }
 
 std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks{" \t\v\f\0", 5};
     const std::size_t begin = text.find_first_not_of(blanks);
     if (begin == std::string_view::npos)
         return {};
@@ -46,8 +74,21 @@ std::optional<double> number_in(std::string_view text) {
     return value;
 }
 
+std::optional<std::string> with_point(std::string_view text) {
+    text = trimmed(text.substr(0, 100));
+    const std::size_t comma = text.find(',');
+    const auto digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+    if (comma == std::string_view::npos || comma == 0 || !digit(comma - 1) || !digit(comma + 1))
+        return std::nullopt;
+    std::string out(text);
+    out[comma] = '.';
+    return number_in(out) ? std::optional(out) : std::nullopt;
+}
+
 double finite_number(std::string_view text, const InputError::Where& where) {
     const std::optional<double> value = number_in(text);
+    if (const auto pointed = value ? std::nullopt : with_point(text))
+        refuse_comma(where, trimmed(text), *pointed);
     if (!value || !std::isfinite(*value))
         throw InputError(where, fmt::format("found '{}'", printable(std::string(trimmed(text.substr(0, 200))))), "a finite number");
     return *value;
@@ -59,6 +100,35 @@ long whole_number(std::string_view text, long least, long most, const InputError
         throw InputError(where, fmt::format("found '{}'", printable(std::string(trimmed(text.substr(0, 200))))),
                          fmt::format("a whole number from {} to {}", least, most));
     return static_cast<long>(*value);
+}
+
+void refuse_decimal_commas(std::string_view text, std::size_t lines_before, const std::filesystem::path& path) {
+    struct Found {
+        InputError::Where where;
+        std::string_view number;
+        std::string pointed;
+    };
+    std::optional<Found> first;
+    bool beside_others = false; // "0,90" alone on its line may as well be two numbers
+    LineReader lines(text);
+    for (std::string_view line; lines.next(line);) {
+        std::size_t numbers = 0;
+        bool comma = false;
+        for (std::size_t begin = 0, end = 0; (begin = line.find_first_not_of(blanks, end)) != std::string_view::npos; ++numbers) {
+            end = std::min(line.find_first_of(blanks, begin), line.size());
+            const std::string_view number = line.substr(begin, end - begin);
+            if (const auto pointed = with_point(number)) {
+                comma = true;
+                if (!first)
+                    first = {{path, lines_before + lines.number(), begin + 1, {}}, number, *pointed};
+            } else if (number.find_first_of(",.") != std::string_view::npos) {
+                return; // commas separate here, or points are known
+            }
+        }
+        beside_others = beside_others || (comma && numbers > 1);
+    }
+    if (first && beside_others)
+        refuse_comma(first->where, first->number, first->pointed);
 }
 
 } // namespace fernlicht

@@ -31,6 +31,9 @@ class LineReader {
     std::size_t number_ = 0;
 };
 
+/// A file's bytes as UTF-8. Throws InputError for UTF-16, with a byte order mark or without.
+std::string lamp_text(const std::string& bytes, const std::filesystem::path& path);
+
 std::string_view trimmed(std::string_view text);
 std::string uppercase(std::string_view text);
 
@@ -38,9 +41,16 @@ std::string uppercase(std::string_view text);
 /// here.
 std::optional<double> number_in(std::string_view text);
 
-/// Throws InputError unless `text` is a finite number.
+/// What `text` is with a point for its decimal comma ("1.5" for "1,5"); nullopt when it is no number with one.
+std::optional<std::string> with_point(std::string_view text);
+
+/// Throws InputError unless `text` is a finite number; one with a decimal comma is called that.
 double finite_number(std::string_view text, const InputError::Where& where);
 /// Throws InputError unless `text` is a whole number within the bounds.
 long whole_number(std::string_view text, long least, long most, const InputError::Where& where);
+
+/// Throws InputError naming the first of them when the numbers in `text`, separated by blanks, have decimal commas. `lines_before`: where
+/// in the file it begins.
+void refuse_decimal_commas(std::string_view text, std::size_t lines_before, const std::filesystem::path& path);
 
 } // namespace fernlicht

@@ -1,6 +1,6 @@
 #include "scenarios/lamps/spectrum.h"
 
-#include "scenarios/values/errors.h"
+#include "scenarios/lamps/lamp_text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -50,8 +50,12 @@ bool add_sample(std::string_view line, const InputError::Where& where, Spectrum&
     const std::optional<double> power = fields.size() == 2 ? number_of(fields[1]) : std::nullopt;
     if (!nm && names_allowed)
         return false;
-    if (!nm || !power)
+    if (!nm || !power) {
+        std::string by_blanks(line);
+        std::replace(by_blanks.begin(), by_blanks.end(), ';', ' ');
+        refuse_decimal_commas(by_blanks, where.line - 1, where.file);
         throw InputError(where, "found " + quoted(line), "a wavelength in nm and a relative power");
+    }
     if (*nm <= 0.0 || (!s.wavelength_nm.empty() && *nm <= s.wavelength_nm.back()))
         throw InputError(where, fmt::format("found wavelength {} nm", *nm), "wavelengths above 0 that ascend from line to line");
     if (*power < 0.0)
@@ -79,7 +83,7 @@ void check_coverage(const Spectrum& s, const std::filesystem::path& path) {
 } // namespace
 
 Spectrum read_spectrum_file(const std::filesystem::path& path, FilesRead& opened) {
-    const std::string content = to_utf8(read_file(path, opened, std::size_t{16} << 20));
+    const std::string content = lamp_text(read_file(path, opened, std::size_t{16} << 20), path);
     Spectrum s;
     bool names_seen = false;
     std::size_t line_number = 0;

@@ -112,6 +112,9 @@ TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
     EXPECT_EQ(stopped.exit_code, 1) << stopped.output;
     EXPECT_THAT(stopped.output, HasSubstr("incomplete: interrupted by the user"));
     EXPECT_THAT(content_of(folder / "out/report.html"), HasSubstr("The study did not end"));
+    const Outcome anew = run_program(arguments + (folder / "out"));
+    EXPECT_EQ(anew.exit_code, 2);
+    EXPECT_THAT(anew.output, HasSubstr("holds a study that did not end, expected --resume to go on with it, or a new or an empty folder"));
     const Outcome other = run_program("study " + file + " --frames 0:4 --no-accuracy --resume --out " + (folder / "out"));
     EXPECT_EQ(other.exit_code, 2) << "other moments are another study";
     EXPECT_THAT(other.output, HasSubstr("found a cell that was played with other files or settings"));

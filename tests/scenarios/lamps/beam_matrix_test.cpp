@@ -142,7 +142,16 @@ TEST_F(BeamMatrix, MessagesNameLineAndCell) {
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1,2\n95,3,4\n"), HasSubstr("x.csv:3: vertical angles: found 95"));
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0\n0,1\n1,3\n"), HasSubstr("horizontal angles: found 1 of them, expected at least 2"));
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1,2\n"), HasSubstr("vertical angles: found 1 of them"));
-    EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1,-2\n1,3,4\n"), HasSubstr("is -2 cd"));
+    EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1,-2\n1,3,4\n"), HasSubstr("x.csv:3: intensity at horizontal 1, vertical 0: is -2 cd"));
+    EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n1,1,2\n\n0,3,-4\n"),
+                HasSubstr("x.csv:5: intensity at horizontal 1, vertical 0: is -4 cd"));
+    EXPECT_THAT(complaint("# unit: lx\n# distance_m: 25,5\n"),
+                HasSubstr("x.csv:2: distance_m: has decimal commas, expected points: write 25.5 for 25,5"));
+    EXPECT_THAT(complaint("# unit: cd\nV\\H -1,5 0 1,5\n0 1 2 3\n1 2 3 4\n"),
+                HasSubstr("x.csv:2:5: has decimal commas, expected points: write -1.5 for"));
+    EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1,5,2,5\n1,3,4\n"),
+                HasSubstr("x.csv:3: found 5 cells, expected 3: a vertical angle and one per "
+                          "horizontal angle; where numbers have decimal commas, semicolons separate"));
     EXPECT_THAT(complaint("# unit: lx\n# screen: planar\nV\\H,0,90\n0,1,2\n1,3,4\n"),
                 HasSubstr("found 90, expected angles from -89 to 89"));
 }

@@ -137,6 +137,16 @@ TEST_F(CPlanes, TurningKeepsTheFlux) {
     EXPECT_NEAR(flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / there, 1.0, 1e-3);
 }
 
+/// A cone, and half of one, that ends in light.
+TEST_F(CPlanes, ATurnedConeThatEndsInLightKeepsItsFlux) {
+    for (const double turn : {360.0, 187.5})
+        for (const double step : {2.5, 7.5}) {
+            const auto c = steps(0, turn, 7.5), gamma = steps(0, 37.5, step);
+            const double there = flux_lm(lamp(c, gamma, downlight, TypeCAxis::horizontal).table); // not resampled
+            EXPECT_NEAR(flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / there, 1.0, 2e-4) << turn << " " << step;
+        }
+}
+
 TEST_F(CPlanes, TheOptionOutvotesTheLight) {
     const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight, TypeCAxis::horizontal);
     EXPECT_LT(peak_of(l.table).v_deg, -60.0);

@@ -191,7 +191,7 @@ TEST_F(Eulumdat, MessagesNameTheLine) {
     EXPECT_THAT(line(45, "181"), HasSubstr("x.ldt:45: gamma angle: found 181, expected an angle from 0 to 180"));
     EXPECT_THAT(line(47, "nan"), HasSubstr("x.ldt:47: intensity: found 'nan', expected a finite number"));
     EXPECT_THAT(line(47, "-inf"), HasSubstr("x.ldt:47: intensity: found '-inf'"));
-    EXPECT_THAT(line(47, "-50"), HasSubstr("is -50 cd"));
+    EXPECT_THAT(line(47, "-50"), HasSubstr("x.ldt:47: intensity at horizontal 0, vertical 0: is -50 cd"));
     EXPECT_THAT(complaint([](Ldt& l) {
                     l.symmetry = 4, l.c = {0, 90};
                 }),

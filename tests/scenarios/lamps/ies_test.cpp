@@ -221,6 +221,24 @@ TEST_F(IesFile, ResamplingAnAutomotiveTypeBGridCostsLessThanATenthOfAPercent) {
     EXPECT_THAT(all_notes(lamp), HasSubstr("Resampled from type B"));
 }
 
+/// Against the integral over the file's own angles, where the border is straight: I cos h dh dv.
+TEST_F(IesFile, ATypeBGridThatEndsInLightKeepsItsFlux) {
+    for (const double step : {0.7, 2.5, 5.0}) {
+        CandelaTable own; // h of type B is its latitude
+        for (int i = 0; i <= static_cast<int>(80.0 / step); ++i)
+            own.v_deg.push_back(-41.3 + i * step);
+        for (int i = 0; i <= static_cast<int>(25.0 / step); ++i)
+            own.h_deg.push_back(-16.2 + i * step);
+        for (const double h : own.v_deg)
+            for (const double v : own.h_deg)
+                own.cd.push_back(1000.0 * std::exp(-h * h / 3000.0 - (v + 2.0) * (v + 2.0) / 500.0));
+        const LampFile lamp =
+            read("b.ies", fmt::format("IESNA91\nTILT=NONE\n1 -1 1 {} {} 2 2 0 0 0\n1 1 0\n{}\n{}\n{}\n", own.h_deg.size(), own.v_deg.size(),
+                                      fmt::join(own.h_deg, " "), fmt::join(own.v_deg, " "), fmt::join(own.cd, "\n")));
+        EXPECT_NEAR(flux_lm(lamp.table) / flux_lm(own), 1.0, 2e-4) << step;
+    }
+}
+
 TEST_F(IesFile, PaddingWithZerosAt90IsNoData) {
     const LampFile lamp = read("b.ies", automotive_type_b());
     EXPECT_THAT(all_notes(lamp), HasSubstr("H from 45 to 90 degrees holds only zeros"));
@@ -257,8 +275,41 @@ TEST_F(IesFile, SlightlyNegativeIntensitiesAreNoise) {
     const LampFile lamp = read("n.ies", head + "1000 -0.5\n5 6\n");
     EXPECT_EQ(lamp.table.at(1, 0), 0.0);
     EXPECT_THAT(all_notes(lamp), HasSubstr("down to -0.5 cd"));
-    EXPECT_THAT(refusal("m.ies", head + "1000 -5\n5 6\n"), HasSubstr("horizontal -1, vertical 1: is -5 cd, expected at least 0 cd"));
+    EXPECT_THAT(refusal("m.ies", head + "1000 -5\n5 6\n"),
+                HasSubstr("m.ies:7: intensity at horizontal -1, vertical 1: is -5 cd, expected at least 0 cd"));
+    // Planes one after the other, angles that descend: the line of the number itself.
+    EXPECT_THAT(refusal("d.ies", "IESNA91\nTILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 0\n1 -1\n1 -1\n1000 5\n6\n-7\n"),
+                HasSubstr("d.ies:9: intensity at horizontal -1, vertical -1: is -7 cd"));
     EXPECT_THAT(refusal("h.ies", head + "1e15 5\n5 6\n"), HasSubstr("expected at most"));
+}
+
+/// Commas separate in IES files, so that these fail somewhere, or not at all and with a rest.
+TEST_F(IesFile, DecimalCommasAreCalledThat) {
+    const auto complaint = [&](const std::string& numbers) { return refusal("c.ies", "IESNA91\nTILT=NONE\n" + numbers); };
+    const std::string says = "has decimal commas, expected points: write ";
+    EXPECT_THAT(complaint("1 -1 1,0 2 2 3 2 0 0 0\n1 1 0\n-1 1\n-1 1\n5 6\n7 8\n"), HasSubstr("c.ies:3:6: " + says + "1.0 for 1,0"));
+    EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1,5 1,5\n-1,5 1,5\n5 6\n7 8\n"),
+                HasSubstr("c.ies:5:1: " + says + "-1.5 for -1,5"));
+    EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1 1\n-1 1\n5,25 6\n7 8,5\n"), HasSubstr("c.ies:7:1: " + says + "5.25 for 5,25"));
+    EXPECT_THAT(complaint("1,-1,1,2,2,3,2,0,0,0\n1,1,0\n-1,1\n-1,1\n5,6\n7,x\n"), HasSubstr("c.ies:8:3: candela value: found 'x'"));
+    EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1,1\n-1,1\n5,6\n7,x\n"), HasSubstr("found 'x'"));
+    write("comma.tlt", "1\n2\n0,0 1,5\n1 1\n");
+    EXPECT_THAT(refusal("k.ies", "IESNA91\nTILT=comma.tlt\n" + std::string(small_numbers)), HasSubstr("comma.tlt:3:1: " + says));
+}
+
+TEST_F(IesFile, Utf16IsCalledThat) {
+    for (const auto& [low, high] : {std::pair{1, 0}, std::pair{0, 1}}) // either order of bytes, with a mark and without
+        for (const bool mark : {true, false}) {
+            std::string bytes = mark ? (low != 0 ? "\xff\xfe" : "\xfe\xff") : "";
+            for (const char c : small()) {
+                const char both[2] = {high != 0 ? '\0' : c, high != 0 ? c : '\0'};
+                bytes.append(both, 2);
+            }
+            EXPECT_THAT(refusal("u.ies", bytes), HasSubstr("u.ies: is encoded in UTF-16, expected UTF-8 or Windows-1252"));
+            write("wide.tlt", bytes);
+            EXPECT_THAT(refusal("k.ies", "IESNA91\nTILT=wide.tlt\n" + std::string(small_numbers)),
+                        HasSubstr("wide.tlt: is encoded in UTF-16"));
+        }
 }
 
 TEST_F(IesFile, MessagesNameLineAndPlace) {
