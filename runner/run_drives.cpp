@@ -149,7 +149,12 @@ void add_savings(const Stage& stage, Device& device, const RendererSettings& set
             all_in.technique = unpruned_technique;
             unpruned.emplace(device, stage.scene, all_in);
         }
-        savings = measure_savings(stage, stage.drive.variants[i], played[i], std::max(0, options.ticks.first), renderer, *unpruned);
+        try {
+            savings = measure_savings(stage, stage.drive.variants[i], played[i], std::max(0, options.ticks.first), renderer, *unpruned);
+        } catch (const InputError& error) { // more than the unpruned technique can draw
+            savings = {};
+            savings.not_measured = error.what();
+        }
     }
 }
 

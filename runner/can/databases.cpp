@@ -49,19 +49,6 @@ const CanMessage* Databases::message(const CanFrame& frame) const {
     return found == by_id_.end() ? nullptr : found->second;
 }
 
-const CanMessage& Databases::named(const std::string& name) const {
-    std::vector<std::string> names;
-    for (const CanDatabase& database : databases_) {
-        if (const CanMessage* message = database.message(name))
-            return *message;
-        for (const CanMessage& message : database.messages)
-            names.push_back(message.name);
-    }
-    const std::string near = nearest_name(name, names);
-    throw InputError({databases_.empty() ? std::filesystem::path() : databases_.front().file, 0, 0, {}},
-                     fmt::format("found no message '{}' among {}", printable(name), names.size()), near.empty() ? "" : near);
-}
-
 Selection::Selection(const std::vector<std::string>& names, const Databases& databases) {
     for (const std::string& text : names) {
         const std::size_t cut = text.find_first_of("./");

@@ -32,8 +32,6 @@ class Databases {
 
     /// Of data frames; the first file that describes it counts. nullptr: none does.
     const CanMessage* message(const CanFrame& frame) const;
-    /// Throws InputError with the nearest name where no file has it.
-    const CanMessage& named(const std::string& name) const;
     const std::vector<CanDatabase>& all() const { return databases_; }
 
   private:

@@ -23,7 +23,7 @@ struct DecodeFlags {
     std::string out;
     DatabaseFlags databases;
     LogFlags log;
-    bool single_line = false, json = false, csv = false, numbers = false, known = false, force = false;
+    bool single_line = false, json = false, csv = false, numbers = false, known = false, notes = false, force = false;
 };
 
 /// Writes frame after frame in one of the three forms.
@@ -31,6 +31,10 @@ class Decoder {
   public:
     explicit Decoder(const DecodeFlags& flags)
         : flags_(flags), databases_(flags.databases), selection_(flags.only, databases_), out_(flags.out, flags.force) {
+        if (flags.notes)
+            for (const CanDatabase& database : databases_.all())
+                for (const std::string& note : database.notes)
+                    fmt::print(stderr, "fernlicht: {}: {}\n", printable(database.file.string(), 400), note);
         if (flags.csv)
             write_header();
     }
@@ -181,7 +185,8 @@ void add_can_decode(CLI::App& can, std::function<int()>& chosen) {
     sub->add_option("--only", flags->only, "messages and signals shown: MESSAGE, SIGNAL or MESSAGE.SIGNAL; may be given several times")
         ->allow_extra_args(false);
     sub->add_flag("--known", flags->known, "leaves out frames that no message describes, and counts them");
-    sub->add_flag("--json", flags->json, "one JSON object a line, which `can encode` takes back");
+    sub->add_flag("--notes", flags->notes, "what was odd in the DBC files and how it was taken, on standard error");
+    sub->add_flag("--json", flags->json, "one JSON object a line");
     sub->add_flag("--csv", flags->csv, "a table: a frame a row, a signal a column; numbers, not labels");
     sub->add_option("-o,--out", flags->out, "file in place of standard output");
     sub->add_flag("--force", flags->force, "lets --out replace a file that is there");

@@ -98,6 +98,7 @@ void append_frame_json(std::string& out, const CandumpLine& line, const CanMessa
         append_json_text(out, message->name);
         const auto all = [](const CanValue&) { return true; };
         append_json_object(out, "signals", values, all, [&](const CanValue& value) { append_signal_value(out, value); });
+        out += values.empty() ? ",\"signals\":{}" : "";
         append_json_object(
             out, "labels", values, [](const CanValue& value) { return value.label != nullptr; },
             [&](const CanValue& value) { append_json_text(out, *value.label); });

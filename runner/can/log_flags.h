@@ -33,7 +33,6 @@ class LenientStream {
     /// As CandumpStream::next.
     CandumpStream::What next();
     const CandumpStream& log() const { return log_; }
-    std::uint64_t skipped() const { return skipped_; }
 
   private:
     CandumpStream log_;

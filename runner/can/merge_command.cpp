@@ -93,6 +93,8 @@ class MergeSource {
             throw InputError({log().path(), log().line_number(), 0, {}}, "found a stamp that --offset takes before 0 or beyond 2262",
                              "a smaller offset");
         line_.frame.time_ns += offset_ns;
+        if (offset_ns % 1000 != 0)
+            line_.style.stamp_digits = 9;
         line_.frame.channel = renamed(line_.frame.channel);
         if (line_.style.form == CandumpStyle::Form::screen) {
             CandumpStyle style;

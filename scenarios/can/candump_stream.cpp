@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -125,7 +126,20 @@ bool CandumpStream::fill() {
     }
 }
 
+/// Past the end of the line that is in the buffer in part.
+void CandumpStream::skip_line() {
+    std::size_t end = 0;
+    while ((end = rest_.find('\n')) == std::string_view::npos) {
+        rest_ = {};
+        if (at_end_ || !fill())
+            return;
+    }
+    rest_.remove_prefix(end + 1);
+}
+
 bool CandumpStream::fetch_line() {
+    if (std::exchange(skip_line_, false))
+        skip_line();
     std::size_t searched = 0;
     for (;;) {
         const std::size_t end = rest_.find('\n', searched);
@@ -137,10 +151,9 @@ bool CandumpStream::fetch_line() {
             return true;
         }
         if (end != std::string_view::npos || rest_.size() > longest_line) {
-            // No log. What follows is not looked at: a further call ends.
-            rest_ = {};
-            at_end_ = true;
-            throw InputError({where_.file, where_.line + 1, 0, {}}, "found a line of more than 16384 bytes", "a log of candump");
+            skip_line_ = true; // whoever asks again gets the line behind it
+            ++where_.line;
+            throw InputError({where_.file, where_.line, 0, {}}, "found a line of more than 16384 bytes", "a log of candump");
         }
         searched = rest_.size();
         if (!at_end_ && fill())
@@ -180,15 +193,19 @@ bool CandumpStream::stamps_fall() const {
     as_they_stand.stamps = CandumpStamps::absolute;
     const auto falls = [](CandumpStream& other) {
         std::int64_t before = 0;
-        try {
-            for (What what; (what = other.next()) != What::end;) {
-                if (what != What::frame)
-                    continue;
-                if (other.line().frame.time_ns < before)
-                    return true;
-                before = other.line().frame.time_ns;
+        for (What what = What::comment; what != What::end;) {
+            try {
+                what = other.next();
+            } catch (const InputError& error) { // will be told in its turn
+                if (error.where().line == 0)
+                    return false;
+                what = What::comment;
             }
-        } catch (const InputError&) { // will be told in its turn
+            if (what != What::frame)
+                continue;
+            if (other.line().frame.time_ns < before)
+                return true;
+            before = other.line().frame.time_ns;
         }
         return false;
     };

@@ -67,6 +67,7 @@ class CandumpStream {
 
   private:
     bool fetch_line();
+    void skip_line();
     bool fill();
     bool has_more_to_read() const;
     void absolute_time();
@@ -75,7 +76,7 @@ class CandumpStream {
     InputError::Where where_;
     CandumpReading reading_;
     int file_ = -1;
-    bool from_pipe_ = false, at_end_ = false, ended_ = true, seen_frame_ = false;
+    bool from_pipe_ = false, at_end_ = false, skip_line_ = false, ended_ = true, seen_frame_ = false;
     CandumpStamps stamps_ = CandumpStamps::by_themselves;
     std::int64_t last_ns_ = 0;
     std::vector<char> buffer_;

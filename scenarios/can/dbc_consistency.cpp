@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
 
 namespace fernlicht {
 namespace {
@@ -54,45 +56,81 @@ void check_signal(DbcReading& reading, const DbcMessage& message, DbcSignal& rea
                      fmt::format("{} needs {} bytes, its message has {}; only longer frames hold it", name, bytes, message.message.length));
 }
 
-// Can both be there in one frame? Not if one multiplexor, theirs or of one above them, chooses between them.
-bool together(const DbcMessage& message, const CanSignal& a, const CanSignal& b) {
-    const auto above = [&](const CanSignal& one) -> const CanSignal* {
-        const auto found =
-            std::ranges::find_if(message.signals, [&](const DbcSignal& other) { return other.signal.name == one.multiplexed_by; });
-        return found == message.signals.end() ? nullptr : &found->signal;
-    };
-    for (const CanSignal* x = &a; x != nullptr; x = above(*x))
-        for (const CanSignal* y = &b; y != nullptr; y = above(*y)) {
-            if (x->multiplexed_by.empty() || x->multiplexed_by != y->multiplexed_by)
-                continue;
-            const bool meet = std::ranges::any_of(x->multiplexed_when, [&](const auto& p) {
-                return std::ranges::any_of(y->multiplexed_when, [&](const auto& q) { return p.first <= q.second && q.first <= p.second; });
-            });
-            if (!meet)
-                return false;
+/// Which signals of a message can be in one frame: multiplexors, theirs or of those above them, choose between them.
+class Multiplexing {
+  public:
+    explicit Multiplexing(const DbcMessage& message) : message_(message) {
+        std::unordered_map<std::string_view, std::size_t> by_name;
+        for (std::size_t i = 0; i < message.signals.size(); ++i)
+            by_name.emplace(message.signals[i].signal.name, i);
+        const std::size_t none = message.signals.size();
+        above_.assign(none, none);
+        for (std::size_t i = 0; i < none; ++i)
+            if (const auto found = by_name.find(message.signals[i].signal.multiplexed_by); found != by_name.end())
+                above_[i] = found->second;
+        depth_.assign(none, 0);
+        for (std::size_t i = 0; i < none; ++i)
+            for (std::size_t at = above_[i]; at != none; at = above_[at])
+                ++depth_[i];
+    }
+
+    /// Both climb to where they meet; the last step of each is what that multiplexor chooses between.
+    bool together(std::size_t a, std::size_t b) {
+        std::size_t from_a = a, from_b = b;
+        const auto climb = [&](std::size_t& at, std::size_t& from) {
+            from = at;
+            at = above_[at];
+            ++steps_;
+        };
+        while (depth_[a] > depth_[b])
+            climb(a, from_a);
+        while (depth_[b] > depth_[a])
+            climb(b, from_b);
+        if (a == b) // one is above the other
+            return true;
+        while (a != b) {
+            climb(a, from_a);
+            climb(b, from_b);
         }
-    return true;
-}
+        if (a == above_.size())
+            return true;
+        const CanSignal &x = message_.signals[from_a].signal, &y = message_.signals[from_b].signal;
+        return std::ranges::any_of(x.multiplexed_when, [&](const auto& p) {
+            return std::ranges::any_of(y.multiplexed_when, [&](const auto& q) { return p.first <= q.second && q.first <= p.second; });
+        });
+    }
+    std::size_t steps() const { return steps_; }
+
+  private:
+    const DbcMessage& message_;
+    std::vector<std::size_t> above_, depth_; ///< by signal; above_ of a root is their number
+    std::size_t steps_ = 0;
+};
 
 void check_overlaps(DbcReading& reading, const DbcMessage& message) {
-    std::vector<std::vector<std::size_t>> holders;      // by bit: signals that hold it
-    std::set<std::pair<std::size_t, std::size_t>> seen; // a message of others has some thousands at most
-    constexpr std::size_t enough_pairs = 100'000;
-    std::size_t overlaps = 0, line = 0;
+    constexpr std::size_t most_pairs = 1'000'000, most_steps = 100'000'000; // messages of others have some thousands of pairs
+    Multiplexing multiplexing(message);
+    std::vector<std::vector<std::size_t>> holders;                                // by bit: signals that hold it
+    std::vector<std::size_t> met(message.signals.size(), message.signals.size()); // by signal: the last that it was looked at with
+    std::size_t pairs = 0, overlaps = 0, line = 0;
+    const auto enough = [&] { return pairs >= most_pairs || multiplexing.steps() >= most_steps; };
     std::string first_pair;
-    for (std::size_t i = 0; i < message.signals.size(); ++i) {
+    for (std::size_t i = 0; i < message.signals.size() && !enough(); ++i) {
         const CanSignal& signal = message.signals[i].signal;
         const std::size_t first = first_bit(signal);
-        if (first + signal.length > holders.size())
-            holders.resize(first + signal.length + 64);
         for (std::size_t k = 0; k < signal.length; ++k) {
             // One numbering for both byte orders: byte * 8 + place within the byte from its least significant bit.
             const std::size_t bit = signal.big_endian ? ((first + k) / 8) * 8 + 7 - (first + k) % 8 : first + k;
             if (bit >= holders.size())
                 holders.resize(bit + 64);
             for (const std::size_t other : holders[bit]) {
-                if (seen.size() == enough_pairs || !seen.insert({other, i}).second ||
-                    !together(message, message.signals[other].signal, signal) || overlaps++ > 0)
+                if (met[other] == i)
+                    continue;
+                met[other] = i;
+                if (enough())
+                    break;
+                ++pairs;
+                if (!multiplexing.together(other, i) || overlaps++ > 0)
                     continue;
                 line = message.signals[i].line;
                 first_pair = fmt::format("{} overlaps {}", dbc_signal_name(message, message.signals[i]),
@@ -102,7 +140,9 @@ void check_overlaps(DbcReading& reading, const DbcMessage& message) {
         }
     }
     if (overlaps > 0)
-        reading.note(line, first_pair + (overlaps > 1 ? fmt::format(", and {} more pairs of this message do", overlaps - 1) : ""));
+        reading.note(line, first_pair + (overlaps > 1 ? fmt::format(", and {}{} more pairs of this message do", enough() ? "at least " : "",
+                                                                    overlaps - 1)
+                                                      : ""));
 }
 
 } // namespace

@@ -105,6 +105,9 @@ std::string_view DbcCursor::number_text() {
     };
     if (end < text_.size() && (text_[end] == '-' || text_[end] == '+'))
         ++end;
+    for (const std::string_view word : {"nan", "NaN", "NAN", "inf", "Inf", "INF"}) // as printf and others write them
+        if (text_.compare(end, word.size(), word) == 0)
+            return std::string_view(text_).substr(at_, end + word.size() - at_);
     digits();
     if (end < text_.size() && text_[end] == '.') {
         ++end;

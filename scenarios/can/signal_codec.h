@@ -5,7 +5,7 @@
 
 #include <map>
 #include <span>
-#include <string_view>
+#include <string>
 
 namespace fernlicht {
 
@@ -35,9 +35,6 @@ std::string exact_text(const CanValue& value);
 /// Bits of the raw value nearest to a physical one (halves away from 0). Throws InputError with the signal's name where its bits cannot
 /// hold it; not a number and infinities fit floating-point signals only.
 std::uint64_t raw_of(const CanSignal& signal, double physical);
-/// The same of a text: a number in decimals, of which whole ones are taken exactly to 64 bits and more, or a label of the signal. A label
-/// that reads as a number ("4" for the fourth gear, raw 8) is taken as that number: labels are for those that do not.
-std::uint64_t raw_of(const CanSignal& signal, std::string_view text);
 
 /// Bytes of the message's length with these raw values (bits). Signals not named take their start value, else 0; a multiplexor not named
 /// takes its start value if that lets the named signals be there, else the least value that does.

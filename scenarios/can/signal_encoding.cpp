@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -66,25 +65,6 @@ std::uint64_t raw_of_floating(const CanSignal& signal, double physical) {
     return std::bit_cast<std::uint32_t>(static_cast<float>(unscaled));
 }
 
-std::optional<std::uint64_t> raw_of_label(const CanSignal& signal, std::string_view text) {
-    std::optional<std::int64_t> labelled;
-    for (const auto& [raw, label] : signal.labels) {
-        if (label != text)
-            continue;
-        if (labelled)
-            throw InputError(in_signal(signal), fmt::format("found '{}', which is the text of {} and {}", printable(label), *labelled, raw),
-                             "a number");
-        labelled = raw;
-    }
-    if (!labelled)
-        return std::nullopt;
-    if (signal.kind != CanValueKind::whole)
-        return raw_of_floating(signal, static_cast<double>(*labelled) * signal.factor + signal.offset);
-    const bool as_bits = !signal.is_signed && signal.length == 64;
-    return fitted(signal, as_bits ? WideWhole{static_cast<std::uint64_t>(*labelled)} : WideWhole{*labelled},
-                  fmt::format("'{}' of raw value {}", printable(std::string(text)), *labelled));
-}
-
 } // namespace
 
 std::string exact_text(const CanValue& value) {
@@ -107,31 +87,6 @@ std::uint64_t raw_of(const CanSignal& signal, double physical) {
     if (!(std::abs(raw) < 0x1p65))
         refuse_size(signal, found);
     return fitted(signal, static_cast<WideWhole>(raw), found);
-}
-
-std::uint64_t raw_of(const CanSignal& signal, std::string_view text) {
-    if (const auto whole = parse_whole(text)) {
-        const auto exact = exact_raw(signal, *whole, std::string(text));
-        return exact ? *exact : raw_of(signal, static_cast<double>(*whole));
-    }
-    double number = 0.0;
-    const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
-    const bool is_number = error == std::errc{} && end == text.data() + text.size();
-    if (is_number && std::isfinite(number))
-        return raw_of(signal, number);
-    if (const auto labelled = raw_of_label(signal, text)) // one may be "inf" or "nan"
-        return *labelled;
-    if (is_number)
-        return raw_of(signal, number);
-    std::vector<std::string> labels;
-    for (const auto& entry : signal.labels)
-        labels.push_back(entry.second);
-    const std::string near = nearest_name(std::string(text), labels);
-    throw InputError(in_signal(signal), fmt::format("found '{}'", printable(std::string(text))),
-                     labels.empty() ? "a number"
-                     : near.empty() ? fmt::format("a number or one of the signal's {} labels", labels.size())
-                                    : fmt::format("a number or a label, '{}' perhaps", printable(near)));
 }
 
 } // namespace fernlicht

@@ -37,27 +37,4 @@ std::string decimal_text(WideWhole value) {
     return digits;
 }
 
-std::optional<WideWhole> parse_whole(std::string_view text) {
-    const bool negative = text.starts_with('-');
-    if (negative || text.starts_with('+'))
-        text.remove_prefix(1);
-    const bool hexadecimal = text.starts_with("0x") || text.starts_with("0X");
-    if (hexadecimal)
-        text.remove_prefix(2);
-    if (text.empty())
-        return std::nullopt;
-    WideWhole value = 0;
-    for (const char c : text) {
-        int digit = 99;
-        if (c >= '0' && c <= '9')
-            digit = c - '0';
-        else if (hexadecimal && ((c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F')))
-            digit = (c | 0x20) - 'a' + 10;
-        if (digit == 99 || value >> 95 != 0)
-            return std::nullopt;
-        value = value * (hexadecimal ? 16 : 10) + digit;
-    }
-    return negative ? -value : value;
-}
-
 } // namespace fernlicht

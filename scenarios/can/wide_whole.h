@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace fernlicht {
 
@@ -16,7 +15,5 @@ std::optional<WideWhole> whole_below_62_bits(double value);
 /// raw * factor + offset of a whole signal whose factor and offset are whole and below 2^62.
 std::optional<WideWhole> exact_whole(const CanSignal& signal, std::uint64_t raw);
 std::string decimal_text(WideWhole value);
-/// A sign and decimal digits, or 0x and hexadecimal ones; below 2^100. nullopt for all else.
-std::optional<WideWhole> parse_whole(std::string_view text);
 
 } // namespace fernlicht

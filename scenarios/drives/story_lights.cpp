@@ -7,7 +7,6 @@ namespace fernlicht {
 namespace {
 
 constexpr double ramp_step_s = 0.02;
-constexpr int most_light_changes = 100'000; ///< of one lamp
 
 struct Ramp {
     std::vector<LampChange>& out;
@@ -76,11 +75,9 @@ std::vector<LampChange> light_changes(const std::vector<osc::LightChange>& light
                 ramp.to(to.mode == osc::LightMode::on ? lit : 0.0, lights[i].time_s, to.transition_s, until_s);
                 continue;
             }
-            double time_s = lights[i].time_s;
-            for (int n = 0; n < most_light_changes && time_s < until_s; ++n) {
+            for (double time_s = lights[i].time_s; time_s < until_s; time_s += to.flash_on_s + to.flash_off_s) { // of 10 ms at least
                 ramp.to(lit, time_s, 0.0, until_s);
                 ramp.to(0.0, time_s + to.flash_on_s, 0.0, until_s);
-                time_s += to.flash_on_s + to.flash_off_s;
             }
         }
     }

@@ -263,8 +263,11 @@ std::string evaluate(std::string_view expression, const Lookup& lookup) {
 }
 
 std::string resolve(std::string_view text, const Lookup& lookup) {
+    constexpr std::size_t longest = 65536; // parameters of parameters can double at each step
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
+        if (out.size() > longest)
+            break;
         if (text[at] == '\\' && at + 1 < text.size() && text[at + 1] == '$') {
             out += '$';
             at += 2;
@@ -282,6 +285,8 @@ std::string resolve(std::string_view text, const Lookup& lookup) {
             at += 1 + name.size();
         }
     }
+    if (out.size() > longest)
+        throw std::invalid_argument(fmt::format("its parameters give a text of more than {} bytes", longest));
     return out;
 }
 

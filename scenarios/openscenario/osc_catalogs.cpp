@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 #include <stdexcept>
 
 namespace fernlicht::osc {
@@ -12,22 +13,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void read_catalog(const fs::path& path, Reading& reading) {
+using Entries = std::map<std::pair<std::string, std::string>, Reading::Entry>;
+
+/// `by_file`: the same entries under the file's name, as which esmini finds them.
+void read_catalog(const fs::path& path, Reading& reading, Entries& by_file) {
     try {
         const auto file = std::make_shared<XmlFile>(path, reading.opened, "OpenSCENARIO", "an OpenSCENARIO file");
         for (const pugi::xml_node catalog : file->root().children("Catalog"))
             for (const pugi::xml_node entry : catalog.children())
-                if (entry.type() == pugi::node_element)
-                    reading.entries.try_emplace({catalog.attribute("name").value(), entry.attribute("name").value()},
-                                                Reading::Entry{file.get(), entry});
+                if (entry.type() == pugi::node_element) {
+                    const Reading::Entry found{file.get(), entry};
+                    reading.entries.try_emplace({catalog.attribute("name").value(), entry.attribute("name").value()}, found);
+                    by_file.try_emplace({path.stem().string(), entry.attribute("name").value()}, found);
+                }
         reading.files.push_back(file);
     } catch (const InputError& error) {
         reading.catalog_notes.emplace_back(error.what());
     }
 }
 
-/// Files by name, so that the same entry is found on every machine.
+/// Files by name, so that the same entry is found on every machine; the name that a catalog has itself comes before its file's.
 void read_folders(Reading& reading) {
+    Entries by_file;
     for (const fs::path& folder : std::exchange(reading.catalog_folders, {})) {
         std::error_code failed;
         std::vector<fs::path> files;
@@ -38,8 +45,24 @@ void read_folders(Reading& reading) {
                 files.push_back(entry->path());
         std::sort(files.begin(), files.end());
         for (const fs::path& file : files)
-            read_catalog(file, reading);
+            read_catalog(file, reading, by_file);
     }
+    reading.entries.merge(by_file);
+}
+
+/// "'A', 'B' and 3 more"
+std::string catalogs_found(const Reading& reading) {
+    std::set<std::string> names;
+    for (const auto& [key, unused] : reading.entries)
+        names.insert(key.first);
+    std::string out;
+    std::size_t told = 0;
+    for (const std::string& name : names) {
+        if (told == 12)
+            return out + fmt::format(" and {} more", names.size() - told);
+        out += fmt::format("{}'{}'", told++ == 0 ? "" : ", ", printable(name));
+    }
+    return out;
 }
 
 } // namespace
@@ -66,7 +89,9 @@ OscNode catalog_entry(const OscNode& reference) {
         const std::string why = reading.catalog_notes.empty() ? "" : fmt::format(" ({})", reading.catalog_notes.front());
         if (names.empty())
             reference.refuse("catalogName", fmt::format("found '{}'", printable(catalog)),
-                             "a catalog in the folders of CatalogLocations" + why);
+                             (reading.entries.empty() ? "a catalog in the folders of CatalogLocations, where there is none"
+                                                      : "a catalog in the folders of CatalogLocations: " + catalogs_found(reading)) +
+                                 why);
         const std::string nearest = nearest_name(name, names);
         reference.refuse("entryName", fmt::format("found '{}'", printable(name)),
                          nearest.empty() ? fmt::format("one of the {} entries of catalog '{}'", names.size(), printable(catalog))
@@ -82,6 +107,18 @@ OscNode catalog_entry(const OscNode& reference) {
             values[parameter] = assignment.text("value");
         }
     return found.with(std::make_shared<Scope>(Scope{std::move(values), reading.global}));
+}
+
+OpenEntry::OpenEntry(const OscNode& node) : reading_(node.reading()) {
+    std::vector<Reading::Entry>& open = reading_.open_entries;
+    const auto again = std::ranges::find(open, node.node(), &Reading::Entry::node);
+    if (again != open.end()) {
+        std::string chain;
+        for (auto at = again; at != open.end(); ++at)
+            chain += fmt::format("'{}' > ", printable(at->node.attribute("name").value()));
+        node.refuse("", fmt::format("leads back to itself: {}'{}'", chain, printable(node.name())), "positions that do not need it");
+    }
+    open.push_back({&node.xml(), node.node()});
 }
 
 std::optional<OscNode> own_or_catalog(const OscNode& node, const char* element) {

@@ -35,7 +35,9 @@ struct Reading {
     std::vector<std::filesystem::path> catalog_folders;
     std::map<std::pair<std::string, std::string>, Entry> entries;
     std::vector<std::string> catalog_notes; ///< files that could not be read
-    std::vector<std::string> entities;      ///< names that may be referred to
+    /// Entries that are being read, the outer ones first: one that asks for itself would never end.
+    std::vector<Entry> open_entries;
+    std::vector<std::string> entities; ///< names that may be referred to
     std::shared_ptr<const Scope> global = std::make_shared<Scope>();
 };
 

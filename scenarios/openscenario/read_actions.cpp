@@ -17,9 +17,15 @@ Dynamics dynamics_of(const OscNode& node) {
     Dynamics out;
     out.shape = shape_of(node);
     out.dimension = static_cast<Dimension>(node.choice("dynamicsDimension", {"rate", "time", "distance"}));
-    out.value = std::abs(node.number_or("value", 0.0)); // a rate's sign follows from start and target
-    if (!std::isfinite(out.value))
-        node.refuse("value", fmt::format("found {}", out.value), "a finite value");
+    const double value = node.number_or("value", 0.0);
+    if (!std::isfinite(value))
+        node.refuse("value", fmt::format("found {}", value), "a finite value");
+    if (value < 0.0 && out.dimension != Dimension::rate)
+        node.refuse("value", fmt::format("found {}", value),
+                    out.dimension == Dimension::time ? "a time not below 0" : "a distance not below 0");
+    if (value < 0.0) // a rate's sign follows from start and target
+        node.unsupported(fmt::format("the sign of the rate {} in value", value));
+    out.value = std::abs(value);
     if (out.dimension == Dimension::rate && out.value == 0.0 && out.shape != Shape::step)
         node.refuse("value", "found 0", "a rate above 0");
     return out;
@@ -188,6 +194,8 @@ SynchronizeAction synchronize_of(const OscNode& node) {
 LightStateAction light_of(const OscNode& node) {
     LightStateAction out;
     out.transition_s = node.number_or("transitionTime", 0.0);
+    if (!(out.transition_s >= 0.0))
+        node.refuse("transitionTime", fmt::format("found {}", out.transition_s), "a time not below 0");
     const OscNode type = node.require("LightType").only("VehicleLight or UserDefinedLight");
     if (type.element() == "VehicleLight") {
         static constexpr std::string_view known[] = {
@@ -204,9 +212,16 @@ LightStateAction light_of(const OscNode& node) {
     out.mode = static_cast<LightMode>(state.choice("mode", {"off", "on", "flashing"}));
     out.flash_on_s = state.number_or("flashingOnDuration", 0.5);
     out.flash_off_s = state.number_or("flashingOffDuration", 0.5);
-    if (!(out.flash_on_s > 0.0) || !(out.flash_off_s >= 0.0) || !(out.transition_s >= 0.0))
-        state.refuse("", "has a duration below 0, or flashes for no time", "flashingOnDuration above 0, others not below");
+    if (!(out.flash_on_s > 0.0))
+        state.refuse("flashingOnDuration", fmt::format("found {}", out.flash_on_s), "a time above 0");
+    if (!(out.flash_off_s >= 0.0))
+        state.refuse("flashingOffDuration", fmt::format("found {}", out.flash_off_s), "a time not below 0");
+    if (constexpr double shortest_s = 0.01; out.mode == LightMode::flashing && out.flash_on_s + out.flash_off_s < shortest_s)
+        state.refuse("flashingOnDuration", fmt::format("found a light that flashes every {} s", out.flash_on_s + out.flash_off_s),
+                     fmt::format("{} s at least: faster, it is seen as steady light", shortest_s));
     out.luminous_intensity_cd = state.number_if("luminousIntensity");
+    if (out.luminous_intensity_cd && !(*out.luminous_intensity_cd >= 0.0))
+        state.refuse("luminousIntensity", fmt::format("found {}", *out.luminous_intensity_cd), "candela not below 0");
     if (const auto colour = state.find("Color"))
         if (const auto rgb = colour->find("ColorRgb"))
             out.rgb = {rgb->number("red"), rgb->number("green"), rgb->number("blue")};

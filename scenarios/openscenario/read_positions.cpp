@@ -40,9 +40,13 @@ RoutePosition read_route_position(const OscNode& node) {
 
 Position read_kind(const OscNode& node) {
     const std::string kind = node.element();
-    if (kind == "WorldPosition")
+    if (kind == "WorldPosition") {
+        for (const char* axis : {"x", "y", "z"})
+            if (const double at = node.number_or(axis, 0.0); !(std::abs(at) <= 1e9))
+                node.refuse(axis, fmt::format("found {}", at), "a place within 1e9 m of the origin");
         return WorldPosition{node.number("x"),    node.number("y"),    node.number_if("z"),
                              node.number_if("h"), node.number_if("p"), node.number_if("r")};
+    }
     if (kind == "LanePosition")
         return LanePosition{node.text("roadId"), node.whole("laneId"), node.number("s"), node.number_or("offset", 0.0),
                             orientation_of(node)};
@@ -75,6 +79,16 @@ Position read_kind(const OscNode& node) {
 
 std::optional<double> time_of(const OscNode& node) { return node.number_if("time"); }
 
+void refuse_falling_times(const std::vector<OscNode>& points) {
+    std::optional<double> before;
+    for (const OscNode& point : points) {
+        const std::optional<double> time = time_of(point);
+        if (time && before && !(*time >= *before))
+            point.refuse("time", fmt::format("found {} after {}", *time, *before), "times that do not fall");
+        before = time ? time : before;
+    }
+}
+
 ClothoidSegment read_segment(const OscNode& node) {
     const bool spline = node.element() == "ClothoidSplineSegment";
     ClothoidSegment segment;
@@ -104,6 +118,7 @@ Nurbs read_nurbs(const OscNode& node) {
     nurbs.order = node.whole("order");
     for (const OscNode& point : node.children("ControlPoint"))
         nurbs.points.push_back({time_of(point), point.number_or("weight", 1.0), read_position(point)});
+    refuse_falling_times(node.children("ControlPoint"));
     for (const OscNode& knot : node.children("Knot"))
         nurbs.knots.push_back(knot.number("value"));
     if (nurbs.order < 2 || nurbs.order > 16 || nurbs.points.size() < static_cast<std::size_t>(nurbs.order))
@@ -119,6 +134,7 @@ Nurbs read_nurbs(const OscNode& node) {
 }
 
 std::shared_ptr<const Trajectory> trajectory_of(const OscNode& node) {
+    const OpenEntry open(node);
     auto trajectory = std::make_shared<Trajectory>();
     trajectory->name = node.name();
     trajectory->closed = node.flag_or("closed", false);
@@ -127,6 +143,7 @@ std::shared_ptr<const Trajectory> trajectory_of(const OscNode& node) {
         Polyline line;
         for (const OscNode& vertex : shape.children("Vertex"))
             line.vertices.push_back({time_of(vertex), read_position(vertex)});
+        refuse_falling_times(shape.children("Vertex"));
         if (line.vertices.size() < 2)
             shape.refuse("", fmt::format("has {} vertices", line.vertices.size()), "at least 2");
         trajectory->shape = std::move(line);
@@ -164,6 +181,7 @@ std::shared_ptr<const Route> read_route(const OscNode& holder) {
     const auto node = own_or_catalog(holder, "Route");
     if (!node)
         holder.refuse("", "has no route", "a Route or a CatalogReference");
+    const OpenEntry open(*node);
     auto route = std::make_shared<Route>();
     route->name = node->name();
     route->closed = node->flag_or("closed", false);

@@ -36,13 +36,20 @@ std::optional<Action> read_action(const OscNode& node) {
     return action;
 }
 
+int executions_of(const OscNode& node) {
+    const int count = node.whole("maximumExecutionCount");
+    if (count < 0)
+        node.refuse("maximumExecutionCount", fmt::format("found {}", count), "a count not below 0");
+    return count;
+}
+
 Event read_event(const OscNode& node) {
     Event event;
     event.name = node.name();
     event.line = node.line();
     const std::size_t priority = node.choice("priority", {"overwrite", "override", "skip", "parallel"});
     event.priority = priority < 2 ? Priority::overwrite : priority == 2 ? Priority::skip : Priority::parallel;
-    event.executions = node.has("maximumExecutionCount") ? node.whole("maximumExecutionCount") : 1;
+    event.executions = node.has("maximumExecutionCount") ? executions_of(node) : 1;
     for (const OscNode& action : node.children("Action"))
         if (auto read = read_action(action))
             event.actions.push_back(std::move(*read));
@@ -63,7 +70,7 @@ using Selections = std::map<std::string, std::vector<std::string>>;
 ManeuverGroup read_group(const OscNode& node, const Selections& selections) {
     ManeuverGroup group;
     group.name = node.name();
-    group.executions = node.whole("maximumExecutionCount");
+    group.executions = executions_of(node);
     if (const auto actors = node.find("Actors")) {
         group.select_triggering = actors->flag_or("selectTriggeringEntities", false);
         for (const OscNode& actor : actors->children("EntityRef")) {

@@ -2,7 +2,6 @@
 #include "renderer/beam_texture.h"
 #include "renderer/projected_beam.h"
 #include "scenarios/can/candump_stream.h"
-#include "scenarios/can/frame_bits.h"
 #include "scenarios/drives/yaml_tree.h"
 #include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/ies.h"
@@ -144,22 +143,6 @@ void write_candump_text(benchmark::State& state) {
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
 }
 BENCHMARK(write_candump_text)->Unit(benchmark::kMillisecond);
-
-/// With the stuff bits of each frame.
-void count_frame_bits(benchmark::State& state) {
-    std::vector<CanFrame> frames;
-    const std::string all = candump_text({});
-    for (CandumpStream stream("a.log", all); stream.next() != CandumpStream::What::end;)
-        frames.push_back(stream.line().frame);
-    for (auto _ : state) {
-        std::uint64_t bits = 0;
-        for (const CanFrame& frame : frames)
-            bits += frame_bits(frame, BitStuffing::exact).total();
-        benchmark::DoNotOptimize(bits);
-    }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(frames.size()));
-}
-BENCHMARK(count_frame_bits)->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace fernlicht

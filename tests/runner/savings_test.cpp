@@ -41,6 +41,23 @@ TEST(Savings, SayWhyTheyAreNotMeasured) {
     EXPECT_EQ(no_savings(drive, played), "it is measured for the technique photometric only, this is full");
 }
 
+TEST(Savings, WhatCannotBeContestedIsLeftOutAndTheRunStays) {
+    const TemporaryFolder folder;
+    std::string lamps;
+    for (int i = 0; i < 10; ++i)
+        lamps += "      l" + std::to_string(i) + ": {file: " + library_file("lamps/halogen-low.ies") + ", position_m: [0, " +
+                 std::to_string(i) + ", 0.65], level: " + (i == 0 ? "1" : "0") + "}\n";
+    std::ofstream(folder / "ten.yaml") << "fernlicht: 1\nname: ten\nroad: " << library_file("roads/straight.xodr")
+                                       << "\nroute: {s_m: 20}\nspeed_kmh: 36\nrate_hz: 10\nduration_s: 1\nvariants:\n  ten:\n"
+                                          "    source: filament\n    lamps:\n"
+                                       << lamps << "views: {driver: {resolution_px: [64, 48]}}\n";
+    const Outcome run = run_program("run " + (folder / "ten.yaml") + " --quiet --out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_THAT(
+        json::parse(content_of(folder / "out/report.json")).at("savings").at(0).at("not_measured").get<std::string>(),
+        HasSubstr("10 lamps are mounted, and a technique that leaves nothing out draws those that are off, too, expected at most 8"));
+}
+
 /// Seven rounds that take `factor` of the time of the unpruned ones, up to the given share of it more or less.
 Savings savings_of(double factor, double noise) {
     Savings savings;

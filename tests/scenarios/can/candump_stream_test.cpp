@@ -1,9 +1,12 @@
 // Whole logs of candump: kinds of lines, what stamps count from, real ones.
 #include "scenarios/can/candump_stream.h"
 
+#include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -61,6 +64,26 @@ TEST(CandumpStream, GoesOnBehindABadLine) {
     EXPECT_EQ(stream.line().frame.data[0], 0x22);
     EXPECT_EQ(stream.next(), What::end);
     EXPECT_EQ(stream.next(), What::end);
+}
+
+TEST(CandumpStream, GoesOnBehindALineThatIsTooLong) {
+    for (const std::size_t length : {16'385U, 20'000U, 300'000U, 2'000'000U})
+        for (const bool in_a_file : {false, true}) {
+            const std::string text =
+                std::string(length, 'x') + "\n(1.000000) can0 123#11\n" + std::string(length, 'y') + "\n(2.000000) can0 123#22";
+            const std::string path =
+                (std::filesystem::path(testing::TempDir()) / fmt::format("fernlicht-long-{}.log", ::getpid())).string();
+            std::ofstream(path) << text;
+            CandumpStream stream = in_a_file ? CandumpStream(path) : CandumpStream("a.log", text);
+            std::filesystem::remove(path);
+            EXPECT_THROW(stream.next(), InputError);
+            EXPECT_EQ(stream.next(), What::frame) << length;
+            EXPECT_EQ(stream.line_number(), 2U);
+            EXPECT_THROW(stream.next(), InputError);
+            EXPECT_EQ(stream.next(), What::frame);
+            EXPECT_EQ(stream.line().frame.data[0], 0x22);
+            EXPECT_EQ(stream.next(), What::end);
+        }
 }
 
 TEST(CandumpStream, RefusesWhatIsNoLog) {

@@ -2,6 +2,7 @@
 #include "tests/scenarios/can/dbc_trial.h"
 
 #include <cstdlib>
+#include <fmt/format.h>
 #include <random>
 
 namespace fernlicht {
@@ -225,6 +226,28 @@ TEST_F(Dbc, SignalsThatAMultiplexorKeepsApartDoNotOverlap) {
     EXPECT_EQ(all_notes(read("BO_ 1 A: 8 X\n SG_ M1 M : 0|2@1+ (1,0) [0|0] \"\" X\n SG_ S m1 : 8|8@1+ (1,0) [0|0] \"\" X\n"
                              " SG_ T m2 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 T M1 0-3;\n")),
               "line 4: A.T overlaps S\n");
+}
+
+/// Levels of multiplexors, each switched by the one above, all over the same bits; then signals that nothing keeps apart.
+TEST_F(Dbc, DeepAndWideMessagesAreReadInTheirTime) {
+    constexpr int levels = 500;
+    std::string text = "BO_ 1 A: 8 X\n SG_ S0 M : 0|8@1+ (1,0) [0|0] \"\" X\n", switches;
+    for (int i = 1; i < levels; ++i) {
+        text += fmt::format(" SG_ S{} m1M : 8|8@1+ (1,0) [0|0] \"\" X\n", i);
+        switches += fmt::format("SG_MUL_VAL_ 1 S{} S{} 1-1;\n", i, i - 1);
+    }
+    EXPECT_EQ(all_notes(read(text + switches)), "line 4: A.S2 overlaps S1, and 124250 more pairs of this message do\n"); // 499 * 498 / 2
+    text = "BO_ 1 A: 8 X\n";
+    for (int i = 0; i < 100'000; ++i)
+        text += fmt::format(" SG_ S{} : 0|8@1+ (1,0) [0|0] \"\" X\n", i);
+    EXPECT_EQ(all_notes(read(text)), "line 3: A.S1 overlaps S0, and at least 999999 more pairs of this message do\n");
+}
+
+TEST_F(Dbc, LimitsThatAreNoNumbersAreNone) {
+    for (const std::string limits : {"nan|nan", "-inf|inf", "NaN|1", "0|INF"}) {
+        const std::string notes = all_notes(read("BO_ 1 A: 2 X\n SG_ S : 0|8@1+ (1,0) [" + limits + "] \"\" X\n"));
+        EXPECT_THAT(notes, testing::HasSubstr("; taken as none")) << limits;
+    }
 }
 
 TEST_F(Dbc, RefusalsNameLineAndReason) {

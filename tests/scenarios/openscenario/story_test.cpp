@@ -3,6 +3,8 @@
 #include "scenarios/values/errors.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
 
 namespace fernlicht::osc {
 namespace {
@@ -88,6 +90,102 @@ TEST(Story, ParametersAndExpressions) {
     EXPECT_THROW(read_storyboard(file.path(), {.parameters = {{"mph", "18"}}}), InputError);
 }
 
+std::string light(const std::string& action, const std::string& state) {
+    return "<PrivateAction><AppearanceAction><LightStateAction " + action +
+           "><LightType><VehicleLight vehicleLightType=\"lowBeam\"/></LightType><LightState " + state +
+           "/></LightStateAction></AppearanceAction></PrivateAction>";
+}
+
+std::string vertex(double time) {
+    return "<Vertex time=\"" + std::to_string(time) + "\"><Position>" + on_lane(-1, 50.0 + time) + "</Position></Vertex>";
+}
+
+std::string refusal_of(const std::filesystem::path& path) {
+    try {
+        read_storyboard(path);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "read";
+}
+
+/// A scenario that takes its route from a catalog in the folder.
+class Catalogs : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string name = (std::filesystem::temp_directory_path() / "fernlicht-catalogs-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    void write_catalog(const std::string& file, const std::string& name, const std::string& entries) const {
+        std::ofstream(folder_ / file) << R"(<OpenSCENARIO><FileHeader revMajor="1" revMinor="0"/><Catalog name=")" << name << "\">"
+                                      << entries << "</Catalog></OpenSCENARIO>";
+    }
+    static std::string reference(const std::string& catalog, const std::string& entry) {
+        return "<CatalogReference catalogName=\"" + catalog + "\" entryName=\"" + entry + "\"/>";
+    }
+    static std::string way(const std::string& position) {
+        return "<Waypoint routeStrategy=\"shortest\"><Position>" + position + "</Position></Waypoint>";
+    }
+    static std::string on_route(const std::string& catalog, const std::string& entry) {
+        return "<RoutePosition><RouteRef>" + reference(catalog, entry) +
+               "</RouteRef><InRoutePosition><FromLaneCoordinates pathS=\"1\" laneId=\"-1\"/></InRoutePosition></RoutePosition>";
+    }
+    /// What reading says of an Ego that is assigned this route.
+    std::string told(const std::string& catalog, const std::string& entry) const {
+        std::string text = scenario_text(of("Ego", teleport(on_lane(-1, 50.0)) + "<PrivateAction><RoutingAction><AssignRouteAction>" +
+                                                       reference(catalog, entry) + "</AssignRouteAction></RoutingAction></PrivateAction>"),
+                                         stop_at(1.0));
+        const std::string none = "<CatalogLocations/>";
+        text.replace(text.find(none), none.size(),
+                     "<CatalogLocations><RouteCatalog><Directory path=\"" + folder_.string() + "\"/></RouteCatalog></CatalogLocations>");
+        const StoryFile file(text);
+        return refusal_of(file.path());
+    }
+    std::filesystem::path folder_;
+};
+
+TEST_F(Catalogs, AreFoundByTheirNameAndBehindItByTheirFiles) {
+    const std::string ways = way(on_lane(-1, 10.0)) + way(on_lane(-1, 90.0));
+    write_catalog("Ways.xosc", "Other", "<Route name=\"a\" closed=\"false\">" + ways + "</Route>");
+    write_catalog("Zoo.xosc", "Routes", "<Route name=\"b\" closed=\"false\">" + ways + "</Route>");
+    EXPECT_EQ(told("Other", "a"), "read");
+    EXPECT_EQ(told("Ways", "a"), "read");
+    EXPECT_EQ(told("Zoo", "b"), "read");
+    EXPECT_NE(
+        told("Wegs", "a").find("found 'Wegs', expected a catalog in the folders of CatalogLocations: 'Other', 'Routes', 'Ways', 'Zoo'"),
+        std::string::npos)
+        << told("Wegs", "a");
+    EXPECT_NE(told("Ways", "b").find("entryName: found 'b'"), std::string::npos);
+    write_catalog("Aaa.xosc", "Ways", "<Route name=\"a\" closed=\"false\"/>");
+    EXPECT_NE(told("Ways", "a").find("has 0 waypoints"), std::string::npos) << "its own name comes before a file's";
+}
+
+TEST_F(Catalogs, AnEntryThatNeedsItselfIsRefusedWithTheWayBack) {
+    write_catalog(
+        "R.xosc", "R",
+        "<Route name=\"a\" closed=\"false\">" + way(on_lane(-1, 1.0)) + way(on_route("R", "b")) + "</Route>" +
+            "<Route name=\"b\" closed=\"false\">" + way(on_lane(-1, 1.0)) + way(on_route("R", "a")) + "</Route>" +
+            R"(<Trajectory name="t" closed="false"><Shape><Polyline><Vertex time="0"><Position><TrajectoryPosition s="1" t="0">
+<TrajectoryRef>)" +
+            reference("R", "t") + "</TrajectoryRef></TrajectoryPosition></Position></Vertex></Polyline></Shape></Trajectory>" +
+            "<Route name=\"c\" closed=\"false\">" + way(on_lane(-1, 1.0)) +
+            way("<TrajectoryPosition s=\"1\" t=\"0\"><TrajectoryRef>" + reference("R", "t") + "</TrajectoryRef></TrajectoryPosition>") +
+            "</Route>");
+    EXPECT_NE(told("R", "a").find("R.xosc:1: Route: leads back to itself: 'a' > 'b' > 'a'"), std::string::npos) << told("R", "a");
+    EXPECT_NE(told("R", "c").find("leads back to itself: 't' > 't'"), std::string::npos) << told("R", "c");
+}
+
+TEST(Story, ParametersThatDoubleAreRefusedBeforeTheyFillMemory) {
+    std::string declarations = R"(<ParameterDeclaration name="A0" parameterType="string" value="0123456789"/>)";
+    for (int i = 1; i < 60; ++i)
+        declarations += fmt::format("\n<ParameterDeclaration name=\"A{}\" parameterType=\"string\" value=\"$A{}$A{}\"/>", i, i - 1, i - 1);
+    const StoryFile file(scenario_text(begin, stop_at(1.0), declarations));
+    EXPECT_NE(refusal_of(file.path()).find("found '$A12$A12': its parameters give a text of more than 65536 bytes"), std::string::npos)
+        << refusal_of(file.path());
+}
+
 TEST(Story, RefusesWithFileAndLineWhatItCannotPlay) {
     const auto refusal = [](const std::string& text) {
         try {
@@ -103,6 +201,32 @@ TEST(Story, RefusesWithFileAndLineWhatItCannotPlay) {
     EXPECT_NE(refusal(scenario_text(of("Ego", teleport(on_lane(-1, 1e6))), "")).find("s = 1e+06"), std::string::npos);
     EXPECT_NE(refusal(scenario_text(of("Ego", speed("fast")), "")).find("'fast'"), std::string::npos);
     EXPECT_NE(refusal(scenario_text(of("Ego", speed("$v")), "")).find("unknown parameter 'v'"), std::string::npos);
+    const auto refused = [&](const std::string& actions, const std::string& sentence) {
+        EXPECT_NE(refusal(scenario_text(of("Ego", actions), "")).find(sentence), std::string::npos)
+            << sentence << "\n"
+            << refusal(scenario_text(of("Ego", actions), ""));
+    };
+    const auto over = [](const std::string& dimension, const std::string& value) {
+        return R"(dynamicsShape="linear" dynamicsDimension=")" + dimension + "\" value=\"" + value + '"';
+    };
+    refused(speed("1", over("time", "-3")), "SpeedActionDynamics value: found -3, expected a time not below 0");
+    refused(speed("1", over("distance", "-3")), "SpeedActionDynamics value: found -3, expected a distance not below 0");
+    refused(speed("1", over("rate", "-1")), "SpeedActionDynamics: the sign of the rate -1 in value is not supported");
+    refused(teleport(R"(<WorldPosition x="1" y="1e300"/>)"), "WorldPosition y: found 1e+300, expected a place within 1e9 m");
+    refused(light("", R"(mode="on" luminousIntensity="-100")"), "LightState luminousIntensity: found -100, expected candela not below 0");
+    refused(light(R"(transitionTime="-1.2")", R"(mode="on")"), "LightStateAction transitionTime: found -1.2, expected a time not below 0");
+    refused(light("", R"(mode="flashing" flashingOnDuration="0")"), "LightState flashingOnDuration: found 0, expected a time above 0");
+    refused(light("", R"(mode="flashing" flashingOffDuration="-1")"), "LightState flashingOffDuration: found -1, expected");
+    refused(light("", R"(mode="flashing" flashingOnDuration="5e-6" flashingOffDuration="5e-6")"),
+            "LightState flashingOnDuration: found a light that flashes every 1e-05 s, expected 0.01 s at least");
+    refused(R"(<PrivateAction><RoutingAction><FollowTrajectoryAction><TimeReference><None/></TimeReference><TrajectoryRef>
+<Trajectory name="t" closed="false"><Shape><Polyline>)" +
+                vertex(0.0) + vertex(2.0) + vertex(1.5) +
+                "</Polyline></Shape></Trajectory></TrajectoryRef></FollowTrajectoryAction></RoutingAction></PrivateAction>",
+            "Vertex time: found 1.5 after 2, expected times that do not fall");
+    EXPECT_NE(refusal(scenario_text(begin, story(event("e", speed("1"), at_time(1.0), R"(maximumExecutionCount="-1")"))))
+                  .find("Event maximumExecutionCount: found -1, expected a count not below 0"),
+              std::string::npos);
     const std::string user = "<UserDefinedAction><CustomCommandAction type=\"x\"/></UserDefinedAction>";
     EXPECT_NE(refusal(scenario_text(begin + user, "")).find("not supported"), std::string::npos);
     const StoryFile file(scenario_text(begin + user, stop_at(1.0)));
