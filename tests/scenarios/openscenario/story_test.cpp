@@ -209,23 +209,23 @@ TEST(Story, RefusesWithFileAndLineWhatItCannotPlay) {
     const auto over = [](const std::string& dimension, const std::string& value) {
         return R"(dynamicsShape="linear" dynamicsDimension=")" + dimension + "\" value=\"" + value + '"';
     };
-    refused(speed("1", over("time", "-3")), "SpeedActionDynamics value: found -3, expected a time not below 0");
-    refused(speed("1", over("distance", "-3")), "SpeedActionDynamics value: found -3, expected a distance not below 0");
+    refused(speed("1", over("time", "-3")), "SpeedActionDynamics@value: found -3, expected a time not below 0");
+    refused(speed("1", over("distance", "-3")), "SpeedActionDynamics@value: found -3, expected a distance not below 0");
     refused(speed("1", over("rate", "-1")), "SpeedActionDynamics: the sign of the rate -1 in value is not supported");
-    refused(teleport(R"(<WorldPosition x="1" y="1e300"/>)"), "WorldPosition y: found 1e+300, expected a place within 1e9 m");
-    refused(light("", R"(mode="on" luminousIntensity="-100")"), "LightState luminousIntensity: found -100, expected candela not below 0");
-    refused(light(R"(transitionTime="-1.2")", R"(mode="on")"), "LightStateAction transitionTime: found -1.2, expected a time not below 0");
-    refused(light("", R"(mode="flashing" flashingOnDuration="0")"), "LightState flashingOnDuration: found 0, expected a time above 0");
-    refused(light("", R"(mode="flashing" flashingOffDuration="-1")"), "LightState flashingOffDuration: found -1, expected");
+    refused(teleport(R"(<WorldPosition x="1" y="1e300"/>)"), "WorldPosition@y: found 1e+300, expected a place within 1e9 m");
+    refused(light("", R"(mode="on" luminousIntensity="-100")"), "LightState@luminousIntensity: found -100, expected candela not below 0");
+    refused(light(R"(transitionTime="-1.2")", R"(mode="on")"), "LightStateAction@transitionTime: found -1.2, expected a time not below 0");
+    refused(light("", R"(mode="flashing" flashingOnDuration="0")"), "LightState@flashingOnDuration: found 0, expected a time above 0");
+    refused(light("", R"(mode="flashing" flashingOffDuration="-1")"), "LightState@flashingOffDuration: found -1, expected");
     refused(light("", R"(mode="flashing" flashingOnDuration="5e-6" flashingOffDuration="5e-6")"),
-            "LightState flashingOnDuration: found a light that flashes every 1e-05 s, expected 0.01 s at least");
+            "LightState@flashingOnDuration: found a light that flashes every 1e-05 s, expected 0.01 s at least");
     refused(R"(<PrivateAction><RoutingAction><FollowTrajectoryAction><TimeReference><None/></TimeReference><TrajectoryRef>
 <Trajectory name="t" closed="false"><Shape><Polyline>)" +
                 vertex(0.0) + vertex(2.0) + vertex(1.5) +
                 "</Polyline></Shape></Trajectory></TrajectoryRef></FollowTrajectoryAction></RoutingAction></PrivateAction>",
-            "Vertex time: found 1.5 after 2, expected times that do not fall");
+            "Vertex@time: found 1.5 after 2, expected times that do not fall");
     EXPECT_NE(refusal(scenario_text(begin, story(event("e", speed("1"), at_time(1.0), R"(maximumExecutionCount="-1")"))))
-                  .find("Event maximumExecutionCount: found -1, expected a count not below 0"),
+                  .find("Event@maximumExecutionCount: found -1, expected a count not below 0"),
               std::string::npos);
     const std::string user = "<UserDefinedAction><CustomCommandAction type=\"x\"/></UserDefinedAction>";
     EXPECT_NE(refusal(scenario_text(begin + user, "")).find("not supported"), std::string::npos);
