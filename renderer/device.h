@@ -35,7 +35,8 @@ class Device {
 inline constexpr const char* backend_names = "auto, egl, egl-device=N, osmesa or software";
 
 /// Opens one of `backend_names`. auto: the first hardware EGL device, else EGL without a surface, else OSMesa. software: Mesa on the CPU,
-/// whatever GPU there is, by EGL or else by OSMesa. Throws InputError for an unknown name, DeviceError with every attempt and why it failed.
+/// whatever GPU there is, by EGL or else by OSMesa. Throws InputError for an unknown name, DeviceError with every attempt and why it
+/// failed.
 Device open_device(const std::string& backend);
 
 /// What `doctor` tells of one way to draw.

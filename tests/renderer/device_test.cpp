@@ -32,9 +32,7 @@ TEST(Device, TriesEveryBackendAndOneWorks) {
     EXPECT_GE(working, 1);
 }
 
-TEST(Device, SoftwareDrawsOnTheCpuWhateverElseThereIs) {
-    EXPECT_TRUE(open_device("software").info().software);
-}
+TEST(Device, SoftwareDrawsOnTheCpuWhateverElseThereIs) { EXPECT_TRUE(open_device("software").info().software); }
 
 TEST(Device, AfterOneIsClosedAnotherCanBeOpened) {
     for (int i = 0; i < 3; ++i)
