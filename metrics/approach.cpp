@@ -45,21 +45,22 @@ template <class Order> std::optional<double> outermost(const Approach& approach,
 
 } // namespace
 
-Measured value_at(const Approach& approach, double distance_m) {
+Value value_at(const Approach& approach, double distance_m) {
     if (approach.empty())
-        return {{}, nothing};
+        return Value::not_measured(nothing);
     for (std::size_t i = 0; i < approach.size(); ++i) {
         const ApproachSample& here = approach[i];
         if (here.distance_m == distance_m && here.value)
-            return {here.value, {}};
+            return *here.value;
         if (i == 0 || !(approach[i - 1].distance_m > distance_m && here.distance_m < distance_m))
             continue;
         const ApproachSample& before = approach[i - 1];
         if (!before.value || !here.value)
-            return {{}, "not measured in the moments around it"};
-        return {between_samples(*before.value, *here.value, (before.distance_m - distance_m) / (before.distance_m - here.distance_m)), {}};
+            return Value::not_measured("not measured in the moments around it");
+        return between_samples(*before.value, *here.value, (before.distance_m - distance_m) / (before.distance_m - here.distance_m));
     }
-    return {{}, fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m)};
+    return Value::not_measured(
+        fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m));
 }
 
 std::string cut_short(const Approach& approach, bool passed) {
@@ -68,17 +69,16 @@ std::string cut_short(const Approach& approach, bool passed) {
     return fmt::format("the drive comes from {:.1f} m to {:.1f} m before it", approach.front().distance_m, approach.back().distance_m);
 }
 
-Measured reached_from_m(const Approach& approach, double limit, bool passed) {
+Value reached_from_m(const Approach& approach, double limit, bool passed) {
     const LitLine line = lit_line(by_distance(approach), limit);
     const std::optional<double> most = largest(approach);
     if (!most)
-        return {{}, nothing};
-    const std::string cut = cut_short(approach, passed);
-    if (*most < limit && !cut.empty())
-        return {{}, fmt::format("{} and sees {:.3g} at most; what is nearer was not driven", cut, *most)};
+        return Value::not_measured(nothing);
+    if (*most < limit && !cut_short(approach, passed).empty())
+        return Value::at_most(approach.back().distance_m);
     if (line.lit_at_end)
-        return {{}, fmt::format("{:g} is reached from the drive's first moment on, {:.1f} m away", limit, approach.front().distance_m)};
-    return {line.last_m, {}};
+        return Value::at_least(approach.front().distance_m);
+    return line.last_m;
 }
 
 Stretch at_or_above(const Approach& approach, double limit) {

@@ -2,7 +2,7 @@
 // Between moments it runs as in crossing.h: straight in its logarithm, straight where one of the two is 0.
 #pragma once
 
-#include "metrics/measured.h"
+#include "metrics/value.h"
 
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ struct ApproachSample {
 using Approach = std::vector<ApproachSample>;
 
 /// With distances to go: the value where so many metres are left. Not measured where the drive comes from nearer or ends farther away.
-Measured value_at(const Approach& approach, double distance_m);
+Value value_at(const Approach& approach, double distance_m);
 
 /// An approach that comes so near is finished though the place is not passed: a lamp is hardly a point of light from there on.
 inline constexpr double near_enough_m = 10.0;
@@ -26,9 +26,9 @@ inline constexpr double near_enough_m = 10.0;
 /// came within near_enough_m, or no moment was before the place.
 std::string cut_short(const Approach& approach, bool passed);
 
-/// With distances to go: farthest at which the value reaches the limit; 0: nowhere. Not measured where it does so from the first moment on,
-/// and where it does so nowhere though the approach was cut short.
-Measured reached_from_m(const Approach& approach, double limit, bool passed);
+/// With distances to go: farthest at which the value reaches the limit; 0: nowhere. At least the first moment's distance where it does so
+/// from there on; at most the last one's where it does so nowhere and the approach was cut short.
+Value reached_from_m(const Approach& approach, double limit, bool passed);
 
 /// Seconds and metres of the drive at or above the limit.
 struct Stretch {

@@ -57,10 +57,14 @@ LaneLines lines_of(const LitRoad& road, const LaneSpans& spans) {
             follow([](const LaneSpan& span) { return span.left_m; }), follow([](const LaneSpan& span) { return span.right_m; })};
 }
 
-void set_reach(LaneExtent& extent, const LitLine& centre) {
+void set_reach(LaneExtent& extent, const LitLine& centre, const LitLine& left_edge, const LitLine& right_edge) {
     extent.reach_centre_m = centre.last_m;
     extent.unlit_before_reach_m = centre.unlit_before_last_m;
     extent.reach_is_cut_off = centre.lit_at_end;
+    extent.reach_left_edge_m = left_edge.last_m;
+    extent.left_edge_is_cut_off = left_edge.lit_at_end;
+    extent.reach_right_edge_m = right_edge.last_m;
+    extent.right_edge_is_cut_off = right_edge.lit_at_end;
 }
 
 LaneExtent extent_of_lane(const LitRoad& road, const LaneStrip& strip, const LaneLines& lines, const std::vector<AcrossCut>& cuts,
@@ -69,9 +73,7 @@ LaneExtent extent_of_lane(const LitRoad& road, const LaneStrip& strip, const Lan
     extent.limit_lx = limit_lx;
     extent.lane = strip.name;
     extent.same_direction = strip.same_direction;
-    set_reach(extent, lit_line(lines.centre, limit_lx));
-    extent.reach_left_edge_m = lit_line(lines.left_edge, limit_lx).last_m;
-    extent.reach_right_edge_m = lit_line(lines.right_edge, limit_lx).last_m;
+    set_reach(extent, lit_line(lines.centre, limit_lx), lit_line(lines.left_edge, limit_lx), lit_line(lines.right_edge, limit_lx));
     for (const AcrossCut& cut : cuts)
         if (const std::optional<LaneSpan> span = span_at(road, strip.spans, cut.at_m))
             extent.widths.push_back(width_of(cut, road.grid().offset_m, *span, limit_lx));
@@ -84,11 +86,11 @@ LaneExtent extent_of_all(const LitRoad& road, const std::vector<AcrossCut>& cuts
     LaneExtent extent;
     extent.limit_lx = limit_lx;
     extent.lane = "all";
-    set_reach(extent, road.farthest(limit_lx));
-    extent.reach_left_edge_m = road.column(offsets.size() - 1, limit_lx).last_m;
-    extent.reach_right_edge_m = road.column(0, limit_lx).last_m;
-    for (const AcrossCut& cut : cuts)
-        extent.widths.push_back(width_of(cut, offsets, {offsets.back(), offsets.front()}, limit_lx));
+    set_reach(extent, road.farthest(limit_lx), road.column(offsets.size() - 1, limit_lx), road.column(0, limit_lx));
+    for (const AcrossCut& cut : cuts) {
+        LaneExtent::Width& width = extent.widths.emplace_back(width_of(cut, offsets, {offsets.back(), offsets.front()}, limit_lx));
+        width.cut_off = width.width_m > 0.0 && (width.left_m >= offsets.back() || width.right_m <= offsets.front());
+    }
     extent.area_m2 = area.all_m2();
     return extent;
 }

@@ -31,14 +31,21 @@ struct LaneExtent {
     double reach_centre_m = 0.0;
     double reach_left_edge_m = 0.0, reach_right_edge_m = 0.0; ///< for "all": on the outermost lines that were looked at
     double unlit_before_reach_m = 0.0;                        ///< on the centre line: length below the limit before the reach (dark gaps)
-    bool reach_is_cut_off = false;                            ///< lit where the grid or the lane ends: the reach is at least this
+    /// Lit where the grid or the lane ends: the reach is at least this. Of the centre line, and of each edge.
+    bool reach_is_cut_off = false, left_edge_is_cut_off = false, right_edge_is_cut_off = false;
     /// Outermost left and right edge of the lit part across, offsets left positive; width_m counts what is lit between them, gaps not.
     struct Width {
         double at_m, left_m, right_m, width_m;
+        bool cut_off = false; ///< of "all": lit out to where was looked at, at least this wide
         bool operator==(const Width&) const = default;
     };
     std::vector<Width> widths; ///< all 0 where unlit; no entry where the lane is not or the grid does not reach
     double area_m2 = 0.0;      ///< of road surface inside the isolux line
+    /// Whether the isolux line leaves what was looked at: the area is at least this.
+    bool area_is_cut_off() const {
+        return reach_is_cut_off || left_edge_is_cut_off || right_edge_is_cut_off ||
+               (lane == "all" && (reach_left_edge_m > 0.0 || reach_right_edge_m > 0.0));
+    }
     bool operator==(const LaneExtent&) const = default;
 };
 

@@ -46,7 +46,7 @@ std::string_view name(VeilingEquation equation) {
                                                         : "cie-general";
 }
 
-Measured veiling_luminance_cdm2(VeilingEquation equation, const std::vector<GlareSource>& sources, const GlareEye& eye) {
+Value veiling_luminance_cdm2(VeilingEquation equation, const std::vector<GlareSource>& sources, const GlareEye& eye) {
     check(sources);
     const Domain domain = domain_of(equation);
     double veil = 0.0;
@@ -54,23 +54,22 @@ Measured veiling_luminance_cdm2(VeilingEquation equation, const std::vector<Glar
         if (source.eye_lx == 0.0)
             continue;
         if (source.theta_deg < domain.least_deg || source.theta_deg > domain.greatest_deg)
-            return {{},
-                    fmt::format("a source {:.3g} degrees from the line of sight: {} holds from {} to {} degrees", source.theta_deg,
-                                name(equation), domain.least_deg, domain.greatest_deg)};
+            return Value::not_measured(fmt::format("a source {:.3g} degrees from the line of sight: {} holds from {} to {} degrees",
+                                                   source.theta_deg, name(equation), domain.least_deg, domain.greatest_deg));
         veil += source.eye_lx * veil_per_lx(equation, source.theta_deg, eye);
     }
-    return {veil, {}};
+    return veil;
 }
 
-Measured threshold_increment_percent(double veiling_cdm2, double adaptation_cdm2) {
+Value threshold_increment_percent(double veiling_cdm2, double adaptation_cdm2) {
     if (!(adaptation_cdm2 > 0.05))
-        return {{}, fmt::format("an adaptation luminance of {:.3g} cd/m2: the threshold increment is defined above 0.05", adaptation_cdm2)};
-    return {adaptation_cdm2 <= 5.0 ? 65.0 * veiling_cdm2 / std::pow(adaptation_cdm2, 0.8)
-                                   : 95.0 * veiling_cdm2 / std::pow(adaptation_cdm2, 1.05),
-            {}};
+        return Value::not_measured(
+            fmt::format("an adaptation luminance of {:.3g} cd/m2: the threshold increment is defined above 0.05", adaptation_cdm2));
+    return adaptation_cdm2 <= 5.0 ? 65.0 * veiling_cdm2 / std::pow(adaptation_cdm2, 0.8)
+                                  : 95.0 * veiling_cdm2 / std::pow(adaptation_cdm2, 1.05);
 }
 
-Measured de_boer_rating(const std::vector<GlareSource>& sources, double adaptation_cdm2) {
+Value de_boer_rating(const std::vector<GlareSource>& sources, double adaptation_cdm2) {
     check(sources);
     const double surround = 0.003 * (1.0 + std::sqrt(adaptation_cdm2 / 0.04));
     double glare = 0.0;
@@ -78,12 +77,12 @@ Measured de_boer_rating(const std::vector<GlareSource>& sources, double adaptati
         if (source.eye_lx == 0.0)
             continue;
         if (source.theta_deg == 0.0)
-            return {{}, "a source on the line of sight, where de Boer's rating has no value"};
+            return Value::not_measured("a source on the line of sight, where de Boer's rating has no value");
         glare += source.eye_lx / (surround * std::pow(arc_minutes * source.theta_deg, 0.46));
     }
     if (glare == 0.0)
-        return {{}, "no light reaches the eye"};
-    return {5.0 - 2.0 * std::log10(glare), {}};
+        return Value::not_measured("no light reaches the eye");
+    return 5.0 - 2.0 * std::log10(glare);
 }
 
 } // namespace fernlicht

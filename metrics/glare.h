@@ -10,7 +10,7 @@
 // Nothing is extrapolated: outside a domain the figure is not measured, and the reason names the angle or luminance.
 #pragma once
 
-#include "metrics/measured.h"
+#include "metrics/value.h"
 #include "scenarios/drives/seeing_parameters.h"
 
 #include <string_view>
@@ -36,16 +36,16 @@ struct GlareEye {
 };
 
 /// Sources add. The bounds of a domain belong to it. No light: 0.
-Measured veiling_luminance_cdm2(VeilingEquation equation, const std::vector<GlareSource>& sources, const GlareEye& eye);
+Value veiling_luminance_cdm2(VeilingEquation equation, const std::vector<GlareSource>& sources, const GlareEye& eye);
 
 /// TI in %: 65 Lv / Lav^0.8 for 0.05 < Lav <= 5, 95 Lv / Lav^1.05 above [memory]. At 5 cd/m2 the second lies 2.3 % below the first.
-Measured threshold_increment_percent(double veiling_cdm2, double adaptation_cdm2);
+Value threshold_increment_percent(double veiling_cdm2, double adaptation_cdm2);
 
 /// De Boer's rating after Schmidt-Clausen and Bindels 1974 [memory]: W = 5 - 2 lg(sum of E / (0.003 (1 + sqrt(Lu/0.04)) theta^0.46)) with
 /// theta in arc minutes, which is where 0.003 lx belongs. theta is taken in degrees here and turned: with degrees the constant is
 /// 0.003 * 60^0.46 = 0.01973, usually rounded to 0.02. 1 unbearable, 3 disturbing, 5 just acceptable, 7 satisfactory, 9 unnoticeable; the
 /// equation knows no ends and neither has W here. Not measured without light, which no finite W is for, and with a source on the line of
 /// sight.
-Measured de_boer_rating(const std::vector<GlareSource>& sources, double adaptation_cdm2);
+Value de_boer_rating(const std::vector<GlareSource>& sources, double adaptation_cdm2);
 
 } // namespace fernlicht

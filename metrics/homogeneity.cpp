@@ -142,7 +142,7 @@ Unevenness patches(const LaneLight& light, double least_lx, double factor) {
     return {connected(dark, rows, columns, row_m), connected(bright, rows, columns, row_m)};
 }
 
-Measured foreground_ratio(const LaneLight& light) {
+Value foreground_ratio(const LaneLight& light) {
     check(light);
     const std::size_t columns = light.offset_m.size();
     const auto row_mean = [&](std::size_t r) {
@@ -165,11 +165,11 @@ Measured foreground_ratio(const LaneLight& light) {
         return integral / (to_m - from_m);
     };
     if (light.ahead_m.empty() || columns == 0 || light.ahead_m.back() < 60.0 || light.ahead_m.front() > 5.0)
-        return {{}, "the lane is not known from 5 to 60 m ahead"};
+        return Value::not_measured("the lane is not known from 5 to 60 m ahead");
     const double far_lx = mean(40.0, 60.0);
     if (!(far_lx > 0.0))
-        return {{}, "dark from 40 to 60 m ahead"};
-    return {mean(5.0, 15.0) / far_lx, {}};
+        return Value::not_measured("dark from 40 to 60 m ahead");
+    return mean(5.0, 15.0) / far_lx;
 }
 
 } // namespace fernlicht

@@ -2,7 +2,7 @@
 // distance. Definitions are ours; of G = lg E(b) - lg E(b + 0.1 deg) of UN R112 the gradients have the logarithm. lx on the road's surface.
 #pragma once
 
-#include "metrics/measured.h"
+#include "metrics/value.h"
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -41,6 +41,6 @@ Unevenness patches(const LaneLight& light, double least_lx, double factor);
 
 /// Mean illuminance from 5 to 15 m over that from 40 to 60 m, by `ahead_m`. Not measured where the grid does not reach or the distance is
 /// dark.
-Measured foreground_ratio(const LaneLight& light);
+Value foreground_ratio(const LaneLight& light);
 
 } // namespace fernlicht

@@ -51,37 +51,38 @@ double age_factor(double age) {
 
 } // namespace
 
-Measured threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool positive, const Onlooker& onlooker) {
+Value threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool positive, const Onlooker& onlooker) {
     if (!(size_arcmin > 0.0) || !(onlooker.time_s > 0.0) || !(onlooker.k > 0.0) || !(background_cdm2 >= 0.0))
         throw std::invalid_argument(fmt::format("a target of {} arc minutes for {} s before {} cd/m2, k {}", size_arcmin, onlooker.time_s,
                                                 background_cdm2, onlooker.k));
     if (background_cdm2 == 0.0)
-        return {{}, "a dark background, of which the thresholds know nothing"};
+        return Value::not_measured("a dark background, of which the thresholds know nothing");
     if (onlooker.age_years < 23.0 || onlooker.age_years > 75.0)
-        return {{}, fmt::format("an age of {:g}: the age factor holds from 23 to 75", onlooker.age_years)};
+        return Value::not_measured(fmt::format("an age of {:g}: the age factor holds from 23 to 75", onlooker.age_years));
     const bool timed = onlooker.time_s < long_exposure_s;
     if (timed && size_arcmin >= timed_arcmin)
-        return {{}, fmt::format("a target of {:.3g} arc minutes: the factor of exposure holds below 60", size_arcmin)};
+        return Value::not_measured(fmt::format("a target of {:.3g} arc minutes: the factor of exposure holds below 60", size_arcmin));
     const double root = ricco_root(background_cdm2) / size_arcmin + weber_root(background_cdm2);
     double difference = onlooker.k * root * root;
     if (!positive) {
         if (background_cdm2 <= least_negative_cdm2)
-            return {{}, fmt::format("negative contrast on {:.2g} cd/m2: its factor holds above 0.004", background_cdm2)};
+            return Value::not_measured(fmt::format("negative contrast on {:.2g} cd/m2: its factor holds above 0.004", background_cdm2));
         const double factor = negative_contrast_factor(background_cdm2, size_arcmin, difference);
         if (!(factor > 0.0))
-            return {{}, fmt::format("a target of {:.3g} arc minutes: the factor of negative contrast is not above 0", size_arcmin)};
+            return Value::not_measured(
+                fmt::format("a target of {:.3g} arc minutes: the factor of negative contrast is not above 0", size_arcmin));
         difference *= factor;
     }
     if (timed)
         difference *= exposure_factor(background_cdm2, size_arcmin, onlooker.time_s);
-    return {difference * age_factor(onlooker.age_years), {}};
+    return difference * age_factor(onlooker.age_years);
 }
 
-Measured visibility_level(double target_cdm2, double background_cdm2, double size_arcmin, const Onlooker& onlooker) {
-    const Measured threshold = threshold_difference_cdm2(background_cdm2, size_arcmin, target_cdm2 >= background_cdm2, onlooker);
-    if (!threshold.value)
+Value visibility_level(double target_cdm2, double background_cdm2, double size_arcmin, const Onlooker& onlooker) {
+    const Value threshold = threshold_difference_cdm2(background_cdm2, size_arcmin, target_cdm2 >= background_cdm2, onlooker);
+    if (!threshold.measured())
         return threshold;
-    return {std::abs(target_cdm2 - background_cdm2) / *threshold.value, {}};
+    return std::abs(target_cdm2 - background_cdm2) / *threshold.number();
 }
 
 double arc_minutes_of(double length_m, double distance_m) { return 120.0 * degrees(std::atan(0.5 * length_m / distance_m)); }

@@ -9,7 +9,7 @@
 // at all at 0.1: tests/metrics/visibility_test.cpp holds them.
 #pragma once
 
-#include "metrics/measured.h"
+#include "metrics/value.h"
 
 namespace fernlicht {
 
@@ -23,10 +23,10 @@ struct Onlooker {
 /// Not measured for a background that is dark (0), ages outside 23 to 75, exposures below 2 s with targets of 60 arc minutes and more,
 /// negative contrast on backgrounds of 0.004 cd/m2 and less, and where the correction for negative contrast leaves nothing. Sizes and times
 /// not above 0 throw std::invalid_argument.
-Measured threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool positive, const Onlooker& onlooker);
+Value threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool positive, const Onlooker& onlooker);
 
 /// |Lt - Lb| / dL.
-Measured visibility_level(double target_cdm2, double background_cdm2, double size_arcmin, const Onlooker& onlooker);
+Value visibility_level(double target_cdm2, double background_cdm2, double size_arcmin, const Onlooker& onlooker);
 
 /// Angle under which a length is seen across the line of sight.
 double arc_minutes_of(double length_m, double distance_m);

@@ -4,6 +4,7 @@
 #include "runner/output_folder.h"
 #include "runner/ray_results.h"
 #include "runner/summary.h"
+#include "runner/value_json.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -29,8 +30,8 @@ RunContext context_of(const CheckedJson& report) {
 
 AcceptedReading reading_of(const CheckedJson& row, int count) {
     const CheckedJson frame = row.at("frame");
-    const std::optional<double> value = row.at("value").number_or_null();
-    return {row.at("name").text(), row.at("unit").text(), frame.is_null() ? -1 : frame.whole(), value, value ? count : 0, 0.0};
+    const Value value = value_in(row.at("value"));
+    return {row.at("name").text(), row.at("unit").text(), frame.is_null() ? -1 : frame.whole(), value, value.measured() ? count : 0, 0.0};
 }
 
 /// A frame's file: below the run's folder, wherever a report of others would lead.

@@ -2,6 +2,7 @@
 
 #include "runner/checked_json.h"
 #include "runner/reference_json.h"
+#include "runner/value_json.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -22,12 +23,10 @@ Json texts_json(const std::vector<std::pair<std::string, std::string>>& texts) {
 
 /// What goes without saying is left out: of the whole drive, played once, no variance.
 Json reading_json(const AcceptedReading& reading) {
-    Json json{{"name", reading.name}, {"unit", reading.unit}, {"mean", nullptr}};
-    if (reading.mean)
-        json["mean"] = *reading.mean;
+    Json json{{"name", reading.name}, {"unit", reading.unit}, {"mean", value_json(reading.mean)}};
     if (reading.tick >= 0)
         json["frame"] = reading.tick;
-    if (reading.count != (reading.mean ? 1 : 0))
+    if (reading.count != (reading.mean.measured() ? 1 : 0))
         json["count"] = reading.count;
     if (reading.variance != 0.0)
         json["variance"] = reading.variance;
@@ -37,11 +36,11 @@ Json reading_json(const AcceptedReading& reading) {
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 AcceptedReading read_reading(const CheckedJson& json) {
-    AcceptedReading reading{json.at("name").text(), json.at("unit").text(), -1, json.at("mean").number_or_null(), 0, 0.0};
+    AcceptedReading reading{json.at("name").text(), json.at("unit").text(), -1, value_in(json.at("mean")), 0, 0.0};
     reading.tick = json.has("frame") ? json.at("frame").whole() : -1;
-    reading.count = json.has("count") ? json.at("count").whole() : reading.mean ? 1 : 0;
+    reading.count = json.has("count") ? json.at("count").whole() : reading.mean.measured() ? 1 : 0;
     reading.variance = json.has("variance") ? json.at("variance").number() : 0.0;
-    if (reading.count < (reading.mean ? 1 : 0))
+    if (reading.count < (reading.mean.measured() ? 1 : 0))
         json.at("count").refuse("1 or more of what was measured");
     if (reading.variance < 0.0)
         json.at("variance").refuse("0 or more");

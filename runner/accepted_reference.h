@@ -1,20 +1,20 @@
 // Accepted results of one drive with one lamp set, technique and class of device: what later runs are judged by.
 #pragma once
 
+#include "metrics/value.h"
 #include "runner/reference_key.h"
 
 #include <filesystem>
-#include <optional>
 
 namespace fernlicht {
 
 /// A reading over the repeats in which it was measured.
 struct AcceptedReading {
     std::string name, unit;
-    int tick = -1;              ///< -1: of the whole drive
-    std::optional<double> mean; ///< nullopt: not measured
-    int count = 1;              ///< repeats
-    double variance = 0.0;      ///< the sample's (n - 1); 0 where all repeats agree
+    int tick = -1;         ///< -1: of the whole drive
+    Value mean;            ///< without a reason where it is not measured
+    int count = 1;         ///< repeats
+    double variance = 0.0; ///< the sample's (n - 1); 0 where all repeats agree
     bool operator==(const AcceptedReading&) const = default;
 };
 

@@ -15,8 +15,8 @@ using Values = std::map<Name, std::vector<double>>;
 Values values_of(const AcceptedReference& reference) {
     Values values;
     for (const AcceptedReading& reading : reference.readings)
-        if (reading.mean)
-            values[{reading.name, reading.tick, reading.unit}].push_back(*reading.mean);
+        if (const auto mean = reading.mean.figure())
+            values[{reading.name, reading.tick, reading.unit}].push_back(*mean);
     return values;
 }
 

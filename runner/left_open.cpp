@@ -68,9 +68,9 @@ std::string extent_subject(const std::string& name) {
 
 std::optional<double> left_open(const PlayedReadings& played, const Reading& reading) {
     const std::string& name = reading.name;
-    if (!reading.value)
+    if (!reading.value.measured())
         return std::nullopt;
-    const double size = std::abs(*reading.value);
+    const double size = std::abs(*reading.value.figure());
     if (const auto stated = value_of(played, without_unit(reading) + "_standard_error_" + name_part(reading.unit)))
         return stated;
     if (begins_with(name, {"reach_", "unlit_before_reach_"}))
@@ -81,7 +81,7 @@ std::optional<double> left_open(const PlayedReadings& played, const Reading& rea
         return 2.0 * played.grid_cell_m / 4.0; // either edge to a column of the grid
     if (name.starts_with("probe_")) {
         const auto twin = value_of(played, without_unit(reading) + "_twin_lx");
-        return twin ? std::optional(std::abs(*twin - *reading.value)) : std::nullopt;
+        return twin ? std::optional(std::abs(*twin - *reading.value.figure())) : std::nullopt;
     }
     if (name.starts_with("glare_") && (reading.unit == "m" || reading.unit == "s"))
         return between_moments(played, reading);

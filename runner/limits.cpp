@@ -1,21 +1,20 @@
 #include "runner/limits.h"
 
+#include "runner/reading_words.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <regex>
 
 namespace fernlicht {
 namespace {
 
-/// How far a value lies beyond a limit; 0 or less: within.
-double excess(const Limit& limit, double value) {
-    double beyond = limit.at_least ? *limit.at_least - value : value - *limit.at_most;
-    if (limit.at_least && limit.at_most)
-        beyond = std::max(beyond, value - *limit.at_most);
-    return beyond;
+/// How far a value surely lies beyond a limit; 0 or less: within.
+double excess(const Limit& limit, const Value& value) {
+    return std::max(limit.at_least ? *limit.at_least - value.high() : -HUGE_VAL, limit.at_most ? value.low() - *limit.at_most : -HUGE_VAL);
 }
 
 std::string limit_text(const Limit& limit, const std::string& unit) {
@@ -64,19 +63,21 @@ Verdict judge(const Limit& limit, const Readings& readings) {
     const std::vector<const Reading*> named = meant(limit, readings);
     if (named.empty())
         return unknown(limit, readings);
-    const Reading* missing = nullptr;
-    const Reading* worst = nullptr;
-    for (const Reading* reading : named)
-        if (!reading->value)
-            missing = missing ? missing : reading;
-        else if (!worst || excess(limit, *reading->value) > excess(limit, *worst->value))
+    const Reading *missing = nullptr, *worst = nullptr; // what leaves the limit open, and what is farthest beyond or nearest to it
+    for (const Reading* reading : named) {
+        if (!holds(reading->value, limit.at_least, limit.at_most) && !missing)
+            missing = reading;
+        if (reading->value.measured() && (!worst || excess(limit, reading->value) > excess(limit, worst->value)))
             worst = reading;
-    const bool fails = worst && excess(limit, *worst->value) > 0.0;
-    if (missing && !fails)
-        return {VerdictKind::not_measured, limit.reading,
-                fmt::format("not measured{}: {}, {}", moment_text(*missing), missing->why_not, limit_text(limit, missing->unit)), ""};
-    return {fails ? VerdictKind::fail : VerdictKind::pass, limit.reading,
-            fmt::format("{} {}{}, {}", figure(limit, *worst->value), worst->unit, moment_text(*worst), limit_text(limit, worst->unit)), ""};
+    }
+    const bool fails = worst && holds(worst->value, limit.at_least, limit.at_most) == false;
+    const Reading& told = missing && !fails ? *missing : *worst;
+    const std::string found = told.value.measured() ? with_bound(told.value, figure(limit, *told.value.figure())) + " " + told.unit
+                                                    : "not measured: " + told.value.reason();
+    return {fails     ? VerdictKind::fail
+            : missing ? VerdictKind::not_measured
+                      : VerdictKind::pass,
+            limit.reading, fmt::format("{}{}, {}", found, moment_text(told), limit_text(limit, told.unit)), ""};
 }
 
 } // namespace

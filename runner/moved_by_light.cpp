@@ -33,27 +33,27 @@ std::optional<LimitInName> limit_in(const std::string& name) {
 /// The steeper of the slopes to the limits next to this one, over the logarithm of the limit.
 std::optional<double> slope_over_limits(const PlayedReadings& played, const Reading& reading) {
     const auto own = limit_in(reading.name);
-    if (!own || !reading.value)
+    if (!own || !reading.value.number())
         return std::nullopt;
     std::optional<double> below_lx, above_lx, below, above;
     for (const auto& [name, other] : played.readings) {
         const auto parts = name.starts_with(own->before) ? limit_in(name) : std::nullopt;
-        if (!parts || parts->before != own->before || parts->after != own->after || !other.value)
+        if (!parts || parts->before != own->before || parts->after != own->after || !other.value.number())
             continue;
         if (parts->limit_lx < own->limit_lx && parts->limit_lx > below_lx.value_or(0.0)) {
             below_lx = parts->limit_lx;
-            below = other.value;
+            below = other.value.number();
         }
         if (parts->limit_lx > own->limit_lx && (!above_lx || parts->limit_lx < *above_lx)) {
             above_lx = parts->limit_lx;
-            above = other.value;
+            above = other.value.number();
         }
     }
     std::optional<double> slope;
     if (below)
-        slope = std::abs(*below - *reading.value) / std::log(own->limit_lx / *below_lx);
+        slope = std::abs(*below - *reading.value.number()) / std::log(own->limit_lx / *below_lx);
     if (above)
-        slope = std::max(slope.value_or(0.0), std::abs(*above - *reading.value) / std::log(*above_lx / own->limit_lx));
+        slope = std::max(slope.value_or(0.0), std::abs(*above - *reading.value.number()) / std::log(*above_lx / own->limit_lx));
     return slope;
 }
 
@@ -65,10 +65,10 @@ std::optional<double> slope_over_ratings(const PlayedReadings& played, const Rea
     const std::string before = reading.name.substr(0, begin + 7), after = reading.name.substr(end);
     std::map<double, double> by_rating;
     for (const auto& [name, other] : played.readings)
-        if (double rating = 0.0; other.value && name.starts_with(before) && name.ends_with(after)) {
+        if (double rating = 0.0; other.value.number() && name.starts_with(before) && name.ends_with(after)) {
             const char *first = name.data() + before.size(), *last = name.data() + name.size() - after.size();
             if (std::from_chars(first, last, rating).ptr == last)
-                by_rating[rating] = *other.value;
+                by_rating[rating] = *other.value.number();
         }
     std::optional<double> slope;
     for (auto above = by_rating.begin(); above != by_rating.end(); ++above)
@@ -84,14 +84,14 @@ std::optional<double> slope_over_ratings(const PlayedReadings& played, const Rea
 std::optional<double> slope_over_distance(const PlayedReadings& played, const Reading& reading) {
     std::map<double, double> levels;
     for (const auto& [name, other] : played.readings)
-        if (double at_m = 0.0; other.value && *other.value > 0.0 && name.starts_with("visibility_level_own_at_")) {
+        if (double at_m = 0.0; other.value.number().value_or(0.0) > 0.0 && name.starts_with("visibility_level_own_at_")) {
             const char* first = name.data() + std::string("visibility_level_own_at_").size();
             if (std::from_chars(first, name.data() + name.size(), at_m).ec == std::errc{})
-                levels[at_m] = *other.value;
+                levels[at_m] = *other.value.number();
         }
     std::optional<double> slope;
     for (auto far = levels.begin(); far != levels.end(); ++far)
-        if (far != levels.begin() && reading.value) {
+        if (far != levels.begin() && reading.value.number()) {
             const auto near = std::prev(far);
             const double fall = std::abs(std::log(far->second / near->second));
             if (fall > 0.0)
@@ -103,7 +103,7 @@ std::optional<double> slope_over_distance(const PlayedReadings& played, const Re
 } // namespace
 
 std::optional<double> moved_by_light(const PlayedReadings& played, const Reading& reading) {
-    if (!reading.value)
+    if (!reading.value.number())
         return std::nullopt;
     const std::string& name = reading.name;
     if (name.ends_with("_de_boer_min"))
@@ -113,9 +113,9 @@ std::optional<double> moved_by_light(const PlayedReadings& played, const Reading
     if (name.starts_with("detection_own_"))
         return slope_over_distance(played, reading);
     if (name.starts_with("foreground_ratio_"))
-        return 2.0 * std::abs(*reading.value); // one range up, the other down
+        return 2.0 * std::abs(*reading.value.number()); // one range up, the other down
     if (reading.unit == "lx" || reading.unit == "cd/m2" || reading.unit == "%")
-        return std::abs(*reading.value); // illuminance, luminance and threshold increment go with the light
+        return std::abs(*reading.value.number()); // illuminance, luminance and threshold increment go with the light
     const auto slope = slope_over_limits(played, reading);
     if (const auto tenth = value_of(played, extent_subject(reading.name) + "_per_tenth_flux_m");
         tenth && name.starts_with("reach_") && !extent_subject(reading.name).empty())

@@ -2,6 +2,7 @@
 
 #include "metrics/spread_test.h"
 #include "runner/report/verdict_json.h"
+#include "runner/value_json.h"
 
 #include <cmath>
 #include <limits>
@@ -13,9 +14,9 @@ void read_rows(const CheckedJson& report, PlayedResult& result) {
     for (const CheckedJson& row : report.at("rows").items()) {
         if (!row.at("frame").is_null() || row.at("drive").text() != result.drive || row.at("variant").text() != result.variant)
             continue;
-        Reading reading{row.at("name").text(), row.at("value").number_or_null(), row.at("unit").text(), row.at("where").text(), -1, ""};
-        if (!reading.value)
-            reading.why_not = row.at("not_measured").text();
+        Reading reading{row.at("name").text(), value_in(row.at("value")), row.at("unit").text(), row.at("where").text()};
+        if (!reading.value.measured())
+            reading.value = Value::not_measured(row.at("not_measured").text());
         result.readings.emplace(reading.name, std::move(reading));
     }
 }

@@ -56,7 +56,7 @@ Readings ProbeFold::finish() const {
         const std::string where = fmt::format("{} m ahead, {} m left, {} m above the road{}", probe.ahead_m, probe.left_m, probe.above_m,
                                               found_[i].near_field ? ", near-field: nearer than a lamp's photometric distance" : "");
         const auto say = [&](const char* suffix, std::optional<double> value, const std::string& why_not) {
-            readings.push_back({fmt::format("probe_{}{}_lx", probe.name, suffix), value, "lx", where, -1, value ? "" : why_not});
+            readings.push_back({fmt::format("probe_{}{}_lx", probe.name, suffix), Value::of(value, why_not), "lx", where});
         };
         const std::optional<Spread> drawn = spread_of(found_[i].drawn), twin = spread_of(found_[i].twin);
         const std::string unseen = probe.above_m != 0.0  ? "the point is not on a surface that is drawn"

@@ -92,4 +92,8 @@ std::string reading_in_words(const std::string& name) {
     return words == name ? seeing_in_words(name) : words;
 }
 
+std::string with_bound(const Value& value, const std::string& figure) {
+    return value.censored() ? fmt::format("{} {}", bound_sign(value), figure) : figure;
+}
+
 } // namespace fernlicht

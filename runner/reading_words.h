@@ -1,6 +1,8 @@
 // Names of readings as people say them.
 #pragma once
 
+#include "metrics/value.h"
+
 #include <string>
 
 namespace fernlicht {
@@ -10,5 +12,8 @@ std::string reading_in_words(const std::string& name);
 
 /// "glare_mirrors_at_15m": "mirrors of a car 15 m ahead"; "glare_opposite": "eyes of oncoming driver opposite".
 std::string eyes_in_words(const std::string& subject);
+
+/// The figure's text with what bounds it: "> 200" for a value of at least 200.
+std::string with_bound(const Value& value, const std::string& figure);
 
 } // namespace fernlicht

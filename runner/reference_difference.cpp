@@ -4,6 +4,7 @@
 #include "metrics/noisy_difference.h"
 #include "metrics/spread_test.h"
 #include "runner/picture_file.h"
+#include "runner/reading_words.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -14,7 +15,8 @@ namespace fernlicht {
 namespace {
 
 std::string value_text(const AcceptedReading& reading) {
-    return reading.mean ? fmt::format("{:.7g} {}", *reading.mean, reading.unit) : "not measured";
+    return reading.mean.measured() ? with_bound(reading.mean, fmt::format("{:.7g} {}", *reading.mean.figure(), reading.unit))
+                                   : "not measured";
 }
 
 std::string label_of(const AcceptedReading& reading) {
@@ -45,14 +47,15 @@ ResultDifference compare(const AcceptedReading& tested, const AcceptedReading& a
                          std::size_t comparisons) {
     ResultDifference difference{label_of(accepted), Agreement::agrees, "", 0.0};
     const std::string text = fmt::format("{}, accepted {}", value_text(tested), value_text(accepted));
-    if (tested.unit != accepted.unit || tested.mean.has_value() != accepted.mean.has_value())
+    if (tested.unit != accepted.unit || tested.mean.measured() != accepted.mean.measured())
         return only_one(difference.what, text);
     difference.text = text;
-    if (!accepted.mean)
+    if (!accepted.mean.measured())
         return difference;
-    const double off = std::abs(*tested.mean - *accepted.mean);
-    const double rounding = tolerance.absolute + tolerance.relative * std::abs(*accepted.mean);
-    const std::string figures = fmt::format("{}, {:.3g} % off", text, *accepted.mean == 0.0 ? 0.0 : 100.0 * off / std::abs(*accepted.mean));
+    // A bound by its figure, too: where light ends just at the edge of what is looked at, rounding makes a number of a bound.
+    const double was = *accepted.mean.figure(), off = std::abs(*tested.mean.figure() - was);
+    const double rounding = tolerance.absolute + tolerance.relative * std::abs(was);
+    const std::string figures = fmt::format("{}, {:.3g} % off", text, was == 0.0 ? 0.0 : 100.0 * off / std::abs(was));
     const auto test = spread_test({tested.count, tested.variance}, {accepted.count, accepted.variance}, tolerance.false_alarm, comparisons);
     if (test)
         return judge_by_spread(difference, off, rounding, *test, figures, tolerance);

@@ -158,7 +158,7 @@ std::string devices_text(const std::vector<StoredReference>& entries) {
 std::vector<Verdict> judge_across(const std::filesystem::path& store, const DeviceSpread& others, const AcceptedReference& run,
                                   const std::string& rerun, const ReferenceTolerance& tolerance) {
     AcceptedReference measured = run; // what was measured on all of them; what was not has no spread
-    std::erase_if(measured.readings, [](const AcceptedReading& reading) { return !reading.mean; });
+    std::erase_if(measured.readings, [](const AcceptedReading& reading) { return !reading.mean.measured(); });
     const std::string over = fmt::format(" (over {} other class{} of device)", others.devices, others.devices == 1 ? "" : "es");
     std::vector<Verdict> verdicts = judge_readings(measured, others.readings, over, rerun, tolerance);
     verdicts.push_back({VerdictKind::pass, other_device_verdict,
@@ -172,6 +172,9 @@ std::vector<Verdict> judge_across(const std::filesystem::path& store, const Devi
     return verdicts;
 }
 
+/// References store whether a reading was measured, not why.
+Value without_reason(const Value& value) { return value.measured() ? value : Value(); }
+
 } // namespace
 
 AcceptedReference results_of(const PlayedVariant& played, const RunContext& context, const std::filesystem::path& run_folder,
@@ -182,7 +185,9 @@ AcceptedReference results_of(const PlayedVariant& played, const RunContext& cont
     for (const Reading& reading : played.readings) {
         if (is_unit_of_time(reading.unit))
             continue;
-        AcceptedReading result{reading.name, reading.unit, reading.tick, reading.value, reading.value ? played.repeats.count : 0, 0.0};
+        AcceptedReading result{
+            reading.name, reading.unit, reading.tick, without_reason(reading.value), reading.value.measured() ? played.repeats.count : 0,
+            0.0};
         for (const ReadingSpread& spread : played.repeats.spread)
             if (spread.name == reading.name && spread.tick == reading.tick) {
                 result.mean = spread.mean;

@@ -3,10 +3,12 @@
 #include "runner/accept_command.h"
 #include "runner/device_spread.h"
 #include "runner/durable_files.h"
+#include "runner/reading_words.h"
 #include "runner/reference_choice.h"
 #include "runner/reference_difference.h"
 #include "runner/reference_json.h"
 #include "runner/report/json_text.h"
+#include "runner/value_json.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -88,14 +90,16 @@ int list(const ReferencesFlags& flags) {
     return 0;
 }
 
-std::string figure_of(const AcceptedReading& reading) { return reading.mean ? fmt::format("{:.6g}", *reading.mean) : "not measured"; }
+std::string figure_of(const AcceptedReading& reading) {
+    return reading.mean.measured() ? with_bound(reading.mean, fmt::format("{:.6g}", *reading.mean.figure())) : "not measured";
+}
 
 Json reference_json(const StoredReference& entry, const AcceptedReference& reference) {
     Json out = entry_json(entry), readings = Json::array(), frames = Json::array();
     for (const AcceptedReading& reading : reference.readings)
         readings.push_back({{"name", reading.name},
                             {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
-                            {"mean", reading.mean ? Json(*reading.mean) : Json(nullptr)},
+                            {"mean", value_json(reading.mean)},
                             {"unit", reading.unit},
                             {"count", reading.count},
                             {"variance", reading.variance}});

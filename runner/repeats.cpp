@@ -1,6 +1,7 @@
 #include "runner/repeats.h"
 
-#include "runner/report/extent_summary.h"
+#include "runner/reading_words.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/verdict_json.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -49,12 +50,14 @@ std::string difference(const Json& first, const Json& again, const std::string& 
 }
 
 /// Equal to the bit: -0 is not 0.
-bool same(const std::optional<double>& a, const std::optional<double>& b) {
-    return a.has_value() == b.has_value() && (!a || std::bit_cast<std::uint64_t>(*a) == std::bit_cast<std::uint64_t>(*b));
+bool same(const Value& a, const Value& b) {
+    return a.kind() == b.kind() &&
+           (!a.measured() || std::bit_cast<std::uint64_t>(*a.figure()) == std::bit_cast<std::uint64_t>(*b.figure()));
 }
 
 std::string value_text(const Reading& reading) {
-    return reading.value ? fmt::format("{} {}", *reading.value, reading.unit) : "not measured: " + reading.why_not;
+    const Value& value = reading.value;
+    return value.measured() ? with_bound(value, fmt::format("{} {}", *value.figure(), reading.unit)) : "not measured: " + value.reason();
 }
 
 std::string label_of(const Reading& reading) {
@@ -132,8 +135,8 @@ std::string first_difference(const std::string& first, const std::string& again)
 
 RepeatFold::RepeatFold(const PlayedVariant& first, std::filesystem::path folder) : first_(&first), folder_(std::move(folder)) {
     for (std::size_t i = 0; i < first.readings.size(); ++i)
-        if (first.readings[i].value)
-            values_[i].push_back(*first.readings[i].value);
+        if (const auto number = first.readings[i].value.number())
+            values_[i].push_back(*number);
 }
 
 bool RepeatFold::add(const PlayedVariant& again, const std::filesystem::path& folder) {
@@ -142,8 +145,8 @@ bool RepeatFold::add(const PlayedVariant& again, const std::filesystem::path& fo
     Counted readings;
     for (std::size_t i = 0; i < std::min(first_->readings.size(), again.readings.size()); ++i) {
         const Reading &a = first_->readings[i], &b = again.readings[i];
-        if (b.value)
-            values_[i].push_back(*b.value);
+        if (const auto number = b.value.number())
+            values_[i].push_back(*number);
         if (a.name == b.name && a.tick == b.tick && same(a.value, b.value))
             continue;
         readings.add(fmt::format("{}: {}, at first {}", label_of(b), value_text(b), value_text(a)));

@@ -119,7 +119,9 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
                         "edges moved by more from each moment to the next",
                         bound, first.used));
     std::ranges::copy(notes_for(stage, variant, renderer), std::back_inserter(played.notes));
-    std::ranges::copy(summarise(played, stage.drive), std::back_inserter(played.readings));
+    if (stage.drive.extent)
+        played.extent_summaries = summarise_extents(played, *stage.drive.extent);
+    std::ranges::copy(extent_readings(played), std::back_inserter(played.readings));
     Readings judged = played.readings;
     std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not
     played.verdicts = judge_limits(stage.drive, judged);

@@ -35,10 +35,13 @@ std::optional<double> by_noise(const PlayedReadings& a, const PlayedReadings& b,
 }
 
 void judge(ReadingChange& change, const std::optional<double>& tested, const std::optional<double>& against) {
-    if (!change.new_value || !change.old_value)
+    const Value found = change.change();
+    if (!found.measured()) {
+        change.why_not = found.reason();
         return;
+    }
     if (!tested || !against) {
-        if (change.delta() == 0.0) { // however exact, there is nothing to explain
+        if (found.number() == 0.0) { // however exact, there is nothing to explain
             change.kind = ChangeKind::none;
             return;
         }
@@ -46,7 +49,7 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
         return;
     }
     change.uncertainty = std::hypot(*tested, *against);
-    const double size = std::abs(change.delta()), unsure = change.unsure();
+    const double size = change.least(), unsure = change.unsure();
     if (size > unsure && !change.by_noise) {
         change.why_not = "nothing tells how noise of the lamp tables moves this reading";
         return;
@@ -54,13 +57,17 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
     change.kind = size <= unsure                                                ? ChangeKind::none
                   : change.by_aim && size <= std::hypot(*change.by_aim, unsure) ? ChangeKind::within_aim
                                                                                 : ChangeKind::real;
+    if (found.censored() && change.kind != ChangeKind::real) { // it may be much more
+        change.kind = ChangeKind::unknown;
+        change.why_not = "one of both lies beyond what was looked at";
+    }
 }
 
 } // namespace
 
 std::optional<double> value_of(const PlayedReadings& played, const std::string& name) {
     const auto found = played.readings.find(name);
-    return found == played.readings.end() ? std::nullopt : found->second.value;
+    return found == played.readings.end() ? std::nullopt : found->second.value.number();
 }
 
 const char* change_name(ChangeKind kind) {
@@ -68,9 +75,19 @@ const char* change_name(ChangeKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
+double ReadingChange::least() const {
+    const Value found = change();
+    return found.number() ? std::abs(*found.number()) : found.censored() ? std::max({0.0, found.low(), -found.high()}) : 0.0;
+}
+
+std::optional<double> ReadingChange::relative() const {
+    const auto now = new_value.number(), before = old_value.number();
+    return now && before && *before != 0.0 ? std::optional((*now - *before) / std::abs(*before)) : std::nullopt;
+}
+
 double ReadingChange::size() const {
-    const double largest = std::max(std::abs(new_value.value_or(0.0)), std::abs(old_value.value_or(0.0)));
-    return largest > 0.0 ? std::abs(delta()) / largest : 0.0;
+    const double largest = std::max(std::abs(new_value.figure().value_or(0.0)), std::abs(old_value.figure().value_or(0.0)));
+    return largest > 0.0 ? least() / largest : 0.0;
 }
 
 bool says_how_exact(const std::string& name) {
@@ -87,7 +104,6 @@ ReadingChange change_of_reading(const std::string& name, const PlayedReadings& n
     change.unit = tested.unit;
     change.new_value = tested.value;
     change.old_value = against.value;
-    change.why_not = tested.value ? against.why_not : tested.why_not;
     change.by_aim = by_aim(now, before, name);
     change.by_noise = by_noise(now, before, name, lamp_noise);
     judge(change, with_repeats(now, tested), with_repeats(before, against));

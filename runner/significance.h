@@ -20,7 +20,7 @@ const char* change_name(ChangeKind kind); ///< "real", "within aim", "no differe
 /// One reading, new against old.
 struct ReadingChange {
     std::string reading, unit;
-    std::optional<double> new_value, old_value;
+    Value new_value, old_value;
     std::optional<double> uncertainty; ///< of the difference, same unit; docs/studies.md
     std::optional<double> by_aim;      ///< what 0.1 degrees of aim moves the reading by, the larger of both sides
     std::optional<double> by_noise;    ///< what three standard deviations of the lamps' noise move it by; nullopt when nothing tells
@@ -28,8 +28,10 @@ struct ReadingChange {
     std::string why_not = {}; ///< for unknown
 
     double unsure() const { return std::hypot(uncertainty.value_or(0.0), by_noise.value_or(0.0)); } ///< calculation and noise
-    double delta() const { return new_value.value_or(0.0) - old_value.value_or(0.0); }
-    /// |delta| over the larger of both sizes, 0 to 2: the measure by which changes are ranked. 1 where the old value was 0.
+    Value change() const { return difference(new_value, old_value, unit); }
+    double least() const;                   ///< |change| is at least this; 0 where it is not measured
+    std::optional<double> relative() const; ///< to the old value's size; nullopt where that is 0, or one of both is no number
+    /// least() over the larger of both sizes, 0 to 2: the measure by which changes are ranked. 1 where the old value was 0.
     double size() const;
 };
 
@@ -46,7 +48,7 @@ struct PlayedReadings : Steps {
     std::map<std::string, double> by_repeats; ///< of readings that differ between repeats: what chance reaches in 5 % of them
 };
 
-/// Of a reading; nullopt where it is missing or not measured.
+/// Of a reading; nullopt where it is missing or no number.
 std::optional<double> value_of(const PlayedReadings& played, const std::string& name);
 
 /// Whether a row tells how exact another reading is: such rows are not compared.

@@ -1,37 +1,33 @@
 #include "runner/summary.h"
 
-#include "runner/many_moments.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 
 namespace fernlicht {
 namespace {
 
 constexpr double median = 0.5;
+constexpr const char* cut_off = "cut off by the end of the road or lane";
 
 /// What all readings of one plane, lane and limit share.
 struct Subject {
     ExtentKey key;
-    std::string stem;      ///< "5lx_road_own"
-    std::string where;     ///< "own lane on the road"
-    std::string not_drawn; ///< why nothing of this plane was drawn, if so
+    std::string stem;  ///< "5lx_road_own"
+    std::string where; ///< "own lane on the road"
 };
 
-Subject subject_of(const ExtentKey& key, const PlayedVariant& played) {
+Subject subject_of(const ExtentKey& key) {
     const std::string place = key.lane == "all" ? "whole width" : key.lane + " lane";
     return {key, fmt::format("{}lx_{}_{}", key.limit_lx, plane_name(key.plane), name_part(key.lane)),
-            place + (key.plane == ExtentPlane::road ? ", on the road" : ", on a target"),
-            key.plane == ExtentPlane::road ? played.no_road_lx : played.no_target_lx};
+            place + (key.plane == ExtentPlane::road ? ", on the road" : ", on a target")};
 }
 
 void add_quantile(Readings& readings, const std::string& name, const ManyMoments& moments, double share, const std::string& unit,
                   const std::string& where) {
-    const std::optional<double> value = moments.quantile(share);
-    readings.push_back({name, value, unit, fmt::format("{}; {}", where, moments.account()), -1, value ? "" : moments.why_not()});
+    readings.push_back({name, moments.quantile(share), unit, fmt::format("{}; {}", where, moments.account())});
 }
 
 /// Median without a suffix, then minimum and 5th percentile. `name` without its unit.
@@ -42,115 +38,100 @@ void add_quantiles(Readings& readings, const std::string& name, const ManyMoment
     add_quantile(readings, name + "_p05_" + unit, moments, 0.05, unit, where + ", 5th percentile");
 }
 
-/// Everything that the moments' extents of one subject add up to.
-struct ExtentFold {
-    ManyMoments centre, left_edge, right_edge, unlit, area, twin_difference;
-    std::map<double, ManyMoments> widths;
-};
-
+/// Folds the extents of one key. Light that goes on where the grid ends is "at least so far"; what the road's or the lane's end cuts off
+/// nearer says nothing of the lamps and is left out.
 class Folding {
   public:
-    Folding(const ExtentParameters& parameters, const std::string& not_drawn)
-        : ahead_m_(parameters.ahead_m), last_row_m_(parameters.ahead_m - parameters.cell_m) {
-        const auto moments = [&](double looked_ahead_m) {
-            return not_drawn.empty() ? ManyMoments(looked_ahead_m) : ManyMoments(looked_ahead_m, not_drawn);
-        };
-        const ManyMoments reach = moments(ahead_m_), other = moments(0.0);
-        fold_ = {reach, reach, reach, other, other, other, {}};
+    Folding(const ExtentKey& key, const ExtentParameters& parameters, const std::string& not_drawn)
+        : last_row_m_(parameters.ahead_m - parameters.cell_m) {
+        const ManyMoments moments = not_drawn.empty() ? ManyMoments() : ManyMoments(not_drawn);
+        summary_.key = key;
+        for (ManyMoments* each : {&summary_.reach, &summary_.left_edge, &summary_.right_edge, &summary_.unlit_before_reach, &summary_.area,
+                                  &summary_.twin_difference})
+            *each = moments;
         for (const double at_m : parameters.width_at_m)
-            fold_.widths.emplace(at_m, other);
+            summary_.widths.emplace(at_m, moments);
     }
 
     void add(const LaneExtent& extent) {
         for (const LaneExtent::Width& width : extent.widths)
-            fold_.widths[width.at_m].add(width.width_m);
-        const bool ends_early = extent.reach_is_cut_off && extent.reach_centre_m < last_row_m_;
-        add_reach(fold_.centre, extent.reach_centre_m, ends_early);
-        add_reach(fold_.left_edge, extent.reach_left_edge_m, ends_early);
-        add_reach(fold_.right_edge, extent.reach_right_edge_m, ends_early);
-        ends_early ? fold_.unlit.leave_out() : fold_.unlit.add(extent.unlit_before_reach_m);
-        ends_early ? fold_.area.leave_out() : fold_.area.add(extent.area_m2);
+            summary_.widths[width.at_m].add(width.cut_off ? Value::at_least(width.width_m) : Value(width.width_m));
+        const Value reach = reach_of(extent.reach_centre_m, extent.reach_is_cut_off);
+        const Value left = reach_of(extent.reach_left_edge_m, extent.left_edge_is_cut_off),
+                    right = reach_of(extent.reach_right_edge_m, extent.right_edge_is_cut_off);
+        summary_.cut_off += extent.reach_is_cut_off ? 1U : 0U;
+        summary_.reach.add(reach);
+        summary_.left_edge.add(left);
+        summary_.right_edge.add(right);
+        summary_.unlit_before_reach.add(!reach.measured()  ? reach
+                                        : reach.censored() ? Value::at_least(extent.unlit_before_reach_m)
+                                                           : Value(extent.unlit_before_reach_m));
+        const bool ends_early = !reach.measured() || !left.measured() || !right.measured();
+        summary_.area.add(ends_early                 ? Value::not_measured(cut_off)
+                          : extent.area_is_cut_off() ? Value::at_least(extent.area_m2)
+                                                     : Value(extent.area_m2));
     }
 
     void compare(const LaneExtent& rendered, const LaneExtent& twin) {
-        if (rendered.reach_is_cut_off || twin.reach_is_cut_off)
-            fold_.twin_difference.leave_out();
-        else
-            fold_.twin_difference.add(std::abs(rendered.reach_centre_m - twin.reach_centre_m));
+        const Value gap = difference(reach_of(rendered.reach_centre_m, rendered.reach_is_cut_off),
+                                     reach_of(twin.reach_centre_m, twin.reach_is_cut_off), "m");
+        summary_.twin_difference.add(gap.number()     ? Value(std::abs(*gap.number()))
+                                     : gap.censored() ? Value::at_least(std::max(0.0, std::max(gap.low(), -gap.high())))
+                                                      : gap);
     }
 
-    const ExtentFold& finish() const { return fold_; }
+    void add_trust(const ExtentRow& row) {
+        const auto of_key = [&](const auto& entries, auto&& take) {
+            for (const auto& entry : entries)
+                if (entry.plane == summary_.key.plane && entry.limit_lx == summary_.key.limit_lx)
+                    take(entry);
+        };
+        of_key(row.sensitivity, [&](const ReachSensitivity& sensitivity) {
+            summary_.per_tenth_degree.add(sensitivity.metres_per_tenth_degree);
+            summary_.per_tenth_flux.add(sensitivity.metres_per_tenth_flux);
+        });
+        of_key(row.grid_errors, [&](const GridError& error) { summary_.grid_error.add(error.reach_m); });
+    }
+
+    const ExtentSummary& finish() const { return summary_; }
 
   private:
-    void add_reach(ManyMoments& moments, double reach_m, bool ends_early) const {
-        if (ends_early)
-            moments.leave_out();
-        else if (reach_m > last_row_m_)
-            moments.add_beyond();
-        else
-            moments.add(reach_m);
+    Value reach_of(double reach_m, bool lit_at_end) const {
+        return !lit_at_end ? Value(reach_m) : reach_m < last_row_m_ ? Value::not_measured(cut_off) : Value::at_least(reach_m);
     }
 
-    double ahead_m_, last_row_m_;
-    ExtentFold fold_;
+    double last_row_m_;
+    ExtentSummary summary_;
 };
 
-ExtentFold fold_of(const PlayedVariant& played, const Subject& subject, const ExtentParameters& parameters) {
-    const ExtentKey& key = subject.key;
-    Folding folding(parameters, subject.not_drawn);
-    for (const ExtentRow& row : played.extents) {
-        const LaneExtent* rendered = find_extent(row.rendered, key);
-        const LaneExtent* twin = find_extent(row.twin, key);
-        if (rendered)
-            folding.add(*rendered);
-        if (rendered && twin)
-            folding.compare(*rendered, *twin);
-    }
-    return folding.finish();
-}
-
-void add_extent(Readings& readings, const Subject& subject, const ExtentFold& fold) {
+void add_extent(Readings& readings, const ExtentSummary& summary) {
+    const Subject subject = subject_of(summary.key);
     const std::string& stem = subject.stem;
     const std::string& where = subject.where;
     const bool all = subject.key.lane == "all"; // has no centre line and no edges of its own
     const char* const centre = all ? ", line that reaches farthest" : ", centre";
     const char *const left = all ? ", leftmost line looked at" : ", left edge", *const right =
                                                                                     all ? ", rightmost line looked at" : ", right edge";
-    add_quantiles(readings, "reach_" + stem, fold.centre, "m", where + centre);
-    add_quantile(readings, "reach_" + stem + "_left_edge_m", fold.left_edge, median, "m", fmt::format("{}{}, median", where, left));
-    add_quantile(readings, "reach_" + stem + "_right_edge_m", fold.right_edge, median, "m", fmt::format("{}{}, median", where, right));
-    add_quantile(readings, "unlit_before_reach_" + stem + "_m", fold.unlit, median, "m", fmt::format("{}{}, median", where, centre));
-    for (const auto& [at_m, width] : fold.widths)
+    add_quantiles(readings, "reach_" + stem, summary.reach, "m", where + centre);
+    add_quantile(readings, "reach_" + stem + "_left_edge_m", summary.left_edge, median, "m", fmt::format("{}{}, median", where, left));
+    add_quantile(readings, "reach_" + stem + "_right_edge_m", summary.right_edge, median, "m", fmt::format("{}{}, median", where, right));
+    add_quantile(readings, "unlit_before_reach_" + stem + "_m", summary.unlit_before_reach, median, "m",
+                 fmt::format("{}{}, median", where, centre));
+    for (const auto& [at_m, width] : summary.widths)
         add_quantiles(readings, fmt::format("width_{}_at_{}m", stem, at_m), width, "m", fmt::format("{}, {} m ahead", where, at_m));
-    add_quantiles(readings, "area_" + stem, fold.area, "m2", where);
-    add_quantile(readings, "reach_" + stem + "_twin_difference_m", fold.twin_difference, median, "m",
+    add_quantiles(readings, "area_" + stem, summary.area, "m2", where);
+    add_quantile(readings, "reach_" + stem + "_twin_difference_m", summary.twin_difference, median, "m",
                  where + ", |rendered - twin|, median");
-    add_quantile(readings, "reach_" + stem + "_twin_difference_worst_m", fold.twin_difference, 1.0, "m",
+    add_quantile(readings, "reach_" + stem + "_twin_difference_worst_m", summary.twin_difference, 1.0, "m",
                  where + ", |rendered - twin|, largest");
-}
-
-/// Median over the moments of one member of the entries of this subject's plane and limit.
-template <class Entry>
-ManyMoments of_entries(const PlayedVariant& played, const ExtentKey& key, std::vector<Entry> ExtentRow::*entries, double Entry::*figure) {
-    ManyMoments moments;
-    for (const ExtentRow& row : played.extents)
-        for (const Entry& entry : row.*entries)
-            if (entry.plane == key.plane && entry.limit_lx == key.limit_lx)
-                moments.add(entry.*figure);
-    return moments;
-}
-
-/// How far the own lane's reach can be trusted.
-void add_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
-    const auto add = [&](const std::string& suffix, const ManyMoments& moments, const std::string& what) {
-        add_quantile(readings, "reach_" + subject.stem + suffix, moments, median, "m", subject.where + what);
-    };
-    add("_per_tenth_degree_m", of_entries(played, subject.key, &ExtentRow::sensitivity, &ReachSensitivity::metres_per_tenth_degree),
-        ", gained by 0.1 degrees more pitch of all lamps, median");
-    add("_per_tenth_flux_m", of_entries(played, subject.key, &ExtentRow::sensitivity, &ReachSensitivity::metres_per_tenth_flux),
-        ", gained by 10 % more flux, median");
-    add("_grid_error_m", of_entries(played, subject.key, &ExtentRow::grid_errors, &GridError::reach_m),
-        ", grid of half the samples, median");
+    if (subject.key.lane != "own")
+        return;
+    add_quantile(readings, "reach_" + stem + "_per_tenth_degree_m", summary.per_tenth_degree, median, "m",
+                 where + ", gained by 0.1 degrees more pitch of all lamps, median");
+    add_quantile(readings, "reach_" + stem + "_per_tenth_flux_m", summary.per_tenth_flux, median, "m",
+                 where + ", gained by 10 % more flux, median");
+    add_quantile(readings, "reach_" + stem + "_grid_error_m", summary.grid_error, median, "m",
+                 where + ", grid of half the samples, median");
 }
 
 /// How far extents beside the own lane's reach and the whole width's area can be trusted: the grid's error in each of them.
@@ -172,8 +153,12 @@ void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subje
 }
 
 void add_area_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
-    add_quantile(readings, "area_" + subject.stem + "_grid_error_m2",
-                 of_entries(played, subject.key, &ExtentRow::grid_errors, &GridError::area_m2), median, "m2",
+    ManyMoments moments;
+    for (const ExtentRow& row : played.extents)
+        for (const GridError& error : row.grid_errors)
+            if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx)
+                moments.add(error.area_m2);
+    add_quantile(readings, "area_" + subject.stem + "_grid_error_m2", moments, median, "m2",
                  subject.where + ", grid of half the samples, median");
 }
 
@@ -181,8 +166,8 @@ void add_times(Readings& readings, const PassTime& pass) {
     const std::optional<Spread> spread = spread_of(pass.seconds);
     const std::string stem = name_part(pass.name) + "_time_";
     const auto add = [&](const std::string& statistic, const std::string& what, double seconds) {
-        readings.push_back({stem + statistic + "_ms", spread ? std::optional(1e3 * seconds) : std::nullopt, "ms", pass.name + ", " + what,
-                            -1, spread ? "" : "no samples after the warm-up"});
+        readings.push_back({stem + statistic + "_ms", spread ? Value(1e3 * seconds) : Value::not_measured("no samples after the warm-up"),
+                            "ms", pass.name + ", " + what});
     };
     const Spread figures = spread.value_or(Spread{});
     add("median", "median", figures.median);
@@ -192,18 +177,34 @@ void add_times(Readings& readings, const PassTime& pass) {
 
 } // namespace
 
-Readings summarise(const PlayedVariant& played, const Drive& drive) {
-    Readings readings;
-    if (drive.extent)
-        for (const ExtentKey& key : extent_keys(played)) {
-            const Subject subject = subject_of(key, played);
-            add_extent(readings, subject, fold_of(played, subject, *drive.extent));
+std::vector<ExtentSummary> summarise_extents(const PlayedVariant& played, const ExtentParameters& parameters) {
+    std::vector<ExtentSummary> summaries;
+    for (const ExtentKey& key : extent_keys(played)) {
+        Folding folding(key, parameters, key.plane == ExtentPlane::road ? played.no_road_lx : played.no_target_lx);
+        for (const ExtentRow& row : played.extents) {
+            const LaneExtent* const rendered = find_extent(row.rendered, key);
+            const LaneExtent* const twin = find_extent(row.twin, key);
+            if (rendered)
+                folding.add(*rendered);
+            if (rendered && twin)
+                folding.compare(*rendered, *twin);
             if (key.lane == "own")
-                add_trust(readings, played, subject);
-            if (key.lane == "all")
-                add_area_trust(readings, played, subject);
-            add_lane_trust(readings, played, subject);
+                folding.add_trust(row);
         }
+        summaries.push_back(folding.finish());
+    }
+    return summaries;
+}
+
+Readings extent_readings(const PlayedVariant& played) {
+    Readings readings;
+    for (const ExtentSummary& summary : played.extent_summaries) {
+        const Subject subject = subject_of(summary.key);
+        add_extent(readings, summary);
+        if (subject.key.lane == "all")
+            add_area_trust(readings, played, subject);
+        add_lane_trust(readings, played, subject);
+    }
     return readings;
 }
 

@@ -5,9 +5,11 @@
 
 namespace fernlicht {
 
-/// Readings of the whole drive: extents by limit, plane and lane with their difference from the twin, their sensitivity and the grid's
-/// error. Probes are not among them. The same inputs give the same bytes.
-Readings summarise(const PlayedVariant& played, const Drive& drive);
+/// What the extents of all moments add up to, one for each of extent_keys(). The same inputs give the same bytes.
+std::vector<ExtentSummary> summarise_extents(const PlayedVariant& played, const ExtentParameters& parameters);
+
+/// Readings of the whole drive from `extent_summaries`, with the grid's error in each lane from `extents`.
+Readings extent_readings(const PlayedVariant& played);
 
 /// How long each pass took: median, 95th percentile and spread. Kept apart from summarise because no two runs agree on them.
 Readings times(const PlayedVariant& played);

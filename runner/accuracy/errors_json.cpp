@@ -1,6 +1,6 @@
 #include "runner/accuracy/errors_json.h"
 
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 
 namespace fernlicht {
 namespace {

@@ -1,7 +1,7 @@
 #include "runner/accuracy/reach_error.h"
 
 #include "metrics/statistics.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 
 #include <algorithm>
 #include <cmath>

@@ -82,7 +82,7 @@ void compare_times(DriveComparison& drive) {
                                          change.new_samples, fewest_rounds);
         } else {
             change.uncertainty = 0.5e3 * std::hypot(a->p95 - a->p05, b->p95 - b->p05);
-            change.kind = std::abs(change.delta()) <= *change.uncertainty ? ChangeKind::none : ChangeKind::real;
+            change.kind = change.least() <= *change.uncertainty ? ChangeKind::none : ChangeKind::real;
         }
         drive.times.push_back(change);
     }

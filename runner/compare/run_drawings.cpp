@@ -6,7 +6,7 @@
 #include "runner/plots/png.h"
 #include "runner/plots/svg.h"
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "scenarios/studies/study.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "runner/compare/run_writers.h"
 #include "runner/lamp_against.h"
 #include "runner/report/json_text.h"
+#include "runner/value_json.h"
 
 namespace fernlicht {
 namespace {
@@ -11,13 +12,12 @@ using Json = nlohmann::ordered_json;
 Json value_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json change_json(const ReadingChange& c) {
-    const bool known = c.new_value && c.old_value;
     return {{"reading", c.reading},
             {"unit", c.unit},
-            {"old_value", value_or_null(c.old_value)},
-            {"new_value", value_or_null(c.new_value)},
-            {"change", known ? Json(c.delta()) : Json(nullptr)},
-            {"relative_change", known && *c.old_value != 0.0 ? Json(c.delta() / std::abs(*c.old_value)) : Json(nullptr)},
+            {"old_value", value_json(c.old_value)},
+            {"new_value", value_json(c.new_value)},
+            {"change", value_json(c.change())},
+            {"relative_change", value_or_null(c.relative())},
             {"uncertainty", value_or_null(c.uncertainty)},
             {"by_tenth_degree", value_or_null(c.by_aim)},
             {"by_noise", value_or_null(c.by_noise)},

@@ -38,12 +38,13 @@ std::string signed_number(double value) { return value > 0.0 ? "+" + page_number
 std::string optional_number(const std::optional<double>& value, const char* otherwise = "") {
     return value ? page_number(*value) : otherwise;
 }
+std::string page_value(const Value& value) { return value.measured() ? with_bound(value, page_number(*value.figure())) : "not measured"; }
 std::string sort_key(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
 data change_part(const DriveComparison& drive, const ReadingChange& change, const std::string& id) {
-    const bool known = change.new_value && change.old_value;
-    const bool has_percent = known && *change.old_value != 0.0;
-    const double percent = has_percent ? 100.0 * change.delta() / std::abs(*change.old_value) : 0.0;
+    const Value found = change.change();
+    const bool has_percent = change.relative().has_value();
+    const double percent = 100.0 * change.relative().value_or(0.0);
     data part;
     part.set("id", id);
     part.set("drive", clean_text(drive.now->drive));
@@ -52,12 +53,12 @@ data change_part(const DriveComparison& drive, const ReadingChange& change, cons
     part.set("reading", clean_text(reading_in_words(change.reading)));
     part.set("name", clean_text(change.reading));
     part.set("unit", clean_text(unit_in_words(change.unit)));
-    part.set("old", optional_number(change.old_value, "not measured"));
-    part.set("new", optional_number(change.new_value, "not measured"));
-    part.set("old_key", sort_key(change.old_value));
-    part.set("new_key", sort_key(change.new_value));
-    part.set("delta", known ? signed_number(change.delta()) : "");
-    part.set("delta_key", known ? fmt::format("{}", change.delta()) : "");
+    part.set("old", page_value(change.old_value));
+    part.set("new", page_value(change.new_value));
+    part.set("old_key", sort_key(change.old_value.figure()));
+    part.set("new_key", sort_key(change.new_value.figure()));
+    part.set("delta", found.measured() ? with_bound(found, signed_number(*found.figure())) : "");
+    part.set("delta_key", sort_key(found.figure()));
     part.set("percent", has_percent ? signed_figure(percent, 1) : "");
     part.set("percent_key", has_percent ? fmt::format("{}", percent) : "");
     part.set("has_percent", has_percent);

@@ -15,12 +15,14 @@ namespace {
 
 std::string number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); }
 
+std::string short_value(const Value& value) {
+    return value.measured() ? with_bound(value, fmt::format("{:.4g}", *value.figure())) : "not measured";
+}
 std::string short_number(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "not measured"; }
 
 void append_line(std::string& csv, const std::vector<std::string>& fields) { csv += fmt::format("{}\r\n", fmt::join(fields, ",")); }
 
 std::vector<std::string> change_line(const std::string& id, const DriveComparison& drive, const ReadingChange& c, bool decides) {
-    const bool known = c.new_value && c.old_value;
     return {id,
             csv_text(drive.now->drive),
             csv_text(drive.before->variant),
@@ -29,23 +31,27 @@ std::vector<std::string> change_line(const std::string& id, const DriveCompariso
             csv_text(drive.now->technique),
             csv_text(c.reading),
             csv_text(c.unit),
-            number(c.old_value),
-            number(c.new_value),
-            known ? fmt::format("{}", c.delta()) : "",
-            known && *c.old_value != 0.0 ? fmt::format("{}", c.delta() / std::abs(*c.old_value)) : "",
+            number(c.old_value.figure()),
+            number(c.new_value.figure()),
+            number(c.change().figure()),
+            number(c.relative()),
             number(c.uncertainty),
             number(c.by_aim),
             number(c.by_noise),
             change_name(c.kind),
             decides ? "yes" : "no",
-            csv_text(c.why_not)};
+            csv_text(c.why_not),
+            bound_name(c.old_value),
+            bound_name(c.new_value),
+            bound_name(c.change())};
 }
 
 std::string change_text(const ReadingChange& c) {
-    std::string text = fmt::format("{}: {} -> {} {}, {:+.4g}", reading_in_words(c.reading), short_number(c.old_value),
-                                   short_number(c.new_value), unit_in_words(c.unit), c.delta());
-    if (*c.old_value != 0.0)
-        text += fmt::format(" ({:+.1f} %)", 100.0 * c.delta() / std::abs(*c.old_value));
+    const Value change = c.change();
+    std::string text = fmt::format("{}: {} -> {} {}, {}", reading_in_words(c.reading), short_value(c.old_value), short_value(c.new_value),
+                                   unit_in_words(c.unit), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
+    if (c.relative())
+        text += fmt::format(" ({:+.1f} %)", 100.0 * *c.relative());
     if (c.uncertainty)
         text += fmt::format(", ±{:.2g}", *c.uncertainty);
     return text;
@@ -153,7 +159,7 @@ std::string runs_text(const RunComparison& runs) {
 std::string runs_csv(const RunComparison& runs) {
     std::string csv =
         "id,drive,old_variant,new_variant,old_technique,new_technique,reading,unit,old_value,new_value,change,relative_change,"
-        "uncertainty,by_tenth_degree,by_noise,kind,decides,why_not\r\n";
+        "uncertainty,by_tenth_degree,by_noise,kind,decides,why_not,old_bound,new_bound,change_bound\r\n";
     for (std::size_t d = 0; d < runs.drives.size(); ++d) {
         const DriveComparison& drive = runs.drives[d];
         for (std::size_t i = 0; i < drive.changes.size(); ++i)

@@ -138,7 +138,7 @@ Readings ControlFold::readings() const {
     Readings readings;
     const auto say = [&](const std::string& name, const char* unit, const std::string& where, std::optional<double> value,
                          const std::string& why_not) {
-        readings.push_back({name, value, unit, where, -1, value ? "" : why_not});
+        readings.push_back({name, Value::of(value, why_not), unit, where});
     };
     double most_deg = 0.0;
     for (const Row& row : rows_)

@@ -1,3 +1,4 @@
+#include "runner/reading_words.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/page_parts.h"
 
@@ -30,9 +31,9 @@ data reading_row(const ComparedDrive& drive, const Reading& reading) {
     for (const PlayedVariant* const played : drive.variants) {
         const Reading* const own = find_reading(*played, reading);
         data cell;
-        cell.set("measured", own && own->value.has_value());
-        cell.set("value", own && own->value ? fmt::format("{:.5g}", *own->value) : "");
-        cell.set("why_not", !own ? "not asked for" : own->value ? "" : "not measured: " + clean_text(own->why_not));
+        cell.set("measured", own && own->value.measured());
+        cell.set("value", own && own->value.measured() ? with_bound(own->value, fmt::format("{:.5g}", *own->value.figure())) : "");
+        cell.set("why_not", !own ? "not asked for" : own->value.measured() ? "" : "not measured: " + clean_text(own->value.reason()));
         cells.push_back(cell);
     }
     row.set("name", clean_text(reading.name));

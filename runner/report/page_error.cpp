@@ -1,6 +1,6 @@
 #include "runner/accuracy/figures.h"
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/page_parts.h"
 #include "runner/report/page_plots.h"
 

@@ -1,5 +1,6 @@
+#include "runner/reading_words.h"
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/page_parts.h"
 
 #include <algorithm>
@@ -13,43 +14,44 @@ using List = data::type;
 
 constexpr const char* nothing = "\u2013";
 
-std::string text_or_dash(const std::optional<double>& value, int decimals) { return value ? figure(*value, decimals) : nothing; }
+std::string text_or_dash(const Value& value, int decimals) {
+    return value.measured() ? with_bound(value, figure(*value.figure(), decimals)) : nothing;
+}
 
-/// A measured figure of a lamp set and how far it is from the first lamp set's.
-data compared(const std::optional<Spread>& own, const std::optional<Spread>& first, bool is_first, int decimals, bool at_least) {
+/// A measured figure of a lamp set and how far it is from the first lamp set's: medians.
+data compared(const ManyMoments& own, const ManyMoments& first, bool is_first, int decimals) {
     data cell;
-    cell.set("figure", own ? (at_least ? "\u2265\u202f" : "") + figure(own->median, decimals) : nothing);
+    const Value now = own.quantile(0.5), change = difference(now, first.quantile(0.5), "");
+    cell.set("figure", text_or_dash(now, decimals));
     if (is_first)
         cell.set("difference", false);
     else
-        cell.set("difference", own && first ? signed_figure(own->median - first->median, decimals) : nothing);
+        cell.set("difference", change.measured() ? with_bound(change, signed_figure(*change.figure(), decimals)) : nothing);
     return cell;
 }
 
-std::optional<Spread> width_at(const ExtentSummary& summary, double at_m) {
-    for (const auto& [distance_m, spread] : summary.width_m)
-        if (distance_m == at_m)
-            return spread;
-    return std::nullopt;
+ManyMoments width_at(const ExtentSummary& summary, double at_m) {
+    const auto found = summary.widths.find(at_m);
+    return found == summary.widths.end() ? ManyMoments() : found->second;
 }
 
-std::string range(const std::optional<Spread>& spread) {
-    return spread ? figure(spread->minimum, 1) + "\u2009\u2026\u2009" + figure(spread->maximum, 1) : nothing;
+std::string range(const ManyMoments& moments) {
+    return moments.count() > 0 ? text_or_dash(moments.quantile(0.0), 1) + "\u2009\u2026\u2009" + text_or_dash(moments.quantile(1.0), 1)
+                               : nothing;
 }
 
 data table_row(const ExtentSummary& summary, const ExtentSummary& first, bool is_first, const std::vector<double>& widths_at_m) {
     data row, cells{List::list};
-    const bool lower_bound = summary.cut_off * 2 > summary.moments; // so is the median then
-    cells.push_back(compared(summary.reach_m, first.reach_m, is_first, 1, lower_bound));
+    cells.push_back(compared(summary.reach, first.reach, is_first, 1));
     for (const double at_m : widths_at_m)
-        cells.push_back(compared(width_at(summary, at_m), width_at(first, at_m), is_first, 1, false));
-    cells.push_back(compared(summary.area_m2, first.area_m2, is_first, 0, false));
+        cells.push_back(compared(width_at(summary, at_m), width_at(first, at_m), is_first, 1));
+    cells.push_back(compared(summary.area, first.area, is_first, 0));
     row.set("cells", cells);
-    row.set("range", range(summary.reach_m));
-    row.set("per_degree", text_or_dash(summary.metres_per_tenth_degree, 1));
-    row.set("per_flux", text_or_dash(summary.metres_per_tenth_flux, 1));
-    row.set("twin", text_or_dash(summary.largest_twin_difference_m, 2));
-    row.set("grid", text_or_dash(summary.grid_error_m, 2));
+    row.set("range", range(summary.reach));
+    row.set("per_degree", text_or_dash(summary.per_tenth_degree.quantile(0.5), 1));
+    row.set("per_flux", text_or_dash(summary.per_tenth_flux.quantile(0.5), 1));
+    row.set("twin", text_or_dash(summary.twin_difference.quantile(1.0), 2));
+    row.set("grid", text_or_dash(summary.grid_error.quantile(0.5), 2));
     return row;
 }
 
@@ -73,7 +75,7 @@ Axes axes_of(const ComparedDrive& drive, const std::vector<std::vector<ExtentSum
             if (std::find(axes.places.begin(), axes.places.end(), place) == axes.places.end())
                 axes.places.push_back(place);
             insert_sorted(axes.limits_lx, summary.key.limit_lx);
-            for (const auto& [at_m, spread] : summary.width_m)
+            for (const auto& [at_m, moments] : summary.widths)
                 insert_sorted(axes.widths_at_m, at_m);
         }
     const auto rank = [](const auto& place) { return std::tuple(place.second != "own", place.first); };
@@ -97,7 +99,9 @@ data table(const ComparedDrive& drive, const std::vector<std::vector<ExtentSumma
         for (std::size_t i = 0; i < drive.variants.size(); ++i) {
             const auto found =
                 std::find_if(summaries[i].begin(), summaries[i].end(), [&](const auto& summary) { return summary.key == key; });
-            const ExtentSummary summary = found == summaries[i].end() ? ExtentSummary{} : *found;
+            ExtentSummary summary;
+            if (found != summaries[i].end())
+                summary = *found;
             if (i == 0)
                 first = summary;
             data row = table_row(summary, first, i == 0, axes.widths_at_m);
@@ -124,11 +128,8 @@ data table(const ComparedDrive& drive, const std::vector<std::vector<ExtentSumma
 
 data extent_tables(const ComparedDrive& drive) {
     std::vector<std::vector<ExtentSummary>> summaries;
-    for (const PlayedVariant* const played : drive.variants) {
-        summaries.emplace_back();
-        for (const ExtentKey& key : extent_keys(*played))
-            summaries.back().push_back(summarise(*played, key));
-    }
+    for (const PlayedVariant* const played : drive.variants)
+        summaries.push_back(played->extent_summaries);
     const Axes axes = axes_of(drive, summaries);
     data own{List::list}, others{List::list};
     bool has_own = false, has_others = false;
@@ -149,20 +150,25 @@ data extent_tables(const ComparedDrive& drive) {
 data headline_reaches(const ComparedDrive& drive) {
     data cards{List::list};
     for (const double limit_lx : {1.0, 5.0}) {
-        std::optional<Spread> first;
+        ManyMoments first;
         for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-            const ExtentSummary summary = summarise(*drive.variants[i], {ExtentPlane::road, "own", limit_lx});
+            const auto& all = drive.variants[i]->extent_summaries;
+            const auto found = std::ranges::find(all, ExtentKey{ExtentPlane::road, "own", limit_lx}, &ExtentSummary::key);
+            if (found == all.end())
+                continue;
+            const ExtentSummary& summary = *found;
             if (i == 0)
-                first = summary.reach_m;
-            if (!summary.reach_m)
+                first = summary.reach;
+            if (summary.reach.count() == 0)
                 continue;
             data card;
             card.set("lamp", short_text(drive.variants[i]->variant, 30));
             card.set("colour", variant_colour(i));
             card.set("limit", fmt::format("{:g}", limit_lx));
-            card.set("reach", compared(summary.reach_m, first, i == 0, 1, summary.cut_off * 2 > summary.moments));
-            card.set("aim", text_or_dash(summary.metres_per_tenth_degree, 1));
-            card.set("has_aim", summary.metres_per_tenth_degree.has_value());
+            card.set("reach", compared(summary.reach, first, i == 0, 1));
+            const Value by_aim = summary.per_tenth_degree.quantile(0.5);
+            card.set("aim", text_or_dash(by_aim, 1));
+            card.set("has_aim", by_aim.measured());
             cards.push_back(card);
         }
     }

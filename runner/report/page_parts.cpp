@@ -1,7 +1,7 @@
 #include "runner/report/page_parts.h"
 
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "runner/plots/svg.h"
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 
 #include <algorithm>
 #include <charconv>

@@ -3,6 +3,7 @@
 
 #include "metrics/extent.h"
 #include "metrics/lane_grid_error.h"
+#include "metrics/many_moments.h"
 #include "metrics/paired_ratio.h"
 #include "metrics/pixel_errors.h"
 #include "metrics/statistics.h"
@@ -12,6 +13,8 @@
 #include "runner/seeing/seeing_series.h"
 #include "scenarios/drives/frame.h"
 
+#include <compare>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -71,6 +74,23 @@ struct LuxMap {
     std::vector<Polyline> edges;
     int tick = 0;
     double time_s = 0.0;
+};
+
+/// Which of a moment's extents.
+struct ExtentKey {
+    ExtentPlane plane = ExtentPlane::road;
+    std::string lane;
+    double limit_lx = 0.0;
+    auto operator<=>(const ExtentKey&) const = default;
+};
+
+/// What the moments' extents of one key add up to.
+struct ExtentSummary {
+    ExtentKey key;
+    ManyMoments reach, left_edge, right_edge, unlit_before_reach, area, twin_difference; ///< rendered; |rendered - twin| of reach
+    std::map<double, ManyMoments> widths;                                                ///< by distance ahead
+    ManyMoments per_tenth_degree, per_tenth_flux, grid_error; ///< of the own lane's reach: what moves it, and the grid's error
+    std::size_t cut_off = 0;                                  ///< moments whose reach is a lower bound, by road's end or grid's
 };
 
 /// Extents of one moment.
@@ -178,6 +198,7 @@ struct PlayedVariant {
     std::vector<StoredSheet> more_sheets;             ///< the same moment otherwise; only where contact_sheet is
     std::vector<LuxMap> maps;                         ///< at captured moments, at most as many as the page shows
     std::vector<ExtentRow> extents;                   ///< every moment
+    std::vector<ExtentSummary> extent_summaries;      ///< of those, in the order of extent_keys()
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed
     std::vector<SeeingSeries> seeing;                 ///< glare and light at fixed places, every moment; empty where not asked for
     std::vector<CarRow> car;                          ///< every moment of a drive with a vehicle, else empty

@@ -6,12 +6,13 @@
 #include "runner/live/live_figures.h"
 #include "runner/report/clean_text.h"
 #include "runner/report/drawn_by.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/json_text.h"
 #include "runner/report/report_writers.h"
 #include "runner/report/signals_json.h"
 #include "runner/report/verdict_json.h"
 #include "runner/shadows/choose_shadows.h"
+#include "runner/value_json.h"
 #include "scenarios/display/tone_curve.h"
 #include "scenarios/drives/shadow_keys.h"
 
@@ -58,15 +59,33 @@ Json spread_json(const std::optional<Spread>& spread) {
             {"standard_deviation", finite(spread->standard_deviation, "standard deviation")}};
 }
 
+/// nullptr where no moment gave anything.
+Json spread_json(const ManyMoments& moments) {
+    if (moments.count() == 0)
+        return nullptr;
+    return {{"count", moments.count()},
+            {"median", value_json(moments.quantile(0.5))},
+            {"p05", value_json(moments.quantile(0.05))},
+            {"p95", value_json(moments.quantile(0.95))},
+            {"minimum", value_json(moments.quantile(0.0))},
+            {"maximum", value_json(moments.quantile(1.0))},
+            {"mean", value_json(moments.mean())},
+            {"standard_deviation", value_json(moments.standard_deviation())}};
+}
+
 Json rows_json(const Report& report) {
     Json rows = Json::array();
     for (const PlayedVariant& played : report.played)
         for (const Reading& reading : played.readings) {
-            Json row{{"name", reading.name},     {"value", optional_number(reading.value, reading.name.c_str())},  {"unit", reading.unit},
-                     {"where", reading.where},   {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)}, {"drive", played.drive},
+            Json row{{"name", reading.name},
+                     {"value", value_json(reading.value)},
+                     {"unit", reading.unit},
+                     {"where", reading.where},
+                     {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
+                     {"drive", played.drive},
                      {"variant", played.variant}};
-            if (!reading.value)
-                row["not_measured"] = reading.why_not;
+            if (!reading.value.measured())
+                row["not_measured"] = reading.value.reason();
             rows.push_back(std::move(row));
         }
     return rows;
@@ -78,21 +97,20 @@ Json key_json(const ExtentKey& key) {
 
 Json summary_json(const PlayedVariant& played) {
     Json out = Json::array();
-    for (const ExtentKey& key : extent_keys(played)) {
-        const ExtentSummary summary = summarise(played, key);
-        Json entry = key_json(key);
-        entry["moments"] = summary.moments;
+    for (const ExtentSummary& summary : played.extent_summaries) {
+        Json entry = key_json(summary.key);
+        entry["moments"] = summary.reach.count();
         entry["moments_cut_off"] = summary.cut_off;
-        entry["reach_m"] = spread_json(summary.reach_m);
+        entry["reach_m"] = spread_json(summary.reach);
         entry["widths_m"] = Json::array();
-        for (const auto& [at_m, spread] : summary.width_m)
-            entry["widths_m"].push_back({{"at_m", finite(at_m, "width's distance")}, {"width_m", spread_json(spread)}});
-        entry["area_m2"] = spread_json(summary.area_m2);
-        entry["largest_twin_difference_m"] = optional_number(summary.largest_twin_difference_m, "difference from the twin");
-        if (key.lane == "own") {
-            entry["metres_per_tenth_degree"] = optional_number(summary.metres_per_tenth_degree, "sensitivity to aim");
-            entry["metres_per_tenth_flux"] = optional_number(summary.metres_per_tenth_flux, "sensitivity to flux");
-            entry["grid_error_m"] = optional_number(summary.grid_error_m, "grid error");
+        for (const auto& [at_m, moments] : summary.widths)
+            entry["widths_m"].push_back({{"at_m", finite(at_m, "width's distance")}, {"width_m", spread_json(moments)}});
+        entry["area_m2"] = spread_json(summary.area);
+        entry["largest_twin_difference_m"] = value_json(summary.twin_difference.quantile(1.0));
+        if (summary.key.lane == "own") {
+            entry["metres_per_tenth_degree"] = value_json(summary.per_tenth_degree.quantile(0.5));
+            entry["metres_per_tenth_flux"] = value_json(summary.per_tenth_flux.quantile(0.5));
+            entry["grid_error_m"] = value_json(summary.grid_error.quantile(0.5));
         }
         out.push_back(std::move(entry));
     }

@@ -1,5 +1,5 @@
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/report_writers.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "runner/report/verdict_json.h"
 
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 
 #include <algorithm>
 #include <array>

@@ -12,10 +12,10 @@ namespace {
 const char* const no_moment = "no moment of the drive was measured";
 
 /// The figure over the drive, or why some moment lacks it: an extreme over the rest could be another.
-Measured over_drive(const std::optional<double>& extreme, const std::string& missing, const std::string& why_none) {
+Value over_drive(const std::optional<double>& extreme, const std::string& missing, const std::string& why_none) {
     if (!missing.empty())
-        return {{}, "in some moment: " + missing};
-    return {extreme, extreme ? "" : why_none};
+        return Value::not_measured("in some moment: " + missing);
+    return Value::of(extreme, why_none);
 }
 
 } // namespace
@@ -26,9 +26,9 @@ GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facin
     for (const GlareSource& source : sources)
         figures.eye_lx += source.eye_lx;
     figures.veiling_cdm2 = veiling_luminance_cdm2(parameters.equation, sources, {parameters.age_years, parameters.pigmentation});
-    figures.increment_percent = figures.veiling_cdm2.value
-                                    ? threshold_increment_percent(*figures.veiling_cdm2.value, parameters.adaptation_cdm2)
-                                    : Measured{{}, figures.veiling_cdm2.why_not};
+    figures.increment_percent = figures.veiling_cdm2.measured()
+                                    ? threshold_increment_percent(*figures.veiling_cdm2.number(), parameters.adaptation_cdm2)
+                                    : figures.veiling_cdm2;
     figures.de_boer = de_boer_rating(sources, parameters.adaptation_cdm2);
     return figures;
 }
@@ -37,24 +37,24 @@ void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<
     ticks.push_back(moment.tick);
     facing.push_back({moment.time_s, to_go_m, figures.facing_lx});
     eye.push_back({moment.time_s, to_go_m, figures.eye_lx});
-    veiling.push_back({moment.time_s, to_go_m, figures.veiling_cdm2.value});
-    increment.push_back({moment.time_s, to_go_m, figures.increment_percent.value});
-    de_boer.push_back({moment.time_s, to_go_m, figures.de_boer.value});
+    veiling.push_back({moment.time_s, to_go_m, figures.veiling_cdm2.number()});
+    increment.push_back({moment.time_s, to_go_m, figures.increment_percent.number()});
+    de_boer.push_back({moment.time_s, to_go_m, figures.de_boer.number()});
     theta_deg.resize(sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i)
         theta_deg[i].push_back(sources[i].theta_deg);
     if (no_veiling.empty())
-        no_veiling = figures.veiling_cdm2.why_not;
+        no_veiling = figures.veiling_cdm2.reason();
     if (no_increment.empty())
-        no_increment = figures.increment_percent.why_not;
+        no_increment = figures.increment_percent.reason();
     if (no_de_boer.empty() && figures.eye_lx > 0.0) // in the dark nothing is rated, and nothing glares
-        no_de_boer = figures.de_boer.why_not;
+        no_de_boer = figures.de_boer.reason();
 }
 
 void GlareFollowed::say(Readings& readings, const std::string& stem, const std::string& where, const std::string& why_none,
                         const GlareParameters& parameters) const {
-    const auto add = [&](const std::string& suffix, const char* unit, const std::string& what, const Measured& found) {
-        readings.push_back({stem + "_" + suffix, found.value, unit, where + ", " + what, -1, found.why_not});
+    const auto add = [&](const std::string& suffix, const char* unit, const std::string& what, const Value& found) {
+        readings.push_back({stem + "_" + suffix, found, unit, where + ", " + what});
     };
     const std::string none = why_none.empty() ? no_moment : why_none;
     add("facing_max_lx", "lx", "facing the lamps, largest", over_drive(largest(facing), "", none));
@@ -162,9 +162,9 @@ Readings OncomingFold::readings() const {
         const std::string none = eyes_[i].place_m ? "" : fmt::format("there is no oncoming lane at {} m", observer.at_m);
         eyes_[i].followed.say(readings, stem, where, none, parameters);
         for (const double distance_m : parameters.distances_m) {
-            const Measured lx = none.empty() ? value_at(eyes_[i].followed.facing, distance_m) : Measured{{}, none};
-            readings.push_back({fmt::format("{}_at_{}m_lx", stem, distance_m), lx.value, "lx",
-                                fmt::format("{}, the bumper {} m before it, facing the lamps", where, distance_m), -1, lx.why_not});
+            const Value lx = none.empty() ? value_at(eyes_[i].followed.facing, distance_m) : Value::not_measured(none);
+            readings.push_back({fmt::format("{}_at_{}m_lx", stem, distance_m), lx, "lx",
+                                fmt::format("{}, the bumper {} m before it, facing the lamps", where, distance_m)});
         }
     }
     return readings;

@@ -13,7 +13,7 @@ namespace fernlicht {
 struct GlareFigures {
     double facing_lx = 0.0; ///< sum of I / d^2
     double eye_lx = 0.0;    ///< across the line of sight
-    Measured veiling_cdm2, increment_percent, de_boer;
+    Value veiling_cdm2, increment_percent, de_boer;
 };
 GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing_lx, const GlareParameters& parameters);
 

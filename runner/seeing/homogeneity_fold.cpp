@@ -68,10 +68,9 @@ Readings HomogeneityFold::readings() const {
             values.push_back(figure(row));
         const std::optional<Spread> spread = spread_of(values);
         const std::string where = fmt::format("own lane to {} m, where it has {} lx, {}", asked.ahead_m, asked.least_lx, what);
-        const std::string none = spread ? "" : "no lamp was lit in any moment";
-        readings.push_back({name + end, spread ? std::optional(spread->median) : std::nullopt, unit, where + ", median", -1, none});
-        readings.push_back(
-            {name + "_max" + end, spread ? std::optional(spread->maximum) : std::nullopt, unit, where + ", largest", -1, none});
+        const Value none = Value::not_measured("no lamp was lit in any moment");
+        readings.push_back({name + end, spread ? Value(spread->median) : none, unit, where + ", median"});
+        readings.push_back({name + "_max" + end, spread ? Value(spread->maximum) : none, unit, where + ", largest"});
     };
     say("gradient_along_own", "_per_m", "1/m", "largest |d lg E| along", [](const Row& row) { return row.gradients.along.per_m; });
     say("gradient_along_own", "_per_deg", "1/deg", "largest |d lg E| along, seen from the driver",
@@ -85,14 +84,14 @@ Readings HomogeneityFold::readings() const {
     std::vector<double> ratios;
     std::string missing = rows_.empty() ? "no lamp was lit in any moment" : "";
     for (const Row& row : rows_) {
-        if (row.foreground.value)
-            ratios.push_back(*row.foreground.value);
+        if (const auto ratio = row.foreground.number())
+            ratios.push_back(*ratio);
         else
-            missing = "in some moment: " + row.foreground.why_not;
+            missing = "in some moment: " + row.foreground.reason();
     }
     const std::optional<Spread> spread = missing.empty() ? spread_of(ratios) : std::nullopt;
-    readings.push_back({"foreground_ratio_own", spread ? std::optional(spread->median) : std::nullopt, "1",
-                        "own lane, mean from 5 to 15 m over mean from 40 to 60 m before the lamps, median", -1, missing});
+    readings.push_back({"foreground_ratio_own", spread ? Value(spread->median) : Value::not_measured(missing), "1",
+                        "own lane, mean from 5 to 15 m over mean from 40 to 60 m before the lamps, median"});
     return readings;
 }
 
@@ -106,7 +105,7 @@ std::vector<SeeingSeries> HomogeneityFold::series() const {
         series.at_m.push_back(row.along_m);
         along.values.push_back(row.gradients.along.per_m);
         across.values.push_back(row.gradients.across.per_m);
-        ratio.values.push_back(row.foreground.value);
+        ratio.values.push_back(row.foreground.number());
     }
     series.columns = {std::move(along), std::move(across), std::move(ratio)};
     return {series};

@@ -25,7 +25,7 @@ class HomogeneityFold {
         double along_m = 0.0;
         Gradients gradients;
         Unevenness patches;
-        Measured foreground;
+        Value foreground;
     };
     const Drive& drive_;
     const Route& route_;

@@ -55,9 +55,8 @@ Readings MirrorFold::readings() const {
             const std::optional<Spread> spread = spread_of(gaps_[i].mirror_lx[k]);
             const std::string stem = fmt::format("mirror_{}_at_{}", mirrors.mirrors[k].name, gap);
             const auto say = [&](const char* suffix, const char* what, double Spread::*figure) {
-                readings.push_back({stem + suffix, spread ? std::optional(*spread.*figure) : std::nullopt, "lx",
-                                    fmt::format("{}, {} mirror, facing the lamps, {}", where, mirrors.mirrors[k].name, what), -1,
-                                    spread ? "" : none});
+                readings.push_back({stem + suffix, spread ? Value(*spread.*figure) : Value::not_measured(none), "lx",
+                                    fmt::format("{}, {} mirror, facing the lamps, {}", where, mirrors.mirrors[k].name, what)});
             };
             say("_lx", "median", &Spread::median);
             say("_max_lx", "largest", &Spread::maximum);

@@ -127,10 +127,10 @@ Readings PlaceFold::readings() const {
     Readings readings;
     for (const Figure& figure : figures_) {
         const std::optional<Spread> spread = figure.missing.empty() ? spread_of(figure.values) : std::nullopt;
-        readings.push_back({figure.name, spread ? std::optional(spread->median) : std::nullopt, figure.unit, figure.where, -1,
-                            spread                   ? ""
-                            : figure.missing.empty() ? "no moment was played"
-                                                     : figure.missing});
+        readings.push_back(
+            {figure.name,
+             spread ? Value(spread->median) : Value::not_measured(figure.missing.empty() ? "no moment was played" : figure.missing),
+             figure.unit, figure.where});
     }
     return readings;
 }

@@ -1,9 +1,9 @@
 #include "runner/seeing/visibility_fold.h"
 
 #include "metrics/lit_line.h"
+#include "metrics/many_moments.h"
 #include "metrics/mesopic.h"
 #include "metrics/statistics.h"
-#include "runner/many_moments.h"
 #include "runner/stage.h"
 #include "scenarios/light.h"
 #include "scenarios/roads/road_mesh.h"
@@ -45,11 +45,11 @@ SeenTarget VisibilityFold::target(const Moment& moment, const LaneAhead& lane, c
     if (const std::optional<Pose> road = lane.behind(eye_m, middle))
         seen.background = surface_luminance(moment, road->position_m, road->up(), road_, eye_m);
     if (lane.hides(eye_m, middle)) {
-        seen.level = {0.0, {}};
+        seen.level = 0.0;
         return seen;
     }
     if (!seen.background) {
-        seen.level = {{}, "the line of sight does not meet the road behind the target"};
+        seen.level = Value::not_measured("the line of sight does not meet the road behind the target");
         return seen;
     }
     Moment reaching = moment;
@@ -71,14 +71,19 @@ void VisibilityFold::add(const Moment& moment) {
     std::vector<LineSample> line;
     for (std::size_t k = 1; static_cast<double>(k) * asked.step_m <= room_m; ++k) {
         const double ahead_m = static_cast<double>(k) * asked.step_m;
-        line.push_back({ahead_m, target(lit, lane, lane.surface()[k], ahead_m, eye_m).level.value});
+        line.push_back({ahead_m, target(lit, lane, lane.surface()[k], ahead_m, eye_m).level.number()});
     }
     // Where the route's end comes into sight, backgrounds of the last places are missing: the detection is cut off by it.
     const LitLine detected = lit_line(line, asked.level);
     const bool to_the_end = room_m < asked.ahead_m;
     const auto last_known = std::find_if(line.rbegin(), line.rend(), [](const LineSample& sample) { return sample.lx.has_value(); });
     const bool beyond = last_known != line.rend() && *last_known->lx >= asked.level;
-    detections_.push_back({detected.last_m, detected.unlit_before_last_m, beyond && !to_the_end, beyond && to_the_end});
+    const auto found = [&](double metres) {
+        return !beyond      ? Value(metres)
+               : to_the_end ? Value::not_measured("cut off by the end of the road or lane")
+                            : Value::at_least(metres);
+    };
+    detections_.push_back({found(detected.last_m), found(detected.unlit_before_last_m)});
     ticks_.push_back(moment.tick);
     along_m_.push_back(moment.distance_m);
     for (std::size_t i = 0; i < at_.size(); ++i) {
@@ -89,11 +94,11 @@ void VisibilityFold::add(const Moment& moment) {
             continue;
         }
         const SeenTarget seen = target(lit, lane, route_.pose(bumper_m + ahead_m), ahead_m, eye_m);
-        level_series_[i].push_back(seen.level.value);
-        if (seen.level.value)
-            at_[i].level.push_back(*seen.level.value);
+        level_series_[i].push_back(seen.level.number());
+        if (const auto level = seen.level.number())
+            at_[i].level.push_back(*level);
         else
-            at_[i].no_level = seen.level.why_not;
+            at_[i].no_level = seen.level.reason();
         if (!seen.background) {
             at_[i].no_background = "the line of sight does not meet the road in some moment";
             continue;
@@ -110,21 +115,14 @@ Readings VisibilityFold::readings() const {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
     const std::string where = fmt::format("own lane, square target of {} m and {} % reflectance, visibility level {}", asked.size_m,
                                           100.0 * asked.reflectance, asked.level);
-    ManyMoments reach(asked.ahead_m), undetected;
+    ManyMoments reach, undetected;
     for (const Detection& detection : detections_) {
-        if (detection.cut_off) {
-            reach.leave_out();
-            undetected.leave_out();
-            continue;
-        }
-        detection.beyond ? reach.add_beyond() : reach.add(detection.from_m);
+        reach.add(detection.from_m);
         undetected.add(detection.undetected_m);
     }
     Readings readings;
     const auto quantile = [&](const char* name, const ManyMoments& moments, double share, const char* what) {
-        const std::optional<double> value = moments.quantile(share);
-        readings.push_back(
-            {name, value, "m", fmt::format("{}, {}; {}", where, what, moments.account()), -1, value ? "" : moments.why_not()});
+        readings.push_back({name, moments.quantile(share), "m", fmt::format("{}, {}; {}", where, what, moments.account())});
     };
     quantile("detection_own_m", reach, 0.5, "farthest place, median");
     quantile("detection_own_min_m", reach, 0.0, "farthest place, smallest");
@@ -134,11 +132,9 @@ Readings VisibilityFold::readings() const {
         const auto say = [&](const std::string& name, const char* unit, const char* what, const std::vector<double>& values,
                              const std::string& missing) {
             const std::optional<Spread> spread = missing.empty() ? spread_of(values) : std::nullopt;
-            readings.push_back({name, spread ? std::optional(spread->median) : std::nullopt, unit,
-                                fmt::format("{}, {} m ahead, {}, median", where, asked.distances_m[i], what), -1,
-                                spread            ? ""
-                                : missing.empty() ? "no moment was measured"
-                                                  : missing});
+            readings.push_back({name,
+                                spread ? Value(spread->median) : Value::not_measured(missing.empty() ? "no moment was measured" : missing),
+                                unit, fmt::format("{}, {} m ahead, {}, median", where, asked.distances_m[i], what)});
         };
         const std::string at = fmt::format("own_at_{}m", asked.distances_m[i]);
         say("visibility_level_" + at, "1", "level", at_[i].level, at_[i].no_level);
@@ -162,7 +158,7 @@ std::vector<SeeingSeries> VisibilityFold::series() const {
                         {}};
     SeeingSeries::Column from{"detection_m", fmt::format("detection distance, level {}", asked.level), "m", false, true, {}};
     for (const Detection& detection : detections_)
-        from.values.push_back(detection.cut_off || detection.beyond ? std::nullopt : std::optional(detection.from_m));
+        from.values.push_back(detection.from_m.number());
     series.columns.push_back(std::move(from));
     for (std::size_t i = 0; i < at_.size(); ++i)
         series.columns.push_back({fmt::format("visibility_level_at_{}m", asked.distances_m[i]),

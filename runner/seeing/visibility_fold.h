@@ -13,7 +13,7 @@ namespace fernlicht {
 /// A target at one place ahead.
 struct SeenTarget {
     double ahead_m = 0.0;
-    Measured level; ///< 0 where the lane hides it from the driver
+    Value level; ///< 0 where the lane hides it from the driver
     std::optional<SurfaceLuminance> background;
 };
 
@@ -42,8 +42,7 @@ class VisibilityFold {
     std::vector<int> ticks_;
     std::vector<double> along_m_;
     struct Detection {
-        double from_m = 0.0, undetected_m = 0.0;
-        bool beyond = false, cut_off = false;
+        Value from_m, undetected_m; ///< not measured where the route's end cuts them off
     };
     std::vector<Detection> detections_;
     std::vector<AtDistance> at_;

@@ -1,3 +1,4 @@
+#include "runner/reading_words.h"
 #include "runner/study/study_result.h"
 #include "runner/summary.h"
 #include "scenarios/values/errors.h"
@@ -62,15 +63,18 @@ void rank(StudyResult& result) {
             result.largest.push_back(i);
 }
 
-Verdict verdict_on(const std::string& name, const std::optional<double>& value, const std::string& unit, const std::string& why_not,
-                   const std::optional<double>& least, const std::optional<double>& most, const std::string& rerun) {
-    if (!value)
-        return {VerdictKind::not_measured, name, why_not, rerun};
+Verdict verdict_on(const std::string& name, const Value& value, const std::string& unit, const std::optional<double>& least,
+                   const std::optional<double>& most, const std::string& rerun) {
+    if (!value.measured())
+        return {VerdictKind::not_measured, name, value.reason(), rerun};
     std::string limits = least ? fmt::format("at least {:g} {}", *least, unit) : "";
     if (most)
         limits += fmt::format("{}at most {:g} {}", limits.empty() ? "" : ", ", *most, unit);
-    const bool kept = (!least || *value >= *least) && (!most || *value <= *most);
-    return {kept ? VerdictKind::pass : VerdictKind::fail, name, fmt::format("{:.4g} {}, limit {}", *value, unit, limits), rerun};
+    const std::optional<bool> kept = holds(value, least, most);
+    return {!kept   ? VerdictKind::not_measured
+            : *kept ? VerdictKind::pass
+                    : VerdictKind::fail,
+            name, fmt::format("{} {}, limit {}", with_bound(value, fmt::format("{:.4g}", *value.figure())), unit, limits), rerun};
 }
 
 /// Of all cells that were played.
@@ -110,12 +114,11 @@ void judge_values(StudyResult& result, const StudyLimit& limit) {
             continue;
         const auto found = cell.readings.find(limit.reading);
         const bool known = found != cell.readings.end();
-        result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, known ? found->second.value : std::nullopt,
-                                             known ? found->second.unit : "",
-                                             known                 ? found->second.why_not
-                                             : cell.failed.empty() ? no_such_reading(limit.reading, names_in(result))
-                                                                   : "the cell was not played: " + cell.failed,
-                                             limit.at_least, limit.at_most, cell.command));
+        const Value value = known ? found->second.value
+                                  : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, names_in(result))
+                                                                            : "the cell was not played: " + cell.failed);
+        result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, value, known ? found->second.unit : "", limit.at_least,
+                                             limit.at_most, cell.command));
     }
 }
 
@@ -126,9 +129,7 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
             continue;
         found = true;
         const CellResult& cell = result.cells[change.tested];
-        const bool known = change.new_value && change.old_value;
-        result.verdicts.push_back(verdict_on(cell.cell.name + ": change of " + limit.reading,
-                                             known ? std::optional(change.delta()) : std::nullopt, change.unit, change.why_not,
+        result.verdicts.push_back(verdict_on(cell.cell.name + ": change of " + limit.reading, change.change(), change.unit,
                                              limit.change_at_least, limit.change_at_most, cell.command));
     }
     const std::set<std::string> names = names_in(result);

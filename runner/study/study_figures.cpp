@@ -3,7 +3,7 @@
 #include "runner/lux_ratio.h"
 #include "runner/reading_words.h"
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/page_plots.h"
 #include "runner/study/study_maps.h"
 #include "runner/study/study_words.h"

@@ -1,10 +1,11 @@
 #include "runner/lamp_against.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/json_text.h"
 #include "runner/report/verdict_json.h"
 #include "runner/study/lamp_verdict.h"
 #include "runner/study/study_words.h"
 #include "runner/study/study_writers.h"
+#include "runner/value_json.h"
 
 #include <fmt/format.h>
 
@@ -19,9 +20,9 @@ Json cell_json(const StudyResult& result, const CellResult& cell) {
     const StudyConditions& c = result.study.conditions;
     Json readings = Json::array();
     for (const auto& [name, reading] : cell.readings) {
-        Json row{{"name", name}, {"value", or_null(reading.value)}, {"unit", reading.unit}};
-        if (!reading.value)
-            row["not_measured"] = reading.why_not;
+        Json row{{"name", name}, {"value", value_json(reading.value)}, {"unit", reading.unit}};
+        if (!reading.value.measured())
+            row["not_measured"] = reading.value.reason();
         readings.push_back(std::move(row));
     }
     return {{"name", cell.cell.name},
@@ -42,16 +43,16 @@ Json cell_json(const StudyResult& result, const CellResult& cell) {
 
 Json change_json(const StudyResult& result, std::size_t index) {
     const Change& change = result.changes[index];
-    const bool known = change.new_value && change.old_value;
+    const Value found = change.change();
     Json row{{"id", fmt::format("c{}", index)},
              {"new_cell", result.cells[change.tested].cell.name},
              {"old_cell", result.cells[change.against].cell.name},
              {"reading", change.reading},
              {"unit", change.unit},
-             {"old_value", or_null(change.old_value)},
-             {"new_value", or_null(change.new_value)},
-             {"change", known ? Json(change.delta()) : Json(nullptr)},
-             {"size", known ? Json(change.size()) : Json(nullptr)},
+             {"old_value", value_json(change.old_value)},
+             {"new_value", value_json(change.new_value)},
+             {"change", value_json(found)},
+             {"size", found.measured() ? Json(change.size()) : Json(nullptr)},
              {"uncertainty", or_null(change.uncertainty)},
              {"by_tenth_degree", or_null(change.by_aim)},
              {"by_noise", or_null(change.by_noise)},

@@ -1,7 +1,8 @@
 #include "report_files.h"
 #include "runner/plots/png.h"
+#include "runner/reading_words.h"
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/page_parts.h"
 #include "runner/study/lamp_verdict.h"
 #include "runner/study/study_words.h"
@@ -22,14 +23,14 @@ using List = data::type;
 
 constexpr std::size_t embedded_bytes = std::size_t{48} << 20; // of pictures as they lie on disk
 
-std::string value_text(const std::optional<double>& value) { return value ? figure(*value, 2) : "not measured"; }
+std::string cell_value(const Value& value) { return value.measured() ? with_bound(value, figure(*value.figure(), 2)) : "not measured"; }
 
 /// For the browser's sorting: a number, or nothing.
 std::string sort_key(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
 data change_part(const StudyResult& result, std::size_t index) {
     const Change& change = result.changes[index];
-    const bool known = change.new_value && change.old_value;
+    const Value found = change.change();
     data part;
     part.set("id", fmt::format("c{}", index));
     part.set("number", fmt::format("{}", index));
@@ -41,15 +42,14 @@ data change_part(const StudyResult& result, std::size_t index) {
     part.set("reading", clean_text(reading_in_words(change.reading)));
     part.set("name", clean_text(change.reading));
     part.set("unit", clean_text(unit_in_words(change.unit)));
-    part.set("old", value_text(change.old_value));
-    part.set("new", value_text(change.new_value));
-    part.set("old_key", sort_key(change.old_value));
-    part.set("new_key", sort_key(change.new_value));
-    part.set("delta", known ? signed_figure(change.delta(), 2) : "");
-    part.set("delta_key", known ? fmt::format("{}", change.delta()) : "");
-    const double old_size = std::abs(change.old_value.value_or(0.0));
-    part.set("percent", known && old_size > 0.0 ? signed_figure(100.0 * change.delta() / old_size, 1) : "");
-    part.set("percent_key", known && old_size > 0.0 ? fmt::format("{}", 100.0 * change.delta() / old_size) : "");
+    part.set("old", cell_value(change.old_value));
+    part.set("new", cell_value(change.new_value));
+    part.set("old_key", sort_key(change.old_value.figure()));
+    part.set("new_key", sort_key(change.new_value.figure()));
+    part.set("delta", found.measured() ? with_bound(found, signed_figure(*found.figure(), 2)) : "");
+    part.set("delta_key", sort_key(found.figure()));
+    part.set("percent", change.relative() ? signed_figure(100.0 * *change.relative(), 1) : "");
+    part.set("percent_key", change.relative() ? fmt::format("{}", 100.0 * *change.relative()) : "");
     part.set("uncertainty", change.uncertainty ? fmt::format("{:.2g}", *change.uncertainty) : "");
     part.set("uncertainty_key", sort_key(change.uncertainty));
     part.set("aim", change.by_aim ? figure(*change.by_aim, 2) : "");
@@ -58,7 +58,7 @@ data change_part(const StudyResult& result, std::size_t index) {
     part.set("noise_key", sort_key(change.by_noise));
     part.set("has_noise", change.by_noise.value_or(0.0) > 0.0);
     part.set("has_aim", change.by_aim.has_value());
-    part.set("has_percent", known && old_size > 0.0);
+    part.set("has_percent", change.relative().has_value());
     part.set("kind", change_name(change.kind));
     part.set("class", change.kind == ChangeKind::real ? "real" : "quiet");
     return part;

@@ -1,5 +1,6 @@
+#include "runner/reading_words.h"
 #include "runner/report/clean_text.h"
-#include "runner/report/extent_summary.h"
+#include "runner/report/extent_keys.h"
 #include "runner/report/report_writers.h"
 #include "runner/report/verdict_line.h"
 #include "runner/study/lamp_verdict.h"
@@ -15,8 +16,8 @@
 namespace fernlicht {
 namespace {
 
-std::string value_text(const std::optional<double>& value, const std::string& unit) {
-    return value ? fmt::format("{:.4g} {}", *value, unit_in_words(unit)) : "not measured";
+std::string value_text(const Value& value, const std::string& unit) {
+    return value.measured() ? with_bound(value, fmt::format("{:.4g} {}", *value.figure(), unit_in_words(unit))) : "not measured";
 }
 
 /// "halogen -> xenon on straight-1 (night, aim -1 %, 13.2 V)"
@@ -70,6 +71,10 @@ std::string markdown_text(const std::string& text) {
     return out;
 }
 
+std::string cell_text(const Value& value, const char* format) {
+    return value.measured() ? with_bound(value, fmt::format(fmt::runtime(format), *value.figure())) : "--";
+}
+
 using Escape = std::function<std::string(const std::string&)>;
 
 /// Lamps, drive and condition, reading, old, new, change, uncertainty, what it is.
@@ -79,9 +84,9 @@ std::vector<std::string> table_row(const StudyResult& result, const Change& chan
             escape(now.drive),
             escape(now.cell.condition),
             escape(reading_in_words(change.reading)),
-            change.old_value ? fmt::format("{:.2f}", *change.old_value) : "--",
-            change.new_value ? fmt::format("{:.2f}", *change.new_value) : "--",
-            change.new_value && change.old_value ? fmt::format("{:+.2f}", change.delta()) : "--",
+            escape(cell_text(change.old_value, "{:.2f}")),
+            escape(cell_text(change.new_value, "{:.2f}")),
+            escape(cell_text(change.change(), "{:+.2f}")),
             change.uncertainty ? fmt::format("{:.2f}", change.unsure()) : "--",
             escape(unit_in_words(change.unit)),
             change_name(change.kind)};
@@ -96,9 +101,9 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
 } // namespace
 
 std::string delta_text(const Change& change) {
-    const double old_size = std::abs(change.old_value.value_or(0.0));
-    return fmt::format("{:+.2f} {}{}", change.delta(), unit_in_words(change.unit),
-                       old_size > 0.0 ? fmt::format(" ({:+.1f} %)", 100.0 * change.delta() / old_size) : "");
+    const Value found = change.change();
+    return fmt::format("{} {}{}", with_bound(found, fmt::format("{:+.2f}", found.figure().value_or(0.0))), unit_in_words(change.unit),
+                       change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "");
 }
 
 std::string study_text(const StudyResult& result) {
@@ -138,12 +143,11 @@ std::string study_text(const StudyResult& result) {
 std::string study_csv(const StudyResult& result) {
     std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
                       "noise,kind,decides,"
-                      "new_cell,old_cell,why_not\r\n";
+                      "new_cell,old_cell,why_not,old_bound,new_bound,change_bound\r\n";
     const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); };
     for (std::size_t i = 0; i < result.changes.size(); ++i) {
         const Change& c = result.changes[i];
         const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
-        const bool known = c.new_value && c.old_value;
         const std::vector<std::string> fields{fmt::format("c{}", i),
                                               csv_text(result.study.lamps[now.cell.lamp].name),
                                               csv_text(result.study.lamps[before.cell.lamp].name),
@@ -152,9 +156,9 @@ std::string study_csv(const StudyResult& result) {
                                               csv_text(now.cell.condition),
                                               csv_text(c.reading),
                                               csv_text(c.unit),
-                                              number(c.old_value),
-                                              number(c.new_value),
-                                              known ? fmt::format("{}", c.delta()) : "",
+                                              number(c.old_value.figure()),
+                                              number(c.new_value.figure()),
+                                              number(c.change().figure()),
                                               number(c.uncertainty),
                                               number(c.by_aim),
                                               number(c.by_noise),
@@ -162,7 +166,10 @@ std::string study_csv(const StudyResult& result) {
                                               c.decides ? "yes" : "no",
                                               csv_text(now.cell.name),
                                               csv_text(before.cell.name),
-                                              csv_text(c.why_not)};
+                                              csv_text(c.why_not),
+                                              bound_name(c.old_value),
+                                              bound_name(c.new_value),
+                                              bound_name(c.change())};
         csv += joined(fields, ",") + "\r\n";
     }
     return csv;

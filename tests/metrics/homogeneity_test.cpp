@@ -63,14 +63,14 @@ TEST(Homogeneity, FindsPlantedPatches) {
 }
 
 TEST(Homogeneity, ForegroundAgainstDistance) {
-    EXPECT_NEAR(foreground_ratio(lane([](double, double) { return 7.0; })).value.value(), 1.0, 1e-12);
-    EXPECT_NEAR(foreground_ratio(lane([](double x, double) { return x < 20.0 ? 30.0 : 3.0; })).value.value(), 10.0, 1e-12);
+    EXPECT_NEAR(foreground_ratio(lane([](double, double) { return 7.0; })).number().value(), 1.0, 1e-12);
+    EXPECT_NEAR(foreground_ratio(lane([](double x, double) { return x < 20.0 ? 30.0 : 3.0; })).number().value(), 10.0, 1e-12);
     // 1/x from 5 to 15 m and from 40 to 60 m: (ln 3 / 10) / (ln 1.5 / 20); trapezia of half a metre lie h^2/12 (1/25 - 1/225) = 7e-4 above
     // ln 3.
     const double by_hand = std::log(3.0) / 10.0 / (std::log(1.5) / 20.0);
-    EXPECT_NEAR(foreground_ratio(lane([](double x, double) { return 1.0 / x; })).value.value(), by_hand, 7e-4 * by_hand);
-    EXPECT_FALSE(foreground_ratio(lane([](double x, double) { return x < 20.0 ? 30.0 : 0.0; })).value);
-    EXPECT_FALSE(foreground_ratio({}).value);
+    EXPECT_NEAR(foreground_ratio(lane([](double x, double) { return 1.0 / x; })).number().value(), by_hand, 7e-4 * by_hand);
+    EXPECT_FALSE(foreground_ratio(lane([](double x, double) { return x < 20.0 ? 30.0 : 0.0; })).measured());
+    EXPECT_FALSE(foreground_ratio({}).measured());
 }
 
 TEST(Homogeneity, RefusesAGridThatDoesNotFit) {

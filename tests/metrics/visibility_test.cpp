@@ -14,9 +14,9 @@ using testing::HasSubstr;
 const Onlooker plain{19.0 + std::sqrt(21.6), 2.0, 2.6};
 
 double positive(double lb, double alpha, const Onlooker& onlooker = plain) {
-    return threshold_difference_cdm2(lb, alpha, true, onlooker).value.value();
+    return threshold_difference_cdm2(lb, alpha, true, onlooker).number().value();
 }
-double negative(double lb, double alpha) { return threshold_difference_cdm2(lb, alpha, false, plain).value.value(); }
+double negative(double lb, double alpha) { return threshold_difference_cdm2(lb, alpha, false, plain).number().value(); }
 
 TEST(Adrian, ThresholdsOfThreeBranches) {
     EXPECT_NEAR(positive(1.0, 10.0), 0.0499079, 5e-8); // cones
@@ -62,25 +62,25 @@ TEST(Adrian, ExposureAndAge) {
 
 TEST(Adrian, LevelIsTheContrastInThresholds) {
     const double threshold = positive(0.1, 10.0);
-    EXPECT_NEAR(visibility_level(0.1 + 5.0 * threshold, 0.1, 10.0, plain).value.value(), 5.0, 1e-9);
-    EXPECT_NEAR(visibility_level(0.1 - 3.0 * negative(0.1, 10.0), 0.1, 10.0, plain).value.value(), 3.0, 1e-9);
-    EXPECT_EQ(visibility_level(0.1, 0.1, 10.0, plain).value.value(), 0.0);
+    EXPECT_NEAR(visibility_level(0.1 + 5.0 * threshold, 0.1, 10.0, plain).number().value(), 5.0, 1e-9);
+    EXPECT_NEAR(visibility_level(0.1 - 3.0 * negative(0.1, 10.0), 0.1, 10.0, plain).number().value(), 3.0, 1e-9);
+    EXPECT_EQ(visibility_level(0.1, 0.1, 10.0, plain).number().value(), 0.0);
     EXPECT_NEAR(arc_minutes_of(0.18, 83.0), 7.455, 5e-4); // 2 atan(0.09 / 83) = 0.124256 degrees
 }
 
 TEST(Adrian, SaysWhereItEnds) {
     const auto why = [](double lb, double alpha, bool lighter, const Onlooker& onlooker) {
-        const Measured found = threshold_difference_cdm2(lb, alpha, lighter, onlooker);
-        EXPECT_FALSE(found.value);
-        return found.why_not;
+        const Value found = threshold_difference_cdm2(lb, alpha, lighter, onlooker);
+        EXPECT_FALSE(found.measured());
+        return found.reason();
     };
     EXPECT_THAT(why(0.0, 10.0, true, plain), HasSubstr("dark background"));
     EXPECT_THAT(why(1.0, 10.0, true, {22.9, 2.0, 2.6}), HasSubstr("23 to 75"));
     EXPECT_THAT(why(1.0, 10.0, true, {75.1, 2.0, 2.6}), HasSubstr("23 to 75"));
     EXPECT_THAT(why(1.0, 60.0, true, {25.0, 0.2, 2.6}), HasSubstr("exposure holds below 60"));
-    EXPECT_TRUE(threshold_difference_cdm2(1.0, 60.0, true, plain).value);
+    EXPECT_TRUE(threshold_difference_cdm2(1.0, 60.0, true, plain).measured());
     EXPECT_THAT(why(0.004, 10.0, false, plain), HasSubstr("above 0.004"));
-    EXPECT_TRUE(threshold_difference_cdm2(0.0041, 10.0, false, plain).value);
+    EXPECT_TRUE(threshold_difference_cdm2(0.0041, 10.0, false, plain).measured());
     EXPECT_THROW(threshold_difference_cdm2(1.0, 0.0, true, plain), std::invalid_argument);
     EXPECT_THROW(threshold_difference_cdm2(std::nan(""), 10.0, true, plain), std::invalid_argument);
 }

@@ -20,7 +20,7 @@ Verdict judged(Limit limit, const Readings& readings) {
     return verdicts.at(0);
 }
 
-const Readings reach_of_61{{"reach_5lx_road_own_m", 61.25, "m", "own lane, centre", -1, ""}};
+const Readings reach_of_61{{"reach_5lx_road_own_m", 61.25, "m", "own lane, centre", -1}};
 
 TEST(Limits, WithinIsGreenWithItsFigures) {
     const Verdict verdict = judged({"reach_5lx_road_own_m", 60.0, {}}, reach_of_61);
@@ -45,13 +45,13 @@ TEST(Limits, ExactlyTheLimitIsWithin) {
 
 // 59.9999 m in four digits is 60 m: a failed verdict must not read "60 m, limit at least 60 m".
 TEST(Limits, AFailureShowsAllItsDigitsWhereRoundingHidesIt) {
-    const Verdict verdict = judged({"a_m", 60.0, {}}, {{"a_m", 59.9999, "m", "", -1, ""}});
+    const Verdict verdict = judged({"a_m", 60.0, {}}, {{"a_m", 59.9999, "m", "", -1}});
     EXPECT_EQ(verdict.kind, VerdictKind::fail);
     EXPECT_EQ(verdict.text, "59.9999 m, limit at least 60 m");
 }
 
 TEST(Limits, NotMeasuredIsNotGreen) {
-    const Verdict verdict = judged({"a_m", 1.0, {}}, {{"a_m", {}, "m", "", -1, "the lane ends"}});
+    const Verdict verdict = judged({"a_m", 1.0, {}}, {{"a_m", Value::not_measured("the lane ends"), "m", "", -1}});
     EXPECT_EQ(verdict.kind, VerdictKind::not_measured);
     EXPECT_EQ(verdict.text, "not measured: the lane ends, limit at least 1 m");
 }
@@ -68,17 +68,17 @@ TEST(Limits, ALimitWithoutAFigureIsNotGreen) {
 }
 
 TEST(Limits, OfMomentsTheWorstDecidesAndTheWholeDriveComesFirst) {
-    const Readings moments{{"a_lx", 3.0, "lx", "", 4, ""}, {"a_lx", 1.5, "lx", "", 7, ""}, {"a_lx", 2.0, "lx", "", 9, ""}};
+    const Readings moments{{"a_lx", 3.0, "lx", "", 4}, {"a_lx", 1.5, "lx", "", 7}, {"a_lx", 2.0, "lx", "", 9}};
     const Verdict verdict = judged({"a_lx", 2.0, {}}, moments);
     EXPECT_EQ(verdict.kind, VerdictKind::fail);
     EXPECT_EQ(verdict.text, "1.5 lx at frame 7, limit at least 2 lx");
     Readings whole = moments;
-    whole.push_back({"a_lx", 2.5, "lx", "", -1, ""});
+    whole.push_back({"a_lx", 2.5, "lx", "", -1});
     EXPECT_EQ(judged({"a_lx", 2.0, {}}, whole).kind, VerdictKind::pass);
 }
 
 TEST(Limits, OneUnmeasuredMomentSpoilsAPassButHidesNoFailure) {
-    Readings moments{{"a_lx", 3.0, "lx", "", 4, ""}, {"a_lx", {}, "lx", "", 7, "out of sight"}};
+    Readings moments{{"a_lx", 3.0, "lx", "", 4}, {"a_lx", Value::not_measured("out of sight"), "lx", "", 7}};
     EXPECT_EQ(judged({"a_lx", 2.0, {}}, moments).kind, VerdictKind::not_measured);
     moments[0].value = 1.0;
     EXPECT_EQ(judged({"a_lx", 2.0, {}}, moments).kind, VerdictKind::fail);

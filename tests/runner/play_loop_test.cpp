@@ -245,15 +245,16 @@ TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
     EXPECT_TRUE(played.extents[0].rendered.empty());
     EXPECT_FALSE(played.extents[0].twin.empty());
     Readings readings = played.readings;
-    std::ranges::copy(summarise(played, stage.drive), std::back_inserter(readings));
+    played.extent_summaries = summarise_extents(played, *stage.drive.extent);
+    std::ranges::copy(extent_readings(played), std::back_inserter(readings));
     for (const char* name :
          {"probe_near_lx", "probe_near_min_lx", "probe_near_max_lx", "reach_1lx_road_own_m", "reach_5lx_target_all_p05_m",
           "width_3lx_road_own_at_20m_m", "area_10lx_target_all_m2", "reach_1lx_road_own_twin_difference_m",
           "reach_1lx_road_own_left_edge_m", "unlit_before_reach_1lx_road_own_m"}) {
-        EXPECT_FALSE(named(readings, name).value) << name;
-        EXPECT_EQ(named(readings, name).why_not, why) << name;
+        EXPECT_FALSE(named(readings, name).value.measured()) << name;
+        EXPECT_EQ(named(readings, name).value.reason(), why) << name;
     }
-    EXPECT_TRUE(named(readings, "probe_near_twin_lx").value) << "the twin draws nothing";
+    EXPECT_TRUE(named(readings, "probe_near_twin_lx").value.measured()) << "the twin draws nothing";
     const std::vector<Verdict> verdicts = judge_limits(stage.drive, readings);
     ASSERT_EQ(verdicts.size(), 3U);
     EXPECT_EQ(verdicts[0].kind, VerdictKind::not_measured);
@@ -272,11 +273,13 @@ TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
 TEST(TechniqueWithoutIlluminance, MayKnowTheSurfaceAndNotTargets) {
     const Played stage;
     Writers writers;
-    const PlayedVariant played = stage.play_with(without_lux(true), 4, writers);
-    const Readings readings = summarise(played, stage.drive);
-    EXPECT_TRUE(named(readings, "area_1lx_road_own_m2").value ||
-                named(readings, "area_1lx_road_own_m2").why_not.find("technique") == std::string::npos);
-    EXPECT_NE(named(readings, "area_1lx_target_own_m2").why_not.find("does not compute the illuminance of targets"), std::string::npos);
+    PlayedVariant played = stage.play_with(without_lux(true), 4, writers);
+    played.extent_summaries = summarise_extents(played, *stage.drive.extent);
+    const Readings readings = extent_readings(played);
+    EXPECT_TRUE(named(readings, "area_1lx_road_own_m2").value.measured() ||
+                named(readings, "area_1lx_road_own_m2").value.reason().find("technique") == std::string::npos);
+    EXPECT_NE(named(readings, "area_1lx_target_own_m2").value.reason().find("does not compute the illuminance of targets"),
+              std::string::npos);
     for (const LaneExtent& extent : played.extents[0].rendered)
         EXPECT_EQ(extent.plane, ExtentPlane::road);
 }

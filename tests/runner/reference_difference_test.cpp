@@ -69,10 +69,10 @@ TEST(ReadingWithSpread, UnitAndWhetherItIsMeasuredComeFirst) {
     other.unit = "m";
     EXPECT_EQ(compared(reading(100.0), other).agreement, Agreement::differs);
     other = reading(100.0, 20, 0.0025);
-    other.mean.reset();
+    other.mean = Value();
     EXPECT_EQ(compared(reading(100.0), other).agreement, Agreement::differs);
     AcceptedReading neither = reading(0.0);
-    neither.mean.reset();
+    neither.mean = Value();
     EXPECT_EQ(compared(neither, other).agreement, Agreement::agrees);
 }
 

@@ -132,7 +132,7 @@ TEST_F(References, WhatOnlyOneSideHasIsRed) {
     other.report.played[0].readings.erase(other.report.played[0].readings.begin());
     EXPECT_THAT(texts(other.judged(store)), HasSubstr("not in this run, accepted 60 m"));
     other = run;
-    other.report.played[0].readings.push_back({"new_m", 1.0, "m", "", -1, ""});
+    other.report.played[0].readings.push_back({"new_m", 1.0, "m", "", -1});
     EXPECT_THAT(texts(other.judged(store)), HasSubstr("new_m: 1 m, nothing accepted"));
     other = run;
     other.report.played[0].frames.pop_back();

@@ -26,7 +26,7 @@ Report hostile_report() {
     played.drive = played.variant = hostile;
     played.lamps[0] = {hostile, hostile};
     played.readings[0].name = played.readings[0].where = hostile;
-    played.readings[2].why_not = hostile;
+    played.readings[2].value = Value::not_measured(hostile);
     played.verdicts[1].name = played.verdicts[1].text = played.verdicts[1].rerun = hostile;
     played.left_out = played.notes = {hostile};
     played.frames[0].view = hostile;
@@ -87,10 +87,7 @@ TEST(ReportJson, ValuesRoundTripExactly) {
 TEST(ReportJson, RefusesNumbersThatAreNone) {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
         Report report = tests::sample_report(1);
-        report.played[0].readings[1].value = bad;
-        EXPECT_THROW(report_json(report), std::logic_error);
-        EXPECT_THROW(report_csv(report), std::logic_error);
-        report = tests::sample_report(1);
+        EXPECT_THROW(Value{bad}, std::invalid_argument);
         report.played[1].extents[0].rendered[0].area_m2 = bad;
         EXPECT_THROW(report_json(report), std::logic_error);
         report = tests::sample_report(1);
@@ -152,13 +149,15 @@ TEST(ReportCsv, MatchesByHand) {
     report.played[0].variant = "xenon";
     report.played[0].extents = {
         ExtentRow{.tick = 7, .time_s = 0.7, .distance_m = 0.0, .rendered = {}, .twin = {}, .sensitivity = {}, .grid_errors = {}}};
-    report.played[0].readings = {{"reach_5lx_road_own_m", 61.25, "m", "own lane, \"centre\"", 7, ""},
-                                 {"@probe_lx", -0.5, "lx", "=1+1", -1, ""},
-                                 {"gpu_s", std::nullopt, "s", "", -1, "no clock"}};
-    EXPECT_EQ(report_csv(report), "drive,variant,name,value,unit,where,frame,time_s,not_measured\r\n"
-                                  "\"S bend, 150 m\",xenon,reach_5lx_road_own_m,61.25,m,\"own lane, \"\"centre\"\"\",7,0.7,\r\n"
-                                  "\"S bend, 150 m\",xenon,'@probe_lx,-0.5,lx,'=1+1,,,\r\n"
-                                  "\"S bend, 150 m\",xenon,gpu_s,,s,,,,no clock\r\n");
+    report.played[0].readings = {{"reach_5lx_road_own_m", 61.25, "m", "own lane, \"centre\"", 7},
+                                 {"@probe_lx", -0.5, "lx", "=1+1", -1},
+                                 {"gpu_s", Value::not_measured("no clock"), "s", ""},
+                                 {"reach_1lx_road_own_m", Value::at_least(200.0), "m", ""}};
+    EXPECT_EQ(report_csv(report), "drive,variant,name,value,unit,where,frame,time_s,not_measured,bound\r\n"
+                                  "\"S bend, 150 m\",xenon,reach_5lx_road_own_m,61.25,m,\"own lane, \"\"centre\"\"\",7,0.7,,\r\n"
+                                  "\"S bend, 150 m\",xenon,'@probe_lx,-0.5,lx,'=1+1,,,,\r\n"
+                                  "\"S bend, 150 m\",xenon,gpu_s,,s,,,,no clock,\r\n"
+                                  "\"S bend, 150 m\",xenon,reach_1lx_road_own_m,200,m,,,,,at_least\r\n");
 }
 
 TEST(ReportJunit, CountsAndEscapes) {

@@ -1,6 +1,7 @@
 #include "tests/runner/sample_report.h"
 
 #include "runner/plots/png.h"
+#include "runner/summary.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -123,10 +124,13 @@ PlayedVariant played_with(const std::string& name, const MadeUpBeam& beam, int m
                 played.frames.push_back({tick, 0.1 * tick, view, fmt::format("frames/{}-{}-{:05}.png", name, view, tick), ""});
         }
     }
+    ExtentParameters parameters;
+    parameters.ahead_m = 250.0; // beyond all reaches
+    played.extent_summaries = summarise_extents(played, parameters);
     played.passes = {frame, shadow};
-    played.readings = {{"reach_5lx_road_own_m", extents_at(beam, 0).rendered[4].reach_centre_m, "m", "own lane, centre", -1, ""},
-                       {"probe_wall_lx", beam.lux(25.0, 0.0, ExtentPlane::target), "lx", "wall, 25 m ahead", 0, ""},
-                       {"gpu_time_s", std::nullopt, "s", "", -1, "the driver's clock disagrees with the wall's"}};
+    played.readings = {{"reach_5lx_road_own_m", extents_at(beam, 0).rendered[4].reach_centre_m, "m", "own lane, centre", -1},
+                       {"probe_wall_lx", beam.lux(25.0, 0.0, ExtentPlane::target), "lx", "wall, 25 m ahead", 0},
+                       {"gpu_time_s", Value::not_measured("the driver's clock disagrees with the wall's"), "s", ""}};
     played.verdicts = {{VerdictKind::pass, "reach_1lx_road_own_m", "28.0 m, limit at least 25 m", ""}};
     played.left_out = {"Sun: it is night.", "Second lamp pair: none is mounted."};
     played.notes = {"Nearer than 3 m the lamps are not point sources; 2.1 % of the map is marked near-field."};

@@ -37,6 +37,12 @@ PlayedVariant played(const std::vector<LaneExtent>& extents) {
     return variant;
 }
 
+/// Readings of such a variant.
+Readings summarise(PlayedVariant variant, const Drive& drive) {
+    variant.extent_summaries = summarise_extents(variant, *drive.extent);
+    return extent_readings(variant);
+}
+
 Drive looking_200_m() {
     Drive drive;
     drive.extent = ExtentParameters{};
@@ -51,7 +57,7 @@ const Reading& find(const Readings& readings, const std::string& name) {
     throw std::out_of_range("no reading " + name);
 }
 
-double value(const Readings& readings, const std::string& name) { return find(readings, name).value.value(); }
+double value(const Readings& readings, const std::string& name) { return find(readings, name).value.number().value(); }
 
 TEST(Summary, MediansMinimaAndPercentilesOverTheMoments) {
     const Readings readings = summarise(played({reaching(60.0), reaching(50.0), reaching(80.0)}), looking_200_m());
@@ -96,12 +102,14 @@ TEST(Summary, LightBeyondTheGridRanksAboveAll) {
     EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 130.0);
 }
 
-TEST(Summary, WhatWouldRestOnALowerBoundIsNotMeasured) {
+TEST(Summary, WhatRestsOnALowerBoundIsOne) {
     const Readings readings = summarise(played({reaching(200.0, "own", 5.0, true), reaching(150.0)}), looking_200_m());
     const Reading& median = find(readings, "reach_5lx_road_own_m");
-    EXPECT_FALSE(median.value);
-    EXPECT_EQ(median.why_not, "in 1 of 2 moments the light goes on beyond the 200 m that were looked at");
+    EXPECT_EQ(median.value, Value::at_least(175.0)) << "half way from 150 to what may be anything beyond 200";
     EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 150.0);
+    EXPECT_EQ(find(readings, "area_5lx_road_own_m2").value, Value::at_least(1750.0));
+    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_min_m2"), 1500.0);
+    EXPECT_EQ(find(readings, "reach_5lx_road_own_twin_difference_worst_m").value, Value(0.5)) << "both beyond: left out";
 }
 
 // Near the road's end the grid shrinks: 12 m "at least" must not become the drive's smallest reach.
@@ -111,8 +119,8 @@ TEST(Summary, TheRoadsEndIsNotAShortReach) {
     EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_min_m2"), 600.0);
     EXPECT_THAT(find(readings, "reach_5lx_road_own_min_m").where, HasSubstr("2 moments, 1 left out"));
     const Readings none = summarise(played({reaching(12.0, "own", 5.0, true)}), looking_200_m());
-    EXPECT_FALSE(find(none, "reach_5lx_road_own_m").value);
-    EXPECT_EQ(find(none, "reach_5lx_road_own_m").why_not, "cut off by the end of the road or lane in every moment");
+    EXPECT_FALSE(find(none, "reach_5lx_road_own_m").value.measured());
+    EXPECT_EQ(find(none, "reach_5lx_road_own_m").value.reason(), "cut off by the end of the road or lane in every moment");
 }
 
 TEST(Summary, TheWholeWidthHasNoCentre) {
@@ -129,14 +137,14 @@ TEST(Summary, WidthsThatWereNeverLookedAtAreNotMeasured) {
     Drive drive = looking_200_m();
     drive.extent->width_at_m = {20.0, 300.0};
     const Reading width = find(summarise(played({reaching(60.0)}), drive), "width_5lx_road_own_at_300m_m");
-    EXPECT_FALSE(width.value);
-    EXPECT_EQ(width.why_not, "not there in any moment");
+    EXPECT_FALSE(width.value.measured());
+    EXPECT_EQ(width.value.reason(), "not there in any moment");
 }
 
 TEST(Summary, TwinAloneIsNotTakenForRendered) {
     PlayedVariant variant = played({reaching(60.0)});
     variant.extents[0].rendered.clear();
-    EXPECT_FALSE(find(summarise(variant, looking_200_m()), "reach_5lx_road_own_m").value);
+    EXPECT_FALSE(find(summarise(variant, looking_200_m()), "reach_5lx_road_own_m").value.measured());
 }
 
 TEST(Summary, TimesOfPasses) {
@@ -146,7 +154,7 @@ TEST(Summary, TimesOfPasses) {
     EXPECT_DOUBLE_EQ(value(readings, "frame_time_median_ms"), 12.0);
     EXPECT_NEAR(value(readings, "frame_time_p95_ms"), 28.2, 1e-9);
     EXPECT_NEAR(value(readings, "frame_time_spread_ms"), 28.2 - 10.2, 1e-9);
-    EXPECT_FALSE(find(readings, "shadow_time_median_ms").value);
+    EXPECT_FALSE(find(readings, "shadow_time_median_ms").value.measured());
     EXPECT_TRUE(is_unit_of_time(readings[0].unit));
 }
 

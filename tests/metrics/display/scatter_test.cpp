@@ -55,9 +55,9 @@ TEST(Scatter, FunctionIsTheGlareEquation) {
     const GlareEye eye{60.0, 1.0};
     const ScatterFunction f = eye_scatter(eye);
     for (const double theta : {0.1, 0.3, 1.0, 5.0, 30.0, 100.0}) {
-        const Measured veil = veiling_luminance_cdm2(VeilingEquation::cie_general, {{2.0, theta}}, eye);
-        ASSERT_TRUE(veil.value);
-        EXPECT_NEAR(2.0 * f.at(theta), *veil.value, 1.0e-12 * *veil.value) << theta;
+        const Value veil = veiling_luminance_cdm2(VeilingEquation::cie_general, {{2.0, theta}}, eye);
+        ASSERT_TRUE(veil.number());
+        EXPECT_NEAR(2.0 * f.at(theta), *veil.number(), 1.0e-12 * *veil.number()) << theta;
     }
     EXPECT_EQ(f.at(0.0999), 0.0);
     EXPECT_EQ(f.at(100.1), 0.0);

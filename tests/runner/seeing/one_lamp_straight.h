@@ -49,9 +49,9 @@ inline Reading named(const Readings& readings, const std::string& name) {
 /// Throws where it is not measured.
 inline double value(const Readings& readings, const std::string& name) {
     const Reading reading = named(readings, name);
-    if (!reading.value)
-        throw std::runtime_error(name + ": " + reading.why_not);
-    return *reading.value;
+    if (!reading.value.number())
+        throw std::runtime_error(name + ": " + reading.value.reason());
+    return *reading.value.number();
 }
 
 } // namespace fernlicht

@@ -39,8 +39,8 @@ TEST(Seeing, ASensorSeesTheLawOfDistance) {
     EXPECT_NEAR(value(readings, "sensor_edge_at_50m_lx"), 1000.0 / (2500.0 + beside), 1e-4);
     EXPECT_NEAR(value(readings, "sensor_edge_at_7.77m_lx"), 1000.0 / (7.77 * 7.77 + beside), 0.07);
     EXPECT_EQ(value(readings, "sensor_edge_reach_1000000lx_m"), 0.0);
-    EXPECT_THAT(named(readings, "sensor_edge_reach_0.05lx_m").why_not, HasSubstr("first moment on"));
-    EXPECT_THAT(named(readings, "sensor_edge_at_500m_lx").why_not, HasSubstr("the drive comes from 96.4 m away"));
+    EXPECT_EQ(named(readings, "sensor_edge_reach_0.05lx_m").value.kind(), Value::Kind::at_least) << "from the first moment on";
+    EXPECT_THAT(named(readings, "sensor_edge_at_500m_lx").value.reason(), HasSubstr("the drive comes from 96.4 m away"));
     const auto series = fold.series();
     ASSERT_EQ(series.size(), 1U);
     EXPECT_NEAR(series[0].columns.at(0).values.at(10).value(), 1000.0 / (86.4 * 86.4 + beside), 1e-9); // after 1 s
@@ -63,10 +63,10 @@ TEST(Seeing, AnOncomingEyeIsDazzledAsTheRulerSays) {
     for (std::size_t i = 0; i < series[0].at_m.size(); ++i) {
         const double d = series[0].at_m[i], square = d * d + beside;
         const GlareSource source{1000.0 * d / std::pow(square, 1.5), degrees(std::atan(std::sqrt(beside) / d))};
-        const double lv = veiling_luminance_cdm2(VeilingEquation::cie_general, {source}, {}).value.value();
+        const double lv = veiling_luminance_cdm2(VeilingEquation::cie_general, {source}, {}).number().value();
         veiling = std::max(veiling, lv);
         increment = std::max(increment, 65.0 * lv);
-        de_boer = std::min(de_boer, de_boer_rating({source}, 1.0).value.value());
+        de_boer = std::min(de_boer, de_boer_rating({source}, 1.0).number().value());
         EXPECT_NEAR(series[0].columns.at(0).values.at(i).value(), 1000.0 / square, 1e-9 * 1000.0 / square);
     }
     EXPECT_NEAR(value(readings, "glare_eye_veiling_max_cdm2"), veiling, 1e-9 * veiling);
@@ -92,7 +92,7 @@ TEST(Seeing, AMirrorAheadGetsTheSameAllAlong) {
     // In the mirror the lamp is |mirror - eye| = sqrt(0.6^2 + 0.6^2 + 0.2^2) farther away, and 47.6 degrees beside the way ahead.
     const double behind = std::sqrt(0.76), far = std::sqrt(square) + behind;
     EXPECT_NEAR(value(readings, "glare_mirrors_at_30m_eye_max_lx"), 0.5 * 1000.0 / (far * far) * 0.6 / behind, 1e-9);
-    EXPECT_TRUE(named(readings, "glare_mirrors_at_30m_veiling_max_cdm2").value);
+    EXPECT_TRUE(named(readings, "glare_mirrors_at_30m_veiling_max_cdm2").value.measured());
     EXPECT_EQ(value(readings, "glare_mirrors_at_30m_length_above_0.5lx_m"), fold.series()[0].at_m.back());
 }
 
@@ -113,14 +113,14 @@ TEST(Seeing, SaysWhereThereIsNobody) {
     glare.adaptation_cdm2 = 0.01;
     const SeeingFold unplayed(straight.drive, straight.route);
     for (const Reading& reading : unplayed.readings()) {
-        EXPECT_FALSE(reading.value) << reading.name;
-        EXPECT_FALSE(reading.why_not.empty()) << reading.name;
+        EXPECT_FALSE(reading.value.measured()) << reading.name;
+        EXPECT_FALSE(reading.value.reason().empty()) << reading.name;
     }
     const Readings played = straight.played().readings();
-    EXPECT_TRUE(named(played, "glare_near_veiling_max_cdm2").value);
-    EXPECT_THAT(named(played, "glare_near_threshold_increment_max_percent").why_not, HasSubstr("above 0.05"));
+    EXPECT_TRUE(named(played, "glare_near_veiling_max_cdm2").value.measured());
+    EXPECT_THAT(named(played, "glare_near_threshold_increment_max_percent").value.reason(), HasSubstr("above 0.05"));
     glare.equation = VeilingEquation::age_adjusted; // beyond 200 m the eye is less than a degree off the lamps
-    EXPECT_THAT(named(straight.played().readings(), "glare_near_veiling_max_cdm2").why_not, HasSubstr("in some moment: a source"));
+    EXPECT_THAT(named(straight.played().readings(), "glare_near_veiling_max_cdm2").value.reason(), HasSubstr("in some moment: a source"));
 }
 
 TEST(Seeing, LimitsKnowItsReadings) {

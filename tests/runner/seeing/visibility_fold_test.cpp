@@ -46,7 +46,8 @@ TEST(Seeing, ATargetStandsOutAsAdrianSays) {
     const double background = asphalt_cdm2(20000.0, behind, left, eye_back);
     EXPECT_NEAR(value(readings, "background_luminance_own_at_50m_cdm2"), background, 1e-6 * background);
     const double sight = std::sqrt((50.0 + eye_back) * (50.0 + eye_back) + 0.35 * 0.35 + 1.11 * 1.11);
-    const double level = visibility_level(0.04 / pi * on_target, background, arc_minutes_of(0.18, sight), {25.0, 0.2, 2.6}).value.value();
+    const double level =
+        visibility_level(0.04 / pi * on_target, background, arc_minutes_of(0.18, sight), {25.0, 0.2, 2.6}).number().value();
     EXPECT_NEAR(value(readings, "visibility_level_own_at_50m"), level, 1e-6 * level);
     EXPECT_NEAR(value(readings, "mesopic_luminance_own_at_50m_cdm2"), mesopic_luminance(background, 1.5).luminance_cdm2, 1e-6 * background);
 }
@@ -60,7 +61,7 @@ TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
     std::vector<double> levels;
     for (const Reading& reading : around)
         if (reading.name.starts_with("visibility_level"))
-            levels.push_back(reading.value.value());
+            levels.push_back(reading.value.number().value());
     ASSERT_EQ(levels.size(), 2U);
     EXPECT_GT(levels[0], 20.0);
     EXPECT_LT(levels[1], 20.0);
@@ -69,7 +70,7 @@ TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
     straight.drive.seeing.visibility->level = 1e4;
     EXPECT_EQ(value(straight.played().readings(), "detection_own_m"), 0.0) << "nowhere";
     straight.drive.seeing.visibility->level = 0.01;
-    EXPECT_THAT(named(straight.played().readings(), "detection_own_m").why_not, HasSubstr("beyond the 200 m"));
+    EXPECT_EQ(named(straight.played().readings(), "detection_own_m").value, Value::at_least(200.0));
 }
 
 // On the road E = I h / (x^2 + y^2 + h^2)^1.5 from the lamp: along the middle d lg E / dx = -3 x / (x^2 + h^2) / ln 10.

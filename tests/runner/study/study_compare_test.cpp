@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 void put(CellResult& cell, const std::string& name, std::optional<double> value, const std::string& unit, const std::string& why = "") {
-    cell.readings[name] = {name, value, unit, "", -1, why};
+    cell.readings[name] = {name, Value::of(value, why), unit, ""};
 }
 
 /// Two lamps on one drive. Of reach each side leaves 0.3 + 0.1 m open, so 0.57 m together; 0.1 degrees move it by 4 m.

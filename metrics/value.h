@@ -1,0 +1,61 @@
+// What a measurement knows of a figure: the figure itself, a bound beyond which nothing was looked at, or why nothing is known.
+#pragma once
+
+#include <compare>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace fernlicht {
+
+/// Never NaN or infinite. A figure beyond what was looked at is censored: known to be at least, or at most, so much.
+class Value {
+  public:
+    enum class Kind { not_measured, at_most, number, at_least };
+
+    Value() = default; ///< not measured, without a reason
+    /// Throws std::invalid_argument for NaN and infinities, as at_least and at_most do.
+    Value(double number) : Value(Kind::number, number) {}
+    static Value at_least(double bound) { return {Kind::at_least, bound}; }
+    static Value at_most(double bound) { return {Kind::at_most, bound}; }
+    static Value not_measured(std::string reason);
+    /// The number, else not measured for this reason.
+    static Value of(const std::optional<double>& number, const std::string& reason);
+
+    Kind kind() const { return kind_; }
+    bool measured() const { return kind_ != Kind::not_measured; } ///< a number or a bound
+    bool censored() const { return kind_ == Kind::at_least || kind_ == Kind::at_most; }
+    std::optional<double> number() const;                 ///< nullopt for bounds, too
+    std::optional<double> figure() const;                 ///< the number or the bound
+    const std::string& reason() const { return reason_; } ///< why not measured; "" otherwise
+
+    /// All that it may be: low() = high() = the number; a bound leaves the other end infinite, not measured both.
+    double low() const;
+    double high() const;
+    /// What lies between two ends, of which one or both may be infinite. Two finite ends that differ are not measured: "between A and B".
+    static Value between(double low, double high, const std::string& reason_for_none);
+
+    bool operator==(const Value&) const = default;
+
+  private:
+    Value(Kind kind, double figure);
+
+    Kind kind_ = Kind::not_measured;
+    double figure_ = 0.0;
+    std::string reason_;
+};
+
+/// a - b: at least where a is, or b at most; at most the other way round. Not measured where either is not, with its reason, or where
+/// nothing bounds the difference: "both beyond 200 m".
+Value difference(const Value& a, const Value& b, std::string_view unit);
+
+/// By rank: figures ascending; of equal ones "at most" before the number before "at least". What is not measured ranks before all.
+bool ranks_before(const Value& a, const Value& b);
+
+const char* bound_sign(const Value& value); ///< ">", "<" or ""
+const char* bound_name(const Value& value); ///< "at_least", "at_most" or ""
+
+/// Whether the value holds a limit. nullopt: its bound, or that it is not measured, leaves it open.
+std::optional<bool> holds(const Value& value, const std::optional<double>& at_least, const std::optional<double>& at_most);
+
+} // namespace fernlicht
