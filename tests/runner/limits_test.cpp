@@ -56,6 +56,15 @@ TEST(Limits, NotMeasuredIsNotGreen) {
     EXPECT_EQ(verdict.text, "not measured: the lane ends, limit at least 1 m");
 }
 
+TEST(Limits, ABoundIsJudgedByWhatItLeavesOpen) {
+    const Readings beyond{{"a_m", Value::at_least(200.0), "m", "", -1}};
+    EXPECT_EQ(judged({"a_m", 180.0, {}}, beyond).kind, VerdictKind::pass);
+    EXPECT_EQ(judged({"a_m", 180.0, {}}, beyond).text, "> 200 m, limit at least 180 m");
+    EXPECT_EQ(judged({"a_m", {}, 150.0}, beyond).kind, VerdictKind::fail);
+    EXPECT_EQ(judged({"a_m", 220.0, {}}, beyond).kind, VerdictKind::not_measured);
+    EXPECT_EQ(judged({"a_m", 220.0, {}}, beyond).text, "> 200 m, limit at least 220 m");
+}
+
 TEST(Limits, AnUnknownReadingIsNotGreenAndNamesTheNearest) {
     const Verdict verdict = judged({"reach_5lx_raod_own_m", 1.0, {}}, reach_of_61);
     EXPECT_EQ(verdict.kind, VerdictKind::not_measured);

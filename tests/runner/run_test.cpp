@@ -65,6 +65,25 @@ TEST(Run, TheWorkedExampleGives0386LuxOnBothPaths) {
     EXPECT_NEAR(reading(report, "probe_road-7m_lx"), by_hand, 2e-6);
 }
 
+/// The light goes on past the grid's end: one answer in every file.
+TEST(Run, WhatLiesBeyondTheGridIsABoundEverywhere) {
+    const TemporaryFolder folder;
+    const Outcome run = run_program("run " + library_file("drives/straight.yaml") + " --lamp " + library_file("lamps/xenon-high.ies") +
+                                    few_moments + "--out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json report = report_of(folder / "out"), bound{{"at_least", 200.0}};
+    for (const json& row : report.at("rows"))
+        if (row.at("name") == "reach_1lx_target_own_m")
+            EXPECT_EQ(row.at("value"), bound);
+    for (const json& summary : report.at("drives").at(0).at("summary"))
+        if (summary.at("plane") == "target" && summary.at("lane") == "own" && summary.at("limit_lx") == 1.0) {
+            EXPECT_EQ(summary.at("reach_m").at("median"), bound);
+            EXPECT_TRUE(summary.at("reach_m").at("mean").is_null());
+        }
+    EXPECT_THAT(content_of(folder / "out/readings.csv"), testing::ContainsRegex("reach_1lx_target_own_m,200,m,[^\n]*,at_least\r\n"));
+    EXPECT_THAT(content_of(folder / "out/report.html"), testing::HasSubstr("&gt; 200.0"));
+}
+
 TEST(Run, AnIihsDriveMeasuresItsSensorsAsTheExtentDoes) {
     const TemporaryFolder folder;
     std::string drive = content_of(library_file("drives/iihs-straight.yaml"));
