@@ -91,7 +91,7 @@ TEST_F(RunCompare, EveryChangeIsThatOfTheReports) {
     EXPECT_EQ(drive.at("new_variant"), "xenon-low");
     EXPECT_GT(drive.at("changes").size(), 100U);
     for (const json& change : drive.at("changes")) {
-        if (change.at("change").is_null())
+        if (!change.at("change").is_number()) // not measured, or a bound
             continue;
         const std::string name = change.at("reading");
         ASSERT_EQ(change.at("old_value"), row(before, name)) << name;

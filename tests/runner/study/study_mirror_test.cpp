@@ -41,8 +41,8 @@ class StudyMirror : public testing::Test {
         for (const json& cell : study.at("cells")) {
             Cell& found = cells[cell.at("name")];
             for (const json& row : cell.at("readings"))
-                if (!row.at("value").is_null())
-                    found.readings[row.at("name")] = row.at("value");
+                if (const json& value = row.at("value"); !value.is_null()) // bounds by their figure
+                    found.readings[row.at("name")] = value.is_object() ? value.front() : value;
             for (const auto& entry :
                  std::filesystem::recursive_directory_iterator(folder_ / ("out/cells/" + cell.at("name").get<std::string>() + "/frames")))
                 if (entry.path().extension() == ".exr" && entry.path().string().find("driver") != std::string::npos)
