@@ -12,6 +12,7 @@ namespace {
 constexpr double scan_step_deg = 0.01;
 constexpr std::size_t over_steps = 10; // 0.1 degrees, over which G is taken
 constexpr double search_from_deg = -3.0, search_to_deg = 2.0;
+constexpr double most_kink_uncertainty_deg = 0.15;
 
 /// Coarsest step of the axis between two angles.
 double coarsest_step(const std::vector<double>& axis, double from, double to) {
@@ -45,10 +46,9 @@ double crossing(const std::vector<double>& g, std::size_t inside, std::size_t ou
     return static_cast<double>(inside) + share * (static_cast<double>(outside) - static_cast<double>(inside));
 }
 
-/// Middle, in steps, of the run round the maximum where G is at least 0.9 of it. (Between the samples of a table that runs linearly, G has
-/// ripples of a few per cent; the middle of the run does not follow them.)
-double middle_of_top(const std::vector<double>& g, std::size_t top) {
-    const double level = 0.9 * g[top];
+/// Middle, in steps, of the run round the maximum where G is at least `share` of it.
+double middle_of_run(const std::vector<double>& g, std::size_t top, double share) {
+    const double level = share * g[top];
     std::size_t first = top, last = top;
     while (first > 0 && g[first - 1] >= level)
         --first;
@@ -124,8 +124,16 @@ CutOffScan scan_along(const AimedLamp& lamp, const ScanLine& line, const CutOffO
         scan.reason = fmt::format("no edge: the greatest G is {:.3f}, and aiming needs {:.2f}", *top, least_sharpness);
         return scan;
     }
-    const double middle = middle_of_top(g, at);
-    scan.inflection_deg = line.from_deg + scan_step_deg * (middle + static_cast<double>(over_steps) / 2.0);
+    // Between the samples of a table that runs linearly, G has ripples of a few per cent: the middle of the run at 80 % does not follow
+    // them. An even edge has the same middle at every share; noise and uneven edges move it.
+    double lowest = 1e9, highest = 0.0;
+    for (const double share : {0.9, 0.8, 0.7, 0.6}) {
+        const double middle = middle_of_run(g, at, share);
+        lowest = std::min(lowest, middle);
+        highest = std::max(highest, middle);
+    }
+    scan.scatter_deg = scan_step_deg * (highest - lowest);
+    scan.inflection_deg = line.from_deg + scan_step_deg * (middle_of_run(g, at, 0.8) + static_cast<double>(over_steps) / 2.0);
     if (options.sharpness == SharpnessRule::at_inflection) {
         const double from = *scan.inflection_deg, to = from + 0.1;
         const auto low = beam.at(line.vertical ? Direction{line.at_deg, from} : Direction{from, line.at_deg});
@@ -165,10 +173,30 @@ void find_kink(CutOffFigures& c) {
             fmt::format("from 1 to 3 degrees right the edge rises by {:.1f} degrees, too little to meet the level part", *c.rise_angle_deg);
         return;
     }
-    c.kink_h_deg = h_mean + (*c.level.inflection_deg - v_mean) / slope;
+    const auto& [first, second, third] = c.rise;
+    const double bend = std::abs(*first.inflection_deg - 2.0 * *second.inflection_deg + *third.inflection_deg) / 2.0;
+    const double rise_uncertainty = std::max({first.uncertainty_deg(), second.uncertainty_deg(), third.uncertainty_deg()});
+    if (bend > 2.0 * rise_uncertainty) {
+        c.kink_reason =
+            fmt::format("the edge at 1, 2 and 3 degrees right leaves a straight line by {:.2f} degrees, and {:.2f} are uncertain", bend,
+                        2.0 * rise_uncertainty);
+        return;
+    }
+    const double kink = h_mean + (*c.level.inflection_deg - v_mean) / slope, lever = h_mean - kink;
+    c.kink_uncertainty_deg = std::hypot(c.level.uncertainty_deg(), rise_uncertainty * std::sqrt(1.0 / 3.0 + lever * lever / hh)) / slope;
+    if (c.kink_uncertainty_deg > most_kink_uncertainty_deg)
+        c.kink_reason = fmt::format("the edge at 1, 2 and 3 degrees right places the kink to {:.2f} degrees only", c.kink_uncertainty_deg);
+    else if (kink > first.at_deg + c.kink_uncertainty_deg)
+        c.kink_reason =
+            fmt::format("the line through 1, 2 and 3 degrees right meets the level part at {:.2f} degrees right, beyond the first", kink);
+    else
+        c.kink_h_deg = kink;
 }
 
 } // namespace
+
+// tests/calibration/aim.cpp holds both factors.
+double CutOffScan::uncertainty_deg() const { return std::max(position_error_deg, 1.5 * scatter_deg) + 0.05 * table_step_deg; }
 
 CutOffScan vertical_scan(const AimedLamp& lamp, double h_deg, double v_from_deg, double v_to_deg, const CutOffOptions& options) {
     return scan_along(lamp, {true, h_deg, v_from_deg, v_to_deg}, options);

@@ -24,19 +24,26 @@ struct CutOffOptions {
 struct CutOffScan {
     double at_deg = 0.0; ///< H of a vertical scan, V of a horizontal one
     std::optional<double> sharpness;
-    /// Where d2(log E)/db2 = 0, taken over 0.1 degrees: the middle of where G is within 10 % of its maximum, and 0.05 degrees on.
+    /// Where d2(log E)/db2 = 0, taken over 0.1 degrees: the middle of where G is within 20 % of its maximum, and 0.05 degrees on.
     std::optional<double> inflection_deg;
     double table_step_deg = 0.0;       ///< the file's own coarsest step there
     std::string reason;                ///< why sharpness or inflection is missing
     double position_error_deg = 0.005; ///< half a step of the scan, or of a file coarser than 0.1 degrees
+    double scatter_deg = 0.0;          ///< how far the middle moves with the share of the maximum, 90 to 60 %
+    /// Within which the inflection lies, in 99 of 100 beams.
+    double uncertainty_deg() const;
 };
 
 struct CutOffFigures {
-    CutOffScan level;                     ///< vertical, 2.5 degrees left: place and sharpness of the level part
-    CutOffScan level_inner, level_outer;  ///< 1.5 and 3.5 degrees left
-    std::optional<double> linearity_deg;  ///< highest less lowest inflection of these three; at most 0.2
-    std::array<CutOffScan, 3> rise;       ///< vertical, 1, 2 and 3 degrees right
-    std::optional<double> kink_h_deg;     ///< where the straight line through the rise's inflections (least squares) meets the level part
+    CutOffScan level;                    ///< vertical, 2.5 degrees left: place and sharpness of the level part
+    CutOffScan level_inner, level_outer; ///< 1.5 and 3.5 degrees left
+    std::optional<double> linearity_deg; ///< highest less lowest inflection of these three; at most 0.2
+    std::array<CutOffScan, 3> rise;      ///< vertical, 1, 2 and 3 degrees right
+    /// Where the straight line through the rise's inflections (least squares) meets the level part. Missing where the three leave a
+    /// straight line by more than their uncertainty, where the rise begins right of the first, or where they place the kink to worse than
+    /// 0.2 degrees.
+    std::optional<double> kink_h_deg;
+    double kink_uncertainty_deg = 0.0;
     std::optional<double> rise_angle_deg; ///< of that line against the horizon; 15 degrees is usual
     CutOffScan shoulder;                  ///< horizontal, 0.37 degrees above the level part: the line at 0.2 D of an aimed lamp
     std::string kink_reason;              ///< why there is no kink

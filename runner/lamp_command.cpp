@@ -95,11 +95,6 @@ std::optional<plots::AngleWindow> window_of(const std::vector<double>& edges) {
     return w;
 }
 
-void write_picture(const LampFile& lamp, const LampRequest& request) {
-    const std::string svg = plots::svg_of(plots::isocandela_diagram(lamp.table, lamp.name, window_of(request.window)));
-    write_file(request.picture, request.picture.extension() == ".png" ? plots::png_of_svg(svg) : svg);
-}
-
 void check_picture_name(const std::filesystem::path& path) {
     if (!path.empty() && path.extension() != ".png" && path.extension() != ".svg")
         throw InputError({path, 0, 0, "--picture"}, fmt::format("found extension '{}'", printable(path.extension().string())),
@@ -158,14 +153,18 @@ int tell_apart(const LampFile& lamp, const LampRequest& request) {
     const LampFile other = read_lamp(request.against, request.reading);
     const LampDifference difference = difference_of(lamp, other, request.noise_relative);
     if (!request.picture.empty()) {
-        const std::string svg = plots::svg_of(difference_figure(lamp, other, difference));
-        write_file(request.picture, request.picture.extension() == ".png" ? plots::png_of_svg(svg) : svg);
+        write_lamp_picture(difference_figure(lamp, other, difference), request);
     }
     fmt::print("{}", request.json ? json_text(difference_json(difference)) : difference_text(lamp, other, difference));
     return 0;
 }
 
 } // namespace
+
+void write_lamp_picture(const plots::Figure& figure, const LampRequest& request) {
+    const std::string svg = plots::svg_of(figure);
+    write_file(request.picture, request.picture.extension() == ".png" ? plots::png_of_svg(svg) : svg);
+}
 
 LampFile lamp_of(const LampRequest& request) {
     if (request.file.empty() == request.model.empty())
@@ -200,16 +199,16 @@ LampFile lamp_of(const LampRequest& request) {
 int lamp_command(const LampRequest& request) {
     if (!request.regulation.empty())
         return lamp_regulation(request);
+    check_picture_name(request.picture);
+    if (!request.picture.empty())
+        refuse_to_overwrite(request, request.picture, "--picture");
     if (request.cut_off)
         return lamp_cut_off(request);
     refuse_regulation_options(request);
-    check_picture_name(request.picture);
     if (request.spots && (*request.spots < 1 || *request.spots > most_spots))
         throw InputError({{}, 0, 0, "--spots"}, fmt::format("found {}", *request.spots), fmt::format("1 to {}", most_spots));
     if (!request.convert.empty())
         refuse_to_overwrite(request, request.convert, "--convert");
-    if (!request.picture.empty())
-        refuse_to_overwrite(request, request.picture, "--picture");
     const LampFile lamp = lamp_of(request);
     if (!request.against.empty())
         return tell_apart(lamp, request);
@@ -219,7 +218,7 @@ int lamp_command(const LampRequest& request) {
     if (!request.convert.empty())
         write_lamp(lamp, request.convert);
     if (!request.picture.empty())
-        write_picture(lamp, request);
+        write_lamp_picture(plots::isocandela_diagram(lamp.table, lamp.name, window_of(request.window)), request);
     fmt::print("{}", request.json ? json_of(description) : text_of(description));
     return 0;
 }
@@ -231,7 +230,8 @@ void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
     command->add_option("--model", request->model,
                         "one of our own models in place of a file: halogen-low, halogen-high, xenon-low, xenon-high");
     command->add_flag("--json", request->json, "prints JSON");
-    command->add_option("--picture", request->picture, "writes the isocandela diagram: .svg or .png");
+    command->add_option("--picture", request->picture,
+                        "writes the isocandela diagram, with --cut-off its scans and the elbow: .svg or .png");
     command->add_flag("--force", request->force, "lets --convert and --picture replace a file that is there");
     command->add_option("--window", request->window, "of the picture: left, right, bottom and top in degrees")->expected(4);
     command->add_option("--spots", request->spots, "fits this many spot lights of OpenGL 1.x (1 to 8) and tells what they leave over");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/cut_off.h"
+#include "runner/plots/svg.h"
 #include "scenarios/lamps/lamp_file.h"
 
 #include <functional>
@@ -40,6 +41,9 @@ struct LampRequest {
 
 /// Reads or models the lamp, then scales, mirrors, adds and subtracts, in this order. Throws InputError.
 LampFile lamp_of(const LampRequest& request);
+
+/// To request.picture, as its extension says.
+void write_lamp_picture(const plots::Figure& figure, const LampRequest& request);
 
 /// All that the request asks for; text or JSON goes to standard output. Returns 0, or 1 when a regulation's row fails. Throws InputError,
 /// DeviceError.

@@ -1,5 +1,6 @@
 #include "runner/lamp_regulation.h"
 
+#include "runner/cut_off_figure.h"
 #include "runner/regulation_report.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
@@ -15,12 +16,13 @@ std::optional<AimRule> aim_rule(const std::string& word) {
     if (word.empty())
         return std::nullopt;
     static const std::vector<std::pair<std::string, AimRule>> rules{
-        {"as-is", AimRule::as_is}, {"cut-off", AimRule::cut_off}, {"cut-off-line", AimRule::cut_off_by_line},
-        {"vol", AimRule::vol},     {"vor", AimRule::vor},         {"maximum", AimRule::maximum}};
+        {"auto", AimRule::automatic}, {"as-is", AimRule::as_is}, {"cut-off", AimRule::cut_off}, {"cut-off-line", AimRule::cut_off_by_line},
+        {"elbow", AimRule::elbow},    {"vol", AimRule::vol},     {"vor", AimRule::vor},         {"maximum", AimRule::maximum}};
     for (const auto& [name, rule] : rules)
         if (name == word)
             return rule;
-    throw InputError({{}, 0, 0, "--aim"}, "found '" + printable(word) + "'", "as-is, cut-off, cut-off-line, vol, vor or maximum");
+    throw InputError({{}, 0, 0, "--aim"}, "found '" + printable(word) + "'",
+                     "auto, as-is, cut-off, cut-off-line, elbow, vol, vor or maximum");
 }
 
 void refuse_other_work(const LampRequest& request, const char* option) {
@@ -29,7 +31,6 @@ void refuse_other_work(const LampRequest& request, const char* option) {
             throw InputError({{}, 0, 0, other}, fmt::format("found {} together with {}", other, option), "one of them");
     };
     refuse(!request.convert.empty(), "--convert");
-    refuse(!request.picture.empty(), "--picture");
     refuse(request.spots.has_value(), "--spots");
     refuse(!request.against.empty(), "--against");
 }
@@ -57,6 +58,8 @@ int lamp_regulation(const LampRequest& request) {
         return 0;
     }
     refuse_other_work(request, "--regulation");
+    if (!request.picture.empty())
+        throw InputError({{}, 0, 0, "--picture"}, "found together with --regulation", "--cut-off, which draws what the aim goes by");
     if (request.cut_off)
         throw InputError({{}, 0, 0, "--cut-off"}, "found together with --regulation", "one of them");
     const Regulation& r = regulation(request.regulation);
@@ -89,8 +92,11 @@ int lamp_cut_off(const LampRequest& request) {
     const CutOffOptions options{request.sharpness, degrees(std::atan(request.detector_mm / 25000.0))};
     const CandelaTable table = request.left_hand_traffic ? mirrored(lamp.table) : lamp.table;
     const CutOffFigures cut_off = measure_cut_off({&table, {}}, options);
-    fmt::print("{}", request.json ? json_of(cut_off, lamp.name, options, request.left_hand_traffic)
-                                  : text_of(cut_off, lamp.name, options, request.left_hand_traffic));
+    const CutOffElbow elbow = fit_elbow({&table, {}});
+    if (!request.picture.empty())
+        write_lamp_picture(cut_off_figure(lamp, cut_off, elbow, request.left_hand_traffic), request);
+    fmt::print("{}", request.json ? json_of(cut_off, elbow, lamp.name, options, request.left_hand_traffic)
+                                  : text_of(cut_off, elbow, lamp.name, options, request.left_hand_traffic));
     return 0;
 }
 
@@ -112,7 +118,8 @@ void add_regulation_options(CLI::App& command, LampRequest& request) {
         ->group(group);
     command.add_flag("--cut-off", request.cut_off, "measures the cut-off: place, sharpness, linearity, kink")->group(group);
     command.add_flag("--left-hand-traffic", request.left_hand_traffic, "the table by mirror")->group(group);
-    command.add_option("--aim", request.aim, "in place of the regulation's own: as-is, cut-off, cut-off-line, vol, vor, maximum")
+    command
+        .add_option("--aim", request.aim, "in place of the regulation's own: auto, as-is, cut-off, cut-off-line, elbow, vol, vor, maximum")
         ->group(group);
     command.add_option("--aim-by", request.aim_by, "a passing beam whose aim this beam keeps")->group(group);
     command.add_flag("--no-re-aim", request.no_re_aim, "does not turn a lamp that fails within what the edition allows")->group(group);

@@ -28,10 +28,14 @@ const char* word(RowVerdict verdict) {
 
 const char* word(AimRule rule) {
     switch (rule) {
+    case AimRule::automatic:
+        return "auto";
     case AimRule::cut_off:
         return "cut-off";
     case AimRule::cut_off_by_line:
         return "cut-off-line";
+    case AimRule::elbow:
+        return "elbow";
     case AimRule::vol:
         return "vol";
     case AimRule::vor:
@@ -78,6 +82,16 @@ std::string turned_text(Direction turned) {
         return "not turned";
     return fmt::format("turned {:.2f} {}, {:.2f} {}", std::abs(turned.h_deg), turned.h_deg < 0.0 ? "L" : "R", std::abs(turned.v_deg),
                        turned.v_deg < 0.0 ? "D" : "U");
+}
+
+/// "turned 0.30 L, 0.02 D, known to 0.05 and 0.01; 3 rounds left 0.001 and 0.000"
+std::string aim_text(const Aim& aim) {
+    std::string text = turned_text(aim.turned);
+    if (aim.bound != Direction{})
+        text += fmt::format(", known to {:.2f} and {:.2f}", aim.bound.h_deg, aim.bound.v_deg);
+    if (aim.rounds > 1)
+        text += fmt::format("; {} rounds left {:.3f} and {:.3f}", aim.rounds, std::abs(aim.residual.h_deg), std::abs(aim.residual.v_deg));
+    return text;
 }
 
 /// What a cut-off says of the lamp as it was mounted; "" within 0.1 degrees, which is what hands aim to, or where it was not aimed by one.
@@ -154,7 +168,7 @@ Json scan_json(const CutOffScan& s, double sign, bool vertical) {
     return {{vertical ? "h_deg" : "v_deg", (vertical ? sign : 1.0) * s.at_deg + 0.0},
             {"sharpness_g", number_or_reason(s.sharpness, s.reason)},
             {vertical ? "inflection_v_deg" : "inflection_h_deg", number_or_reason(along(s.inflection_deg), s.reason)},
-            {"position_error_deg", s.position_error_deg},
+            {"uncertainty_deg", s.uncertainty_deg()},
             {"file_step_deg", s.table_step_deg}};
 }
 
@@ -170,6 +184,7 @@ Json cut_off_json(const CutOffFigures& c, double sign) {
              Json::array({scan_json(c.level_inner, sign, true), scan_json(c.level, sign, true), scan_json(c.level_outer, sign, true)})},
             {"linearity_deg", number_or_reason(c.linearity_deg, open)},
             {"kink_h_deg", number_or_reason(kink, c.kink_reason)},
+            {"kink_uncertainty_deg", c.kink_uncertainty_deg},
             {"rise_angle_deg", number_or_reason(c.rise_angle_deg, c.kink_reason)},
             {"rise", rise},
             {"shoulder", scan_json(c.shoulder, sign, false)}};
@@ -200,7 +215,7 @@ Json row_json(const RowResult& row) {
 
 std::string scan_text(const CutOffScan& s, const char* axis) {
     std::string text = s.sharpness ? fmt::format("G {:.3f}", *s.sharpness) : "G not_measured";
-    text += s.inflection_deg ? fmt::format(", inflection at {} {:.3f} +- {:.3f}", axis, *s.inflection_deg, s.position_error_deg)
+    text += s.inflection_deg ? fmt::format(", inflection at {} {:.3f} +- {:.3f}", axis, *s.inflection_deg, s.uncertainty_deg())
                              : ", inflection not_measured";
     return s.reason.empty() ? text : text + " (" + s.reason + ")";
 }
@@ -217,7 +232,7 @@ std::string text_of(const Regulation& r, const RegulationCheck& check, const std
     add_entry(out, "judged", judged_text(r, lamps) + "; " + receiver_text(r.receiver));
     for (std::size_t i = 0; i < check.aims.size(); ++i) {
         add_entry(out, check.aims.size() > 1 ? (i == 0 ? "aim, lamp 1" : "aim, lamp 2") : "aim",
-                  fmt::format("{}: {} ({})", word(check.aims[i].rule), check.aims[i].how, turned_text(check.aims[i].turned)));
+                  fmt::format("{}: {} ({})", word(check.aims[i].rule), check.aims[i].how, aim_text(check.aims[i])));
         if (const std::string found = as_found_text(check.aims[i]); !found.empty())
             add_entry(out, "mounted", found);
     }
@@ -231,12 +246,19 @@ std::string text_of(const Regulation& r, const RegulationCheck& check, const std
     out += fmt::format("\n{:<{}} {:>9} {:>17} {:<3} {:>8} {:>15}  \n", "row", width, "found", "limit", "in", "margin", "at H, V");
     for (const RowResult& row : check.rows)
         out += row_line(row, width);
+    if (!check.as_filed.empty()) {
+        out += "\nas filed, where the aim changes the verdict\n";
+        for (const RowResult& row : check.as_filed)
+            out += row_line(row, width);
+    }
     out += "\n";
     std::vector<std::string> names;
     for (const RowResult* row : narrowest(check, 3))
         names.push_back(fmt::format("{} {:+.1f} %", row->id, 100.0 * row->margin));
     if (!names.empty())
         add_entry(out, "narrowest", fmt::format("{}", fmt::join(names, ", ")));
+    if (check.verdict_as_filed != check.verdict)
+        add_entry(out, "as filed", std::string(word(check.verdict_as_filed)) + ": the aim changes the verdict");
     add_entry(out, "verdict", verdict_text(check) + "; no approval");
     return out;
 }
@@ -244,12 +266,20 @@ std::string text_of(const Regulation& r, const RegulationCheck& check, const std
 std::string json_of(const Regulation& r, const RegulationCheck& check, const std::vector<std::string>& lamps) {
     Json aims = Json::array();
     for (const Aim& aim : check.aims) {
-        Json one{{"rule", word(aim.rule)}, {"how", aim.how}, {"found", aim.found}, {"turned_deg", {aim.turned.h_deg, aim.turned.v_deg}}};
+        Json one{{"rule", word(aim.rule)},
+                 {"how", aim.how},
+                 {"found", aim.found},
+                 {"turned_deg", {aim.turned.h_deg, aim.turned.v_deg}},
+                 {"bound_deg", {aim.bound.h_deg, aim.bound.v_deg}},
+                 {"residual_deg", {aim.residual.h_deg, aim.residual.v_deg}},
+                 {"rounds", aim.rounds}};
         if (aim.cut_off)
             one["cut_off"] = cut_off_json(*aim.cut_off, check.left_hand_traffic ? -1.0 : 1.0);
         aims.push_back(one);
     }
-    Json rows = Json::array(), nearest = Json::array();
+    Json rows = Json::array(), nearest = Json::array(), as_filed = Json::array();
+    for (const RowResult& row : check.as_filed)
+        as_filed.push_back(row_json(row));
     for (const RowResult& row : check.rows)
         rows.push_back(row_json(row));
     for (const RowResult* row : narrowest(check, 3))
@@ -266,13 +296,15 @@ std::string json_of(const Regulation& r, const RegulationCheck& check, const std
            {"notes", r.notes},
            {"rows", rows},
            {"narrowest", nearest},
+           {"as_filed", {{"verdict", word(check.verdict_as_filed)}, {"rows_changed", as_filed}}},
            {"verdict", word(check.verdict)}};
     if (check.was_re_aimed)
         j["re_aimed_deg"] = {check.re_aimed.h_deg, check.re_aimed.v_deg};
     return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string text_of(const CutOffFigures& c, const std::string& lamp, const CutOffOptions& options, bool left_hand_traffic) {
+std::string text_of(const CutOffFigures& c, const CutOffElbow& elbow, const std::string& lamp, const CutOffOptions& options,
+                    bool left_hand_traffic) {
     const double sign = left_hand_traffic ? -1.0 : 1.0;
     const auto at = [&](double h) { return fmt::format("H {:+.1f}", sign * h); };
     std::string out;
@@ -289,9 +321,16 @@ std::string text_of(const CutOffFigures& c, const std::string& lamp, const CutOf
     for (const CutOffScan& scan : c.rise)
         add_entry(out, at(scan.at_deg).c_str(), scan_text(scan, "V"));
     add_entry(out, "kink",
-              c.kink_h_deg ? fmt::format("H {:.2f}, where the line through these meets the level part", sign * *c.kink_h_deg + 0.0)
+              c.kink_h_deg ? fmt::format("H {:.2f} +- {:.2f}, where the line through these meets the level part",
+                                         sign * *c.kink_h_deg + 0.0, c.kink_uncertainty_deg)
                            : "not_measured: " + c.kink_reason);
     add_entry(out, "rise", c.rise_angle_deg ? fmt::format("{:.1f} degrees", *c.rise_angle_deg) : "not_measured: " + c.kink_reason);
+    add_entry(out, "elbow",
+              elbow.at ? fmt::format("H {:.2f} +- {:.2f}, V {:.2f} +- {:.2f}, by a fit over {} columns; from there {:.1f} degrees up{}",
+                                     sign * elbow.at->h_deg + 0.0, elbow.uncertainty.h_deg, elbow.at->v_deg, elbow.uncertainty.v_deg,
+                                     elbow.points.size(), elbow.rise_angle_deg,
+                                     elbow.rise_to_h_deg ? fmt::format(" to H {:.2f}", sign * *elbow.rise_to_h_deg) : "")
+                       : "not_measured: " + elbow.reason);
     CutOffScan shoulder = c.shoulder;
     if (shoulder.inflection_deg)
         *shoulder.inflection_deg *= sign;
@@ -299,12 +338,24 @@ std::string text_of(const CutOffFigures& c, const std::string& lamp, const CutOf
     return out;
 }
 
-std::string json_of(const CutOffFigures& c, const std::string& lamp, const CutOffOptions& options, bool left_hand_traffic) {
+std::string json_of(const CutOffFigures& c, const CutOffElbow& elbow, const std::string& lamp, const CutOffOptions& options,
+                    bool left_hand_traffic) {
     Json j{{"lamp", lamp},
            {"left_hand_traffic", left_hand_traffic},
            {"detector_deg", options.detector_deg},
            {"sharpness_rule", options.sharpness == SharpnessRule::maximum ? "maximum" : "at-inflection"}};
-    j.update(cut_off_json(c, left_hand_traffic ? -1.0 : 1.0));
+    const double sign = left_hand_traffic ? -1.0 : 1.0;
+    j.update(cut_off_json(c, sign));
+    if (!elbow.at)
+        j["elbow"] = {{"not_measured", elbow.reason}};
+    else {
+        j["elbow"] = {{"h_deg", sign * elbow.at->h_deg + 0.0},
+                      {"v_deg", elbow.at->v_deg},
+                      {"uncertainty_deg", {elbow.uncertainty.h_deg, elbow.uncertainty.v_deg}},
+                      {"rise_angle_deg", elbow.rise_angle_deg}};
+        if (elbow.rise_to_h_deg)
+            j["elbow"]["rise_to_h_deg"] = sign * *elbow.rise_to_h_deg + 0.0;
+    }
     return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/cut_off.h"
+#include "metrics/cut_off_elbow.h"
 #include "metrics/regulation/regulation_check.h"
 
 #include <string>
@@ -14,8 +15,10 @@ std::string text_of(const Regulation& regulation, const RegulationCheck& check, 
 std::string json_of(const Regulation& regulation, const RegulationCheck& check, const std::vector<std::string>& lamps);
 
 /// Under left-hand traffic the cut-off is that of the mirrored table, and is mirrored back here.
-std::string text_of(const CutOffFigures& cut_off, const std::string& lamp, const CutOffOptions& options, bool left_hand_traffic);
-std::string json_of(const CutOffFigures& cut_off, const std::string& lamp, const CutOffOptions& options, bool left_hand_traffic);
+std::string text_of(const CutOffFigures& cut_off, const CutOffElbow& elbow, const std::string& lamp, const CutOffOptions& options,
+                    bool left_hand_traffic);
+std::string json_of(const CutOffFigures& cut_off, const CutOffElbow& elbow, const std::string& lamp, const CutOffOptions& options,
+                    bool left_hand_traffic);
 
 /// All ids with edition, source and what is in them.
 std::string regulation_list_text();

@@ -1,7 +1,11 @@
 #include "metrics/regulation/aim.h"
 
+#include "metrics/cut_off_elbow.h"
+#include "scenarios/values/pose.h"
+
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace fernlicht {
 namespace {
@@ -23,49 +27,118 @@ std::string why_not(const CutOffScan& scan) {
                                : scan.reason;
 }
 
-/// How far the kink, or the shoulder at 0.2 D, lies to the right of where it belongs; nullopt: not found.
-std::optional<double> sideways(const CutOffFigures& c, AimRule rule) {
-    if (rule == AimRule::cut_off)
-        return c.kink_h_deg;
+/// What a rule aims by sideways.
+struct Sideways {
+    std::optional<double> off_deg; ///< to the right of where it belongs
+    double bound_deg = 0.0;
+    std::string why_not;
+};
+
+double usual_slope() { return std::tan(radians(15.0)); }
+
+/// The shoulder on the line at 0.2 D, where the elbow's fit does not contradict it: that line may run above a short rise and find another
+/// edge.
+Sideways by_line(const CutOffFigures& c, const CutOffElbow& elbow, Direction turned) {
     if (!usable(c.shoulder))
-        return std::nullopt;
-    return *c.shoulder.inflection_deg - line_a_deg;
+        return {std::nullopt, 0.0, why_not(c.shoulder)};
+    const double found = *c.shoulder.inflection_deg;
+    const double slope = elbow.at ? std::tan(radians(elbow.rise_angle_deg)) : usual_slope();
+    const double bound = c.shoulder.uncertainty_deg() + 0.3 * c.shoulder.table_step_deg + c.level.uncertainty_deg() / slope;
+    constexpr double above_level_deg = 0.37;
+    if (elbow.at) {
+        if (elbow.rise_to_h_deg && above_level_deg > 0.9 * slope * (*elbow.rise_to_h_deg - elbow.at->h_deg))
+            return {std::nullopt, 0.0,
+                    fmt::format("the rise ends {:.2f} degrees above the level part, and the line at 0.2 D lies 0.37 above it",
+                                slope * (*elbow.rise_to_h_deg - elbow.at->h_deg))};
+        const double expected = elbow.at->h_deg + turned.h_deg + above_level_deg / slope;
+        if (std::abs(found - expected) > bound + elbow.uncertainty.h_deg)
+            return {std::nullopt, 0.0,
+                    fmt::format("on the line at 0.2 D the edge lies at {}, and the rise at {}", angle(found, "R", "L"),
+                                angle(expected, "R", "L"))};
+    }
+    if (bound > std::max(0.17, c.shoulder.table_step_deg))
+        return {std::nullopt, 0.0, fmt::format("on the line at 0.2 D the edge is placed to {:.2f} degrees only", bound)};
+    return {found - line_a_deg, bound, {}};
 }
 
-Aim by_cut_off(const CandelaTable& lamp, AimRule rule) {
+Sideways sideways(const CutOffFigures& c, const CutOffElbow& elbow, Direction turned, AimRule rule) {
+    if (rule == AimRule::cut_off_by_line)
+        return by_line(c, elbow, turned);
+    if (rule == AimRule::cut_off)
+        return {c.kink_h_deg, c.kink_uncertainty_deg, c.kink_reason};
+    if (!elbow.at)
+        return {std::nullopt, 0.0, elbow.reason};
+    return {elbow.at->h_deg + turned.h_deg, elbow.uncertainty.h_deg, {}};
+}
+
+/// `elbow` is that of the lamp as filed.
+Aim by_cut_off(const CandelaTable& lamp, AimRule rule, const CutOffElbow& elbow) {
     Aim aim;
     aim.rule = rule;
-    CutOffFigures first;
-    for (int round = 0; round < most_rounds; ++round) {
-        const CutOffFigures c = measure_cut_off({&lamp, aim.turned});
-        aim.cut_off = c;
-        if (round == 0)
-            first = c;
-        if (!usable(c.level))
-            break;
-        const double up = line_b_deg - *c.level.inflection_deg, right = -sideways(c, rule).value_or(0.0);
-        if (std::abs(up) < settled_deg && std::abs(right) < settled_deg)
-            break;
-        aim.turned = {aim.turned.h_deg + right, aim.turned.v_deg + up};
-    }
-    const CutOffFigures& last = *aim.cut_off;
-    aim.position_error_deg = last.level.position_error_deg;
-    if (!usable(first.level) || !usable(last.level)) {
-        aim.turned = {};
+    const CutOffFigures filed = measure_cut_off({&lamp, {}});
+    const auto left_as_filed = [&](const std::string& why) {
+        aim.turned = aim.bound = {};
         aim.found = false;
-        aim.cut_off = first;
-        aim.how = "no cut-off to aim by 2.5 degrees left, left as it is: " + why_not(usable(first.level) ? last.level : first.level);
+        aim.cut_off = filed;
+        aim.how = why;
         return aim;
+    };
+    if (elbow.at)
+        aim.turned = {-elbow.at->h_deg, line_b_deg - elbow.at->v_deg};
+    bool pre_turned = elbow.at.has_value();
+    Sideways aside;
+    for (double before = std::numeric_limits<double>::infinity();;) {
+        const CutOffFigures c = aim.turned == Direction{} ? filed : measure_cut_off({&lamp, aim.turned});
+        ++aim.rounds;
+        aim.cut_off = c;
+        if (!usable(c.level))
+            return left_as_filed("no cut-off to aim by 2.5 degrees left, left as filed: " + why_not(c.level));
+        aside = sideways(c, elbow, aim.turned, rule);
+        if (!aside.off_deg && pre_turned) { // without a rule that goes on from there the elbow turns nothing sideways
+            aim.turned.h_deg = 0.0;
+            pre_turned = false;
+            continue;
+        }
+        aim.residual = {aside.off_deg.value_or(0.0), *c.level.inflection_deg - line_b_deg};
+        aim.bound = {aside.bound_deg, c.level.uncertainty_deg() + 0.15 * c.level.table_step_deg + settled_deg};
+        const double off = std::hypot(aim.residual.h_deg, aim.residual.v_deg);
+        if (off < settled_deg)
+            break;
+        if (off >= before || aim.rounds == most_rounds) {
+            if (std::abs(aim.residual.h_deg) > aim.bound.h_deg || std::abs(aim.residual.v_deg) > aim.bound.v_deg)
+                return left_as_filed(
+                    fmt::format("not converged after {} rounds, left as filed: {:.2f} degrees off, and {:.2f} the round before", aim.rounds,
+                                off, before));
+            break;
+        }
+        before = off;
+        aim.turned = {aim.turned.h_deg - aim.residual.h_deg, aim.turned.v_deg - aim.residual.v_deg};
     }
-    aim.how = fmt::format("cut-off found at {}, 2.5 degrees left, set to 0.57 D", angle(*first.level.inflection_deg, "U", "D"));
-    const std::optional<double> there = sideways(last, rule);
-    aim.found = there.has_value();
-    if (!there)
-        aim.how += "; left as it is sideways: " + (rule == AimRule::cut_off ? last.kink_reason : why_not(last.shoulder));
-    else
-        aim.how += fmt::format("; {} by {}", rule == AimRule::cut_off ? "kink set on V-V" : "shoulder at 0.2 D set on line A (0.5 R)",
+    aim.how = fmt::format("cut-off found at {}, 2.5 degrees left, set to 0.57 D", angle(line_b_deg - aim.turned.v_deg, "U", "D"));
+    aim.found = aside.off_deg.has_value();
+    static constexpr const char* set[]{"kink set on V-V", "shoulder at 0.2 D set on line A (0.5 R)", "elbow set on V-V"};
+    if (aim.found)
+        aim.how += fmt::format("; {} by {}",
+                               set[rule == AimRule::cut_off           ? 0
+                                   : rule == AimRule::cut_off_by_line ? 1
+                                                                      : 2],
                                angle(aim.turned.h_deg, "R", "L"));
+    else
+        aim.how += "; left as filed sideways: " + aside.why_not;
     return aim;
+}
+
+/// The first rule that finds what it aims by; without any, the text's own with its reason.
+Aim automatic(const CandelaTable& lamp, const CutOffElbow& elbow) {
+    const Aim first = by_cut_off(lamp, AimRule::cut_off, elbow);
+    if (first.found || !usable(first.cut_off->level))
+        return first;
+    for (const AimRule rule : {AimRule::cut_off_by_line, AimRule::elbow})
+        if (Aim aim = by_cut_off(lamp, rule, elbow); aim.found) {
+            aim.how += " (not by the kink: " + first.cut_off->kink_reason + ")";
+            return aim;
+        }
+    return first;
 }
 
 /// One scan, one turn up or down.
@@ -78,11 +151,12 @@ Aim by_gradient(const CandelaTable& lamp, AimRule rule) {
     const char* const side = left ? "2.5 degrees left" : "2.0 degrees right";
     if (!usable(scan)) {
         aim.found = false;
-        aim.how = fmt::format("no cut-off to aim by {}, left as it is: {}", side, why_not(scan));
+        aim.how = fmt::format("no cut-off to aim by {}, left as filed: {}", side, why_not(scan));
         return aim;
     }
     aim.turned.v_deg = to - *scan.inflection_deg;
-    aim.position_error_deg = scan.position_error_deg;
+    aim.bound.v_deg = scan.uncertainty_deg();
+    aim.rounds = 1;
     aim.how =
         fmt::format("greatest gradient found at {}, {}, set to {}", angle(*scan.inflection_deg, "U", "D"), side, left ? "0.4 D" : "H-H");
     aim.cut_off = measure_cut_off({&lamp, aim.turned});
@@ -96,7 +170,7 @@ Aim by_maximum(const CandelaTable& lamp) {
     const Peak peak = peak_of(lamp);
     if (peak.cd <= 0.0) {
         aim.found = false;
-        aim.how = "no light to aim by, left as it is";
+        aim.how = "no light to aim by, left as filed";
         return aim;
     }
     double h = 0.0, v = 0.0;
@@ -118,9 +192,12 @@ Aim by_maximum(const CandelaTable& lamp) {
 
 Aim aim_of(const CandelaTable& lamp, AimRule rule) {
     switch (rule) {
+    case AimRule::automatic:
+        return automatic(lamp, fit_elbow({&lamp, {}}));
     case AimRule::cut_off:
     case AimRule::cut_off_by_line:
-        return by_cut_off(lamp, rule);
+    case AimRule::elbow:
+        return by_cut_off(lamp, rule, fit_elbow({&lamp, {}}));
     case AimRule::vol:
     case AimRule::vor:
         return by_gradient(lamp, rule);

@@ -24,7 +24,7 @@ Regulation passing(const char* id, const char* title, bool d) {
     r.edition = d ? edition_d : edition_ab;
     r.source = d ? one_source : two_sources;
     r.receiver = un_receiver;
-    r.aim = AimRule::cut_off;
+    r.aim = AimRule::automatic;
     r.re_aim = {0.5, 0.75, 0.25};
     r.rows = {point("B50L", -3.43, 0.57, at_most(350)), zone("zone III", zone_3, at_most(625))};
     return r;

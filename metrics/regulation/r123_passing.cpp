@@ -157,7 +157,7 @@ Regulation made(std::string id, std::string title, char letter, const Values& va
     r.receiver = un_receiver;
     r.half_sum = r.pairs = true;
     const bool aimed = letter == 'C' && turn == Turn::none;
-    r.aim = aimed ? AimRule::cut_off : AimRule::as_is;
+    r.aim = aimed ? AimRule::automatic : AimRule::as_is;
     if (aimed)
         r.re_aim = {0.5, 0.75, 0.25};
     else

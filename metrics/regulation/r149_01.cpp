@@ -16,7 +16,7 @@ Regulation passing(bool c) {
     r.edition = r149_edition;
     r.source = r149_source;
     r.receiver = un_receiver;
-    r.aim = AimRule::cut_off;
+    r.aim = AimRule::automatic;
     r.re_aim = {0.75, 0.75, 0.25};
     r.pairs = true;
     r.rows.push_back(zone("zone III", zone_3, at_most(625)));

@@ -55,7 +55,9 @@ struct Receiver {
 enum class AimRule {
     as_is,           ///< as the file has it
     cut_off,         ///< UN: inflection 2.5 degrees left at 0.57 D, kink by the three verticals at 1, 2 and 3 R on V-V
+    automatic,       ///< UN: cut_off, else cut_off_by_line, else elbow: the first that finds what it aims by
     cut_off_by_line, ///< UN: the same height, horizontally by the line at 0.2 D onto line A, 0.5 R
+    elbow,           ///< ours: the same height, the elbow by a fit over all columns on V-V
     vol,             ///< FMVSS 108: greatest gradient 2.5 degrees left at 0.4 D; no horizontal aim
     vor,             ///< FMVSS 108: greatest gradient 2.0 degrees right on H-H; no horizontal aim
     maximum,         ///< middle of the area of maximum intensity on HV

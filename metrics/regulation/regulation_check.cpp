@@ -39,7 +39,7 @@ std::string first_reason(const CutOffFigures& c) {
 /// The cut-off's own requirements, of a lamp aimed by it.
 void add_cut_off_rows(std::vector<RowResult>& rows, const Aim& aim) {
     const auto v_of = [](const CutOffScan& scan) { return scan.inflection_deg.value_or(0.0); };
-    if (aim.rule == AimRule::cut_off || aim.rule == AimRule::cut_off_by_line) {
+    if (aim.rule == AimRule::cut_off || aim.rule == AimRule::cut_off_by_line || aim.rule == AimRule::elbow) {
         const CutOffFigures& c = *aim.cut_off;
         rows.push_back(about_cut_off("cut-off sharpness G", c.level.sharpness, {-2.5, v_of(c.level)}, {0.13, 0.40}, "", c.level.reason));
         rows.push_back(about_cut_off("cut-off linearity", c.linearity_deg, {-2.5, v_of(c.level)}, {0.0, 0.2}, "deg", first_reason(c)));
@@ -154,7 +154,7 @@ RegulationCheck checked(const Regulation& regulation, const std::vector<CandelaT
     AimRule rule = options.aim.value_or(regulation.aim);
     if (aim_by) {
         if (rule == AimRule::as_is || rule == AimRule::maximum)
-            rule = AimRule::cut_off;
+            rule = AimRule::automatic;
         check.aims.assign(lamps.size(), aim_of(*aim_by, rule));
         for (Aim& aim : check.aims)
             aim.how = "by the passing beam: " + aim.how;
@@ -171,24 +171,37 @@ RegulationCheck checked(const Regulation& regulation, const std::vector<CandelaT
     if (!aim_by)
         for (const Aim& aim : check.aims)
             add_cut_off_rows(check.rows, aim);
+    std::vector<RowResult> all_as_filed = check.rows;
     check.rows.insert(check.rows.end(), rows.begin(), rows.end());
-    check.verdict = verdict_of(check.rows);
+    check.verdict = check.verdict_as_filed = verdict_of(check.rows);
+    if (check.was_re_aimed || std::ranges::any_of(check.aims, [](const Aim& aim) { return aim.turned != Direction{}; })) {
+        const std::vector<Aim> not_turned(lamps.size());
+        const std::vector<RowResult> filed = Examination(regulation, lamps, not_turned).rows_at({});
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (filed[i].verdict != rows[i].verdict)
+                check.as_filed.push_back(filed[i]);
+        all_as_filed.insert(all_as_filed.end(), filed.begin(), filed.end());
+        check.verdict_as_filed = verdict_of(all_as_filed);
+    }
     return check;
 }
 
 double mirrored_angle(double deg) { return 0.0 - deg; } // not -deg: no negative zero in reports
 
 void mirror(RegulationCheck& check) {
-    for (RowResult& row : check.rows) {
+    const auto mirror_row = [](RowResult& row) {
         row.id = mirrored_name(row.id);
         row.note = mirrored_name(row.note);
         row.reason = mirrored_name(row.reason);
         row.where.h_deg = mirrored_angle(row.where.h_deg);
         row.re_aimed.h_deg = mirrored_angle(row.re_aimed.h_deg);
-    }
+    };
+    std::ranges::for_each(check.rows, mirror_row);
+    std::ranges::for_each(check.as_filed, mirror_row);
     check.re_aimed.h_deg = mirrored_angle(check.re_aimed.h_deg);
     for (Aim& aim : check.aims) {
         aim.turned.h_deg = mirrored_angle(aim.turned.h_deg);
+        aim.residual.h_deg = mirrored_angle(aim.residual.h_deg);
         aim.how = mirrored_name(aim.how);
     }
 }

@@ -13,7 +13,7 @@ namespace fernlicht {
 struct CheckOptions {
     std::optional<AimRule> aim; ///< nullopt: the regulation's own
     const CandelaTable* aim_by =
-        nullptr; ///< a passing beam whose aim this beam keeps; by `aim`, or by its cut-off where that is as_is or maximum
+        nullptr; ///< a passing beam whose aim this beam keeps; by `aim`, or automatically where that is as_is or maximum
     bool left_hand_traffic = false;
     bool re_aim = true; ///< makes use of the allowance
 };
@@ -25,6 +25,8 @@ struct RegulationCheck {
     bool was_re_aimed = false;
     std::vector<RowResult> rows; ///< as in the regulation; about the cut-off first, where the lamp was aimed by it
     RowVerdict verdict = RowVerdict::not_measured;
+    std::vector<RowResult> as_filed;                        ///< rows whose verdict the aim changed, as they are without it
+    RowVerdict verdict_as_filed = RowVerdict::not_measured; ///< of all rows without the aim; `verdict` where nothing was turned
 };
 
 /// One lamp, or the left and the right one where the regulation pairs. Under left-hand traffic the lamps are mirrored, and names and places

@@ -28,7 +28,7 @@ void add(LampPairComparison& lamps, const char* name, const char* words, const c
 void add_place(LampPairComparison& lamps, const char* name, const char* words, const CutOffScan& before, const CutOffScan& now) {
     LampFact fact{name, "deg", words, before.inflection_deg, now.inflection_deg, std::nullopt};
     if (fact.before && fact.now)
-        fact.uncertainty = std::hypot(before.position_error_deg, now.position_error_deg);
+        fact.uncertainty = std::hypot(before.uncertainty_deg(), now.uncertainty_deg());
     else
         fact.why_not = fact.before ? now.reason : before.reason;
     lamps.facts.push_back(std::move(fact));

@@ -36,7 +36,7 @@ Json lamp_json(const ComparedLamp& lamp) {
     return {{"file", lamp.path.string()},
             {"name", lamp.file.name},
             {"format", lamp.file.format},
-            {"cut_off", Json::parse(json_of(lamp.cut_off, lamp.file.name, {}, false))}};
+            {"cut_off", Json::parse(json_of(lamp.cut_off, fit_elbow({&lamp.file.table, {}}), lamp.file.name, {}, false))}};
 }
 
 Json regulation_json(const LampPairComparison& lamps) {

@@ -181,7 +181,7 @@ TEST(Aim, WithoutAnEdgeTheLampStaysAndItIsSaid) {
         const Aim aim = aim_of(flat, rule);
         EXPECT_FALSE(aim.found);
         EXPECT_EQ(aim.turned, Direction{});
-        EXPECT_THAT(aim.how, HasSubstr("left as it is"));
+        EXPECT_THAT(aim.how, HasSubstr("left as filed"));
     }
     const CandelaTable coarse = edge_table(
         {}, [](double above) { return logistic(above, 0.3); }, 1.0);

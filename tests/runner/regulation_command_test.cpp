@@ -22,7 +22,7 @@ TEST(RegulationCommand, PrintsRowsVerdictAndTheNarrowest) {
     EXPECT_EQ(o.exit_code, 0) << o.output;
     EXPECT_THAT(o.output,
                 AllOf(HasSubstr("per our table of UN R112"), HasSubstr("two published transcriptions"), HasSubstr("set to 0.57 D"),
-                      HasSubstr("narrowest    75R +26."), HasSubstr("pass: meets all 18 rows of our table; no approval")));
+                      HasSubstr("narrowest    75R +27."), HasSubstr("pass: meets all 18 rows of our table; no approval")));
     EXPECT_LT(o.output.find("\nB50L "), o.output.find("\nzone III ")); // in the regulation's order
     EXPECT_LT(o.output.find("\nzone III "), o.output.find("\n75R "));
 }
@@ -78,6 +78,20 @@ TEST(RegulationCommand, AFailedRowIsExitCode1AndNamed) {
     const Outcome turned = run_program(lamp("halogen-low") + "--scale 0.7 --regulation r112-b");
     EXPECT_EQ(turned.exit_code, 0);
     EXPECT_THAT(turned.output, HasSubstr("within what the edition allows"));
+}
+
+TEST(RegulationCommand, TheAimTellsItsRuleItsBoundAndWhatItChanged) {
+    const json j = json::parse(run_program(lamp("halogen-low") + "--regulation r112-a --aim elbow --json").output);
+    const json& aim = j["aim"][0];
+    EXPECT_EQ(aim["rule"], "elbow");
+    EXPECT_NEAR(aim["turned_deg"][0].get<double>(), 0.0, aim["bound_deg"][0].get<double>());
+    EXPECT_LE(std::abs(aim["residual_deg"][1].get<double>()), 0.002);
+    EXPECT_GE(aim["rounds"].get<int>(), 2);
+    EXPECT_EQ(j["as_filed"]["verdict"], "fail");
+    EXPECT_EQ(j["as_filed"]["rows_changed"][0]["id"], "zone I");
+    const Outcome text = run_program(lamp("halogen-low") + "--regulation r112-a");
+    EXPECT_THAT(text.output, AllOf(HasSubstr("\nas filed, where the aim changes the verdict\nzone I "),
+                                   HasSubstr("\nas filed     fail: the aim changes the verdict\n")));
 }
 
 TEST(RegulationCommand, LeftHandTrafficIsTheMirrorImage) {
@@ -142,6 +156,10 @@ TEST(RegulationCommand, CutOffTellsItsFigures) {
     const json j = json::parse(run_program(lamp("xenon-low") + "--cut-off --json --detector 0 --sharpness at-inflection").output);
     EXPECT_LT(j["level"][1]["sharpness_g"].get<double>(), 0.345);
     EXPECT_NEAR(j["level"][1]["inflection_v_deg"].get<double>(), -0.57, 0.02);
+    EXPECT_NEAR(j["elbow"]["h_deg"].get<double>(), 0.0, 0.1);
+    const TemporaryFolder folder;
+    EXPECT_EQ(run_program(lamp("xenon-low") + "--cut-off --picture " + (folder / "edge.svg")).exit_code, 0);
+    EXPECT_THAT(content_of(folder / "edge.svg"), AllOf(HasSubstr("fit: level, rise, shoulder"), HasSubstr("their inflections")));
     const Outcome high = run_program(lamp("halogen-high") + "--cut-off");
     EXPECT_THAT(high.output, HasSubstr("not_measured"));
 }
@@ -157,6 +175,7 @@ TEST(RegulationCommand, RefusesWhatItCannotDoInOneSentence) {
     refused(lamp("halogen-low") + "--regulation r112-b --aim sideways", "--aim: found 'sideways'");
     refused(lamp("halogen-low") + "--regulation fmvss108-lb2m --left-hand-traffic", "--left-hand-traffic");
     refused(lamp("halogen-low") + "--regulation r112-b --convert x.ies", "--convert together with --regulation");
+    refused(lamp("halogen-low") + "--regulation r112-b --picture x.svg", "--picture: found together with --regulation");
     refused(lamp("halogen-low") + "--cut-off --detector -1", "--detector: found -1");
     refused(lamp("halogen-low") + "--cut-off --sharpness most", "--sharpness: found 'most'");
     refused("lamp --regulation r112-b", "found no lamp");
