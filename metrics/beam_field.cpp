@@ -52,12 +52,45 @@ double slope(const std::vector<double>& axis, std::size_t i, auto value) {
 
 } // namespace
 
-BeamField::BeamField(const CandelaTable& table, double floor_cd) : table_(&table), floor_cd_(floor_cd), log_cd_(table.cd.size()) {
+BeamField::BeamField(const CandelaTable& table, double floor_cd, const AngleSystem* system)
+    : table_(&table), system_(system), floor_cd_(floor_cd), log_cd_(table.cd.size()) {
     std::ranges::transform(table.cd, log_cd_.begin(), [&](double cd) { return std::log(std::max(cd, floor_cd)); });
 }
 
+/// What went from a sample's own angles to H and V and back is that sample again.
+TwoAngles BeamField::on_axes(double h_deg, double v_deg) const {
+    if (!system_)
+        return {h_deg, v_deg};
+    const auto snapped = [](const std::vector<double>& axis, double angle) {
+        const auto above = std::ranges::lower_bound(axis, angle);
+        for (const auto near : {above == axis.end() ? above - 1 : above, above == axis.begin() ? above : above - 1})
+            if (std::abs(*near - angle) < 1e-7)
+                return *near;
+        return angle;
+    };
+    const TwoAngles native = system_->to_native(h_deg, v_deg);
+    return {snapped(table_->h_deg, native.h_deg), snapped(table_->v_deg, native.v_deg)};
+}
+
+bool BeamField::has(double h_deg, double v_deg) const {
+    const TwoAngles d = on_axes(h_deg, v_deg);
+    return has_data(*table_, d.h_deg, d.v_deg);
+}
+
+std::vector<std::pair<std::size_t, double>> BeamField::weights(double h_deg, double v_deg) const {
+    const TwoAngles d = on_axes(h_deg, v_deg);
+    const Weights h = weights_at(table_->h_deg, d.h_deg), v = weights_at(table_->v_deg, d.v_deg);
+    std::vector<std::pair<std::size_t, double>> out;
+    for (std::size_t y = 0; y < 4; ++y)
+        for (std::size_t x = 0; x < 4; ++x)
+            if (const double weight = v.cubic[y] * h.cubic[x]; std::abs(weight) > 1e-9)
+                out.emplace_back(v.index[y] * table_->h_deg.size() + h.index[x], weight);
+    return out;
+}
+
 FieldValue BeamField::at(double h_deg, double v_deg) const {
-    const Weights h = weights_at(table_->h_deg, h_deg), v = weights_at(table_->v_deg, v_deg);
+    const TwoAngles d = on_axes(h_deg, v_deg);
+    const Weights h = weights_at(table_->h_deg, d.h_deg), v = weights_at(table_->v_deg, d.v_deg);
     double cubic = 0.0, linear = 0.0, linear_cd = 0.0;
     for (std::size_t y = 0; y < 4; ++y) {
         double row_cubic = 0.0, row_linear = 0.0, row_linear_cd = 0.0;

@@ -1,7 +1,7 @@
 // A lamp's table as a field of log intensity that can be asked between its samples, with the error of asking there.
 #pragma once
 
-#include "scenarios/lamps/candela_table.h"
+#include "scenarios/lamps/angle_system.h"
 
 namespace fernlicht {
 
@@ -21,19 +21,24 @@ struct BeamShift {
 
 class BeamField {
   public:
-    /// `floor_cd` above 0 keeps the logarithm finite where there is no light. The table must hold its invariants.
-    BeamField(const CandelaTable& table, double floor_cd);
+    /// `floor_cd` above 0 keeps the logarithm finite where there is no light. The table must hold its invariants. With `system` its axes
+    /// are that system's angles, and directions are brought onto them. Both must outlive this.
+    BeamField(const CandelaTable& table, double floor_cd, const AngleSystem* system = nullptr);
 
     const CandelaTable& table() const { return *table_; }
     /// At the samples exactly what the table has. Directions outside the axes take the edge's value: ask `has` first.
     FieldValue at(double h_deg, double v_deg) const;
-    bool has(double h_deg, double v_deg) const { return has_data(*table_, h_deg, v_deg); }
+    bool has(double h_deg, double v_deg) const;
+    /// By how much each sample of the table counts in `at`; those without weight are left out.
+    std::vector<std::pair<std::size_t, double>> weights(double h_deg, double v_deg) const;
     double node(std::size_t v, std::size_t h) const { return log_cd_[v * table_->h_deg.size() + h]; }
     /// d log / d h and d log / d v at a sample, by central differences between its neighbours.
     std::pair<double, double> gradient(std::size_t v, std::size_t h) const;
 
   private:
+    TwoAngles on_axes(double h_deg, double v_deg) const;
     const CandelaTable* table_;
+    const AngleSystem* system_;
     double floor_cd_;
     std::vector<double> log_cd_;
 };

@@ -64,8 +64,37 @@ BeamShift coarse_shift(const BeamField& against, std::span<const BeamSample> sam
 
 struct Row {
     double r = 0.0, sigma = 0.0;
-    glm::dvec3 slope{0.0}; ///< of r by right_deg, up_deg, log level
+    glm::dvec3 slope{0.0};   ///< of r by right_deg, up_deg, log level
+    glm::dvec2 pulled{0.0};  ///< what noise alone makes of slope x r, expected, less its sign
+    glm::dmat2 steeper{0.0}; ///< what it adds to slope x slope
 };
+
+using NodeWeights = std::vector<std::pair<std::size_t, double>>;
+
+/// (b - a) / width, sample by sample.
+NodeWeights slope_of(const NodeWeights& a, const NodeWeights& b, double width) {
+    NodeWeights out;
+    const auto add = [&](const NodeWeights& some, double factor) {
+        for (const auto& [at, weight] : some) {
+            const auto found = std::ranges::find(out, at, &std::pair<std::size_t, double>::first);
+            if (found == out.end())
+                out.emplace_back(at, factor * weight);
+            else
+                found->second += factor * weight;
+        }
+    };
+    add(b, 1.0 / width);
+    add(a, -1.0 / width);
+    return out;
+}
+
+double product(const NodeWeights& a, const NodeWeights& b) {
+    double sum = 0.0;
+    for (const auto& [at, weight] : a)
+        for (const auto& [other, value] : b)
+            sum += at == other ? weight * value : 0.0;
+    return sum;
+}
 
 /// Differences over 0.02 degrees, finer than any table's steps round a cut-off.
 std::vector<Row> rows_at(const BeamField& against, std::span<const BeamSample> samples, const ShiftFit& fit) {
@@ -80,6 +109,13 @@ std::vector<Row> rows_at(const BeamField& against, std::span<const BeamSample> s
         row.sigma = sample.sigma;
         row.slope = {(against.at(h + step_deg / 2, v).log_cd - against.at(h - step_deg / 2, v).log_cd) / step_deg,
                      (against.at(h, v + step_deg / 2).log_cd - against.at(h, v - step_deg / 2).log_cd) / step_deg, -1.0};
+        const NodeWeights here = against.weights(h, v);
+        const NodeWeights along_h = slope_of(against.weights(h - step_deg / 2, v), against.weights(h + step_deg / 2, v), step_deg),
+                          along_v = slope_of(against.weights(h, v - step_deg / 2), against.weights(h, v + step_deg / 2), step_deg);
+        const double variance = sample.noise * sample.noise;
+        row.pulled = variance * glm::dvec2(product(along_h, here), product(along_v, here));
+        const double crossed = variance * product(along_h, along_v);
+        row.steeper = {{variance * product(along_h, along_h), crossed}, {crossed, variance * product(along_v, along_v)}};
         rows.push_back(row);
     }
     return rows;
@@ -94,7 +130,7 @@ double scale_of(const std::vector<Row>& rows) {
 }
 
 struct Normal {
-    glm::dmat3 information{0.0};
+    glm::dmat3 information{0.0}, scatter{0.0}; ///< of the light alone; of the light and its noise
     glm::dvec3 pull{0.0};
 };
 
@@ -106,9 +142,12 @@ Normal normal_equations(const std::vector<Row>& rows, double scale) {
             continue;
         const double weight = (1.0 - u * u) * (1.0 - u * u) / (scale * scale * row.sigma * row.sigma);
         for (int c = 0; c < 3; ++c) {
-            for (int k = 0; k < 3; ++k)
-                normal.information[c][k] += weight * row.slope[c] * row.slope[k];
-            normal.pull[c] -= weight * row.slope[c] * row.r;
+            for (int k = 0; k < 3; ++k) {
+                const double product = weight * row.slope[c] * row.slope[k];
+                normal.scatter[c][k] += product;
+                normal.information[c][k] += product - (c < 2 && k < 2 ? weight * row.steeper[c][k] : 0.0);
+            }
+            normal.pull[c] -= weight * (row.slope[c] * row.r + (c < 2 ? row.pulled[c] : 0.0));
         }
     }
     return normal;
@@ -117,7 +156,7 @@ Normal normal_equations(const std::vector<Row>& rows, double scale) {
 /// Invertible well enough for a step: each figure is known to better than 10 degrees, or 1000 %.
 bool is_solvable(const glm::dmat3& information) {
     const double determinant = glm::determinant(information);
-    return std::isfinite(determinant) && determinant > 1e-6;
+    return std::isfinite(determinant) && determinant > 1e-6 && information[0][0] > 0.0 && information[1][1] > 0.0;
 }
 
 } // namespace
@@ -148,8 +187,8 @@ ShiftFit fit_shift(const BeamField& against, std::span<const BeamSample> samples
         const Normal normal = normal_equations(rows, scale);
         if (!is_solvable(normal.information))
             return fit;
-        const glm::dmat3 covariance = glm::inverse(normal.information);
-        const glm::dvec3 step = covariance * normal.pull;
+        const glm::dmat3 inverse = glm::inverse(normal.information), covariance = inverse * normal.scatter * inverse;
+        const glm::dvec3 step = inverse * normal.pull;
         fit.shift.right_deg += std::clamp(step.x, -0.2, 0.2);
         fit.shift.up_deg += std::clamp(step.y, -0.2, 0.2);
         fit.log_level += step.z;

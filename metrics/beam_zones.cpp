@@ -20,23 +20,56 @@ struct Block {
     double z() const { return std::max(0.0, std::abs(mean) - open) / sigma; }
 };
 
+/// Adds up what each source of noise does to a sum of residuals.
+class NoiseSum {
+  public:
+    void add(const ResidualGrid& grid, std::size_t at, double weight) {
+        tested_.emplace_back(grid.source[at], weight * grid.noise[at]);
+        for (std::size_t k = grid.first[at]; k < grid.first[at + 1]; ++k)
+            against_.emplace_back(grid.shared[k].first, weight * grid.noise[at] * grid.shared[k].second);
+    }
+    double variance() { return of(tested_) + of(against_); }
+    void clear() {
+        tested_.clear();
+        against_.clear();
+    }
+
+  private:
+    using Terms = std::vector<std::pair<std::size_t, double>>;
+    static double of(Terms& terms) {
+        std::ranges::sort(terms);
+        double variance = 0.0;
+        for (std::size_t i = 0; i < terms.size();) {
+            double sum = 0.0;
+            const std::size_t from = terms[i].first;
+            for (; i < terms.size() && terms[i].first == from; ++i)
+                sum += terms[i].second;
+            variance += sum * sum;
+        }
+        return variance;
+    }
+    Terms tested_, against_;
+};
+
 /// Weighted mean over the compared samples within `half` of (x, y); nullopt where (x, y) is not compared.
-std::optional<Block> block_at(const ResidualGrid& grid, int x, int y, int half) {
+std::optional<Block> block_at(const ResidualGrid& grid, int x, int y, int half, NoiseSum& noise) {
     const int columns = static_cast<int>(grid.h_deg.size()), rows = static_cast<int>(grid.v_deg.size());
     if (std::isnan(grid.r[static_cast<std::size_t>(y) * grid.h_deg.size() + static_cast<std::size_t>(x)]))
         return std::nullopt;
+    noise.clear();
     double weights = 0.0, sum = 0.0, open = 0.0;
     for (int j = std::max(0, y - half); j <= std::min(rows - 1, y + half); ++j)
         for (int i = std::max(0, x - half); i <= std::min(columns - 1, x + half); ++i) {
             const std::size_t at = static_cast<std::size_t>(j) * grid.h_deg.size() + static_cast<std::size_t>(i);
             if (std::isnan(grid.r[at]))
                 continue;
-            const double weight = 1.0 / (grid.sigma[at] * grid.sigma[at]);
+            const double weight = 1.0 / (grid.noise[at] * grid.noise[at]);
             weights += weight;
             sum += weight * grid.r[at];
             open += weight * grid.open[at];
+            noise.add(grid, at, weight);
         }
-    return Block{sum / weights, 1.0 / std::sqrt(weights), open / weights};
+    return Block{sum / weights, std::sqrt(noise.variance()) / weights, open / weights};
 }
 
 struct Smoothed {
@@ -46,11 +79,12 @@ struct Smoothed {
 
 Smoothed smooth(const ResidualGrid& grid) {
     Smoothed out;
+    NoiseSum noise;
     for (int y = 0; y < static_cast<int>(grid.v_deg.size()); ++y)
         for (int x = 0; x < static_cast<int>(grid.h_deg.size()); ++x) {
             double z = 0.0, mean = std::numeric_limits<double>::quiet_NaN();
             for (const int half : block_halves)
-                if (const std::optional<Block> block = block_at(grid, x, y, half)) {
+                if (const std::optional<Block> block = block_at(grid, x, y, half, noise)) {
                     z = std::max(z, block->z());
                     if (half == 1)
                         mean = std::copysign(std::max(0.0, std::abs(block->mean) - block->open), block->mean);
@@ -90,27 +124,45 @@ std::pair<double, double> stretch(const std::vector<double>& axis, std::vector<s
             last + 1 == axis.size() ? axis.back() : (axis[last] + axis[last + 1]) / 2.0};
 }
 
+/// The same where the axes are other angles: over the directions themselves.
+std::pair<double, double> stretch_of(const ResidualGrid& grid, const std::vector<std::size_t>& members, double TwoAngles::*angle) {
+    std::vector<double> angles;
+    for (const std::size_t at : members)
+        angles.push_back(grid.un[at].*angle);
+    std::ranges::sort(angles);
+    const std::size_t beside = angles.size() / 100;
+    return {angles[beside], angles[angles.size() - 1 - beside]};
+}
+
 BeamZone zone_of(const ResidualGrid& grid, const Smoothed& smoothed, const std::vector<std::size_t>& members) {
     const std::size_t columns = grid.h_deg.size();
     BeamZone zone;
+    NoiseSum noise;
     double weights = 0.0, sum = 0.0, open = 0.0;
     std::vector<std::size_t> xs, ys;
     for (const std::size_t at : members) {
-        const double weight = 1.0 / (grid.sigma[at] * grid.sigma[at]);
+        const double weight = 1.0 / (grid.noise[at] * grid.noise[at]);
         weights += weight;
         sum += weight * grid.r[at];
         open += weight * grid.open[at];
+        noise.add(grid, at, weight);
         zone.z = std::max(zone.z, smoothed.best_z[at]);
         xs.push_back(at % columns);
         ys.push_back(at / columns);
-        zone.h_deg += grid.h_deg[xs.back()] / static_cast<double>(members.size());
-        zone.v_deg += grid.v_deg[ys.back()] / static_cast<double>(members.size());
+        const TwoAngles d = grid.un.empty() ? TwoAngles{grid.h_deg[xs.back()], grid.v_deg[ys.back()]} : grid.un[at];
+        zone.h_deg += d.h_deg / static_cast<double>(members.size());
+        zone.v_deg += d.v_deg / static_cast<double>(members.size());
     }
     zone.samples = members.size();
     zone.share = std::expm1(sum / weights);
-    zone.uncertainty = (1.0 + zone.share) * (1.0 / std::sqrt(weights) + open / weights);
-    std::tie(zone.h_from_deg, zone.h_to_deg) = stretch(grid.h_deg, std::move(xs));
-    std::tie(zone.v_from_deg, zone.v_to_deg) = stretch(grid.v_deg, std::move(ys));
+    zone.uncertainty = (1.0 + zone.share) * (std::sqrt(noise.variance()) + open) / weights;
+    if (grid.un.empty()) {
+        std::tie(zone.h_from_deg, zone.h_to_deg) = stretch(grid.h_deg, std::move(xs));
+        std::tie(zone.v_from_deg, zone.v_to_deg) = stretch(grid.v_deg, std::move(ys));
+    } else {
+        std::tie(zone.h_from_deg, zone.h_to_deg) = stretch_of(grid, members, &TwoAngles::h_deg);
+        std::tie(zone.v_from_deg, zone.v_to_deg) = stretch_of(grid, members, &TwoAngles::v_deg);
+    }
     return zone;
 }
 
@@ -174,6 +226,12 @@ double z_limit(double chance, std::size_t tests) {
 double neighbour_noise(const ResidualGrid& grid, const std::vector<bool>& chosen) {
     const std::size_t columns = grid.h_deg.size();
     std::vector<double> sizes;
+    ResidualGrid unit; // noise of 1 through the same weights
+    unit.source = grid.source;
+    unit.first = grid.first;
+    unit.shared = grid.shared;
+    unit.noise.assign(grid.r.size(), 1.0);
+    NoiseSum noise;
     for (std::size_t at = 0; at < grid.r.size(); ++at) {
         if (!chosen.empty() && !chosen[at])
             continue;
@@ -181,8 +239,14 @@ double neighbour_noise(const ResidualGrid& grid, const std::vector<bool>& chosen
             if (!inside)
                 return;
             const double d = grid.r[at] - (grid.r[at - step] + grid.r[at + step]) / 2.0;
-            if (!std::isnan(d))
-                sizes.push_back(std::abs(d));
+            if (std::isnan(d))
+                return;
+            noise.clear();
+            noise.add(unit, at, 1.0);
+            noise.add(unit, at - step, -0.5);
+            noise.add(unit, at + step, -0.5);
+            if (const double variance = noise.variance(); variance > 0.1) // else copies of one sample
+                sizes.push_back(std::abs(d) / std::sqrt(variance));
         };
         add(at % columns > 0 && at % columns + 1 < columns, 1);
         add(at >= columns && at + columns < grid.r.size(), columns);
@@ -191,7 +255,8 @@ double neighbour_noise(const ResidualGrid& grid, const std::vector<bool>& chosen
         return 0.0;
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    return 1.4826 * *middle / std::sqrt(1.5); // variance of a - (b + c) / 2 is 1.5 times each one's
+    // The median of n sizes is off by 1.2 / sqrt(n) of itself, and a noise taken too small claims what is none.
+    return 1.4826 * *middle * (1.0 + 1.2 / std::sqrt(static_cast<double>(sizes.size())));
 }
 
 std::vector<BeamZone> find_zones(const ResidualGrid& grid, double z_limit) {

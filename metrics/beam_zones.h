@@ -1,17 +1,26 @@
 // Connected directions in which one beam is brighter or dimmer than another by more than noise explains.
 #pragma once
 
+#include "scenarios/lamps/angle_system.h"
+
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace fernlicht {
 
-/// Residuals over the samples of a table, row-major [v][h]. NaN in `r`: not compared there.
+/// Residuals over the samples of a table, row-major [v][h]. NaN in `r`: not compared there. A residual's noise is that of one stored sample
+/// of the tested file and of the samples of the other one that were interpolated there: neighbours may share both.
 struct ResidualGrid {
-    std::vector<double> h_deg, v_deg;
-    std::vector<double> r;     ///< log of tested over against, all that is explained taken off
-    std::vector<double> sigma; ///< its standard deviation by noise, above 0, independent from sample to sample
-    std::vector<double> open;  ///< what interpolation leaves open, >= 0: not noise, does not average out
+    std::vector<double> h_deg, v_deg; ///< axes of the table, whatever angles they are
+    std::vector<double> r;            ///< log of tested over against, all that is explained taken off
+    std::vector<double> noise;        ///< standard deviation of one sample's log, of either file, above 0
+    std::vector<double> open;         ///< what interpolation leaves open, >= 0: not noise, does not average out
+    std::vector<std::size_t> source;  ///< which stored sample: a symmetric file stands for more directions than it stores
+    /// Samples of the other file with their weights: those of `r[i]` from shared[first[i]] to shared[first[i + 1]].
+    std::vector<std::size_t> first;
+    std::vector<std::pair<std::size_t, double>> shared;
+    std::vector<TwoAngles> un; ///< H and V of each; empty: the axes
 };
 
 struct BeamZone {
@@ -26,9 +35,9 @@ struct BeamZone {
 /// The z beyond which one of `tests` normal figures falls by chance with probability `chance` in all, either side (Bonferroni).
 double z_limit(double chance, std::size_t tests);
 
-/// Noise estimated from the residuals themselves: differences of each from the mean of its neighbours in its row and in its column, which
-/// no smooth change and no border of a zone touches much; 1.4826 times their median size, over sqrt(1.5). `chosen`: which samples count,
-/// empty for all. 0 for fewer than 30.
+/// Noise of one sample estimated from the residuals themselves: differences of each from the mean of its neighbours in its row and in its
+/// column, which no smooth change and no border of a zone touches much, each over the standard deviation that noise of 1 would give it;
+/// 1.4826 times their median size, and its standard error more. `chosen`: which samples count, empty for all. 0 for fewer than 30.
 double neighbour_noise(const ResidualGrid& grid, const std::vector<bool>& chosen);
 
 /// Means over blocks of 1, 3 x 3 and 5 x 5 samples beyond `z_limit` begin a zone, which holds what is connected and at least half as strong

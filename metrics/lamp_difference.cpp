@@ -29,12 +29,60 @@ struct Explanation {
     double cut_off_up_deg = 0.0, log_level = 0.0;
 };
 
+double finest_step(const std::vector<double>& axis) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < axis.size(); ++i)
+        least = std::min(least, axis[i] - axis[i - 1]);
+    return least;
+}
+
+struct Steps {
+    double h_deg, v_deg;
+};
+
+Steps finest_steps(const SampledBeam& beam) {
+    const double v = finest_step(beam.samples().v_deg);
+    return {beam.measured && beam.measured->system.turns_about_beam ? v : finest_step(beam.samples().h_deg), v};
+}
+
+Steps coarser(const Steps& a, const Steps& b) { return {std::max(a.h_deg, b.h_deg), std::max(a.v_deg, b.v_deg)}; }
+
+/// Which stored sample each one is: a symmetric file stores a half, a quarter or one plane of what it stands for. Its rest has the same
+/// values to the last digit, and the same noise.
+std::vector<std::size_t> sources_of(const CandelaTable& t) {
+    const std::size_t columns = t.h_deg.size();
+    std::vector<std::size_t> column_of(columns);
+    for (std::size_t x = 0; x < columns; ++x)
+        column_of[x] = x;
+    const auto equal = [&](std::size_t a, std::size_t b) {
+        for (std::size_t y = 0; y < t.v_deg.size(); ++y)
+            if (t.at(y, a) != t.at(y, b))
+                return false;
+        return true;
+    };
+    for (std::size_t x = 1; x < columns; ++x)
+        for (std::size_t other = 0; other < x; ++other)
+            if (column_of[other] == other && equal(x, other)) {
+                column_of[x] = other;
+                break;
+            }
+    std::vector<std::size_t> source;
+    for (std::size_t y = 0; y < t.v_deg.size(); ++y)
+        for (std::size_t x = 0; x < columns; ++x)
+            source.push_back(y * columns + column_of[x]);
+    return source;
+}
+
 class Comparison {
   public:
-    Comparison(const CandelaTable& tested, const CandelaTable& against, const LampDifferenceOptions& options)
-        : tested_(tested), peak_cd_(std::max(peak_of(tested).cd, peak_of(against).cd)), against_(against, floor_share * peak_cd_),
-          line_(against_, peak_cd_), options_(options) {
+    Comparison(const SampledBeam& tested, const SampledBeam& against, const LampDifferenceOptions& options)
+        : tested_(tested.samples()), system_(tested.measured ? &tested.measured->system : nullptr),
+          peak_cd_(std::max(peak_of(tested.samples()).cd, peak_of(against.samples()).cd)),
+          against_(against.samples(), floor_share * peak_cd_, against.measured ? &against.measured->system : nullptr),
+          line_(BeamField(*against.table, floor_share * peak_cd_), peak_cd_), options_(options), source_(sources_of(tested_)),
+          source_against_(sources_of(against_.table())), steps_(coarser(finest_steps(tested), finest_steps(against))) {
         collect();
+        share_noise();
         set_noise({});
         z_limit_ = z_limit(options.false_claim_chance, 3 * samples_.size() + 6);
     }
@@ -43,6 +91,8 @@ class Comparison {
 
   private:
     void collect();
+    TwoAngles un_of(std::size_t v, std::size_t h) const;
+    void share_noise();
     void set_noise(const Explanation& explained);
     ResidualGrid residuals(const Explanation& explained) const;
     bool is_moved_by_cut_off(double v_deg, const Explanation& explained) const {
@@ -61,22 +111,23 @@ class Comparison {
     void explain_by_aim(Explanation& best, LampDifference& result) const;
     void explain_by_level(Explanation& best, LampDifference& result) const;
 
-    const CandelaTable& tested_;
+    const CandelaTable& tested_; ///< over its own angles
+    const AngleSystem* system_;  ///< of those; nullptr: H and V
     double peak_cd_;
     BeamField against_;
     CutOffLine line_;
     LampDifferenceOptions options_;
+    std::vector<std::size_t> source_, source_against_; ///< by sample of the table
+    Steps steps_;                                      ///< the finest of the coarser file
     std::vector<BeamSample> samples_;
     std::vector<double> rounding_; ///< by sample
+    std::vector<double> noise_;    ///< by sample: of one file's
+    std::vector<double> spread_;   ///< by sample: see share_noise
     double noise_at_peak_ = 0.0, z_limit_ = 0.0;
 };
 
-/// Within the compared part, the finest step of the coarser table.
-double finest_step(const std::vector<double>& axis) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < axis.size(); ++i)
-        least = std::min(least, axis[i] - axis[i - 1]);
-    return least;
+TwoAngles Comparison::un_of(std::size_t v, std::size_t h) const {
+    return system_ ? system_->to_un(tested_.h_deg[h], tested_.v_deg[v]) : TwoAngles{tested_.h_deg[h], tested_.v_deg[v]};
 }
 
 void Comparison::collect() {
@@ -84,8 +135,10 @@ void Comparison::collect() {
     const double rounding_cd = std::hypot(rounding_of(tested_), rounding_of(against_.table())) / std::sqrt(12.0); // of a uniform error
     for (std::size_t v = 0; v < tested_.v_deg.size(); ++v)
         for (std::size_t h = 0; h < tested_.h_deg.size(); ++h) {
-            const double h_deg = tested_.h_deg[h], v_deg = tested_.v_deg[v];
-            if (!has_data(tested_, h_deg, v_deg) || !against_.has(h_deg, v_deg))
+            if (!has_data(tested_, tested_.h_deg[h], tested_.v_deg[v]))
+                continue;
+            const auto [h_deg, v_deg] = un_of(v, h);
+            if (!against_.has(h_deg, v_deg))
                 continue;
             const double log_cd = std::log(std::max(tested_.at(v, h), floor_cd)), log_other = against_.at(h_deg, v_deg).log_cd;
             if (std::max(log_cd, log_other) < least)
@@ -109,13 +162,36 @@ void Comparison::set_noise(const Explanation& explained) {
         std::vector<bool> chosen(grid.r.size());
         for (const BeamSample& sample : samples_)
             chosen[sample.v * tested_.h_deg.size() + sample.h] = is_in(sample);
-        const double noise = std::max(neighbour_noise(grid, chosen), options_.noise_relative * std::sqrt(2.0)); // of a difference of two
+        const double noise = std::max(neighbour_noise(grid, chosen), options_.noise_relative);
         if (decade == 0)
-            noise_at_peak_ = noise;
+            noise_at_peak_ = noise * std::sqrt(2.0); // of a difference of two
         for (std::size_t i = 0; i < samples_.size(); ++i)
-            if (is_in(samples_[i]))
-                samples_[i].sigma = std::max(noise, rounding_[i]);
+            if (is_in(samples_[i])) {
+                noise_[i] = std::max(noise, rounding_[i] / std::sqrt(2.0));
+                samples_[i].noise = noise_[i];
+                samples_[i].sigma = noise_[i] * spread_[i];
+            }
     }
+}
+
+/// How much a residual counts for in a sum over many: sqrt(copies + share) times one sample's noise. A sample of the other file from which
+/// many were interpolated adds its noise to each.
+void Comparison::share_noise() {
+    std::vector<double> copies(tested_.cd.size()), taken(against_.table().cd.size());
+    std::vector<std::vector<std::pair<std::size_t, double>>> weights;
+    for (const BeamSample& sample : samples_) {
+        copies[source_[sample.v * tested_.h_deg.size() + sample.h]] += 1.0;
+        weights.push_back(against_.weights(sample.h_deg, sample.v_deg));
+        for (const auto& [at, weight] : weights.back())
+            taken[source_against_[at]] += std::abs(weight);
+    }
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        double share = 0.0;
+        for (const auto& [at, weight] : weights[i])
+            share += std::abs(weight) * taken[source_against_[at]];
+        spread_.push_back(std::sqrt(copies[source_[samples_[i].v * tested_.h_deg.size() + samples_[i].h]] + std::max(share, 1.0)));
+    }
+    noise_.assign(samples_.size(), 1.0);
 }
 
 /// How far a raised cut-off moves the light near and above it is not known: any shift up to its own explains.
@@ -138,17 +214,33 @@ FieldValue Comparison::unexplained(const BeamSample& sample, const Explanation& 
 }
 
 ResidualGrid Comparison::residuals(const Explanation& explained) const {
-    ResidualGrid grid{tested_.h_deg, tested_.v_deg, {}, {}, {}};
+    const std::size_t columns = tested_.h_deg.size();
+    ResidualGrid grid;
+    grid.h_deg = tested_.h_deg;
+    grid.v_deg = tested_.v_deg;
     grid.r.assign(tested_.cd.size(), std::numeric_limits<double>::quiet_NaN());
-    grid.sigma.assign(tested_.cd.size(), 1.0);
+    grid.noise.assign(tested_.cd.size(), 1.0);
     grid.open.assign(tested_.cd.size(), 0.0);
-    for (const BeamSample& sample : samples_) {
-        const std::size_t at = sample.v * tested_.h_deg.size() + sample.h;
+    grid.source = source_;
+    if (system_)
+        grid.un.assign(tested_.cd.size(), {});
+    std::size_t next = 0; // samples are in the grid's order
+    for (std::size_t at = 0; at < grid.r.size(); ++at) {
+        grid.first.push_back(grid.shared.size());
+        if (next == samples_.size() || samples_[next].v * columns + samples_[next].h != at)
+            continue;
+        const BeamSample& sample = samples_[next];
         const FieldValue value = unexplained(sample, explained);
         grid.r[at] = value.log_cd;
         grid.open[at] = value.uncertainty;
-        grid.sigma[at] = sample.sigma;
+        grid.noise[at] = noise_[next++];
+        if (system_)
+            grid.un[at] = {sample.h_deg, sample.v_deg};
+        const auto [h, v] = before_shift(sample.h_deg, sample.v_deg, explained.shift);
+        for (const auto& [other, weight] : against_.weights(h, v))
+            grid.shared.emplace_back(source_against_[other], weight);
     }
+    grid.first.push_back(grid.shared.size());
     return grid;
 }
 
@@ -162,9 +254,7 @@ std::vector<BeamSample> Comparison::where(const auto& belongs) const {
 }
 
 bool Comparison::is_shift(const ShiftFit& fit) const {
-    const CandelaTable& other = against_.table();
-    const double least_h = least_step_share * std::max(finest_step(tested_.h_deg), finest_step(other.h_deg));
-    const double least_v = least_step_share * std::max(finest_step(tested_.v_deg), finest_step(other.v_deg));
+    const double least_h = least_step_share * steps_.h_deg, least_v = least_step_share * steps_.v_deg;
     return fit.found &&
            (is_beyond(fit.shift.up_deg, fit.up_error_deg, least_v) || is_beyond(fit.shift.right_deg, fit.right_error_deg, least_h));
 }
@@ -192,7 +282,7 @@ bool Comparison::explain_by_cut_off(Explanation& best, LampDifference& result) c
         result.not_told = "the light below the cut-off is too even to tell whether the whole beam moved or the cut-off alone";
         return false;
     }
-    const double least = least_step_share * std::max(finest_step(tested_.v_deg), finest_step(against_.table().v_deg));
+    const double least = least_step_share * steps_.v_deg;
     if (!is_beyond(raise, error, least) || std::abs(body.shift.up_deg) > std::abs(raise) / 2.0)
         return false;
     Explanation tried = best;
@@ -235,6 +325,9 @@ void Comparison::explain_by_aim(Explanation& best, LampDifference& result) const
 /// Location of what is left over by Tukey's biweight, from the median on; without the light that a cut-off moved by an unknown part.
 Comparison::Level Comparison::level_left(const Explanation& explained) const {
     ResidualGrid grid = residuals(explained);
+    std::vector<double> sigma(grid.r.size(), 1.0);
+    for (const BeamSample& sample : samples_)
+        sigma[sample.v * tested_.h_deg.size() + sample.h] = sample.sigma;
     for (const BeamSample& sample : samples_)
         if (is_moved_by_cut_off(sample.v_deg, explained))
             grid.r[sample.v * tested_.h_deg.size() + sample.h] = std::numeric_limits<double>::quiet_NaN();
@@ -249,10 +342,10 @@ Comparison::Level Comparison::level_left(const Explanation& explained) const {
     for (int iteration = 0; iteration < 20; ++iteration) {
         double weights = 0.0, sum = 0.0, open = 0.0;
         for (std::size_t at = 0; at < grid.r.size(); ++at) {
-            const double u = (grid.r[at] - level.log) / (4.685 * grid.sigma[at]);
+            const double u = (grid.r[at] - level.log) / (4.685 * sigma[at]);
             if (std::isnan(u) || std::abs(u) >= 1.0)
                 continue;
-            const double weight = (1.0 - u * u) * (1.0 - u * u) / (grid.sigma[at] * grid.sigma[at]);
+            const double weight = (1.0 - u * u) * (1.0 - u * u) / (sigma[at] * sigma[at]);
             weights += weight;
             sum += weight * grid.r[at];
             open += weight * grid.open[at];
@@ -297,12 +390,12 @@ LampDifference Comparison::find() {
 
 } // namespace
 
-LampDifference compare_lamps(const CandelaTable& tested, const CandelaTable& against, const LampDifferenceOptions& options) {
+LampDifference compare_lamps(const SampledBeam& tested, const SampledBeam& against, const LampDifferenceOptions& options) {
     if (!(options.noise_relative >= 0.0) || !(options.noise_relative <= 1.0))
         throw std::invalid_argument("noise outside 0..1");
     if (!(options.false_claim_chance > 0.0) || !(options.false_claim_chance < 1.0))
         throw std::invalid_argument("chance of a false claim outside 0..1");
-    if (!(peak_of(tested).cd > 0.0) || !(peak_of(against).cd > 0.0))
+    if (!(peak_of(tested.samples()).cd > 0.0) || !(peak_of(against.samples()).cd > 0.0))
         throw std::invalid_argument("a lamp without light");
     return Comparison(tested, against, options).find();
 }

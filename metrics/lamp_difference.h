@@ -1,6 +1,6 @@
 // What differs between two lamps' beams, and what is no more than noise: aim, cut-off, level, zones.
 //
-// Both tables are compared in log intensity at the samples of the tested one. First the noise: what two tables of the same lamp would
+// Both are compared in log intensity at the samples of the tested file. First the noise: what two tables of the same lamp would
 // differ by, from their rounding, from what the user says, and from how much neighbouring differences scatter. Then the smallest claim that
 // explains the rest: nothing; the whole beam aimed otherwise (a shift of all its light); the cut-off moved while the light below stays (the
 // band of 0.5 degrees round it fitted apart from the light more than 1 degree below); the whole beam brighter or dimmer; and last the zones
@@ -10,6 +10,7 @@
 
 #include "metrics/beam_shift.h"
 #include "metrics/beam_zones.h"
+#include "scenarios/lamps/lamp_file.h"
 
 #include <string>
 
@@ -20,7 +21,7 @@ struct LampDifferenceOptions {
     /// of
     /// +-a is a / sqrt(3) when all within it is as likely.
     double noise_relative = 0.0;
-    double false_claim_chance = 0.01; ///< of any claim at all between two tables of one lamp
+    double false_claim_chance = 0.005; ///< of any claim at all between two tables of one lamp, were the noise known
 };
 
 struct FittedFigure {
@@ -41,9 +42,20 @@ struct LampDifference {
     bool any() const { return aim_up_deg || cut_off_up_deg || level || !zones.empty(); }
 };
 
+/// A lamp's beam by its file's own samples where these lie on other angles than H and V: their noise is independent, that of a resampled
+/// table's samples is not.
+struct SampledBeam {
+    const CandelaTable* table;               ///< on H and V
+    const MeasuredTable* measured = nullptr; ///< the file's own samples; nullptr: those of `table`
+    SampledBeam(const CandelaTable& on_h_and_v) : table(&on_h_and_v) {}
+    SampledBeam(const LampFile& lamp) : table(&lamp.table), measured(lamp.measured ? &*lamp.measured : nullptr) {}
+
+    const CandelaTable& samples() const { return measured ? measured->table : *table; }
+};
+
 /// `tested` against `against`, both with light. Throws std::invalid_argument for a table without light and options out of range (noise
 /// 0..1, chance above 0 and below 1). The same tables give the same bytes.
-LampDifference compare_lamps(const CandelaTable& tested, const CandelaTable& against, const LampDifferenceOptions& options = {});
+LampDifference compare_lamps(const SampledBeam& tested, const SampledBeam& against, const LampDifferenceOptions& options = {});
 
 /// One sentence each, the aim first; "no difference beyond noise" when nothing is claimed.
 std::vector<std::string> sentences_of(const LampDifference& difference);

@@ -86,7 +86,7 @@ plots::Axis ratio_axis(const Image<float>& values) {
 LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative) {
     refuse_darkness(tested);
     refuse_darkness(against);
-    return compare_lamps(tested.table, against.table, {.noise_relative = noise_relative});
+    return compare_lamps(tested, against, {.noise_relative = noise_relative});
 }
 
 std::string difference_text(const LampFile& tested, const LampFile& against, const LampDifference& difference) {

@@ -32,6 +32,8 @@ void scale(LampFile& lamp, double factor) {
     if (!(factor > 0.0) || !(factor <= 1e6))
         throw InputError({{}, 0, 0, "--scale"}, fmt::format("found {}", factor), "a number above 0, up to 1000000");
     lamp.table = scaled(std::move(lamp.table), factor);
+    if (lamp.measured)
+        lamp.measured = scaled(std::move(*lamp.measured), factor);
     if (lamp.declared_flux_lm)
         *lamp.declared_flux_lm *= factor;
     lamp.notes.push_back(fmt::format("intensities scaled by {}", factor));
@@ -39,6 +41,7 @@ void scale(LampFile& lamp, double factor) {
 
 void add(LampFile& lamp, const LampFile& other) {
     lamp.table = sum(lamp.table, other.table);
+    lamp.measured.reset();
     if (lamp.declared_flux_lm && other.declared_flux_lm)
         *lamp.declared_flux_lm += *other.declared_flux_lm;
     else
@@ -49,6 +52,7 @@ void add(LampFile& lamp, const LampFile& other) {
 void subtract(LampFile& lamp, const LampFile& other) {
     std::size_t clamped = 0;
     lamp.table = difference(lamp.table, other.table, clamped);
+    lamp.measured.reset();
     lamp.declared_flux_lm.reset();
     lamp.notes.push_back(
         fmt::format("subtracted: {}; {} of {} samples would be negative and were set to 0", other.name, clamped, lamp.table.cd.size()));
@@ -178,7 +182,7 @@ LampFile lamp_of(const LampRequest& request) {
         changes.push_back(fmt::format("scaled by {}", request.scale));
     }
     if (request.mirror) {
-        lamp.table = mirrored(lamp.table);
+        mirror(lamp);
         lamp.notes.emplace_back("mirrored: left and right exchanged");
         changes.emplace_back("mirrored, left and right traffic exchanged");
     }

@@ -249,7 +249,10 @@ LampFile read_beam_matrix(const std::filesystem::path& path, std::string_view te
         mark_written_gaps(*header.gaps, table, {path, header.gaps_line, 0, "gaps_deg"});
     else
         mark_padding(table, lamp.notes);
-    lamp.table = header.flat_angles ? on_un_goniometer(table, flat_screen(), lamp.notes) : std::move(table);
+    if (header.flat_angles)
+        bring_onto_goniometer(std::move(table), flat_screen(), lamp);
+    else
+        lamp.table = std::move(table);
     return lamp;
 }
 

@@ -150,7 +150,8 @@ glm::dvec3 mean_direction(const CandelaTable& table) {
 
 } // namespace
 
-CandelaTable from_c_planes(const MeasuredGrid& planes, PlaneSymmetry symmetry, const LampReadOptions& options, Notes& notes) {
+void from_c_planes(const MeasuredGrid& planes, PlaneSymmetry symmetry, const LampReadOptions& options, LampFile& lamp) {
+    Notes& notes = lamp.notes;
     CandelaTable table = about_vertical(planes, symmetry, 0.0, options.rule, &notes);
     mark_padding(table, notes);
     const glm::dvec3 mean = mean_direction(table);
@@ -165,17 +166,19 @@ CandelaTable from_c_planes(const MeasuredGrid& planes, PlaneSymmetry symmetry, c
                             : fmt::format("The light's mean direction lies {:.0f} degrees from gamma 0: {}.", from_nadir_deg,
                                           axis == TypeCAxis::nadir ? "gamma 0 is taken as forward" : "gamma 90 is taken as the horizon"));
     }
-    if (axis == TypeCAxis::nadir)
-        return on_un_goniometer(table, beam_along_nadir(), notes);
+    if (axis == TypeCAxis::nadir) {
+        bring_onto_goniometer(std::move(table), beam_along_nadir(), lamp);
+        return;
+    }
     const bool sideways = std::hypot(mean.x, mean.z) > nowhere; // H of the mean is -C of the mean
     const double forward_c_deg = sideways ? std::remainder(90.0 * std::round(degrees(std::atan2(-mean.x, mean.z)) / 90.0), 360.0) : 0.0;
     notes.push_back(fmt::format("Plane C {} is taken as forward.", std::lround(forward_c_deg + 360.0) % 360));
-    if (forward_c_deg == 0.0)
-        return table;
-    table = about_vertical(planes, symmetry, forward_c_deg, options.rule, nullptr);
-    Notes said_already;
-    mark_padding(table, said_already);
-    return table;
+    if (forward_c_deg != 0.0) {
+        table = about_vertical(planes, symmetry, forward_c_deg, options.rule, nullptr);
+        Notes said_already;
+        mark_padding(table, said_already);
+    }
+    lamp.table = std::move(table);
 }
 
 } // namespace fernlicht

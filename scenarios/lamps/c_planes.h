@@ -14,6 +14,6 @@ enum class PlaneSymmetry { none, rotational, about_c0_c180, about_c90_c270, quad
 /// light. Axis nadir: forward is gamma 0, C 0 to the right, C 90 up. Automatic: nadir when the mean direction of the light (the
 /// integral of I times the unit vector) lies within 45 degrees of gamma 0, else horizontal. Notes say which, and why.
 /// Planes that end short of the whole turn are joined when the hole is at most 1.5 steps wide; a wider hole has no data.
-CandelaTable from_c_planes(const MeasuredGrid& planes, PlaneSymmetry symmetry, const LampReadOptions& options, Notes& notes);
+void from_c_planes(const MeasuredGrid& planes, PlaneSymmetry symmetry, const LampReadOptions& options, LampFile& lamp);
 
 } // namespace fernlicht

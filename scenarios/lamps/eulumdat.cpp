@@ -222,7 +222,7 @@ LampFile read_eulumdat(const std::filesystem::path& path, std::string_view text,
             lamp.name = lamp.labels[i].second;
     if (output_percent > 0.0)
         lamp.declared_flux_lm = lamps.flux_lm * output_percent / 100.0;
-    lamp.table = from_c_planes(grid, layout.plane_symmetry(), options, lamp.notes);
+    from_c_planes(grid, layout.plane_symmetry(), options, lamp);
     return lamp;
 }
 

@@ -292,7 +292,8 @@ AngleSystem type_b() {
             [](double h_deg, double v_deg) {
                 const double h = radians(h_deg), v = radians(v_deg);
                 return un_angles({std::sin(h), std::cos(h) * std::sin(v), std::cos(h) * std::cos(v)});
-            }};
+            },
+            false};
 }
 
 AngleSystem flat_screen() {
@@ -304,7 +305,8 @@ AngleSystem flat_screen() {
             },
             [](double h_deg, double v_deg) {
                 return un_angles({std::tan(radians(h_deg)), std::tan(radians(v_deg)), 1.0});
-            }};
+            },
+            false};
 }
 
 AngleSystem beam_along_nadir() {
@@ -318,21 +320,37 @@ AngleSystem beam_along_nadir() {
             [](double h_deg, double v_deg) {
                 const double c = radians(-h_deg), gamma = radians(v_deg + 90.0);
                 return un_angles({std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c), std::cos(gamma)});
-            }};
+            },
+            true};
 }
 
-CandelaTable on_un_goniometer(const CandelaTable& native_table, const AngleSystem& system, Notes& notes) {
+MeasuredTable scaled(MeasuredTable measured, double factor) {
+    measured.table = scaled(std::move(measured.table), factor);
+    return measured;
+}
+
+MeasuredTable mirrored(MeasuredTable measured) {
+    measured.system.to_native = [to_native = measured.system.to_native](double h, double v) { return to_native(-h, v); };
+    measured.system.to_un = [to_un = measured.system.to_un](double h, double v) {
+        const TwoAngles d = to_un(h, v);
+        return TwoAngles{-d.h_deg, d.v_deg};
+    };
+    return measured;
+}
+
+void bring_onto_goniometer(CandelaTable native_table, AngleSystem system, LampFile& lamp) {
     const Native native{native_table, system};
     const double peak_cd = peak_of(native_table).cd;
     Axes axes = first_axes(native);
     while (split_worst(axes, interval_errors(native, axes), split_above * peak_cd)) {
     }
-    const CandelaTable table = sampled(native, axes);
+    CandelaTable table = sampled(native, axes);
     const double worst = peak_cd > 0.0 ? worst_difference_cd(native, table) / peak_cd : 0.0;
-    notes.push_back(fmt::format(
+    lamp.notes.push_back(fmt::format(
         "Resampled from {} ({} x {} samples) onto the goniometer's H and V ({} x {}): differs by at most {:.2g} % of the peak.",
         system.name, native_table.h_deg.size(), native_table.v_deg.size(), table.h_deg.size(), table.v_deg.size(), 100.0 * worst));
-    return table;
+    lamp.table = std::move(table);
+    lamp.measured = MeasuredTable{std::move(native_table), std::move(system)};
 }
 
 } // namespace fernlicht

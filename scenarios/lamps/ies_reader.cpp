@@ -270,7 +270,7 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
             if (name == key && !value.empty())
                 lamp.name = value;
     if (p.type == 'C') {
-        lamp.table = from_c_planes(p.grid, symmetry_of(p.grid.h_deg), options, lamp.notes);
+        from_c_planes(p.grid, symmetry_of(p.grid.h_deg), options, lamp);
         return lamp;
     }
     if (p.grid.h_deg.front() == 0.0)
@@ -278,7 +278,10 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
     CandelaTable table{p.grid.h_deg, p.grid.v_deg, p.grid.cd, {}, options.rule};
     if (!take_written_gaps(lamp.labels, table, path))
         mark_padding(table, lamp.notes);
-    lamp.table = p.type == 'B' ? on_un_goniometer(table, type_b(), lamp.notes) : std::move(table);
+    if (p.type == 'B')
+        bring_onto_goniometer(std::move(table), type_b(), lamp);
+    else
+        lamp.table = std::move(table);
     return lamp;
 }
 

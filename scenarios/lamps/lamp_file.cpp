@@ -48,8 +48,14 @@ LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions&
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options) {
     LampFile lamp = read_as_it_is(path, options);
     if (options.mirrored)
-        lamp.table = mirrored(lamp.table);
+        mirror(lamp);
     return lamp;
+}
+
+void mirror(LampFile& lamp) {
+    lamp.table = mirrored(lamp.table);
+    if (lamp.measured)
+        lamp.measured = mirrored(std::move(*lamp.measured));
 }
 
 void write_lamp(const LampFile& lamp, const std::filesystem::path& path) {

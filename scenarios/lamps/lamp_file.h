@@ -1,7 +1,7 @@
 // A lamp as it stands in a file: candela table, what the file says of it, and what was read.
 #pragma once
 
-#include "scenarios/lamps/candela_table.h"
+#include "scenarios/lamps/angle_system.h"
 #include "scenarios/values/files.h"
 
 #include <optional>
@@ -30,6 +30,8 @@ struct LampFile {
     std::string name;   ///< short: catalogue or luminaire name, else the file's stem
     std::string format; ///< "IES LM-63-2002, type A", "EULUMDAT, Isym 0", "beam matrix", "beam texture"
     CandelaTable table;
+    std::optional<MeasuredTable>
+        measured; ///< where the file's angles are others and `table` was resampled; nullopt: `table` is the file's own
     std::optional<double> declared_flux_lm;                  ///< as the file says; nullopt: absolute photometry or silent
     std::vector<std::pair<std::string, std::string>> labels; ///< the file's own keywords and texts, UTF-8
     std::vector<std::string> notes; ///< what was odd and how it was taken ("angles descend: sorted"), one sentence each
@@ -38,6 +40,8 @@ struct LampFile {
 
 /// Reads any supported lamp file, told by content first and extension second. Throws InputError.
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options = {});
+
+void mirror(LampFile& lamp); ///< H and -H exchanged, in both tables
 
 /// Writers; the extension decides in write_lamp: .ies (LM-63-2002 type A), .csv (beam matrix, cd), .exr (float beam texture).
 void write_lamp(const LampFile& lamp, const std::filesystem::path& path);

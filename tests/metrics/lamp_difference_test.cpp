@@ -3,9 +3,12 @@
 
 #include "scenarios/lamps/lamp_model.h"
 #include "tests/metrics/changed_lamps.h"
+#include "tests/metrics/measured_lamps.h"
 
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -143,6 +146,63 @@ TEST(LampDifference, NoiseAloneIsNoDifference) {
             what += said(found);
         }
     EXPECT_LE(claims, 7) << what;
+}
+
+/// Two measurements of one lamp, 1 % of noise on each sample, through files.
+class TwoFilesOf : public testing::TestWithParam<measured::Kind> {};
+
+TEST_P(TwoFilesOf, OneLampDifferByNothing) {
+    const auto beam = [](double h, double v) {
+        const double light = 30000.0 * std::exp(-0.5 * (std::pow(h / 6.0, 2) + std::pow((v + 1.5) / 2.0, 2)));
+        return 60.0 + light / (1.0 + std::exp((v + 0.57) / 0.12));
+    };
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("two-files-{}", getpid());
+    std::filesystem::create_directories(folder);
+    const auto written = [&](unsigned seed, double level) {
+        const LampFile lamp = measured::lamp(GetParam(), 0.5, [&](double h, double v) { return level * beam(h, v); }, {0.01, seed});
+        const auto path = folder / fmt::format("{}.{}", seed, GetParam() == measured::Kind::eulumdat ? "ldt" : "ies");
+        std::ofstream(path) << measured::file_text(GetParam(), lamp);
+        const LampFile read = read_lamp(path);
+        // What was read is what was measured, in its own order.
+        const CandelaTable &own = SampledBeam(lamp).samples(), &again = SampledBeam(read).samples();
+        EXPECT_EQ(again.h_deg.size(), own.h_deg.size());
+        EXPECT_EQ(again.cd, own.cd);
+        return read;
+    };
+    const LampFile first = written(1, 1.0);
+    for (const unsigned seed : {2U, 3U}) {
+        const LampDifference found = compare_lamps(written(seed, 1.0), first);
+        EXPECT_FALSE(found.any()) << said(found);
+        EXPECT_NEAR(found.noise_relative, 0.01 * std::sqrt(2.0), 0.002);
+    }
+    const LampDifference brighter = compare_lamps(written(4, 1.03), first);
+    ASSERT_TRUE(brighter.level) << said(brighter);
+    EXPECT_NEAR(brighter.level->value, 0.03, 0.002);
+    EXPECT_TRUE(brighter.zones.empty() && !brighter.aim_up_deg) << said(brighter);
+    std::filesystem::remove_all(folder);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, TwoFilesOf, testing::ValuesIn(measured::kinds), [](const auto& kind) {
+    std::string name = measured::name_of(kind.param);
+    std::erase(name, ' ');
+    return name;
+});
+
+// A file of half the planes stands for both sides: its samples count once, whichever directions they stand for.
+TEST(LampDifference, TheHalfOfASymmetricFileThatIsNotStoredSaysNothingNew) {
+    const auto beam = [](double h, double v) { return 5000.0 * std::exp(-0.5 * (std::pow(h / 6.0, 2) + std::pow(v / 4.0, 2))) + 50.0; };
+    int claims = 0;
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        const auto half = [&](unsigned s) {
+            CandelaTable t = measured::lamp(measured::Kind::type_a, 1.0, beam, {0.02, s}).table;
+            for (std::size_t v = 0; v < t.v_deg.size(); ++v)
+                for (std::size_t h = 0; h < t.h_deg.size() / 2; ++h)
+                    t.at(v, h) = t.at(v, t.h_deg.size() - 1 - h);
+            return t;
+        };
+        claims += compare_lamps(half(2 * seed), half(2 * seed + 1)).any();
+    }
+    EXPECT_LE(claims, 3);
 }
 
 } // namespace
