@@ -25,8 +25,12 @@ struct Onlooker {
 /// not above 0 throw std::invalid_argument.
 Value threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool positive, const Onlooker& onlooker);
 
-/// |Lt - Lb| / dL.
-Value visibility_level(double target_cdm2, double background_cdm2, double size_arcmin, const Onlooker& onlooker);
+/// |Lt - Lb| / dL, the threshold that of an eye adapted to `adaptation_cdm2`.
+Value visibility_level(double target_cdm2, double background_cdm2, double adaptation_cdm2, double size_arcmin, const Onlooker& onlooker);
+/// Adapted to the background.
+inline Value visibility_level(double target_cdm2, double background_cdm2, double size_arcmin, const Onlooker& onlooker) {
+    return visibility_level(target_cdm2, background_cdm2, background_cdm2, size_arcmin, onlooker);
+}
 
 /// Angle under which a length is seen across the line of sight.
 double arc_minutes_of(double length_m, double distance_m);

@@ -83,9 +83,14 @@ std::optional<double> slope_over_ratings(const PlayedReadings& played, const Rea
 /// the distance lets it.
 std::optional<double> slope_over_distance(const PlayedReadings& played, const Reading& reading) {
     std::map<double, double> levels;
+    std::string target = reading.name.substr(std::string("detection_").size()); // "card_own_p05_m"
+    for (const char* end : {"_m", "_min", "_p05"})
+        if (target.ends_with(end))
+            target.resize(target.size() - std::string(end).size());
+    const std::string begin = "visibility_level_" + target + "_at_";
     for (const auto& [name, other] : played.readings)
-        if (double at_m = 0.0; other.value.number().value_or(0.0) > 0.0 && name.starts_with("visibility_level_own_at_")) {
-            const char* first = name.data() + std::string("visibility_level_own_at_").size();
+        if (double at_m = 0.0; other.value.number().value_or(0.0) > 0.0 && name.starts_with(begin)) {
+            const char* first = name.data() + begin.size();
             if (std::from_chars(first, name.data() + name.size(), at_m).ec == std::errc{})
                 levels[at_m] = *other.value.number();
         }
@@ -110,7 +115,7 @@ std::optional<double> moved_by_light(const PlayedReadings& played, const Reading
         return rating_by_light;
     if (name.find("_de_boer_") != std::string::npos)
         return slope_over_ratings(played, reading);
-    if (name.starts_with("detection_own_"))
+    if (name.starts_with("detection_"))
         return slope_over_distance(played, reading);
     if (name.starts_with("foreground_ratio_"))
         return 2.0 * std::abs(*reading.value.number()); // one range up, the other down

@@ -55,17 +55,34 @@ std::string of_eye(const std::string& quantity) {
     return {};
 }
 
+/// "pedestrian-dark, right edge of the lanes, least" of "pedestrian-dark_right_min".
+std::string target_in_words(const std::string& name) {
+    static const std::regex form("(.+)_(own|oncoming|right|left)(_min|_p05)?");
+    std::smatch parts;
+    if (!std::regex_match(name, parts, form))
+        return name;
+    const std::string place = parts[2], which = parts[3];
+    return parts[1].str() +
+           (place == "own"        ? ", own lane"
+            : place == "oncoming" ? ", oncoming lane"
+                                  : ", " + place + " edge of the lanes") +
+           (which == "_min"   ? ", least"
+            : which == "_p05" ? ", 5th percentile"
+                              : "");
+}
+
 std::string seeing_in_words(const std::string& name) {
+    static const std::regex detection("detection_(.+)_m"), level("visibility_level_(.+)_at_([0-9.]+)m");
+    if (std::smatch parts; std::regex_match(name, parts, detection))
+        return "detection distance of " + target_in_words(parts[1]);
+    else if (std::regex_match(name, parts, level))
+        return "visibility level of " + target_in_words(parts[1]) + ", " + parts[2].str() + " m ahead";
     if (name.starts_with("glare_"))
         for (std::size_t at = name.find('_', 7); at != std::string::npos; at = name.find('_', at + 1))
             if (const std::string quantity = of_eye(name.substr(at + 1)); !quantity.empty())
                 return quantity + ", " + eyes_in_words(name.substr(0, at));
     static const std::pair<std::regex, const char*> forms[] = {
-        {std::regex("detection_own_m"), "detection distance of a small target, own lane"},
-        {std::regex("detection_own_min_m"), "detection distance of a small target, own lane, least"},
-        {std::regex("detection_own_p05_m"), "detection distance of a small target, own lane, 5th percentile"},
         {std::regex("foreground_ratio_own"), "light from 5 to 15 m over light from 40 to 60 m, own lane"},
-        {std::regex("visibility_level_own_at_([0-9.]+)m"), "visibility level of a small target, $1 m ahead"},
         {std::regex("kerb_at_([0-9.]+)m_lx"), "illuminance at the right edge of the lanes, $1 m ahead"},
         {std::regex("board_(left|right|overhead)_at_([0-9.]+)m_lx"), "illuminance on a board, $1, $2 m ahead"},
         {std::regex("board_(left|right|overhead)_at_([0-9.]+)m_cdm2"), "luminance of a board, $1, $2 m ahead"},

@@ -2,6 +2,10 @@
 
 #include "scenarios/drives/drive_keys.h"
 
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace fernlicht {
 namespace {
 
@@ -12,14 +16,18 @@ std::vector<double> numbers_or(const YamlMap& keys, std::string_view key, std::v
     return given ? given->numbers(0, 16, least, greatest) : std::move(otherwise);
 }
 
+Across read_across(const YamlEntry& entry) {
+    static constexpr Across places[] = {Across::own_centre, Across::oncoming_centre, Across::right_edge, Across::left_edge};
+    return places[entry.choice({"own-centre", "oncoming-centre", "right-edge", "left-edge"})];
+}
+
 Sensor read_sensor(const std::string& name, const YamlEntry& entry) {
     const YamlMap keys = entry.map({"at_m", "across", "above_m"});
-    static constexpr Across places[] = {Across::own_centre, Across::oncoming_centre, Across::right_edge, Across::left_edge};
     Sensor sensor;
     sensor.name = name;
     sensor.at_m = keys.require("at_m").number(0.0, longest_route_m);
     if (const auto across = keys.find("across"))
-        sensor.across = places[across->choice({"own-centre", "oncoming-centre", "right-edge", "left-edge"})];
+        sensor.across = read_across(*across);
     sensor.above_m = keys.number_or("above_m", sensor.above_m, 0.0, 50.0);
     return sensor;
 }
@@ -92,12 +100,60 @@ GlareParameters read_glare(const YamlEntry& entry) {
     return glare;
 }
 
+VisibilityTarget read_target(const std::string& name, const YamlEntry& entry) {
+    const auto usual = std::ranges::find(usual_targets(), name, &VisibilityTarget::name);
+    const YamlMap keys = entry.map({"size_m", "squares", "reflectance", "level", "across"});
+    if (usual != usual_targets().end())
+        entry.refuse("a map", "true, or a name of its own: '" + name + "' is one of the usual targets");
+    VisibilityTarget target;
+    target.name = name;
+    target.size_m = keys.number_or("size_m", target.size_m, 0.01, 5.0);
+    if (const auto squares = keys.find("squares"))
+        target.squares = squares->whole(1, 20);
+    target.reflectance = keys.require("reflectance").number(0.0, 1.0);
+    target.level = keys.require("level").number(0.01, 1.0e4);
+    if (const auto across = keys.find("across")) {
+        target.places.clear();
+        for (const YamlEntry& place : across->list(1, 3))
+            target.places.push_back(read_across(place));
+    }
+    return target;
+}
+
+/// A list of usual targets, or a map: `true` behind a usual one's name, a map behind a name of the drive's own.
+std::vector<VisibilityTarget> read_targets(const YamlEntry& entry) {
+    std::vector<std::string_view> names;
+    for (const VisibilityTarget& usual : usual_targets())
+        names.push_back(usual.name);
+    std::vector<VisibilityTarget> targets;
+    if (entry.is_list()) {
+        for (const YamlEntry& usual : entry.list(1, names.size()))
+            targets.push_back(usual_targets()[usual.choice(std::span<const std::string_view>(names))]);
+    } else
+        for (const auto& [name, target] : entry.named(16)) {
+            if (!target.is_scalar()) {
+                targets.push_back(read_target(name, target));
+                continue;
+            }
+            const auto usual = std::ranges::find(usual_targets(), name, &VisibilityTarget::name);
+            if (usual == usual_targets().end())
+                target.refuse(fmt::format("a map with reflectance and level; true stands for {} alone", fmt::join(names, ", ")));
+            if (target.flag())
+                targets.push_back(*usual);
+        }
+    for (std::size_t i = 0; i < targets.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (targets[k].name == targets[i].name)
+                entry.refuse("'" + targets[i].name + "' twice", "each target once");
+    return targets;
+}
+
 VisibilityParameters read_visibility(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"size_m", "reflectance", "level", "age_years", "time_s", "k", "ahead_m", "step_m", "distances_m"});
+    const YamlMap keys = entry.map({"targets", "dark_cdm2", "age_years", "time_s", "k", "ahead_m", "step_m", "distances_m"});
     VisibilityParameters visibility;
-    visibility.size_m = keys.number_or("size_m", visibility.size_m, 0.01, 5.0);
-    visibility.reflectance = keys.number_or("reflectance", visibility.reflectance, 0.0, 1.0);
-    visibility.level = keys.number_or("level", visibility.level, 0.01, 1.0e4);
+    if (const auto targets = keys.find("targets"))
+        visibility.targets = read_targets(*targets);
+    visibility.dark_cdm2 = keys.number_or("dark_cdm2", visibility.dark_cdm2, 0.0, 1.0e3);
     visibility.age_years = keys.number_or("age_years", visibility.age_years, 23.0, 75.0);
     visibility.time_s = keys.number_or("time_s", visibility.time_s, 0.01, 1.0e3);
     visibility.k = keys.number_or("k", visibility.k, 0.1, 100.0);
@@ -140,6 +196,14 @@ PlaceParameters read_places(const YamlEntry& entry) {
 }
 
 } // namespace
+
+const std::vector<VisibilityTarget>& usual_targets() {
+    static const std::vector<Across> edges{Across::right_edge, Across::left_edge};
+    static const std::vector<VisibilityTarget> targets{{"card", 0.2, 1, 0.2, 7.0, {Across::own_centre}},
+                                                       {"pedestrian-dark", 0.25, 7, 0.05, 10.0, edges},
+                                                       {"pedestrian-light", 0.25, 7, 0.4, 10.0, edges}};
+    return targets;
+}
 
 SeeingParameters read_seeing(const YamlMap& measure) {
     SeeingParameters seeing;

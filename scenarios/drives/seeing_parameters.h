@@ -74,13 +74,28 @@ struct GlareParameters {
     bool operator==(const GlareParameters&) const = default;
 };
 
-/// A square target that stands on the own lane's centre and faces the car, and who looks for it.
+/// Squares of one size and reflectance, one on the other, that stand on the road and face the car: a card, or a person's column of
+/// segments.
+struct VisibilityTarget {
+    std::string name;
+    double size_m = 0.2; ///< edge of a square
+    int squares = 1;
+    double reflectance = 0.2; ///< diffuse
+    double level = 7.0;       ///< visibility level at which it counts as detected: its clearest square has it
+    std::vector<Across> places{Across::own_centre};
+
+    bool operator==(const VisibilityTarget&) const = default;
+};
+
+/// "card", "pedestrian-dark", "pedestrian-light" (docs/seeing.md has their sources).
+const std::vector<VisibilityTarget>& usual_targets();
+
+/// Targets, and who looks for them.
 struct VisibilityParameters {
-    double size_m = 0.18;
-    double reflectance = 0.04; ///< diffuse
-    double level = 13.35;      ///< visibility level at which it counts as detected
+    std::vector<VisibilityTarget> targets = usual_targets();
+    double dark_cdm2 = 0.001; ///< luminance of what is not road behind a target, without daylight
     double age_years = 25.0;
-    double time_s = 0.2; ///< for which it shows
+    double time_s = 0.2; ///< for which a target shows
     double k = 2.6;
     double ahead_m = 200.0; ///< how far is looked, from the front bumper
     double step_m = 1.0;

@@ -2,6 +2,7 @@
 
 #include "scenarios/drives/flow_list.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
@@ -54,9 +55,22 @@ std::string glare(const GlareParameters& glare) {
 }
 
 std::string visibility(const VisibilityParameters& v) {
-    return fmt::format("  visibility: {{size_m: {}, reflectance: {}, level: {}, age_years: {}, time_s: {}, k: {}, ahead_m: {}, step_m: {}, "
-                       "distances_m: {}}}\n",
-                       v.size_m, v.reflectance, v.level, v.age_years, v.time_s, v.k, v.ahead_m, v.step_m, flow_list(v.distances_m));
+    std::string text = "  visibility:\n    targets:\n";
+    for (const VisibilityTarget& target : v.targets) {
+        if (std::ranges::find(usual_targets(), target) != usual_targets().end()) {
+            text += fmt::format("      \"{}\": true\n", target.name);
+            continue;
+        }
+        std::vector<std::string> places;
+        for (const Across across : target.places)
+            places.emplace_back(word(across));
+        text += fmt::format("      \"{}\": {{size_m: {}, squares: {}, reflectance: {}, level: {}, across: [{}]}}\n", target.name,
+                            target.size_m, target.squares, target.reflectance, target.level, fmt::join(places, ", "));
+    }
+    return text +
+           fmt::format(
+               "    dark_cdm2: {}\n    age_years: {}\n    time_s: {}\n    k: {}\n    ahead_m: {}\n    step_m: {}\n    distances_m: {}\n",
+               v.dark_cdm2, v.age_years, v.time_s, v.k, v.ahead_m, v.step_m, flow_list(v.distances_m));
 }
 
 std::string homogeneity(const HomogeneityParameters& h) {

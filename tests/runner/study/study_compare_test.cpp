@@ -133,7 +133,7 @@ TEST(StudyCompare, EachKindOfReadingHasItsOwnUncertainty) {
         put(cell, "glare_a_length_above_1lx_m", 20.0 + more, "m");
         put(cell, "glare_a_time_above_1lx_s", 2.0 + more, "s");
         put(cell, "sensor_a_reach_5lx_m", 20.0 + more, "m");
-        put(cell, "detection_own_m", 30.0 + more, "m");
+        put(cell, "detection_card_own_m", 30.0 + more, "m");
         put(cell, "patch_dark_own_m", 3.0 + more, "m");
         put(cell, "board_left_at_50m_cdm2", 3.0 + more, "cd/m2");
         put(cell, "foreground_ratio_own", 3.0 + more, "1");
@@ -144,7 +144,7 @@ TEST(StudyCompare, EachKindOfReadingHasItsOwnUncertainty) {
          {std::pair("reach_1lx_road_left_1_m", 0.3), std::pair("reach_1lx_road_left_1_left_edge_m", 1.0),
           std::pair("unlit_before_reach_1lx_road_left_1_m", 0.5), std::pair("area_1lx_road_right_12_min_m2", 0.3),
           std::pair("glare_a_length_above_1lx_m", 2.0), std::pair("glare_a_time_above_1lx_s", 0.1), std::pair("sensor_a_reach_5lx_m", 2.0),
-          std::pair("detection_own_m", 1.0), std::pair("patch_dark_own_m", 1.0)}) {
+          std::pair("detection_card_own_m", 1.0), std::pair("patch_dark_own_m", 1.0)}) {
         EXPECT_NEAR(change_in(result, name).uncertainty.value(), both * open, 1e-12) << name;
         EXPECT_EQ(change_in(result, name).kind, 1.0 > both * open ? ChangeKind::real : ChangeKind::none) << name;
     }
@@ -285,7 +285,10 @@ TEST(StudyText, SaysReadingsInWords) {
     EXPECT_EQ(reading_in_words("glare_far_away_length_above_0.5lx_m"), "metres above 0.5 lx, eyes of oncoming driver far_away");
     EXPECT_EQ(reading_in_words("glare_mirrors_at_15m_at_50m_lx"), "illuminance 50 m before it, mirrors of a car 15 m ahead");
     EXPECT_EQ(reading_in_words("glare_mirrors_at_15m_de_boer_min"), "smallest de Boer rating, mirrors of a car 15 m ahead");
-    EXPECT_EQ(reading_in_words("detection_own_m"), "detection distance of a small target, own lane");
+    EXPECT_EQ(reading_in_words("detection_card_own_m"), "detection distance of card, own lane");
+    EXPECT_EQ(reading_in_words("detection_pedestrian-dark_right_p05_m"),
+              "detection distance of pedestrian-dark, right edge of the lanes, 5th percentile");
+    EXPECT_EQ(reading_in_words("visibility_level_card_own_at_50m"), "visibility level of card, own lane, 50 m ahead");
     EXPECT_EQ(reading_in_words("board_left_at_50m_cdm2"), "luminance of a board, left, 50 m ahead");
 }
 

@@ -150,8 +150,14 @@ TEST_F(Schema, AgreesWithTheReader) {
         "measure: {visibility: true}",
         "measure: {visibility: false}",
         "measure: {visibility: 1}",
-        "measure: {visibility: {size_m: 0}}",
-        "measure: {visibility: {level: 7, age_years: 23}}",
+        "measure: {visibility: {size_m: 0.2}}",
+        "measure: {visibility: {targets: [card, pedestrian-dark], age_years: 23}}",
+        "measure: {visibility: {targets: []}}",
+        "measure: {visibility: {targets: [carton]}}",
+        "measure: {visibility: {targets: {card: true, own: {reflectance: 0.1, level: 7, squares: 3}}}}",
+        "measure: {visibility: {targets: {card: {reflectance: 0.1, level: 7}}}}",
+        "measure: {visibility: {targets: {own: {reflectance: 0.1}}}}",
+        "measure: {visibility: {targets: {own: {reflectance: 0.1, level: 7, squares: 0.5}}}}",
         "measure: {visibility: {age_years: 22}}",
         "measure: {homogeneity: true}",
         "measure: {homogeneity: {patch_factor: 1}}",
@@ -299,7 +305,7 @@ TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
             continue; // a comment
         const std::string name = match->str(1);
         if (name == "left" || name == "right" || name == "halogen" || name == "xenon" || name == "driver" || name == "opposite" ||
-            name == "inside" || name == "rear")
+            name == "inside" || name == "rear" || name == "card" || name == "sign")
             continue; // names are the user's
         std::string misspelt = example;
         misspelt.insert(at + 2, "q");

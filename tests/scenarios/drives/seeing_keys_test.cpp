@@ -54,16 +54,27 @@ TEST_F(SeeingKeys, VisibilityHomogeneityAndPlaces) {
     EXPECT_EQ(short_form.homogeneity, HomogeneityParameters{});
     EXPECT_EQ(short_form.places, (PlaceParameters{true, false, true}));
     EXPECT_EQ(seeing("visibility: false, homogeneity: false"), SeeingParameters{});
-    const SeeingParameters long_form = seeing(
-        "visibility: {size_m: 0.3, reflectance: 0.2, level: 7, age_years: 60, time_s: 2, k: 3, ahead_m: 90, step_m: 0.5, distances_m: "
-        "[40]}, homogeneity: {least_lx: 2, ahead_m: 70, patch_factor: 1.2}, places: {what: [boards], distances_m: [33]}");
-    EXPECT_EQ(long_form.visibility, (VisibilityParameters{0.3, 0.2, 7.0, 60.0, 2.0, 3.0, 90.0, 0.5, {40.0}}));
+    const SeeingParameters long_form = seeing("visibility: {targets: {card: true, sign: {size_m: 0.3, squares: 2, reflectance: 0.1, level: "
+                                              "9, across: [left-edge]}}, dark_cdm2: 0.1, "
+                                              "age_years: 60, time_s: 2, k: 3, ahead_m: 90, step_m: 0.5, distances_m: [40]}, homogeneity: "
+                                              "{least_lx: 2, ahead_m: 70, patch_factor: 1.2}, places: {what: [boards], distances_m: [33]}");
+    EXPECT_EQ(long_form.visibility,
+              (VisibilityParameters{
+                  {usual_targets()[0], {"sign", 0.3, 2, 0.1, 9.0, {Across::left_edge}}}, 0.1, 60.0, 2.0, 3.0, 90.0, 0.5, {40.0}}));
+    EXPECT_EQ(seeing("visibility: {targets: [pedestrian-light, card]}").visibility.value().targets,
+              (std::vector<VisibilityTarget>{usual_targets()[2], usual_targets()[0]}));
+    EXPECT_THAT(refused("visibility: {targets: [cart]}"),
+                HasSubstr("found 'cart', expected one of card, pedestrian-dark, pedestrian-light"));
+    EXPECT_THAT(refused("visibility: {targets: [card, card]}"), HasSubstr("'card' twice"));
+    EXPECT_THAT(refused("visibility: {targets: {sign: true}}"), HasSubstr("true stands for card, pedestrian-dark, pedestrian-light alone"));
+    EXPECT_THAT(refused("visibility: {targets: {card: {reflectance: 0.1, level: 7}}}"), HasSubstr("one of the usual targets"));
+    EXPECT_THAT(refused("visibility: {targets: {sign: {reflectance: 0.1}}}"), HasSubstr("sign.level: missing"));
     EXPECT_EQ(long_form.homogeneity, (HomogeneityParameters{2.0, 70.0, 1.2}));
     EXPECT_EQ(long_form.places, (PlaceParameters{false, true, false, {33.0}}));
     EXPECT_THAT(refused("places: [kerbs]"), HasSubstr("measure.places[0]: found 'kerbs'"));
     EXPECT_THAT(refused("places: {distances_m: [3]}"), HasSubstr("measure.places.what: missing"));
     EXPECT_THAT(refused("visibility: {age_years: 20}"), HasSubstr("measure.visibility.age_years: found '20'"));
-    EXPECT_THAT(refused("visibility: {sizes_m: 20}"), HasSubstr("unknown key, expected 'size_m'"));
+    EXPECT_THAT(refused("visibility: {target: [card]}"), HasSubstr("unknown key, expected 'targets'"));
     EXPECT_THAT(refused("homogeneity: {patch_factor: 1}"), HasSubstr("measure.homogeneity.patch_factor"));
 }
 
@@ -71,7 +82,8 @@ TEST_F(SeeingKeys, AreWrittenAsTheyWereRead) {
     for (const char* measure :
          {"sensors: {points: {'1.5': {at_m: 0.1, across: right-edge}, 'null': {at_m: 2, across: oncoming-centre}}}",
           "glare: {oncoming: {a: {at_m: 80.3}}, mirrors: true, equation: stiles-holladay}", "glare: {mirrors: {places: {x: [1, 2, 3]}}}",
-          "visibility: {size_m: 0.3, k: 2.61}, homogeneity: {ahead_m: 77.7}, places: [boards, markings]",
+          "visibility: {targets: {'1': {reflectance: 0.3, level: 8.5, across: [own-centre, right-edge]}, card: true}, k: 2.61}, "
+          "homogeneity: {ahead_m: 77.7}, places: [boards, markings]",
           "extent: false, probes: {p: {ahead_m: 3}}, glare: {oncoming: {a: {at_m: 1}}, limits_lx: [], distances_m: []}"}) {
         const Drive drive = read(minimal + "measure: {" + measure + "}\n");
         EXPECT_EQ(read(write_drive(drive)).seeing, drive.seeing) << measure;

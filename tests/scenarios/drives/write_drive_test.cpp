@@ -190,7 +190,9 @@ class AnyDrive {
                                 VeilingEquation::stiles_holladay,
                                 number(20.0, 80.0)};
         if (coin())
-            drive.seeing.visibility = VisibilityParameters{number(0.1, 1.0), number(0.0, 1.0), number(5.0, 20.0)};
+            drive.seeing.visibility = VisibilityParameters{
+                {usual_targets()[1], {"t", number(0.1, 1.0), 2, number(0.0, 1.0), number(5.0, 20.0), {Across::left_edge}}},
+                number(0.0, 0.1)};
         if (coin())
             drive.seeing.homogeneity = HomogeneityParameters{number(0.1, 3.0), number(20.0, 90.0), number(1.1, 2.0)};
         if (coin())

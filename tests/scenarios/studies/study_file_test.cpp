@@ -82,16 +82,16 @@ TEST_F(StudyFile, ConditionsReachTheDrive) {
 }
 
 TEST_F(StudyFile, MeasuresReachEveryDriveThatDoesNotAskItself) {
-    std::string text = with("measure: {visibility: {level: 7}, glare: {oncoming: {stranger: {at_m: 90}}}}\n");
+    std::string text = with("measure: {visibility: {age_years: 60}, glare: {oncoming: {stranger: {at_m: 90}}}}\n");
     text.insert(text.find("]\n") /* of drives */, ", " + library + "drives/iihs-straight.yaml");
     const Study study = read(text);
     const std::vector<StudyCell> cells = cells_of(study);
     ASSERT_EQ(cells.size(), 4U);
     const SeeingParameters plain = cell_drive(study, cells[0]).seeing, own = cell_drive(study, cells[2]).seeing;
-    EXPECT_EQ(plain.visibility.value().level, 7.0);
+    EXPECT_EQ(plain.visibility.value().age_years, 60.0);
     EXPECT_EQ(plain.glare.value().oncoming.at(0).name, "stranger");
     EXPECT_FALSE(plain.sensors || plain.homogeneity || plain.places) << "nobody asked";
-    EXPECT_EQ(own.visibility.value().level, 7.0);
+    EXPECT_EQ(own.visibility.value().age_years, 60.0);
     EXPECT_EQ(own.glare.value().oncoming.at(0).name, "lane-centre") << "the drive's own eyes stay";
     EXPECT_TRUE(own.sensors);
     EXPECT_EQ(cell_drive(read(with("")), cells[0]).seeing, SeeingParameters{});
@@ -113,7 +113,7 @@ TEST_F(StudyFile, MirroredCellsHaveTheRoadInAMirror) {
 }
 
 TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
-    EXPECT_THAT(refusal(with("measure: {visibility: {level: 0}}\n")), HasSubstr("measure.visibility.level"));
+    EXPECT_THAT(refusal(with("measure: {visibility: {k: 0}}\n")), HasSubstr("measure.visibility.k"));
     EXPECT_THAT(refusal(with("measure: {extent: true}\n")), HasSubstr("extent"));
     EXPECT_THAT(refusal(with("conditons: {}\n")), HasSubstr("conditions"));
     EXPECT_THAT(refusal(with("conditions: {time_of_day: dusk}\n")), HasSubstr("night"));
