@@ -1,6 +1,6 @@
-#include "metrics/extent.h"
+#include "metrics/road/extent.h"
 
-#include "metrics/lit_area.h"
+#include "metrics/road/lit_area.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "metrics/lit_road.h"
+#include "metrics/road/lit_road.h"
 
 #include <cmath>
 

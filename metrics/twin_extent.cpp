@@ -1,7 +1,7 @@
-#include "metrics/extent.h"
+#include "metrics/road/extent.h"
 
-#include "metrics/deciding_lx.h"
-#include "scenarios/light.h"
+#include "metrics/road/deciding_lx.h"
+#include "scenarios/light/light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/models/placed_model.h"
-#include "scenarios/openscenario/storyboard_source.h"
+#include "scenarios/openscenario/reader/storyboard_source.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/sky/daylight.h"
 #include "scenarios/sky/street_lamps.h"
