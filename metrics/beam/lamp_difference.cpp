@@ -29,13 +29,6 @@ struct Explanation {
     double cut_off_up_deg = 0.0, log_level = 0.0;
 };
 
-double finest_step(const std::vector<double>& axis) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < axis.size(); ++i)
-        least = std::min(least, axis[i] - axis[i - 1]);
-    return least;
-}
-
 struct Steps {
     double h_deg, v_deg;
 };

@@ -86,13 +86,6 @@ Sums over_disc(const CandelaTable& table, double radius, Direction to) {
     return sums;
 }
 
-double finest_step(const std::vector<double>& axis) {
-    double finest = axis.back() - axis.front();
-    for (std::size_t i = 1; i < axis.size(); ++i)
-        finest = std::min(finest, axis[i] - axis[i - 1]);
-    return finest;
-}
-
 /// The samples from the last one at or below `low` to the first one at or above `high`.
 std::pair<std::size_t, std::size_t> around(const std::vector<double>& axis, double low, double high) {
     auto first = std::upper_bound(axis.begin(), axis.end(), low);

@@ -1,7 +1,7 @@
 // A lamp as a photometer on a goniometer sees it: aimed, averaged over the receiver's opening, one lamp or half the sum of two.
 #pragma once
 
-#include "metrics/regulation/regulation.h"
+#include "metrics/beam/receiver.h"
 #include "scenarios/lamps/candela_table.h"
 
 #include <optional>

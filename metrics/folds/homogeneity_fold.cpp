@@ -1,7 +1,6 @@
 #include "metrics/folds/homogeneity_fold.h"
 
 #include "metrics/statistics/statistics.h"
-#include "runner/play/stage.h"
 #include "scenarios/light/light.h"
 
 #include <fmt/format.h>

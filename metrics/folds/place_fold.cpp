@@ -4,7 +4,6 @@
 #include "metrics/glare/eye_light.h"
 #include "metrics/seeing/lit_surface.h"
 #include "metrics/statistics/statistics.h"
-#include "runner/play/stage.h"
 #include "scenarios/light/light.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 

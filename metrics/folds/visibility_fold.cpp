@@ -5,7 +5,6 @@
 #include "metrics/road/lit_line.h"
 #include "metrics/seeing/mesopic.h"
 #include "metrics/statistics/statistics.h"
-#include "runner/play/stage.h"
 #include "scenarios/light/light.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 

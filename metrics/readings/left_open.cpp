@@ -1,7 +1,6 @@
 #include "metrics/readings/left_open.h"
 
 #include "metrics/readings/significance.h"
-#include "runner/findings/summary.h"
 
 #include <cmath>
 #include <initializer_list>

@@ -17,4 +17,10 @@ struct Reading {
 };
 using Readings = std::vector<Reading>;
 
+/// A lane's or a pass's name as it stands within a reading's name: "left 1" -> "left_1".
+std::string name_part(const std::string& text);
+
+/// Whether a reading tells how long something took on this machine: such readings are reported and never compared.
+bool is_unit_of_time(const std::string& unit);
+
 } // namespace fernlicht

@@ -1,8 +1,8 @@
 #include "metrics/strictness/strictness_file.h"
 
-#include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
+#include "scenarios/values/picture_decoding.h"
 #include "scenarios/yaml/yaml_entry.h"
 
 #include <algorithm>
@@ -19,10 +19,13 @@ constexpr std::size_t most_children = 64;
 constexpr double largest_bound = 1e9;
 
 PixelMask read_mask(const YamlEntry& entry) {
-    const Image<Rgb8> picture = read_png(entry.path());
-    PixelMask mask(picture.width(), picture.height());
+    constexpr std::size_t most_pixels = (std::size_t{1} << 28) / 3;
+    FilesRead opened;
+    const std::filesystem::path path = entry.path();
+    const DecodedPicture picture = decode_picture(path, entry.key_path(), read_file(path, opened), most_pixels);
+    PixelMask mask(picture.width, picture.height);
     for (std::size_t i = 0; i < mask.size(); ++i)
-        mask.pixels()[i] = picture.pixels()[i] == Rgb8{0, 0, 0} ? 0 : 255;
+        mask.pixels()[i] = picture.rgba[4 * i] || picture.rgba[4 * i + 1] || picture.rgba[4 * i + 2] ? 255 : 0;
     return mask;
 }
 

@@ -235,9 +235,6 @@ inline constexpr std::size_t most_pictured_moments = 12;
 /// At most `most` of `count` indices, evenly spread, first and last among them.
 std::vector<std::size_t> spread_over(std::size_t count, std::size_t most);
 
-/// Writes report.json, junit.xml, readings.csv, times.csv and report.html into `folder` (frames are there already). Each file atomically.
-void write_report(const Report& report, const std::filesystem::path& folder);
-
 /// The report's verdict over what is red: fail if anything failed or passed unexpectedly, else flaky if a repeat differed, else
 /// not_measured if anything asked for was not measured, else pass.
 VerdictKind overall(const Report& report);

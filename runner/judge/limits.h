@@ -10,7 +10,4 @@ namespace fernlicht {
 /// not_measured: never green. `rerun` is left to the caller.
 std::vector<Verdict> judge_limits(const Drive& drive, const Readings& readings);
 
-/// Before anything is drawn: throws InputError for a limit on a reading that no run can have (docs/readings.md has the names).
-void check_limit_names(const Drive& drive, const Readings& others = {});
-
 } // namespace fernlicht

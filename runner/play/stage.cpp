@@ -1,8 +1,8 @@
 #include "runner/play/stage.h"
 
+#include "metrics/folds/limit_names.h"
 #include "metrics/folds/seeing_fold.h"
 #include "renderer/technique.h"
-#include "runner/judge/limits.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/drives/story/tell_story.h"
@@ -55,11 +55,6 @@ std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage
         moments.push_back(moment_at(state, stage.drive, stage.route, variant));
     }
     return moments;
-}
-
-const View* driver_view(const Drive& drive) {
-    const auto view = std::ranges::find(drive.views, Projection::perspective, &View::projection);
-    return view == drive.views.end() ? nullptr : &*view;
 }
 
 void add_inputs(FilesRead& all, const FilesRead& more) {

@@ -21,9 +21,6 @@ struct Stage {
 /// The moments at these ticks, which rise.
 std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant);
 
-/// The driver's view: the first that is no map. nullptr where there are only maps.
-const View* driver_view(const Drive& drive);
-
 /// Adds what is not there yet, by path.
 void add_inputs(FilesRead& all, const FilesRead& more);
 

@@ -171,4 +171,12 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits = {}
 /// `opened` are not part of it.
 std::string write_drive(const Drive& drive);
 
+/// The driver's view: the first that is no map. nullptr where there are only maps.
+inline const View* driver_view(const Drive& drive) {
+    for (const View& view : drive.views)
+        if (view.projection == Projection::perspective)
+            return &view;
+    return nullptr;
+}
+
 } // namespace fernlicht

@@ -1,8 +1,8 @@
 #include "report_files.h"
 #include "runner/experiments/accuracy/accuracy_result.h"
-#include "runner/experiments/run/page_parts.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
+#include "runner/write/page_base.h"
 
 #include <fmt/format.h>
 #include <stdexcept>

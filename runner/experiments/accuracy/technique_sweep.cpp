@@ -1,7 +1,7 @@
 #include "runner/experiments/accuracy/technique_sweep.h"
 
 #include "runner/experiments/accuracy/picture_errors.h"
-#include "runner/experiments/accuracy/studies/simplifications.h"
+#include "runner/experiments/accuracy/simplifications.h"
 #include "runner/experiments/accuracy/twin_agreement.h"
 #include "runner/experiments/bench/bench_run.h"
 #include "scenarios/drives/play/advance.h"

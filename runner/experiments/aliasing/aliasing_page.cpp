@@ -1,7 +1,7 @@
 #include "report_files.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
-#include "runner/experiments/run/page_parts.h"
 #include "runner/files/clean_text.h"
+#include "runner/write/page_base.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -12,6 +12,13 @@
 
 namespace fernlicht {
 
+/// A figure of a comparison, drawn.
+struct ComparedFigure {
+    std::string name;  ///< of its files below figures/, without extension
+    std::string title; ///< for people
+    std::string svg;
+};
+
 struct ComparedValue {
     std::string name;                              ///< snake_case: rmse, psnr_db, flip_mean
     std::string unit;                              ///< "" for none

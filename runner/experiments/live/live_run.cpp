@@ -1,4 +1,5 @@
 #include "runner/experiments/live/live_run.h"
+#include "runner/experiments/run/report_writers.h"
 
 #include "renderer/sanity.h"
 #include "runner/files/durable_files.h"

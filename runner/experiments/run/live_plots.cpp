@@ -1,5 +1,5 @@
+#include "runner/experiments/run/page_plots.h"
 #include "runner/play/live/live_figures.h"
-#include "runner/write/plots/svg.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "runner/experiments/run/page_parts.h"
+#include "runner/experiments/run/page_plots.h"
 #include "runner/files/clean_text.h"
 #include "runner/play/live/live_figures.h"
 

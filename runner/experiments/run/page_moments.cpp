@@ -178,19 +178,6 @@ std::vector<PicturedMoment> shown_moments(const ComparedDrive& drive, const std:
 
 } // namespace
 
-std::vector<std::size_t> spread_over(std::size_t count, std::size_t most) {
-    std::vector<std::size_t> out;
-    if (count <= most)
-        for (std::size_t i = 0; i < count; ++i)
-            out.push_back(i);
-    else if (most == 1)
-        out.push_back((count - 1) / 2);
-    else
-        for (std::size_t i = 0; i < most; ++i)
-            out.push_back((i * (count - 1) + (most - 1) / 2) / (most - 1));
-    return out;
-}
-
 data moments_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
     const std::vector<PicturedMoment> all = pictured(drive);
     const std::vector<std::string> views = views_of(drive);

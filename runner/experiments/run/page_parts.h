@@ -1,9 +1,7 @@
 // The parts of report.html as data for its template. Every text in them is clean; the template escapes it.
 #pragma once
 
-#include "runner/findings/report.h"
-
-#include <kainjow/mustache.hpp>
+#include "runner/write/page_base.h"
 
 namespace fernlicht {
 
@@ -13,13 +11,6 @@ struct ComparedDrive {
     std::vector<const PlayedVariant*> variants;
 };
 std::vector<ComparedDrive> compared_drives(const Report& report);
-
-/// Colours of the variants in every table and plot (after Okabe and Ito: told apart by colour-blind readers too); starts again after six.
-const char* variant_colour(std::size_t index);
-
-/// Numbers for people: fixed decimals with U+2212 as minus sign; a difference always carries its sign.
-std::string figure(double value, int decimals);
-std::string signed_figure(double value, int decimals);
 
 /// Verdict, its reasons, and what could not be measured.
 kainjow::mustache::data verdict_part(const Report& report);
@@ -57,8 +48,5 @@ kainjow::mustache::data throughput_table(const ComparedDrive& drive);
 
 /// Punctuality and losses of a live run.
 kainjow::mustache::data live_part(const LiveFigures& live);
-
-/// Commands, versions, machine, input files.
-kainjow::mustache::data context_part(const RunContext& context);
 
 } // namespace fernlicht

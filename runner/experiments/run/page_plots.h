@@ -40,6 +40,9 @@ std::string timing_svg(const ComparedDrive& drive);
 /// no lamp set has both.
 std::string error_svg(const ComparedDrive& drive);
 
+/// Ticks over their lateness, both logarithmic, and lateness over the drive. None without ticks, and of what did not wait.
+std::vector<std::string> live_svgs(const LiveFigures& live);
+
 /// Limits worth a figure: 1 and 5 lx where they were measured, else the lowest and the highest that were.
 std::vector<double> plotted_limits_lx(const ComparedDrive& drive);
 

@@ -23,4 +23,7 @@ std::string times_csv(const Report& report);
 /// One self-contained page. Frames are read from `folder`; one that is missing or unreadable is linked and said to be missing.
 std::string report_html(const Report& report, const std::filesystem::path& folder);
 
+/// Writes report.json, junit.xml, readings.csv, times.csv and report.html into `folder` (frames are there already). Each file atomically.
+void write_report(const Report& report, const std::filesystem::path& folder);
+
 } // namespace fernlicht

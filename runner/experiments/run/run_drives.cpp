@@ -1,4 +1,5 @@
 #include "runner/experiments/run/run_drives.h"
+#include "runner/experiments/run/report_writers.h"
 
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"

@@ -1,6 +1,6 @@
 #include "runner/experiments/shadows/stress_scenes.h"
 
-#include "runner/experiments/stability/trial.h"
+#include "runner/play/small_scenes.h"
 
 #include <algorithm>
 #include <array>
@@ -49,14 +49,14 @@ void join(Scene& scene, std::size_t first, const std::string& name) {
 }
 
 Scene scene_without_road() {
-    Scene scene = stability::empty_scene();
+    Scene scene = small_scenes::empty_scene();
     scene.materials.push_back({"thing", SurfaceKind::object, glm::vec3(0.3F)});
     return scene;
 }
 
 Scene plane_road() {
     Scene scene = scene_without_road();
-    stability::add_sheet(scene, "road", road_material, {-10.0, -30.0, 0.0}, {140.0, 0.0, 0.0}, {0.0, 60.0, 0.0});
+    small_scenes::add_sheet(scene, "road", road_material, {-10.0, -30.0, 0.0}, {140.0, 0.0, 0.0}, {0.0, 60.0, 0.0});
     return scene;
 }
 
@@ -147,7 +147,7 @@ Scene with_wall() {
 }
 
 View drivers_view(double vertical_fov_rad) {
-    View view = stability::camera({1.3, 0.35, 1.2}, 0.0, radians(-1.0), 0.0, 1024, 768);
+    View view = small_scenes::camera({1.3, 0.35, 1.2}, 0.0, radians(-1.0), 0.0, 1024, 768);
     view.name = "driver";
     view.vertical_fov_rad = vertical_fov_rad;
     return view;

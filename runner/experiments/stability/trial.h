@@ -1,26 +1,14 @@
-// Small scenes for the cases, and a drawn frame held against the double-precision twin.
+// A drawn frame of a small scene held against the double-precision twin.
 #pragma once
 
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
 #include "runner/experiments/stability/stability_case.h"
+#include "runner/play/small_scenes.h"
 
 namespace fernlicht::stability {
 
-/// A lamp of `cd` in every direction to +-85 degrees.
-CandelaTable constant_table(double cd);
-/// A beam with a cut-off: ln I falls by about 500 a radian, 300 to 20 000 cd.
-CandelaTable cut_off_table();
-
-LitLamp lamp(CandelaTable table, const glm::dvec3& position_m, double yaw_rad = 0.0, double pitch_rad = 0.0);
-
-/// A parallelogram of one mesh: corner, and the edges from it; faces edge_a x edge_b.
-void add_sheet(Scene& scene, const std::string& name, std::uint32_t material, const glm::dvec3& corner_m, const glm::dvec3& edge_a,
-               const glm::dvec3& edge_b);
-/// Materials 0: plain road, 1: a retroreflecting board.
-Scene empty_scene();
-
-View camera(const glm::dvec3& position_m, double yaw_rad, double pitch_rad, double fov_deg, int width_px, int height_px);
+using namespace small_scenes;
 
 /// Without shadows, which the comparisons with twin and plane leave out; shadow_cases.cpp has them.
 RendererSettings unshadowed();

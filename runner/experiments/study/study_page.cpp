@@ -1,12 +1,12 @@
 #include "metrics/readings/reading_words.h"
 #include "metrics/readings/unit_words.h"
 #include "report_files.h"
-#include "runner/experiments/run/page_parts.h"
 #include "runner/experiments/study/lamp_verdict.h"
 #include "runner/experiments/study/study_words.h"
 #include "runner/experiments/study/study_writers.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/write/page_base.h"
 #include "runner/write/plots/png.h"
 
 #include <algorithm>

@@ -50,7 +50,5 @@ std::string candump_stamp(std::int64_t time_ns);
 nlohmann::ordered_json live_json(const LiveFigures& live);
 /// For a terminal: a few lines.
 std::string live_text(const LiveFigures& live);
-/// Ticks over their lateness, both logarithmic, and lateness over the drive. None without ticks, and of what did not wait.
-std::vector<std::string> live_svgs(const LiveFigures& live);
 
 } // namespace fernlicht

@@ -322,7 +322,8 @@ TEST(DisplayRun, PicturesThatDoNotTellHowTheyWereShownAreComparedWithANote) {
     const json written = json::parse(run_program("compare --json " + ours + " " + others).output);
     EXPECT_EQ(written.at("notes").size(), 1U);
     FilesRead opened;
-    EXPECT_THAT(tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/compare/compare.schema.json", opened))).check(written),
+    EXPECT_THAT(tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/compare/compare.schema.json", opened)))
+                    .check(written),
                 testing::IsEmpty());
 }
 
@@ -332,8 +333,9 @@ TEST(DisplayRun, TheReportSaysHowLargePicturesAreSeen) {
     const std::string out = played(folder, "seen", "display: " + library_file("displays/projector.yaml") + "\n");
     const json report = json::parse(content_of(out + "/report.json"));
     FilesRead opened;
-    EXPECT_THAT(tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/run/report.schema.json", opened))).check(report),
-                testing::IsEmpty());
+    EXPECT_THAT(
+        tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/run/report.schema.json", opened))).check(report),
+        testing::IsEmpty());
     const json& display = report.at("drives").at(0).at("display");
     EXPECT_EQ(display.at("profile"), "projector");
     const json& view = display.at("views").at(0);

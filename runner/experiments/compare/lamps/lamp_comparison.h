@@ -5,7 +5,7 @@
 #include "metrics/beam/lamp_difference.h"
 #include "metrics/regulation/regulation_check.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
-#include "runner/experiments/compare/runs/run_comparison.h"
+#include "runner/experiments/compare/picture_comparison.h"
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 #include "report_files.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
 #include "runner/experiments/compare/name_beside.h"
-#include "runner/experiments/run/page_parts.h"
 #include "runner/files/clean_text.h"
+#include "runner/write/page_base.h"
 
 #include <cmath>
 #include <fmt/format.h>

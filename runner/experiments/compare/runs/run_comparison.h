@@ -34,12 +34,6 @@ struct LampFilesDifference {
     LampDifference difference;
 };
 
-struct ComparedFigure {
-    std::string name;  ///< of its files below figures/, without extension
-    std::string title; ///< for people
-    std::string svg;
-};
-
 struct DriveComparison {
     const RunDrive* before = nullptr;
     const RunDrive* now = nullptr;

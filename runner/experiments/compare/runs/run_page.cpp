@@ -3,8 +3,8 @@
 #include "report_files.h"
 #include "runner/experiments/compare/runs/run_writers.h"
 #include "runner/experiments/compare/strictness_failures.h"
-#include "runner/experiments/run/page_parts.h"
 #include "runner/files/clean_text.h"
+#include "runner/write/page_base.h"
 #include "runner/write/plots/png.h"
 
 #include <algorithm>

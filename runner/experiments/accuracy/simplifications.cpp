@@ -1,4 +1,4 @@
-#include "runner/experiments/accuracy/studies/simplifications.h"
+#include "runner/experiments/accuracy/simplifications.h"
 
 #include "renderer/projected_beam.h"
 #include "runner/experiments/accuracy/reference_shots.h"

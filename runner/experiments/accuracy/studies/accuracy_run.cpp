@@ -1,4 +1,4 @@
-#include "runner/experiments/accuracy/accuracy_run.h"
+#include "runner/experiments/accuracy/studies/accuracy_run.h"
 
 #include "renderer/sanity.h"
 #include "runner/experiments/accuracy/reference_shots.h"
