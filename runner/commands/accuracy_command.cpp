@@ -6,7 +6,9 @@
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -63,8 +65,13 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
     request.folder = flags.out.empty() ? default_output_folder("accuracy", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
     request.quiet = flags.quiet;
+    request.write = [&](const AccuracyResult& result) {
+        write_file(request.folder / "accuracy.json", accuracy_json(result));
+        write_file(request.folder / "accuracy.csv", accuracy_csv(result));
+        write_document(document(result), result, request.folder, "accuracy");
+    };
     const AccuracyResult result = run_accuracy(request);
-    fmt::print("{}\n{}\n", accuracy_text(result), (request.folder / "accuracy.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "accuracy.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
     for (const std::string& missing : result.missing)

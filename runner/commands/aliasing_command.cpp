@@ -6,7 +6,9 @@
 #include "runner/experiments/aliasing/sequence_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -119,13 +121,20 @@ AliasingResult run(const AliasingFlags& flags, const std::vector<std::string>& c
         folder = flags.out.empty() ? default_output_folder(name + "-aliasing", utc_now()) : std::filesystem::path(flags.out);
         return folder;
     };
+    const auto write = [&folder](const AliasingResult& result) {
+        write_file(folder / "aliasing.json", aliasing_json(result));
+        write_file(folder / "aliasing.csv", aliasing_csv(result));
+        write_document(document(result), result, folder, "aliasing");
+    };
     if (!flags.sequence.empty()) {
         SequenceRequest request = sequence_request_of(flags);
+        request.write = write;
         request.command = command;
         request.folder = place("sequence");
         return run_sequence_aliasing(request);
     }
     AliasingRequest request = request_of(flags);
+    request.write = write;
     request.command = command;
     request.folder = place(request.drive.name);
     return run_aliasing(request);
@@ -137,7 +146,7 @@ int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command
                          "a drive file, or --sequence with a folder of frames");
     std::filesystem::path folder;
     const AliasingResult result = run(flags, command, folder);
-    fmt::print("{}{}\n", aliasing_text(result), (folder / "aliasing.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), (folder / "aliasing.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
     const bool measured =

@@ -5,7 +5,9 @@
 #include "runner/experiments/bench/bench_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -47,8 +49,13 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     request.folder = flags.out.empty() ? default_output_folder("bench", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
     request.quiet = flags.quiet;
+    request.write = [&](const BenchResult& result) {
+        write_file(request.folder / "bench.json", bench_json(result));
+        write_file(request.folder / "bench.csv", bench_csv(result));
+        write_document(document(result), result, request.folder, "bench");
+    };
     const BenchResult result = run_bench(request);
-    fmt::print("{}\n{}\n{}\n", bench_heading(result), bench_tables(result), (request.folder / "bench.json").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "bench.html").string());
     return result.interrupted.empty() ? 0 : 1;
 }
 

@@ -6,7 +6,9 @@
 #include "runner/experiments/shadows/shadow_study.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -95,8 +97,14 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.folder = flags.out.empty() ? default_output_folder("shadows", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
     request.quiet = flags.quiet;
+    request.write = [&](const ShadowResult& result) {
+        write_file(request.folder / "shadows.json", shadow_json(result));
+        write_file(request.folder / "shadows.csv", shadow_csv(result));
+        write_document(document(result), result, request.folder, "shadows");
+    };
     const ShadowResult result = run_shadow_study(request);
-    fmt::print("{}\n{}\n", flags.markdown ? shadow_markdown(result) : shadow_text(result), (request.folder / "shadows.html").string());
+    fmt::print("{}\n{}\n", flags.markdown ? table_markdown(shadow_table(result)) : document_text(document(result)),
+               (request.folder / "shadows.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
     for (const std::string& missing : result.missing)

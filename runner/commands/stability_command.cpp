@@ -3,6 +3,7 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/stability/stability_text.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -92,7 +93,7 @@ int try_cases(const StabilityFlags& flags) {
     if (flags.json)
         fmt::print("{}", stability_json(rows, bench.drew() ? bench.device().info().gl_renderer : ""));
     else if (flags.markdown)
-        fmt::print("{}", stability_markdown(rows));
+        fmt::print("{}", table_markdown(stability_table(rows)));
     else
         fmt::print("\n{}", stability_summary(rows));
     return std::ranges::any_of(rows, [](const StabilityRow& row) { return row.verdict == Judgement::fail; }) ? 1 : 0;

@@ -1,4 +1,6 @@
-#include "runner/experiments/accuracy/accuracy_result.h"
+#include "runner/write/plots/work_precision_plot.h"
+
+#include "metrics/statistics/statistics.h"
 #include "runner/findings/figures.h"
 #include "runner/write/plots/axes.h"
 #include "runner/write/plots/canvas.h"

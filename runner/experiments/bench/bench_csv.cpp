@@ -1,7 +1,5 @@
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/files/clean_text.h"
-#include "runner/write/plots/png.h"
-#include "scenarios/values/files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,14 +21,6 @@ std::string bench_csv(const BenchResult& result) {
         }
     }
     return out;
-}
-
-void write_bench(const BenchResult& result, const std::filesystem::path& folder) {
-    const std::string svg = bench_svg(result);
-    write_file(folder / "bench.json", bench_json(result));
-    write_file(folder / "bench.csv", bench_csv(result));
-    write_file(folder / "bench.svg", svg);
-    write_file(folder / "bench.png", plots::png_of_svg(svg, 2.0));
 }
 
 } // namespace fernlicht

@@ -1,9 +1,6 @@
 #include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
-#include "runner/play/capture.h"
-#include "runner/write/plots/png.h"
-#include "scenarios/values/files.h"
 
 #include <fmt/format.h>
 
@@ -30,17 +27,6 @@ std::string accuracy_csv(const AccuracyResult& result) {
         }
     }
     return out;
-}
-
-void write_accuracy(const AccuracyResult& result, const std::filesystem::path& folder) {
-    write_file(folder / "accuracy.json", accuracy_json(result));
-    write_file(folder / "accuracy.csv", accuracy_csv(result));
-    for (const WorkPrecision& diagram : result.diagrams) {
-        const std::string svg = work_precision_svg(diagram), name = file_name_of(diagram.name);
-        write_file(folder / (name + ".svg"), svg);
-        write_file(folder / (name + ".png"), plots::png_of_svg(svg, 1.5));
-    }
-    write_file(folder / "accuracy.html", accuracy_html(result));
 }
 
 } // namespace fernlicht

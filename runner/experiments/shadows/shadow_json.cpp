@@ -3,10 +3,6 @@
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/context_json.h"
-#include "runner/findings/figures.h"
-#include "runner/play/capture.h"
-#include "runner/write/plots/png.h"
-#include "scenarios/values/files.h"
 
 #include <fmt/format.h>
 
@@ -103,21 +99,6 @@ std::string shadow_json(const ShadowResult& result) {
                           {"lamp_radius_m", result.lamp_radius_m},
                           {"floor_lx", result.floor_lx},
                           {"scenes", scenes}});
-}
-
-void write_shadows(const ShadowResult& result, const std::filesystem::path& folder) {
-    write_file(folder / "shadows.json", shadow_json(result));
-    write_file(folder / "shadows.csv", shadow_csv(result));
-    const auto write_picture = [&](const std::string& svg, const std::string& name, double scale) {
-        write_file(folder / (name + ".svg"), svg);
-        write_file(folder / (name + ".png"), plots::png_of_svg(svg, scale));
-    };
-    for (const ShadowSceneResult& scene : result.scenes)
-        if (!scene.rows.empty())
-            write_picture(shadow_sheet_svg(scene), "methods-" + file_name_of(scene.name), 1.0);
-    for (const WorkPrecision& diagram : shadow_diagrams(result))
-        write_picture(work_precision_svg(diagram), file_name_of(diagram.name), 1.5);
-    write_file(folder / "shadows.html", shadow_html(result));
 }
 
 } // namespace fernlicht

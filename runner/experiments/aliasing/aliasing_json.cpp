@@ -2,10 +2,6 @@
 #include "runner/files/clean_text.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/context_json.h"
-#include "runner/play/capture.h"
-#include "runner/write/aligned_table.h"
-#include "runner/write/plots/png.h"
-#include "scenarios/values/files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -113,68 +109,6 @@ Json row_json(const AliasingResult& result, const AliasingRow& row) {
     return out;
 }
 
-std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
-
-std::string edge_text(const std::optional<EdgeJaggedness>& edge) {
-    return edge ? fmt::format("{:.3f} ({:.3f})", edge->found.rms_px, edge->found.standard_error_px) : "-";
-}
-
-std::vector<std::string> cells_of(const AliasingRow& row) {
-    std::vector<std::string> cells{name_of(row.configuration)};
-    if (!row.why_not.empty()) {
-        cells.insert(cells.end(), 11, "-");
-        return cells;
-    }
-    const SpatialAliasing& s = row.spatial;
-    if (measured_over_space(row))
-        for (const double value :
-             {s.aliasing.visible, s.aliasing.contrast_percent, s.folded.contrast_percent, s.rest.contrast_percent, s.lost.contrast_percent})
-            cells.push_back(three_digits(value));
-    else
-        cells.insert(cells.end(), 5, "-");
-    cells.push_back(edge_text(row.cut_off));
-    cells.push_back(edge_text(row.marks));
-    if (!row.temporal) {
-        cells.insert(cells.end(), 4, "-");
-        return cells;
-    }
-    const TemporalAliasing& t = *row.temporal;
-    cells.push_back(three_digits(t.visible));
-    cells.push_back(three_digits(t.flicker_percent));
-    cells.push_back(t.standing_percent ? three_digits(*t.standing_percent) : "-");
-    cells.push_back(t.crawl_percent ? three_digits(*t.crawl_percent) : "-");
-    return cells;
-}
-
-std::string flows_text(const AliasingResult& result) {
-    if (result.flows.empty())
-        return {};
-    std::vector<std::vector<std::string>> rows;
-    for (const FlowComparison& flow : result.flows)
-        rows.push_back({method_name(flow.method) + ", " + flow.pictures, fmt::format("{:.3f}", flow.error.median_px),
-                        fmt::format("{:.3f}", flow.error.mean_px), three_digits(flow.error.far_percent),
-                        three_digits(flow.error.left_out_percent), flow.temporal ? three_digits(flow.temporal->flicker_percent) : "-",
-                        flow.known ? three_digits(flow.known->flicker_percent) : "-"});
-    return fmt::format("\nmotion by optical flow against the known one, {} points, median motion {:.2f} px a frame:\n",
-                       result.flows.front().error.points, result.flows.front().error.known_motion_px) +
-           aligned_table("<>>>>>>",
-                         {"by", "median off px", "mean off px", "off > 0.5 px %", "left out %", "flicker %", "by known motion %"}, rows) +
-           "left out: going there and back ends elsewhere; flicker: along its paths, by aliasing against the reference or by brightness as "
-           "drawn; "
-           "by known motion: aliasing of the same points\n";
-}
-
-std::string numbered(const AliasingResult& result, std::size_t i) {
-    return fmt::format("{:02}-{}", i + 1, file_name_of(name_of(result.rows[i].configuration)));
-}
-
-void write_svg(const std::string& svg, const std::filesystem::path& folder, const std::string& name) {
-    if (svg.empty())
-        return;
-    write_file(folder / (name + ".svg"), svg);
-    write_file(folder / (name + ".png"), plots::png_of_svg(svg, 1.0));
-}
-
 } // namespace
 
 std::string filter_name(SurfaceFilter filter) {
@@ -206,50 +140,6 @@ std::string motion_text(const FollowedByFlow& flow) {
                        "within {:.3f} px{}",
                        flow.followed, flow.started, flow.flat, flow.median_motion_px, flow.median_return_px,
                        2 * flow.followed < flow.started ? "; fewer than half, and flicker is known of those alone" : "");
-}
-
-std::string aliasing_text(const AliasingResult& result) {
-    std::vector<std::vector<std::string>> rows;
-    std::string out, why;
-    for (const AliasingRow& row : result.rows) {
-        rows.push_back(cells_of(row));
-        if (!row.why_not.empty())
-            why += name_of(row.configuration) + ": not measured, " + row.why_not + "\n";
-        if (!row.no_spatial.empty())
-            why += name_of(row.configuration) + ": aliasing over space not measured, " + row.no_spatial + "\n";
-        if (row.why_not.empty() && !row.cut_off)
-            why += name_of(row.configuration) + ": jaggedness of the cut-off not measured, " + row.no_cut_off + "\n";
-        if (row.why_not.empty() && !row.marks)
-            why += name_of(row.configuration) + ": jaggedness of road marks not measured, " + row.no_marks + "\n";
-        if (row.by_flow)
-            why += row.temporal ? motion_text(*row.by_flow) + "\n"
-                                : name_of(row.configuration) + ": flicker not measured, " + row.no_temporal + "\n";
-    }
-    for (const std::string& note : result.notes)
-        why += "note: " + note + "\n";
-    const auto& [first, first_s] = result.moments.front();
-    const auto& [last, last_s] = result.moments.back();
-    out += result.title + (result.variant.empty() ? "" : ", " + result.variant);
-    out += first == last ? fmt::format(", frame {} at {:.3f} s", first, first_s)
-                         : fmt::format(", frames {} to {}, {:.3f} to {:.3f} s", first, last, first_s, last_s);
-    out += fmt::format("; {}x{}, {}{:.1f} pixels a degree, {}\n\n", result.view.width_px, result.view.height_px,
-                       result.supersample == 0 ? "" : fmt::format("against {} times as fine each way, ", result.supersample),
-                       result.pixels_per_degree, result.displayed ? "as displayed" : "luminance of the scene");
-    out += aligned_table("<>>>>>>>>>>>",
-                         {"drawn by", "seen (1)", "aliasing %", "folded %", "rest %", "lost %", "cut-off px (2)", "marks px (2)",
-                          "flicker seen (1)", "flicker %", "standing %", "crawl %"},
-                         rows);
-    out += "\n(1) in multiples of the contrast that an eye just sees; % are contrasts to the luminance around, r.m.s. over the picture\n"
-           "(2) jaggedness, in brackets its standard error\n" +
-           why + flows_text(result);
-    const std::vector<std::size_t> order = ranked(result);
-    if (order.size() > 1) {
-        out += "least to most: ";
-        for (std::size_t i = 0; i < order.size(); ++i)
-            out += (i == 0 ? "" : " < ") + name_of(result.rows[order[i]].configuration);
-        out += "\n";
-    }
-    return out;
 }
 
 std::string aliasing_json(const AliasingResult& result) {
@@ -305,20 +195,6 @@ std::string aliasing_csv(const AliasingResult& result) {
         out += csv_text(row.why_not.empty() ? row.no_spatial : row.why_not) + "\r\n";
     }
     return out;
-}
-
-void write_aliasing(const AliasingResult& result, const std::filesystem::path& folder) {
-    write_file(folder / "aliasing.json", aliasing_json(result));
-    write_file(folder / "aliasing.csv", aliasing_csv(result));
-    for (std::size_t i = 0; i < result.rows.size(); ++i)
-        if (measured_over_space(result.rows[i]))
-            write_svg(aliasing_sheet_svg(result, result.rows[i]), folder, numbered(result, i));
-    write_svg(ranking_svg(result), folder, "ranking");
-    if (!ranked(result).empty())
-        write_svg(spatial_plot_svg(result), folder, "bands");
-    write_svg(temporal_plot_svg(result), folder, "flicker");
-    write_svg(flow_svg(result), folder, "flow");
-    write_file(folder / "aliasing.html", aliasing_html(result));
 }
 
 } // namespace fernlicht
