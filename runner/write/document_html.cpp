@@ -26,7 +26,7 @@ data groups_of(const Table& table) {
         while (end < table.columns.size() && table.columns[end].group == table.columns[i].group)
             ++end;
         data group;
-        group.set("text", clean_text(table.columns[i].group));
+        group.set("text", capitalised(clean_text(table.columns[i].group)));
         group.set("columns", fmt::format("{}", end - i));
         groups.push_back(group);
         i = end;

@@ -31,11 +31,8 @@ std::vector<Column> error_columns() {
     return columns;
 }
 
-const std::vector<Column> cost_columns{{"time", "ms", "frame"},
-                                       {"CPU", "ms", "frame"},
-                                       {"textures for shadows", "MiB"},
-                                       {"passes", "", "of a frame"},
-                                       {"draws", "", "of a frame"}};
+const std::vector<Column> cost_columns{{.head = "shadows", .words = true}, {"time", "ms", "frame"},      {"CPU", "ms", "frame"},
+                                       {"textures", "MiB, for shadows"},   {"passes", "", "of a frame"}, {"draws", "", "of a frame"}};
 
 std::vector<Cell> error_cells(const ShadowRow& row) {
     std::vector<Cell> cells{percent(row.ground_m2.wrong_share()),
@@ -61,46 +58,53 @@ std::vector<Cell> cost_cells(const ShadowRow& row) {
             work ? fmt::format("{}", work->passes) : "", work ? fmt::format("{}", work->draws) : ""};
 }
 
-Table errors_table(const ShadowSceneResult& scene) {
-    Table table{"errors-" + scene.name, "How wrong", error_columns(), {}};
-    table.columns.insert(table.columns.end(), cost_columns.begin(), cost_columns.end());
+/// A table of the scene's methods; of those that are not measured, why.
+template <class Cells> Table methods_table(const ShadowSceneResult& scene, const std::string& name, const std::string& caption,
+                                           std::vector<Column> columns, Cells cells_of) {
+    Table table{name + "-" + scene.name, caption, std::move(columns), {}};
     for (const ShadowRow& row : scene.rows) {
-        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{std::string(name(row.method))});
+        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{std::string(fernlicht::name(row.method))});
         if (!measured(row)) {
             cells.emplace_back("not measured, " + row.why_not);
             continue;
         }
-        for (const std::vector<Cell>& part : {error_cells(row), cost_cells(row)})
-            cells.insert(cells.end(), part.begin(), part.end());
+        const std::vector<Cell> figures = cells_of(row);
+        cells.insert(cells.end(), figures.begin(), figures.end());
     }
     return table;
 }
 
-/// Worst edges and times pass by pass: what the first table has no room for.
+Table errors_table(const ShadowSceneResult& scene) { return methods_table(scene, "errors", "How wrong", error_columns(), error_cells); }
+
+Table costs_table(const ShadowSceneResult& scene) {
+    return methods_table(
+        scene, "costs",
+        fmt::format("What it costs: a frame of {} x {} pixels while the car moves, methods in turns", scene.width_px, scene.height_px),
+        cost_columns, cost_cells);
+}
+
+/// What the other tables have no room for.
 Table details_table(const ShadowSceneResult& scene) {
-    Table table{
-        "passes-" + scene.name,
-        fmt::format("A frame of {} x {} pixels while the car moves, methods in turns; passes each finished and timed by themselves, "
-                    "which is slower",
-                    scene.width_px, scene.height_px),
-        {{.head = "shadows", .words = true}, {"from … to"}, {.head = "pass by pass", .words = true}, {"triangles"}},
-        {},
-        true};
+    std::vector<Column> columns{{.head = "shadows", .words = true}};
     for (const double distance_m : edge_distances_m)
-        table.columns.insert(table.columns.end() - 3, Column{fmt::format("worst edge, {:g} m", distance_m), "cm"});
-    for (const ShadowRow& row : scene.rows)
-        if (measured(row)) {
-            std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{std::string(name(row.method))});
-            for (const EdgeError& edge : row.edges)
-                cells.push_back(centimetres(edge.worst_cm));
-            std::string passes;
-            for (const auto& [pass, seconds] : row.pass_s)
-                passes += fmt::format("{}{} {}", passes.empty() ? "" : ", ", pass, time_text(seconds.value));
-            const auto time = frame_time(row);
-            const auto work = typical_work(row.work);
-            cells.insert(cells.end(), {time ? time_text(time->low) + " … " + time_text(time->high) : "", passes,
-                                       work ? fmt::format("{}", work->triangles) : ""});
-        }
+        columns.push_back({fmt::format("{:g} m", distance_m), "cm", "worst edge"});
+    columns.insert(columns.end(), {{"from … to", "", "frame"}, {"triangles", "", "frame"}, {.head = "pass by pass", .words = true}});
+    Table table =
+        methods_table(scene, "details", "Worst edges, spread of times, and passes, each finished and timed by itself, which is slower",
+                      std::move(columns), [](const ShadowRow& row) {
+                          std::vector<Cell> cells;
+                          for (const EdgeError& edge : row.edges)
+                              cells.push_back(centimetres(edge.worst_cm));
+                          std::string passes;
+                          for (const auto& [pass, seconds] : row.pass_s)
+                              passes += fmt::format("{}{} {}", passes.empty() ? "" : ", ", pass, time_text(seconds.value));
+                          const auto time = frame_time(row);
+                          const auto work = typical_work(row.work);
+                          cells.insert(cells.end(), {time ? time_text(time->low) + " … " + time_text(time->high) : "",
+                                                     work ? fmt::format("{}", work->triangles) : "", passes});
+                          return cells;
+                      });
+    table.aside = true;
     return table;
 }
 
@@ -112,6 +116,7 @@ Section scene_section(const ShadowSceneResult& scene, const std::vector<WorkPrec
             about += fmt::format("{}{:.2f} s", tick == scene.moments.front().first ? ", at " : ", ", time_s);
     section.blocks.emplace_back(fmt::format("{}, a view {:.0f}° high.", about, degrees(scene.vertical_fov_rad)));
     section.blocks.emplace_back(errors_table(scene));
+    section.blocks.emplace_back(costs_table(scene));
     section.blocks.emplace_back(details_table(scene));
     if (!scene.rows.empty())
         section.blocks.emplace_back(Plot{"methods-" + scene.name, Drawing{shadow_sheet_svg(scene)}, {}});
@@ -150,17 +155,18 @@ Document document(const ShadowResult& result) {
 
 Table shadow_table(const ShadowResult& result) {
     Table all{"all", "", {{.head = "scene", .words = true}}, {}};
-    for (const ShadowSceneResult& scene : result.scenes) {
-        const Table one = errors_table(scene);
-        if (all.columns.size() == 1)
-            all.columns.insert(all.columns.end(), one.columns.begin(), one.columns.end());
-        for (const std::vector<Cell>& row : one.rows) {
-            std::vector<Cell>& cells = all.rows.emplace_back(std::vector<Cell>{scene.name});
-            cells.insert(cells.end(), row.begin(), row.end());
-            if (row.size() < one.columns.size())
-                cells.back() = "refused";
+    const std::vector<Column> errors = error_columns();
+    all.columns.insert(all.columns.end(), errors.begin(), errors.end());
+    all.columns.insert(all.columns.end(), cost_columns.begin() + 1, cost_columns.end());
+    for (const ShadowSceneResult& scene : result.scenes)
+        for (const ShadowRow& row : scene.rows) {
+            std::vector<Cell>& cells = all.rows.emplace_back(std::vector<Cell>{scene.name, std::string(name(row.method))});
+            if (measured(row))
+                for (const std::vector<Cell>& part : {error_cells(row), cost_cells(row)})
+                    cells.insert(cells.end(), part.begin(), part.end());
+            else
+                cells.emplace_back("refused");
         }
-    }
     return all;
 }
 
