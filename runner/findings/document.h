@@ -45,11 +45,11 @@ struct Plot {
     double scale = 1.0;                ///< pixels of its PNG for one of the SVG
 };
 
-using Block = std::variant<std::string, Table, Plot>; ///< a string is a paragraph
+using DocumentPart = std::variant<std::string, Table, Plot>; ///< a string is a paragraph
 
 struct Section {
     std::string title; ///< "" for what stands before the first heading
-    std::vector<Block> blocks;
+    std::vector<DocumentPart> blocks;
 };
 
 struct Document {

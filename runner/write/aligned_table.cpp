@@ -5,6 +5,11 @@
 
 namespace fernlicht {
 
+/// Code points, as fmt pads by them.
+static std::size_t characters(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
 std::string aligned_table(const std::string& alignment, const std::vector<std::string>& header,
                           const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::vector<std::string>> lines{header};
@@ -13,7 +18,7 @@ std::string aligned_table(const std::string& alignment, const std::vector<std::s
     std::vector<std::size_t> widths(header.size(), 0);
     for (const auto& cells : lines)
         for (std::size_t i = 0; i < widths.size(); ++i)
-            widths[i] = std::max(widths[i], cells.at(i).size());
+            widths[i] = std::max(widths[i], characters(cells.at(i)));
     for (const auto& cells : lines) {
         std::string line;
         for (std::size_t i = 0; i < widths.size(); ++i)

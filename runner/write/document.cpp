@@ -62,7 +62,7 @@ std::string document_text(const Document& document) {
     std::string text;
     for (const Section& section : document.sections) {
         text += section.title.empty() ? "" : "\n" + clean_text(section.title) + "\n";
-        for (const Block& block : section.blocks)
+        for (const DocumentPart& block : section.blocks)
             if (const auto* paragraph = std::get_if<std::string>(&block))
                 text += clean_text(*paragraph) + "\n";
             else if (const auto* table = std::get_if<Table>(&block))
@@ -92,7 +92,7 @@ std::string table_markdown(const Table& table) {
 
 void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem) {
     for (const Section& section : document.sections)
-        for (const Block& block : section.blocks)
+        for (const DocumentPart& block : section.blocks)
             if (const auto* plot = std::get_if<Plot>(&block)) {
                 const std::string svg = plot_svg(*plot), name = file_name_of(plot->name);
                 write_file(folder / (name + ".svg"), svg);

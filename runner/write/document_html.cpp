@@ -82,7 +82,7 @@ data plot_part(const Plot& plot) {
     return part;
 }
 
-data block_part(const Block& block) {
+data block_part(const DocumentPart& block) {
     const auto* paragraph = std::get_if<std::string>(&block);
     const auto* table = std::get_if<Table>(&block);
     const auto* plot = std::get_if<Plot>(&block);
@@ -100,7 +100,7 @@ std::string document_html(const Document& document, const Findings& findings) {
     data page, sections{List::list}, missing{List::list};
     for (const Section& section : document.sections) {
         data part, blocks{List::list};
-        for (const Block& block : section.blocks)
+        for (const DocumentPart& block : section.blocks)
             blocks.push_back(block_part(block));
         part.set("has_title", !section.title.empty());
         part.set("title", short_text(section.title, 160));

@@ -123,10 +123,10 @@ std::string twin_words(const TwinAgreement& twin) {
 
 Section drive_section(const DriveAccuracy& drive) {
     Section section{drive.title, {}};
-    section.blocks.emplace_back(fmt::format(
-        "Lamps: {}. {}. The reference took {:.1f} s, {:.1f} million rays, {:.0f} samples a pixel in the median, {:.0f} at most.",
-        drive.variant, counted(drive.moments.size(), "moment"), drive.reference.seconds, 1e-6 * static_cast<double>(drive.reference.rays),
-        drive.reference.median_samples, drive.reference.most_samples));
+    section.blocks.emplace_back(
+        fmt::format("{}, {}: {}. The reference took {:.1f} s, {:.1f} million rays, {:.0f} samples a pixel in the median, {:.0f} at most.",
+                    drive.drive, drive.variant, counted(drive.moments.size(), "moment"), drive.reference.seconds,
+                    1e-6 * static_cast<double>(drive.reference.rays), drive.reference.median_samples, drive.reference.most_samples));
     if (!drive.shadow_choice.empty())
         section.blocks.emplace_back("Shadows where no method is named: " + drive.shadow_choice + ".");
     if (const auto note = point_lamps_note(drive))

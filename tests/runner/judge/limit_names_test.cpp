@@ -1,4 +1,5 @@
 // A limit on a reading that cannot exist is found before a drive is played, not after.
+#include "metrics/folds/limit_names.h"
 #include "runner/judge/limits.h"
 
 #include "scenarios/values/errors.h"

@@ -137,7 +137,7 @@ TEST(AccuracyRun, OneRoundMakesNobodySurelyFaster) {
                                     (folder / "out ") + library_file("drives/straight.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, HasSubstr(", perhaps"));
-    EXPECT_THAT(run.output, HasSubstr("straight-1, halogen: 1 moment; the reference"));
+    EXPECT_THAT(run.output, HasSubstr("straight-1, halogen: 1 moment. The reference"));
     const std::string page = content_of(folder / "out/accuracy.html");
     EXPECT_THAT(page, HasSubstr("Times are of one round, whose spread is unknown: nobody is surely faster"));
     EXPECT_THAT(page, Not(HasSubstr(">beaten by "))); // of a row, which would be sure

@@ -1,5 +1,6 @@
 // Sensors, oncoming eyes and mirrors over a drive on a straight and level road, where every place is known by hand.
-#include "tests/runner/play/one_lamp_straight.h"
+#include "metrics/folds/limit_names.h"
+#include "tests/runner/folds/one_lamp_straight.h"
 
 #include "metrics/glare/eye_light.h"
 #include "runner/findings/summary.h"

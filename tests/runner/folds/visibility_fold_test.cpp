@@ -1,5 +1,5 @@
 // Small targets, evenness and light on boards over a drive on the straight, at places worked out by hand.
-#include "tests/runner/play/one_lamp_straight.h"
+#include "tests/runner/folds/one_lamp_straight.h"
 
 #include "metrics/seeing/mesopic.h"
 #include "scenarios/roads/mesh/road_mesh.h"

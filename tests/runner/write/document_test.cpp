@@ -1,0 +1,94 @@
+// A small experiment that nothing else knows: what it found, one function that tells it, and every output there is.
+#include "runner/write/document.h"
+#include "tests/runner/program.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct TossResult : Findings {
+    int heads = 0, tosses = 0;
+};
+
+Document document(const TossResult& result) {
+    const double share = static_cast<double>(result.heads) / result.tosses;
+    WorkPrecision diagram{.name = "toss error",
+                          .title = "Error over tosses",
+                          .error_name = "error",
+                          .error_unit = "%",
+                          .time_name = "time",
+                          .floor_name = "",
+                          .notes = {"one coin"},
+                          .rows = {}};
+    diagram.rows.push_back({.label = "by hand",
+                            .parameters = {},
+                            .error = Interval{2.0, 1.0, 3.0},
+                            .seconds = Interval{0.5, 0.4, 0.6},
+                            .floor = 0.0,
+                            .bytes = {},
+                            .why_not = "",
+                            .note = ""});
+    diagram.rows.push_back(
+        {.label = "by wind", .parameters = {}, .error = {}, .seconds = {}, .floor = 0.0, .bytes = {}, .why_not = "no wind", .note = ""});
+    Section section = work_precision_section(diagram);
+    section.blocks.insert(section.blocks.begin(), "A coin <thrown> often.");
+    section.blocks.emplace_back(Table{
+        "toss",
+        "How it fell",
+        {{.head = "side", .words = true}, {"share", "%", "of all"}, {"count", "", "of all"}},
+        {{"heads | tails", Cell(fmt::format("{:.1f}", 100.0 * share), 100.0 * share), ""}, {"edge", "not measured, it never stood"}}});
+    return {"Coins", {section}};
+}
+
+class ToyExperiment : public testing::Test {
+  protected:
+    TossResult result = [] {
+        TossResult found;
+        found.heads = 3;
+        found.tosses = 8;
+        found.context.command = "toss --often";
+        found.interrupted = "the coin is lost";
+        found.missing = {"tosses 9 to 20"};
+        return found;
+    }();
+};
+
+TEST_F(ToyExperiment, BecomesAPage) {
+    const std::string page = document_html(document(result), result);
+    for (const char* part :
+         {"<title>Coins", "<h2>Error over tosses</h2>", "A coin &lt;thrown&gt; often.", "<svg", "One coin.",
+          "Not in the diagram: by wind, no wind.", "<summary>The same as a table</summary>", "colspan=\"2\" class=\"group\">Of all<",
+          ">Share<br><small>%</small>", "<td class=\"n\">37.5</td>", "<td class=\"text\" colspan=\"2\">not measured, it never stood</td>",
+          "Not all was measured: the coin is lost", "<li>tosses 9 to 20</li>", "toss --often"})
+        EXPECT_THAT(page, HasSubstr(part));
+    EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+TEST_F(ToyExperiment, BecomesTextForATerminal) {
+    const std::string text = document_text(document(result));
+    EXPECT_THAT(text, HasSubstr("\nError over tosses\nA coin <thrown> often.\n  on the front: by hand (2.0 %, 500 ms)\n  one coin\n"));
+    EXPECT_THAT(text, HasSubstr("How it fell\n               of all  of all\nside            share   count\n                    %\n"
+                                "heads | tails    37.5       -\nedge: not measured, it never stood\n"));
+    EXPECT_THAT(text, Not(HasSubstr("The same as a table"))) << "what a plot shows is not printed again";
+}
+
+TEST_F(ToyExperiment, BecomesMarkdown) {
+    EXPECT_EQ(table_markdown(std::get<Table>(document(result).sections[0].blocks.back())),
+              "| side | of all share, % | of all count |\n|---|--:|--:|\n| heads \\| tails | 37.5 | - |\n| edge | not measured, it never "
+              "stood | |\n");
+}
+
+TEST_F(ToyExperiment, LeavesAPageAndItsPlots) {
+    const TemporaryFolder folder;
+    write_document(document(result), result, folder.path(), "coins");
+    for (const char* name : {"coins.html", "toss_error.svg", "toss_error.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
+}
+
+} // namespace
+} // namespace fernlicht
