@@ -1,0 +1,419 @@
+#include "metrics/readings/reading_key.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <utility>
+
+namespace fernlicht {
+namespace {
+
+/// A word of a form, how it is spelt in names, and what it says. Forms (quantities.h) are made of such words in brackets, of which a name
+/// has one; of slots: <name>, <lane>, <eye>, <m> for a distance, <lx>, <percent> and <rating> for a threshold; and of letters that stand
+/// for themselves. "Not set" is each field's default.
+struct Word {
+    const char *word, *spelt;
+    Aspect aspect = Aspect::value;
+    Statistic statistic = Statistic::none;
+    Place place = Place::none;
+    Surface surface = Surface::none;
+    const char *lane = "", *subject = "";
+};
+constexpr Word words[] = {
+    {.word = "median", .spelt = "", .statistic = Statistic::median}, // goes without saying
+    {.word = "mean", .spelt = "", .statistic = Statistic::mean},
+    {.word = "_median", .spelt = "_median", .statistic = Statistic::median},
+    {.word = "_min", .spelt = "_min", .statistic = Statistic::minimum},
+    {.word = "_max", .spelt = "_max", .statistic = Statistic::maximum},
+    {.word = "_p05", .spelt = "_p05", .statistic = Statistic::p05},
+    {.word = "_p95", .spelt = "_p95", .statistic = Statistic::p95},
+    {.word = "_spread", .spelt = "_spread", .statistic = Statistic::spread},
+    {.word = "_twin", .spelt = "_twin", .aspect = Aspect::twin, .statistic = Statistic::median},
+    {.word = "_twin_difference", .spelt = "_twin_difference", .aspect = Aspect::twin_difference, .statistic = Statistic::median},
+    {.word = "_twin_difference_worst",
+     .spelt = "_twin_difference_worst",
+     .aspect = Aspect::twin_difference,
+     .statistic = Statistic::maximum},
+    {.word = "_per_tenth_degree", .spelt = "_per_tenth_degree", .aspect = Aspect::per_tenth_degree, .statistic = Statistic::median},
+    {.word = "_per_tenth_flux", .spelt = "_per_tenth_flux", .aspect = Aspect::per_tenth_flux, .statistic = Statistic::median},
+    {.word = "_grid_error", .spelt = "_grid_error", .aspect = Aspect::grid_error, .statistic = Statistic::median},
+    {.word = "_edge_grid_error",
+     .spelt = "_edge_grid_error",
+     .aspect = Aspect::grid_error,
+     .statistic = Statistic::median,
+     .place = Place::edges},
+    {.word = "_left_edge", .spelt = "_left_edge", .statistic = Statistic::median, .place = Place::left_edge},
+    {.word = "_right_edge", .spelt = "_right_edge", .statistic = Statistic::median, .place = Place::right_edge},
+    {.word = "left", .spelt = "left", .place = Place::left},
+    {.word = "right", .spelt = "right", .place = Place::right},
+    {.word = "overhead", .spelt = "overhead", .place = Place::overhead},
+    {.word = "along", .spelt = "along", .place = Place::along},
+    {.word = "across", .spelt = "across", .place = Place::across},
+    {.word = "left_bends", .spelt = "left_bends", .place = Place::left_bends},
+    {.word = "right_bends", .spelt = "right_bends", .place = Place::right_bends},
+    {.word = "mirrors", .spelt = "mirrors", .place = Place::mirrors},
+    {.word = "own_eyes", .spelt = "own", .place = Place::own_eyes},
+    {.word = "road", .spelt = "road", .surface = Surface::road},
+    {.word = "target", .spelt = "target", .surface = Surface::target},
+    {.word = "kerb", .spelt = "kerb", .surface = Surface::road},
+    {.word = "kerb_target", .spelt = "kerb_target", .surface = Surface::target},
+    {.word = "own", .spelt = "own", .lane = "own"},
+    {.word = "oncoming", .spelt = "oncoming", .lane = "oncoming"},
+    {.word = "inside", .spelt = "inside"},
+    {.word = "inside_gain", .spelt = "inside_gain", .aspect = Aspect::by_control},
+    {.word = "reach", .spelt = "reach"},
+    {.word = "reach_gain", .spelt = "reach_gain", .aspect = Aspect::by_control},
+    {.word = "glare", .spelt = "glare"},
+    {.word = "glare_cost", .spelt = "glare_cost", .aspect = Aspect::by_control},
+    {.word = "others", .spelt = "others"},
+    {.word = "others_still", .spelt = "others_still", .aspect = Aspect::held_still},
+    {.word = "c", .spelt = "c", .subject = "c"},
+    {.word = "v", .spelt = "v", .subject = "v"},
+    {.word = "e", .spelt = "e", .subject = "e"},
+    {.word = "w", .spelt = "w", .subject = "w"},
+};
+
+const Word& find_word(std::string_view word) {
+    const auto found = std::ranges::find(words, word, &Word::word);
+    if (found == std::end(words))
+        throw std::logic_error(fmt::format("a form has the unknown word {}", word));
+    return *found;
+}
+
+void say(const Word& word, ReadingKey& key) {
+    key.aspect = word.aspect != Aspect::value ? word.aspect : key.aspect;
+    key.statistic = word.statistic != Statistic::none ? word.statistic : key.statistic;
+    key.place = word.place != Place::none ? word.place : key.place;
+    key.surface = word.surface != Surface::none ? word.surface : key.surface;
+    key.lane = *word.lane ? word.lane : key.lane;
+    key.subject = *word.subject ? word.subject : key.subject;
+}
+
+/// How much of the key the word says; nullopt where it says something else.
+std::optional<int> said(const Word& word, const ReadingKey& key) {
+    ReadingKey with = key, without;
+    say(word, with);
+    say(word, without);
+    if (with != key)
+        return std::nullopt;
+    return (without.aspect != Aspect::value) + (without.statistic != Statistic::none) + (without.place != Place::none) +
+           (without.surface != Surface::none) + !without.lane.empty() + !without.subject.empty();
+}
+
+/// A form's first part, "(left|right)", "<lx>" or a letter, and what follows.
+struct Parts {
+    std::string_view first, rest;
+};
+Parts parts_of(std::string_view form) {
+    const std::size_t size = form[0] == '(' ? form.find(')') + 1 : form[0] == '<' ? form.find('>') + 1 : 1;
+    return {form.substr(0, size), form.substr(size)};
+}
+
+std::vector<const Word*> words_of(std::string_view group) {
+    std::vector<const Word*> all;
+    group = group.substr(1, group.size() - 2);
+    for (std::size_t end = 0; end != std::string_view::npos; group.remove_prefix(end == std::string_view::npos ? 0 : end + 1)) {
+        end = group.find('|');
+        all.push_back(&find_word(group.substr(0, end)));
+    }
+    return all;
+}
+
+constexpr const char* eyes[] = {"(mirrors)_at_<m>m", "(own_eyes)", "<name>"};
+
+struct Form {
+    Quantity quantity;
+    std::string text;
+};
+
+/// Of all quantities, with every kind of eye in place of <eye>.
+const std::vector<Form>& forms() {
+    static const std::vector<Form> all = [] {
+        std::vector<Form> made;
+        for (const QuantityRow& row : quantities()) {
+            std::string_view left = row.forms;
+            for (std::size_t end = 0; end != std::string_view::npos; left.remove_prefix(end == std::string_view::npos ? 0 : end + 1)) {
+                end = left.find(' ');
+                const std::string text(left.substr(0, end));
+                const std::size_t at = text.find("<eye>");
+                for (const char* eye : eyes)
+                    if (at != std::string::npos || eye == eyes[0])
+                        made.push_back({row.quantity, at == std::string::npos ? text : std::string(text).replace(at, 5, eye)});
+            }
+        }
+        return made;
+    }();
+    return all;
+}
+
+ThresholdUnit threshold_unit(std::string_view slot) {
+    return slot == "<lx>" ? ThresholdUnit::lx : slot == "<percent>" ? ThresholdUnit::percent : ThresholdUnit::de_boer;
+}
+
+/// A name in this form; nullopt where the key lacks what it asks for.
+std::optional<std::string> spell(std::string_view form, const ReadingKey& key) {
+    std::string text;
+    while (!form.empty()) {
+        const auto [first, rest] = parts_of(form);
+        form = rest;
+        if (first[0] == '(') {
+            const Word* best = nullptr;
+            for (const Word* word : words_of(first))
+                if (const auto much = said(*word, key); much && (!best || *much > *said(*best, key)))
+                    best = word;
+            if (!best)
+                return std::nullopt;
+            text += best->spelt;
+        } else if (first == "<name>" || first == "<lane>") {
+            std::string named = first == "<name>" ? key.subject : key.lane;
+            if (first == "<lane>")
+                std::ranges::replace(named, ' ', '_');
+            if (named.empty())
+                return std::nullopt;
+            text += named;
+        } else if (first == "<m>") {
+            if (!key.distance_m)
+                return std::nullopt;
+            text += fmt::format("{}", *key.distance_m);
+        } else if (first[0] == '<') {
+            if (key.threshold.unit != threshold_unit(first))
+                return std::nullopt;
+            text += fmt::format("{}", key.threshold.value);
+        } else
+            text += first;
+    }
+    return text;
+}
+
+/// A number as it is printed, at the text's beginning: its end and value.
+std::optional<std::pair<std::size_t, double>> number_at(std::string_view text) {
+    double value = 0.0;
+    const char* const end = std::from_chars(text.data(), text.data() + text.size(), value).ptr;
+    const auto size = static_cast<std::size_t>(end - text.data());
+    if (size == 0 || fmt::format("{}", value) != text.substr(0, size) || !(value >= 0.0 && value <= 1e300))
+        return std::nullopt;
+    return std::pair(size, value);
+}
+
+/// "own", "all", "left_2": its end.
+std::size_t lane_end(std::string_view text) {
+    for (const std::string_view lane : {"own", "all"})
+        if (text.starts_with(lane))
+            return lane.size();
+    for (const std::string_view side : {"left_", "right_"})
+        if (text.starts_with(side) && text.size() > side.size() && text[side.size()] != '0')
+            return std::min(text.find_first_not_of("0123456789", side.size()), text.size());
+    return 0;
+}
+
+/// Whether the text is a name in this form; then `key` has its fields. Of several ways to read it the one with the shortest subject.
+bool match(std::string_view form, std::string_view text, ReadingKey& key) {
+    if (form.empty())
+        return text.empty();
+    const auto [first, rest] = parts_of(form);
+    const auto goes_on = [&](std::size_t from, auto&& set) {
+        ReadingKey next = key;
+        set(next);
+        const bool found = match(rest, text.substr(from), next);
+        if (found)
+            key = std::move(next);
+        return found;
+    };
+    if (first[0] == '(')
+        return std::ranges::any_of(words_of(first), [&](const Word* word) {
+            return text.starts_with(word->spelt) &&
+                   goes_on(std::string_view(word->spelt).size(), [&](ReadingKey& next) { say(*word, next); });
+        });
+    if (first == "<name>") {
+        const std::size_t longest =
+            std::min(text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-"), text.size());
+        for (std::size_t size = 1; size <= longest; ++size)
+            if (goes_on(size, [&](ReadingKey& next) { next.subject = text.substr(0, size); }))
+                return true;
+        return false;
+    }
+    if (first == "<lane>") {
+        const std::size_t size = lane_end(text);
+        return size > 0 && size != std::string_view::npos && goes_on(size, [&](ReadingKey& next) {
+                   next.lane = text.substr(0, size);
+                   std::ranges::replace(next.lane, '_', ' ');
+               });
+    }
+    if (first[0] == '<') {
+        const auto number = number_at(text);
+        return number && goes_on(number->first, [&](ReadingKey& next) {
+                   if (first == "<m>")
+                       next.distance_m = number->second;
+                   else
+                       next.threshold = {number->second, threshold_unit(first)};
+               });
+    }
+    return text.starts_with(first) && match(rest, text.substr(1), key);
+}
+
+void add_shapes(std::string_view form, ReadingKey key, const ReadingKey& sample, std::vector<ReadingKey>& shapes) {
+    if (form.empty()) {
+        shapes.push_back(std::move(key));
+        return;
+    }
+    const auto [first, rest] = parts_of(form);
+    if (first[0] == '(') {
+        for (const Word* word : words_of(first)) {
+            ReadingKey next = key;
+            say(*word, next);
+            add_shapes(rest, std::move(next), sample, shapes);
+        }
+        return;
+    }
+    if (first == "<name>")
+        key.subject = sample.subject;
+    else if (first == "<lane>")
+        key.lane = sample.lane;
+    else if (first == "<m>")
+        key.distance_m = sample.distance_m;
+    else if (first[0] == '<')
+        key.threshold = {sample.threshold.value, threshold_unit(first)};
+    add_shapes(rest, std::move(key), sample, shapes);
+}
+
+constexpr std::string_view exact = "_standard_error_";
+
+/// "cdm2": a unit as names end in it; "1" for none.
+std::string unit_word(const ReadingKey& key) {
+    const std::string unit = unit_of(key);
+    return unit == "cd/m2" ? "cdm2" : unit == "%" ? "percent" : unit == "1/m" ? "per_m" : unit == "1/deg" ? "per_deg" : unit;
+}
+
+/// A name that may lead back to another key, where the subject is not clear.
+std::optional<std::string> spell(const ReadingKey& key) {
+    if (key.aspect == Aspect::standard_error) { // of a value, whose unit moves behind it
+        ReadingKey of = key;
+        of.aspect = Aspect::value;
+        std::optional<std::string> name = spell(of);
+        const std::string unit = unit_word(key);
+        if (name && name->ends_with("_" + unit))
+            name->resize(name->size() - unit.size() - 1);
+        return name ? std::optional(fmt::format("{}{}{}", *name, exact, unit)) : std::nullopt;
+    }
+    for (const Form& form : forms())
+        if (std::optional<std::string> name = form.quantity == key.quantity ? spell(form.text, key) : std::nullopt)
+            return name;
+    return std::nullopt;
+}
+
+std::optional<ReadingKey> standard_error_of(std::string_view name, std::size_t at) {
+    const std::string_view unit = name.substr(at + exact.size());
+    std::optional<ReadingKey> key = key_of(fmt::format("{}{}{}", name.substr(0, at), unit == "1" ? "" : "_", unit == "1" ? "" : unit));
+    if (!key || key->aspect != Aspect::value)
+        return std::nullopt;
+    key->aspect = Aspect::standard_error;
+    return spell(*key) == name ? key : std::nullopt;
+}
+
+bool is_clear(const ReadingKey& key) {
+    const auto name = spell(key);
+    return name && key_of(*name) == key;
+}
+
+} // namespace
+
+std::string name_of(const ReadingKey& key) {
+    const auto name = spell(key);
+    if (!name || key_of(*name) != key)
+        throw std::logic_error(fmt::format("no reading is named {}, subject '{}'", name.value_or(row_of(key.quantity).id), key.subject));
+    return *name;
+}
+
+std::optional<ReadingKey> key_of(std::string_view name) {
+    if (const std::size_t at = name.rfind(exact); at != std::string_view::npos)
+        return standard_error_of(name, at);
+    for (const Form& form : forms()) {
+        ReadingKey key{.quantity = form.quantity};
+        if (match(form.text, name, key))
+            return key;
+    }
+    return std::nullopt;
+}
+
+bool is_clear_subject(SubjectKind kind, std::string_view subject) {
+    for (const QuantityRow& row : quantities())
+        if (row.subject == kind)
+            for (ReadingKey& key :
+                 shapes_of({.quantity = row.quantity, .subject = std::string(subject), .threshold = {1.0}, .distance_m = 1.0})) {
+                if (!is_clear(key))
+                    return false;
+                if (key.aspect == Aspect::value) {
+                    key.aspect = Aspect::standard_error;
+                    if (!is_clear(key))
+                        return false;
+                }
+            }
+    return true;
+}
+
+std::string pass_subject(std::string_view pass) {
+    std::string subject;
+    for (const char c : pass) {
+        const bool upper = c >= 'A' && c <= 'Z', plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        subject += upper ? static_cast<char>(c - 'A' + 'a') : plain ? c : '_';
+    }
+    return subject;
+}
+
+std::string eye_name(const ReadingKey& key) {
+    for (const char* eye : eyes)
+        if (const auto name = spell("glare_" + std::string(eye), key))
+            return *name;
+    return {};
+}
+
+std::optional<ReadingKey> eye_of(std::string_view name) {
+    for (const char* eye : eyes)
+        if (ReadingKey key{.quantity = Quantity::glare_facing}; match("glare_" + std::string(eye), name, key))
+            return key;
+    return std::nullopt;
+}
+
+const char* unit_of(const ReadingKey& key) { return row_of(key.quantity).unit; }
+bool is_extent(const ReadingKey& key) { return row_of(key.quantity).is_extent; }
+bool is_time(const ReadingKey& key) { return key.quantity == Quantity::pass_time; }
+bool says_how_exact(const ReadingKey& key) { return key.aspect >= Aspect::twin; }
+
+std::vector<ReadingKey> shapes_of(const ReadingKey& sample) {
+    std::vector<ReadingKey> shapes;
+    for (const Form& form : forms())
+        if (form.quantity == sample.quantity)
+            add_shapes(form.text, {.quantity = form.quantity}, sample, shapes);
+    return shapes;
+}
+
+const char* name_of(Aspect aspect) {
+    static constexpr const char* names[] = {"value",      "by_control",       "held_still",     "twin",          "twin_difference",
+                                            "grid_error", "per_tenth_degree", "per_tenth_flux", "standard_error"};
+    return names[static_cast<std::size_t>(aspect)];
+}
+
+const char* name_of(Statistic statistic) {
+    static constexpr const char* names[] = {"", "median", "min", "max", "p05", "p95", "spread", "mean"};
+    return names[static_cast<std::size_t>(statistic)];
+}
+
+const char* name_of(Surface surface) {
+    static constexpr const char* names[] = {"", "road", "target"};
+    return names[static_cast<std::size_t>(surface)];
+}
+
+const char* name_of(Place place) {
+    static constexpr const char* names[] = {"",      "left_edge", "right_edge", "edges",       "left",    "right",   "overhead",
+                                            "along", "across",    "left_bends", "right_bends", "mirrors", "own_eyes"};
+    return names[static_cast<std::size_t>(place)];
+}
+
+const char* name_of(ThresholdUnit unit) {
+    static constexpr const char* names[] = {"", "lx", "percent", "de_boer"};
+    return names[static_cast<std::size_t>(unit)];
+}
+
+} // namespace fernlicht
