@@ -1,0 +1,101 @@
+#include "metrics/readings/reading_words.h"
+
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+const char* statistic_in_words(Statistic statistic) {
+    static constexpr const char* words[] = {
+        "", "", ", least", ", largest", ", 5th percentile", ", 95th percentile", ", 95th less 5th percentile", ""};
+    return words[static_cast<std::size_t>(statistic)];
+}
+
+const char* aspect_in_words(Aspect aspect) {
+    static constexpr const char* words[] = {"",
+                                            ", gained by control",
+                                            ", lamps held still",
+                                            ", by the lamps' tables",
+                                            ", drawn against calculated",
+                                            ", error of the grid",
+                                            ", by 0.1° of aim",
+                                            ", by 10 % of flux",
+                                            ", standard error"};
+    return words[static_cast<std::size_t>(aspect)];
+}
+
+std::string lane_in_words(const std::string& lane) {
+    return lane == "own" ? "own lane" : lane == "oncoming" ? "oncoming lane" : lane == "all" ? "whole width" : lane;
+}
+
+std::string beyond_in_words(const Threshold& threshold) {
+    switch (threshold.unit) {
+    case ThresholdUnit::percent:
+        return fmt::format("above {} % of threshold increment", threshold.value);
+    case ThresholdUnit::de_boer:
+        return fmt::format("below de Boer's {}", threshold.value);
+    default:
+        return fmt::format("above {} lx", threshold.value);
+    }
+}
+
+/// What stands for a word in braces (quantities.cpp).
+std::string filled(std::string_view slot, const ReadingKey& key) {
+    const std::string distance = key.distance_m ? fmt::format("{} m", *key.distance_m) : "";
+    const auto plain_place = [&] {
+        return key.place == Place::left_bends ? "left bends" : key.place == Place::right_bends ? "right bends" : name_of(key.place);
+    };
+    if (slot == "limit")
+        return fmt::format("{} lx", key.threshold.value);
+    if (slot == "beyond")
+        return beyond_in_words(key.threshold);
+    if (slot == "surface")
+        return key.surface == Surface::road ? " on the road" : " on a target";
+    if (slot == "lane")
+        return ", " + lane_in_words(key.lane);
+    if (slot == "stand")
+        return key.lane.empty() ? fmt::format("{} edge of the lanes", name_of(key.place)) : lane_in_words(key.lane);
+    if (slot == "place")
+        return plain_place();
+    if (slot == "subject")
+        return key.subject;
+    if (slot == "distance")
+        return distance;
+    if (slot == "before")
+        return distance.empty() || key.place == Place::mirrors ? "" : fmt::format(" {} before it", distance);
+    if (slot == "most")
+        return key.statistic == Statistic::maximum ? "largest " : key.statistic == Statistic::minimum ? "smallest " : "";
+    if (slot == "eye")
+        return eyes_in_words(key);
+    throw std::logic_error(fmt::format("words with {{{}}}", slot));
+}
+
+} // namespace
+
+std::string reading_in_words(const ReadingKey& key) {
+    const std::string_view words = row_of(key.quantity).words;
+    std::string text;
+    for (std::size_t at = 0; at < words.size();)
+        if (words[at] == '{') {
+            const std::size_t end = words.find('}', at);
+            text += filled(words.substr(at + 1, end - at - 1), key);
+            at = end + 1;
+        } else
+            text += words[at++];
+    if (key.place == Place::left_edge || key.place == Place::right_edge || key.place == Place::edges)
+        text += key.place == Place::left_edge ? ", left edge" : key.place == Place::right_edge ? ", right edge" : ", edges";
+    if (words.find("{most}") == std::string_view::npos)
+        text += statistic_in_words(key.statistic);
+    return text + aspect_in_words(key.aspect);
+}
+
+std::string eyes_in_words(const ReadingKey& key) {
+    if (key.place == Place::mirrors)
+        return fmt::format("mirrors of a car {} m ahead", key.distance_m.value_or(0.0));
+    return key.place == Place::own_eyes ? "eyes of the own driver"
+           : key.subject == "oncoming"  ? "eyes of an oncoming driver"
+                                        : "eyes of oncoming driver " + key.subject;
+}
+
+} // namespace fernlicht
