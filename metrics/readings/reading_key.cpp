@@ -111,13 +111,21 @@ Parts parts_of(std::string_view form) {
     return {form.substr(0, size), form.substr(size)};
 }
 
+std::vector<std::string_view> split(std::string_view text, char by) {
+    std::vector<std::string_view> parts;
+    for (std::size_t end = text.find(by); end != std::string_view::npos; end = text.find(by)) {
+        parts.push_back(text.substr(0, end));
+        text.remove_prefix(end + 1);
+    }
+    parts.push_back(text);
+    return parts;
+}
+
+/// Of "(left|right)".
 std::vector<const Word*> words_of(std::string_view group) {
     std::vector<const Word*> all;
-    group = group.substr(1, group.size() - 2);
-    for (std::size_t end = 0; end != std::string_view::npos; group.remove_prefix(end == std::string_view::npos ? 0 : end + 1)) {
-        end = group.find('|');
-        all.push_back(&find_word(group.substr(0, end)));
-    }
+    for (const std::string_view word : split(group.substr(1, group.size() - 2), '|'))
+        all.push_back(&find_word(word));
     return all;
 }
 
@@ -132,17 +140,15 @@ struct Form {
 const std::vector<Form>& forms() {
     static const std::vector<Form> all = [] {
         std::vector<Form> made;
-        for (const QuantityRow& row : quantities()) {
-            std::string_view left = row.forms;
-            for (std::size_t end = 0; end != std::string_view::npos; left.remove_prefix(end == std::string_view::npos ? 0 : end + 1)) {
-                end = left.find(' ');
-                const std::string text(left.substr(0, end));
-                const std::size_t at = text.find("<eye>");
-                for (const char* eye : eyes)
-                    if (at != std::string::npos || eye == eyes[0])
-                        made.push_back({row.quantity, at == std::string::npos ? text : std::string(text).replace(at, 5, eye)});
-            }
-        }
+        for (const QuantityRow& row : quantities())
+            for (const std::string_view form : split(row.forms, ' '))
+                for (const char* eye : eyes) {
+                    const std::size_t at = form.find("<eye>");
+                    if (at != std::string_view::npos)
+                        made.push_back({row.quantity, std::string(form).replace(at, 5, eye)});
+                    else if (eye == eyes[0])
+                        made.push_back({row.quantity, std::string(form)});
+                }
         return made;
     }();
     return all;
@@ -387,6 +393,31 @@ std::vector<ReadingKey> shapes_of(const ReadingKey& sample) {
         if (form.quantity == sample.quantity)
             add_shapes(form.text, {.quantity = form.quantity}, sample, shapes);
     return shapes;
+}
+
+std::vector<std::string> forms_in_words(const QuantityRow& row) {
+    static constexpr std::pair<const char*, const char*> slots[] = {
+        {"<name>", "NAME"}, {"<lane>", "LANE"}, {"<eye>", "EYE"}, {"<m>", "50"}, {"<lx>", "5"}, {"<percent>", "10"}, {"<rating>", "5"}};
+    std::vector<std::string> all;
+    for (std::string_view form : split(row.forms, ' ')) {
+        std::string& text = all.emplace_back();
+        while (!form.empty()) {
+            const auto [first, rest] = parts_of(form);
+            form = rest;
+            if (first[0] == '(') {
+                std::string choice;
+                const std::vector<const Word*> choices = words_of(first);
+                for (const Word* word : choices)
+                    choice += (choice.empty() || !*word->spelt ? "" : "/") + std::string(word->spelt);
+                const bool may_miss = !*choices.front()->spelt && !choice.empty();
+                text += may_miss ? "[" + choice + "]" : choices.size() > 1 ? "(" + choice + ")" : choice;
+            } else if (first[0] == '<')
+                text += std::ranges::find(slots, first, &std::pair<const char*, const char*>::first)->second;
+            else
+                text += first;
+        }
+    }
+    return all;
 }
 
 const char* name_of(Aspect aspect) {

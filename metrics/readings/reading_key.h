@@ -69,6 +69,9 @@ bool says_how_exact(const ReadingKey& key); ///< of another reading, or how sens
 /// Every key of the sample's quantity, with its subject, lane, distance and threshold's value where names have them.
 std::vector<ReadingKey> shapes_of(const ReadingKey& sample);
 
+/// How a quantity's names are made, for people: "reach_5lx_(road/target)_LANE[_min/_p05]_m"; numbers stand for any.
+std::vector<std::string> forms_in_words(const QuantityRow& row);
+
 /// As tables have them: "grid_error", "median", "road", "left_edge", "de_boer"; "" for none.
 const char* name_of(Aspect aspect);
 const char* name_of(Statistic statistic);
