@@ -1,7 +1,7 @@
 // From a view on a car to the GPU's clip space; the one place where OpenGL's conventions are met.
 #pragma once
 
-#include "scenarios/drives/moment.h"
+#include "scenarios/drives/play/moment.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>

@@ -1,6 +1,6 @@
 #include "renderer/light_map.h"
 
-#include "scenarios/light.h"
+#include "scenarios/light/light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // 2-D and 3-D light maps. In the car's frame (x forward, y left, z up, origin on the road under the rear axle), lamps only, no sky.
 #pragma once
 
-#include "scenarios/drives/moment.h"
+#include "scenarios/drives/play/moment.h"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #include "renderer/merged_beam.h"
 
-#include "scenarios/light.h"
+#include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

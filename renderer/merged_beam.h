@@ -3,7 +3,7 @@
 #pragma once
 
 #include "renderer/projected_beam.h"
-#include "scenarios/drives/moment.h"
+#include "scenarios/drives/play/moment.h"
 
 #include <span>
 

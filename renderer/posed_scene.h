@@ -1,7 +1,7 @@
 // A scene with its bodies where a moment has them, for what knows nothing of bodies.
 #pragma once
 
-#include "scenarios/drives/moment.h"
+#include "scenarios/drives/play/moment.h"
 #include "scenarios/values/scene.h"
 
 namespace fernlicht {

@@ -3,7 +3,7 @@
 
 #include "renderer/device.h"
 #include "renderer/technique.h"
-#include "scenarios/drives/frame.h"
+#include "scenarios/drives/play/frame.h"
 #include "scenarios/drives/shadow_settings.h"
 #include "scenarios/values/scene.h"
 

@@ -1,10 +1,10 @@
 #include "renderer/twin.h"
 
-#include "scenarios/fog_light.h"
-#include "scenarios/light.h"
+#include "scenarios/light/fog_light.h"
+#include "scenarios/light/light.h"
+#include "scenarios/light/retro_tint.h"
+#include "scenarios/light/wet_light.h"
 #include "scenarios/photometry.h"
-#include "scenarios/retro_tint.h"
-#include "scenarios/wet_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "renderer/camera.h"
-#include "scenarios/drives/frame.h"
+#include "scenarios/drives/play/frame.h"
 #include "scenarios/values/scene.h"
 
 #include <optional>

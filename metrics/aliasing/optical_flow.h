@@ -1,5 +1,5 @@
 // Where what one picture shows is seen in the next, estimated from the pictures alone: for frames whose geometry is not known. Where depth
-// and the camera's path are known, motion by them is exact and better (runner/aliasing/motion.h).
+// and the camera's path are known, motion by them is exact and better (runner/experiments/aliasing/motion.h).
 #pragma once
 
 #include "scenarios/values/image.h"

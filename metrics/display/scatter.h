@@ -1,7 +1,7 @@
 // Light that goes astray between the scene and the retina: in the eye, in the windscreen. It veils what lies beside bright sources.
 #pragma once
 
-#include "metrics/glare.h"
+#include "metrics/glare/glare.h"
 #include "scenarios/values/image.h"
 
 #include <glm/vec3.hpp>
@@ -19,8 +19,8 @@ struct ScatterFunction {
     double share() const;
 };
 
-/// The CIE's general disability glare equation (metrics/glare.h) in its whole domain, 0.1 to 100 degrees. Of brown eyes of 25 years 26 %
-/// are scattered, most of it by less than a degree.
+/// The CIE's general disability glare equation (metrics/glare/glare.h) in its whole domain, 0.1 to 100 degrees. Of brown eyes of 25 years
+/// 26 % are scattered, most of it by less than a degree.
 ScatterFunction eye_scatter(const GlareEye& eye);
 
 /// A windscreen of this haze, the share of the light that it turns by more than 2.5 degrees (ASTM D1003), 0 to 0.3: f falls with 1 /

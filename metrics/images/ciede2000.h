@@ -2,7 +2,7 @@
 // notes, supplementary test data, and mathematical observations" (2005), with kL = kC = kH = 1. About 1 is just seen beside each other.
 #pragma once
 
-#include "scenarios/drives/frame.h"
+#include "scenarios/drives/play/frame.h"
 
 namespace fernlicht {
 

@@ -1,7 +1,7 @@
 // How two display pictures (8-bit sRGB) differ, in their own levels 0..255 over all three channels.
 #pragma once
 
-#include "scenarios/drives/frame.h"
+#include "scenarios/drives/play/frame.h"
 
 #include <array>
 

@@ -4,7 +4,7 @@
 // High Dynamic Range Images" (Eurographics 2021). Any number of threads gives the same bytes.
 #pragma once
 
-#include "scenarios/drives/frame.h"
+#include "scenarios/drives/play/frame.h"
 
 #include <glm/vec3.hpp>
 

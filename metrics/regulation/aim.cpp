@@ -1,6 +1,6 @@
 #include "metrics/regulation/aim.h"
 
-#include "metrics/cut_off_elbow.h"
+#include "metrics/beam/cut_off_elbow.h"
 #include "scenarios/values/pose.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Aiming before the photometry, as each regulation's procedure says.
 #pragma once
 
-#include "metrics/cut_off.h"
+#include "metrics/beam/cut_off.h"
 #include "metrics/regulation/regulation.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 // The lowest and the highest received intensity on a segment or in a polygon, and where.
 #pragma once
 
-#include "metrics/regulation/received_beam.h"
+#include "metrics/beam/received_beam.h"
 
 #include <optional>
 #include <vector>

@@ -2,16 +2,13 @@
 // Directions are those of the goniometer: H right positive, V up positive, degrees, for right-hand traffic.
 #pragma once
 
+#include "metrics/beam/receiver.h"
+
 #include <limits>
 #include <string>
 #include <vector>
 
 namespace fernlicht {
-
-struct Direction {
-    double h_deg = 0.0, v_deg = 0.0;
-    bool operator==(const Direction&) const = default;
-};
 
 enum class RowKind {
     point,     ///< one direction
@@ -44,12 +41,6 @@ struct RegulationRow {
     double ratio = 0.0;           ///< above 0
     bool ratio_is_minimum = true; ///< else it is a maximum
     std::string note;
-};
-
-/// What a photometer averages over. Its size is an angle: 65 mm at 25 m are 0.149 degrees.
-struct Receiver {
-    enum class Shape { square, disc } shape = Shape::square;
-    double size_deg = 0.0; ///< side or diameter; 0: a point
 };
 
 enum class AimRule {

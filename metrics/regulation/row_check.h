@@ -1,7 +1,7 @@
 // One lamp, aimed, against the rows of one table.
 #pragma once
 
-#include "metrics/regulation/received_beam.h"
+#include "metrics/beam/received_beam.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "metrics/shadows/shadow_edges.h"
 
-#include "metrics/statistics.h"
+#include "metrics/statistics/statistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "renderer/gl/air_lamps.h"
 
-#include "renderer/gl/shader_text.h"
-#include "scenarios/fog_light.h"
+#include "renderer/gl/device/shader_text.h"
+#include "scenarios/light/fog_light.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "renderer/camera.h"
-#include "renderer/gl/beams.h"
+#include "renderer/gl/scene/beams.h"
 #include "renderer/renderer.h"
 
 namespace fernlicht::gl {

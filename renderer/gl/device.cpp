@@ -1,6 +1,6 @@
 #include "renderer/device.h"
 
-#include "renderer/gl/context.h"
+#include "renderer/gl/device/context.h"
 #include "scenarios/values/errors.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "renderer/equation_probe.h"
 
-#include "renderer/gl/objects.h"
-#include "renderer/gl/program.h"
+#include "renderer/gl/device/objects.h"
+#include "renderer/gl/device/program.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #include "renderer/gl/lamp_faces.h"
 
-#include "renderer/gl/shader_text.h"
-#include "scenarios/fog_light.h"
-#include "scenarios/light.h"
+#include "renderer/gl/device/shader_text.h"
+#include "scenarios/light/fog_light.h"
+#include "scenarios/light/light.h"
 
 #include <algorithm>
 #include <cmath>

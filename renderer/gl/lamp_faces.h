@@ -5,9 +5,9 @@
 // from faces of many pixels to those far below one. Where a body stands before it the face is hidden as a whole.
 #pragma once
 
-#include "renderer/gl/lighting.h"
-#include "renderer/gl/objects.h"
-#include "renderer/gl/program.h"
+#include "renderer/gl/device/objects.h"
+#include "renderer/gl/device/program.h"
+#include "renderer/gl/scene/lighting.h"
 
 #include <map>
 

@@ -1,6 +1,6 @@
 #include "renderer/gl/naive_lighting.h"
 
-#include "renderer/gl/shadow_maps.h"
+#include "renderer/gl/shadows/shadow_maps.h"
 
 #include <glm/geometric.hpp>
 

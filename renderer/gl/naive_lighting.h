@@ -2,10 +2,10 @@
 // left out but what is out of view. What `photometric` is measured against, in speed and in light.
 #pragma once
 
-#include "renderer/gl/beams.h"
-#include "renderer/gl/draw_list.h"
-#include "renderer/gl/lighting.h"
-#include "renderer/gl/program.h"
+#include "renderer/gl/device/program.h"
+#include "renderer/gl/scene/beams.h"
+#include "renderer/gl/scene/draw_list.h"
+#include "renderer/gl/scene/lighting.h"
 
 namespace fernlicht::gl {
 

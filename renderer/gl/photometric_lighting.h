@@ -3,8 +3,8 @@
 
 #include "renderer/gl/air_lamps.h"
 #include "renderer/gl/lamp_faces.h"
-#include "renderer/gl/lighting.h"
-#include "renderer/gl/shadows.h"
+#include "renderer/gl/scene/lighting.h"
+#include "renderer/gl/shadows/shadows.h"
 #include "renderer/gl/sun_light.h"
 #include "renderer/gl/traffic_lights.h"
 

@@ -1,6 +1,6 @@
 #include "renderer/gl/published_beams.h"
 
-#include "renderer/gl/beams.h"
+#include "renderer/gl/scene/beams.h"
 #include "renderer/merged_beam.h"
 #include "renderer/published_light.h"
 

@@ -1,10 +1,10 @@
 // What the published techniques light with, on the GPU: beam textures, merged beams, spot lights, light maps; each made once.
 #pragma once
 
-#include "renderer/gl/objects.h"
+#include "renderer/gl/device/objects.h"
 #include "renderer/light_map.h"
 #include "renderer/projected_beam.h"
-#include "scenarios/lamps/spot_fit.h"
+#include "scenarios/lamps/spots/spot_fit.h"
 
 #include <list>
 #include <map>

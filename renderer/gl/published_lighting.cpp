@@ -1,7 +1,7 @@
 #include "renderer/gl/published_lighting.h"
 
-#include "renderer/gl/beams.h"
-#include "renderer/gl/shader_text.h"
+#include "renderer/gl/device/shader_text.h"
+#include "renderer/gl/scene/beams.h"
 #include "renderer/merged_beam.h"
 #include "renderer/published_light.h"
 

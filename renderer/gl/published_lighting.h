@@ -1,10 +1,10 @@
 // The techniques of the founding thesis and of the literature: one family of shaders, compiled with the features of a technique's row.
 #pragma once
 
-#include "renderer/gl/draw_list.h"
-#include "renderer/gl/lighting.h"
-#include "renderer/gl/program.h"
+#include "renderer/gl/device/program.h"
 #include "renderer/gl/published_beams.h"
+#include "renderer/gl/scene/draw_list.h"
+#include "renderer/gl/scene/lighting.h"
 
 #include <map>
 

@@ -1,7 +1,7 @@
 #include "renderer/renderer.h"
 
-#include "renderer/gl/fragment_count.h"
-#include "renderer/gl/lighting.h"
+#include "renderer/gl/device/fragment_count.h"
+#include "renderer/gl/scene/lighting.h"
 #include "scenarios/display/tone_curve.h"
 #include "scenarios/photometry.h"
 

@@ -5,9 +5,9 @@
 // it.
 #pragma once
 
-#include "renderer/gl/draw_list.h"
-#include "renderer/gl/lighting.h"
-#include "renderer/gl/program.h"
+#include "renderer/gl/device/program.h"
+#include "renderer/gl/scene/draw_list.h"
+#include "renderer/gl/scene/lighting.h"
 
 namespace fernlicht::gl {
 

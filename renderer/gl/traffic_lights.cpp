@@ -1,7 +1,7 @@
 #include "renderer/gl/traffic_lights.h"
 
-#include "renderer/gl/shader_text.h"
-#include "scenarios/light.h"
+#include "renderer/gl/device/shader_text.h"
+#include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 // not retroreflect may be lit by vertex.
 #pragma once
 
-#include "renderer/gl/beams.h"
-#include "renderer/gl/draw_list.h"
+#include "renderer/gl/scene/beams.h"
+#include "renderer/gl/scene/draw_list.h"
 #include "renderer/gl/traffic_shadows.h"
 #include "renderer/renderer.h"
 #include "renderer/traffic_levels.h"

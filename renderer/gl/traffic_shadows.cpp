@@ -1,7 +1,7 @@
 #include "renderer/gl/traffic_shadows.h"
 
-#include "renderer/gl/shader_text.h"
-#include "renderer/gl/shadow_texture.h"
+#include "renderer/gl/device/shader_text.h"
+#include "renderer/gl/shadows/shadow_texture.h"
 
 #include <algorithm>
 #include <cmath>

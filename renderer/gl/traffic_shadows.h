@@ -10,10 +10,10 @@
 // that it cannot swallow them (as rays of the reference, which end just before the lamp).
 #pragma once
 
-#include "renderer/gl/draw_list.h"
-#include "renderer/gl/lighting.h"
-#include "renderer/gl/program.h"
-#include "renderer/gl/shadow_casters.h"
+#include "renderer/gl/device/program.h"
+#include "renderer/gl/scene/draw_list.h"
+#include "renderer/gl/scene/lighting.h"
+#include "renderer/gl/shadows/shadow_casters.h"
 
 #include <span>
 

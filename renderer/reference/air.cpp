@@ -1,7 +1,7 @@
 #include "renderer/reference/air.h"
 
 #include "renderer/reference/retro_lobe.h"
-#include "scenarios/fog_light.h"
+#include "scenarios/light/fog_light.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "renderer/reference/air.h"
 #include "renderer/reference/scattering.h"
 #include "renderer/reference/wet_lobe.h"
-#include "scenarios/fog_light.h"
+#include "scenarios/light/fog_light.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -18,7 +18,7 @@
 // technique `photometric` and its twin.
 #pragma once
 
-#include "scenarios/drives/frame.h"
+#include "scenarios/drives/play/frame.h"
 #include "scenarios/values/scene.h"
 
 #include <cstdint>

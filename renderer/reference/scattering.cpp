@@ -1,9 +1,9 @@
 #include "renderer/reference/scattering.h"
 
 #include "renderer/reference/wet_lobe.h"
-#include "scenarios/fog_light.h"
+#include "scenarios/light/fog_light.h"
+#include "scenarios/light/wet_light.h"
 #include "scenarios/photometry.h"
-#include "scenarios/wet_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "renderer/reference/surface_response.h"
 
+#include "scenarios/light/retro_tint.h"
 #include "scenarios/photometry.h"
-#include "scenarios/retro_tint.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include "renderer/reference/air.h"
 #include "renderer/reference/path.h"
 #include "renderer/reference/scattering.h"
-#include "scenarios/wet_light.h"
+#include "scenarios/light/wet_light.h"
 
 namespace fernlicht::reference {
 namespace {

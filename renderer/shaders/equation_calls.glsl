@@ -1,5 +1,5 @@
 // Every equation of photometry.glsl under a number, with up to 16 arguments in four vectors: so that one text calls each of them on the GPU in
-// float and in C++ in float and double (runner/stability/equations.h has the names, in this order). Same subset as photometry.glsl.
+// float and in C++ in float and double (runner/experiments/stability/equations.h has the names, in this order). Same subset as photometry.glsl.
 FN vec3 first_three(vec4 v) { return vec3(v.x, v.y, v.z); }
 
 FN vec4 equation_value(int equation, vec4 a, vec4 b, vec4 c, vec4 d) {

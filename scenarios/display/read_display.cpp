@@ -1,7 +1,7 @@
 // Display profiles in YAML.
 #include "scenarios/display/display_profile.h"
-#include "scenarios/drives/yaml_entry.h"
-#include "scenarios/drives/yaml_text.h"
+#include "scenarios/yaml/yaml_entry.h"
+#include "scenarios/yaml/yaml_text.h"
 
 #include <algorithm>
 #include <array>

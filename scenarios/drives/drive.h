@@ -8,7 +8,7 @@
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/models/placed_model.h"
-#include "scenarios/openscenario/storyboard_source.h"
+#include "scenarios/openscenario/reader/storyboard_source.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/sky/daylight.h"
 #include "scenarios/sky/street_lamps.h"
@@ -170,5 +170,13 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits = {}
 /// YAML that read_drive reads back to the same drive: nothing left to defaults, numbers exact, paths absolute. `file`, `notes` and
 /// `opened` are not part of it.
 std::string write_drive(const Drive& drive);
+
+/// The driver's view: the first that is no map. nullptr where there are only maps.
+inline const View* driver_view(const Drive& drive) {
+    for (const View& view : drive.views)
+        if (view.projection == Projection::perspective)
+            return &view;
+    return nullptr;
+}
 
 } // namespace fernlicht

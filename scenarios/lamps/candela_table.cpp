@@ -209,4 +209,11 @@ CandelaTable mirrored(const CandelaTable& table) {
     return out;
 }
 
+double finest_step(const std::vector<double>& axis) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < axis.size(); ++i)
+        least = std::min(least, axis[i] - axis[i - 1]);
+    return least;
+}
+
 } // namespace fernlicht

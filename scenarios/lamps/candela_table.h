@@ -59,4 +59,7 @@ struct InterpolationError {
 };
 InterpolationError interpolation_error(const CandelaTable& table);
 
+/// The smallest distance between neighbours on an axis that rises; infinite where there is one place alone.
+double finest_step(const std::vector<double>& axis);
+
 } // namespace fernlicht

@@ -1,5 +1,5 @@
-#include "scenarios/drives/drive_keys.h"
-#include "scenarios/drives/mirrored_drive.h"
+#include "scenarios/drives/edits/mirrored_drive.h"
+#include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 

@@ -1,6 +1,6 @@
-#include "scenarios/drives/drive_keys.h"
-#include "scenarios/drives/lamp_keys.h"
-#include "scenarios/drives/seeing_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/drives/keys/lamp_keys.h"
+#include "scenarios/drives/keys/seeing_keys.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 

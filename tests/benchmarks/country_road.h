@@ -1,7 +1,7 @@
 // The first-light drive two seconds in, with its first lamps: what the benchmarks measure on.
 #pragma once
 
-#include "scenarios/drives/advance.h"
+#include "scenarios/drives/play/advance.h"
 
 #include <fstream>
 #include <iterator>

@@ -1,7 +1,7 @@
 // A frame on a road of 50 km against one of 1 km: what lies behind the horizon must cost nothing. Run with
 // --benchmark_filter=frame_on --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true.
 #include "renderer/renderer.h"
-#include "scenarios/roads/road_mesh.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 #include "tests/benchmarks/country_road.h"
 
 #include <benchmark/benchmark.h>

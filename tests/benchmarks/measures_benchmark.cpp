@@ -1,9 +1,9 @@
 // What is computed for every moment of a run, and over a bench's samples.
-#include "metrics/extent.h"
-#include "metrics/image_difference.h"
-#include "metrics/paired_ratio.h"
-#include "metrics/random_order.h"
-#include "metrics/statistics.h"
+#include "metrics/images/image_difference.h"
+#include "metrics/road/extent.h"
+#include "metrics/statistics/paired_ratio.h"
+#include "metrics/statistics/random_order.h"
+#include "metrics/statistics/statistics.h"
 #include "tests/benchmarks/country_road.h"
 
 #include <benchmark/benchmark.h>

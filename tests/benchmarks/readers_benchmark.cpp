@@ -2,10 +2,10 @@
 #include "renderer/beam_texture.h"
 #include "renderer/projected_beam.h"
 #include "scenarios/can/candump_stream.h"
-#include "scenarios/drives/yaml_tree.h"
 #include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/ies.h"
-#include "scenarios/roads/road_mesh.h"
+#include "scenarios/roads/mesh/road_mesh.h"
+#include "scenarios/yaml/yaml_tree.h"
 #include "tests/benchmarks/country_road.h"
 
 #include <benchmark/benchmark.h>

@@ -4,9 +4,9 @@
 // cars drive, so that no map stands already; else one moment.
 // What is drawn is made once for each number of cars, so that rounds alternate between them quickly.
 #include "renderer/renderer.h"
-#include "scenarios/drives/advance.h"
-#include "scenarios/roads/road_mesh.h"
-#include "scenarios/traffic/place_traffic.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/place_traffic.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/traffic/road_user_mesh.h"
 
 #include <benchmark/benchmark.h>

@@ -1,8 +1,8 @@
 // The shipped set of six views against its first one, on the country road: pictures alone, nothing read but colour.
 // `--benchmark_filter=views --benchmark_enable_random_interleaving=true --benchmark_repetitions=9` takes them in turns.
 #include "renderer/renderer.h"
-#include "scenarios/drives/advance.h"
-#include "scenarios/roads/road_mesh.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/roads/road_network.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // What `lamp --against` finds: false alarms between two measurements of one lamp, and the changes it does not miss. Prints the tables of
 // docs/lamps.md; fails where there are more false alarms, or more misses, than they promise.
-#include "metrics/lamp_difference.h"
+#include "metrics/beam/lamp_difference.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "tests/metrics/measured_lamps.h"
 

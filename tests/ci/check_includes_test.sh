@@ -8,17 +8,20 @@ failures=0
 
 lawful() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{scenarios/lamps,metrics,renderer/gl,renderer/shaders,renderer/reference,runner/report,tests/metrics,ci,build/release,out/demo-1}
+    mkdir -p "$tree"/{scenarios/lamps,metrics,renderer/gl,renderer/shaders,renderer/reference,runner/report,runner/judge,tests/metrics,ci,build/release,out/demo-1}
     printf '#include "scenarios/lamps/table.h"\n#include <OpenImageIO/imageio.h>\n' >"$tree/scenarios/lamps/texture.cpp"
     printf '#pragma once\n#include <vector>\n' >"$tree/scenarios/lamps/table.h"
     printf '#include "metrics/extent.h"\n#include "scenarios/lamps/table.h"\n' >"$tree/metrics/extent.cpp"
-    printf '#include <glad/gl.h>\n#include <EGL/egl.h>\n#include "shader_files.h"\n#include "renderer/gl/context.h"\n' >"$tree/renderer/gl/context.cpp"
+    printf '#include <glad/gl.h>\n#include <EGL/egl.h>\n#include "shader_files.h"\n#include "renderer/camera.h"\n' >"$tree/renderer/gl/context.cpp"
     printf '#include <embree3/rtcore.h>\n' >"$tree/renderer/reference/trace.cpp"
     printf '#include "photometry.glsl"\n' >"$tree/renderer/shaders/lamps.glsl"
     printf '#include "report_files.h"\n#include "renderer/renderer.h"\n#include "metrics/extent.h"\n#include <OpenImageIO/imageio.h>\n' >"$tree/runner/report/html.cpp"
     printf '#include "tests/metrics/frames.h"\n#include "metrics/extent.h"\n#include <OpenImageIO/imageio.h>\n' >"$tree/tests/metrics/extent_test.cpp"
     printf '#include <OpenImageIO/oiioversion.h>\n' >"$tree/runner/versions.cpp"
     printf 'int generated;\n' >"$tree/build/release/generated.cpp"
+    printf '#include "runner/judge/limits.h"\n' >"$tree/runner/report/html.h"
+    printf '#pragma once\n' | tee "$tree/runner/judge/limits.h" >"$tree/scenarios/values.h"
+    printf '# a word\nscenarios:\nscenarios/lamps:\nmetrics:\nrenderer:\nrenderer/gl: .\nrenderer/reference:\nrunner:\nrunner/judge:\nrunner/report: judge\n' >"$tree/ci/arrows"
 }
 
 # breach FILE LINE PATTERN: adds LINE at the end of FILE and expects a complaint about that file that matches PATTERN.
@@ -56,11 +59,27 @@ breach scenarios/lamps/table.h '#include <OpenImageIO/imagebuf.h>' 'OpenImageIO 
 breach scenarios/lamps/writer.cpp '#include <OpenImageIO/imageio.h>' 'OpenImageIO is already included by scenarios/lamps/texture.cpp'
 breach metrics/ssim.h '#include <opencv2/core.hpp>' 'OpenCV in a header'
 breach scenarios/vehicle/steps.h '#include <boost/numeric/odeint.hpp>' 'Boost in a header'
-breach runner/bus.h '#include <linux/can/raw.h>' 'belongs in runner/can/can_socket.cpp'
+breach runner/bus.h '#include <linux/can/raw.h>' 'belongs in runner/play/live/can_socket.cpp'
 breach metrics/extent.cpp '#include "shader_files.h"' 'belongs to renderer'
 breach metrics/extent.cpp '#include "extent.h"' 'path from the top'
 breach metrics/extent.cpp '#include <scenarios/light.h>' 'in quotes'
 breach renderer/shaders/lamps.glsl '#include "scenarios/photometry.glsl"' 'by file name'
+
+breach runner/judge/limits.h '#include "runner/report/html.h"' 'runner/judge must not know "runner/report/html.h": ci/arrows has no arrow to runner/report'
+breach scenarios/values.h '#include "scenarios/lamps/table.h"' 'ci/arrows has no arrow to scenarios/lamps'
+breach renderer/gl/deep/pass.h '#include "renderer/camera.h"' 'renderer/gl/deep must not know'
+breach ci/arrows 'runner/write: report plots' 'runner/write sees runner/plots, which is not above it'
+breach ci/arrows 'runner/report: report' 'runner/report sees runner/report, which is not above it'
+
+# An arrow that nothing follows any more, and a folder without a line.
+for law in 's/^runner: *$/runner: judge/' '/^metrics:/d'; do
+    lawful
+    sed -i "$law" "$tree/ci/arrows"
+    if "$check" "$tree" >/dev/null 2>&1; then
+        echo "not noticed: ci/arrows after $law"
+        ((++failures))
+    fi
+done
 
 lawful
 mkdir "$tree/common"

@@ -1,7 +1,7 @@
 // A flat straight road as a grid, without a network: what closed forms can be held against.
 #pragma once
 
-#include "metrics/extent.h"
+#include "metrics/road/extent.h"
 
 namespace fernlicht::tests {
 

@@ -1,7 +1,7 @@
 #include "renderer/light_map.h"
 
 #include "scenarios/lamps/lamp_model.h"
-#include "scenarios/light.h"
+#include "scenarios/light/light.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #include "renderer/merged_beam.h"
 
 #include "scenarios/lamps/lamp_model.h"
-#include "scenarios/light.h"
+#include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>

@@ -1,10 +1,10 @@
 // The own car's body hides what lies behind it and takes no light from the road; a red reflector is seen red, as bright as its R_A says.
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
-#include "scenarios/drives/own_car.h"
+#include "scenarios/drives/play/own_car.h"
 #include "scenarios/lamps/lamp_model.h"
+#include "scenarios/light/retro_tint.h"
 #include "scenarios/models/road_user_bodies.h"
-#include "scenarios/retro_tint.h"
 
 #include <algorithm>
 #include <cmath>

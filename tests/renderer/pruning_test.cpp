@@ -1,12 +1,12 @@
 // Leaving out what a moment does not need must not change a bit; switching it on must change a pixel, and off must save work.
 #include "renderer/renderer.h"
-#include "scenarios/drives/advance.h"
-#include "scenarios/drives/control_play.h"
-#include "scenarios/drives/motion.h"
-#include "scenarios/drives/staged_scene.h"
-#include "scenarios/drives/tell_story.h"
-#include "scenarios/drives/told_story.h"
-#include "scenarios/roads/road_mesh.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/control_play.h"
+#include "scenarios/drives/play/motion.h"
+#include "scenarios/drives/play/staged_scene.h"
+#include "scenarios/drives/play/told_story.h"
+#include "scenarios/drives/story/tell_story.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 #include "tests/renderer/same_frames.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "renderer/projected_beam.h"
 #include "renderer/published_light.h"
 #include "renderer/twin.h"
-#include "scenarios/lamps/spot_fit.h"
+#include "scenarios/lamps/spots/spot_fit.h"
 #include "tests/renderer/published_scene.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "renderer/traffic_levels.h"
 
 #include "scenarios/lamps/lamp_file.h"
-#include "scenarios/light.h"
+#include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>

@@ -4,11 +4,11 @@
 #include "renderer/renderer.h"
 #include "renderer/traffic_levels.h"
 #include "renderer/twin.h"
-#include "scenarios/drives/advance.h"
-#include "scenarios/drives/staged_scene.h"
-#include "scenarios/light.h"
-#include "scenarios/roads/road_mesh.h"
-#include "scenarios/traffic/place_traffic.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/place_traffic.h"
+#include "scenarios/drives/play/staged_scene.h"
+#include "scenarios/light/light.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/traffic/road_user_mesh.h"
 
 #include <algorithm>

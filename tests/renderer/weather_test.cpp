@@ -3,7 +3,7 @@
 
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
-#include "scenarios/fog_light.h"
+#include "scenarios/light/fog_light.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // A report with plausible numbers from two made-up beams, for the tests of the writers.
 #pragma once
 
-#include "runner/report/report.h"
+#include "runner/findings/report.h"
 
 namespace fernlicht::tests {
 

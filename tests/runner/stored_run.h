@@ -1,9 +1,9 @@
 // A small run on disk, made without drawing: for tests of what is done with runs.
 #pragma once
 
-#include "runner/picture_file.h"
-#include "runner/references.h"
-#include "runner/report/report.h"
+#include "runner/files/picture_file.h"
+#include "runner/findings/report.h"
+#include "runner/judge/references.h"
 
 namespace fernlicht::tests {
 

@@ -1,7 +1,7 @@
 // FLIP as the paper writes it, pixel by pixel with two-dimensional filters in double precision: slow, and independent of what it checks.
 #pragma once
 
-#include "scenarios/drives/frame.h"
+#include "scenarios/drives/play/frame.h"
 
 #include <algorithm>
 #include <array>

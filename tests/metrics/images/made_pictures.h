@@ -1,7 +1,7 @@
 // Pictures that tests make out of whole numbers alone, so that any program makes the same.
 #pragma once
 
-#include "scenarios/drives/frame.h"
+#include "scenarios/drives/play/frame.h"
 
 #include <algorithm>
 #include <cstdint>

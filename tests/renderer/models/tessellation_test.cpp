@@ -1,7 +1,7 @@
 // A model is lit alike however finely it is cut into triangles; for techniques that light vertices, how far they are off.
 #include "renderer/renderer.h"
 #include "scenarios/lamps/lamp_model.h"
-#include "scenarios/light.h"
+#include "scenarios/light/light.h"
 #include "scenarios/models/placed_model.h"
 #include "tests/scenarios/models/written_gltf.h"
 

@@ -2,9 +2,9 @@
 #include "tests/renderer/reference/rooms.h"
 
 #include "renderer/reference/wet_lobe.h"
-#include "scenarios/fog_light.h"
+#include "scenarios/light/fog_light.h"
+#include "scenarios/light/wet_light.h"
 #include "scenarios/photometry.h"
-#include "scenarios/wet_light.h"
 
 #include <gtest/gtest.h>
 #include <stdexcept>

@@ -1,9 +1,9 @@
 // Lamp control in drives: what is read is written back, what is wrong is refused, and moments have what the laws did.
 #include "scenarios/control/control_parameters.h"
-#include "scenarios/drives/advance.h"
-#include "scenarios/drives/control_play.h"
-#include "scenarios/drives/motion.h"
-#include "scenarios/traffic/place_traffic.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/control_play.h"
+#include "scenarios/drives/play/motion.h"
+#include "scenarios/drives/play/place_traffic.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/drive_fixture.h"
 

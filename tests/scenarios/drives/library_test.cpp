@@ -1,5 +1,5 @@
 // The example and the shipped drives: each can be read, has its road, and keeps enough of it ahead for what it measures.
-#include "scenarios/drives/advance.h"
+#include "scenarios/drives/play/advance.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // YAML against a JSON schema of ours: what an editor would say of it.
 #pragma once
 
-#include "scenarios/drives/yaml_tree.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
 #include <charconv>

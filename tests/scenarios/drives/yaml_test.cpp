@@ -1,6 +1,6 @@
 // The YAML tree and its typed reading: places, refusals, bounds.
-#include "scenarios/drives/yaml_entry.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/yaml/yaml_entry.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 #include "scenarios/openscenario/play_story.h"
-#include "scenarios/openscenario/read_storyboard.h"
+#include "scenarios/openscenario/reader/read_storyboard.h"
 #include "scenarios/values/xml_file.h"
 
 #include <cmath>

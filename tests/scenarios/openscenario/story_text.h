@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenarios/openscenario/play_story.h"
-#include "scenarios/openscenario/read_storyboard.h"
+#include "scenarios/openscenario/reader/read_storyboard.h"
 
 #include <fstream>
 #include <gtest/gtest.h>

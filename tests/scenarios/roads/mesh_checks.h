@@ -1,8 +1,8 @@
 // What a road's triangles must be, counted on the triangles themselves.
 #pragma once
 
-#include "scenarios/roads/mesh_materials.h"
-#include "scenarios/roads/road_mesh.h"
+#include "scenarios/roads/mesh/mesh_materials.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,7 +2,7 @@
 // those of others where they are.
 #include "scenarios/roads/mirrored_road.h"
 
-#include "scenarios/roads/road_mesh.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/roads/opendrive_text.h"

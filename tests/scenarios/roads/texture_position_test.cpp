@@ -1,5 +1,5 @@
 // Where in its texture a vertex lies: by hand, across meshes, and on whole roads.
-#include "scenarios/roads/mesh_builder.h"
+#include "scenarios/roads/mesh/mesh_builder.h"
 #include "tests/scenarios/roads/mesh_checks.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Rows of lamps along the route: where they hang, where they shine, and how much.
-#include "scenarios/drives/advance.h"
-#include "scenarios/light.h"
-#include "scenarios/sky/place_street_lamps.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/place_street_lamps.h"
+#include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>

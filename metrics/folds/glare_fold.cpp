@@ -1,0 +1,183 @@
+#include "metrics/folds/glare_fold.h"
+
+#include "metrics/folds/road_places.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace fernlicht {
+namespace {
+
+const char* const no_moment = "no moment of the drive was measured";
+
+/// The figure over the drive, or why some moment lacks it: an extreme over the rest could be another.
+Value over_drive(const std::optional<double>& extreme, const std::string& missing, const std::string& why_none) {
+    if (!missing.empty())
+        return Value::not_measured("in some moment: " + missing);
+    return Value::of(extreme, why_none);
+}
+
+} // namespace
+
+GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing, const GlareParameters& parameters) {
+    GlareFigures figures;
+    figures.facing_lx = facing;
+    for (const GlareSource& source : sources)
+        figures.eye_lx += source.eye_lx;
+    figures.veiling_cdm2 = veiling_luminance_cdm2(parameters.equation, sources, {parameters.age_years, parameters.pigmentation});
+    figures.increment_percent = figures.veiling_cdm2.measured()
+                                    ? threshold_increment_percent(*figures.veiling_cdm2.number(), parameters.adaptation_cdm2)
+                                    : figures.veiling_cdm2;
+    figures.de_boer = de_boer_rating(sources, parameters.adaptation_cdm2);
+    return figures;
+}
+
+void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, const GlareFigures& figures) {
+    ticks.push_back(moment.tick);
+    facing.push_back({moment.time_s, to_go_m, figures.facing_lx});
+    eye.push_back({moment.time_s, to_go_m, figures.eye_lx});
+    veiling.push_back({moment.time_s, to_go_m, figures.veiling_cdm2.number()});
+    increment.push_back({moment.time_s, to_go_m, figures.increment_percent.number()});
+    de_boer.push_back({moment.time_s, to_go_m, figures.de_boer.number()});
+    theta_deg.resize(sources.size());
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        theta_deg[i].push_back(sources[i].theta_deg);
+    if (no_veiling.empty())
+        no_veiling = figures.veiling_cdm2.reason();
+    if (no_increment.empty())
+        no_increment = figures.increment_percent.reason();
+    if (no_de_boer.empty() && figures.eye_lx > 0.0) // in the dark nothing is rated, and nothing glares
+        no_de_boer = figures.de_boer.reason();
+}
+
+void GlareFollowed::say(Readings& readings, const std::string& stem, const std::string& where, const std::string& why_none,
+                        const GlareParameters& parameters) const {
+    const auto add = [&](const std::string& suffix, const char* unit, const std::string& what, const Value& found) {
+        readings.push_back({stem + "_" + suffix, found, unit, where + ", " + what});
+    };
+    const std::string none = why_none.empty() ? no_moment : why_none;
+    add("facing_max_lx", "lx", "facing the lamps, largest", over_drive(largest(facing), "", none));
+    add("eye_max_lx", "lx", "across the line of sight, largest", over_drive(largest(eye), "", none));
+    add("veiling_max_cdm2", "cd/m2", fmt::format("veiling luminance, {}, largest", name(parameters.equation)),
+        over_drive(largest(veiling), no_veiling, none));
+    add("threshold_increment_max_percent", "%", fmt::format("adapted to {} cd/m2, largest", parameters.adaptation_cdm2),
+        over_drive(largest(increment), no_increment, none));
+    const bool dark = !facing.empty() && no_de_boer.empty() && !smallest(de_boer);
+    add("de_boer_min", "1",
+        fmt::format("adapted to {} cd/m2, smallest; 9 unnoticeable, 5 just acceptable, 1 unbearable", parameters.adaptation_cdm2),
+        over_drive(smallest(de_boer), no_de_boer, dark ? "no light reaches the eye" : none));
+    const auto limits = [&](const std::vector<double>& values, const Approach& figure, const std::string& missing, bool over,
+                            const std::string& unit, const std::string& what) {
+        for (const double limit : values) {
+            const Stretch stretch = over ? at_or_above(figure, limit) : below(figure, limit);
+            const std::string suffix = fmt::format("{}_{}{}", over ? "above" : "below", limit, unit);
+            const bool measured = missing.empty() && !figure.empty();
+            add("time_" + suffix + "_s", "s", what, over_drive(measured ? std::optional(stretch.time_s) : std::nullopt, missing, none));
+            add("length_" + suffix + "_m", "m", what, over_drive(measured ? std::optional(stretch.length_m) : std::nullopt, missing, none));
+        }
+    };
+    limits(parameters.limits_lx, facing, "", true, "lx", "facing the lamps");
+    limits(parameters.limits_percent, increment, no_increment, true, "percent", "threshold increment");
+    limits(parameters.limits_de_boer, de_boer, no_de_boer, false, "_de_boer", "de Boer's rating");
+}
+
+SeeingSeries GlareFollowed::series(const std::string& subject, const std::string& title, const std::string& over,
+                                   const std::vector<std::string>& lamps) const {
+    SeeingSeries series{subject, title, over, ticks, {}, {}};
+    for (const ApproachSample& sample : facing)
+        series.at_m.push_back(sample.distance_m);
+    const auto column = [&](const char* name, const char* label, const char* unit, bool logarithmic, const Approach& figure) {
+        SeeingSeries::Column values{name, label, unit, logarithmic, true, {}};
+        for (const ApproachSample& sample : figure)
+            values.values.push_back(sample.value);
+        series.columns.push_back(std::move(values));
+    };
+    column("facing_lx", "illuminance facing the lamps", "lx", true, facing);
+    column("eye_lx", "illuminance across the line of sight", "lx", true, eye);
+    series.columns.back().drawn = false;
+    column("veiling_cdm2", "veiling luminance", "cd/m2", true, veiling);
+    column("threshold_increment_percent", "threshold increment", "%", true, increment);
+    column("de_boer", "de Boer's rating", "", false, de_boer);
+    for (std::size_t i = 0; i < theta_deg.size(); ++i) {
+        SeeingSeries::Column theta{
+            fmt::format("theta_{}_deg", i < lamps.size() ? lamps[i] : ""), "angle of " + lamps.at(i), "deg", false, false, {}};
+        theta.values.assign(theta_deg[i].begin(), theta_deg[i].end());
+        series.columns.push_back(std::move(theta));
+    }
+    return series;
+}
+
+OncomingFold::OncomingFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
+    for (const GlareObserver& observer : drive.seeing.glare->oncoming) {
+        Eye& eye = eyes_.emplace_back();
+        const std::optional<double> left_m = offset_across_m(route.cross_section(observer.at_m), Across::oncoming_centre);
+        if (!left_m)
+            continue;
+        const Pose surface = route.pose(observer.at_m, *left_m);
+        eye.place_m = surface.position_m + observer.eye_height_m * surface.up();
+        eye.gaze = -surface.forward();
+        if (observer.look_ahead_m > 0.0) {
+            const Pose ahead = route.pose(std::max(observer.at_m - observer.look_ahead_m, 0.0), *left_m);
+            const glm::dvec3 looked_at = ahead.position_m + observer.eye_height_m * ahead.up();
+            if (glm::distance(looked_at, *eye.place_m) > 0.1) // not at the route's very start
+                eye.gaze = glm::normalize(looked_at - *eye.place_m);
+        }
+    }
+}
+
+void OncomingFold::add(const Moment& moment) {
+    const GlareParameters& parameters = *drive_.seeing.glare;
+    if (lamps_.empty())
+        for (const LitLamp& lamp : moment.lamps)
+            lamps_.push_back(lamp.name);
+    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+        Eye& eye = eyes_[i];
+        const GlareObserver& observer = parameters.oncoming[i];
+        const double to_go_m = observer.at_m - moment.distance_m - drive_.bumper_m;
+        eye.passed = eye.passed || to_go_m < 0.0;
+        if (!eye.place_m || to_go_m < 0.0)
+            continue;
+        std::vector<GlareSource> sources;
+        double facing = 0.0;
+        for (SeenLamp lamp : seen_lamps(moment, *eye.place_m)) {
+            if (lamp.facing_lx > 0.0 && road_hides(route_, moment.distance_m, observer.at_m, lamp.position_m, *eye.place_m))
+                lamp.facing_lx = 0.0;
+            facing += lamp.facing_lx;
+            sources.push_back(glare_source(lamp, *eye.place_m, eye.gaze));
+        }
+        eye.followed.add(moment, to_go_m, sources, glare_figures(sources, facing, parameters));
+    }
+}
+
+Readings OncomingFold::readings() const {
+    Readings readings;
+    const GlareParameters& parameters = *drive_.seeing.glare;
+    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+        const GlareObserver& observer = parameters.oncoming[i];
+        const std::string stem = "glare_" + observer.name;
+        const std::string cut = cut_short(eyes_[i].followed.facing, eyes_[i].passed);
+        const std::string where = fmt::format("oncoming driver {} m along the route, eyes {} m above the road{}", observer.at_m,
+                                              observer.eye_height_m, cut.empty() ? "" : " (" + cut + ")");
+        const std::string none = eyes_[i].place_m ? "" : fmt::format("there is no oncoming lane at {} m", observer.at_m);
+        eyes_[i].followed.say(readings, stem, where, none, parameters);
+        for (const double distance_m : parameters.distances_m) {
+            const Value lx = none.empty() ? value_at(eyes_[i].followed.facing, distance_m) : Value::not_measured(none);
+            readings.push_back({fmt::format("{}_at_{}m_lx", stem, distance_m), lx, "lx",
+                                fmt::format("{}, the bumper {} m before it, facing the lamps", where, distance_m)});
+        }
+    }
+    return readings;
+}
+
+std::vector<SeeingSeries> OncomingFold::series() const {
+    std::vector<SeeingSeries> all;
+    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+        const std::string& name = drive_.seeing.glare->oncoming[i].name;
+        all.push_back(eyes_[i].followed.series("glare_" + name, fmt::format("Oncoming driver \u201c{}\u201d", name),
+                                               "distance from the bumper to the observer", lamps_));
+    }
+    return all;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,57 @@
+// What the lamps do to the eyes of others over a drive: an oncoming driver who stands still, and a driver ahead through the mirrors. From
+// the lamps' tables in double. A crest of the road between lamp and eye hides the lamp; nothing else does.
+#pragma once
+
+#include "metrics/folds/seeing_series.h"
+#include "metrics/glare/eye_light.h"
+#include "metrics/readings/readings.h"
+#include "metrics/road/approach.h"
+
+namespace fernlicht {
+
+/// What a set of sources does to one eye.
+struct GlareFigures {
+    double facing_lx = 0.0; ///< sum of I / d^2
+    double eye_lx = 0.0;    ///< across the line of sight
+    Value veiling_cdm2, increment_percent, de_boer;
+};
+GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing_lx, const GlareParameters& parameters);
+
+/// Figures of one eye over the moments.
+struct GlareFollowed {
+    std::vector<int> ticks;
+    Approach facing, eye, veiling, increment, de_boer;
+    std::vector<std::vector<double>> theta_deg;       ///< by lamp
+    std::string no_veiling, no_increment, no_de_boer; ///< why it was not measured in some moment; "" where it was in all
+
+    void add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, const GlareFigures& figures);
+    /// Figures over the drive under `stem`: largest illuminances, veiling luminance and threshold increment, smallest rating; times and
+    /// metres beyond the limits.
+    void say(Readings& readings, const std::string& stem, const std::string& where, const std::string& why_none,
+             const GlareParameters& parameters) const;
+    SeeingSeries series(const std::string& subject, const std::string& title, const std::string& over,
+                        const std::vector<std::string>& lamps) const;
+};
+
+class OncomingFold {
+  public:
+    /// The drive must ask for glare. Drive and route must outlive the fold.
+    OncomingFold(const Drive& drive, const Route& route);
+    void add(const Moment& moment);
+    Readings readings() const;
+    std::vector<SeeingSeries> series() const;
+
+  private:
+    struct Eye {
+        std::optional<glm::dvec3> place_m; ///< nullopt: there is no oncoming lane
+        glm::dvec3 gaze{0.0};
+        GlareFollowed followed;
+        bool passed = false; ///< some moment is beyond it
+    };
+    const Drive& drive_;
+    const Route& route_;
+    std::vector<Eye> eyes_;
+    std::vector<std::string> lamps_;
+};
+
+} // namespace fernlicht

@@ -1,0 +1,113 @@
+#include "metrics/folds/homogeneity_fold.h"
+
+#include "metrics/statistics/statistics.h"
+#include "scenarios/light/light.h"
+
+#include <fmt/format.h>
+#include <functional>
+
+namespace fernlicht {
+namespace {
+
+constexpr double along_m = 0.5, across_m = 0.25;
+
+/// Places of the own lane ahead of the bumper and their light.
+LaneLight lane_light(const Drive& drive, const Route& route, const Moment& moment, const glm::dvec3& eye_m) {
+    LaneLight light;
+    const double bumper_m = moment.distance_m + drive.bumper_m;
+    const CrossSection section = route.cross_section(bumper_m);
+    double left_m = 1.75, right_m = -1.75, lamps_m = 0.0;
+    for (const RouteLane& lane : section.lanes)
+        if (lane.name == "own") {
+            left_m = lane.left_m;
+            right_m = lane.right_m;
+        }
+    for (const LitLamp& lamp : moment.lamps)
+        lamps_m += to_local(moment.ego, lamp.pose.position_m).x / static_cast<double>(moment.lamps.size());
+    for (int k = 0; right_m + k * across_m <= left_m + 1e-9; ++k)
+        light.offset_m.push_back(right_m + k * across_m);
+    const double room_m = std::min(drive.seeing.homogeneity->ahead_m, route.length_m() - bumper_m);
+    std::vector<Pose> row(light.offset_m.size());
+    for (int k = 2; k * along_m <= room_m; ++k) {
+        route.poses(bumper_m + k * along_m, light.offset_m, row);
+        light.ahead_m.push_back(k * along_m + drive.bumper_m - lamps_m);
+        for (const Pose& pose : row) {
+            light.lx.push_back(surface_illuminance_lx(moment, pose.position_m, pose.up()));
+            light.seen_at.push_back(pose.position_m - eye_m);
+        }
+    }
+    return light;
+}
+
+} // namespace
+
+HomogeneityFold::HomogeneityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
+    const View* const view = driver_view(drive);
+    eye_m_ = view ? view->position_m : glm::dvec3(1.3, 0.35, 1.2);
+}
+
+void HomogeneityFold::add(const Moment& moment) {
+    const HomogeneityParameters& asked = *drive_.seeing.homogeneity;
+    Moment lit = moment;
+    std::erase_if(lit.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
+    if (lit.lamps.empty())
+        return;
+    const LaneLight light = lane_light(drive_, route_, lit, to_parent(moment.ego, eye_m_));
+    rows_.push_back({moment.tick, moment.distance_m, largest_gradients(light, asked.least_lx),
+                     patches(light, asked.least_lx, asked.patch_factor), foreground_ratio(light)});
+}
+
+Readings HomogeneityFold::readings() const {
+    const HomogeneityParameters& asked = *drive_.seeing.homogeneity;
+    Readings readings;
+    const auto say = [&](const std::string& name, const std::string& end, const char* unit, const std::string& what,
+                         const std::function<double(const Row&)>& figure) {
+        std::vector<double> values;
+        for (const Row& row : rows_)
+            values.push_back(figure(row));
+        const std::optional<Spread> spread = spread_of(values);
+        const std::string where = fmt::format("own lane to {} m, where it has {} lx, {}", asked.ahead_m, asked.least_lx, what);
+        const Value none = Value::not_measured("no lamp was lit in any moment");
+        readings.push_back({name + end, spread ? Value(spread->median) : none, unit, where + ", median"});
+        readings.push_back({name + "_max" + end, spread ? Value(spread->maximum) : none, unit, where + ", largest"});
+    };
+    say("gradient_along_own", "_per_m", "1/m", "largest |d lg E| along", [](const Row& row) { return row.gradients.along.per_m; });
+    say("gradient_along_own", "_per_deg", "1/deg", "largest |d lg E| along, seen from the driver",
+        [](const Row& row) { return row.gradients.along.per_degree; });
+    say("gradient_across_own", "_per_m", "1/m", "largest |d lg E| across", [](const Row& row) { return row.gradients.across.per_m; });
+    say("gradient_across_own", "_per_deg", "1/deg", "largest |d lg E| across, seen from the driver",
+        [](const Row& row) { return row.gradients.across.per_degree; });
+    const std::string beyond = fmt::format(" than its surroundings by more than a factor of {}", asked.patch_factor);
+    say("patch_dark_own", "_m", "m", "longest patch darker" + beyond, [](const Row& row) { return row.patches.dark.longest_m; });
+    say("patch_bright_own", "_m", "m", "longest patch brighter" + beyond, [](const Row& row) { return row.patches.bright.longest_m; });
+    std::vector<double> ratios;
+    std::string missing = rows_.empty() ? "no lamp was lit in any moment" : "";
+    for (const Row& row : rows_) {
+        if (const auto ratio = row.foreground.number())
+            ratios.push_back(*ratio);
+        else
+            missing = "in some moment: " + row.foreground.reason();
+    }
+    const std::optional<Spread> spread = missing.empty() ? spread_of(ratios) : std::nullopt;
+    readings.push_back({"foreground_ratio_own", spread ? Value(spread->median) : Value::not_measured(missing), "1",
+                        "own lane, mean from 5 to 15 m over mean from 40 to 60 m before the lamps, median"});
+    return readings;
+}
+
+std::vector<SeeingSeries> HomogeneityFold::series() const {
+    SeeingSeries series{"homogeneity_own", "Evenness of the own lane", "distance along the route", {}, {}, {}};
+    SeeingSeries::Column along{"gradient_along_per_m", "largest gradient along", "1/m", false, true, {}},
+        across{"gradient_across_per_m", "largest gradient across", "1/m", false, true, {}},
+        ratio{"foreground_ratio", "foreground ratio", "", false, true, {}};
+    for (const Row& row : rows_) {
+        series.ticks.push_back(row.tick);
+        series.at_m.push_back(row.along_m);
+        along.values.push_back(row.gradients.along.per_m);
+        across.values.push_back(row.gradients.across.per_m);
+        ratio.values.push_back(row.foreground.number());
+    }
+    series.columns = {std::move(along), std::move(across), std::move(ratio)};
+    return {series};
+}
+
+} // namespace fernlicht

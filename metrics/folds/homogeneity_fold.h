@@ -1,0 +1,36 @@
+// How evenly the own lane is lit over a drive (metrics/seeing/homogeneity.h), from the lamps' tables in double, on the road's surface.
+#pragma once
+
+#include "metrics/folds/seeing_series.h"
+#include "metrics/readings/readings.h"
+#include "metrics/seeing/homogeneity.h"
+#include "scenarios/drives/play/moment.h"
+
+namespace fernlicht {
+
+class HomogeneityFold {
+  public:
+    /// The drive must ask for homogeneity. Drive and route must outlive the fold.
+    HomogeneityFold(const Drive& drive, const Route& route);
+
+    void add(const Moment& moment);
+    /// gradient_along_own_per_m and _per_deg, gradient_across_..., patch_dark_own_m and patch_bright_own_m (the longest), medians and
+    /// _max_; foreground_ratio_own, median.
+    Readings readings() const;
+    std::vector<SeeingSeries> series() const;
+
+  private:
+    struct Row {
+        int tick = 0;
+        double along_m = 0.0;
+        Gradients gradients;
+        Unevenness patches;
+        Value foreground;
+    };
+    const Drive& drive_;
+    const Route& route_;
+    glm::dvec3 eye_m_{0.0};
+    std::vector<Row> rows_;
+};
+
+} // namespace fernlicht

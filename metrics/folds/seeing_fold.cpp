@@ -1,0 +1,75 @@
+#include "metrics/folds/seeing_fold.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace fernlicht {
+namespace {
+
+/// What is asked for, one after the other, in the order of reports.
+template <class Do, class... Folds> void each_asked(const Do& act, Folds&... folds) {
+    const auto one = [&](auto& fold) {
+        if (fold)
+            act(*fold);
+    };
+    (one(folds), ...);
+}
+
+void check_place(const Drive& drive, const Route& route, const std::string& key, double at_m) {
+    if (at_m > route.length_m())
+        throw InputError({drive.file, 0, 0, key}, fmt::format("found {} m", at_m),
+                         fmt::format("a place on the route, which is {:.1f} m long", route.length_m()));
+}
+
+} // namespace
+
+SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
+    const SeeingParameters& asked = drive.seeing;
+    if (asked.sensors) {
+        for (const Sensor& sensor : asked.sensors->points)
+            check_place(drive, route, fmt::format("measure.sensors.points.{}.at_m", sensor.name), sensor.at_m);
+        sensors_.emplace(drive, route);
+    }
+    if (asked.glare) {
+        for (const GlareObserver& observer : asked.glare->oncoming)
+            check_place(drive, route, fmt::format("measure.glare.oncoming.{}.at_m", observer.name), observer.at_m);
+        oncoming_.emplace(drive, route);
+        if (asked.glare->mirrors)
+            mirrors_.emplace(drive, route);
+        if (!drive.traffic.empty())
+            traffic_.emplace(drive);
+    }
+    if (asked.visibility)
+        visibility_.emplace(drive, route);
+    if (asked.homogeneity)
+        homogeneity_.emplace(drive, route);
+    if (asked.places)
+        places_.emplace(drive, route);
+    if (std::ranges::any_of(drive.variants, [](const Variant& variant) { return variant.control != nullptr; }))
+        control_.emplace(drive, route);
+}
+
+void SeeingFold::add(const Moment& moment, const Variant& variant) {
+    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, traffic_, visibility_, homogeneity_, places_);
+    if (control_)
+        control_->add(moment, variant);
+}
+
+Readings SeeingFold::readings() const {
+    Readings all;
+    each_asked([&](const auto& fold) { std::ranges::copy(fold.readings(), std::back_inserter(all)); }, sensors_, oncoming_, mirrors_,
+               traffic_, visibility_, homogeneity_, places_, control_);
+    return all;
+}
+
+std::vector<SeeingSeries> SeeingFold::series() const {
+    std::vector<SeeingSeries> all; // places are told at distances ahead, not over the drive
+    each_asked([&](const auto& fold) { std::ranges::copy(fold.series(), std::back_inserter(all)); }, sensors_, oncoming_, mirrors_,
+               visibility_, homogeneity_, control_);
+    return all;
+}
+
+} // namespace fernlicht

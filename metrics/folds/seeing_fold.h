@@ -1,0 +1,37 @@
+// All that a drive measures of seeing, glare and lamp control, folded over its moments. By the twin alone: nothing is drawn for it.
+#pragma once
+
+#include "metrics/folds/control_fold.h"
+#include "metrics/folds/homogeneity_fold.h"
+#include "metrics/folds/mirror_fold.h"
+#include "metrics/folds/place_fold.h"
+#include "metrics/folds/sensor_fold.h"
+#include "metrics/folds/traffic_fold.h"
+#include "metrics/folds/visibility_fold.h"
+#include "metrics/readings/readings.h"
+
+namespace fernlicht {
+
+class SeeingFold {
+  public:
+    /// Drive and route must outlive the fold. Throws InputError for places beyond the route's end.
+    SeeingFold(const Drive& drive, const Route& route);
+
+    /// `variant`: the one that the moment is of; only lamp control asks for it.
+    void add(const Moment& moment, const Variant& variant);
+    /// Nothing where the drive asks for nothing. Names do not depend on what was added.
+    Readings readings() const;
+    std::vector<SeeingSeries> series() const;
+
+  private:
+    std::optional<SensorFold> sensors_;
+    std::optional<OncomingFold> oncoming_;
+    std::optional<MirrorFold> mirrors_;
+    std::optional<TrafficFold> traffic_;
+    std::optional<VisibilityFold> visibility_;
+    std::optional<HomogeneityFold> homogeneity_;
+    std::optional<PlaceFold> places_;
+    std::optional<ControlFold> control_; ///< where some variant has lamp control
+};
+
+} // namespace fernlicht

@@ -1,0 +1,267 @@
+#include "metrics/folds/visibility_fold.h"
+
+#include "metrics/folds/road_places.h"
+#include "metrics/readings/many_moments.h"
+#include "metrics/road/lit_line.h"
+#include "metrics/seeing/mesopic.h"
+#include "metrics/statistics/statistics.h"
+#include "scenarios/light/light.h"
+#include "scenarios/roads/mesh/road_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace fernlicht {
+namespace {
+
+/// The road behind a target is known so much farther than targets stand: from an eye of 1.2 m, a target's middle of 0.1 m hides what lies
+/// an eleventh farther.
+constexpr double known_behind_m = 100.0;
+const glm::dvec3 usual_eye_m{1.3, 0.35, 1.2};
+constexpr double background_above_m = 0.1;
+
+Material asphalt() {
+    for (const Material& material : road_materials())
+        if (material.name == "asphalt")
+            return material;
+    throw std::logic_error("there is no asphalt among the road's materials");
+}
+
+/// "own", "right", "left", "oncoming".
+std::string short_place(Across across) {
+    return across == Across::own_centre        ? "own"
+           : across == Across::oncoming_centre ? "oncoming"
+           : across == Across::right_edge      ? "right"
+                                               : "left";
+}
+
+} // namespace
+
+VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route), road_(asphalt()) {
+    const View* const view = driver_view(drive);
+    eye_m_ = view ? view->position_m : usual_eye_m;
+    const VisibilityParameters& asked = *drive.seeing.visibility;
+    backgrounds_.resize(asked.distances_m.size());
+    for (const VisibilityTarget& target : asked.targets)
+        for (const Across across : target.places) {
+            auto stand = std::ranges::find_if(stands_, [&](const Stand& other) {
+                return other.across == across && other.size_m == target.size_m && other.squares == target.squares;
+            });
+            if (stand == stands_.end())
+                stand = stands_.insert(stands_.end(), {across, target.size_m, target.squares, {}});
+            stand->sights.push_back({&target, target.name + "_" + short_place(across), {}, {}});
+            stand->sights.back().at.resize(asked.distances_m.size());
+        }
+}
+
+/// Where on the road's surface a target stands, facing the car; nullopt where the road has no such lane.
+std::optional<Pose> VisibilityFold::foot(Across across, double along_m) const {
+    const std::optional<double> offset_m = offset_across_m(route_.cross_section(along_m), across);
+    return offset_m ? std::optional(route_.pose(along_m, *offset_m)) : std::nullopt;
+}
+
+std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment, const LaneAhead& lane, const Pose& foot,
+                                                            const Stand& stand, const glm::dvec3& eye_m) const {
+    const VisibilityParameters& asked = *drive_.seeing.visibility;
+    // What is not road behind a target shines as the sky does: diffusely, where there is daylight.
+    const double dark_cdm2 = std::max(asked.dark_cdm2, moment.daylight.horizontal_illuminance_lx / pi);
+    std::vector<Square> all;
+    double adaptation_cdm2 = 0.0; // of the road behind the lowest square
+    for (int i = 0; i < stand.squares; ++i) {
+        const glm::dvec3 middle = foot.position_m + (i + 0.5) * stand.size_m * foot.up();
+        Square square;
+        square.size_arcmin = arc_minutes_of(stand.size_m, glm::distance(eye_m, middle));
+        square.hidden = lane.hides(eye_m, middle);
+        if (const std::optional<Pose> road = lane.behind(eye_m, middle)) {
+            square.background_cdm2 = surface_luminance(moment, road->position_m, road->up(), road_, eye_m).photopic_cdm2;
+            if (adaptation_cdm2 == 0.0)
+                adaptation_cdm2 = square.background_cdm2;
+            square.adaptation_cdm2 = square.background_cdm2;
+        } else if (i > 0) {
+            square.background_cdm2 = dark_cdm2;
+            square.adaptation_cdm2 = std::max(adaptation_cdm2, dark_cdm2);
+        } else
+            square.unknown = "the line of sight does not meet the road behind the target";
+        if (!square.hidden && square.unknown.empty()) {
+            Moment reaching = moment;
+            std::erase_if(reaching.lamps, [&](const LitLamp& lamp) { return lane.hides(lamp.pose.position_m, middle); });
+            square.illuminance_lx = surface_illuminance_lx(reaching, middle, -foot.forward());
+        }
+        all.push_back(square);
+        if (!all.front().unknown.empty())
+            return all; // without a road behind its foot nothing tells what the eye is adapted to
+    }
+    return all;
+}
+
+/// Of the clearest square that has one; 0 where the lane hides all.
+Value VisibilityFold::level(const std::vector<Square>& squares, const VisibilityTarget& target) const {
+    const VisibilityParameters& asked = *drive_.seeing.visibility;
+    std::optional<double> clearest;
+    std::string reason;
+    for (const Square& square : squares) {
+        const Value value = square.hidden ? Value(0.0)
+                            : square.unknown.empty()
+                                ? visibility_level(target.reflectance * square.illuminance_lx / pi, square.background_cdm2,
+                                                   square.adaptation_cdm2, square.size_arcmin, {asked.age_years, asked.time_s, asked.k})
+                                : Value::not_measured(square.unknown);
+        if (const auto number = value.number())
+            clearest = std::max(clearest.value_or(0.0), *number);
+        else if (reason.empty())
+            reason = value.reason();
+    }
+    return clearest ? Value(*clearest) : Value::not_measured(reason);
+}
+
+void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double bumper_m, Stand& stand) const {
+    const VisibilityParameters& asked = *drive_.seeing.visibility;
+    const double room_m = std::min(asked.ahead_m, route_.length_m() - bumper_m);
+    std::vector<std::vector<LineSample>> lines(stand.sights.size());
+    for (std::size_t k = 1; static_cast<double>(k) * asked.step_m <= room_m; ++k) {
+        const double ahead_m = static_cast<double>(k) * asked.step_m;
+        const std::optional<Pose> place = foot(stand.across, bumper_m + ahead_m);
+        const std::vector<Square> seen = place ? squares(lit, lane, *place, stand, eye_m) : std::vector<Square>{};
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            lines[i].push_back({ahead_m, place ? level(seen, *stand.sights[i].target).number() : std::nullopt});
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        // Where the route's end comes into sight, backgrounds of the last places are missing: the detection is cut off by it.
+        const double wanted = stand.sights[i].target->level;
+        const LitLine detected = lit_line(lines[i], wanted);
+        const bool to_the_end = room_m < asked.ahead_m;
+        const auto known = std::find_if(lines[i].rbegin(), lines[i].rend(), [](const LineSample& sample) { return sample.lx.has_value(); });
+        const bool beyond = known != lines[i].rend() && *known->lx >= wanted;
+        const auto found = [&](double metres) {
+            return !beyond      ? Value(metres)
+                   : to_the_end ? Value::not_measured("cut off by the end of the road or lane")
+                                : Value::at_least(metres);
+        };
+        stand.sights[i].detections.push_back({found(detected.last_m), found(detected.unlit_before_last_m)});
+    }
+    for (std::size_t d = 0; d < asked.distances_m.size(); ++d) {
+        const double along_m = bumper_m + asked.distances_m[d];
+        const bool ends = along_m > route_.length_m();
+        const std::optional<Pose> place = ends ? std::nullopt : foot(stand.across, along_m);
+        const std::vector<Square> seen = place ? squares(lit, lane, *place, stand, eye_m) : std::vector<Square>{};
+        for (Sight& sight : stand.sights) {
+            const Value now =
+                place ? level(seen, *sight.target)
+                      : Value::not_measured(ends ? "the route ends nearer than this in some moment" : "the road has no such lane there");
+            sight.at[d].series.push_back(now.number());
+            if (const auto number = now.number())
+                sight.at[d].level.push_back(*number);
+            else
+                sight.at[d].no_level = now.reason();
+        }
+    }
+}
+
+/// The road that the driver sees behind a place a hand above the own lane's centre.
+void VisibilityFold::add_background(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double along_m,
+                                    Background& background) const {
+    if (along_m > route_.length_m()) {
+        background.missing = "the route ends nearer than this in some moment";
+        return;
+    }
+    const Pose place = route_.pose(along_m);
+    const std::optional<Pose> road = lane.behind(eye_m, place.position_m + background_above_m * place.up());
+    if (!road) {
+        background.missing = "the line of sight does not meet the road in some moment";
+        return;
+    }
+    const SurfaceLuminance seen = surface_luminance(lit, road->position_m, road->up(), road_, eye_m);
+    background.photopic.push_back(seen.photopic_cdm2);
+    if (seen.photopic_cdm2 > 0.0 && lit.daylight.horizontal_illuminance_lx == 0.0)
+        background.mesopic.push_back(mesopic_luminance(seen.photopic_cdm2, seen.scotopic_cdm2 / seen.photopic_cdm2).luminance_cdm2);
+}
+
+void VisibilityFold::add(const Moment& moment) {
+    const VisibilityParameters& asked = *drive_.seeing.visibility;
+    Moment lit = moment;
+    std::erase_if(lit.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
+    const double bumper_m = moment.distance_m + drive_.bumper_m;
+    const LaneAhead lane(route_, bumper_m, asked.ahead_m + known_behind_m, asked.step_m);
+    const glm::dvec3 eye_m = to_parent(moment.ego, eye_m_);
+    ticks_.push_back(moment.tick);
+    along_m_.push_back(moment.distance_m);
+    for (Stand& stand : stands_)
+        add_stand(lit, lane, eye_m, bumper_m, stand);
+    for (std::size_t d = 0; d < backgrounds_.size(); ++d)
+        add_background(lit, lane, eye_m, bumper_m + asked.distances_m[d], backgrounds_[d]);
+}
+
+Readings VisibilityFold::readings() const {
+    const VisibilityParameters& asked = *drive_.seeing.visibility;
+    Readings readings;
+    const auto median = [&](const std::string& name, const char* unit, const std::string& conditions, const std::vector<double>& values,
+                            const std::string& missing) {
+        const std::optional<Spread> spread = missing.empty() ? spread_of(values) : std::nullopt;
+        readings.push_back({name,
+                            spread ? Value(spread->median) : Value::not_measured(missing.empty() ? "no moment was measured" : missing),
+                            unit, conditions + ", median"});
+    };
+    for (const Stand& stand : stands_)
+        for (const Sight& sight : stand.sights) {
+            const VisibilityTarget& target = *sight.target;
+            const std::string where = fmt::format("{}, {}{} m with {} % reflectance, {}, visibility level {}", target.name,
+                                                  target.squares > 1 ? fmt::format("{} squares of ", target.squares) : "a square of ",
+                                                  target.size_m, 100.0 * target.reflectance, place_name(stand.across), target.level);
+            ManyMoments reach, undetected;
+            for (const Detection& detection : sight.detections) {
+                reach.add(detection.from_m);
+                undetected.add(detection.undetected_m);
+            }
+            const auto quantile = [&](const std::string& name, const ManyMoments& moments, double share, const char* what) {
+                readings.push_back({name, moments.quantile(share), "m", fmt::format("{}, {}; {}", where, what, moments.account())});
+            };
+            quantile("detection_" + sight.stem + "_m", reach, 0.5, "farthest place, median");
+            quantile("detection_" + sight.stem + "_min_m", reach, 0.0, "farthest place, smallest");
+            quantile("detection_" + sight.stem + "_p05_m", reach, 0.05, "farthest place, 5th percentile");
+            quantile("undetected_before_detection_" + sight.stem + "_m", undetected, 0.5, "nearer places where it is not, median");
+            for (std::size_t d = 0; d < sight.at.size(); ++d)
+                median(fmt::format("visibility_level_{}_at_{}m", sight.stem, asked.distances_m[d]), "1",
+                       fmt::format("{}, {} m ahead, level", where, asked.distances_m[d]), sight.at[d].level, sight.at[d].no_level);
+        }
+    for (std::size_t d = 0; d < backgrounds_.size(); ++d) {
+        const Background& seen = backgrounds_[d];
+        const std::string at = fmt::format("own_at_{}m_cdm2", asked.distances_m[d]),
+                          where = fmt::format("own lane, road seen behind a place {} m ahead, {} m up", asked.distances_m[d],
+                                              background_above_m);
+        median("background_luminance_" + at, "cd/m2", where + ", luminance", seen.photopic, seen.missing);
+        median("mesopic_luminance_" + at, "cd/m2", where + ", mesopic luminance (CIE 191)", seen.mesopic,
+               !seen.missing.empty()                         ? seen.missing
+               : seen.mesopic.size() == seen.photopic.size() ? ""
+                                                             : "dark in some moment, or lit by a sky whose ratio S/P is not known");
+    }
+    return readings;
+}
+
+/// A figure of all detection distances; the levels are for those who read the file.
+std::vector<SeeingSeries> VisibilityFold::series() const {
+    const VisibilityParameters& asked = *drive_.seeing.visibility;
+    std::vector<SeeingSeries> all;
+    for (const Stand& stand : stands_)
+        for (const Sight& sight : stand.sights) {
+            SeeingSeries series{"detection_" + sight.stem,
+                                fmt::format("{}, {}", sight.target->name, place_name(stand.across)),
+                                "distance along the route",
+                                ticks_,
+                                along_m_,
+                                {}};
+            SeeingSeries::Column from{
+                "detection_m", fmt::format("detection distance, level {}", sight.target->level), "m", false, true, {}};
+            for (const Detection& detection : sight.detections)
+                from.values.push_back(detection.from_m.number());
+            series.columns.push_back(std::move(from));
+            for (std::size_t d = 0; d < sight.at.size(); ++d)
+                series.columns.push_back({fmt::format("visibility_level_at_{}m", asked.distances_m[d]),
+                                          fmt::format("visibility level {} m ahead", asked.distances_m[d]), "", false, false,
+                                          sight.at[d].series});
+            all.push_back(std::move(series));
+        }
+    return all;
+}
+
+} // namespace fernlicht

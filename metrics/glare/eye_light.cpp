@@ -1,0 +1,73 @@
+#include "metrics/glare/eye_light.h"
+
+#include "scenarios/light/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fernlicht {
+namespace {
+
+constexpr double step_m = 2.0;
+
+/// `lx` on a plane that faces the source, turned to the plane across the gaze.
+GlareSource across_gaze(double lx, const glm::dvec3& towards, const glm::dvec3& gaze) {
+    const double theta_deg = angle_between_deg(towards, gaze);
+    return {theta_deg < 90.0 ? lx * std::cos(radians(theta_deg)) : 0.0, theta_deg};
+}
+
+} // namespace
+
+std::vector<SeenLamp> seen_lamps(const Moment& moment, const glm::dvec3& point_m) {
+    std::vector<SeenLamp> seen;
+    for (const LitLamp& lamp : moment.lamps) {
+        const double distance_m = glm::distance(lamp.pose.position_m, point_m), cd = intensity_towards_cd(lamp, point_m);
+        seen.push_back({lamp.name, lamp.pose.position_m, cd > 0.0 ? cd / (distance_m * distance_m) : 0.0, distance_m});
+    }
+    return seen;
+}
+
+double facing_lx(const std::vector<SeenLamp>& lamps) {
+    double lx = 0.0;
+    for (const SeenLamp& lamp : lamps)
+        lx += lamp.facing_lx;
+    return lx;
+}
+
+GlareSource glare_source(const SeenLamp& lamp, const glm::dvec3& eye_m, const glm::dvec3& gaze) {
+    return across_gaze(lamp.facing_lx, lamp.position_m - eye_m, gaze);
+}
+
+GlareSource mirrored_source(const SeenLamp& lamp, const glm::dvec3& mirror_m, double reflectance, const glm::dvec3& eye_m,
+                            const glm::dvec3& gaze) {
+    const double shrunk = lamp.distance_m / (lamp.distance_m + glm::distance(mirror_m, eye_m));
+    return across_gaze(reflectance * lamp.facing_lx * shrunk * shrunk, mirror_m - eye_m, gaze);
+}
+
+double angle_between_deg(const glm::dvec3& a, const glm::dvec3& b) {
+    return degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+bool road_hides(const Route& route, double from_m, double to_m, const glm::dvec3& from, const glm::dvec3& to) {
+    const int steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
+    for (int k = 1; k < steps; ++k) {
+        const double at_m = from_m + k * (to_m - from_m) / steps;
+        const Pose centre = route.pose(at_m);
+        const double along = glm::dot(to - from, centre.forward());
+        const double share = glm::dot(centre.position_m - from, centre.forward()) / along;
+        if (!(share > 0.0 && share < 1.0))
+            continue; // the line does not pass this cross-section between its ends
+        const glm::dvec3 passing = from + share * (to - from);
+        const double left_m = glm::dot(passing - centre.position_m, centre.left());
+        const Pose below = route.pose(at_m, left_m);
+        if (glm::dot(passing - below.position_m, below.up()) >= 0.0)
+            continue;
+        const CrossSection section = route.cross_section(at_m);
+        if (left_m <= section.paved_left_m && left_m >= section.paved_right_m)
+            return true;
+    }
+    return false;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,51 @@
+// What light in the eye does to it: veiling luminance, threshold increment, de Boer's rating. Illuminance at the eye in lx, angles between
+// the line of sight and the source in degrees, luminances in cd/m2.
+//
+// Sources, and how well they are known here:
+// [abstract] CIE 146:2002, CIE equations for disability glare: the domains of angle, from its published abstract.
+// [read]     J.J. Vos, On the cause of disability glare, 2003: the age-adjusted equation and both domains.
+// [others]   CIE general equation's coefficients: several independent programs print the same ones.
+// [memory]   the threshold increment above 5 cd/m2, Schmidt-Clausen and Bindels' coefficients: the standard forms, not read in their
+//            primary texts.
+// Nothing is extrapolated: outside a domain the figure is not measured, and the reason names the angle or luminance.
+#pragma once
+
+#include "metrics/readings/value.h"
+#include "scenarios/drives/seeing_parameters.h"
+
+#include <string_view>
+#include <vector>
+
+namespace fernlicht {
+
+/// A lamp as an eye sees it. A source of 0 lx counts for nothing at whatever angle.
+struct GlareSource {
+    double eye_lx = 0.0;    ///< on the plane of the eye, across the line of sight; >= 0
+    double theta_deg = 0.0; ///< from the line of sight
+};
+
+// stiles_holladay: Lv = 10 E / theta^2, without age; 1 < theta < 30
+// age_adjusted:    Lv = 10 (1 + (A/70)^4) E / theta^2; 1 < theta < 30 [read]
+// cie_general:     Lv = E (10/theta^3 + (5/theta^2 + 0.1 p/theta)(1 + (A/62.5)^4) + 0.0025 p); 0.1 < theta < 100 [others]
+/// "cie-general", as drives name it.
+std::string_view name(VeilingEquation equation);
+
+struct GlareEye {
+    double age_years = 25.0;
+    double pigmentation = 0.5; ///< 0 black, 0.5 brown, 1.0 blue-green, 1.2 very light; in the general equation alone
+};
+
+/// Sources add. The bounds of a domain belong to it. No light: 0.
+Value veiling_luminance_cdm2(VeilingEquation equation, const std::vector<GlareSource>& sources, const GlareEye& eye);
+
+/// TI in %: 65 Lv / Lav^0.8 for 0.05 < Lav <= 5, 95 Lv / Lav^1.05 above [memory]. At 5 cd/m2 the second lies 2.3 % below the first.
+Value threshold_increment_percent(double veiling_cdm2, double adaptation_cdm2);
+
+/// De Boer's rating after Schmidt-Clausen and Bindels 1974 [memory]: W = 5 - 2 lg(sum of E / (0.003 (1 + sqrt(Lu/0.04)) theta^0.46)) with
+/// theta in arc minutes, which is where 0.003 lx belongs. theta is taken in degrees here and turned: with degrees the constant is
+/// 0.003 * 60^0.46 = 0.01973, usually rounded to 0.02. 1 unbearable, 3 disturbing, 5 just acceptable, 7 satisfactory, 9 unnoticeable; the
+/// equation knows no ends and neither has W here. Not measured without light, which no finite W is for, and with a source on the line of
+/// sight.
+Value de_boer_rating(const std::vector<GlareSource>& sources, double adaptation_cdm2);
+
+} // namespace fernlicht

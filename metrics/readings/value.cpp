@@ -1,0 +1,79 @@
+#include "metrics/readings/value.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace fernlicht {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+Value::Value(Kind kind, double figure) : kind_(kind), figure_(figure) {
+    if (!std::isfinite(figure))
+        throw std::invalid_argument(fmt::format("a measured value is {}; one that cannot be had is not measured", figure));
+}
+
+Value Value::not_measured(std::string reason) {
+    Value value;
+    value.reason_ = std::move(reason);
+    return value;
+}
+
+Value Value::of(const std::optional<double>& number, const std::string& reason) { return number ? Value(*number) : not_measured(reason); }
+
+std::optional<double> Value::number() const { return kind_ == Kind::number ? std::optional(figure_) : std::nullopt; }
+
+std::optional<double> Value::figure() const { return measured() ? std::optional(figure_) : std::nullopt; }
+
+double Value::low() const { return kind_ == Kind::number || kind_ == Kind::at_least ? figure_ : -endless; }
+
+double Value::high() const { return kind_ == Kind::number || kind_ == Kind::at_most ? figure_ : endless; }
+
+Value Value::between(double low, double high, const std::string& reason_for_none) {
+    if (low == high)
+        return low;
+    if (std::isfinite(low) && std::isfinite(high))
+        return not_measured(fmt::format("between {:.6g} and {:.6g}", low, high));
+    if (std::isfinite(low))
+        return at_least(low);
+    return std::isfinite(high) ? at_most(high) : not_measured(reason_for_none);
+}
+
+Value difference(const Value& a, const Value& b, std::string_view unit) {
+    if (!a.measured() || !b.measured())
+        return Value::not_measured(a.measured() ? b.reason() : a.reason());
+    const auto end = [](double x, double y) { return std::isfinite(x) && std::isfinite(y) ? x - y : std::isfinite(x) ? -y : x; };
+    const bool up = a.kind() == Value::Kind::at_least;
+    return Value::between(end(a.low(), b.high()), end(a.high(), b.low()),
+                          *a.figure() == *b.figure() ? fmt::format("both {} {:.6g} {}", up ? "beyond" : "below", *a.figure(), unit)
+                                                     : fmt::format("one {0} {1:.6g} {3}, the other {0} {2:.6g} {3}",
+                                                                   up ? "beyond" : "below", *a.figure(), *b.figure(), unit));
+}
+
+bool ranks_before(const Value& a, const Value& b) {
+    return std::pair(a.figure().value_or(-endless), a.kind()) < std::pair(b.figure().value_or(-endless), b.kind());
+}
+
+const char* bound_sign(const Value& value) {
+    return value.kind() == Value::Kind::at_least ? ">" : value.kind() == Value::Kind::at_most ? "<" : "";
+}
+
+const char* bound_name(const Value& value) {
+    return value.kind() == Value::Kind::at_least ? "at_least" : value.kind() == Value::Kind::at_most ? "at_most" : "";
+}
+
+std::optional<bool> holds(const Value& value, const std::optional<double>& at_least, const std::optional<double>& at_most) {
+    if (!value.measured())
+        return std::nullopt;
+    if ((at_least && value.high() < *at_least) || (at_most && value.low() > *at_most))
+        return false;
+    const bool surely = (!at_least || value.low() >= *at_least) && (!at_most || value.high() <= *at_most);
+    return surely ? std::optional(true) : std::nullopt;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,92 @@
+// Illuminated road extent: how far and how wide the lamps light each lane. The product's first number.
+#pragma once
+
+#include "metrics/readings/readings.h"
+#include "scenarios/drives/play/moment.h"
+
+#include <array>
+
+namespace fernlicht {
+
+/// Sample points on the road ahead in route coordinates, with their places in the world.
+struct ExtentGrid {
+    std::vector<double> ahead_m;        ///< distance from the bumper along the route, ascending, starts at 0
+    std::vector<double> offset_m;       ///< from the own lane's centre, left positive, ascending
+    std::vector<Pose> surface;          ///< row-major [ahead][offset]: point on the road and its normal (z axis)
+    std::vector<CrossSection> sections; ///< one per `ahead_m`
+    double target_height_m = 0.0;
+    /// Road surface of each cell's two triangles (lit_area.h), row-major; empty: not known yet, taken from `surface` by each measurement.
+    std::vector<std::array<double, 2>> cell_m2;
+};
+
+/// Which illuminance: on the road's surface, or on a target facing the lamps at target height.
+enum class ExtentPlane { road, target };
+
+struct LaneExtent {
+    double limit_lx = 0.0;
+    ExtentPlane plane = ExtentPlane::road;
+    std::string lane; ///< RouteLane::name, or "all" for the whole width that was looked at
+    bool same_direction = true;
+    /// Farthest place on the lane's centre line with E >= limit; 0: nowhere. For "all": on whichever line reaches farthest.
+    double reach_centre_m = 0.0;
+    double reach_left_edge_m = 0.0, reach_right_edge_m = 0.0; ///< for "all": on the outermost lines that were looked at
+    double unlit_before_reach_m = 0.0;                        ///< on the centre line: length below the limit before the reach (dark gaps)
+    /// Lit where the grid or the lane ends: the reach is at least this. Of the centre line, and of each edge.
+    bool reach_is_cut_off = false, left_edge_is_cut_off = false, right_edge_is_cut_off = false;
+    /// Outermost left and right edge of the lit part across, offsets left positive; width_m counts what is lit between them, gaps not.
+    struct Width {
+        double at_m, left_m, right_m, width_m;
+        bool cut_off = false; ///< of "all": lit out to where was looked at, at least this wide
+        bool operator==(const Width&) const = default;
+    };
+    std::vector<Width> widths; ///< all 0 where unlit; no entry where the lane is not or the grid does not reach
+    double area_m2 = 0.0;      ///< of road surface inside the isolux line
+    /// Whether the isolux line leaves what was looked at: the area is at least this.
+    bool area_is_cut_off() const {
+        return reach_is_cut_off || left_edge_is_cut_off || right_edge_is_cut_off ||
+               (lane == "all" && (reach_left_edge_m > 0.0 || reach_right_edge_m > 0.0));
+    }
+    bool operator==(const LaneExtent&) const = default;
+};
+
+/// Rows every cell_m from the bumper to ahead_m or the route's end. Columns out to beside_m, one of them on the own lane's centre: every
+/// cell_m / 4 where the road is paved in any row, every cell_m farther out. No rows when the bumper stands beyond the route's end.
+ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bumper_m, const ExtentParameters& parameters);
+
+/// Illuminance at every grid point from the candela tables in double (scenarios/light/light.h); row-major like `surface`. No shadows.
+/// The same bytes for any number of threads.
+std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane);
+
+/// The same for measure_extent and grid_error, which find the same in it as long as they are asked for these limits or some of them: exact
+/// where they decide (deciding_lx.h), elsewhere a value that reaches the same limits. In a quarter of the time on the road; on targets, of
+/// which more are lit, it saves little.
+std::vector<double> deciding_twin_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane, const std::vector<double>& limits_lx);
+
+/// Extents at every limit of every lane that lies wholly within the width that was looked at, then of "all". `lx` row-major like
+/// `grid.surface`, from any source. Between samples illuminance runs as in crossing.h. Empty for a grid of less than two rows or
+/// columns. Throws std::invalid_argument for a wrong number of values, NaN or infinity among them, or a limit not above 0.
+std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
+                                       const std::vector<double>& limits_lx, const std::vector<double>& width_at_m);
+
+/// How the reach on the own lane's centre answers to what is never known exactly. From the twin, which is asked between the grid's
+/// rows too. A limit whose reach is nowhere or cut off, as it is or with a lamp changed, has no difference to give and no entry.
+struct ReachSensitivity {
+    double limit_lx = 0.0;
+    ExtentPlane plane = ExtentPlane::road;
+    double metres_per_tenth_degree = 0.0; ///< central difference of +-0.1 degrees of pitch of all lamps
+    double metres_per_tenth_flux = 0.0;   ///< central difference of +-10 % of flux
+};
+std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& limits_lx);
+
+/// The grid's own error: reach on the own lane's centre and area of "all" from every second row and column against every one, as
+/// |difference| by limit. Where the error goes as the square of the cell, the grid's own is a third of this.
+struct GridError {
+    double limit_lx;
+    ExtentPlane plane;
+    double reach_m, area_m2;
+    bool operator==(const GridError&) const = default;
+};
+std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
+                                  const std::vector<double>& limits_lx);
+
+} // namespace fernlicht

@@ -1,0 +1,156 @@
+#include "metrics/road/extent.h"
+
+#include "metrics/road/deciding_lx.h"
+#include "scenarios/light/light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <oneapi/tbb/parallel_for.h>
+
+namespace fernlicht {
+namespace {
+
+/// The moment without the lamps that are off: they add exactly 0, and at most times half of a car's lamps are off.
+Moment with_lit_lamps(const Moment& moment) {
+    Moment result = moment;
+    std::erase_if(result.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
+    return result;
+}
+
+double twin_lx(const Moment& moment, const Pose& surface, double target_height_m, ExtentPlane plane) {
+    return plane == ExtentPlane::road ? surface_illuminance_lx(moment, surface.position_m, surface.up())
+                                      : target_illuminance_lx(moment, surface.position_m + target_height_m * surface.up());
+}
+
+/// The grid's rows on one offset.
+struct CentreLine {
+    const std::vector<double>& ahead_m;
+    std::vector<Pose> surface;
+    double target_height_m;
+};
+
+/// A centre line in the light of lamps that may stand otherwise than the moment says.
+class LitCentreLine {
+  public:
+    LitCentreLine(const CentreLine& line, Moment moment, ExtentPlane plane)
+        : line_(line), moment_(std::move(moment)), plane_(plane), first_known_(line.surface.size()), row_lx_(line.surface.size()) {}
+
+    /// Farthest place with E >= limit, to a millionth of a row; nullopt where that is nowhere or beyond the last row.
+    std::optional<double> reach_m(double limit_lx) {
+        std::size_t unlit = row_lx_.size();
+        while (unlit > 0 && lx_in_row(unlit - 1) < limit_lx)
+            --unlit;
+        if (unlit == 0 || unlit == row_lx_.size())
+            return std::nullopt;
+        double lit_row = static_cast<double>(unlit - 1);
+        double unlit_row = static_cast<double>(unlit);
+        for (int halving = 0; halving < 20; ++halving) {
+            const double middle = 0.5 * (lit_row + unlit_row);
+            (lx(middle) >= limit_lx ? lit_row : unlit_row) = middle;
+        }
+        return line_.ahead_m[unlit - 1] + (lit_row - static_cast<double>(unlit - 1)) * (line_.ahead_m[unlit] - line_.ahead_m[unlit - 1]);
+    }
+
+  private:
+    double lx(double row) const {
+        const auto before = std::min(static_cast<std::size_t>(row), line_.surface.size() - 2);
+        const double share = row - static_cast<double>(before);
+        const Pose& a = line_.surface[before];
+        const Pose& b = line_.surface[before + 1];
+        const Pose between{a.position_m + share * (b.position_m - a.position_m), a.axes + share * (b.axes - a.axes)};
+        return twin_lx(moment_, between, line_.target_height_m, plane_);
+    }
+
+    /// Asked from the far end on, by one limit after the other.
+    double lx_in_row(std::size_t row) {
+        for (; first_known_ > row; --first_known_)
+            row_lx_[first_known_ - 1] = lx(static_cast<double>(first_known_ - 1));
+        return row_lx_[row];
+    }
+
+    const CentreLine& line_;
+    Moment moment_;
+    ExtentPlane plane_;
+    std::size_t first_known_;
+    std::vector<double> row_lx_; ///< from `first_known_` on
+};
+
+/// Half of what the reach changes between two states of the lamps.
+std::optional<double> half_difference_m(LitCentreLine& less, LitCentreLine& more, double limit_lx) {
+    const std::optional<double> near_m = less.reach_m(limit_lx);
+    const std::optional<double> far_m = near_m ? more.reach_m(limit_lx) : std::nullopt;
+    return far_m ? std::optional(0.5 * (*far_m - *near_m)) : std::nullopt;
+}
+
+/// The own lane's centre is the offset nearest to 0.
+CentreLine centre_line(const ExtentGrid& grid) {
+    const auto nearest = std::ranges::min_element(grid.offset_m, {}, [](double offset_m) { return std::abs(offset_m); });
+    CentreLine line{grid.ahead_m, {}, grid.target_height_m};
+    for (auto i = static_cast<std::size_t>(nearest - grid.offset_m.begin()); i < grid.surface.size(); i += grid.offset_m.size())
+        line.surface.push_back(grid.surface[i]);
+    return line;
+}
+
+Moment with_pitch(Moment moment, double more_rad) {
+    for (LitLamp& lamp : moment.lamps)
+        lamp.pose.axes = lamp.pose.axes * axes_from_angles(0.0, more_rad, 0.0);
+    return moment;
+}
+
+Moment with_flux(Moment moment, double factor) {
+    for (LitLamp& lamp : moment.lamps)
+        lamp.intensity_factor *= factor;
+    return moment;
+}
+
+} // namespace
+
+std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane) {
+    const Moment lit = with_lit_lamps(moment);
+    const std::size_t columns = grid.offset_m.size();
+    std::vector<double> lx(grid.surface.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
+        for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
+            lx[i] = twin_lx(lit, grid.surface[i], grid.target_height_m, plane);
+    });
+    return lx;
+}
+
+std::vector<double> deciding_twin_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane,
+                                     const std::vector<double>& limits_lx) {
+    if (limits_lx.empty())
+        return std::vector<double>(grid.surface.size());
+    const Moment lit = with_lit_lamps(moment);
+    const QuickLight light(lit);
+    const double least_lx = *std::ranges::min_element(limits_lx);
+    return deciding_lx(
+        grid, limits_lx,
+        [&](std::size_t i) {
+            const Pose& surface = grid.surface[i];
+            return plane == ExtentPlane::road ? light.surface_lx(surface.position_m, surface.up(), 0.99 * least_lx)
+                                              : light.target_lx(surface.position_m + grid.target_height_m * surface.up());
+        },
+        [&](std::size_t i) { return twin_lx(lit, grid.surface[i], grid.target_height_m, plane); });
+}
+
+std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& limits_lx) {
+    std::vector<ReachSensitivity> results;
+    if (grid.ahead_m.size() < 2 || grid.offset_m.empty())
+        return results;
+    const CentreLine line = centre_line(grid);
+    const Moment lit = with_lit_lamps(moment);
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
+        LitCentreLine lower(line, with_pitch(lit, radians(-0.1)), plane), higher(line, with_pitch(lit, radians(0.1)), plane);
+        LitCentreLine weaker(line, with_flux(lit, 0.9), plane), stronger(line, with_flux(lit, 1.1), plane);
+        for (const double limit : limits_lx) {
+            const std::optional<double> by_aim = half_difference_m(lower, higher, limit);
+            const std::optional<double> by_flux = half_difference_m(weaker, stronger, limit);
+            if (by_aim && by_flux)
+                results.push_back({limit, plane, *by_aim, *by_flux});
+        }
+    }
+    return results;
+}
+
+} // namespace fernlicht

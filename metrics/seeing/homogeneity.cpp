@@ -1,0 +1,175 @@
+#include "metrics/seeing/homogeneity.h"
+
+#include "metrics/glare/eye_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+constexpr double window_ln = 0.25, window_m = 1.75;
+
+void check(const LaneLight& light) {
+    const std::size_t points = light.ahead_m.size() * light.offset_m.size();
+    if (light.lx.size() != points || light.seen_at.size() != points || (!light.ahead_m.empty() && !(light.ahead_m.front() > 0.0)))
+        throw std::invalid_argument("a lane's light of a wrong number of points, or beside the lamps");
+}
+
+void take(Gradient& largest, const LaneLight& light, std::size_t a, std::size_t b, double metres, double least_lx) {
+    if (light.lx[a] < least_lx || light.lx[b] < least_lx)
+        return;
+    const double change = std::abs(std::log10(light.lx[b] / light.lx[a])), angle = angle_between_deg(light.seen_at[a], light.seen_at[b]);
+    largest.per_m = std::max(largest.per_m, change / metres);
+    if (angle > 0.0)
+        largest.per_degree = std::max(largest.per_degree, change / angle);
+}
+
+/// Sums of a least-squares plane z = a + b x + c y about the point itself; its value there is a.
+struct PlaneSums {
+    double n = 0.0, x = 0.0, y = 0.0, z = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, xz = 0.0, yz = 0.0;
+    void add(double px, double py, double pz) {
+        n += 1.0;
+        x += px;
+        y += py;
+        z += pz;
+        xx += px * px;
+        xy += px * py;
+        yy += py * py;
+        xz += px * pz;
+        yz += py * pz;
+    }
+    /// nullopt: too few points, or all on a line.
+    std::optional<double> at_origin() const {
+        const double mx = x / n, my = y / n, mz = z / n;
+        const double cxx = xx / n - mx * mx, cxy = xy / n - mx * my, cyy = yy / n - my * my;
+        const double cxz = xz / n - mx * mz, cyz = yz / n - my * mz, determinant = cxx * cyy - cxy * cxy;
+        if (n < 9.0 || determinant <= 1e-9 * cxx * cyy)
+            return std::nullopt;
+        return mz - (cxz * cyy - cyz * cxy) / determinant * mx - (cyz * cxx - cxz * cxy) / determinant * my;
+    }
+};
+
+/// lg of the light over the smooth surface; nullopt where dark or not known.
+std::vector<std::optional<double>> residuals(const LaneLight& light, double least_lx) {
+    const std::size_t rows = light.ahead_m.size(), columns = light.offset_m.size();
+    std::vector<double> lg(light.lx.size()), ln(rows);
+    for (std::size_t i = 0; i < lg.size(); ++i)
+        lg[i] = light.lx[i] >= least_lx ? std::log10(light.lx[i]) : 0.0;
+    for (std::size_t r = 0; r < rows; ++r)
+        ln[r] = std::log(light.ahead_m[r]);
+    std::vector<std::optional<double>> result(light.lx.size());
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) {
+            if (light.lx[r * columns + c] < least_lx)
+                continue;
+            PlaneSums sums;
+            for (std::size_t k = 0; k < rows; ++k) {
+                if (std::abs(ln[k] - ln[r]) > window_ln)
+                    continue;
+                for (std::size_t m = 0; m < columns; ++m)
+                    if (light.lx[k * columns + m] >= least_lx && std::abs(light.offset_m[m] - light.offset_m[c]) <= window_m)
+                        sums.add(ln[k] - ln[r], light.offset_m[m] - light.offset_m[c], lg[k * columns + m]);
+            }
+            if (const std::optional<double> smooth = sums.at_origin())
+                result[r * columns + c] = lg[r * columns + c] - *smooth;
+        }
+    return result;
+}
+
+Patches connected(const std::vector<bool>& inside, std::size_t rows, std::size_t columns, double row_m) {
+    Patches patches;
+    std::vector<bool> left = inside;
+    for (std::size_t start = 0; start < left.size(); ++start) {
+        if (!left[start])
+            continue;
+        ++patches.count;
+        std::size_t first = start / columns, last = first;
+        std::vector<std::size_t> open{start};
+        left[start] = false;
+        while (!open.empty()) {
+            const std::size_t here = open.back(), r = here / columns, c = here % columns;
+            open.pop_back();
+            first = std::min(first, r);
+            last = std::max(last, r);
+            const auto visit = [&](bool there, std::size_t next) {
+                if (there && left[next]) {
+                    left[next] = false;
+                    open.push_back(next);
+                }
+            };
+            visit(r > 0, here - columns);
+            visit(r + 1 < rows, here + columns);
+            visit(c > 0, here - 1);
+            visit(c + 1 < columns, here + 1);
+        }
+        patches.longest_m = std::max(patches.longest_m, static_cast<double>(last - first + 1) * row_m);
+    }
+    return patches;
+}
+
+} // namespace
+
+Gradients largest_gradients(const LaneLight& light, double least_lx) {
+    check(light);
+    Gradients gradients;
+    const std::size_t rows = light.ahead_m.size(), columns = light.offset_m.size();
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const std::size_t here = r * columns + c;
+            if (r + 1 < rows)
+                take(gradients.along, light, here, here + columns, light.ahead_m[r + 1] - light.ahead_m[r], least_lx);
+            if (c + 1 < columns)
+                take(gradients.across, light, here, here + 1, light.offset_m[c + 1] - light.offset_m[c], least_lx);
+        }
+    return gradients;
+}
+
+Unevenness patches(const LaneLight& light, double least_lx, double factor) {
+    check(light);
+    if (light.ahead_m.size() < 2)
+        return {};
+    const double limit = std::log10(factor);
+    std::vector<bool> dark(light.lx.size()), bright(light.lx.size());
+    const std::vector<std::optional<double>> over = residuals(light, least_lx);
+    for (std::size_t i = 0; i < over.size(); ++i) {
+        dark[i] = over[i] && *over[i] < -limit;
+        bright[i] = over[i] && *over[i] > limit;
+    }
+    const std::size_t rows = light.ahead_m.size(), columns = light.offset_m.size();
+    const double row_m = light.ahead_m[1] - light.ahead_m[0];
+    return {connected(dark, rows, columns, row_m), connected(bright, rows, columns, row_m)};
+}
+
+Value foreground_ratio(const LaneLight& light) {
+    check(light);
+    const std::size_t columns = light.offset_m.size();
+    const auto row_mean = [&](std::size_t r) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < columns; ++c)
+            sum += light.lx[r * columns + c];
+        return sum / static_cast<double>(columns);
+    };
+    // By trapezia cut at the ends: whether a row lies a rounding error within or without makes no difference.
+    const auto mean = [&](double from_m, double to_m) {
+        double integral = 0.0;
+        for (std::size_t r = 1; r < light.ahead_m.size(); ++r) {
+            const double a_m = light.ahead_m[r - 1], b_m = light.ahead_m[r];
+            const double low_m = std::max(a_m, from_m), high_m = std::min(b_m, to_m);
+            if (!(high_m > low_m))
+                continue;
+            const double a = row_mean(r - 1), slope = (row_mean(r) - a) / (b_m - a_m);
+            integral += (a + slope * (0.5 * (low_m + high_m) - a_m)) * (high_m - low_m);
+        }
+        return integral / (to_m - from_m);
+    };
+    if (light.ahead_m.empty() || columns == 0 || light.ahead_m.back() < 60.0 || light.ahead_m.front() > 5.0)
+        return Value::not_measured("the lane is not known from 5 to 60 m ahead");
+    const double far_lx = mean(40.0, 60.0);
+    if (!(far_lx > 0.0))
+        return Value::not_measured("dark from 40 to 60 m ahead");
+    return mean(5.0, 15.0) / far_lx;
+}
+
+} // namespace fernlicht

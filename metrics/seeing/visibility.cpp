@@ -1,0 +1,90 @@
+#include "metrics/seeing/visibility.h"
+
+#include "scenarios/values/pose.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+constexpr double cone_branch_cdm2 = 0.6, rod_branch_cdm2 = 0.00418, least_negative_cdm2 = 0.004, long_exposure_s = 2.0, timed_arcmin = 60.0;
+
+/// sqrt(phi), after Ricco's law: small targets are seen by their light.
+double ricco_root(double lb) {
+    const double lg = std::log10(lb);
+    if (lb >= cone_branch_cdm2)
+        return std::log10(4.1925 * std::pow(lb, 0.1556)) + 0.1684 * std::pow(lb, 0.5867);
+    return std::pow(10.0, lb > rod_branch_cdm2 ? -0.072 + 0.3372 * lg + 0.0866 * lg * lg : 0.028 + 0.173 * lg);
+}
+
+/// sqrt(L), after Weber's law: large ones by their contrast.
+double weber_root(double lb) {
+    const double lg = std::log10(lb);
+    if (lb >= cone_branch_cdm2)
+        return 0.05946 * std::pow(lb, 0.466);
+    return std::pow(10.0, lb > rod_branch_cdm2 ? -1.256 + 0.319 * lg : -0.891 + 0.5275 * lg + 0.0227 * lg * lg);
+}
+
+/// Fcp: dark targets are seen better than light ones.
+double negative_contrast_factor(double lb, double alpha, double positive_difference) {
+    const double f = lb >= 0.1 ? 0.125 : 0.075, lg = std::log10(lb) + 1.0;
+    const double m = std::pow(10.0, -std::pow(10.0, -(f * lg * lg + 0.0245)));
+    const double beta = 0.6 * std::pow(lb, -0.1488);
+    return 1.0 - m * std::pow(alpha, -beta) / (2.4 * positive_difference);
+}
+
+/// TF: what shows for a short time is seen worse.
+double exposure_factor(double lb, double alpha, double time_s) {
+    const double x = std::log10(alpha) + 0.523, y = std::log10(lb) + 6.0;
+    const double of_size = 0.36 - 0.0972 * x * x / (x * x - 2.513 * x + 2.7895);
+    const double of_luminance = 0.355 - 0.1217 * y * y / (y * y - 10.4 * y + 52.28);
+    return (std::hypot(of_size, of_luminance) / 2.1 + time_s) / time_s;
+}
+
+/// AF.
+double age_factor(double age) {
+    const double from = age < 64.0 ? age - 19.0 : age - 56.6;
+    return age < 64.0 ? from * from / 2160.0 + 0.99 : from * from / 116.3 + 1.43;
+}
+
+} // namespace
+
+Value threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool positive, const Onlooker& onlooker) {
+    if (!(size_arcmin > 0.0) || !(onlooker.time_s > 0.0) || !(onlooker.k > 0.0) || !(background_cdm2 >= 0.0))
+        throw std::invalid_argument(fmt::format("a target of {} arc minutes for {} s before {} cd/m2, k {}", size_arcmin, onlooker.time_s,
+                                                background_cdm2, onlooker.k));
+    if (background_cdm2 == 0.0)
+        return Value::not_measured("a dark background, of which the thresholds know nothing");
+    if (onlooker.age_years < 23.0 || onlooker.age_years > 75.0)
+        return Value::not_measured(fmt::format("an age of {:g}: the age factor holds from 23 to 75", onlooker.age_years));
+    const bool timed = onlooker.time_s < long_exposure_s;
+    if (timed && size_arcmin >= timed_arcmin)
+        return Value::not_measured(fmt::format("a target of {:.3g} arc minutes: the factor of exposure holds below 60", size_arcmin));
+    const double root = ricco_root(background_cdm2) / size_arcmin + weber_root(background_cdm2);
+    double difference = onlooker.k * root * root;
+    if (!positive) {
+        if (background_cdm2 <= least_negative_cdm2)
+            return Value::not_measured(fmt::format("negative contrast on {:.2g} cd/m2: its factor holds above 0.004", background_cdm2));
+        const double factor = negative_contrast_factor(background_cdm2, size_arcmin, difference);
+        if (!(factor > 0.0))
+            return Value::not_measured(
+                fmt::format("a target of {:.3g} arc minutes: the factor of negative contrast is not above 0", size_arcmin));
+        difference *= factor;
+    }
+    if (timed)
+        difference *= exposure_factor(background_cdm2, size_arcmin, onlooker.time_s);
+    return difference * age_factor(onlooker.age_years);
+}
+
+Value visibility_level(double target_cdm2, double background_cdm2, double adaptation_cdm2, double size_arcmin, const Onlooker& onlooker) {
+    const Value threshold = threshold_difference_cdm2(adaptation_cdm2, size_arcmin, target_cdm2 >= background_cdm2, onlooker);
+    if (!threshold.measured())
+        return threshold;
+    return std::abs(target_cdm2 - background_cdm2) / *threshold.number();
+}
+
+double arc_minutes_of(double length_m, double distance_m) { return 120.0 * degrees(std::atan(0.5 * length_m / distance_m)); }
+
+} // namespace fernlicht

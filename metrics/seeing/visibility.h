@@ -1,0 +1,38 @@
+// Small-target visibility after W. Adrian, Visibility of targets: model for calculation, Lighting Research & Technology 21, 1989. A target
+// is seen when its luminance differs from its background's by more than a threshold; the visibility level says how many times more.
+//
+//   dL = k (sqrt(phi)/alpha + sqrt(L))^2 Fcp TF AF,   VL = |Lt - Lb| / dL
+//
+// The equations and their branches were read in two independent programs of others, k = 2.6 (seen with 99.9 %) is from memory. Luminances
+// in cd/m2, alpha in arc minutes, times in s, ages in years. The branches do not meet exactly. Upwards, dL jumps by -1.3 to -2.0 % at Lb =
+// 0.6 and by -0.2 to +0.6 % at 0.00418 (targets of 60 to 1 arc minutes), by -1.4 % at an age of 64, and the factor of negative contrast not
+// at all at 0.1: tests/metrics/seeing/visibility_test.cpp holds them.
+#pragma once
+
+#include "metrics/readings/value.h"
+
+namespace fernlicht {
+
+struct Onlooker {
+    double age_years = 25.0; ///< 23 to 75
+    double time_s = 0.2;     ///< for which the target shows; from 2 s on its length no longer counts
+    double k = 2.6;
+};
+
+/// Luminance difference at which a target of this size is just seen. `positive`: lighter than its background.
+/// Not measured for a background that is dark (0), ages outside 23 to 75, exposures below 2 s with targets of 60 arc minutes and more,
+/// negative contrast on backgrounds of 0.004 cd/m2 and less, and where the correction for negative contrast leaves nothing. Sizes and times
+/// not above 0 throw std::invalid_argument.
+Value threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool positive, const Onlooker& onlooker);
+
+/// |Lt - Lb| / dL, the threshold that of an eye adapted to `adaptation_cdm2`.
+Value visibility_level(double target_cdm2, double background_cdm2, double adaptation_cdm2, double size_arcmin, const Onlooker& onlooker);
+/// Adapted to the background.
+inline Value visibility_level(double target_cdm2, double background_cdm2, double size_arcmin, const Onlooker& onlooker) {
+    return visibility_level(target_cdm2, background_cdm2, background_cdm2, size_arcmin, onlooker);
+}
+
+/// Angle under which a length is seen across the line of sight.
+double arc_minutes_of(double length_m, double distance_m);
+
+} // namespace fernlicht

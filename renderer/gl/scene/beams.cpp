@@ -1,0 +1,96 @@
+#include "renderer/gl/scene/beams.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace fernlicht::gl {
+namespace {
+
+// A window of tangents beyond about 55 degrees would spend its texels at the sides: what lies outside it is lit without question.
+constexpr double widest_tangent = 1.4, highest_tangent = 0.36, lowest_tangent = -0.45;
+
+ShadowWindow window_of(const BeamTexture& g) {
+    const auto tangent = [](double angle) { return std::tan(std::clamp(angle, -1.5, 1.5)); };
+    const double top_angle = g.v_first_rad + (g.height - 1) * g.v_step_rad;
+    ShadowWindow w{std::max(-widest_tangent, tangent(g.h_first_rad)),
+                   std::min(widest_tangent, tangent(g.h_first_rad + (g.width - 1) * g.h_step_rad)),
+                   std::max(lowest_tangent, 1.75 * std::min(tangent(g.v_first_rad), 0.0)),
+                   std::min(highest_tangent, 1.75 * std::max(tangent(top_angle), 0.0))};
+    // 1.75: at the window's side the tangent of a given V is larger by 1 / cos(H).
+    if (w.right - w.left < 1e-3)
+        w.right = w.left + 1e-3;
+    if (w.top - w.bottom < 1e-3)
+        w.top = w.bottom + 1e-3;
+    return w;
+}
+
+template <class Step> std::vector<Step> steps_of(const BeamTexture& g) {
+    std::vector<Step> steps;
+    for (const float cd : g.cd)
+        steps.push_back(static_cast<Step>(g.scale_cd > 0.0 ? std::lround(static_cast<double>(cd) / g.scale_cd * largest_step(g.bits)) : 0));
+    return steps;
+}
+
+bool same_grid(const BeamTexture& a, const BeamTexture& b) {
+    return a.width == b.width && a.height == b.height && a.bits == b.bits && a.h_first_rad == b.h_first_rad &&
+           a.v_first_rad == b.v_first_rad && a.h_step_rad == b.h_step_rad && a.v_step_rad == b.v_step_rad;
+}
+
+} // namespace
+
+GLenum format_of_texels(int bits) { return bits == 32 ? GL_R32F : (bits == 16 ? GL_R16 : GL_R8); }
+
+const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
+    if (const auto known = known_.find(file.get()); known != known_.end())
+        return known->second.second;
+    Beam beam;
+    beam.id = static_cast<int>(known_.size());
+    beam.grid = made(file->table);
+    const BeamTexture& g = beam.grid;
+    const auto same = std::ranges::find_if(known_, [&](const auto& known) {
+        return known.second.second.id == known.second.second.shape && same_grid(known.second.second.grid, g);
+    });
+    beam.shape = same == known_.end() ? beam.id : same->second.second.id;
+    beam.bounds = BeamBounds(g);
+    beam.window = window_of(g);
+    constexpr double asin_reaches_rad = 0.5235; // 30 degrees
+    beam.steep = g.v_first_rad < -asin_reaches_rad || g.v_first_rad + (g.height - 1) * g.v_step_rad > asin_reaches_rad;
+    beam.texture = make_texture(context_, format_of_texels(g.bits), g.width, g.height);
+    context_.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    const auto send = [&](GLenum type, const void* texels) {
+        context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RED, type, texels);
+    };
+    if (g.bits == 32)
+        send(GL_FLOAT, g.cd.data());
+    else
+        g.bits == 16 ? send(GL_UNSIGNED_SHORT, steps_of<std::uint16_t>(g).data())
+                     : send(GL_UNSIGNED_BYTE, steps_of<std::uint8_t>(g).data());
+    beam.cd_a_unit = g.bits == 32 ? 1.0 : g.scale_cd;
+    texture_bytes_ += static_cast<std::size_t>(g.bits / 8) * g.cd.size();
+    context_.check("uploading a beam texture");
+    return known_.emplace(file.get(), std::pair(file, std::move(beam))).first->second.second;
+}
+
+std::vector<LitLamp> shining(const Moment& moment, bool all) {
+    std::vector<LitLamp> lamps;
+    for (const LitLamp& lamp : moment.lamps)
+        if (all || lamp.intensity_factor > 0.0)
+            lamps.push_back(lamp);
+    if (lamps.size() > most_lamps)
+        throw InputError(
+            {{}, 0, 0, "lamps"},
+            all ? fmt::format("{} lamps are mounted, and a technique that leaves nothing out draws those that are off, too", lamps.size())
+                : fmt::format("{} lamps are on at {} s", lamps.size(), moment.time_s),
+            fmt::format("at most {}", most_lamps));
+    return lamps;
+}
+
+glm::dvec3 to_lamp_space(const LitLamp& lamp, const glm::dvec3& direction) {
+    return {-glm::dot(lamp.pose.left(), direction), glm::dot(lamp.pose.up(), direction), glm::dot(lamp.pose.forward(), direction)};
+}
+
+} // namespace fernlicht::gl

@@ -1,0 +1,58 @@
+// The beams of lamp files on the GPU, each uploaded once.
+#pragma once
+
+#include "renderer/gl/device/objects.h"
+#include "renderer/gl/scene/beam_bounds.h"
+#include "scenarios/drives/play/moment.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace fernlicht::gl {
+
+/// Tangents in lamp space that a shadow map covers.
+struct ShadowWindow {
+    double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
+};
+
+struct Beam {
+    int id = 0;    ///< in the order of upload
+    int shape = 0; ///< id of the first that lies on the same grid: all that shaders are compiled for
+    BeamTexture grid;
+    double cd_a_unit = 1.0; ///< of what a look-up gives: 1 for float, the largest value for steps of it
+    BeamBounds bounds;
+    ShadowWindow window;
+    bool steep = false; ///< reaches beyond 30 degrees up or down
+    Texture texture;
+};
+
+/// The format of a texture of one channel with so many bits (BeamTexels).
+GLenum format_of_texels(int bits);
+
+class Beams {
+  public:
+    Beams(Context& context, const std::optional<BeamTexels>& texels) : context_(context), texels_(texels) {}
+
+    const Beam& of(const std::shared_ptr<const LampFile>& file);
+    /// Of the beam as it is drawn with against its table, relative to the peak.
+    double error_of_peak(const LampFile& file) const { return made(file.table).worst_error_of_peak; }
+    std::size_t texture_bytes() const { return texture_bytes_; }
+
+  private:
+    BeamTexture made(const CandelaTable& table) const { return texels_ ? make_beam_texture(table, *texels_) : make_beam_texture(table); }
+
+    Context& context_;
+    std::optional<BeamTexels> texels_;
+    std::map<const LampFile*, std::pair<std::shared_ptr<const LampFile>, Beam>> known_;
+    std::size_t texture_bytes_ = 0;
+};
+
+/// Lamps that shine, in the moment's order; with `all` those that are off too. Throws InputError for more than most_lamps.
+std::vector<LitLamp> shining(const Moment& moment, bool all);
+inline constexpr std::size_t most_lamps = 8;
+
+/// A world direction in lamp space (x right, y up, z forward).
+glm::dvec3 to_lamp_space(const LitLamp& lamp, const glm::dvec3& direction);
+
+} // namespace fernlicht::gl

@@ -1,0 +1,99 @@
+#include "renderer/gl/scene/draw_list.h"
+
+#include <glm/geometric.hpp>
+
+namespace fernlicht::gl {
+namespace {
+
+/// Row i of a matrix that GLM stores by columns.
+glm::dvec4 row(const glm::dmat4& m, int i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
+
+} // namespace
+
+Frustum::Frustum(const glm::dmat4& clip_from_ego) {
+    const glm::dvec4 x = row(clip_from_ego, 0), y = row(clip_from_ego, 1), w = row(clip_from_ego, 3);
+    const glm::dvec4 sides[] = {w + x, w - x, w + y, w - y};
+    for (int i = 0; i < 4; ++i)
+        planes[i] = sides[i] / glm::length(glm::dvec3(sides[i]));
+}
+
+bool Frustum::outside(const glm::dvec3& centre_m, double radius_m) const {
+    for (const glm::dvec4& plane : planes)
+        if (glm::dot(glm::dvec3(plane), centre_m) + plane.w < -radius_m)
+            return true;
+    return false;
+}
+
+DrawList::DrawList(Context& context, const SceneBuffers& scene)
+    : context_(context), scene_(scene),
+      place_buffer_(make_buffer(context, std::vector<glm::vec4>(scene.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT)),
+      command_buffer_(make_buffer(context, std::vector<Command>(scene.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT)) {}
+
+void DrawList::start(const glm::dvec3& ego_m, bool extras) {
+    with_extras_ = extras;
+    extras_.clear();
+    if (extras && extra_buffer_ == 0)
+        extra_buffer_ = make_buffer(context_, std::vector<PieceExtra>(scene_.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT);
+    ego_m_ = ego_m;
+    places_.clear();
+    commands_.clear();
+    calls_.clear();
+    triangles_ = 0;
+}
+
+int DrawList::add(std::span<const std::uint32_t> pieces, const std::vector<PieceExtra>* traffic) {
+    calls_.push_back({commands_.size(), pieces.size()});
+    for (const std::uint32_t index : pieces) {
+        const Piece& piece = scene_.pieces()[index];
+        commands_.push_back({piece.index_count, 1, piece.first_index, piece.base_vertex, static_cast<GLuint>(places_.size())});
+        // The id that a pixel shows is the mesh's place in the scene + 1, exact in a float up to 16 million meshes.
+        places_.emplace_back(glm::vec3(piece.origin_m - ego_m_), static_cast<float>(piece.mesh + 1));
+        triangles_ += piece.index_count / 3;
+        if (with_extras_) {
+            extras_.push_back(traffic != nullptr ? (*traffic)[index] : PieceExtra{});
+            extras_.back().turn = piece.turn;
+        }
+    }
+    return static_cast<int>(calls_.size()) - 1;
+}
+
+int DrawList::add_nothing() {
+    calls_.push_back({commands_.size(), 1});
+    commands_.push_back({3, 1, 0, 0, static_cast<GLuint>(places_.size())});
+    places_.emplace_back(0.0F);
+    if (with_extras_)
+        extras_.emplace_back();
+    return static_cast<int>(calls_.size()) - 1;
+}
+
+void DrawList::upload() {
+    update_buffer(context_, place_buffer_, places_);
+    update_buffer(context_, command_buffer_, commands_);
+    if (with_extras_)
+        update_buffer(context_, extra_buffer_, extras_);
+}
+
+void DrawList::draw(int call) const {
+    const Call& c = calls_[static_cast<std::size_t>(call)];
+    if (c.count == 0)
+        return;
+    scene_.bind(place_buffer_, with_extras_ ? static_cast<GLuint>(extra_buffer_) : 0);
+    context_.gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_);
+    context_.gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(c.first * sizeof(Command)),
+                                          static_cast<GLsizei>(c.count), 0);
+}
+
+void DrawList::compile_depth_pass(const Program& program, const Framebuffer& target, int width, int height) {
+    const GladGLContext& gl = context_.gl;
+    const Texture scratch = make_texture(context_, GL_DEPTH_COMPONENT32F, width, height);
+    gl.NamedFramebufferTexture(target, GL_DEPTH_ATTACHMENT, scratch, 0);
+    gl.NamedFramebufferDrawBuffer(target, GL_NONE);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target);
+    program.use();
+    start(glm::dvec3(0.0), scene_.moves());
+    const int nothing = add_nothing();
+    upload();
+    draw(nothing);
+}
+
+} // namespace fernlicht::gl

@@ -1,0 +1,41 @@
+// One way to light a scene on the GPU: what renderer.cpp asks of it.
+#pragma once
+
+#include "renderer/camera.h"
+#include "renderer/gl/device/pass_clock.h"
+#include "renderer/gl/device/targets.h"
+#include "renderer/renderer.h"
+
+#include <memory>
+
+namespace fernlicht::gl {
+
+/// What one view of one moment is drawn with.
+struct Shot {
+    const Moment& moment;
+    const View& view;
+    const Wanted& wanted; ///< only what the technique has
+    const Camera& camera;
+    Targets& targets;
+    glm::vec3 background; ///< the sky as it is shown
+    float sky_luminance_cdm2 = 0.0F;
+    PassClock& clock;
+    Work& work; ///< counted up
+};
+
+class Lighting {
+  public:
+    virtual ~Lighting() = default;
+    virtual void draw(const Shot& shot) = 0;
+    /// Compiles every variant that drawing moments with these lamps and this sky can need, and makes the driver compile it too.
+    virtual void prepare(const Shot& shot) = 0;
+    /// What the last drawn shot did not need.
+    virtual std::vector<LeftOut> left_out() const = 0;
+    /// Of the beam as it is drawn with against its table, relative to the peak; nullopt where no beam of one lamp is drawn with.
+    virtual std::optional<double> beam_error(const LampFile& lamp) const = 0;
+};
+
+/// The lighting of a technique by its name. Throws InputError.
+std::unique_ptr<Lighting> make_lighting(Context& context, const Scene& scene, const RendererSettings& settings);
+
+} // namespace fernlicht::gl

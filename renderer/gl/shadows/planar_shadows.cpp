@@ -1,0 +1,131 @@
+#include "renderer/gl/shadows/planar_shadows.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace fernlicht::gl {
+
+PlanarShadows::PlanarShadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, const ShadowUse& use)
+    : ShadowMask(context, scene, settings, use),
+      program_(context, "planar_shadow.vert.glsl", "",
+               scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
+      clip_(program_.uniform("clip_from_ego")), plane_(program_.uniform("plane")), lamp_(program_.uniform("lamp_m")),
+      list_(context, scene) {}
+
+void PlanarShadows::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
+    ShadowMask::set(lamps, beams, ego_m);
+    find_plane(lamps, beams);
+    ego_plane_ = world_plane_;
+    ego_plane_.w += glm::dot(glm::dvec3(world_plane_), ego_m - origin_m_);
+}
+
+/// Through the ground that gets any lamp's last contour, whichever pieces that lies in.
+void PlanarShadows::find_plane(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams) {
+    std::vector<std::uint32_t> reached;
+    for (const std::uint32_t i : scene_.near(ego_m())) {
+        const Piece& piece = scene_.pieces()[i];
+        if (!piece.ground)
+            continue;
+        const bool lit = std::ranges::any_of(lamps, [&](const LitLamp& lamp) {
+            const glm::dvec3 from_lamp = piece.origin_m + piece.centre_m - lamp.pose.position_m;
+            const double nearest = glm::length(from_lamp) - piece.radius_m,
+                         cd = beams[static_cast<std::size_t>(&lamp - lamps.data())]->bounds.most_towards(to_lamp_space(lamp, from_lamp),
+                                                                                                         piece.radius_m);
+            return lamp.intensity_factor > 0.0 && nearest < shadow_farthest_m && cd > 0.0 &&
+                   (nearest <= 0.0 || lamp.intensity_factor * cd >= last_contour_lx * nearest * nearest);
+        });
+        if (lit)
+            reached.push_back(i);
+    }
+    if (reached == ground_ || reached.empty())
+        return;
+    const glm::dvec3 origin = scene_.pieces()[reached.front()].origin_m;
+    const auto each_corner = [&](auto visit) {
+        for (const std::uint32_t i : reached) {
+            const Piece& piece = scene_.pieces()[i];
+            for (std::size_t k = piece.first_plane; k < piece.first_plane + piece.planes; ++k)
+                for (const glm::vec3& corner : scene_.ground()[k].corners_m)
+                    visit(piece.origin_m - origin + glm::dvec3(corner));
+        }
+    };
+    PlaneFit fit;
+    each_corner([&](const glm::dvec3& p) { fit.add(p); });
+    const glm::dvec4 plane = fit.plane().value_or(glm::dvec4(0.0, 0.0, 1.0, 0.0));
+    double worst = 0.0;
+    glm::dvec3 where(0.0);
+    each_corner([&](const glm::dvec3& p) {
+        if (const double height = glm::dot(glm::dvec3(plane), p) + plane.w; std::abs(height) > std::abs(worst)) {
+            worst = height;
+            where = p + origin;
+        }
+    });
+    if (std::abs(worst) > settings_.tolerance_m)
+        throw InputError({{}, 0, 0, "shadows"}, "found 'planar' and ground that is not one plane",
+                         fmt::format("ground that the lamps reach within {:.1f} cm of one plane (shadows: tolerance_m): at x {:.1f} m, "
+                                     "y {:.1f} m it lies {:.1f} cm {} it; choose another method",
+                                     100.0 * settings_.tolerance_m, where.x, where.y, 100.0 * std::abs(worst),
+                                     worst > 0.0 ? "above" : "below"));
+    ground_ = std::move(reached);
+    origin_m_ = origin;
+    world_plane_ = plane;
+}
+
+bool PlanarShadows::hides_any(std::size_t lamp) const {
+    const LampCasters& casters = casters_.lamps()[lamp];
+    return glm::dot(glm::dvec3(ego_plane_), casters.lamp_m) + ego_plane_.w > 0.0 &&
+           std::ranges::any_of(casters.pieces, [&](std::uint32_t i) { return !scene_.pieces()[i].ground; });
+}
+
+bool PlanarShadows::needed() const {
+    for (std::size_t i = 0; i < casters_.lamps().size(); ++i)
+        if (hides_any(i))
+            return true;
+    return false;
+}
+
+void PlanarShadows::before_marking(const Shot& /*shot*/) {
+    list_.start(ego_m(), scene_.moves());
+    for (const LampCasters& lamp : casters_.lamps()) {
+        std::vector<std::uint32_t> upright;
+        std::ranges::copy_if(lamp.pieces, std::back_inserter(upright), [&](std::uint32_t i) { return !scene_.pieces()[i].ground; });
+        list_.add(upright);
+    }
+    list_.upload();
+}
+
+/// A target stands in a plane raised by its height: the shadow there, drawn so much lower, lies on its pixel. Where ground is seen it is
+/// seen in the plane, so that no depth need be compared.
+void PlanarShadows::mark_hidden(const Shot& shot, std::size_t lamp, double raised_m) {
+    const LampCasters& casters = casters_.lamps()[lamp];
+    glm::dvec4 plane = ego_plane_;
+    plane.w -= raised_m * plane.z;
+    if (glm::dot(glm::dvec3(plane), casters.lamp_m) + plane.w <= 0.0)
+        return;
+    const GladGLContext& gl = context_.gl;
+    program_.use();
+    const glm::mat4 clip(glm::translate(shot.camera.clip_from_ego, {0.0, 0.0, -raised_m}));
+    const glm::vec4 to_plane(plane);
+    const glm::vec3 lamp_m(casters.lamp_m);
+    gl.UniformMatrix4fv(clip_, 1, GL_FALSE, &clip[0][0]);
+    gl.Uniform4fv(plane_, 1, &to_plane[0]);
+    gl.Uniform3fv(lamp_, 1, &lamp_m[0]);
+    gl.StencilFunc(GL_EQUAL, static_cast<GLint>(ground_bit | 1U), ground_bit);
+    gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Enable(GL_DEPTH_CLAMP);
+    gl.Enable(GL_CLIP_DISTANCE0);
+    gl.Enable(GL_CLIP_DISTANCE0 + 1);
+    list_.draw(static_cast<int>(lamp));
+    gl.Disable(GL_CLIP_DISTANCE0 + 1);
+    gl.Disable(GL_CLIP_DISTANCE0);
+    gl.Disable(GL_DEPTH_CLAMP);
+    gl.Enable(GL_DEPTH_TEST);
+    shot.work.triangles += lamp == 0 && raised_m == 0.0 ? list_.triangles() : 0;
+    shot.work.draws += static_cast<int>(casters.pieces.size());
+}
+
+} // namespace fernlicht::gl

@@ -1,0 +1,235 @@
+#include "renderer/gl/shadows/projected_maps.h"
+#include "renderer/gl/device/shader_text.h"
+#include "renderer/gl/shadows/shadow_texture.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace fernlicht::gl {
+namespace {
+
+constexpr double shadow_texels_to_spare = 2.6; // as ShadowCasters: a look-up's point is raised by 1.5, and texels up to 1 away are weighed
+
+/// Texture coordinates to clip space, depth = shadow_near_m / w.
+glm::dmat4 clip_from_shadow_texture(const glm::dmat4& texture) {
+    glm::dmat4 clip(0.0);
+    for (int column = 0; column < 4; ++column) {
+        const glm::dvec4& t = texture[column];
+        clip[column] = {2.0 * t.x - t.z, 2.0 * t.y - t.z, column == 3 ? shadow_near_m : 0.0, t.z};
+    }
+    return clip;
+}
+
+/// Of lamp space (x right, y up, z forward), relative to `ego_m`.
+glm::dmat4 ego_from_lamp_space(const Pose& pose, const glm::dvec3& ego_m) {
+    return {glm::dvec4(-pose.left(), 0.0), glm::dvec4(pose.up(), 0.0), glm::dvec4(pose.forward(), 0.0),
+            glm::dvec4(pose.position_m - ego_m, 1.0)};
+}
+
+bool covered_by(const MapPlan& map, const MapPlan& now, int width, int height) {
+    const glm::dmat4 texture = texture_from_ego(map, now.from.position_m) * ego_from_lamp_space(now.from, now.from.position_m);
+    const double x = shadow_texels_to_spare / width, y = shadow_texels_to_spare / height;
+    return std::ranges::all_of(now.to_cover, [&](const glm::dvec3& point) {
+        const glm::dvec4 q = texture * glm::dvec4(point, 1.0);
+        return q.z > 0.0 && q.x > x * q.z && q.x < (1.0 - x) * q.z && q.y > y * q.z && q.y < (1.0 - y) * q.z;
+    });
+}
+
+} // namespace
+
+ProjectedMaps::ProjectedMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, std::vector<glm::dvec2> places)
+    : Shadows(context, scene, settings), places_(std::move(places)),
+      program_(context, "depth.vert.glsl", "",
+               scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
+      matrix_(program_.uniform("clip_from_ego")), list_(context, scene), target_(make_framebuffer(context)) {}
+
+Texture ProjectedMaps::make_map() const {
+    return make_shadow_texture(context_, {settings_.width, settings_.height, layered() ? static_cast<int>(places_.size()) : 0,
+                                          fmt::format("each lamp by '{}'", name(settings_.method)),
+                                          layered() ? "a smaller map_texels or fewer lamp_places" : "a smaller map_texels"});
+}
+
+/// Lamps of one name are told apart by their order.
+std::string ProjectedMaps::name_of(std::size_t lamp) const {
+    const std::vector<LampCasters>& lamps = casters_.lamps();
+    const std::string& name = lamps[lamp].lamp.name;
+    const auto before = std::count_if(lamps.begin(), lamps.begin() + static_cast<std::ptrdiff_t>(lamp), [&](const LampCasters& other) {
+        return other.lamp.name == name && other.lamp.intensity_factor > 0.0;
+    });
+    return fmt::format("{}{} {}", lamps[lamp].lamp.intensity_factor > 0.0 ? "" : "off ", before, name);
+}
+
+double ProjectedMaps::kept_tangent(const LampCasters& lamp) const {
+    return settings_.redraw_texels * texel_tangent(lamp.window, settings_);
+}
+
+void ProjectedMaps::choose_casters(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
+    casters_.set(lamps, beams, ego_m);
+}
+
+void ProjectedMaps::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
+    lamps_ = lamps;
+    choose_casters(lamps, beams, ego_m);
+    // A lamp that goes out, or has nothing in its beam, begins anew: what is kept must not depend on what is drawn for nothing.
+    std::vector<std::string> in_use;
+    for (std::size_t i = 0; i < casters_.lamps().size(); ++i) {
+        const LampCasters& lamp = casters_.lamps()[i];
+        if (settings_.redraw_texels > 0.0)
+            casters_.widen(i, 2.0 * kept_tangent(lamp));
+        if (lamp.lamp.intensity_factor > 0.0 && !lamp.pieces.empty())
+            in_use.push_back(name_of(i));
+    }
+    for (auto& [name, kept] : kept_)
+        kept.drawn = kept.drawn && std::ranges::find(in_use, name) != in_use.end();
+}
+
+MapPlan ProjectedMaps::plain(const LampCasters& lamp) const {
+    ShadowWindow window = lamp.window;
+    const double more = kept_tangent(lamp);
+    window.left -= more;
+    window.right += more;
+    window.bottom -= more;
+    window.top += more;
+    MapPlan plan{lamp.lamp.pose, window_homography(window, settings_.width, settings_.height), 0.0, lamp.pieces, lamp.bodies};
+    plan.spread = 1.5 * texel_tangent(window, settings_);
+    return plan;
+}
+
+std::vector<MapPlan> ProjectedMaps::plan(const Shot& /*shot*/) {
+    std::vector<MapPlan> plans;
+    for (const LampCasters& lamp : casters_.lamps())
+        plans.push_back(plain(lamp));
+    return plans;
+}
+
+/// Whether the map may be looked up as it was drawn.
+bool ProjectedMaps::stands(const Kept& kept, const MapPlan& plan, const LampCasters& lamp) const {
+    if (!kept.drawn || kept.plan.pieces != plan.pieces)
+        return false;
+    const double bound = kept_tangent(lamp);
+    const bool same_fit = kept.plan.texture_from_lamp == plan.texture_from_lamp;
+    if (kept.plan.from == plan.from && same_fit && kept.scene_placed == scene_.placed() && kept.ego_m == casters_.ego_m())
+        return true;
+    if (bound == 0.0)
+        return false;
+    if (plan.to_cover.empty()
+            ? !same_fit
+            : !covered_by(kept.plan, plan, settings_.width, settings_.height) || kept.plan.most_raise > shadow_kept_slack * plan.most_raise)
+        return false;
+    double turned = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        turned = std::max(turned, glm::length(kept.plan.from.axes[axis] - plan.from.axes[axis]));
+    double moved = 0.0; // casters
+    std::size_t body = 0;
+    for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+        const Piece& piece = scene_.pieces()[plan.pieces[i]];
+        // A turn by a moves a quaternion by 2 sin(a / 4), and a point at r by less than a r.
+        const double by =
+            glm::length(piece.origin_m - kept.placed[i].first) +
+            2.3 * static_cast<double>(glm::length(piece.turn - kept.placed[i].second)) * (glm::length(piece.centre_m) + piece.radius_m);
+        for (const std::size_t end = body + piece.bodies_m.size(); body < end; ++body) {
+            const Caster& c = plan.bodies[body];
+            const double widest = std::max({std::abs(c.left), std::abs(c.right), std::abs(c.bottom), std::abs(c.top)});
+            if (by > 0.0)
+                moved = std::max(moved, c.nearest_m <= by ? 2.0 * bound + 1.0 : by * (1.0 + widest) / (c.nearest_m - by));
+        }
+    }
+    return turned <= bound && edge_shift(kept.plan, plan) + moved <= bound;
+}
+
+void ProjectedMaps::draw_map(Kept& kept, const Shot& shot) {
+    const GladGLContext& gl = context_.gl;
+    program_.use();
+    gl.Viewport(0, 0, settings_.width, settings_.height);
+    gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    gl.Enable(GL_SCISSOR_TEST);
+    const glm::dmat4 texture = texture_from_ego(kept.plan, kept.ego_m);
+    const glm::dmat4 ego_from_lamp = ego_from_lamp_space(kept.plan.from, kept.ego_m);
+    list_.start(kept.ego_m, scene_.moves());
+    list_.add(kept.plan.pieces);
+    list_.upload();
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        if (layered())
+            gl.NamedFramebufferTextureLayer(target_, GL_DEPTH_ATTACHMENT, kept.texture, 0, static_cast<GLint>(k));
+        else
+            gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, kept.texture, 0);
+        gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
+        gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
+        const float far_away = 0.0F;
+        gl.Scissor(0, 0, settings_.width, settings_.height);
+        gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
+        gl.Scissor(1, 1, settings_.width - 2, settings_.height - 2); // the outermost texels stay empty: what lies outside is lit
+        glm::dmat4 from_place = texture;                             // of a point that lies as much to the other side
+        from_place[3] -= texture * (ego_from_lamp[0] * places_[k].x + ego_from_lamp[1] * places_[k].y);
+        const glm::mat4 clip(clip_from_shadow_texture(from_place));
+        gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip[0][0]);
+        list_.draw(0);
+        ++shot.work.passes;
+        ++shot.work.shadow_maps_drawn;
+        shot.work.draws += static_cast<int>(kept.plan.pieces.size());
+        shot.work.triangles += list_.triangles();
+    }
+    gl.Disable(GL_SCISSOR_TEST);
+    gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+    context_.check("drawing a shadow map");
+}
+
+void ProjectedMaps::draw(const Shot& shot) {
+    shot.clock.begin("shadow maps");
+    const std::vector<MapPlan> plans = plan(shot);
+    const glm::dvec3 ego_m = casters_.ego_m();
+    std::vector<glm::dmat4> textures_from_ego;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        Kept& kept = kept_[name_of(i)];
+        if (kept.texture == 0)
+            kept.texture = make_map();
+        if (!stands(kept, plans[i], casters_.lamps()[i])) {
+            kept.plan = plans[i];
+            kept.drawn = true;
+            kept.placed.clear();
+            for (const std::uint32_t k : kept.plan.pieces)
+                kept.placed.emplace_back(scene_.pieces()[k].origin_m, scene_.pieces()[k].turn);
+            kept.scene_placed = scene_.placed();
+            kept.ego_m = ego_m;
+            draw_map(kept, shot);
+        }
+        textures_from_ego.push_back(texture_from_ego(kept.plan, ego_m));
+        context_.gl.BindTextureUnit(shadow_unit(i), kept.texture);
+    }
+    shot.work.shadow_maps += static_cast<int>(plans.size() * places_.size());
+    from_lamps_.clear();
+    for (std::size_t i = 0; i < lamps_.size(); ++i)
+        from_lamps_.emplace_back(textures_from_ego[std::min(i, plans.size() - 1)] * ego_from_lamp_space(lamps_[i].pose, ego_m));
+    shot.clock.end();
+}
+
+void ProjectedMaps::set_uniforms(const Program& program) const {
+    if (!from_lamps_.empty())
+        context_.gl.UniformMatrix4fv(program.uniform("shadow_from_lamp"), static_cast<GLsizei>(from_lamps_.size()), GL_FALSE,
+                                     &from_lamps_.front()[0][0]);
+}
+
+void ProjectedMaps::compile(const Shot& /*shot*/) {
+    list_.compile_depth_pass(program_, target_, settings_.width, settings_.height);
+    context_.check("compiling the shadow pass");
+}
+
+std::vector<Program::Define> ProjectedMaps::defines(const std::vector<const Beam*>& /*beams*/) const {
+    std::vector<Program::Define> defines{
+        {"PROJECTED_SHADOW_MAPS", "1"}, {"SHADOW_NEAR", literal(shadow_near_m)}, {"SHADOW_TOLERANCE", literal(settings_.tolerance_m)}};
+    if (layered()) {
+        std::string disc;
+        for (const glm::dvec2& place : places_)
+            disc += fmt::format("{}vec2({}, {})", disc.empty() ? "" : ", ", literal(place.x), literal(place.y));
+        defines.push_back({"SHADOW_LAYERS", std::to_string(places_.size())});
+        defines.push_back({"SHADOW_DISC", disc});
+    }
+    return defines;
+}
+
+std::size_t ProjectedMaps::texture_bytes() const {
+    return kept_.size() * places_.size() * 4 * static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
+}
+
+} // namespace fernlicht::gl

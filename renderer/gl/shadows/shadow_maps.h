@@ -1,0 +1,33 @@
+// Depth as each lamp sees it, of what can cast a shadow (shadow_casters.h). Receivers are looked up from a point raised above their
+// surface by what a texel spans there (docs/decisions/0005), so that nothing shades itself.
+#pragma once
+
+#include "renderer/gl/scene/draw_list.h"
+#include "renderer/gl/shadows/shadows.h"
+
+namespace fernlicht::gl {
+
+class ShadowMaps : public Shadows {
+  public:
+    ShadowMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings);
+
+    /// Draws the maps unless they stand already as they would be drawn.
+    void draw(const Shot& shot) override;
+    void compile(const Shot& shot) override;
+    std::vector<Program::Define> defines(const std::vector<const Beam*>& beams) const override;
+    std::size_t texture_bytes() const override;
+    const char* title() const override { return "shadow maps"; }
+
+  private:
+    Program program_;
+    GLint matrix_;
+    DrawList list_;
+    Framebuffer target_;
+    std::vector<Texture> textures_;
+    std::vector<glm::dmat4> drawn_clips_; ///< what the textures hold
+    std::vector<std::vector<std::uint32_t>> drawn_pieces_;
+    glm::dvec3 drawn_ego_m_{0.0};
+    std::uint64_t drawn_placed_ = 0;
+};
+
+} // namespace fernlicht::gl

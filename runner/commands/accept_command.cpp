@@ -1,0 +1,199 @@
+#include "runner/commands/accept_command.h"
+
+#include "runner/files/checked_json.h"
+#include "runner/files/output_folder.h"
+#include "runner/files/value_json.h"
+#include "runner/findings/summary.h"
+#include "runner/judge/ray_results.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+RunContext context_of(const CheckedJson& report) {
+    const CheckedJson json = report.at("context");
+    RunContext context;
+    context.versions = json.at("versions").texts();
+    context.backend = json.at("backend").text();
+    context.gl_renderer = json.at("gl_renderer").text();
+    context.gl_version = json.at("gl_version").text();
+    context.cpu = json.at("cpu").text();
+    context.os = json.at("os").text();
+    context.started_utc = json.at("started_utc").text();
+    return context;
+}
+
+AcceptedReading reading_of(const CheckedJson& row, int count) {
+    const CheckedJson frame = row.at("frame");
+    const Value value = value_in(row.at("value"));
+    return {row.at("name").text(), row.at("unit").text(), frame.is_null() ? -1 : frame.whole(), value, value.measured() ? count : 0, 0.0};
+}
+
+/// A frame's file: below the run's folder, wherever a report of others would lead.
+std::filesystem::path frame_file(const std::filesystem::path& run_folder, const CheckedJson& exr) {
+    const std::filesystem::path path = exr.text();
+    if (path.is_absolute() || std::ranges::find(path, std::filesystem::path("..")) != path.end())
+        exr.refuse("a path below the run's folder");
+    return run_folder / path;
+}
+
+/// Key, producer and frames of each lamp set that was played.
+AcceptedReference reference_of(const CheckedJson& played, const RunContext& context, const std::filesystem::path& run_folder) {
+    if (const CheckedJson done = played.at("ticks_done"); done.whole() != played.at("ticks_planned").whole())
+        done.refuse("all moments that were planned: an incomplete run is no reference");
+    if (!played.has("inputs"))
+        throw InputError({run_folder / "report.json", 0, 0, {}}, "was written by a version that did not keep a run's inputs and repeats",
+                         "a run of this version: play it again");
+    AcceptedReference reference;
+    std::vector<std::pair<std::string, std::string>> inputs = played.at("inputs").texts();
+    reference.key = reference_key(played.at("drive").text(), played.at("variant").text(), played.at("technique").text(), context, inputs);
+    reference.producer = {context.versions, context.gl_version, context.cpu, context.os, std::move(inputs)};
+    for (const CheckedJson& frame : played.at("frames").items())
+        if (const CheckedJson exr = frame.at("exr"); !exr.is_null())
+            reference.frames.push_back({frame.at("frame").whole(), frame.at("view").text(), frame_file(run_folder, exr), ""});
+    return reference;
+}
+
+/// Mean and variance in place of the first play's value where the repeats differ.
+void add_spread(AcceptedReference& reference, const CheckedJson& repeats) {
+    for (const CheckedJson& spread : repeats.at("spread").items()) {
+        const CheckedJson frame = spread.at("frame");
+        const int tick = frame.is_null() ? -1 : frame.whole();
+        const std::string name = spread.at("name").text();
+        for (AcceptedReading& reading : reference.readings)
+            if (reading.name == name && reading.tick == tick) {
+                reading.mean = spread.at("mean").number();
+                reading.count = spread.at("count").whole();
+                reading.variance = spread.at("variance").number();
+            }
+    }
+}
+
+/// Rows tell drive and lamp set by name.
+void add_readings(AcceptedReference& reference, const CheckedJson& rows, const CheckedJson& repeats) {
+    for (const CheckedJson& row : rows.items())
+        if (row.at("drive").text() == reference.key.drive && row.at("variant").text() == reference.key.variant)
+            if (AcceptedReading reading = reading_of(row, repeats.at("count").whole()); !is_unit_of_time(reading.unit))
+                reference.readings.push_back(std::move(reading));
+    add_spread(reference, repeats);
+}
+
+/// "3f2a91c04b7e  straight/halogen/photometric: new"
+std::string stored_text(const AcceptedReference& reference, const Stored& stored) {
+    const std::string removed = stored.removed > 0 ? fmt::format(", in place of {}", stored.removed) : "";
+    return fmt::format("{}  {}: {}{}", short_id(stored.id), cell_text(reference.key), stored.is_new ? "new" : "accepted before", removed);
+}
+
+struct AcceptFlags {
+    std::string run, to = "references", note;
+    bool add = false, replace = false, replace_class = false, readings_only = false;
+};
+
+int accept(const AcceptFlags& flags) {
+    if (flags.add + flags.replace + flags.replace_class > 1)
+        throw InputError({{}, 0, 0, "accept"}, "found more than one of --add, --replace and --replace-class", "one of them");
+    if (flags.add && flags.note.empty())
+        throw InputError({{}, 0, 0, "--add"}, "found no --note",
+                         "the reason why several results are right, e.g. --note \"two drivers round differently\"");
+    const Acceptance how = flags.add             ? Acceptance::add
+                           : flags.replace       ? Acceptance::replace
+                           : flags.replace_class ? Acceptance::replace_class
+                                                 : Acceptance::first;
+    const Accepted accepted = accept_run(flags.run, flags.to, how, flags.note, flags.readings_only);
+    std::size_t frames = 0, readings = 0;
+    for (std::size_t i = 0; i < accepted.references.size(); ++i) {
+        frames += accepted.references[i].frames.size();
+        readings += accepted.references[i].readings.size();
+        fmt::print("{}\n", stored_text(accepted.references[i], accepted.stored[i]));
+    }
+    fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings{}\n", flags.to, accepted.references.size(), frames, readings,
+               flags.readings_only ? "; frames were left out" : "");
+    return 0;
+}
+
+/// A folder of `fernlicht study`: its cells are runs.
+bool is_study_folder(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    return std::filesystem::exists(folder / "study.json", ignored) && std::filesystem::is_directory(folder / "cells", ignored);
+}
+
+/// In the order of the cells' names; the time is the first one's.
+RunResults read_cells(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> cells;
+    for (const std::filesystem::directory_entry& cell : std::filesystem::directory_iterator(folder / "cells"))
+        cells.push_back(cell.path());
+    std::ranges::sort(cells);
+    RunResults all;
+    for (const std::filesystem::path& cell : cells) {
+        RunResults one = read_run(cell);
+        if (all.started_utc.empty())
+            all.started_utc = one.started_utc;
+        std::ranges::move(one.references, std::back_inserter(all.references));
+    }
+    return all;
+}
+
+} // namespace
+
+RunResults read_run(const std::filesystem::path& run_folder) {
+    if (is_ray_folder(run_folder))
+        return read_ray_folder(run_folder);
+    if (is_marked_incomplete(run_folder))
+        throw InputError({run_folder, 0, 0, {}}, "holds an incomplete run", "a complete one");
+    if (is_study_folder(run_folder))
+        return read_cells(run_folder);
+    if (std::error_code ignored; !std::filesystem::exists(run_folder / "report.json", ignored))
+        throw InputError({run_folder, 0, 0, {}}, "is no folder of a run, a study or rays",
+                         "one that `fernlicht run`, `study` or `reference` wrote");
+    const CheckedJson report = CheckedJson::read(run_folder / "report.json");
+    report.expect_schema("fernlicht report", 1);
+    if (const CheckedJson complete = report.at("complete"); !complete.truth())
+        complete.refuse("a complete run");
+    const RunContext context = context_of(report);
+    RunResults results;
+    results.started_utc = context.started_utc;
+    for (const CheckedJson& played : report.at("drives").items()) {
+        results.references.push_back(reference_of(played, context, run_folder));
+        add_readings(results.references.back(), report.at("rows"), played.at("repeats"));
+    }
+    return results;
+}
+
+Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder, Acceptance how,
+                    const std::string& note, bool readings_only) {
+    RunResults results = read_run(run_folder);
+    if (readings_only)
+        for (AcceptedReference& reference : results.references) {
+            if (reference.readings.empty())
+                throw InputError({run_folder, 0, 0, "--readings-only"}, "found no readings in " + printable(cell_text(reference.key), 200),
+                                 "a run that measures");
+            reference.frames.clear();
+            reference.frames_left_out = true;
+        }
+    Accepted accepted;
+    accepted.stored = store_references(references_folder, results.references, how, note, results.started_utc);
+    accepted.references = std::move(results.references);
+    return accepted;
+}
+
+void add_accept_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<AcceptFlags>();
+    CLI::App* command = app.add_subcommand("accept", "take a run's results as references for later runs; judges nothing");
+    command->add_option("RUN", flags->run, "folder of a complete run or study, or of a picture by `fernlicht reference`")->required();
+    command->add_option("--to,--store", flags->to, "folder of references")->capture_default_str();
+    command->add_flag("--replace", flags->replace, "these are right in place of what was accepted under the same keys");
+    command->add_flag("--replace-class", flags->replace_class,
+                      "these are right in place of all that was accepted for their class of device; other classes keep theirs");
+    command->add_flag("--add", flags->add, "these are right as well: a run passes that agrees with either; needs --note");
+    command->add_flag("--readings-only", flags->readings_only,
+                      "leave the frames out: a thousandth of the size; pictures are then not compared");
+    command->add_option("--note", flags->note, "why, in a sentence; `fernlicht references` shows it");
+    command->callback([flags, &chosen] { chosen = [flags] { return accept(*flags); }; });
+}
+
+} // namespace fernlicht

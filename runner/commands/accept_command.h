@@ -1,0 +1,30 @@
+// `fernlicht accept RUN_FOLDER [--to FOLDER]`: take a run's results as what later runs are compared with. Judges nothing.
+#pragma once
+
+#include "runner/judge/reference_store.h"
+#include "runner/judge/run_results.h"
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace fernlicht {
+
+void add_accept_command(CLI::App& app, std::function<int()>& chosen);
+
+/// A run's results as they would be accepted, one for each lamp set of each drive: readings (times left out) with their spread over the
+/// run's repeats, and captured EXR frames. Of a study's folder: of all its cells. Of a folder of `fernlicht reference`: its one picture
+/// with each pixel's variance. Throws InputError for a folder without a complete run.
+RunResults read_run(const std::filesystem::path& run_folder);
+
+struct Accepted {
+    std::vector<AcceptedReference> references;
+    std::vector<Stored> stored; ///< one for each reference
+};
+/// `readings_only` leaves the frames out. Throws as read_run and store_references; what was accepted before then still holds.
+Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder,
+                    Acceptance how = Acceptance::first, const std::string& note = "", bool readings_only = false);
+
+} // namespace fernlicht

@@ -1,0 +1,119 @@
+#include "runner/commands/accuracy_command.h"
+
+#include "renderer/device.h"
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/accuracy/studies/accuracy_run.h"
+#include "runner/experiments/run/run_drives.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct AccuracyFlags {
+    std::vector<std::filesystem::path> drives;
+    std::vector<std::string> techniques, resolutions, shadow_maps, beams;
+    std::string variant, target_error = "0.5%", backend = "auto", out;
+    std::vector<std::string> diagrams{"techniques"};
+    SweepRequest sweep;
+    bool quiet = false;
+};
+
+std::vector<std::pair<int, int>> sizes_of(const char* flag, const std::vector<std::string>& texts, int most) {
+    std::vector<std::pair<int, int>> sizes;
+    for (const std::string& text : items_of(flag, texts)) {
+        sizes.push_back(two_numbers(flag, text, 'x', false, "WIDTHxHEIGHT, e.g. 512x384"));
+        if (std::min(sizes.back().first, sizes.back().second) < 16 || std::max(sizes.back().first, sizes.back().second) > most)
+            refuse_flag(flag, text, "16 to 8192 each way");
+    }
+    return sizes;
+}
+
+std::vector<std::string> diagrams_of(const std::vector<std::string>& lists) {
+    const std::vector<std::string> known = diagram_names(), asked = items_of("--diagrams", lists);
+    for (const std::string& name : asked)
+        if (name != "all" && std::ranges::find(known, name) == known.end())
+            refuse_flag(
+                "--diagrams", name,
+                "all, techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic or shadows");
+    return std::ranges::find(asked, "all") != asked.end() ? known : asked;
+}
+
+int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command) {
+    AccuracyRequest request;
+    request.diagrams = diagrams_of(flags.diagrams);
+    request.sweep = flags.sweep;
+    request.sweep.variant = flags.variant;
+    request.sweep.target_error = share_of("--target-error", flags.target_error);
+    request.sweep.techniques = items_of("--techniques", flags.techniques);
+    request.sweep.resolutions = sizes_of("--resolutions", flags.resolutions, 8192);
+    request.sweep.shadow_maps = sizes_of("--shadow-maps", flags.shadow_maps, 8192);
+    request.sweep.beams = beams_of(flags.beams);
+    for (const std::filesystem::path& file : flags.drives)
+        request.drives.push_back(read_drive(file));
+    refuse_equal_names(request.drives);
+    request.backend = flags.backend;
+    request.folder = flags.out.empty() ? default_output_folder("accuracy", utc_now()) : std::filesystem::path(flags.out);
+    request.command = command;
+    request.quiet = flags.quiet;
+    const AccuracyResult result = run_accuracy(request);
+    fmt::print("{}\n{}\n", accuracy_text(result), (request.folder / "accuracy.html").string());
+    if (!result.interrupted.empty())
+        fmt::print("incomplete: {}\n", result.interrupted);
+    for (const std::string& missing : result.missing)
+        fmt::print("missing: {}\n", missing);
+    const bool measured = std::ranges::any_of(result.diagrams, [](const WorkPrecision& diagram) {
+        return std::ranges::any_of(diagram.rows, [](const WorkPrecisionRow& row) { return row.measured(); });
+    });
+    return result.interrupted.empty() && measured ? 0 : 1;
+}
+
+} // namespace
+
+void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<AccuracyFlags>();
+    CLI::App* sub = app.add_subcommand("accuracy", "hold the techniques against the reference: error beside run time");
+    sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
+    sub->add_option(
+           "--diagrams", flags->diagrams,
+           "all, or some of techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic, shadows; "
+           "else techniques")
+        ->allow_extra_args(false);
+    sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
+    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);
+    sub->add_option("--resolutions", flags->resolutions,
+                    "WIDTHxHEIGHT,...: the first for all, the others beside it; else the drive's, a half and a quarter of it")
+        ->allow_extra_args(false);
+    sub->add_option("--shadow-maps", flags->shadow_maps,
+                    "WIDTHxHEIGHT,...: the first for all, the others beside it; else 1024x512, twice, a half and a quarter of it")
+        ->allow_extra_args(false);
+    sub->add_option("--beams", flags->beams,
+                    "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others beside it; else the drive's and four others")
+        ->allow_extra_args(false);
+    sub->add_flag("--full", flags->sweep.full, "every technique with every resolution, shadow map and beam; else one varied at a time");
+    sub->add_option("--moments", flags->sweep.moments, "spread evenly over the drive")->check(CLI::Range(1, 1000))->capture_default_str();
+    sub->add_option("--rounds", flags->sweep.rounds, "of times; in each, every configuration draws the moments once")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    sub->add_option("--target-error", flags->target_error, "standard error wanted of each pixel of the reference, e.g. 0.5% or 0.005")
+        ->capture_default_str();
+    sub->add_option("--samples", flags->sweep.most_samples, "most samples a pixel of the reference")
+        ->check(CLI::Range(16, 1 << 20))
+        ->capture_default_str();
+    sub->add_option("--seed", flags->sweep.seed, "of the reference and of the order in each round")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+        ->capture_default_str();
+    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return accuracy(*flags, command); }; });
+}
+
+} // namespace fernlicht

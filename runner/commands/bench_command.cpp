@@ -1,0 +1,76 @@
+#include "runner/commands/bench_command.h"
+
+#include "renderer/device.h"
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/bench/bench_run.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+constexpr const char* default_drive = "scenarios/library/drives/bench.yaml";
+
+/// The flags as typed.
+struct BenchFlags {
+    std::filesystem::path drive = default_drive;
+    std::string variant, resolution, backend = "auto", out;
+    std::vector<std::string> techniques;
+    std::optional<int> frames;
+    int rounds = 21;
+    std::uint64_t seed = 1;
+    bool quiet = false;
+};
+
+int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
+    if (flags.rounds < 1 || flags.rounds > 100000)
+        refuse_flag("--rounds", fmt::format("{}", flags.rounds), "1 to 100000");
+    DriveEdits edits;
+    if (!flags.resolution.empty())
+        edits.resolution = resolution_of(flags.resolution);
+    BenchRequest request;
+    if (flags.drive == default_drive && !std::filesystem::exists(flags.drive))
+        throw InputError({{}, 0, 0, "--drive"}, "found no " + flags.drive.string() + " from here",
+                         "to be run from the repository's root, or a drive file");
+    request.drive = read_drive(flags.drive, edits);
+    request.variant = flags.variant;
+    request.techniques = items_of("--techniques", flags.techniques);
+    request.moments = flags.frames;
+    request.rounds = flags.rounds;
+    request.seed = flags.seed;
+    request.backend = flags.backend;
+    request.folder = flags.out.empty() ? default_output_folder("bench", utc_now()) : std::filesystem::path(flags.out);
+    request.command = command;
+    request.quiet = flags.quiet;
+    const BenchResult result = run_bench(request);
+    fmt::print("{}\n{}\n{}\n", bench_heading(result), bench_tables(result), (request.folder / "bench.json").string());
+    return result.interrupted.empty() ? 0 : 1;
+}
+
+} // namespace
+
+void add_bench_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<BenchFlags>();
+    CLI::App* sub = app.add_subcommand("bench", "time the techniques against one another");
+    sub->add_option("--drive", flags->drive, "drive file (YAML) whose moments are drawn")->capture_default_str();
+    sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
+    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);
+    sub->add_option("--frames", flags->frames,
+                    fmt::format("moments, spread evenly over the drive; else {}, or all that it has", usual_bench_moments));
+    sub->add_option("--rounds", flags->rounds, "in each, every technique draws the moments once")->capture_default_str();
+    sub->add_option("--seed", flags->seed, "of the order in each round")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+        ->capture_default_str();
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT; else the drive's");
+    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return bench(*flags, command); }; });
+}
+
+} // namespace fernlicht

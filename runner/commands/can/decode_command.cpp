@@ -1,0 +1,197 @@
+#include "runner/commands/can/decode_command.h"
+
+#include "runner/commands/can/databases.h"
+#include "runner/commands/can/decoded_text.h"
+#include "runner/commands/can/frame_json.h"
+#include "runner/commands/can/line_output.h"
+#include "runner/commands/log_flags.h"
+#include "runner/play/interruption.h"
+#include "scenarios/can/signal_codec.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <memory>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+struct DecodeFlags {
+    std::vector<std::string> logs, only;
+    std::string out;
+    DatabaseFlags databases;
+    LogFlags log;
+    bool single_line = false, json = false, csv = false, numbers = false, known = false, notes = false, force = false;
+};
+
+/// Writes frame after frame in one of the three forms.
+class Decoder {
+  public:
+    explicit Decoder(const DecodeFlags& flags)
+        : flags_(flags), databases_(flags.databases), selection_(flags.only, databases_), out_(flags.out, flags.force) {
+        if (flags.notes)
+            for (const CanDatabase& database : databases_.all())
+                for (const std::string& note : database.notes)
+                    fmt::print(stderr, "fernlicht: {}: {}\n", printable(database.file.string(), 400), note);
+        if (flags.csv)
+            write_header();
+    }
+
+    /// False: nobody reads any more.
+    bool decode_log(const std::string& path);
+    void finish();
+
+  private:
+    void write_header();
+    void write_frame(const CandumpStream& log);
+    void write_row(const CandumpLine& line, const CanMessage& message);
+    void pass_line(const CandumpStream& log);
+
+    const DecodeFlags& flags_;
+    Databases databases_;
+    Selection selection_;
+    LineOutput out_;
+    std::vector<CanValue> values_;
+    std::vector<const CanSignal*> columns_;
+    std::set<std::pair<std::uint32_t, bool>> unknown_ids_;
+    std::uint64_t unknown_ = 0;
+};
+
+// All signals that may come, in the order of the files: a table has the same columns whatever the log holds.
+void Decoder::write_header() {
+    out_.text() += "time,channel,message";
+    for (const CanDatabase& database : databases_.all())
+        for (const CanMessage& message : database.messages)
+            for (const CanSignal& signal : message.signals) {
+                if (!selection_.takes(message) || !selection_.takes(signal))
+                    continue;
+                columns_.push_back(&signal);
+                out_.text() += ',';
+                append_csv_text(out_.text(), message.name + "." + signal.name + (signal.unit.empty() ? "" : " [" + signal.unit + "]"));
+            }
+    out_.text() += '\n';
+}
+
+void Decoder::write_row(const CandumpLine& line, const CanMessage& message) {
+    std::string& out = out_.text();
+    const CanFrame& frame = line.frame;
+    if (line.style.stamp_digits > 0)
+        fmt::format_to(std::back_inserter(out), "{}.{:09}", frame.time_ns / 1'000'000'000, frame.time_ns % 1'000'000'000);
+    out += ',';
+    append_csv_text(out, frame.channel);
+    out += ',';
+    append_csv_text(out, message.name);
+    auto value = values_.begin(); // both in the order of the file
+    for (const CanSignal* column : columns_) {
+        out += ',';
+        if (value != values_.end() && value->signal == column) {
+            out += exact_text(*value);
+            ++value;
+        }
+    }
+    out += '\n';
+}
+
+// What is no frame stays between the frames where people read, and goes where programs do.
+void Decoder::pass_line(const CandumpStream& log) {
+    if (!flags_.json && !flags_.csv && selection_.everything() && !flags_.known) {
+        out_.text() += log.text();
+        out_.text() += '\n';
+    }
+}
+
+void Decoder::write_frame(const CandumpStream& log) {
+    const CandumpLine& line = log.line();
+    const CanMessage* message = databases_.message(line.frame);
+    if (message == nullptr) {
+        ++unknown_;
+        unknown_ids_.emplace(line.frame.id, line.frame.extended);
+        if (flags_.known || flags_.csv || !selection_.everything())
+            return;
+        if (flags_.json) {
+            append_frame_json(out_.text(), line, nullptr, {});
+        } else {
+            out_.text() += log.text();
+            if (!line.frame.error && !line.frame.remote)
+                fmt::format_to(std::back_inserter(out_.text()), " :: Unknown frame id {} (0x{:x})", line.frame.id, line.frame.id);
+        }
+        out_.text() += '\n';
+        return;
+    }
+    if (!selection_.takes(*message))
+        return;
+    decode_into(*message, line.frame.bytes(), values_);
+    if (!selection_.everything()) {
+        std::erase_if(values_, [&](const CanValue& value) { return !selection_.takes(*value.signal); });
+        if (values_.empty() && !message->signals.empty()) // of another multiplexor value
+            return;
+    }
+    if (flags_.csv)
+        return write_row(line, *message);
+    if (flags_.json)
+        append_frame_json(out_.text(), line, message, values_);
+    else {
+        out_.text() += log.text();
+        append_decoded(out_.text(), *message, values_, flags_.single_line, flags_.numbers);
+    }
+    out_.text() += '\n';
+}
+
+bool Decoder::decode_log(const std::string& path) {
+    LenientStream stream(path, flags_.log);
+    const CandumpStream& log = stream.log();
+    for (CandumpStream::What what; (what = stream.next()) != CandumpStream::What::end;) {
+        if (what == CandumpStream::What::frame)
+            write_frame(log);
+        else
+            pass_line(log);
+        if (log.may_wait() ? !out_.flush() : !out_.written())
+            return false;
+    }
+    return out_.flush();
+}
+
+void Decoder::finish() {
+    out_.finish();
+    if (unknown_ > 0 && (flags_.known || flags_.csv))
+        fmt::print(stderr, "fernlicht: {} frame{} of {} identifier{} that no message describes left out\n", unknown_,
+                   unknown_ == 1 ? "" : "s", unknown_ids_.size(), unknown_ids_.size() == 1 ? "" : "s");
+}
+
+int decode_logs(const DecodeFlags& flags) {
+    if (flags.json && flags.csv)
+        throw InputError({{}, 0, 0, "--csv"}, "found beside --json", "one of the two");
+    Decoder decoder(flags);
+    const Interruption interruption;
+    const std::vector<std::string> logs = flags.logs.empty() ? std::vector<std::string>{"-"} : flags.logs;
+    for (const std::string& log : logs)
+        if (!decoder.decode_log(log))
+            return 0;
+    decoder.finish();
+    return Interruption::asked() ? 1 : 0;
+}
+
+} // namespace
+
+void add_can_decode(CLI::App& can, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<DecodeFlags>();
+    CLI::App* sub = can.add_subcommand("decode", "what the frames of a candump log mean, by DBC files");
+    sub->add_option("LOG", flags->logs, "logs of candump in any of its forms, - for standard input (-)");
+    add_database_flags(*sub, flags->databases);
+    sub->add_flag("-s,--single-line", flags->single_line, "signals behind the frame, on its line");
+    sub->add_flag("-c,--numbers", flags->numbers, "numbers in place of their labels");
+    sub->add_option("--only", flags->only, "messages and signals shown: MESSAGE, SIGNAL or MESSAGE.SIGNAL; may be given several times")
+        ->allow_extra_args(false);
+    sub->add_flag("--known", flags->known, "leaves out frames that no message describes, and counts them");
+    sub->add_flag("--notes", flags->notes, "what was odd in the DBC files and how it was taken, on standard error");
+    sub->add_flag("--json", flags->json, "one JSON object a line");
+    sub->add_flag("--csv", flags->csv, "a table: a frame a row, a signal a column; numbers, not labels");
+    sub->add_option("-o,--out", flags->out, "file in place of standard output");
+    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
+    add_log_flags(*sub, flags->log);
+    sub->callback([flags, &chosen] { chosen = [flags] { return decode_logs(*flags); }; });
+}
+
+} // namespace fernlicht

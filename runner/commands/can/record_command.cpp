@@ -1,0 +1,70 @@
+#include "runner/commands/can/record_command.h"
+
+#include "runner/commands/can/line_output.h"
+#include "runner/commands/log_flags.h"
+#include "runner/play/stage.h"
+#include "scenarios/can/candump_log.h"
+#include "scenarios/drives/play/bus_recording.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+struct RecordFlags {
+    std::string drive, variant, start = "0", out;
+    bool force = false;
+};
+
+const Variant& variant_named(const Drive& drive, const std::string& name) {
+    if (name.empty())
+        return drive.variants.front();
+    const auto found = std::ranges::find(drive.variants, name, &Variant::name);
+    if (found != drive.variants.end())
+        return *found;
+    std::vector<std::string> names;
+    for (const Variant& variant : drive.variants)
+        names.push_back(variant.name);
+    throw InputError({drive.file, 0, 0, "--variant"}, fmt::format("found '{}'", printable(name)),
+                     fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+int record_drive(const RecordFlags& flags) {
+    const std::int64_t start_ns = nanoseconds_of("--start", flags.start);
+    DriveEdits edits;
+    edits.can_log = std::filesystem::path(); // by its script
+    Stage stage(read_drive(flags.drive, edits));
+    std::vector<std::string> notes;
+    std::vector<CanFrame> frames =
+        recorded_inputs(stage.drive, stage.route, variant_named(stage.drive, flags.variant), stage.drive.opened, notes);
+    LineOutput out(flags.out, flags.force);
+    for (CanFrame& frame : frames) {
+        frame.time_ns += start_ns;
+        out.text() += candump_line(frame) + '\n';
+        if (!out.written())
+            return 0;
+    }
+    out.finish();
+    for (const std::string& note : notes)
+        fmt::print(stderr, "{}\n", note);
+    return 0;
+}
+
+} // namespace
+
+void add_can_record(CLI::App& can, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<RecordFlags>();
+    CLI::App* sub = can.add_subcommand("record", "what a bus would carry if a drive's own script were the car: a candump log");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML) with `can`")->required();
+    sub->add_option("--variant", flags->variant, "whose script is recorded; by default the first");
+    sub->add_option("--start", flags->start, "stamp of the drive's 0 s, in s");
+    sub->add_option("-o,--out", flags->out, "file in place of standard output");
+    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
+    sub->callback([flags, &chosen] { chosen = [flags] { return record_drive(*flags); }; });
+}
+
+} // namespace fernlicht

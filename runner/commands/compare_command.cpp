@@ -1,0 +1,167 @@
+#include "runner/commands/compare_command.h"
+
+#include "metrics/images/flip.h"
+#include "metrics/strictness/strictness_file.h"
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/compare/comparison_writers.h"
+#include "runner/experiments/compare/lamps/compare_lamps.h"
+#include "runner/experiments/compare/runs/compare_runs.h"
+#include "runner/files/output_folder.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/pose.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+struct CompareFlags {
+    std::filesystem::path reference, tested, out;
+    std::string strictness, pictures = "3", regulation, noise;
+    bool lamps = false;
+    std::optional<double> pixels_per_degree, view_fov_deg;
+    bool json = false;
+};
+
+enum class ComparedKind { pictures, runs, lamps };
+
+double pixels_per_degree(const CompareFlags& flags, int height_px) {
+    const auto in_range = [](const char* flag, double value) {
+        if (!has_flip_at(value))
+            throw InputError({{}, 0, 0, flag}, fmt::format("found {:g} pixels per degree", value), "1 to 1000 of them");
+        return value;
+    };
+    if (flags.pixels_per_degree)
+        return in_range("--ppd", *flags.pixels_per_degree);
+    if (!flags.view_fov_deg)
+        return default_pixels_per_degree;
+    if (!(*flags.view_fov_deg > 0.0 && *flags.view_fov_deg < 180.0))
+        throw InputError({{}, 0, 0, "--view-fov"}, fmt::format("found {:g}", *flags.view_fov_deg), "degrees above 0 and below 180");
+    return in_range("--view-fov", pixels_per_degree_of_view(radians(*flags.view_fov_deg), height_px));
+}
+
+int compare_two_pictures(const CompareFlags& flags) {
+    std::optional<StrictnessClass> strictness;
+    if (!flags.strictness.empty())
+        strictness = read_strictness(flags.strictness);
+    const PicturePair pair = read_picture_pair(flags.reference, flags.tested);
+    const double density = pixels_per_degree(flags, pair.height);
+    std::optional<OutputFolder> folder;
+    if (!flags.out.empty())
+        folder.emplace(flags.out);
+    const PictureComparison comparison = compare_pictures(pair, density, strictness ? &*strictness : nullptr);
+    std::vector<std::string> pictures;
+    if (folder) {
+        pictures = write_comparison_pictures(comparison, pair, folder->path());
+        write_file(folder->path() / "compare.json", comparison_json(comparison, pair, pictures));
+    }
+    fmt::print("{}", flags.json ? comparison_json(comparison, pair, pictures) : comparison_text(comparison, pair));
+    if (folder) {
+        folder->finish();
+        if (!flags.json)
+            fmt::print("\npictures and compare.json: {}\n", folder->path().string());
+    }
+    return comparison.passed() ? 0 : 1;
+}
+
+std::size_t pictured_moments(const std::string& text) {
+    if (text == "all")
+        return std::numeric_limits<std::size_t>::max();
+    std::size_t moments = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), moments);
+    if (error != std::errc() || end != text.data() + text.size() || moments > 100000)
+        throw InputError({{}, 0, 0, "--pictures"}, "found '" + printable(text) + "'", "all, or a number of moments");
+    return moments;
+}
+
+int compare_runs_of(const CompareFlags& flags) {
+    if (flags.view_fov_deg)
+        throw InputError({{}, 0, 0, "--view-fov"}, "found beside two runs", "none: the drives say what their views see");
+    CompareRunsRequest request;
+    request.before = flags.reference;
+    request.now = flags.tested;
+    request.out = flags.out;
+    request.strictness = flags.strictness;
+    if (flags.pixels_per_degree)
+        request.pixels_per_degree = pixels_per_degree(flags, 0);
+    request.pictured = pictured_moments(flags.pictures);
+    request.json = flags.json;
+    return compare_two_runs(request);
+}
+
+/// What a path is, by what lies there. Beam textures are pictures, too: --lamps says that they are meant as lamps.
+ComparedKind kind_of(const std::filesystem::path& path, bool lamps) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        return ComparedKind::runs;
+    return lamps || !is_picture(path) ? ComparedKind::lamps : ComparedKind::pictures;
+}
+
+const char* name_of(ComparedKind kind) {
+    return kind == ComparedKind::runs ? "a folder" : kind == ComparedKind::pictures ? "a picture" : "no picture";
+}
+
+/// What belongs to another kind of comparison is refused rather than ignored.
+void refuse_foreign_flags(const CompareFlags& flags, ComparedKind kind) {
+    const auto refuse = [](bool given, const char* flag, const char* expected) {
+        if (given)
+            throw InputError({{}, 0, 0, flag}, "found beside what it says nothing of", expected);
+    };
+    if (kind != ComparedKind::lamps) {
+        refuse(!flags.regulation.empty(), "--regulation", "two lamps");
+        refuse(!flags.noise.empty(), "--noise", "two lamps");
+        refuse(flags.lamps, "--lamps", "two lamps");
+        return;
+    }
+    refuse(!flags.strictness.empty(), "--strictness", "two pictures or two runs");
+    refuse(flags.pixels_per_degree.has_value(), "--ppd", "two pictures or two runs");
+    refuse(flags.view_fov_deg.has_value(), "--view-fov", "two pictures");
+}
+
+int compare(const CompareFlags& flags) {
+    const ComparedKind first = kind_of(flags.reference, flags.lamps), second = kind_of(flags.tested, flags.lamps);
+    if (first != second)
+        throw InputError({flags.tested, 0, 0, {}}, fmt::format("is {}", name_of(second)),
+                         fmt::format("{} as A is", first == ComparedKind::lamps ? "a lamp file (--lamps takes pictures for beam textures)"
+                                                                                : name_of(first)));
+    refuse_foreign_flags(flags, first);
+    if (first == ComparedKind::runs)
+        return compare_runs_of(flags);
+    if (first == ComparedKind::pictures)
+        return compare_two_pictures(flags);
+    return compare_two_lamps({flags.reference, flags.tested, flags.out, flags.regulation,
+                              flags.noise.empty() ? 0.0 : share_of("--noise", flags.noise), flags.json});
+}
+
+} // namespace
+
+void add_compare_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<CompareFlags>();
+    CLI::App* sub = app.add_subcommand(
+        "compare", "tells how two pictures, two runs or two lamps differ: in numbers, in pictures, and whether they are alike enough");
+    sub->add_option("A", flags->reference,
+                    "the reference: PNG (display) or EXR (linear) as run writes them, a run's folder, or a lamp file")
+        ->required();
+    sub->add_option("B", flags->tested, "what is compared with it: of the same kind")->required();
+    sub->add_option(
+        "--strictness", flags->strictness,
+        "identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md); exit code 1 when B does not keep it");
+    CLI::Option* density = sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree, for FLIP; 67.02 when nothing is said");
+    sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view in degrees, instead of --ppd")->excludes(density);
+    sub->add_option("--out", flags->out,
+                    "a new or empty folder for pictures of the difference and compare.json; of two runs or lamps for report.html, too");
+    sub->add_option("--pictures", flags->pictures, "of two runs: how many moments of each drive and view are drawn, or all")
+        ->capture_default_str();
+    sub->add_option("--regulation", flags->regulation, "of two lamps: each row's margin with both; exit code 1 when B does not pass")
+        ->option_text("ID");
+    sub->add_option("--noise", flags->noise, "of two lamps: standard deviation of an intensity, e.g. 1%");
+    sub->add_flag("--lamps", flags->lamps, "takes pictures for beam textures");
+    sub->add_flag("--json", flags->json, "prints JSON");
+    sub->callback([flags, &chosen] { chosen = [flags] { return compare(*flags); }; });
+}
+
+} // namespace fernlicht

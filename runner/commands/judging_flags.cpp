@@ -1,0 +1,45 @@
+#include "runner/commands/judging_flags.h"
+
+#include "runner/commands/flag_values.h"
+#include "runner/findings/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+
+namespace fernlicht {
+namespace {
+
+std::string today_of(const JudgingFlags& flags) {
+    if (flags.today.empty())
+        return utc_now().substr(0, 10);
+    if (!is_date(flags.today))
+        refuse_flag("--today", flags.today, "a date, e.g. 2026-12-31");
+    if (flags.known.empty())
+        refuse_flag("--today", flags.today, "--known beside it: nothing else asks for the day");
+    return flags.today;
+}
+
+} // namespace
+
+void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
+    command.add_option("--references", flags.references, "folder of accepted results to judge against");
+    command.add_flag("--across-devices", flags.across_devices,
+                     "where nothing is accepted for this class of device, judge by what others gave");
+    command.add_option("--repeat", flags.repeats, "plays of each lamp set; results that differ in a byte are flaky, which is red")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command.add_option("--known", flags.known, "YAML list of known failures and flakes, each with reason and expiry");
+    command.add_option("--today", flags.today, "YYYY-MM-DD by which known failures expire; else the clock's day, UTC");
+}
+
+std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options) {
+    if (flags.across_devices && flags.references.empty())
+        throw InputError({{}, 0, 0, "--across-devices"}, "found no --references", "the folder of accepted results");
+    options.references = flags.references;
+    options.across_devices = flags.across_devices;
+    options.repeats = flags.repeats;
+    options.today = today_of(flags);
+    return flags.known.empty() ? std::nullopt : std::optional(read_known_failures(flags.known));
+}
+
+} // namespace fernlicht

@@ -1,0 +1,264 @@
+#include "runner/commands/lamp_command.h"
+
+#include "runner/commands/flag_values.h"
+#include "runner/commands/lamp_regulation.h"
+#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/compare/lamps/lamp_description.h"
+#include "runner/files/json_text.h"
+#include "runner/write/plots/isocandela.h"
+#include "runner/write/plots/png.h"
+#include "scenarios/lamps/lamp_model.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+LampFile modelled(const std::string& name) {
+    std::vector<std::string> names;
+    for (const LampModel& model : lamp_models()) {
+        if (model.name == name)
+            return lamp_of_model(model);
+        names.push_back(model.name);
+    }
+    throw InputError({{}, 0, 0, "--model"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+void scale(LampFile& lamp, double factor) {
+    if (!(factor > 0.0) || !(factor <= 1e6))
+        throw InputError({{}, 0, 0, "--scale"}, fmt::format("found {}", factor), "a number above 0, up to 1000000");
+    lamp.table = scaled(std::move(lamp.table), factor);
+    if (lamp.measured)
+        lamp.measured = scaled(std::move(*lamp.measured), factor);
+    if (lamp.declared_flux_lm)
+        *lamp.declared_flux_lm *= factor;
+    lamp.notes.push_back(fmt::format("intensities scaled by {}", factor));
+}
+
+void add(LampFile& lamp, const LampFile& other) {
+    lamp.table = sum(lamp.table, other.table);
+    lamp.measured.reset();
+    if (lamp.declared_flux_lm && other.declared_flux_lm)
+        *lamp.declared_flux_lm += *other.declared_flux_lm;
+    else
+        lamp.declared_flux_lm.reset();
+    lamp.notes.push_back(fmt::format("added: {}", other.name));
+}
+
+void subtract(LampFile& lamp, const LampFile& other) {
+    std::size_t clamped = 0;
+    lamp.table = difference(lamp.table, other.table, clamped);
+    lamp.measured.reset();
+    lamp.declared_flux_lm.reset();
+    lamp.notes.push_back(
+        fmt::format("subtracted: {}; {} of {} samples would be negative and were set to 0", other.name, clamped, lamp.table.cd.size()));
+}
+
+/// What was done to a lamp, for files that are written of it. What its labels say is of the lamp before.
+void label_changes(LampFile& lamp, const std::vector<std::string>& changes) {
+    if (!changes.empty())
+        lamp.labels.emplace_back("OTHER", fmt::format("changed, other texts are of the lamp before: {}", fmt::join(changes, "; ")));
+}
+
+LampFile read_other(const std::filesystem::path& path, const LampReadOptions& reading, LampFile& lamp) {
+    LampFile other = read_lamp(path, reading);
+    lamp.opened.insert(lamp.opened.end(), other.opened.begin(), other.opened.end());
+    return other;
+}
+
+/// What is read is never replaced, what else is there by --force alone.
+void refuse_to_overwrite(const LampRequest& request, const std::filesystem::path& out, const char* option) {
+    const auto same = [&](const std::filesystem::path& in) {
+        std::error_code ignored; // a path that is not there is no input
+        return !in.empty() && std::filesystem::equivalent(in, out, ignored);
+    };
+    bool input = same(request.file);
+    input = input || same(request.against);
+    for (const auto* list : {&request.add, &request.subtract})
+        for (const auto& path : *list)
+            input = input || same(path);
+    if (input)
+        throw InputError({out, 0, 0, option}, "found a file that is read", "another name to write to");
+    if (!request.force && std::filesystem::exists(std::filesystem::symlink_status(out)))
+        throw InputError({out, 0, 0, option}, "found a file of that name", "another name to write to, or --force");
+}
+
+std::optional<plots::AngleWindow> window_of(const std::vector<double>& edges) {
+    if (edges.empty())
+        return std::nullopt;
+    const plots::AngleWindow w{edges.at(0), edges.at(1), edges.at(2), edges.at(3)};
+    const bool fits = w.left_deg >= -180.0 && w.left_deg < w.right_deg && w.right_deg <= 360.0 && w.bottom_deg >= -90.0 &&
+                      w.bottom_deg < w.top_deg && w.top_deg <= 90.0;
+    if (!fits)
+        throw InputError({{}, 0, 0, "--window"}, fmt::format("found {}", fmt::join(edges, " ")),
+                         "degrees of the left, right, bottom and top edge");
+    return w;
+}
+
+void check_picture_name(const std::filesystem::path& path) {
+    if (!path.empty() && path.extension() != ".png" && path.extension() != ".svg")
+        throw InputError({path, 0, 0, "--picture"}, fmt::format("found extension '{}'", printable(path.extension().string())),
+                         ".svg or .png");
+}
+
+/// An option with a fixed set of words; another word is an InputError.
+template <class Value> void add_choice(CLI::App& command, const std::string& name, Value& value,
+                                       std::vector<std::pair<std::string, Value>> choices, const char* text) {
+    std::vector<std::string> words;
+    for (const auto& choice : choices)
+        words.push_back(choice.first);
+    const std::string expected = fmt::format("{}", fmt::join(words, "|"));
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, &value, choices = std::move(choices), expected](const std::string& word) {
+                for (const auto& choice : choices) {
+                    if (choice.first == word) {
+                        value = choice.second;
+                        return;
+                    }
+                }
+                throw InputError({{}, 0, 0, name}, "found '" + printable(word) + "'", expected);
+            },
+            text)
+        ->option_text(expected);
+}
+
+void add_texture_options(CLI::App& command, LampReadOptions& reading) {
+    const char* group = "Beam textures (where the image's own metadata are silent)";
+    command.add_option("--texture-scale", reading.texture_scale_lx, "lux of a pixel of value 1 (8-bit: 255)")->group(group);
+    command.add_option("--texture-distance", reading.texture_distance_m, "metres at which those lux hold")
+        ->capture_default_str()
+        ->group(group);
+    const auto extent = [&](const char* name, double(&edges)[2], const char* text) {
+        command
+            .add_option_function<std::vector<double>>(
+                name,
+                [&edges](const std::vector<double>& values) {
+                    edges[0] = values[0];
+                    edges[1] = values[1];
+                },
+                text)
+            ->expected(2)
+            ->group(group);
+    };
+    extent("--texture-h", reading.texture_h_extent_deg, "degrees of the left and the right edge");
+    extent("--texture-v", reading.texture_v_extent_deg, "degrees of the bottom and the top edge");
+}
+
+/// In place of the description; the picture is that of the difference.
+int tell_apart(const LampFile& lamp, const LampRequest& request) {
+    if (request.spots || !request.convert.empty())
+        throw InputError({{}, 0, 0, "--against"}, "found --spots or --convert beside it", "one of them");
+    const LampFile other = read_lamp(request.against, request.reading);
+    const LampDifference difference = difference_of(lamp, other, request.noise_relative);
+    if (!request.picture.empty()) {
+        write_lamp_picture(difference_figure(lamp, other, difference), request);
+    }
+    fmt::print("{}", request.json ? json_text(difference_json(difference)) : difference_text(lamp, other, difference));
+    return 0;
+}
+
+} // namespace
+
+void write_lamp_picture(const plots::Figure& figure, const LampRequest& request) {
+    const std::string svg = plots::svg_of(figure);
+    write_file(request.picture, request.picture.extension() == ".png" ? plots::png_of_svg(svg) : svg);
+}
+
+LampFile lamp_of(const LampRequest& request) {
+    if (request.file.empty() == request.model.empty())
+        throw InputError({}, request.file.empty() ? "found no lamp" : "found both a file and --model", "a lamp file or --model NAME");
+    LampFile lamp = request.model.empty() ? read_lamp(request.file, request.reading) : modelled(request.model);
+    if (!request.model.empty())
+        lamp.table.rule = request.reading.rule;
+    std::vector<std::string> changes;
+    if (request.scale != 1.0) {
+        scale(lamp, request.scale);
+        changes.push_back(fmt::format("scaled by {}", request.scale));
+    }
+    if (request.mirror) {
+        mirror(lamp);
+        lamp.notes.emplace_back("mirrored: left and right exchanged");
+        changes.emplace_back("mirrored, left and right traffic exchanged");
+    }
+    for (const auto& path : request.add) {
+        const LampFile other = read_other(path, request.reading, lamp);
+        add(lamp, other);
+        changes.push_back("added " + other.name);
+    }
+    for (const auto& path : request.subtract) {
+        const LampFile other = read_other(path, request.reading, lamp);
+        subtract(lamp, other);
+        changes.push_back("subtracted " + other.name);
+    }
+    label_changes(lamp, changes);
+    return lamp;
+}
+
+int lamp_command(const LampRequest& request) {
+    if (!request.regulation.empty())
+        return lamp_regulation(request);
+    check_picture_name(request.picture);
+    if (!request.picture.empty())
+        refuse_to_overwrite(request, request.picture, "--picture");
+    if (request.cut_off)
+        return lamp_cut_off(request);
+    refuse_regulation_options(request);
+    if (request.spots && (*request.spots < 1 || *request.spots > most_spots))
+        throw InputError({{}, 0, 0, "--spots"}, fmt::format("found {}", *request.spots), fmt::format("1 to {}", most_spots));
+    if (!request.convert.empty())
+        refuse_to_overwrite(request, request.convert, "--convert");
+    const LampFile lamp = lamp_of(request);
+    if (!request.against.empty())
+        return tell_apart(lamp, request);
+    LampDescription description = describe(lamp);
+    if (request.spots)
+        description.spots = fit_spots(lamp.table, *request.spots);
+    if (!request.convert.empty())
+        write_lamp(lamp, request.convert);
+    if (!request.picture.empty())
+        write_lamp_picture(plots::isocandela_diagram(lamp.table, lamp.name, window_of(request.window)), request);
+    fmt::print("{}", request.json ? json_of(description) : text_of(description));
+    return 0;
+}
+
+void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto request = std::make_shared<LampRequest>();
+    CLI::App* command = app.add_subcommand("lamp", "tells what a lamp file holds; scales, mirrors, sums, converts and pictures it");
+    command->add_option("FILE", request->file, "IES LM-63, EULUMDAT, beam matrix (CSV) or beam texture (image)");
+    command->add_option("--model", request->model,
+                        "one of our own models in place of a file: halogen-low, halogen-high, xenon-low, xenon-high");
+    command->add_flag("--json", request->json, "prints JSON");
+    command->add_option("--picture", request->picture,
+                        "writes the isocandela diagram, with --cut-off its scans and the elbow: .svg or .png");
+    command->add_flag("--force", request->force, "lets --convert and --picture replace a file that is there");
+    command->add_option("--window", request->window, "of the picture: left, right, bottom and top in degrees")->expected(4);
+    command->add_option("--spots", request->spots, "fits this many spot lights of OpenGL 1.x (1 to 8) and tells what they leave over");
+    command->add_option("--convert", request->convert,
+                        "writes the lamp: .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");
+    command->add_option("--scale", request->scale, "multiplies the intensities")->capture_default_str();
+    command->add_flag("--mirror", request->mirror, "exchanges left and right: right-hand to left-hand traffic and back");
+    command->add_option("--add", request->add, "adds another lamp's light");
+    command->add_option("--against", request->against,
+                        "tells what differs from this lamp: aim, cut-off, level, zones; and what is only noise");
+    command->add_option_function<std::string>(
+        "--noise", [request](const std::string& text) { request->noise_relative = share_of("--noise", text); },
+        "with --against: standard deviation of an intensity, e.g. 1%; what the tables themselves show counts where it is larger");
+    command->add_option("--subtract", request->subtract, "takes another lamp's light off; what would be negative becomes 0 and is counted");
+    add_choice(*command, "--rule", request->reading.rule, {{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}},
+               "between the samples: linear (in cd) or log (in log cd)");
+    add_choice(*command, "--axis", request->reading.type_c_axis,
+               {{"automatic", TypeCAxis::automatic}, {"horizontal", TypeCAxis::horizontal}, {"nadir", TypeCAxis::nadir}},
+               "where Type C and EULUMDAT beams point: automatic, horizontal or nadir");
+    add_texture_options(*command, request->reading);
+    add_regulation_options(*command, *request);
+    command->footer("Order of the changes: scale, mirror, add, subtract.");
+    command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
+}
+
+} // namespace fernlicht

@@ -1,0 +1,54 @@
+// `fernlicht lamp FILE`: what a lamp file holds, as text, JSON or picture; scaled, mirrored, summed and converted.
+#pragma once
+
+#include "metrics/beam/cut_off.h"
+#include "runner/write/plots/svg.h"
+#include "scenarios/lamps/lamp_file.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace fernlicht {
+
+struct LampRequest {
+    std::filesystem::path file;
+    std::string model; ///< one of our own models in place of a file
+    LampReadOptions reading;
+    double scale = 1.0;
+    bool mirror = false;
+    std::vector<std::filesystem::path> add, subtract;
+    std::filesystem::path convert, picture; ///< empty: none
+    bool force = false;                     ///< files of these names may be replaced
+    std::vector<double> window;             ///< of the picture: left, right, bottom, top in degrees; empty: chosen
+    std::optional<int> spots;               ///< spot lights to fit, 1 to 8
+    bool json = false;
+    std::filesystem::path against; ///< a lamp to be told apart from; empty: none
+    double noise_relative = 0.0;   ///< with `against`: standard deviation of an intensity
+    std::string regulation;        ///< id or "list"; empty: none
+    std::string aim;               ///< of --regulation; empty: the regulation's own
+    std::filesystem::path aim_by;
+    bool left_hand_traffic = false, no_re_aim = false;
+    bool cut_off = false;
+    SharpnessRule sharpness = SharpnessRule::maximum; ///< of --cut-off
+    double detector_mm = 30.0;                        ///< of --cut-off, at 25 m
+};
+
+/// Reads or models the lamp, then scales, mirrors, adds and subtracts, in this order. Throws InputError.
+LampFile lamp_of(const LampRequest& request);
+
+/// To request.picture, as its extension says.
+void write_lamp_picture(const plots::Figure& figure, const LampRequest& request);
+
+/// All that the request asks for; text or JSON goes to standard output. Returns 0, or 1 when a regulation's row fails. Throws InputError,
+/// DeviceError.
+int lamp_command(const LampRequest& request);
+
+void add_lamp_command(CLI::App& app, std::function<int()>& chosen);
+
+} // namespace fernlicht

@@ -1,0 +1,133 @@
+#include "runner/commands/live_command.h"
+
+#include "renderer/device.h"
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/live/live_run.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "scenarios/drives/keys/bus_keys.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+constexpr int interrupted_code = 130; ///< as a shell has it for what SIGINT ended
+
+/// The flags as typed.
+struct LiveFlags {
+    std::filesystem::path drive;
+    std::string interface, log, start, variant, record, resolution, backend = "auto", out;
+    double duration_s = 0.0, listen_s = 0.5;
+    int receive_buffer = 0;
+    bool no_wait = false, no_draw = false, lossless = false;
+};
+
+Drive drive_of(const LiveFlags& flags) {
+    DriveEdits edits;
+    if (!flags.resolution.empty())
+        edits.resolution = resolution_of(flags.resolution);
+    edits.can_log = std::filesystem::path(flags.log); // the recording that a drive names itself is not played
+    if (!flags.start.empty()) {
+        edits.can_start_ns = stamp_from_text(flags.start);
+        if (!edits.can_start_ns)
+            refuse_flag("--can-start", flags.start, "a stamp of the recording, e.g. 1436509052.249713");
+    }
+    Drive drive = read_drive(flags.drive, edits);
+    if (flags.duration_s > 0.0)
+        drive.duration_s = flags.duration_s;
+    return drive;
+}
+
+/// What a run without loss has none of.
+bool lost(const LiveFigures& live) {
+    return live.socket.dropped + live.socket.superseded + live.socket.not_sent + live.not_recorded > 0 || !live.socket.outages.empty();
+}
+
+void check_bus_flags(const LiveFlags& flags) {
+    if (flags.interface.empty() == flags.log.empty())
+        throw InputError({{}, 0, 0, "--can"},
+                         flags.log.empty() ? "found neither an interface nor a recording" : "found an interface and a recording",
+                         "--can IFACE or --can-log FILE, one of both");
+    if (flags.log == "none")
+        refuse_flag("--can-log", flags.log, "a recording; `fernlicht run --can-log none` plays a drive by its script");
+    if (flags.no_wait && flags.log.empty())
+        throw InputError({{}, 0, 0, "--no-wait"}, "found it beside --can", "--can-log FILE: a bus cannot be hurried");
+    if (!flags.start.empty() && flags.log.empty())
+        refuse_flag("--can-start", flags.start, "--can-log FILE: the drive's 0 s on a bus is now");
+}
+
+/// Of a drive that fails the report is written before the error comes: whoever reads the sentence learns where.
+Report run_and_name(Drive drive, const LiveOptions& options) {
+    const std::filesystem::path page = options.folder / "report.html";
+    std::error_code ignored;
+    const bool was_there = std::filesystem::exists(page, ignored);
+    try {
+        return run_live(std::move(drive), options);
+    } catch (...) {
+        if (!was_there && std::filesystem::exists(page, ignored)) {
+            fmt::print("{}\n", page.string());
+            std::fflush(stdout);
+        }
+        throw;
+    }
+}
+
+int live(const LiveFlags& flags, const std::vector<std::string>& command) {
+    check_bus_flags(flags);
+    LiveOptions options;
+    options.interface = flags.interface;
+    options.log = flags.log;
+    options.wait = !flags.no_wait;
+    options.variant = flags.variant;
+    options.listen_s = flags.listen_s;
+    options.receive_buffer_bytes = flags.receive_buffer;
+    options.record = flags.record;
+    options.draw = !flags.no_draw && !flags.no_wait;
+    options.backend = flags.backend;
+    options.command = command;
+    Drive drive = drive_of(flags);
+    options.folder = flags.out.empty() ? default_output_folder(drive.name, utc_now()) : std::filesystem::path(flags.out);
+    const Report report = run_and_name(std::move(drive), options);
+    fmt::print("{}", live_text(*report.live));
+    if (!report.live->replay.empty())
+        fmt::print("replay     {}\n", report.live->replay);
+    for (const std::string& warning : report.warnings)
+        fmt::print("warning: {}\n", warning);
+    if (!report.complete)
+        fmt::print("incomplete: {}\n", report.interrupted);
+    fmt::print("{}\n", (options.folder / "report.html").string());
+    return !report.complete ? interrupted_code : flags.lossless && lost(*report.live) ? 1 : 0;
+}
+
+} // namespace
+
+void add_live_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<LiveFlags>();
+    CLI::App* sub = app.add_subcommand("live", "drive against the clock: inputs from a CAN bus, outputs onto it");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML) with the key `can`")->required();
+    sub->add_option("--can", flags->interface, "CAN interface of the kernel, e.g. can0 or vcan0");
+    sub->add_option("--can-log", flags->log, "a recording (candump) at its own pace, instead of an interface");
+    sub->add_option("--can-start", flags->start, "stamp of the recording that is the drive's 0 s");
+    sub->add_option("--duration", flags->duration_s, "seconds to drive, instead of the drive's own")->check(CLI::Range(0.01, 1.0e6));
+    sub->add_option("--variant", flags->variant, "which lamp set is driven, where there are several");
+    sub->add_option("--listen", flags->listen_s, "seconds to listen to the bus before 0 s")->check(CLI::Range(0.0, 3600.0));
+    sub->add_option("--record", flags->record, "new file for the frames used, a candump log; default: in the report's folder");
+    sub->add_option("--receive-buffer", flags->receive_buffer,
+                    "bytes that the kernel may hold for the socket; default: 4 MiB where permitted")
+        ->check(CLI::Range(1, 1 << 30));
+    sub->add_flag("--no-draw", flags->no_draw, "no pictures; needs nothing that draws");
+    sub->add_flag("--no-wait", flags->no_wait, "of a recording: as fast as it goes, without pictures");
+    sub->add_flag("--lossless", flags->lossless,
+                  "exit code 1 when a frame was dropped, not sent or not recorded, or the interface was away");
+    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
+    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return live(*flags, command); }; });
+}
+
+} // namespace fernlicht

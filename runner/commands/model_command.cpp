@@ -1,0 +1,156 @@
+#include "runner/commands/model_command.h"
+
+#include "renderer/device.h"
+#include "renderer/renderer.h"
+#include "runner/commands/model_picture.h"
+#include "runner/files/json_text.h"
+#include "runner/files/picture_file.h"
+#include "scenarios/models/glb_writer.h"
+#include "scenarios/models/road_user_bodies.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+struct OwnBody {
+    const char* name;
+    Model (*make)(const BodySize&);
+    BodySize size;
+};
+
+/// Usual sizes.
+const OwnBody bodies[] = {{"car", car_body, {{4.5, 1.8, 1.45}, -0.9, glm::vec3(0.25F)}},
+                          {"van", van_body, {{5.5, 2.0, 2.3}, -1.1, glm::vec3(0.6F)}},
+                          {"truck", truck_body, {{9.0, 2.5, 3.6}, -2.0, glm::vec3(0.35F)}},
+                          {"bus", bus_body, {{12.0, 2.55, 3.1}, -3.2, glm::vec3(0.4F)}},
+                          {"motorcycle", motorcycle_body, {{2.2, 0.8, 1.6}, -0.4, glm::vec3(0.2F)}},
+                          {"bicycle", bicycle_body, {{1.8, 0.6, 1.7}, -0.4, glm::vec3(0.2F)}},
+                          {"pedestrian", pedestrian_body, {{0.5, 0.6, 1.75}, -0.25, glm::vec3(0.1F)}}};
+
+void refuse_to_overwrite(const std::filesystem::path& path, bool force, const char* option) {
+    std::error_code error;
+    if (!path.empty() && !force && std::filesystem::exists(path, error))
+        throw InputError({{}, 0, 0, option}, printable(path.string(), 400) + " is there already", "a new file, or --force");
+}
+
+void write_model_picture(const Model& model, const ModelRequest& request) {
+    const Scene scene = model_scene(model, request);
+    const Moment moment = lit_moment(request);
+    Device device = open_device(request.backend);
+    RendererSettings settings;
+    settings.technique = request.technique;
+    settings.tone_mapper.l_max_cdm2 = 20.0;
+    Renderer renderer(device, scene, settings);
+    const Frame frame = renderer.draw(moment, towards(model, request), {.colour = true});
+    write_png(frame.colour, request.picture);
+}
+
+} // namespace
+
+Model model_of(const ModelRequest& request) {
+    if (request.file.empty() == request.body.empty())
+        throw InputError({}, request.file.empty() ? "found no model" : "found both a file and --body", "a glTF file or --body KIND");
+    if (request.body.empty())
+        return read_model(request.file);
+    const auto known = std::ranges::find_if(bodies, [&](const OwnBody& body) { return request.body == body.name; });
+    if (known == std::end(bodies))
+        throw InputError({{}, 0, 0, "--body"}, "found '" + printable(request.body) + "'",
+                         "car, van, truck, bus, motorcycle, bicycle or pedestrian");
+    return known->make(known->size);
+}
+
+std::string model_text(const Model& model, double scale) {
+    const auto millimetres = [](double m) { return std::round(1000.0 * m) / 1000.0 + 0.0; }; // and no negative zero
+    const glm::dvec3 size = scale * (model.high_m - model.low_m), low = scale * model.low_m;
+    std::size_t vertices = 0;
+    for (const Mesh& mesh : model.meshes)
+        vertices += mesh.vertices.size();
+    std::string text = fmt::format("{}\n  size         {:.3f} m long, {:.3f} m wide, {:.3f} m high\n", model.name, size.x, size.y, size.z);
+    text += fmt::format("  origin       {:.3f} m before its rear, {:.3f} m from its right side, {:.3f} m above its lowest point\n",
+                        millimetres(-low.x), millimetres(-low.y), millimetres(-low.z));
+    text += fmt::format("  triangles    {} in {} mesh{}, {} vertices\n", model.triangles(), model.meshes.size(),
+                        model.meshes.size() == 1 ? "" : "es", vertices);
+    for (const Material& m : model.materials)
+        text += fmt::format("  material     {}: reflects {:.3f} {:.3f} {:.3f}{}{}{}\n", m.name, m.albedo.r, m.albedo.g, m.albedo.b,
+                            m.texture >= 0 ? fmt::format(", picture {}", model.textures[static_cast<std::size_t>(m.texture)].name) : "",
+                            m.retro_rl > 0.0F ? fmt::format(", returns {:.3g} cd/(lx m2)", m.retro_rl) : "",
+                            m.emission_cdm2 != glm::vec3(0.0F) ? ", shines by itself" : "");
+    for (const SurfaceTexture& t : model.textures)
+        text += fmt::format("  picture      {}: {} x {} texels\n", t.name, t.width, t.height);
+    for (const Mount& m : model.mounts) {
+        const glm::dvec3 p = scale * m.pose.position_m;
+        text += fmt::format("  mount        {} at [{:.3f}, {:.3f}, {:.3f}]\n", m.name, p.x, p.y, p.z);
+    }
+    if (model.mounts.empty())
+        text += "  mount        none: no node is named lamp...\n";
+    for (const std::string& note : model.notes)
+        text += fmt::format("  note         {}\n", note);
+    return text;
+}
+
+std::string model_json(const Model& model, double scale) {
+    using Json = nlohmann::ordered_json;
+    const auto three = [](const glm::dvec3& v) { return Json{v.x, v.y, v.z}; };
+    Json json = {{"name", model.name},
+                 {"low_m", three(scale * model.low_m)},
+                 {"high_m", three(scale * model.high_m)},
+                 {"triangles", model.triangles()},
+                 {"meshes", model.meshes.size()},
+                 {"materials", Json::array()},
+                 {"pictures", Json::array()},
+                 {"mounts", Json::array()},
+                 {"notes", model.notes}};
+    for (const Material& m : model.materials)
+        json["materials"].push_back({{"name", m.name}, {"albedo", three(m.albedo)}, {"texture", m.texture}, {"retro_rl", m.retro_rl}});
+    for (const SurfaceTexture& t : model.textures)
+        json["pictures"].push_back({{"name", t.name}, {"width", t.width}, {"height", t.height}});
+    for (const Mount& m : model.mounts)
+        json["mounts"].push_back(
+            {{"name", m.name}, {"position_m", three(scale * m.pose.position_m)}, {"forward", three(m.pose.forward())}});
+    return json_text(json);
+}
+
+int model_command(const ModelRequest& request) {
+    refuse_to_overwrite(request.picture, request.force, "--picture");
+    refuse_to_overwrite(request.write, request.force, "--write");
+    if (!request.write.empty() && !request.file.empty())
+        throw InputError({{}, 0, 0, "--write"}, "found it beside a file", "--body KIND");
+    const Model model = model_of(request);
+    if (!request.write.empty())
+        write_file(request.write, glb_of(model));
+    if (!request.picture.empty())
+        write_model_picture(model, request);
+    fmt::print("{}", request.json ? model_json(model, request.scale) : model_text(model, request.scale));
+    return 0;
+}
+
+void add_model_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto request = std::make_shared<ModelRequest>();
+    CLI::App* command = app.add_subcommand("model", "tells what a model holds; pictures it at night in our lamps");
+    command->add_option("FILE", request->file, "glTF: .gltf or .glb");
+    command->add_option("--body", request->body,
+                        "one of our own bodies in place of a file: car, van, truck, bus, motorcycle, bicycle, pedestrian");
+    command->add_option("--picture", request->picture, "writes a PNG: the model on a level road, lit by two lamps, from the driver's eye");
+    command->add_option("--write", request->write, "writes the body as a .glb");
+    command->add_option("--distance", request->distance_m, "metres from the lamps to the model")
+        ->check(CLI::Range(1.0, 300.0))
+        ->capture_default_str();
+    command->add_option("--yaw", request->yaw_deg, "turns the model to the left, in degrees: 0 drives away, 180 comes towards us")
+        ->check(CLI::Range(-360.0, 360.0))
+        ->capture_default_str();
+    command->add_option("--scale", request->scale, "metres in a unit of the file")->check(CLI::Range(1.0e-4, 1.0e4))->capture_default_str();
+    command->add_option("--lamp", request->lamp, "halogen-low, halogen-high, xenon-low or xenon-high")->capture_default_str();
+    command->add_option("--technique", request->technique, "how it is lit")->capture_default_str();
+    command->add_option("--backend", request->backend, backend_names)->capture_default_str();
+    command->add_flag("--json", request->json, "prints JSON");
+    command->add_flag("--force", request->force, "lets --picture and --write replace a file that is there");
+    command->callback([request, &chosen] { chosen = [request] { return model_command(*request); }; });
+}
+
+} // namespace fernlicht

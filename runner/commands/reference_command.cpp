@@ -1,0 +1,199 @@
+#include "runner/commands/reference_command.h"
+
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/accuracy/lamp_discs.h"
+#include "runner/experiments/reference/reference_run.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct ReferenceFlags {
+    std::filesystem::path drive;
+    std::vector<std::string> lamps;
+    std::string variant, view, road, resolution, out, target_error = "0.5%", integrator = "direct";
+    double moment_s = 0.0;
+    std::optional<double> lamp_radius_m; ///< not given: as the drive draws them
+    int most_smooth = ReferenceSettings{}.most_smooth;
+    SolverSettings solver;
+    bool no_gather = false;
+    int most_samples = ReferenceSettings{}.most_samples;
+    std::uint64_t seed = 1;
+    bool resume = false, quiet = false;
+    std::vector<std::string> given; ///< names of the options that were typed
+};
+
+/// Options that mean something to some integrators alone.
+struct Belonging {
+    const char* flag;
+    std::vector<Integrator> users;
+};
+const std::vector<Belonging>& belongings() {
+    using enum Integrator;
+    static const std::vector<Belonging> all{{"--smooth-depth", {whitted}},     {"--reach", {radiosity, photon_map}},
+                                            {"--patch", {radiosity}},          {"--form-factor-rays", {radiosity}},
+                                            {"--residual", {radiosity}},       {"--photons", {photon_map}},
+                                            {"--photon-radius", {photon_map}}, {"--no-gather", {radiosity, photon_map}}};
+    return all;
+}
+
+/// Refuses what would be ignored.
+void check_given(const ReferenceFlags& flags) {
+    const auto is_given = [&](const char* flag) { return std::ranges::count(flags.given, flag) > 0; };
+    for (const Belonging& one : belongings())
+        if (is_given(one.flag) && !std::ranges::count(one.users, *integrator_of(flags.integrator))) {
+            std::string users;
+            for (const Integrator user : one.users)
+                users += (users.empty() ? "" : " or ") + integrator_name(user);
+            throw InputError({{}, 0, 0, one.flag}, "found --integrator " + flags.integrator + ", which makes no use of it",
+                             "--integrator " + users);
+        }
+    if (flags.no_gather && is_given("--most-samples"))
+        throw InputError({{}, 0, 0, "--most-samples"}, "found --no-gather, which takes as few samples as there can be", "one of the two");
+    for (const auto& [flag, text] :
+         {std::pair("--view", &flags.view), std::pair("--variant", &flags.variant), std::pair("--road", &flags.road),
+          std::pair("--resolution", &flags.resolution), std::pair("--out", &flags.out)})
+        if (is_given(flag) && text->empty())
+            refuse_flag(flag, *text, "something, or the option left out");
+}
+
+DriveEdits edits_of(const ReferenceFlags& flags) {
+    DriveEdits edits;
+    for (const std::string& lamp : flags.lamps) {
+        const std::size_t at = lamp.find('=');
+        edits.lamps.emplace_back(at == std::string::npos ? "" : lamp.substr(0, at), at == std::string::npos ? lamp : lamp.substr(at + 1));
+    }
+    if (!flags.road.empty())
+        edits.road = flags.road;
+    if (!flags.resolution.empty())
+        edits.resolution = resolution_of(flags.resolution);
+    return edits;
+}
+
+ReferenceSettings settings_of(const ReferenceFlags& flags) {
+    ReferenceSettings settings;
+    settings.integrator = *integrator_of(flags.integrator);
+    settings.most_smooth = flags.most_smooth;
+    settings.solver = flags.solver;
+    settings.solver.final_gather = !flags.no_gather;
+    settings.target_error = share_of("--target-error", flags.target_error);
+    settings.most_samples = flags.most_samples;
+    settings.seed = flags.seed;
+    return settings;
+}
+
+/// `reference` draws, `references` looks after what was accepted: who took the one for the other is led there.
+void check_name(const ReferenceFlags& flags) {
+    std::error_code ignored;
+    for (const char* action : {"list", "show", "diff", "remove"})
+        if (flags.drive == action && !std::filesystem::exists(flags.drive, ignored))
+            throw InputError({{}, 0, 0, "DRIVE"}, fmt::format("found '{}'", action),
+                             fmt::format("a drive file; accepted results are looked at with `fernlicht references {}`", action));
+}
+
+int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& command) {
+    check_name(flags);
+    check_given(flags);
+    if (flags.resume && flags.out.empty())
+        throw InputError({{}, 0, 0, "--resume"}, "found no --out", "the folder of the reference that was interrupted");
+    ReferenceRequest request;
+    request.settings = settings_of(flags);
+    request.drive = read_drive(flags.drive, edits_of(flags));
+    request.settings.lamp_radius_m = flags.lamp_radius_m.value_or(lamp_disc_radius_m(request.drive));
+    request.variant = flags.variant;
+    request.view = flags.view;
+    request.moment_s = flags.moment_s;
+    request.folder =
+        flags.out.empty() ? default_output_folder(request.drive.name + "-reference", utc_now()) : std::filesystem::path(flags.out);
+    request.resolution_asked = !flags.resolution.empty();
+    request.resume = flags.resume;
+    request.quiet = flags.quiet;
+    request.command = command;
+    const ReferenceResult result = run_reference(request);
+    fmt::print("{}", reference_text(result));
+    if (!result.interrupted.empty())
+        fmt::print("incomplete: {}; the same command with --resume --out {} goes on\n", result.interrupted,
+                   shell_quoted({request.folder.string()}));
+    fmt::print("{}\n", (request.folder / "reference.exr").string());
+    return result.interrupted.empty() ? 0 : 1;
+}
+
+void add_solver_options(CLI::App& sub, ReferenceFlags& flags) {
+    SolverSettings& solver = flags.solver;
+    sub.add_option("--smooth-depth", flags.most_smooth, "whitted: mirrors and boundaries of glass in a row")
+        ->check(CLI::Range(0, 64))
+        ->capture_default_str();
+    sub.add_option("--reach", solver.reach_m, "radiosity, photon-map: metres about the car within which surfaces send light on")
+        ->check(CLI::Range(1.0, 2000.0))
+        ->capture_default_str();
+    sub.add_option("--patch", solver.patch_m, "radiosity: width of a patch, metres")->check(CLI::Range(0.01, 100.0))->capture_default_str();
+    sub.add_option("--form-factor-rays", solver.form_factor_rays, "radiosity: from each patch; becomes a multiple of 16")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    sub.add_option("--residual", solver.residual, "radiosity: share of the light left when the iteration ends")
+        ->check(CLI::Range(1e-14, 1.0))
+        ->capture_default_str();
+    sub.add_option("--photons", solver.photons, "photon-map: sent out; becomes a multiple of 16")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 26))
+        ->capture_default_str();
+    sub.add_option("--photon-radius", solver.radius_m, "photon-map: metres over which light is averaged")
+        ->check(CLI::Range(0.001, 100.0))
+        ->capture_default_str();
+    sub.add_flag("--no-gather", flags.no_gather, "radiosity, photon-map: as solved, without final gathering");
+}
+
+} // namespace
+
+void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<ReferenceFlags>();
+    CLI::App* sub = app.add_subcommand("reference", "draw one moment by rays, each pixel with its standard error (not: `references`)");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
+    sub->add_option("--moment", flags->moment_s,
+                    "seconds into the drive, 0 to its last moment, one step before its end; the nearest moment is drawn")
+        ->capture_default_str();
+    sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
+    sub->add_option("--view", flags->view, "view of the drive; else the driver's");
+    sub->add_option("--integrator", flags->integrator,
+                    "direct: lamps and sky once; path: light that bounces, too; whitted, radiosity, photon-map: the classical methods")
+        ->check(CLI::IsMember({"direct", "path", "whitted", "radiosity", "photon-map"}))
+        ->capture_default_str();
+    add_solver_options(*sub, *flags);
+    sub->add_option("--target-error", flags->target_error, "standard error wanted of each pixel, e.g. 0.5% or 0.005")
+        ->capture_default_str();
+    sub->add_option("--most-samples", flags->most_samples,
+                    "in a pixel's mean, whatever its error; a power of two, others are rounded down; at least 128 where light bounces")
+        ->check(CLI::Range(16, 1 << 24))
+        ->capture_default_str();
+    sub->add_option(
+           "--lamp-radius", flags->lamp_radius_m,
+           "metres; lamps are discs of this radius, 0: points; else lamp_radius_m of a drive with shadows by soft-map, 0 of others")
+        ->check(CLI::Range(0.0, 1.0));
+    sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
+        ->allow_extra_args(false);
+    sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of a perspective view");
+    sub->add_option("--seed", flags->seed, "of the samples")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+        ->capture_default_str();
+    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
+    sub->add_flag("--resume", flags->resume, "go on with what was interrupted in the folder --out");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, sub, &chosen] {
+        for (const CLI::Option* option : std::as_const(*sub).get_options())
+            if (option->count() > 0)
+                flags->given.push_back(option->get_name());
+        chosen = [flags, command] { return draw_reference(*flags, command); };
+    });
+}
+
+} // namespace fernlicht

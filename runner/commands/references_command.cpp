@@ -1,0 +1,287 @@
+#include "runner/commands/references_command.h"
+
+#include "metrics/readings/reading_words.h"
+#include "runner/commands/accept_command.h"
+#include "runner/files/durable_files.h"
+#include "runner/files/json_text.h"
+#include "runner/files/value_json.h"
+#include "runner/judge/device_spread.h"
+#include "runner/judge/reference_choice.h"
+#include "runner/judge/reference_difference.h"
+#include "runner/judge/reference_json.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The flags as typed.
+struct ReferencesFlags {
+    std::string store = "references";
+    std::string word, other;
+    std::vector<std::string> words;
+    bool json = false, dry = false, all = false, unreferenced = false;
+};
+
+/// Rows of text in columns, two spaces between them; the first row is the head.
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            widths.resize(std::max(widths.size(), i + 1));
+            widths[i] = std::max(widths[i], row[i].size());
+        }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            line += i + 1 == row.size() ? row[i] : fmt::format("{:<{}}  ", row[i], widths[i]);
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    }
+    return text;
+}
+
+Json entry_json(const StoredReference& entry) {
+    return {{"id", entry.id}, {"key", key_json(entry.key)}, {"note", entry.note}, {"played_utc", entry.played_utc}};
+}
+
+Json texts_json(const std::vector<std::pair<std::string, std::string>>& texts) {
+    Json json = Json::object();
+    for (const auto& [name, text] : texts)
+        json[name] = text;
+    return json;
+}
+
+/// A folder without references is one without; a folder that is none was misspelt.
+void refuse_missing(const std::string& store) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(store, ignored))
+        throw InputError({store, 0, 0, {}}, "is no folder", "one that `fernlicht accept` made, named by --store");
+}
+
+int list(const ReferencesFlags& flags) {
+    refuse_missing(flags.store);
+    const FolderLock lock(flags.store, FolderLock::For::reading);
+    const std::vector<StoredReference> entries = list_references(flags.store);
+    if (flags.json) {
+        Json out = Json::array();
+        for (const StoredReference& entry : entries)
+            out.push_back(entry_json(entry));
+        fmt::print("{}", json_text(out));
+        return 0;
+    }
+    if (entries.empty()) {
+        fmt::print("nothing is accepted in {}\n", flags.store);
+        return 0;
+    }
+    std::vector<std::vector<std::string>> rows{{"id", "drive/lamp set/technique", "device", "played", "note"}};
+    for (const StoredReference& entry : entries)
+        rows.push_back({short_id(entry.id), printable(cell_text(entry.key), 100), printable(device_text(entry.key), 100), entry.played_utc,
+                        printable(entry.note, 200)});
+    fmt::print("{}", table(rows));
+    return 0;
+}
+
+std::string figure_of(const AcceptedReading& reading) {
+    return reading.mean.measured() ? with_bound(reading.mean, fmt::format("{:.6g}", *reading.mean.figure())) : "not measured";
+}
+
+Json reference_json(const StoredReference& entry, const AcceptedReference& reference) {
+    Json out = entry_json(entry), readings = Json::array(), frames = Json::array();
+    for (const AcceptedReading& reading : reference.readings)
+        readings.push_back({{"name", reading.name},
+                            {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
+                            {"mean", value_json(reading.mean)},
+                            {"unit", reading.unit},
+                            {"count", reading.count},
+                            {"variance", reading.variance}});
+    for (const ReferenceFrame& frame : reference.frames)
+        frames.push_back({{"frame", frame.tick}, {"view", frame.view}, {"xxh128", frame.xxh128}, {"file", frame.exr.string()}});
+    out["producer"] = {{"versions", texts_json(reference.producer.versions)},
+                       {"gl_version", reference.producer.gl_version},
+                       {"cpu", reference.producer.cpu},
+                       {"os", reference.producer.os},
+                       {"inputs", texts_json(reference.producer.inputs)}};
+    out["readings"] = readings;
+    out["frames"] = reference.frames_left_out ? Json(nullptr) : frames;
+    return out;
+}
+
+void print_facts(const StoredReference& entry, const Producer& producer) {
+    std::vector<std::vector<std::string>> rows{{"id", entry.id},
+                                               {"drive", printable(entry.key.drive, 100)},
+                                               {"lamp set", printable(entry.key.variant, 100)},
+                                               {"technique", printable(entry.key.technique, 100)},
+                                               {"device", printable(device_text(entry.key), 200)},
+                                               {"played", printable(entry.played_utc)},
+                                               {"note", entry.note.empty() ? "none" : printable(entry.note, 400)},
+                                               {"driver", printable(producer.gl_version, 200)},
+                                               {"CPU", printable(producer.cpu, 200)},
+                                               {"system", printable(producer.os, 200)}};
+    for (const auto& [name, version] : producer.versions)
+        rows.push_back({printable(name), printable(version, 100)});
+    for (const auto& [name, hash] : producer.inputs)
+        rows.push_back({"input " + printable(name), hash});
+    fmt::print("{}", table(rows));
+}
+
+/// Only where several classes of device have results, and of what differs between them.
+void print_device_spread(const DeviceSpread& spread) {
+    if (spread.devices < 2)
+        return;
+    std::vector<std::vector<std::string>> rows{{"differs between devices", "frame", "mean", "unit", "classes", "standard deviation"}};
+    for (const AcceptedReading& reading : spread.readings)
+        if (reading.variance > 0.0)
+            rows.push_back({printable(reading.name, 100), reading.tick < 0 ? "" : fmt::format("{}", reading.tick), figure_of(reading),
+                            printable(reading.unit), fmt::format("{}", reading.count), fmt::format("{:.3g}", std::sqrt(reading.variance))});
+    if (rows.size() == 1)
+        fmt::print("\n{} classes of device agree in every reading\n", spread.devices);
+    else
+        fmt::print("\n{}", table(rows));
+}
+
+int show(const ReferencesFlags& flags) {
+    const FolderLock lock(flags.store, FolderLock::For::reading);
+    const StoredReference entry = choose_reference(flags.store, flags.word);
+    const AcceptedReference reference = load_reference(flags.store, entry);
+    if (flags.json) {
+        fmt::print("{}", json_text(reference_json(entry, reference)));
+        return 0;
+    }
+    print_facts(entry, reference.producer);
+    std::vector<std::vector<std::string>> readings{{"reading", "frame", "mean", "unit", "repeats", "standard deviation"}};
+    for (const AcceptedReading& reading : reference.readings)
+        readings.push_back({printable(reading.name, 100), reading.tick < 0 ? "" : fmt::format("{}", reading.tick), figure_of(reading),
+                            printable(reading.unit), fmt::format("{}", reading.count),
+                            reading.count > 1 ? fmt::format("{:.3g}", std::sqrt(reading.variance)) : ""});
+    fmt::print("\n{}", table(readings));
+    print_device_spread(spread_over_devices(flags.store, list_references(flags.store), entry.key));
+    std::vector<std::vector<std::string>> frames{{"frame", "view", "file"}};
+    for (const ReferenceFrame& frame : reference.frames)
+        frames.push_back({fmt::format("{}", frame.tick), printable(frame.view), frame.exr.string()});
+    if (!reference.frames.empty())
+        fmt::print("\n{}", table(frames));
+    if (reference.frames_left_out)
+        fmt::print("\naccepted without pictures\n");
+    return 0;
+}
+
+/// The same drive, lamp set and technique among a run's results; or its only result, whatever it is called: another lamp has another name.
+AcceptedReference counterpart(const std::string& folder, const ReferenceKey& key) {
+    std::vector<AcceptedReference> all = read_run(folder).references;
+    if (all.size() == 1)
+        return std::move(all.front());
+    for (AcceptedReference& results : all) // one drive may be played under several conditions
+        if (results.key == key)
+            return std::move(results);
+    for (AcceptedReference& results : all)
+        if (results.key.drive == key.drive && results.key.variant == key.variant && results.key.technique == key.technique)
+            return std::move(results);
+    throw InputError({folder, 0, 0, {}}, "has no " + printable(cell_text(key), 200), "a run of what is compared");
+}
+
+const char* word_for(Agreement agreement) {
+    return agreement == Agreement::agrees ? "same" : agreement == Agreement::differs ? "DIFFERS" : "UNDECIDED";
+}
+
+/// One line for each thing; those that agree only where all are asked for. Returns how many do not agree.
+std::size_t print_differences(const std::vector<ResultDifference>& differences, const std::string& things, bool all) {
+    std::size_t others = 0;
+    for (const ResultDifference& difference : differences) {
+        const bool agrees = difference.agreement == Agreement::agrees;
+        others += agrees ? 0 : 1;
+        if (all || !agrees)
+            fmt::print("{:<9}  {}: {}\n", word_for(difference.agreement), printable(difference.what, 100), printable(difference.text, 600));
+    }
+    fmt::print("{} of {} {} agree\n", differences.size() - others, differences.size(), things);
+    return others;
+}
+
+void print_other_keys(const AcceptedReference& a, const AcceptedReference& b) {
+    if (cell_text(a.key) != cell_text(b.key))
+        fmt::print("{} against {}\n", printable(cell_text(a.key), 200), printable(cell_text(b.key), 200));
+    if (device_text(a.key) != device_text(b.key))
+        fmt::print("{} against {}\n", printable(device_text(a.key), 200), printable(device_text(b.key), 200));
+    for (const auto& [name, hash] : a.producer.inputs)
+        if (std::ranges::find(b.producer.inputs, std::pair(name, hash)) == b.producer.inputs.end())
+            fmt::print("another {}\n", printable(name));
+}
+
+int diff(const ReferencesFlags& flags) {
+    const FolderLock lock(flags.store, FolderLock::For::reading);
+    const StoredReference entry = choose_reference(flags.store, flags.word);
+    const AcceptedReference accepted = load_reference(flags.store, entry);
+    std::error_code ignored;
+    const bool is_run = std::filesystem::is_directory(flags.other, ignored);
+    const AcceptedReference tested =
+        is_run ? counterpart(flags.other, entry.key) : load_reference(flags.store, choose_reference(flags.store, flags.other));
+    print_other_keys(accepted, tested);
+    const std::size_t readings = print_differences(compare_readings(tested.readings, accepted.readings, {}), "readings", flags.all);
+    if (accepted.frames_left_out || tested.frames_left_out) {
+        fmt::print("pictures are not compared: {} was accepted without\n", accepted.frames_left_out ? short_id(entry.id) : flags.other);
+        return readings == 0 ? 0 : 1;
+    }
+    const std::size_t frames = print_differences(compare_frames(tested.frames, accepted.frames, {}), "channels of pictures", flags.all);
+    return readings + frames == 0 ? 0 : 1;
+}
+
+int remove(const ReferencesFlags& flags) {
+    if (flags.words.empty() && !flags.unreferenced)
+        throw InputError({{}, 0, 0, "remove"}, "found no ID", "one or more, or --unreferenced");
+    std::vector<std::string> ids;
+    for (const std::string& word : flags.words) {
+        const StoredReference entry = choose_reference(flags.store, word);
+        ids.push_back(entry.id);
+        fmt::print("{}{}  {}; {}\n", flags.dry ? "would remove " : "removes ", short_id(entry.id), printable(cell_text(entry.key), 200),
+                   printable(device_text(entry.key), 200));
+    }
+    const Removal removal = remove_references(flags.store, ids, flags.dry);
+    fmt::print("{}{} references and {} files of {} bytes that nothing else needs\n", flags.dry ? "would remove " : "removed ",
+               removal.references, removal.objects, removal.bytes);
+    return 0;
+}
+
+} // namespace
+
+void add_references_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<ReferencesFlags>();
+    CLI::App* command = app.add_subcommand("references", "list, show, compare and remove accepted results (not: `reference DRIVE`)");
+    command->require_subcommand(0, 1);
+    const auto add = [&](const char* name, const char* text, int (*action)(const ReferencesFlags&)) {
+        CLI::App* sub = command->add_subcommand(name, text);
+        sub->add_option("--store", flags->store, "folder of references")->capture_default_str();
+        sub->callback([flags, action, &chosen] { chosen = [flags, action] { return action(*flags); }; });
+        return sub;
+    };
+    CLI::App* listing = add("list", "what is accepted", list);
+    listing->add_flag("--json", flags->json, "for programs");
+    CLI::App* showing = add("show", "one accepted result: who made it, readings, frames", show);
+    showing->add_option("ID", flags->word, "first digits of an id, or DRIVE/LAMP SET/TECHNIQUE")->required();
+    showing->add_flag("--json", flags->json, "for programs");
+    CLI::App* comparing = add("diff", "two results, reading by reading and pixel by pixel", diff);
+    comparing->add_option("ID", flags->word, "the accepted result")->required();
+    comparing->add_option("OTHER", flags->other, "a run's folder, or another id")->required();
+    comparing->add_flag("--all", flags->all, "also what agrees");
+    CLI::App* removing = add("remove", "take accepted results out, and files that nothing needs then", remove);
+    removing->add_option("ID", flags->words, "first digits of an id, or DRIVE/LAMP SET/TECHNIQUE");
+    removing->add_flag("--dry-run", flags->dry, "only say what would go");
+    removing->add_flag("--unreferenced", flags->unreferenced, "without an ID: only files that nothing needs");
+    command->allow_extras(); // to say what is wrong with them; the actions, added before, take none
+    command->callback([command, &chosen] {
+        if (command->get_subcommands().empty())
+            chosen = [extras = command->remaining()]() -> int {
+                throw InputError({{}, 0, 0, "references"}, extras.empty() ? "found nothing" : "found '" + printable(extras.front()) + "'",
+                                 "list, show, diff or remove; `fernlicht reference DRIVE`, without s, draws a moment by rays");
+            };
+    });
+}
+
+} // namespace fernlicht

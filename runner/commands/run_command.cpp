@@ -1,0 +1,169 @@
+#include "runner/commands/run_command.h"
+
+#include "renderer/device.h"
+#include "runner/commands/flag_values.h"
+#include "runner/commands/judging_flags.h"
+#include "runner/commands/log_flags.h"
+#include "runner/experiments/run/run_drives.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "runner/judge/verdict_line.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct RunFlags {
+    std::vector<std::filesystem::path> drives;
+    std::vector<std::string> lamps;
+    std::string road, technique, resolution, frames, capture, backend = "auto", out;
+    JudgingFlags judging;
+    std::vector<std::string> road_folders;
+    std::string replay, ego, can_start, can_channel;
+    std::optional<std::string> can_log, shadows;
+    bool lenient = false;
+    bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
+};
+
+DriveEdits edits_of(const RunFlags& flags) {
+    DriveEdits edits;
+    for (const std::string& lamp : flags.lamps) {
+        const std::size_t at = lamp.find('=');
+        edits.lamps.emplace_back(at == std::string::npos ? "" : lamp.substr(0, at), at == std::string::npos ? lamp : lamp.substr(at + 1));
+    }
+    if (!flags.road.empty())
+        edits.road = flags.road;
+    if (!flags.technique.empty())
+        edits.technique = flags.technique;
+    if (flags.shadows)
+        edits.shadows = name(shadow_method_named(*flags.shadows, {}, "--shadows"));
+    if (!flags.resolution.empty())
+        edits.resolution = resolution_of(flags.resolution);
+    for (const std::string& folder : flags.road_folders)
+        edits.road_folders.emplace_back(folder);
+    edits.lenient = flags.lenient;
+    edits.ego = flags.ego;
+    if (!flags.replay.empty())
+        edits.replay = flags.replay;
+    if (flags.can_log)
+        edits.can_log = *flags.can_log == "none" ? "" : *flags.can_log;
+    if (!flags.can_start.empty())
+        edits.can_start_ns = nanoseconds_of("--can-start", flags.can_start);
+    if (!flags.can_channel.empty())
+        edits.can_channel = flags.can_channel;
+    if (!flags.capture.empty()) {
+        if (flags.capture != "all")
+            refuse_flag("--capture", flags.capture, "all");
+        edits.capture_all = true;
+    }
+    return edits;
+}
+
+/// What is not plainly green, one line each, and how many there are of each kind.
+void print_verdicts(const Report& report) {
+    for (const PlayedVariant& played : report.played)
+        for (const Verdict& verdict : played.verdicts)
+            fmt::print("{}", verdict_line(verdict, fmt::format("{}, {}: ", played.drive, played.variant)));
+    for (const Verdict& verdict : report.listed)
+        fmt::print("{}", verdict_line(verdict, "known failures: "));
+    for (const std::string& warning : report.warnings)
+        fmt::print("warning: {}\n", warning);
+    const VerdictCounts counts = count_verdicts(report);
+    if (counts.all() == 0)
+        return;
+    std::string line;
+    const auto add = [&](std::size_t count, const char* what) {
+        if (count > 0)
+            line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count, what);
+    };
+    add(counts.pass, "passed");
+    add(counts.fail, "failed");
+    add(counts.not_measured, "not measured");
+    add(counts.flaky, "flaky");
+    add(counts.known, "known");
+    add(counts.unexpected_pass, "passed unexpectedly");
+    fmt::print("{}\n", line);
+}
+
+int run(const RunFlags& flags, const std::vector<std::string>& command) {
+    RunOptions options;
+    options.backend = flags.backend;
+    options.ticks = tick_range(flags.frames);
+    options.quiet = flags.quiet;
+    options.profile = flags.profile;
+    options.contact_sheet = flags.contact_sheet;
+    options.accuracy = !flags.no_accuracy;
+    options.known = take(flags.judging, options);
+    options.command = command;
+    const DriveEdits edits = edits_of(flags);
+    std::vector<Drive> drives;
+    for (const std::filesystem::path& file : flags.drives)
+        drives.push_back(read_drive(file, edits));
+    refuse_equal_names(drives);
+    options.folder = flags.out.empty() ? default_output_folder(drives.front().name, utc_now()) : std::filesystem::path(flags.out);
+    const Report report = run_drives(drives, options);
+    const VerdictKind verdict = overall(report);
+    print_verdicts(report);
+    if (!report.complete)
+        fmt::print("incomplete: {}\n", report.interrupted);
+    fmt::print("{}\n", (options.folder / "report.html").string());
+    return report.complete && verdict == VerdictKind::pass ? 0 : 1;
+}
+
+} // namespace
+
+TickRange tick_range(const std::string& frames) {
+    TickRange range;
+    if (frames.empty())
+        return range;
+    constexpr const char* expected = "FIRST:LAST with FIRST 0 or more and FIRST <= LAST, e.g. 0:59";
+    const auto [first, last] = two_numbers("--frames", frames, ':', true, expected);
+    range.first = first < 0 ? 0 : first;
+    range.last = last < 0 ? range.last : last;
+    if (range.first > range.last)
+        refuse_flag("--frames", frames, expected);
+    return range;
+}
+
+void add_run_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<RunFlags>();
+    CLI::App* sub = app.add_subcommand("run", "play drives, measure, and write a report");
+    sub->add_option("DRIVE", flags->drives,
+                    "drive files (YAML), or storyboards (OpenSCENARIO, .xosc): played with halogen low beams on all cars")
+        ->required();
+    sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
+        ->allow_extra_args(false);
+    sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
+    sub->add_option("--road-folder", flags->road_folders, "where the road of a drive's storyboard is looked for, too")
+        ->allow_extra_args(false);
+    sub->add_flag("--lenient", flags->lenient, "leave out what a storyboard has that is not supported, each with a note");
+    sub->add_option("--ego", flags->ego, "the storyboard's entity that is the own car");
+    sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: take all places and lamps from it");
+    sub->add_option("--can-log", flags->can_log,
+                    "candump log that gives the signals of the drive's `can`; none: the drive's own speed and signals");
+    sub->add_option("--can-start", flags->can_start, "stamp in the log that is the drive's 0 s, in s; by default that of its first frame");
+    sub->add_option("--can-channel", flags->can_channel, "frames of this channel alone");
+    sub->add_option("--technique", flags->technique, "how to light the scene");
+    sub->add_option_function<std::string>(
+        "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
+        "how shadows are drawn, as `fernlicht techniques` lists them");
+    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
+    sub->add_option("--frames", flags->frames, "FIRST:LAST moments to play, from 0");
+    sub->add_option("--capture", flags->capture, "all: store every frame");
+    add_judging_flags(*sub, flags->judging);
+    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
+    sub->add_flag("--profile", flags->profile, "time each pass (slows the frames down)");
+    sub->add_flag("--contact-sheet", flags->contact_sheet, "add one moment in every technique, tone mapper and shadow method");
+    sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments lie from the reference");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });
+}
+
+} // namespace fernlicht

@@ -1,0 +1,141 @@
+#include "runner/commands/shadows_command.h"
+
+#include "renderer/device.h"
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/run/run_drives.h"
+#include "runner/experiments/shadows/shadow_study.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+constexpr const char* default_lamp = "scenarios/library/lamps/xenon-low.ies";
+
+/// The flags as typed.
+struct ShadowsFlags {
+    std::vector<std::filesystem::path> drives;
+    std::string variant, backend = "auto", out, texels = "1024x512", resolution = "512x384";
+    std::vector<std::string> methods, scenes{"*"};
+    std::filesystem::path lamp = default_lamp;
+    double lamp_radius_m = ShadowSettings{}.lamp_radius_m, floor_lx = shadow_floor_lx, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
+    int moments = 3, rounds = 7;
+    std::uint64_t seed = 1;
+    bool quiet = false, markdown = false;
+};
+
+/// One of those that draw: not auto, which takes one of them.
+ShadowMethod drawn_method_named(const std::string& item) {
+    std::vector<std::string_view> known;
+    for (const ShadowMethodName& row : shadow_method_names()) {
+        if (row.name == item)
+            return row.method;
+        known.push_back(row.name);
+    }
+    if (item == name(ShadowMethod::automatic))
+        refuse_flag("--methods", item, "methods by their names: auto takes one of them (fernlicht run DRIVE --shadows auto)");
+    const std::string nearest = nearest_name(item, known);
+    throw InputError({{}, 0, 0, "--methods"}, "found '" + printable(item) + "'",
+                     fmt::format("one of {}{}", fmt::join(known, ", "), nearest.empty() ? "" : " (nearest: '" + nearest + "')"));
+}
+
+std::vector<ShadowMethod> methods_of(const std::vector<std::string>& lists) {
+    std::vector<ShadowMethod> methods;
+    for (const std::string& item : items_of("--methods", lists)) {
+        methods.push_back(drawn_method_named(item));
+        if (std::ranges::count(methods, methods.back()) > 1)
+            refuse_flag("--methods", item + " twice", "each method once");
+    }
+    if (methods.empty())
+        for (const ShadowMethodName& row : shadow_method_names())
+            methods.push_back(row.method);
+    return methods;
+}
+
+int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) {
+    ShadowRequest request;
+    request.options.methods = methods_of(flags.methods);
+    const auto [width, height] = two_numbers("--map-texels", flags.texels, 'x', false, "WIDTHxHEIGHT, e.g. 1024x512");
+    if (std::min(width, height) < 16 || std::max(width, height) > 8192)
+        refuse_flag("--map-texels", flags.texels, "16 to 8192 each way");
+    request.options.width = width;
+    request.options.height = height;
+    if (flags.lamp_radius_m != 0.0 && !(flags.lamp_radius_m >= 0.001 && flags.lamp_radius_m <= 0.5))
+        refuse_flag("--lamp-radius", fmt::format("{}", flags.lamp_radius_m), "0, or 0.001 to 0.5 m");
+    if (!(flags.floor_lx >= shadow_floor_lx && flags.floor_lx <= 10.0))
+        refuse_flag("--floor", fmt::format("{}", flags.floor_lx), "0.001 to 10 lx");
+    if (!(flags.vertical_fov_deg >= 1.0 && flags.vertical_fov_deg <= 120.0))
+        refuse_flag("--vertical-fov", fmt::format("{}", flags.vertical_fov_deg), "1 to 120 degrees");
+    request.vertical_fov_rad = radians(flags.vertical_fov_deg);
+    request.options.lamp_radius_m = flags.lamp_radius_m;
+    request.options.floor_lx = flags.floor_lx;
+    request.options.rounds = flags.rounds;
+    request.options.timed_px = resolution_of(flags.resolution);
+    request.options.seed = flags.seed;
+    request.scenes = items_of("--scenes", flags.scenes);
+    if (request.scenes.size() > 1 && std::ranges::count(request.scenes, "none") > 0)
+        refuse_flag("--scenes", fmt::format("{}", fmt::join(request.scenes, ",")), "none alone, or names of scenes");
+    if (request.scenes.front() != "none" && flags.lamp == default_lamp && !std::filesystem::exists(flags.lamp))
+        throw InputError({{}, 0, 0, "--lamp"}, fmt::format("found no {} from here", default_lamp),
+                         "to be run from the repository's root, or --lamp FILE, the beam of the hard scenes, or --scenes none");
+    request.lamp = flags.lamp;
+    for (const std::filesystem::path& file : flags.drives)
+        request.drives.push_back(read_drive(file));
+    refuse_equal_names(request.drives);
+    request.variant = flags.variant;
+    request.moments = flags.moments;
+    request.backend = flags.backend;
+    request.folder = flags.out.empty() ? default_output_folder("shadows", utc_now()) : std::filesystem::path(flags.out);
+    request.command = command;
+    request.quiet = flags.quiet;
+    const ShadowResult result = run_shadow_study(request);
+    fmt::print("{}\n{}\n", flags.markdown ? shadow_markdown(result) : shadow_text(result), (request.folder / "shadows.html").string());
+    if (!result.interrupted.empty())
+        fmt::print("incomplete: {}\n", result.interrupted);
+    for (const std::string& missing : result.missing)
+        fmt::print("missing: {}\n", missing);
+    return result.interrupted.empty() ? 0 : 1;
+}
+
+} // namespace
+
+void add_shadows_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<ShadowsFlags>();
+    CLI::App* sub = app.add_subcommand("shadows", "how wrong each shadow method is against rays, and what it costs");
+    sub->add_option("DRIVE", flags->drives, "drive files (YAML), beside the scenes that are hard on shadows");
+    sub->add_option("--methods", flags->methods, "names with commas between them; else all")->allow_extra_args(false);
+    sub->add_option("--scenes", flags->scenes, "names of hard scenes, with * and ?, commas between; or none; else all")
+        ->allow_extra_args(false)
+        ->default_str("");
+    sub->add_option("--map-texels", flags->texels, "WIDTHxHEIGHT of each map")->capture_default_str();
+    sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
+    sub->add_option("--lamp", flags->lamp, "lamp file, the beam of the hard scenes; the default is found from the repository's root")
+        ->capture_default_str();
+    sub->add_option("--lamp-radius", flags->lamp_radius_m, "m, of lamps as discs, for soft shadows; 0: not measured")
+        ->capture_default_str();
+    sub->add_option("--floor", flags->floor_lx, "lx: what gets less without shadows does not count")->capture_default_str();
+    sub->add_option("--vertical-fov", flags->vertical_fov_deg, "degrees, of the driver's view in the hard scenes, 4:3")
+        ->default_str(fmt::format("{:.1f}", flags->vertical_fov_deg));
+    sub->add_option("--moments", flags->moments, "of each drive, spread evenly over it")->check(CLI::Range(1, 100))->capture_default_str();
+    sub->add_option("--rounds", flags->rounds, "of times; in each, every method draws the moments once")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the frames that are timed")->capture_default_str();
+    sub->add_option("--seed", flags->seed, "of the order in each round")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+        ->capture_default_str();
+    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
+    sub->add_flag("--markdown", flags->markdown, "prints the table as docs/shadow-tables.md has it");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return shadows(*flags, command); }; });
+}
+
+} // namespace fernlicht

@@ -1,0 +1,53 @@
+#include "runner/commands/signals_command.h"
+
+#include "scenarios/control/signals.h"
+#include "scenarios/drives/keys/bus_keys.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+void print_text() {
+    std::size_t longest = 0;
+    for (const SignalKind& kind : known_signals())
+        longest = std::max(longest, kind.name.size());
+    for (const SignalKind& kind : known_signals())
+        fmt::print("{:{}}  {:<7} {:>8} to {:<8} {:<10} {:<4} {}\n", kind.name, longest, kind.unit, fmt::format("{:g}", kind.least),
+                   fmt::format("{:g}", kind.greatest), kind.writer, may_come_from_bus(kind) ? "bus" : "", kind.meaning);
+}
+
+void print_json() {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const SignalKind& kind : known_signals()) {
+        nlohmann::ordered_json one{{"name", kind.name}, {"unit", kind.unit}, {"least", kind.least}};
+        one["greatest"] = std::isfinite(kind.greatest) ? nlohmann::ordered_json(kind.greatest) : nlohmann::ordered_json("inf");
+        one["written_by"] = kind.writer;
+        one["from_bus"] = may_come_from_bus(kind);
+        one["meaning"] = kind.meaning;
+        all.push_back(std::move(one));
+    }
+    fmt::print("{}\n", all.dump(2));
+}
+
+} // namespace
+
+void add_signals_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto json = std::make_shared<bool>(false);
+    CLI::App* command =
+        app.add_subcommand("signals", "list the signals of lamp control: name, unit, range, who writes them, whether a CAN bus may");
+    command->add_flag("--json", *json, "prints JSON");
+    command->callback([json, &chosen] {
+        chosen = [json] {
+            *json ? print_json() : print_text();
+            return 0;
+        };
+    });
+}
+
+} // namespace fernlicht

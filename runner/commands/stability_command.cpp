@@ -1,0 +1,122 @@
+#include "runner/commands/stability_command.h"
+
+#include "renderer/device.h"
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/stability/stability_text.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+struct StabilityFlags {
+    std::vector<std::string> only{"*"};
+    std::string backend = "auto", out;
+    bool json = false, markdown = false, list = false, thorough = false;
+};
+
+/// Where the cases write their files: kept where the user names a folder, else gone with this value.
+class TrialFolder {
+  public:
+    explicit TrialFolder(const std::string& asked) : path_(asked), kept_(!asked.empty()) {
+        if (kept_) {
+            std::error_code failed;
+            std::filesystem::create_directories(path_, failed);
+            if (failed)
+                throw DeviceError(fmt::format("{}: the folder cannot be made: {}", printable(asked), failed.message()));
+            return;
+        }
+        std::string name = (std::filesystem::temp_directory_path() / "fernlicht-stability-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw DeviceError("no folder can be made in " + std::filesystem::temp_directory_path().string());
+        path_ = name;
+    }
+    ~TrialFolder() {
+        std::error_code ignored;
+        if (!kept_)
+            std::filesystem::remove_all(path_, ignored);
+    }
+    TrialFolder(const TrialFolder&) = delete;
+    TrialFolder& operator=(const TrialFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    bool kept_;
+};
+
+/// In the table's order, each once. Throws InputError for a pattern that fits none.
+std::vector<const StabilityCase*> chosen_cases(const std::vector<std::string>& patterns) {
+    std::vector<std::string> names;
+    for (const StabilityCase& one : stability_cases())
+        names.push_back(one.full_name());
+    const auto fits = [](const std::string& pattern, const std::string& name) { return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0; };
+    for (const std::string& pattern : patterns)
+        if (std::ranges::none_of(names, [&](const std::string& name) { return fits(pattern, name); })) {
+            const std::string nearest = nearest_name(pattern, names);
+            throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}', which fits no case", printable(pattern)),
+                             nearest.empty() ? "a pattern like 'lamp/*'; --list names the cases" : nearest);
+        }
+    std::vector<const StabilityCase*> chosen;
+    for (const StabilityCase& one : stability_cases())
+        if (std::ranges::any_of(patterns, [&](const std::string& pattern) { return fits(pattern, one.full_name()); }))
+            chosen.push_back(&one);
+    return chosen;
+}
+
+int try_cases(const StabilityFlags& flags) {
+    const std::vector<const StabilityCase*> cases = chosen_cases(items_of("--only", flags.only));
+    if (flags.list) {
+        for (const StabilityCase* one : cases)
+            fmt::print("{:<32} {}\n", one->full_name(), one->could_break);
+        return 0;
+    }
+    const TrialFolder folder(flags.out);
+    StabilityBench bench(flags.backend, folder.path(), flags.thorough);
+    if (flags.backend != "auto")
+        bench.device(); // what cannot be drawn with is no case that fails
+    std::vector<StabilityRow> rows;
+    for (const StabilityCase* one : cases) {
+        rows.push_back(judge(*one, bench));
+        if (!flags.json && !flags.markdown) {
+            fmt::print("{}", stability_text(rows.back()));
+            std::fflush(stdout);
+        }
+    }
+    if (flags.json)
+        fmt::print("{}", stability_json(rows, bench.drew() ? bench.device().info().gl_renderer : ""));
+    else if (flags.markdown)
+        fmt::print("{}", stability_markdown(rows));
+    else
+        fmt::print("\n{}", stability_summary(rows));
+    return std::ranges::any_of(rows, [](const StabilityRow& row) { return row.verdict == Judgement::fail; }) ? 1 : 0;
+}
+
+} // namespace
+
+void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<StabilityFlags>();
+    CLI::App* sub =
+        app.add_subcommand("stability", "try extreme and degenerate inputs, each held against a bound; exit code 1 when one fails");
+    CLI::Option* only = sub->add_option("--only", flags->only, "names of cases, with * and ?, commas between: 'lamp/*,table/zero'")
+                            ->allow_extra_args(false)
+                            ->default_str("");
+    sub->add_flag_callback(
+           "--equations", [flags] { flags->only = {"equation/*"}; }, "the light equations one by one")
+        ->excludes(only);
+    CLI::Option* json = sub->add_flag("--json", flags->json, "prints JSON");
+    CLI::Option* markdown = sub->add_flag("--markdown", flags->markdown, "prints the table of docs/accuracy.md")->excludes(json);
+    sub->add_flag("--list", flags->list, "names the cases and tries none")->excludes(json)->excludes(markdown);
+    sub->add_flag("--thorough", flags->thorough, "searches ten times as long");
+    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--out", flags->out, "folder in which the files that the cases write are kept");
+    sub->callback([flags, &chosen] { chosen = [flags] { return try_cases(*flags); }; });
+}
+
+} // namespace fernlicht

@@ -1,0 +1,135 @@
+#include "runner/commands/storyboard_command.h"
+
+#include "runner/commands/flag_values.h"
+#include "scenarios/openscenario/play_story.h"
+#include "scenarios/openscenario/reader/read_storyboard.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/xml_file.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+struct StoryboardFlags {
+    std::filesystem::path file;
+    std::vector<std::string> road_folders, parameters;
+    std::string road, out;
+    double most_s = 60.0, step_s = 0.01;
+    bool lenient = false, quiet = false, force = false;
+};
+
+osc::StoryboardOptions options_of(const StoryboardFlags& flags) {
+    osc::StoryboardOptions options;
+    options.lenient = flags.lenient;
+    for (const std::string& folder : flags.road_folders)
+        options.road_folders.emplace_back(folder);
+    for (const std::string& parameter : flags.parameters) {
+        const std::size_t at = parameter.find('=');
+        if (at == std::string::npos || at == 0)
+            refuse_flag("--parameter", parameter, "NAME=VALUE");
+        options.parameters[parameter.substr(0, at)] = parameter.substr(at + 1);
+    }
+    return options;
+}
+
+/// One row for each step and entity that is there.
+void add_rows(const osc::PlayedStory& story, const RoadNetwork& network, int number, std::string& out) {
+    for (std::size_t i = 0; i < story.ticks(); ++i)
+        for (const osc::PlayedEntity& entity : story.entities) {
+            const osc::EntitySample& at = entity.samples[i];
+            if (!at.present)
+                continue;
+            std::string name = entity.entity.name;
+            std::ranges::replace(name, ',', ' ');
+            fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", number,
+                           static_cast<double>(i) * story.step_s, name, at.position_m.x, at.position_m.y, at.position_m.z, at.heading_rad,
+                           at.pitch_rad, at.roll_rad, at.speed_mps, at.road < network.roads.size() ? network.roads[at.road].id : "",
+                           at.lane, at.s_m, at.t_m, at.visible ? 1 : 0);
+        }
+}
+
+/// Plays one storyboard; tells what is in it and how it ended.
+void play(const StoryboardFlags& flags, const std::filesystem::path& file, const osc::StoryboardOptions& options, int number,
+          std::string& rows) {
+    const osc::Storyboard story = osc::read_storyboard(file, options);
+    const std::filesystem::path road = flags.road.empty() ? story.road_file : std::filesystem::path(flags.road);
+    const RoadNetwork network = road.empty() ? RoadNetwork{} : read_opendrive(road);
+    const osc::PlayedStory played = osc::play_story(story, network, {.step_s = flags.step_s, .most_s = flags.most_s});
+    add_rows(played, network, number, rows);
+    fmt::print("{}: {:.6g} s, until {}\n", file.string(), static_cast<double>(std::max<std::size_t>(played.ticks(), 1) - 1) * played.step_s,
+               played.end);
+    if (flags.quiet)
+        return;
+    for (const osc::PlayedEntity& entity : played.entities) {
+        const osc::EntitySample last = entity.samples.empty() ? osc::EntitySample{} : entity.samples.back();
+        if (last.present)
+            fmt::print("  {}: at ({:.3f}, {:.3f}, {:.3f}) m, {:.3f} m/s, {} light changes\n", printable(entity.entity.name),
+                       last.position_m.x, last.position_m.y, last.position_m.z, last.speed_mps, entity.lights.size());
+        else
+            fmt::print("  {}: not there at the end\n", printable(entity.entity.name));
+    }
+    for (const auto* notes : {&story.notes, &played.notes})
+        for (const std::string& note : *notes)
+            fmt::print("  note: {}\n", note);
+}
+
+bool is_variation(const std::filesystem::path& file) {
+    FilesRead ignored;
+    return XmlFile(file, ignored, "OpenSCENARIO", "an OpenSCENARIO file").root().child("ParameterValueDistribution");
+}
+
+int run(const StoryboardFlags& flags) {
+    if (!(flags.most_s > 0.0 && flags.most_s <= 1e5))
+        refuse_flag("--duration", fmt::format("{}", flags.most_s), "seconds above 0, at most 100 000");
+    if (!(flags.step_s >= 1e-4 && flags.step_s <= 1.0))
+        refuse_flag("--step", fmt::format("{}", flags.step_s), "seconds from 0.0001 to 1");
+    std::error_code error;
+    if (!flags.out.empty() && !flags.force && std::filesystem::exists(flags.out, error))
+        throw InputError({{}, 0, 0, "--out"}, printable(flags.out, 400) + " is there already", "a new file, or --force");
+    osc::StoryboardOptions options = options_of(flags);
+    std::string rows = "case,time_s,entity,x_m,y_m,z_m,heading_rad,pitch_rad,roll_rad,speed_mps,road,lane,s_m,t_m,visible\n";
+    if (is_variation(flags.file)) {
+        FilesRead opened;
+        const osc::Variations variations = osc::read_variations(flags.file, opened);
+        int number = 0;
+        for (const auto& values : variations.cases) {
+            std::string told;
+            for (const auto& [name, value] : values) {
+                options.parameters[name] = value;
+                told += fmt::format(" {}={}", printable(name), printable(value));
+            }
+            fmt::print("case {}:{}\n", number, told);
+            play(flags, variations.scenario, options, number++, rows);
+        }
+    } else {
+        play(flags, flags.file, options, 0, rows);
+    }
+    if (!flags.out.empty())
+        write_file(flags.out, rows);
+    return 0;
+}
+
+} // namespace
+
+void add_storyboard_command(CLI::App& app, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<StoryboardFlags>();
+    CLI::App* sub = app.add_subcommand("storyboard", "play an OpenSCENARIO XML file without drawing, and tell where everything goes");
+    sub->add_option("FILE", flags->file, "scenario, or parameter variation file (all its cases)")->required();
+    sub->add_option("--road", flags->road, "OpenDRIVE file to play on instead");
+    sub->add_option("--road-folder", flags->road_folders, "where the scenario's road is looked for, too")->allow_extra_args(false);
+    sub->add_option("--parameter", flags->parameters, "NAME=VALUE of a parameter that the file declares")->allow_extra_args(false);
+    sub->add_option("--duration", flags->most_s, "longest time played, in s (60)");
+    sub->add_option("--step", flags->step_s, "time step in s (0.01)");
+    sub->add_option("--out", flags->out, "CSV with a row for each step and entity");
+    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
+    sub->add_flag("--lenient", flags->lenient, "leave out what is not supported, each with a note");
+    sub->add_flag("--quiet", flags->quiet, "no entities and notes");
+    sub->callback([flags, &chosen] { chosen = [flags] { return run(*flags); }; });
+}
+
+} // namespace fernlicht

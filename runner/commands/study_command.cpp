@@ -1,0 +1,73 @@
+#include "runner/commands/study_command.h"
+
+#include "renderer/device.h"
+#include "runner/commands/judging_flags.h"
+#include "runner/commands/run_command.h"
+#include "runner/experiments/study/study_run.h"
+#include "runner/experiments/study/study_writers.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct StudyFlags {
+    std::filesystem::path file;
+    std::string backend = "auto", frames, out, only;
+    JudgingFlags judging;
+    bool resume = false, quiet = false, no_accuracy = false, list = false;
+};
+
+int list_cells(const Study& study) {
+    for (const StudyCell& cell : cells_of(study))
+        fmt::print("{:<40} {}\n", cell.name, cell.condition);
+    return 0;
+}
+
+int study(const StudyFlags& flags, const std::vector<std::string>& command) {
+    const Study study = read_study(flags.file);
+    if (flags.list)
+        return list_cells(study);
+    if (flags.resume && flags.out.empty())
+        throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
+    StudyOptions options;
+    options.folder = flags.out.empty() ? default_output_folder(study.name, utc_now()) : std::filesystem::path(flags.out);
+    options.only = flags.only;
+    options.resume = flags.resume;
+    options.run.backend = flags.backend;
+    options.run.ticks = tick_range(flags.frames);
+    options.run.quiet = flags.quiet;
+    options.run.accuracy = !flags.no_accuracy;
+    options.known = take(flags.judging, options.run);
+    options.run.command = command;
+    const StudyResult result = run_study(study, options);
+    fmt::print("{}{}\n", study_text(result), (options.folder / "report.html").string());
+    return overall(result) == VerdictKind::pass ? 0 : 1;
+}
+
+} // namespace
+
+void add_study_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<StudyFlags>();
+    CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and tell what differs beyond noise");
+    sub->add_option("FILE", flags->file, "study file (YAML)")->required();
+    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
+    sub->add_flag("--resume", flags->resume,
+                  "go on in the --out folder of this study: finished cells are kept, others played, the report is written anew");
+    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--frames", flags->frames, "FIRST:LAST moments of each drive to play, from 0");
+    add_judging_flags(*sub, flags->judging);
+    sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments of each cell lie from the reference");
+    sub->add_option("--only", flags->only, "play only cells whose name holds this");
+    sub->add_flag("--list", flags->list, "only name the cells");
+    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });
+}
+
+} // namespace fernlicht

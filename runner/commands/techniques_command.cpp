@@ -1,0 +1,29 @@
+#include "runner/commands/techniques_command.h"
+
+#include "runner/findings/technique_list.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+
+void add_techniques_command(CLI::App& app, std::function<int()>& chosen) {
+    struct Form {
+        bool json = false, markdown = false;
+    };
+    const auto form = std::make_shared<Form>();
+    CLI::App* command =
+        app.add_subcommand("techniques", "list the ways to light a scene and to draw its shadows: what each computes and what it ignores");
+    CLI::Option* json = command->add_flag("--json", form->json, "prints JSON");
+    command->add_flag("--markdown", form->markdown, "prints docs/techniques.md")->excludes(json);
+    command->callback([form, &chosen] {
+        chosen = [form] {
+            const auto list = form->json ? techniques_json : form->markdown ? techniques_markdown : techniques_text;
+            fmt::print("{}", list(techniques(), shadow_method_names()));
+            return 0;
+        };
+    });
+}
+
+} // namespace fernlicht

@@ -1,0 +1,137 @@
+#include "runner/experiments/accuracy/picture_errors.h"
+
+#include "metrics/statistics/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+std::string reason(const Technique& technique, const char* what) {
+    return fmt::format("technique {} does not compute {}", technique.name, what);
+}
+
+} // namespace
+
+void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture) {
+    for (int y = 0; y < tested.height(); ++y)
+        for (int x = 0; x < tested.width(); ++x) {
+            const std::optional<double> m2 = road_m2 ? std::optional(static_cast<double>(road_m2->at(x, y))) : std::nullopt;
+            if (!m2 || *m2 >= 0.0)
+                fold.add({static_cast<double>(tested.at(x, y)), static_cast<double>(reference.mean.at(x, y)),
+                          static_cast<double>(reference.standard_error.at(x, y)), m2, picture, x, y});
+        }
+}
+
+References::References(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
+                       const ReferenceSettings& settings)
+    : stage_(stage), moments_(moments), settings_(settings), reference_(stage.scene), geometry_(device, stage.scene, {}),
+      fold_(drive, stage.route) {}
+
+void References::count(const ReferenceImage& image) {
+    cost_.seconds += image.seconds;
+    cost_.rays += image.rays;
+    std::vector<double> samples(image.samples.pixels().begin(), image.samples.pixels().end());
+    if (const auto spread = spread_of(std::move(samples))) {
+        samples_.push_back(spread->median);
+        cost_.most_samples = std::max(cost_.most_samples, spread->maximum);
+    }
+}
+
+ReferenceCost References::cost() const {
+    ReferenceCost cost = cost_;
+    if (const auto spread = spread_of(samples_))
+        cost.median_samples = spread->median;
+    return cost;
+}
+
+bool References::add_driver(std::size_t moment, const View& view, const StopAsked& stop) {
+    ReferenceShot shot{view, {}, {}, {}};
+    shot.reference =
+        reference_.render(moments_[moment], view, {.illuminance = true, .target = true, .luminance = true}, settings_, {}, {}, stop);
+    count(shot.reference);
+    if (!shot.reference.complete)
+        return false;
+    shot.geometry = geometry_.draw(moments_[moment], view, {.depth = true, .ids = true});
+    shot.road_m2 = road_areas_m2(stage_.scene, moments_[moment], view, shot.geometry);
+    shots_.emplace(std::tuple(moment, view.width_px, view.height_px), std::move(shot));
+    return true;
+}
+
+bool References::add_map(std::size_t moment, const StopAsked& stop) {
+    bool complete = true;
+    const Draw draw = [&](const Moment& at, const View& view, const Wanted& wanted) {
+        ReferenceImage image = reference_.render(at, view, wanted, settings_, {}, {}, stop);
+        complete = complete && image.complete;
+        count(image);
+        Frame frame;
+        frame.illuminance_lx = std::move(image.illuminance_lx.mean);
+        frame.target_lx = std::move(image.target_lx.mean);
+        return [frame] { return frame; };
+    };
+    ExtentDrawing drawing = fold_.draw(moments_[moment], draw);
+    if (!complete)
+        return false;
+    std::vector<LaneExtent> extents = fold_.rendered(drawing);
+    maps_.emplace(moment, std::pair(std::move(drawing), std::move(extents)));
+    return true;
+}
+
+const ReferenceShot& References::driver(std::size_t moment, const View& view) const {
+    return shots_.at({moment, view.width_px, view.height_px});
+}
+
+ConfigurationErrors::ConfigurationErrors(const References& references, const Technique& technique, const Configuration& configuration,
+                                         const View& view, double map_scale)
+    : references_(&references), illuminance_(technique.illuminance), target_(technique.illuminance && technique.target),
+      luminance_(technique.illuminance && technique.luminance), view_(view), map_scale_(map_scale),
+      road_(ErrorRule{references.settings().floor_lx}), whole_(road_), target_errors_(road_),
+      bright_(ErrorRule{references.settings().floor_cdm2}) {
+    so_far_.configuration = configuration;
+    so_far_.no_illuminance = technique.illuminance ? "" : reason(technique, "an illuminance");
+    so_far_.no_target = technique.target ? "" : reason(technique, "the illuminance of targets");
+    so_far_.no_luminance = technique.luminance ? "" : reason(technique, "a luminance");
+}
+
+void ConfigurationErrors::add(std::size_t m, const Draw& draw) {
+    ++so_far_.moments;
+    if (!illuminance_)
+        return;
+    const Moment& moment = references_->moments()[m];
+    const ReferenceShot& shot = references_->driver(m, view_);
+    const Frame frame = draw(moment, view_, {.illuminance = true, .target = true, .luminance = true})();
+    const auto picture = static_cast<int>(m);
+    PixelErrorFold here(ErrorRule{references_->settings().floor_lx});
+    add_pixels(here, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
+    add_pixels(road_, frame.illuminance_lx, shot.reference.illuminance_lx, &shot.road_m2, picture);
+    add_pixels(whole_, frame.illuminance_lx, shot.reference.illuminance_lx, nullptr, picture);
+    if (target_)
+        add_pixels(target_errors_, frame.target_lx, shot.reference.target_lx, &shot.road_m2, picture);
+    if (luminance_)
+        add_pixels(bright_, frame.luminance_cdm2, shot.reference.luminance_cdm2, nullptr, picture);
+    if (const auto errors = here.finish(); errors && errors->pixels > 0)
+        so_far_.road_p95.push_back(errors->error.p95);
+    ExtentDrawing map = references_->map(m);
+    map.view.width_px = std::max(2, static_cast<int>(std::lround(map.view.width_px * map_scale_)));
+    map.view.height_px = std::max(2, static_cast<int>(std::lround(map.view.height_px * map_scale_)));
+    map.frame = draw(map.moment, map.view, {.illuminance = true, .target = true})();
+    moments_.push_back(m);
+    rendered_.push_back(references_->fold().rendered(map));
+}
+
+ConfigurationResult ConfigurationErrors::finish() const {
+    ConfigurationResult result = so_far_;
+    std::vector<std::vector<LaneExtent>> references;
+    for (const std::size_t m : moments_)
+        references.push_back(references_->extents(m));
+    result.road = road_.finish();
+    result.whole = whole_.finish();
+    result.target = target_errors_.finish();
+    result.luminance = bright_.finish();
+    result.reach = reach_errors(rendered_, references, measured_limits_lx, result.no_illuminance, result.no_target);
+    return result;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,74 @@
+// Pictures of a renderer against those of the reference: what a drive's moments are compared in.
+#pragma once
+
+#include "runner/experiments/accuracy/reference_shots.h"
+
+#include <deque>
+#include <map>
+#include <set>
+
+namespace fernlicht {
+
+/// The reference's pictures of a drive's moments: from the driver's seat at each size that is compared, and from above for reach.
+class References {
+  public:
+    /// `drive` is the stage's with the extent that is measured. All but `settings` must outlive it.
+    References(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
+               const ReferenceSettings& settings);
+
+    /// False when it was stopped; then the picture is not there.
+    bool add_driver(std::size_t moment, const View& view, const StopAsked& stop = {});
+    bool add_map(std::size_t moment, const StopAsked& stop = {});
+
+    const std::vector<Moment>& moments() const { return moments_; }
+    const ReferenceShot& driver(std::size_t moment, const View& view) const;
+    /// The grid with its map view and the reference's lux as its frame; what is measured in it.
+    const ExtentDrawing& map(std::size_t moment) const { return maps_.at(moment).first; }
+    const std::vector<LaneExtent>& extents(std::size_t moment) const { return maps_.at(moment).second; }
+    const ExtentFold& fold() const { return fold_; }
+    const ReferenceSettings& settings() const { return settings_; }
+    ReferenceCost cost() const;
+
+  private:
+    void count(const ReferenceImage& image);
+
+    const Stage& stage_;
+    const std::vector<Moment>& moments_;
+    ReferenceSettings settings_;
+    Reference reference_;
+    Renderer geometry_;
+    ExtentFold fold_;
+    std::map<std::tuple<std::size_t, int, int>, ReferenceShot> shots_;
+    std::map<std::size_t, std::pair<ExtentDrawing, std::vector<LaneExtent>>> maps_;
+    ReferenceCost cost_;
+    std::vector<double> samples_; ///< medians a picture
+};
+
+/// Adds the pixels that `road_m2` knows with their areas (road_areas_m2), or all pixels without it.
+void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture);
+
+/// Errors of moments together, without times; maps for reach are drawn with `map_scale` times the reference's pixels each way. What the
+/// technique does not compute has no errors but a reason.
+class ConfigurationErrors {
+  public:
+    /// `references` must outlive it.
+    ConfigurationErrors(const References& references, const Technique& technique, const Configuration& configuration, const View& view,
+                        double map_scale);
+
+    /// The moment as `draw` draws it; its references are there.
+    void add(std::size_t moment, const Draw& draw);
+    /// Of the moments added.
+    ConfigurationResult finish() const;
+
+  private:
+    const References* references_;
+    bool illuminance_, target_, luminance_;
+    View view_;
+    double map_scale_;
+    ConfigurationResult so_far_;
+    PixelErrorFold road_, whole_, target_errors_, bright_;
+    std::vector<std::size_t> moments_;
+    std::vector<std::vector<LaneExtent>> rendered_; ///< by the moments_
+};
+
+} // namespace fernlicht

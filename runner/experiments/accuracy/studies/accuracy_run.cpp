@@ -1,0 +1,155 @@
+#include "runner/experiments/accuracy/studies/accuracy_run.h"
+
+#include "renderer/sanity.h"
+#include "runner/experiments/accuracy/reference_shots.h"
+#include "runner/experiments/accuracy/studies/classical_study.h"
+#include "runner/experiments/accuracy/studies/solver_diagrams.h"
+#include "runner/experiments/accuracy/studies/studies.h"
+#include "runner/experiments/accuracy/studies/traffic_shadow_study.h"
+#include "runner/experiments/accuracy/studies/traffic_study.h"
+#include "runner/experiments/accuracy/studies/weather_study.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "runner/play/interruption.h"
+#include "runner/play/progress.h"
+#include "runner/play/shadows/check_planar.h"
+#include "runner/play/shadows/choose_shadows.h"
+#include "scenarios/drives/play/advance.h"
+
+#include <algorithm>
+#include <deque>
+#include <fmt/format.h>
+#include <iterator>
+#include <optional>
+#include <thread>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+bool asked_for(const AccuracyRequest& request, const char* diagram) {
+    return std::ranges::find(request.diagrams, diagram) != request.diagrams.end();
+}
+
+void add_sweep(const AccuracyRequest& request, const Stage& stage, const std::optional<ShadowChoice>& choice, Device& device,
+               AccuracyResult& result) {
+    std::optional<Progress> progress;
+    int steps = 0;
+    SweepRequest sweep = request.sweep;
+    sweep.shadow_methods = asked_for(request, "shadows");
+    result.drives.push_back(sweep_techniques(
+        stage, device, sweep,
+        [&](std::size_t done, std::size_t all, const std::string&) {
+            steps = static_cast<int>(all);
+            if (!progress)
+                progress.emplace("accuracy of " + stage.drive.name, steps, request.quiet, "steps");
+            progress->done(static_cast<int>(done));
+            return !Interruption::asked();
+        },
+        Interruption::asked));
+    if (result.drives.back().missing.empty())
+        progress->done(steps);
+    if (choice)
+        result.drives.back().shadow_choice = fmt::format("auto chose {}: {}", name(choice->chosen), choice->why);
+    std::ranges::move(sweep_diagrams(result.drives.back()), std::back_inserter(result.diagrams));
+}
+
+/// Each on the middle or some moments of the drive.
+void add_studies(const AccuracyRequest& request, const Stage& stage, Device& device, AccuracyResult& result) {
+    const Variant& variant = variant_of(stage.drive, request.sweep.variant);
+    bool ended = false; // whether the study at hand was told to end
+    const StudyGoesOn go_on = [&ended] { return !(ended = Interruption::asked()); };
+    const auto add_all = [&](const char* name, auto study) {
+        if (!asked_for(request, name))
+            return;
+        const bool begun = go_on();
+        if (begun)
+            std::ranges::move(study(), std::back_inserter(result.diagrams));
+        if (ended)
+            result.missing.push_back(
+                fmt::format("diagram {} of {}: {}", name, stage.drive.name, begun ? "ended before its last row" : "not begun"));
+    };
+    const auto add = [&](const char* name, auto study) { add_all(name, [&] { return std::vector<WorkPrecision>{study()}; }); };
+    add_all("reference", [&] { return reference_study(stage, variant, request.sweep.seed, go_on); });
+    add("classical", [&] {
+        const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
+        ClassicalStudy study;
+        study.seed = request.sweep.seed;
+        WorkPrecision diagram = classical_study(stage.scene, moment, resized(*driver_view(stage.drive), 64, 48), study, go_on);
+        diagram.name += "-" + stage.drive.name;
+        diagram.title += fmt::format(": {}, {}", stage.drive.name, variant.name);
+        return diagram;
+    });
+    add("extent", [&] { return extent_study(stage, variant, go_on); });
+    add("beam", [&] { return beam_study(stage, variant, go_on); });
+    add_all("weather", [&] { return weather_study(stage, variant, device, go_on); });
+    add("metrics", [&] { return metrics_study(stage, variant, device, go_on); });
+    if (!stage.drive.traffic.empty())
+        add("traffic", [&] { return traffic_study(stage, variant, device, go_on); });
+    if ((!stage.drive.traffic.empty() || !stage.drive.street_lamps.empty()) && stage.drive.shadows.any())
+        add("traffic", [&] { return traffic_shadow_study(stage, variant, device, go_on); });
+    add("step", [&] { return step_study(stage, variant, go_on); });
+}
+
+} // namespace
+
+std::vector<std::string> diagram_names() {
+    return {"techniques", "reference", "classical", "solvers", "control", "extent",
+            "beam",       "weather",   "metrics",   "step",    "traffic", "shadows"};
+}
+
+AccuracyResult run_accuracy(const AccuracyRequest& request) {
+    std::deque<Stage> stages; // everything is read and checked before the first frame
+    for (const Drive& drive : request.drives) {
+        const Stage& stage = stages.emplace_back(drive);
+        check_sweep(request.sweep, stage);
+    }
+    Device device = open_device(request.backend);
+    check_sanity(device);
+    for (const Stage& stage : stages)
+        check_planar_shadows(stage, device);
+    OutputFolder folder(request.folder);
+    AccuracyResult result;
+    result.context = make_context(device.info(), request.command, request.sweep.seed);
+    result.cores = std::thread::hardware_concurrency();
+    result.rounds = static_cast<std::size_t>(request.sweep.rounds);
+    result.target_error = request.sweep.target_error;
+    result.most_samples = request.sweep.most_samples;
+    const Interruption listening;
+    const CpuUse before = cpu_use();
+    for (Stage& stage : stages) {
+        const std::optional<ShadowChoice> choice = choose_shadows(stage, device, {});
+        add_inputs(result.context.inputs, stage.drive.opened);
+        add_inputs(result.context.inputs, stage.network.opened);
+        if (asked_for(request, "techniques") || asked_for(request, "shadows")) {
+            if (!Interruption::asked())
+                add_sweep(request, stage, choice, device, result);
+            else
+                result.missing.push_back(fmt::format("drive {}: not begun", stage.drive.name));
+        }
+        add_studies(request, stage, device, result);
+    }
+    if (asked_for(request, "solvers")) {
+        if (!Interruption::asked())
+            std::ranges::move(solver_diagrams(study_solvers()), std::back_inserter(result.diagrams));
+        else
+            result.missing.emplace_back("diagram solvers: not begun");
+    }
+    if (asked_for(request, "control")) {
+        result.diagrams.push_back(control_study([] { return !Interruption::asked(); }));
+        if (Interruption::asked())
+            result.missing.emplace_back("diagram control: ended before its last row");
+    }
+    for (const DriveAccuracy& drive : result.drives)
+        for (const std::string& missing : drive.missing)
+            result.missing.push_back(fmt::format("drive {}: {}", drive.drive, missing));
+    result.others = other_use(before, cpu_use(), ::getpid());
+    if (Interruption::asked())
+        result.interrupted = "interrupted by the user";
+    write_accuracy(result, request.folder);
+    if (result.interrupted.empty())
+        folder.finish();
+    return result;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,235 @@
+#include "metrics/statistics/statistics.h"
+#include "runner/experiments/accuracy/accuracy_result.h"
+#include "runner/findings/figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+/// `moments`: of the drive's sweep.
+WorkPrecisionRow row_of(const ConfigurationResult& found, std::size_t moments) {
+    const Configuration& c = found.configuration;
+    WorkPrecisionRow row;
+    row.label = name_of(c);
+    row.parameters = {{"technique", c.technique},
+                      {"resolution", fmt::format("{}x{}", c.width_px, c.height_px)},
+                      {"shadow maps", fmt::format("{}x{}", c.shadows.width, c.shadows.height)},
+                      {"shadows", std::string(name(c.shadows.method))},
+                      {"beams", beams_text(c.beams)}};
+    if (c.beams == eight_bit_texels && c.varied == "beams")
+        row.note = "thesis";
+    if (found.moments < moments)
+        row.note += fmt::format("{}{} of {} moments", row.note.empty() ? "" : ", ", found.moments, moments);
+    row.why_not = found.no_illuminance;
+    if (found.road && found.road->pixels > 0) {
+        const auto [least, most] = std::ranges::minmax(found.road_p95);
+        const double p95 = found.road->error.p95;
+        row.error = {100.0 * p95, 100.0 * std::min(p95, least), 100.0 * std::max(p95, most)};
+        row.floor = 100.0 * found.road->floor.p95;
+    } else if (row.why_not.empty()) {
+        row.why_not = "no road in view has 0.05 lx";
+    }
+    row.seconds = time_of(found.samples.frame_s);
+    if (!row.seconds && row.why_not.empty())
+        row.why_not = "the sweep ended before times were taken";
+    if (const auto work = typical_work(found.work))
+        row.bytes = work->texture_bytes;
+    return row;
+}
+
+/// Edges of shadows are too few pixels for the 95 % that others are held to: what a pixel is off by counts here, wherever it is.
+WorkPrecision view_diagram(const DriveAccuracy& drive, std::string_view name, std::string_view title) {
+    WorkPrecision diagram;
+    diagram.name = fmt::format("{}{}", name, drive.drive);
+    diagram.title = fmt::format("{}: {}, {}", title, drive.drive, drive.variant);
+    diagram.error_name = "pixels of the view off by more than 20 %";
+    diagram.error_unit = "%";
+    diagram.time_name = "time a frame";
+    diagram.notes.emplace_back(
+        "illuminance in the driver's view where the reference has at least 0.05 lx, beyond its noise: edges of shadows, and of "
+        "things, whose pixels the reference averages");
+    return diagram;
+}
+
+WorkPrecisionRow view_row_of(const ConfigurationResult& found, std::size_t moments, std::string label) {
+    WorkPrecisionRow row = row_of(found, moments);
+    row.label = std::move(label);
+    row.floor = 0.0;
+    if (found.whole && found.whole->pixels > 0) {
+        const double share = found.whole->percent_beyond[2];
+        row.error = {share, share, share};
+    }
+    return row;
+}
+
+bool has_shadow_methods(const DriveAccuracy& drive) {
+    return std::ranges::any_of(drive.configurations,
+                               [](const ConfigurationResult& found) { return found.configuration.varied == "shadow method"; });
+}
+
+/// Beside photometric by other shadow methods the drive's own is named, too.
+std::string label_among_methods(Configuration c) {
+    if (c.technique == "photometric" && c.varied.empty())
+        c.varied = "shadow method";
+    return name_of(c);
+}
+
+/// Of the drive's own shadow method.
+std::string own_method_note(const DriveAccuracy& drive) {
+    const auto own =
+        std::ranges::find_if(drive.configurations, [](const ConfigurationResult& found) { return found.configuration.varied.empty(); });
+    return own == drive.configurations.end()
+               ? "the drive's own shadow method is not among those that were drawn"
+               : fmt::format("shadows where no method is named: {}, the drive's own{}", name(own->configuration.shadows.method),
+                             drive.shadow_choice.empty() ? "" : " (" + drive.shadow_choice + ")");
+}
+
+/// What the bars of times are.
+std::string times_note(const DriveAccuracy& drive) {
+    std::optional<Interval> time;
+    for (const ConfigurationResult& found : drive.configurations)
+        if (const auto of = time_of(found.samples.frame_s); of && (!time || of->samples < time->samples))
+            time = of;
+    return time ? "times are " + timings_text(*time) : "times were not taken";
+}
+
+} // namespace
+
+std::optional<Interval> time_of(const std::vector<double>& seconds) {
+    const std::optional<Spread> spread = spread_of(seconds);
+    if (!spread)
+        return std::nullopt;
+    if (const auto interval = median_interval(seconds))
+        return Interval{spread->median, interval->low, interval->high, spread->count, true};
+    return Interval{spread->median, spread->minimum, spread->maximum, spread->count};
+}
+
+std::optional<std::string> point_lamps_note(const DriveAccuracy& drive) {
+    const auto soft = std::ranges::find_if(drive.configurations, [](const ConfigurationResult& found) {
+        const std::string& technique = found.configuration.technique;
+        return found.configuration.shadows.method == ShadowMethod::soft_map && technique.starts_with("photometric") &&
+               technique != "photometric-naive";
+    });
+    if (soft == drive.configurations.end())
+        return std::nullopt;
+    return fmt::format("lamps are points in the reference: the half shadows of soft-map, whose lamps are discs of {:g} cm radius, count as "
+                       "its errors here; `fernlicht shadows` holds it against discs (discs %)",
+                       100.0 * soft->configuration.shadows.lamp_radius_m);
+}
+
+WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px) {
+    WorkPrecision diagram;
+    diagram.name = fmt::format("techniques-{}-{}x{}", drive.drive, width_px, height_px);
+    diagram.title = fmt::format("Techniques: {}, {}, {} x {} pixels", drive.drive, drive.variant, width_px, height_px);
+    diagram.error_name = "lux error on the road, 95 % of the pixels";
+    diagram.error_unit = "%";
+    diagram.time_name = "time a frame";
+    diagram.floor_name = "noise of the reference";
+    diagram.notes.push_back(fmt::format("{}; errors of illuminance in the driver's view where the reference has at least 0.05 lx, bars "
+                                        "from the least to the most of the moments",
+                                        counted(drive.moments.size(), "moment")));
+    diagram.notes.push_back(times_note(drive));
+    if (const auto note = point_lamps_note(drive))
+        diagram.notes.push_back(*note);
+    const bool methods = has_shadow_methods(drive);
+    if (methods)
+        diagram.notes.push_back(own_method_note(drive));
+    for (const ConfigurationResult& found : drive.configurations)
+        if (found.configuration.width_px == width_px && found.configuration.height_px == height_px) {
+            diagram.rows.push_back(row_of(found, drive.moments.size()));
+            if (methods)
+                diagram.rows.back().label = label_among_methods(found.configuration);
+        }
+    for (const auto& [configuration, why] : drive.refused)
+        if (configuration.width_px == width_px && configuration.height_px == height_px) {
+            WorkPrecisionRow& row = diagram.rows.emplace_back();
+            row.label = name_of(configuration);
+            row.why_not = why;
+        }
+    return diagram;
+}
+
+WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
+    WorkPrecision diagram;
+    diagram.name = "resolutions-" + drive.drive;
+    diagram.title = fmt::format("Resolutions: {}, {}", drive.drive, drive.variant);
+    diagram.error_name = "worst error of reach, 1 and 5 lx";
+    diagram.error_unit = "m";
+    diagram.time_name = "time a frame";
+    diagram.notes.emplace_back("reach on the own lane's centre, on the road and, where the technique has it, on targets, against the "
+                               "reference's finest map; maps for reach have as many pixels each way as the view has, in the same ratio");
+    if (const auto note = point_lamps_note(drive))
+        diagram.notes.push_back(*note);
+    for (const ConfigurationResult& found : drive.configurations) {
+        const auto others = std::ranges::count_if(drive.configurations, [&](const ConfigurationResult& other) {
+            return other.configuration.technique == found.configuration.technique &&
+                   (other.configuration.varied.empty() || other.configuration.varied == "resolution");
+        });
+        if (others < 2 || (!found.configuration.varied.empty() && found.configuration.varied != "resolution"))
+            continue;
+        WorkPrecisionRow row = row_of(found, drive.moments.size());
+        row.label = fmt::format("{}, {}x{}", found.configuration.technique, found.configuration.width_px, found.configuration.height_px);
+        row.floor = 0.0;
+        row.error.reset();
+        std::vector<double> sizes;
+        for (const ReachError& error : found.reach)
+            if (error.why_not.empty())
+                sizes.push_back(std::abs(error.worst_m));
+        if (const auto spread = spread_of(sizes))
+            row.error = {spread->maximum, spread->minimum, spread->maximum};
+        else if (row.why_not.empty())
+            row.why_not = "no moment has a reach that ends on the road";
+        diagram.rows.push_back(std::move(row));
+    }
+    return diagram;
+}
+
+WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive) {
+    WorkPrecision diagram = view_diagram(drive, "shadow-maps-", "Shadow maps");
+    if (const auto note = point_lamps_note(drive))
+        diagram.notes.push_back(*note);
+    for (const ConfigurationResult& found : drive.configurations) {
+        const Configuration& c = found.configuration;
+        if (c.technique == "photometric" && (c.varied.empty() || c.varied == "shadow maps"))
+            diagram.rows.push_back(view_row_of(found, drive.moments.size(), fmt::format("{} x {}", c.shadows.width, c.shadows.height)));
+    }
+    return diagram;
+}
+
+WorkPrecision shadow_methods_diagram(const DriveAccuracy& drive) {
+    WorkPrecision diagram = view_diagram(drive, "shadow-methods-", "Shadow methods and techniques");
+    if (!has_shadow_methods(drive))
+        return diagram;
+    if (const auto note = point_lamps_note(drive))
+        diagram.notes.push_back(*note);
+    diagram.notes.push_back(own_method_note(drive));
+    for (const ConfigurationResult& found : drive.configurations)
+        if (const Configuration& c = found.configuration; c.varied.empty() || c.varied == "shadow method")
+            diagram.rows.push_back(view_row_of(found, drive.moments.size(), label_among_methods(c)));
+    return diagram;
+}
+
+std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive) {
+    std::vector<std::pair<int, int>> sizes;
+    for (const ConfigurationResult& found : drive.configurations)
+        if (const std::pair size(found.configuration.width_px, found.configuration.height_px);
+            std::ranges::find(sizes, size) == sizes.end())
+            sizes.push_back(size);
+    std::vector<WorkPrecision> diagrams;
+    for (const auto& [width_px, height_px] : sizes) {
+        WorkPrecision diagram = techniques_diagram(drive, width_px, height_px);
+        if (diagrams.empty() || diagram.rows.size() > 2) // two that only show what resolution costs are in the other diagram
+            diagrams.push_back(std::move(diagram));
+    }
+    if (WorkPrecision diagram = resolutions_diagram(drive); sizes.size() > 1 && !diagram.rows.empty())
+        diagrams.push_back(std::move(diagram));
+    for (WorkPrecision diagram : {shadow_maps_diagram(drive), shadow_methods_diagram(drive)})
+        if (diagram.rows.size() > 1)
+            diagrams.push_back(std::move(diagram));
+    return diagrams;
+}
+
+} // namespace fernlicht

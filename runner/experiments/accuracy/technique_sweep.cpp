@@ -1,0 +1,311 @@
+#include "runner/experiments/accuracy/technique_sweep.h"
+
+#include "runner/experiments/accuracy/picture_errors.h"
+#include "runner/experiments/accuracy/simplifications.h"
+#include "runner/experiments/accuracy/twin_agreement.h"
+#include "runner/experiments/bench/bench_run.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <deque>
+#include <fmt/format.h>
+#include <map>
+#include <tuple>
+
+namespace fernlicht {
+namespace {
+
+using Size = std::pair<int, int>;
+
+/// Those asked for, the first of them for everything; else the usual one and parts or multiples of it.
+std::vector<Size> sizes_of(const std::vector<Size>& asked, Size usual, std::initializer_list<double> factors) {
+    std::vector<Size> sizes;
+    const auto add = [&](Size size) {
+        if (std::ranges::find(sizes, size) == sizes.end())
+            sizes.push_back(size);
+    };
+    for (const Size& size : asked)
+        add(size);
+    if (asked.empty()) {
+        add(usual);
+        for (const double factor : factors)
+            add({std::max(1, static_cast<int>(usual.first * factor)), std::max(1, static_cast<int>(usual.second * factor))});
+    }
+    return sizes;
+}
+
+const View& view_to_compare(const Drive& drive) {
+    if (const View* const view = driver_view(drive))
+        return *view;
+    throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a perspective view whose pictures are compared");
+}
+
+std::vector<std::optional<BeamTexels>> beams_of(const SweepRequest& request, const Drive& drive) {
+    std::vector<std::optional<BeamTexels>> beams = request.beams;
+    if (beams.empty())
+        beams = {drive.beams, eight_bit_texels, BeamTexels{512, 128, 32}, BeamTexels{1024, 512, 8}, BeamTexels{2048, 1024, 16}};
+    std::vector<std::optional<BeamTexels>> distinct;
+    for (const auto& texels : beams)
+        if (std::ranges::find(distinct, texels) == distinct.end())
+            distinct.push_back(texels);
+    return distinct;
+}
+
+/// The drive with the reaches that are compared: at 1 and 5 lx.
+Drive measured_drive(const Drive& drive) {
+    Drive measured = drive;
+    ExtentParameters extent = drive.extent.value_or(ExtentParameters{});
+    extent.limits_lx = measured_limits_lx;
+    measured.extent = extent;
+    return measured;
+}
+
+struct Contestants {
+    std::deque<Renderer> renderers;
+    std::deque<View> views;
+    std::vector<std::string> names;
+    std::set<Size> sizes; ///< of the views
+};
+
+ReferenceSettings reference_settings(const Drive& drive, const SweepRequest& request) {
+    ReferenceSettings settings;
+    settings.target_error = request.target_error;
+    settings.most_samples = request.most_samples;
+    settings.shadows = drive.shadows.things_cast || request.shadow_methods;
+    settings.seed = request.seed;
+    settings.target_height_m = drive.extent->target_height_m;
+    return settings;
+}
+
+Draw drawn_by(Renderer& renderer) {
+    return [&renderer](const Moment& moment, const View& at, const Wanted& pictures) { return renderer.submit(moment, at, pictures); };
+}
+
+/// Without those whose shadow method refuses the scene, which the result names.
+std::vector<Configuration> drawable(std::vector<Configuration> configurations, const Stage& stage, const Drive& drive, Device& device,
+                                    const std::vector<Moment>& moments, DriveAccuracy& result) {
+    std::erase_if(configurations, [&](const Configuration& c) {
+        if (c.varied != "shadow method")
+            return false;
+        try {
+            Renderer renderer(device, stage.scene, settings_of(drive, c));
+            for (const Moment& moment : moments)
+                renderer.draw(moment, resized(view_to_compare(drive), 64, 48), {.illuminance = true});
+            return false;
+        } catch (const InputError& why) {
+            result.refused.emplace_back(c, why.what());
+            return true;
+        }
+    });
+    return configurations;
+}
+
+void add_contestants(Contestants& contestants, std::vector<ConfigurationErrors>& errors, const References& references, const Stage& stage,
+                     const Drive& drive, Device& device, const std::vector<Configuration>& configurations) {
+    const int finest_px = std::ranges::max(configurations, {}, &Configuration::width_px).width_px;
+    for (const Configuration& c : configurations) {
+        Renderer& renderer = contestants.renderers.emplace_back(device, stage.scene, settings_of(drive, c));
+        contestants.views.push_back(resized(view_to_compare(drive), c.width_px, c.height_px));
+        contestants.names.push_back(name_of(c));
+        contestants.sizes.emplace(c.width_px, c.height_px);
+        errors.emplace_back(references, renderer.technique(), c, contestants.views.back(), static_cast<double>(c.width_px) / finest_px);
+    }
+}
+
+/// After `compared` comparisons, all of a moment's before the next one's.
+std::vector<std::string> missing_errors(std::size_t compared, std::size_t ways, std::size_t moments) {
+    const std::size_t whole = compared / ways, rest = compared % ways;
+    if (whole == moments)
+        return {};
+    std::string text = fmt::format("errors: {} of {} moments were compared", whole, moments);
+    if (rest > 0)
+        text += fmt::format(", and {} of {} ways in the next", rest, ways);
+    return {text};
+}
+
+/// Of photometric as the drive draws it; nullopt where it took no part.
+std::optional<TwinAgreement> twin_agreement(const References& references, const Stage& stage, Device& device,
+                                            const std::vector<Moment>& moments, const std::vector<ConfigurationResult>& found) {
+    const auto ours = std::ranges::find_if(
+        found, [](const ConfigurationResult& r) { return r.configuration.technique == "photometric" && r.configuration.varied.empty(); });
+    if (ours == found.end())
+        return std::nullopt;
+    const View view = resized(view_to_compare(stage.drive), ours->configuration.width_px, ours->configuration.height_px);
+    Renderer renderer(device, stage.scene, settings_of(stage.drive, ours->configuration));
+    const Reference reference(stage.scene);
+    ReferenceSettings settings = references.settings();
+    settings.footprint = Footprint::centre;
+    TwinAgreementFold fold(settings.floor_lx);
+    for (std::size_t m = 0; m < moments.size(); ++m)
+        fold.add(moments[m], view, renderer.draw(moments[m], view, {.illuminance = true, .depth = true, .ids = true}),
+                 reference.render(moments[m], view, {.illuminance = true}, settings), references.driver(m, view).reference,
+                 static_cast<int>(m));
+    return fold.finish();
+}
+
+/// Renderers with a place in the result only: all of them here, since the errors are whole.
+void take_times(Contestants& contestants, const std::vector<Moment>& moments, const SweepRequest& request,
+                const std::function<bool(const std::string&)>& step, const StopAsked& stop, DriveAccuracy& result) {
+    static constexpr Wanted wanted{.colour = true};
+    std::vector<Contestant> all;
+    for (std::size_t i = 0; i < contestants.renderers.size(); ++i) {
+        Renderer* const drawing = &contestants.renderers[i];
+        const View* const view = &contestants.views[i];
+        drawing->prepare(moments, *view, wanted);
+        all.push_back({[=, &moments](std::size_t moment) { drawing->render(moments[moment], *view, wanted); }, [=] { drawing->finish(); }});
+        for (const Moment& moment : moments)
+            result.configurations[i].work.push_back(drawing->count(moment, *view, wanted));
+    }
+    ContestOptions options;
+    options.moments = moments.size();
+    options.rounds = static_cast<std::size_t>(request.rounds);
+    options.frame_by_frame = false;
+    options.seed = request.seed;
+    options.go_on = [&](std::size_t) { return step("times"); };
+    options.stop = [&] { return stop && stop(); };
+    Contest contest = hold_contest(all, options, real_clocks());
+    const std::size_t rounds = contest.orders.size();
+    if (rounds < options.rounds)
+        result.missing.push_back(fmt::format("times: {} of {} rounds were taken", rounds, options.rounds));
+    for (std::size_t i = 0; i < result.configurations.size(); ++i)
+        result.configurations[i].samples = std::move(contest.samples[i]);
+}
+
+} // namespace
+
+std::string beams_text(const std::optional<BeamTexels>& beams) {
+    return beams ? fmt::format("{}x{}x{}", beams->width, beams->height, beams->bits) : "float";
+}
+
+std::string name_of(const Configuration& c) {
+    std::string name = c.technique;
+    if (c.varied.find("resolution") != std::string::npos)
+        name += fmt::format(", {}x{}", c.width_px, c.height_px);
+    if (c.varied.find("shadow maps") != std::string::npos)
+        name += fmt::format(", shadow maps {}x{}", c.shadows.width, c.shadows.height);
+    if (c.varied == "shadow method")
+        name += fmt::format(", shadows {}", fernlicht::name(c.shadows.method));
+    if (c.varied.find("beams") != std::string::npos)
+        name += ", beams " + beams_text(c.beams);
+    return name;
+}
+
+RendererSettings settings_of(const Drive& drive, const Configuration& configuration) {
+    RendererSettings settings;
+    settings.technique = configuration.technique;
+    settings.tone_mapper = drive.tone_mapper;
+    settings.beams = configuration.beams;
+    settings.shadows = configuration.shadows;
+    if (drive.extent)
+        settings.target_height_m = drive.extent->target_height_m;
+    return settings;
+}
+
+const Variant& variant_of(const Drive& drive, const std::string& name) {
+    if (name.empty())
+        return drive.variants.front();
+    std::vector<std::string> names;
+    for (const Variant& variant : drive.variants) {
+        if (variant.name == name)
+            return variant;
+        names.push_back(variant.name);
+    }
+    throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+std::vector<Configuration> configurations_of(const SweepRequest& request, const Drive& drive) {
+    const View& driver = view_to_compare(drive);
+    const std::vector<Size> resolutions = sizes_of(request.resolutions, {driver.width_px, driver.height_px}, {0.5, 0.25});
+    const std::vector<Size> maps = sizes_of(request.shadow_maps, {drive.shadows.width, drive.shadows.height}, {2.0, 0.5, 0.25});
+    const std::vector<std::optional<BeamTexels>> beams = beams_of(request, drive);
+    std::vector<Technique> rows;
+    for (const Technique& row : chosen_techniques(request.techniques))
+        if (request.techniques.empty() || std::ranges::find(request.techniques, row.name) != request.techniques.end())
+            rows.push_back(row);
+    std::vector<Configuration> all;
+    const auto add = [&](const Technique& row, std::size_t r, std::size_t m, std::size_t b) {
+        std::string varied;
+        for (const auto& [index, name] : {std::pair(r, "resolution"), std::pair(m, "shadow maps"), std::pair(b, "beams")})
+            if (index > 0)
+                varied += (varied.empty() ? "" : ", ") + std::string(name);
+        ShadowSettings shadows = drive.shadows;
+        std::tie(shadows.width, shadows.height) = maps[m];
+        all.push_back({std::string(row.name), resolutions[r].first, resolutions[r].second, shadows, beams[b], varied});
+    };
+    for (const Technique& row : rows)
+        add(row, 0, 0, 0);
+    for (const Technique& row : rows)
+        if (request.shadow_methods && row.name == "photometric")
+            for (const ShadowMethodName& other : shadow_method_names())
+                if (other.method != drive.shadows.method) {
+                    add(row, 0, 0, 0);
+                    all.back().shadows.method = other.method;
+                    all.back().varied = "shadow method";
+                }
+    for (const Technique& row : rows) {
+        const bool ours = row.kind == TechniqueKind::ours, textures = ours || row.features.find("PROJECTED") != std::string_view::npos,
+                   varied = row.name == "photometric" || row.name == "full";
+        for (std::size_t r = 0; r < resolutions.size(); ++r)
+            for (std::size_t m = 0; m < maps.size(); ++m)
+                for (std::size_t b = 0; b < beams.size(); ++b) {
+                    const int differences = (r > 0 ? 1 : 0) + (m > 0 ? 1 : 0) + (b > 0 ? 1 : 0);
+                    if (differences > 0 && (ours || m == 0) && (textures || b == 0) && (request.full || (differences == 1 && varied)))
+                        add(row, r, m, b);
+                }
+    }
+    return all;
+}
+
+void check_sweep(const SweepRequest& request, const Stage& stage) {
+    variant_of(stage.drive, request.variant);
+    configurations_of(request, stage.drive);
+    const int moments = tick_count(stage.drive);
+    if (request.moments < 1 || request.moments > moments)
+        throw InputError({stage.drive.file, 0, 0, "--moments"}, fmt::format("found {}", request.moments),
+                         fmt::format("1 to {}, the drive's moments", moments));
+}
+
+DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on,
+                               const StopAsked& stop) {
+    const Drive drive = measured_drive(stage.drive);
+    const Variant& variant = variant_of(stage.drive, request.variant);
+    const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
+    DriveAccuracy result{stage.drive.name, stage.drive.title, variant.name, {}, {}, {}, {}, {}, {}};
+    for (const Moment& moment : moments)
+        result.moments.emplace_back(moment.tick, moment.time_s);
+    References references(stage, drive, device, moments, reference_settings(drive, request));
+    Contestants contestants;
+    std::vector<ConfigurationErrors> errors;
+    add_contestants(contestants, errors, references, stage, drive, device,
+                    drawable(configurations_of(request, stage.drive), stage, drive, device, moments, result));
+
+    const std::size_t pictures = contestants.sizes.size() + 1;
+    const std::size_t steps = moments.size() * (pictures + errors.size()) + static_cast<std::size_t>(request.rounds);
+    std::size_t done = 0, compared = 0;
+    bool going_on = true;
+    const auto step = [&](const std::string& at) { return going_on = going_on && go_on(done++, steps, at); };
+    for (std::size_t m = 0; m < moments.size() && going_on; ++m) {
+        going_on = step("reference from above") && references.add_map(m, stop);
+        for (const Size& size : contestants.sizes)
+            going_on = step(fmt::format("reference {}x{}", size.first, size.second)) &&
+                       references.add_driver(m, resized(view_to_compare(drive), size.first, size.second), stop);
+        for (std::size_t i = 0; i < errors.size() && step(contestants.names[i]); ++i, ++compared)
+            errors[i].add(m, drawn_by(contestants.renderers[i]));
+    }
+    result.reference = references.cost();
+    for (const ConfigurationErrors& found : errors)
+        if (ConfigurationResult finished = found.finish(); finished.moments > 0)
+            result.configurations.push_back(std::move(finished));
+    if (!going_on) {
+        result.missing = missing_errors(compared, errors.size(), moments.size());
+        result.missing.emplace_back("all times, the price of each simplification, and the agreement with the double twin");
+        return result;
+    }
+    result.simplifications = price_simplifications(stage, moments);
+    result.twin = twin_agreement(references, stage, device, moments, result.configurations);
+    take_times(contestants, moments, request, step, stop, result);
+    return result;
+}
+
+} // namespace fernlicht

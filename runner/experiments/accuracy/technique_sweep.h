@@ -1,0 +1,48 @@
+// Techniques, resolutions and shadow maps of one drive held against the reference and timed in turns.
+#pragma once
+
+#include "renderer/device.h"
+#include "runner/experiments/accuracy/reference_shots.h"
+
+#include <functional>
+
+namespace fernlicht {
+
+struct SweepRequest {
+    std::string variant;                          ///< "": the drive's first
+    std::vector<std::string> techniques;          ///< empty: all
+    std::vector<std::pair<int, int>> resolutions; ///< pixels, the first for all; empty: the drive's, and 1/2 and 1/4 of it
+    std::vector<std::pair<int, int>> shadow_maps; ///< texels, the first for all; empty: 1024 x 512, twice, 1/2 and 1/4 of it
+    std::vector<std::optional<BeamTexels>> beams; ///< the first for all; empty: the drive's, and some finer and coarser ones
+    bool shadow_methods = false;                  ///< photometric by each shadow method, too; the reference then has shadows in any case
+    bool full = false;                            ///< every technique with every resolution, shadow map and beam; else one varied at a time
+    int moments = 3, rounds = 7;
+    double target_error = 0.005; ///< wanted standard error of the reference, in shares
+    int most_samples = 256;      ///< of the reference, a pixel
+    std::uint64_t seed = 1;
+};
+
+/// What is drawn, in order: each technique the drive's own way, then, one at a time, the other resolutions and
+/// beams (of `photometric` and `full`) and shadow maps and methods (of `photometric`), as far as these take part. Throws InputError for a
+/// technique that is unknown or comes twice.
+std::vector<Configuration> configurations_of(const SweepRequest& request, const Drive& drive);
+
+/// Throws InputError for what sweep_techniques would.
+void check_sweep(const SweepRequest& request, const Stage& stage);
+
+/// Called with the number of steps done of how many; false ends the sweep.
+using StepsDone = std::function<bool(std::size_t done, std::size_t all, const std::string& at)>;
+
+/// Errors first, moment by moment, then times in seeded random order. Ends early when `go_on` says so, or when `stop` is true in the
+/// middle of a picture of the reference, with all that was done and a word on what is missing; a configuration that was compared in no
+/// moment is not in the result. Throws InputError and DeviceError.
+DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on,
+                               const StopAsked& stop = {});
+
+/// How a drive is drawn in a configuration.
+RendererSettings settings_of(const Drive& drive, const Configuration& configuration);
+
+/// The drive's lamp set of that name, the first for "". Throws InputError.
+const Variant& variant_of(const Drive& drive, const std::string& name);
+
+} // namespace fernlicht

@@ -1,0 +1,34 @@
+// Aliasing on a real device: moments of a drive drawn in several ways, each held against a supersampled reference.
+#pragma once
+
+#include "runner/experiments/aliasing/aliasing_result.h"
+
+namespace fernlicht {
+
+struct AliasingRequest {
+    Drive drive;                                  ///< with one perspective view at least
+    std::string variant;                          ///< "": the drive's first
+    std::optional<double> moment_s;               ///< nullopt: the middle of the drive
+    std::optional<std::pair<int, int>> frames;    ///< first and last, both included; measured over time
+    std::vector<std::string> techniques;          ///< empty: the drive's
+    std::vector<std::optional<BeamTexels>> beams; ///< the first for all, the others beside it; at least one, as the next two
+    std::vector<int> samples;
+    std::vector<SurfaceFilter> filters;
+    int supersample = 4;    ///< of the reference, each way; even, at least 4
+    bool displayed = false; ///< measure the tone-mapped picture instead of the scene's luminance
+    double level_lx = 1.0;
+    bool flow = false; ///< hold optical flow against the motion that is known, on the first way's pictures; with `frames`
+    std::string backend = "auto";
+    std::filesystem::path folder;
+    std::vector<std::string> command;
+    bool quiet = false;
+};
+
+/// What is drawn: each technique with the first beams, samples and filter, then the others one at a time. Throws InputError for a technique
+/// that is unknown or comes twice.
+std::vector<AliasingConfiguration> aliasing_configurations(const AliasingRequest& request);
+
+/// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.
+AliasingResult run_aliasing(const AliasingRequest& request);
+
+} // namespace fernlicht

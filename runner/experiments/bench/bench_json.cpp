@@ -1,0 +1,128 @@
+#include "runner/experiments/bench/bench_result.h"
+#include "runner/files/json_text.h"
+#include "runner/findings/context_json.h"
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json spread_json(const Spread& spread) {
+    return {
+        {"count", spread.count},     {"median", spread.median},   {"p05", spread.p05},   {"p95", spread.p95},
+        {"minimum", spread.minimum}, {"maximum", spread.maximum}, {"mean", spread.mean}, {"standard_deviation", spread.standard_deviation}};
+}
+
+Json load_json(const std::optional<std::array<double, 3>>& load) { return load ? Json(*load) : Json(nullptr); }
+
+Json machine_json(const BenchResult& result) {
+    Json context = context_json(result.context);
+    context["gl_vendor"] = result.gl_vendor;
+    context["cores"] = result.cores;
+    context["load_average_before"] = load_json(result.load_before);
+    context["load_average_after"] = load_json(result.load_after);
+    context["other_cores"] = result.others.cores ? Json(*result.others.cores) : Json(nullptr);
+    context["busiest_other"] =
+        result.others.busiest.empty() ? Json(nullptr) : Json{{"process", result.others.busiest}, {"cores", result.others.busiest_cores}};
+    return context;
+}
+
+Json settings_json(const BenchResult& result) {
+    Json moments = Json::array();
+    for (const auto& [tick, time_s] : result.moments)
+        moments.push_back({{"frame", tick}, {"time_s", time_s}});
+    return {{"drive", result.drive},
+            {"title", result.title},
+            {"variant", result.variant},
+            {"width_px", result.width_px},
+            {"height_px", result.height_px},
+            {"moments", moments},
+            {"rounds_planned", result.rounds_planned},
+            {"rounds_done", result.orders.size()},
+            {"warm_up_plays_dropped", result.warm_up_plays},
+            {"reference", reference_technique}};
+}
+
+Json ratio_json(const PairedRatio& ratio) {
+    return {{"rounds", ratio.rounds},
+            {"median", ratio.median},
+            {"p05", ratio.p05},
+            {"p95", ratio.p95},
+            {"verdict", difference_name(ratio.difference)},
+            {"text", verdict_text(ratio)}};
+}
+
+Json work_json(const Work& work) {
+    return {{"passes", work.passes},
+            {"draws", work.draws},
+            {"calls", work.calls},
+            {"samplers", work.samplers},
+            {"shadow_maps", work.shadow_maps},
+            {"lamps", work.lamps},
+            {"triangles", work.triangles},
+            {"fragments", work.fragments},
+            {"texture_bytes", work.texture_bytes}};
+}
+
+Json technique_json(const BenchRow& row, const BenchResult& result) {
+    const Technique& technique = row.benched->row;
+    const ContestSamples& samples = row.benched->samples;
+    Json out{{"technique", technique.name},
+             {"thesis_row", technique.thesis_row > 0 ? Json(technique.thesis_row) : Json(nullptr)},
+             {"thesis_fps", technique.thesis_fps.empty() ? Json(nullptr) : Json(technique.thesis_fps)},
+             {"frames_per_s", row.frames_per_s()},
+             {"frame_s", spread_json(row.frame)},
+             {"frame_deviation_s", row.frame_deviation_s},
+             {"frame_median_interval_s",
+              row.frame_median
+                  ? Json{{"low", row.frame_median->low}, {"high", row.frame_median->high}, {"confidence", row.frame_median->confidence}}
+                  : Json(nullptr)},
+             {"latency_s", spread_json(row.latency)},
+             {"cpu_s", spread_json(row.cpu)},
+             {"gpu_s", row.gpu ? spread_json(*row.gpu) : Json(nullptr)}};
+    if (!row.gpu)
+        out["gpu_not_measured"] = result.gpu_not_measured;
+    out["ratio"] = row.ratio ? ratio_json(*row.ratio) : Json(nullptr);
+    out["work"] = row.work ? work_json(*row.work) : Json(nullptr);
+    out["samples"] = {{"frame_s", samples.frame_s}, {"cpu_s", samples.cpu_s}, {"gpu_s", samples.gpu_s}, {"latency_s", samples.latency_s}};
+    return out;
+}
+
+/// Every two techniques, the later in the table over the earlier.
+Json comparisons_json(const std::vector<BenchRow>& rows) {
+    Json out = Json::array();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+            const auto ratio = paired_ratio(rows[i].benched->samples.frame_s, rows[k].benched->samples.frame_s);
+            Json entry{{"technique", rows[i].benched->row.name}, {"against", rows[k].benched->row.name}};
+            entry.update(ratio_json(ratio.value()));
+            out.push_back(std::move(entry));
+        }
+    return out;
+}
+
+} // namespace
+
+std::string bench_json(const BenchResult& result) {
+    const std::vector<BenchRow> rows = summarise(result);
+    Json techniques = Json::array(), orders = Json::array();
+    for (const BenchRow& row : rows)
+        techniques.push_back(technique_json(row, result));
+    for (const auto& order : result.orders) {
+        Json names = Json::array();
+        for (const std::size_t i : order)
+            names.push_back(result.techniques.at(i).row.name);
+        orders.push_back(std::move(names));
+    }
+    return json_text(Json{{"schema", "fernlicht bench"},
+                          {"schema_version", 1},
+                          {"context", machine_json(result)},
+                          {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
+                          {"warnings", bench_warnings(result)},
+                          {"settings", settings_json(result)},
+                          {"techniques", techniques},
+                          {"comparisons", comparisons_json(rows)},
+                          {"orders", orders}});
+}
+
+} // namespace fernlicht

@@ -1,0 +1,79 @@
+// What a bench found: raw samples of each technique and what they were taken on. The writers only format it.
+#pragma once
+
+#include "metrics/statistics/paired_ratio.h"
+#include "metrics/statistics/statistics.h"
+#include "renderer/renderer.h"
+#include "renderer/technique.h"
+#include "runner/findings/report.h"
+#include "runner/play/contest.h"
+#include "runner/play/machine_load.h"
+
+#include <string>
+
+namespace fernlicht {
+
+struct BenchedTechnique {
+    Technique row;
+    ContestSamples samples;
+    std::vector<Work> work; ///< by moment
+};
+
+struct BenchResult {
+    RunContext context;
+    std::size_t cores = 0;
+    std::string gl_vendor;
+    std::optional<std::array<double, 3>> load_before, load_after;
+    OtherUse others;
+    std::string drive, title, variant;
+    int width_px = 0, height_px = 0;
+    std::vector<std::pair<int, double>> moments; ///< tick and time in seconds
+    std::size_t rounds_planned = 0, warm_up_plays = 0;
+    std::vector<std::vector<std::size_t>> orders; ///< of each round done, into `techniques`
+    std::string gpu_not_measured;                 ///< why; "" where it was
+    std::string interrupted;                      ///< why fewer rounds were done; "" otherwise
+    std::vector<BenchedTechnique> techniques;
+};
+
+/// The technique that the others are held against: what texturing alone costs.
+inline constexpr std::string_view reference_technique = "texturing-only";
+
+/// One technique's samples, summed up. Times in seconds a frame.
+struct BenchRow {
+    const BenchedTechnique* benched = nullptr;
+    Spread frame, cpu, latency;
+    std::optional<Spread> gpu;
+    double frame_deviation_s = 0.0;             ///< median absolute deviation
+    std::optional<MedianInterval> frame_median; ///< 95 %
+    std::optional<PairedRatio> ratio;           ///< to the reference; nullopt where that did not take part
+    std::optional<Work> work;                   ///< of each count the median over the moments, the lower of two
+    double frames_per_s() const { return 1.0 / frame.median; }
+};
+/// Of each count the median over the moments, the lower of two; nullopt for no moments.
+std::optional<Work> typical_work(const std::vector<Work>& work);
+
+/// In the result's order. Techniques without a sample are left out.
+std::vector<BenchRow> summarise(const BenchResult& result);
+
+/// "slower (ratio 2.31, spread 2.25..2.40)"; "not distinguishable (ratio 1.02, spread 0.97..1.06)".
+std::string verdict_text(const PairedRatio& ratio);
+const char* difference_name(Difference difference); ///< "faster", "slower", "not distinguishable"
+
+/// What makes the times doubtful, one sentence each: others at work, few rounds, an end before its time.
+std::vector<std::string> bench_warnings(const BenchResult& result);
+
+/// What stands above the tables: drive, device, machine, seed, load. Lines end with a newline.
+std::string bench_heading(const BenchResult& result);
+/// Table 6.1 beside ours, then all other techniques, then what a frame costs. Lines end with a newline.
+std::string bench_tables(const BenchResult& result);
+/// docs/benchmarks.md and bench.schema.json describe it.
+std::string bench_json(const BenchResult& result);
+/// RFC 4180, one line per technique and round.
+std::string bench_csv(const BenchResult& result);
+/// Bars of the median time a frame with spread, in the tables' order, the ratio beside each.
+std::string bench_svg(const BenchResult& result);
+
+/// bench.json, bench.csv, bench.svg and bench.png, each as a whole or not at all.
+void write_bench(const BenchResult& result, const std::filesystem::path& folder);
+
+} // namespace fernlicht

@@ -1,0 +1,195 @@
+#include "runner/experiments/bench/bench_run.h"
+
+#include "renderer/gpu_timer.h"
+#include "renderer/renderer.h"
+#include "renderer/sanity.h"
+#include "renderer/timer_check.h"
+#include "runner/experiments/bench/contact_sheet.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "runner/play/interruption.h"
+#include "runner/play/progress.h"
+#include "runner/play/shadows/check_planar.h"
+#include "runner/play/shadows/choose_shadows.h"
+#include "runner/play/stage.h"
+#include "runner/write/plots/png.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
+
+#include <algorithm>
+#include <deque>
+#include <fmt/format.h>
+#include <thread>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+const Variant& variant_named(const Drive& drive, const std::string& name) {
+    if (name.empty())
+        return drive.variants.front();
+    std::vector<std::string> names;
+    for (const Variant& variant : drive.variants) {
+        if (variant.name == name)
+            return variant;
+        names.push_back(variant.name);
+    }
+    throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+const View& view_to_time(const Drive& drive) {
+    if (const View* const view = driver_view(drive))
+        return *view;
+    throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a perspective view to time");
+}
+
+RendererSettings settings_for(const Drive& drive, const Technique& technique) {
+    RendererSettings settings;
+    settings.tone_mapper = drive.tone_mapper;
+    settings.beams = drive.beams;
+    settings.shadows = drive.shadows;
+    settings.technique = technique.name;
+    return settings;
+}
+
+/// Why the GPU's clock is not used; "" where it can be believed.
+std::string clock_refused(Device& device) {
+    if (device.info().software)
+        return "the driver draws on the CPU";
+    const TimerCheck check = check_timer(device);
+    return check.agrees()
+               ? ""
+               : fmt::format("GL_TIME_ELAPSED says {:.2f} ms of a load that takes {:.2f} ms", 1e3 * check.query_s, 1e3 * check.finish_s);
+}
+
+BenchResult described(const BenchRequest& request, const Stage& stage, const Variant& variant, const View& view, Device& device) {
+    BenchResult result;
+    result.context = make_context(device.info(), request.command, request.seed);
+    add_inputs(result.context.inputs, stage.drive.opened);
+    add_inputs(result.context.inputs, stage.network.opened);
+    result.cores = std::thread::hardware_concurrency();
+    result.gl_vendor = device.info().gl_vendor;
+    result.drive = stage.drive.name;
+    result.title = stage.drive.title;
+    result.variant = variant.name;
+    result.width_px = view.width_px;
+    result.height_px = view.height_px;
+    result.rounds_planned = static_cast<std::size_t>(request.rounds);
+    return result;
+}
+
+/// Each technique with a renderer of its own, compiled for all moments and its work counted.
+std::vector<Contestant> take_part(const std::vector<Technique>& rows, Device& device, const Stage& stage, const View& view,
+                                  const std::vector<Moment>& moments, std::deque<Renderer>& renderers, BenchResult& result) {
+    constexpr Wanted wanted{.colour = true};
+    std::vector<Contestant> contestants;
+    for (const Technique& row : rows) {
+        Renderer* const renderer = &renderers.emplace_back(device, stage.scene, settings_for(stage.drive, row));
+        renderer->prepare(moments, view, wanted);
+        BenchedTechnique& benched = result.techniques.emplace_back();
+        benched.row = row;
+        for (const Moment& moment : moments)
+            benched.work.push_back(renderer->count(moment, view, wanted));
+        contestants.push_back(
+            {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, wanted); }, [=] { renderer->finish(); }});
+    }
+    return contestants;
+}
+
+/// Holds the rounds and puts their samples into the result, with who else used the machine meanwhile.
+void time_rounds(const std::vector<Contestant>& contestants, const BenchRequest& request, Device& device, BenchResult& result) {
+    ContestClocks clocks = real_clocks();
+    GpuTimer timer(device);
+    if (result.gpu_not_measured.empty()) {
+        clocks.gpu_begin = [&] { timer.begin(); };
+        clocks.gpu_end = [&] { timer.end(); };
+        clocks.gpu_s = [&] { return timer.seconds(); };
+    }
+    const Interruption listening;
+    std::optional<Progress> progress;
+    std::optional<CpuUse> before; // the warm-up is not timed
+    ContestOptions options;
+    options.moments = result.moments.size();
+    options.rounds = result.rounds_planned;
+    options.seed = request.seed;
+    options.go_on = [&](std::size_t done) {
+        if (!before) {
+            before = cpu_use();
+            progress.emplace("bench", request.rounds, request.quiet, "rounds");
+        }
+        progress->done(static_cast<int>(done));
+        return !Interruption::asked();
+    };
+    Contest contest = hold_contest(contestants, options, clocks);
+    const CpuUse after = cpu_use();
+    progress->done(static_cast<int>(contest.orders.size()));
+    result.warm_up_plays = options.warm_up_plays;
+    result.load_before = before->load_average;
+    result.load_after = after.load_average;
+    result.others = other_use(*before, after, ::getpid());
+    result.orders = std::move(contest.orders);
+    if (result.orders.size() < result.rounds_planned)
+        result.interrupted = "interrupted by the user";
+    for (std::size_t i = 0; i < contestants.size(); ++i)
+        result.techniques[i].samples = std::move(contest.samples[i]);
+}
+
+} // namespace
+
+std::vector<Technique> chosen_techniques(const std::vector<std::string>& names) {
+    for (auto name = names.begin(); name != names.end(); ++name) {
+        technique_named(*name);
+        if (std::find(names.begin(), name, *name) != name)
+            throw InputError({{}, 0, 0, "--techniques"}, "found '" + printable(*name) + "' twice", "each technique once");
+    }
+    std::vector<Technique> rows;
+    for (const Technique& row : techniques())
+        if (names.empty() || row.name == reference_technique || std::ranges::find(names, row.name) != names.end())
+            rows.push_back(row);
+    return rows;
+}
+
+std::vector<int> ticks_over(int count, int n) {
+    if (n < 1 || n > count)
+        throw InputError({{}, 0, 0, "--frames"}, fmt::format("found {}", n), fmt::format("1 to {}, the drive's moments", count));
+    std::vector<int> ticks;
+    for (int i = 0; i < n; ++i)
+        ticks.push_back(static_cast<int>((2LL * i + 1) * count / (2LL * n)));
+    return ticks;
+}
+
+BenchResult run_bench(const BenchRequest& request) {
+    const std::vector<Technique> rows = chosen_techniques(request.techniques);
+    Stage stage(request.drive);
+    const Variant& variant = variant_named(stage.drive, request.variant);
+    const View& view = view_to_time(stage.drive);
+    const int ticks = tick_count(stage.drive);
+    const std::vector<Moment> moments =
+        moments_at(ticks_over(ticks, request.moments.value_or(std::min(usual_bench_moments, ticks))), stage, variant);
+    Device device = open_device(request.backend);
+    check_sanity(device);
+    choose_shadows(stage, device, {});
+    check_planar_shadows(stage, device, moments);
+    OutputFolder folder(request.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
+    BenchResult result = described(request, stage, variant, view, device);
+    for (const Moment& moment : moments)
+        result.moments.emplace_back(moment.tick, moment.time_s);
+    result.gpu_not_measured = clock_refused(device);
+
+    std::deque<Renderer> renderers;
+    const std::vector<Contestant> contestants = take_part(rows, device, stage, view, moments, renderers, result);
+    time_rounds(contestants, request, device, result);
+    write_bench(result, request.folder);
+    if (result.interrupted.empty()) {
+        ContactSheet sheet = new_sheet(stage, variant, moments[moments.size() / 2]);
+        for (Renderer& renderer : renderers)
+            add_tile(sheet, renderer);
+        write_file(request.folder / "contact-sheet.png", plots::png_of_svg(contact_sheet_svg(sheet)));
+    }
+    if (result.interrupted.empty())
+        folder.finish();
+    return result;
+}
+
+} // namespace fernlicht

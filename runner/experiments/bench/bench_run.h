@@ -1,0 +1,32 @@
+// A bench on a real device: what takes part, what it draws, and its result.
+#pragma once
+
+#include "runner/experiments/bench/bench_result.h"
+
+namespace fernlicht {
+
+inline constexpr int usual_bench_moments = 8;
+
+struct BenchRequest {
+    Drive drive;
+    std::string variant;                 ///< "": the drive's first
+    std::vector<std::string> techniques; ///< empty: all. The reference takes part in any case
+    std::optional<int> moments;          ///< nullopt: usual_bench_moments, or all of a drive that has fewer
+    int rounds = 21;
+    std::uint64_t seed = 1;
+    std::string backend = "auto";
+    std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
+    std::vector<std::string> command;
+    bool quiet = false;
+};
+
+/// Holds the contest and writes its files. Ends after a round when interrupted. Throws InputError and DeviceError.
+BenchResult run_bench(const BenchRequest& request);
+
+/// The rows that take part, in the table's order. Throws InputError for a name that is unknown or comes twice.
+std::vector<Technique> chosen_techniques(const std::vector<std::string>& names);
+
+/// The middle of each of `n` equal parts of ticks 0 .. count - 1. Throws InputError naming --frames when there are not as many.
+std::vector<int> ticks_over(int count, int n);
+
+} // namespace fernlicht

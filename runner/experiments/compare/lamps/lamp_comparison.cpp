@@ -1,0 +1,92 @@
+#include "runner/experiments/compare/lamps/lamp_comparison.h"
+
+#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "scenarios/values/pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fernlicht {
+namespace {
+
+/// As `fernlicht lamp FILE --cut-off`: a detector of 30 mm at 25 m.
+CutOffOptions usual_cut_off() { return {SharpnessRule::maximum, degrees(std::atan(30.0 / 25000.0))}; }
+
+ComparedLamp read_compared(const std::filesystem::path& path) {
+    ComparedLamp lamp;
+    lamp.path = path;
+    lamp.file = read_lamp(path);
+    lamp.description = describe(lamp.file);
+    lamp.cut_off = measure_cut_off({&lamp.file.table, {}}, usual_cut_off());
+    return lamp;
+}
+
+void add(LampPairComparison& lamps, const char* name, const char* words, const char* unit, double before, double now) {
+    lamps.facts.push_back({name, unit, words, before, now, std::nullopt});
+}
+
+void add_place(LampPairComparison& lamps, const char* name, const char* words, const CutOffScan& before, const CutOffScan& now) {
+    LampFact fact{name, "deg", words, before.inflection_deg, now.inflection_deg, std::nullopt};
+    if (fact.before && fact.now)
+        fact.uncertainty = std::hypot(before.uncertainty_deg(), now.uncertainty_deg());
+    else
+        fact.why_not = fact.before ? now.reason : before.reason;
+    lamps.facts.push_back(std::move(fact));
+}
+
+void add_optional(LampPairComparison& lamps, const char* name, const char* words, const char* unit, const std::optional<double>& before,
+                  const std::optional<double>& now, const std::string& why_before, const std::string& why_now) {
+    lamps.facts.push_back({name, unit, words, before, now, std::nullopt, before && now ? "" : before ? why_now : why_before});
+}
+
+void add_facts(LampPairComparison& lamps) {
+    const LampDescription &a = lamps.before.description, &b = lamps.now.description;
+    add(lamps, "peak_cd", "peak", "cd", a.peak.cd, b.peak.cd);
+    add(lamps, "peak_h_deg", "peak, H", "deg", a.peak.h_deg, b.peak.h_deg);
+    add(lamps, "peak_v_deg", "peak, V", "deg", a.peak.v_deg, b.peak.v_deg);
+    add(lamps, "hv_cd", "straight ahead (HV)", "cd", a.hv_cd, b.hv_cd);
+    add(lamps, "flux_lm", "flux within the table", "lm", a.flux_lm, b.flux_lm);
+    const CutOffFigures &c = lamps.before.cut_off, &d = lamps.now.cut_off;
+    add_place(lamps, "cut_off_v_deg", "cut-off at 2.5 degrees left, V", c.level, d.level);
+    add_optional(lamps, "cut_off_sharpness_g", "its sharpness G", "", c.level.sharpness, d.level.sharpness, c.level.reason, d.level.reason);
+    add_optional(lamps, "cut_off_linearity_deg", "its linearity", "deg", c.linearity_deg, d.linearity_deg,
+                 "the level part was not found at three places", "the level part was not found at three places");
+    add_optional(lamps, "kink_h_deg", "kink, H", "deg", c.kink_h_deg, d.kink_h_deg, c.kink_reason, d.kink_reason);
+    add_optional(lamps, "rise_angle_deg", "angle of the rise", "deg", c.rise_angle_deg, d.rise_angle_deg, c.kink_reason, d.kink_reason);
+    add_place(lamps, "shoulder_h_deg", "shoulder of the rise, H", c.shoulder, d.shoulder);
+}
+
+void check(LampPairComparison& lamps, const std::string& id) {
+    lamps.regulation = &regulation(id);
+    for (ComparedLamp* lamp : {&lamps.before, &lamps.now})
+        lamp->check = check_regulation(*lamps.regulation, {lamp->file.table});
+    for (const RowResult& row : lamps.before.check->rows)
+        lamps.rows.push_back({row.id, &row, nullptr});
+    for (const RowResult& row : lamps.now.check->rows) {
+        const auto found = std::ranges::find(lamps.rows, row.id, &ComparedRow::id);
+        if (found == lamps.rows.end())
+            lamps.rows.push_back({row.id, nullptr, &row});
+        else
+            found->now = &row;
+    }
+}
+
+} // namespace
+
+bool LampPairComparison::passed() const { return !now.check || now.check->verdict == RowVerdict::pass; }
+
+std::unique_ptr<LampPairComparison> compare_lamp_files(const std::filesystem::path& before, const std::filesystem::path& now,
+                                                       const LampCompareOptions& options) {
+    auto lamps = std::make_unique<LampPairComparison>();
+    if (!options.regulation.empty())
+        regulation(options.regulation); // its name first: reading and comparing take longer
+    lamps->before = read_compared(before);
+    lamps->now = read_compared(now);
+    lamps->difference = difference_of(lamps->now.file, lamps->before.file, options.noise_relative);
+    add_facts(*lamps);
+    if (!options.regulation.empty())
+        check(*lamps, options.regulation);
+    return lamps;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,58 @@
+// What is known about how two pictures differ: numbers, a verdict where one was asked for, and the maps to be drawn. Plain values.
+#pragma once
+
+#include "metrics/strictness/error_histogram.h"
+#include "metrics/strictness/strictness_classes.h"
+#include "runner/experiments/compare/picture_pair.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fernlicht {
+
+/// A figure of a comparison, drawn.
+struct ComparedFigure {
+    std::string name;  ///< of its files below figures/, without extension
+    std::string title; ///< for people
+    std::string svg;
+};
+
+struct ComparedValue {
+    std::string name;                              ///< snake_case: rmse, psnr_db, flip_mean
+    std::string unit;                              ///< "" for none
+    std::optional<double> value;                   ///< none: not measured
+    std::string why_not = {};                      ///< where there is none
+    std::optional<std::pair<int, int>> place = {}; ///< the pixel that it was found at
+};
+
+/// One quantity: the display colours, or one channel of a linear picture.
+struct LayerComparison {
+    std::string name, unit; ///< "display", "level"; "illuminance.lx", "lx"
+    std::vector<ComparedValue> values = {};
+    std::optional<StrictnessResult> strictness = {};
+    ErrorHistogram histogram = {};
+    Image<float> difference = {}; ///< tested - reference, signed; of a display picture that of the channel that differs most
+    Image<float> flip = {};       ///< empty where FLIP does not apply
+    Image<float> colours = {};    ///< CIEDE2000; display pictures alone
+};
+
+struct PictureComparison {
+    double pixels_per_degree = 0.0;
+    std::string strictness_name; ///< "" for none
+    std::vector<LayerComparison> layers;
+    bool passed() const; ///< true where no strictness was asked for
+};
+
+/// Why FLIP is not measured at these pixels per degree, as "0.73 pixels per degree, and FLIP is taken at 1 to 1000"; "" where it is.
+std::string why_no_flip_at(double pixels_per_degree);
+
+/// Display pictures: levels, PSNR with peak 255, SSIM and MS-SSIM of luma (range 255), CIEDE2000, FLIP. Linear: in the unit, PSNR with the
+/// reference's largest value as peak, SSIM and MS-SSIM over four decades of light (light_decades.h), and, of luminance, FLIP for high
+/// dynamic range. What a picture cannot have (MS-SSIM of a small one, PSNR of two alike) is not measured, with the reason. Throws
+/// InputError where a mask does not fit. Linear pictures that nobody looks at (maps) have 0 pixels per degree and no FLIP; where FLIP is
+/// not taken at the pixels per degree of others, it is not measured.
+PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness);
+
+} // namespace fernlicht

@@ -1,0 +1,36 @@
+// What one drive with one lamp set came to, read back from a run's report.json.
+#pragma once
+
+#include "metrics/readings/significance.h"
+#include "runner/files/checked_json.h"
+#include "runner/findings/report.h"
+
+namespace fernlicht {
+
+/// Reach on the own lane's centre over a drive; NaN where it was not measured.
+struct ReachOverDrive {
+    ExtentPlane plane = ExtentPlane::road;
+    double limit_lx = 0.0;
+    std::vector<double> distance_m, reach_m;
+};
+
+/// Illuminance in an oncoming eye, facing the lamps, or through mirrors, over the distance to it; NaN where it was not measured.
+struct GlareOverDrive {
+    std::string subject, over; ///< "glare_opposite", "distance to the observer"
+    std::vector<double> at_m, facing_lx;
+};
+
+struct PlayedResult : PlayedReadings {
+    std::string drive, variant;          ///< names as the report has them; "" when it was not played
+    std::vector<ReachOverDrive> reaches; ///< rendered
+    std::vector<GlareOverDrive> glares;
+    std::vector<StoredFrame> frames;                      ///< paths below what the folder is named by
+    std::vector<Verdict> verdicts;                        ///< limits of the drive, references
+    std::optional<double> error_share, error_floor_share; ///< 95 % of the road's illuminance against the reference lies within
+    std::optional<double> frame_s;                        ///< a driver's view
+};
+
+/// One of the report's `drives`; its frames' paths begin with `folder` ("" for none). Throws InputError where the report is no report.
+PlayedResult read_played(const CheckedJson& report, const CheckedJson& played, const std::string& folder);
+
+} // namespace fernlicht

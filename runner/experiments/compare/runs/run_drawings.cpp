@@ -1,0 +1,153 @@
+#include "runner/experiments/compare/comparison_writers.h"
+#include "runner/experiments/compare/runs/lux_ratio.h"
+#include "runner/experiments/compare/runs/run_pairs.h"
+#include "runner/experiments/compare/runs/run_writers.h"
+#include "runner/files/clean_text.h"
+#include "runner/findings/extent_keys.h"
+#include "runner/play/capture.h"
+#include "runner/write/plots/png.h"
+#include "runner/write/plots/svg.h"
+#include "scenarios/studies/study.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A line each for old and new over the way; nothing where neither has a point.
+void add_lines(DriveComparison& drive, const std::string& name, const std::string& title, const plots::Polyline& old_line,
+               const plots::Polyline& new_line, const std::string& along, const std::string& what, const std::string& unit,
+               plots::Scale scale) {
+    std::vector<double> xs, ys;
+    for (const plots::Polyline* line : {&old_line, &new_line})
+        for (const plots::Point& p : *line) {
+            xs.push_back(p.x);
+            ys.push_back(p.y);
+        }
+    if (xs.empty())
+        return;
+    plots::Figure figure;
+    figure.title = title;
+    figure.subtitle = short_text(drive.now->title, 80);
+    figure.width_px = 560.0;
+    figure.height_px = 300.0;
+    figure.series = {{short_text(drive.old_label(), 40), old_line, plots::series_colour(0), 2.2, "", old_line.size() == 1},
+                     {short_text(drive.new_label(), 40), new_line, plots::series_colour(1), 1.6, "6 3", new_line.size() == 1}};
+    figure.x = plots::axis_around(along, "m", xs);
+    figure.y = plots::axis_around(what, unit, ys, scale, scale == plots::Scale::linear);
+    drive.figures.push_back({fmt::format("{}_{}", name, drive.name), title + ": " + figure.subtitle, plots::svg_of(figure)});
+}
+
+plots::Polyline line_of(const std::vector<double>& x, const std::vector<double>& y) {
+    plots::Polyline line;
+    for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+        line.push_back({x[i], y[i]});
+    return line;
+}
+
+void add_reaches(DriveComparison& drive) {
+    for (const ReachOverDrive& now : drive.now->reaches) {
+        const std::string name = fmt::format("reach_{:g}lx_{}_own_m", now.limit_lx, plane_name(now.plane));
+        const auto old = std::ranges::find_if(drive.before->reaches,
+                                              [&](const ReachOverDrive& r) { return r.plane == now.plane && r.limit_lx == now.limit_lx; });
+        if (old == drive.before->reaches.end() || std::ranges::find(usual_readings(), name) == usual_readings().end())
+            continue;
+        add_lines(
+            drive, fmt::format("reach-{:g}lx-{}", now.limit_lx, plane_name(now.plane)),
+            fmt::format("Reach at {:g} lx {}, own lane", now.limit_lx, now.plane == ExtentPlane::road ? "on the road" : "on a target"),
+            line_of(old->distance_m, old->reach_m), line_of(now.distance_m, now.reach_m), "along the route", "reach", "m",
+            plots::Scale::linear);
+    }
+}
+
+void add_glares(DriveComparison& drive) {
+    for (const GlareOverDrive& now : drive.now->glares) {
+        const auto old = std::ranges::find(drive.before->glares, now.subject, &GlareOverDrive::subject);
+        if (old != drive.before->glares.end())
+            add_lines(drive, "glare-" + file_name_of(now.subject), "Illuminance facing the lamps, " + short_text(now.subject, 40),
+                      line_of(old->at_m, old->facing_lx), line_of(now.at_m, now.facing_lx), now.over, "illuminance", "lx",
+                      plots::Scale::logarithmic);
+    }
+}
+
+void add_maps(DriveComparison& drive, const RunComparison& runs, const FramePair& frame) {
+    const auto before = stored_lux_map(runs.before.folder / frame.old_frame.exr, frame.old_frame, *frame.view);
+    const auto now = stored_lux_map(runs.now.folder / frame.new_frame.exr, frame.new_frame, *frame.view);
+    if (!before || !now)
+        return;
+    const std::string name = fmt::format("{}_{}-{:06}", drive.name, file_name_of(frame.new_frame.view), frame.new_frame.tick);
+    const std::string old_label = short_text(drive.old_label(), 40), new_label = short_text(drive.new_label(), 40);
+    const std::string place = short_text(drive.now->title, 60);
+    const std::string lines = "Isolux lines from above: " + place, ratio = new_label + " over " + old_label + ": " + place;
+    drive.figures.push_back({"lux-lines_" + name, lines, lux_lines_svg(*now, *before, lines, new_label, old_label)});
+    drive.figures.push_back({"lux-ratio_" + name, ratio, lux_ratio_svg(*now, *before, ratio)});
+}
+
+/// The moments of a view to be drawn: `pictured` of those that differ, evenly spread, and the one that differs most.
+std::set<int> drawn_moments(const DriveComparison& drive, const std::string& view, std::size_t pictured) {
+    std::vector<int> ticks;
+    double worst = 0.0;
+    int worst_tick = -1;
+    for (const FramePair& frame : drive.frames) {
+        if (frame.new_frame.view != view || frame.is_equal())
+            continue;
+        if (ticks.empty() || ticks.back() != frame.new_frame.tick)
+            ticks.push_back(frame.new_frame.tick);
+        for (const LayerComparison& layer : frame.comparison.layers)
+            if (const double rmse = value_in(layer, "rmse").value_or(0.0); layer.name == "illuminance.lx" && rmse > worst) {
+                worst = rmse;
+                worst_tick = frame.new_frame.tick;
+            }
+    }
+    std::set<int> drawn;
+    if (pictured == 1 && !ticks.empty())
+        drawn.insert(worst_tick >= 0 ? worst_tick : ticks.front());
+    if (pictured > 1)
+        for (const std::size_t i : spread_over(ticks.size(), pictured))
+            drawn.insert(ticks[i]);
+    if (worst_tick >= 0 && pictured > 0)
+        drawn.insert(worst_tick);
+    return drawn;
+}
+
+void draw_frames(DriveComparison& drive, const RunComparison& runs, const RunCompareOptions& options, std::size_t pictured,
+                 const fs::path& folder) {
+    std::map<std::string, std::set<int>> drawn;
+    for (FramePair& frame : drive.frames) {
+        const std::string& view = frame.new_frame.view;
+        if (!drawn.contains(view))
+            drawn[view] = drawn_moments(drive, view, pictured);
+        if (!drawn[view].contains(frame.new_frame.tick) || frame.is_equal())
+            continue;
+        const PicturePair pair = frame_pictures(frame, runs);
+        const PictureComparison comparison = compare_pictures(pair, frame_density(frame, options), options.strictness);
+        frame.folder = fmt::format("frames/{}/{}-{:06}", drive.name, file_name_of(view), frame.new_frame.tick);
+        std::error_code ignored; // a folder that cannot be made shows in the first file below it
+        fs::create_directories(folder / frame.folder, ignored);
+        frame.files = write_comparison_pictures(comparison, pair, folder / frame.folder);
+        if (!frame.is_display && frame.view->projection == Projection::map)
+            add_maps(drive, runs, frame);
+    }
+}
+
+} // namespace
+
+void draw_runs(RunComparison& runs, const RunCompareOptions& options, std::size_t pictured, const fs::path& folder) {
+    for (DriveComparison& drive : runs.drives) {
+        add_reaches(drive);
+        add_glares(drive);
+        draw_frames(drive, runs, options, pictured, folder);
+        std::error_code ignored;
+        fs::create_directories(folder / "figures", ignored);
+        for (const ComparedFigure& figure : drive.figures) {
+            write_file(folder / "figures" / (figure.name + ".svg"), figure.svg);
+            write_file(folder / "figures" / (figure.name + ".png"), plots::png_of_svg(figure.svg, 2.0));
+        }
+    }
+}
+
+} // namespace fernlicht

@@ -1,0 +1,115 @@
+#include "runner/experiments/compare/runs/run_folder.h"
+
+#include "runner/experiments/compare/runs/yaml_difference.h"
+#include "runner/files/output_folder.h"
+#include "runner/play/capture.h"
+#include "scenarios/drives/keys/display_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_bytes = std::size_t{16} << 20; // of a resolved drive
+
+/// The part of a resolved drive that has these keys: what reads them need not know the others.
+YamlValue only(const YamlValue& document, std::initializer_list<std::string_view> keys) {
+    YamlValue part = document;
+    std::erase_if(part.members, [&](const YamlMember& member) { return std::ranges::find(keys, member.key) == keys.end(); });
+    return part;
+}
+
+/// Runs of older versions wrote an s, 1 or 20, that `linear` and `histogram` did not use either.
+void drop_unused_s(YamlValue& part) {
+    for (YamlMember& member : part.members)
+        if (const YamlValue* kind = member.key == "tone_mapper" ? member_of(member.value, "kind") : nullptr;
+            kind && (kind->text == "linear" || kind->text == "histogram"))
+            std::erase_if(member.value.members, [](const YamlMember& key) { return key.key == "s"; });
+}
+
+double grid_cell_m(const YamlValue& document, const fs::path& file, double otherwise) {
+    const YamlValue* measure = member_of(document, "measure");
+    const YamlValue* extent = measure ? member_of(*measure, "extent") : nullptr;
+    const YamlValue* cell = extent ? member_of(*extent, "cell_m") : nullptr;
+    return cell ? YamlEntry(*cell, file, "measure.extent.cell_m").number_above(0.0, 1e6) : otherwise;
+}
+
+void read_resolved(const fs::path& folder, RunDrive& drive) {
+    const fs::path file = folder / (file_name_of(drive.drive) + ".yaml");
+    FilesRead ignored;
+    drive.resolved = parse_yaml(read_file(file, ignored, most_bytes), file);
+    YamlValue part = only(drive.resolved, {"views", "tone_mapper", "display", "speed", "step_s"});
+    drop_unused_s(part);
+    const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "display", "speed", "step_s"});
+    drive.views = read_views(keys, ignored);
+    drive.tone_mapper = read_tone_mapper(keys);
+    if (member_of(drive.resolved, "step_s"))
+        drive.step_s = read_step_s(keys);
+    if (member_of(drive.resolved, "speed"))
+        for (const SpeedPoint& point : read_speed(keys))
+            drive.step_m = std::max(drive.step_m, point.speed_mps * drive.step_s);
+    drive.grid_cell_m = grid_cell_m(drive.resolved, file, drive.grid_cell_m);
+    if (const YamlValue* road = member_of(drive.resolved, "road"))
+        if (const auto hash = drive.hashes.find(road->text); hash != drive.hashes.end())
+            drive.road_hash = hash->second;
+}
+
+RunDrive read_drive_of(const fs::path& folder, const CheckedJson& report, const CheckedJson& played,
+                       const std::map<std::string, std::string>& hashes) {
+    RunDrive drive;
+    static_cast<PlayedResult&>(drive) = read_played(report, played, "");
+    drive.folder = folder;
+    drive.technique = played.at("technique").text();
+    drive.hashes = hashes;
+    for (const CheckedJson& sample : played.at("speed_mps").items())
+        drive.time_s.push_back(sample.items().at(0).number());
+    for (const CheckedJson& pass : report.at("timing").items())
+        if (pass.at("drive").text() == drive.drive && pass.at("variant").text() == drive.variant)
+            for (const CheckedJson& sample : pass.at("samples_s").items())
+                drive.pass_s[pass.at("pass").text()].push_back(sample.number());
+    read_resolved(folder, drive);
+    if (drive.step_m == 0.0 && drive.step_s > 0.0) // a storyboard says the speed: the fastest that was played
+        for (const CheckedJson& sample : played.at("speed_mps").items())
+            drive.step_m = std::max(drive.step_m, sample.items().at(1).number() * drive.step_s);
+    const YamlValue* title = member_of(drive.resolved, "title");
+    drive.title = title ? title->text : drive.drive;
+    return drive;
+}
+
+} // namespace
+
+RunFolder read_run_folder(const fs::path& folder) {
+    std::error_code ignored;
+    if (fs::is_directory(folder / "cells", ignored))
+        throw InputError({folder, 0, 0, {}}, "is a study's folder",
+                         "one of its cells, " + (folder / "cells" / "NAME").string() + ", or a run's folder");
+    if (is_marked_incomplete(folder))
+        throw InputError({folder, 0, 0, {}}, "holds a run that did not end", "the folder of a run that was played to its end");
+    if (!fs::is_regular_file(folder / "report.json", ignored))
+        throw InputError({folder, 0, 0, {}}, "has no report.json", "a folder as fernlicht run leaves it");
+    const CheckedJson report = CheckedJson::read(folder / "report.json");
+    report.expect_schema("fernlicht report", 1);
+    if (const CheckedJson complete = report.at("complete"); !complete.truth())
+        complete.refuse("a complete run");
+    const CheckedJson context = report.at("context");
+    RunFolder run;
+    run.folder = folder;
+    run.command = context.at("command").text();
+    run.started_utc = context.at("started_utc").text();
+    run.version = context.at("versions").at("fernlicht").text();
+    run.backend = context.at("backend").text();
+    run.gl_renderer = context.at("gl_renderer").text();
+    run.cpu = context.at("cpu").text();
+    std::map<std::string, std::string> hashes;
+    for (const CheckedJson& input : context.at("inputs").items())
+        hashes[input.at("path").text()] = input.at("xxh128").text();
+    for (const CheckedJson& played : report.at("drives").items())
+        run.drives.push_back(read_drive_of(folder, report, played, hashes));
+    return run;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,119 @@
+#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/compare/layers_json.h"
+#include "runner/experiments/compare/runs/run_writers.h"
+#include "runner/files/json_text.h"
+#include "runner/files/value_json.h"
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json value_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json change_json(const ReadingChange& c) {
+    return {{"reading", c.reading},
+            {"unit", c.unit},
+            {"old_value", value_json(c.old_value)},
+            {"new_value", value_json(c.new_value)},
+            {"change", value_json(c.change())},
+            {"relative_change", value_or_null(c.relative())},
+            {"uncertainty", value_or_null(c.uncertainty)},
+            {"by_tenth_degree", value_or_null(c.by_aim)},
+            {"by_noise", value_or_null(c.by_noise)},
+            {"kind", change_name(c.kind)},
+            {"why_not", c.kind == ChangeKind::unknown ? Json(c.why_not) : Json(nullptr)}};
+}
+
+Json frame_json(const FramePair& frame) {
+    Json pictures = Json::array();
+    for (const std::string& file : frame.files)
+        pictures.push_back(frame.folder + "/" + file);
+    return {{"view", frame.new_frame.view},
+            {"frame", frame.new_frame.tick},
+            {"time_s", frame.new_frame.time_s},
+            {"old_file", frame.file(frame.old_frame)},
+            {"new_file", frame.file(frame.new_frame)},
+            {"width_px", frame.view->width_px},
+            {"height_px", frame.view->height_px},
+            {"pixels_per_degree", frame.comparison.pixels_per_degree > 0.0 ? Json(frame.comparison.pixels_per_degree) : Json(nullptr)},
+            {"equal", frame.is_equal()},
+            {"layers", layers_json(frame.comparison)},
+            {"pictures", pictures}};
+}
+
+Json drive_json(const DriveComparison& drive, std::size_t index) {
+    Json settings = Json::array(), changes = Json::array(), times = Json::array(), frames = Json::array(), figures = Json::array();
+    for (const YamlChange& setting : drive.settings)
+        settings.push_back({{"key", setting.key}, {"old", setting.old_value}, {"new", setting.new_value}});
+    for (std::size_t i = 0; i < drive.changes.size(); ++i) {
+        Json row{{"id", row_id(index, i)}, {"decides", drive.decides(drive.changes[i].reading)}};
+        row.update(change_json(drive.changes[i]));
+        changes.push_back(std::move(row));
+    }
+    for (const TimeChange& time : drive.times) {
+        Json row = change_json(time);
+        row["old_samples"] = time.old_samples;
+        row["new_samples"] = time.new_samples;
+        times.push_back(std::move(row));
+    }
+    Json lamps = Json::array();
+    for (const LampFilesDifference& files : drive.lamp_files)
+        lamps.push_back({{"lamps", files.lamps},
+                         {"old_file", files.before.string()},
+                         {"new_file", files.now.string()},
+                         {"difference", difference_json(files.difference)}});
+    for (const FramePair& frame : drive.frames)
+        frames.push_back(frame_json(frame));
+    for (const ComparedFigure& figure : drive.figures)
+        figures.push_back(
+            {{"svg", "figures/" + figure.name + ".svg"}, {"png", "figures/" + figure.name + ".png"}, {"title", figure.title}});
+    return {{"drive", drive.now->drive},
+            {"old_variant", drive.before->variant},
+            {"new_variant", drive.now->variant},
+            {"old_technique", drive.before->technique},
+            {"new_technique", drive.now->technique},
+            {"settings", settings},
+            {"files_of_other_content", drive.new_bytes},
+            {"left_out", drive.left_out},
+            {"lamp_files", lamps},
+            {"changes", changes},
+            {"times", times},
+            {"frames", frames},
+            {"figures", figures}};
+}
+
+Json run_json(const RunFolder& run) {
+    return {{"folder", run.folder.string()},
+            {"command", run.command},
+            {"started_utc", run.started_utc},
+            {"version", run.version},
+            {"backend", run.backend},
+            {"gl_renderer", run.gl_renderer},
+            {"cpu", run.cpu}};
+}
+
+} // namespace
+
+std::string runs_json(const RunComparison& runs) {
+    Json drives = Json::array(), largest = Json::array();
+    for (std::size_t d = 0; d < runs.drives.size(); ++d)
+        drives.push_back(drive_json(runs.drives[d], d));
+    for (const auto& [drive, change] : runs.largest)
+        largest.push_back(row_id(drive, change));
+    const bool judged = !runs.strictness_name.empty();
+    return json_text({{"schema", "fernlicht comparison"},
+                      {"schema_version", 1},
+                      {"kind", "runs"},
+                      {"reference", runs.before.folder.string()},
+                      {"tested", runs.now.folder.string()},
+                      {"strictness", judged ? Json(runs.strictness_name) : Json(nullptr)},
+                      {"passed", judged ? Json(runs.passed()) : Json(nullptr)},
+                      {"not_judged", runs.not_judged},
+                      {"largest_changes", largest},
+                      {"left_out", runs.left_out},
+                      {"drives", drives},
+                      {"runs", Json::array({run_json(runs.before), run_json(runs.now)})}});
+}
+
+} // namespace fernlicht

@@ -1,0 +1,142 @@
+#include "runner/experiments/compare/runs/run_pairs.h"
+
+#include "runner/play/capture.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+const YamlValue* variant_of(const RunDrive& drive) {
+    const YamlValue* variants = member_of(drive.resolved, "variants");
+    return variants ? member_of(*variants, drive.variant) : nullptr;
+}
+
+bool is_same(const RunDrive& a, const RunDrive& b, const char* key) {
+    std::vector<YamlChange> changes;
+    add_changes(member_of(a.resolved, key), member_of(b.resolved, key), key, changes);
+    return changes.empty();
+}
+
+/// What makes two moments of one time two places; "" where they are the same.
+std::string why_another_route(const RunDrive& a, const RunDrive& b) {
+    if (a.road_hash.empty() || b.road_hash.empty() ? !is_same(a, b, "road") : a.road_hash != b.road_hash)
+        return "another road";
+    for (const char* key : {"route", "speed", "step_s"})
+        if (!is_same(a, b, key))
+            return fmt::format("another {}", key == std::string("step_s") ? "step of time" : key);
+    return "";
+}
+
+std::string shown_name(const RunDrive& drive) { return fmt::format("{} ({}, {})", drive.drive, drive.variant, drive.technique); }
+
+std::vector<YamlChange> settings_of(const RunDrive& before, const RunDrive& now) {
+    std::vector<YamlChange> changes;
+    YamlValue a = before.resolved, b = now.resolved;
+    for (YamlValue* document : {&a, &b})
+        std::erase_if(document->members, [](const YamlMember& m) { return m.key == "variants" || m.key == "name" || m.key == "title"; });
+    if (!before.road_hash.empty() && before.road_hash == now.road_hash) // the same bytes under another path
+        for (YamlValue* document : {&a, &b})
+            std::erase_if(document->members, [](const YamlMember& m) { return m.key == "road"; });
+    add_changes(variant_of(before), variant_of(now), "", changes);
+    add_changes(&a, &b, "", changes);
+    std::erase_if(changes, [&](const YamlChange& change) { // lamp files of the same bytes elsewhere
+        const auto old_hash = before.hashes.find(change.old_value), new_hash = now.hashes.find(change.new_value);
+        return old_hash != before.hashes.end() && new_hash != now.hashes.end() && old_hash->second == new_hash->second;
+    });
+    return changes;
+}
+
+class Pairing {
+  public:
+    explicit Pairing(RunComparison& runs) : runs_(runs) {
+        for (const RunDrive& drive : runs.before.drives)
+            old_.push_back(&drive);
+        for (const RunDrive& drive : runs.now.drives)
+            new_.push_back(&drive);
+    }
+
+    void run() {
+        match([](const RunDrive& a, const RunDrive& b) {
+            return a.drive == b.drive && a.variant == b.variant && a.technique == b.technique;
+        });
+        match([](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && a.variant == b.variant; });
+        match([&](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && is_last(old_, a.drive) && is_last(new_, b.drive); });
+        for (const RunDrive* drive : old_)
+            runs_.left_out.push_back(shown_name(*drive) + " is in A alone");
+        for (const RunDrive* drive : new_)
+            runs_.left_out.push_back(shown_name(*drive) + " is in B alone");
+    }
+
+  private:
+    static bool is_last(const std::vector<const RunDrive*>& left, const std::string& name) {
+        return std::ranges::count(left, name, [](const RunDrive* drive) { return drive->drive; }) == 1;
+    }
+
+    void match(const auto& belongs) {
+        for (std::size_t i = 0; i < old_.size();) {
+            const auto found = std::ranges::find_if(new_, [&](const RunDrive* drive) { return belongs(*old_[i], *drive); });
+            if (found == new_.end()) {
+                ++i;
+                continue;
+            }
+            add(*old_[i], **found);
+            new_.erase(found);
+            old_.erase(old_.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+    }
+
+    void add(const RunDrive& before, const RunDrive& now) {
+        if (const std::string why = why_another_route(before, now); !why.empty()) {
+            runs_.left_out.push_back(fmt::format("{} has {} in B: its moments are other places", shown_name(before), why));
+            return;
+        }
+        DriveComparison drive;
+        drive.before = &before;
+        drive.now = &now;
+        drive.name = file_name_of(before.drive) + "_" + file_name_of(now.variant);
+        if (before.variant != now.variant)
+            drive.name += "-against-" + file_name_of(before.variant);
+        drive.settings = settings_of(before, now);
+        for (const auto& [path, hash] : now.hashes)
+            if (const auto old = before.hashes.find(path); old != before.hashes.end() && old->second != hash)
+                drive.new_bytes.push_back(path);
+        runs_.drives.push_back(std::move(drive));
+    }
+
+    RunComparison& runs_;
+    std::vector<const RunDrive*> old_, new_;
+};
+
+void add_key(std::string& text, const std::vector<YamlChange>& changes) {
+    for (const YamlChange& change : changes)
+        if (text.size() < 200)
+            text += (text.empty() ? "" : ", ") + printable(change.key);
+}
+
+} // namespace
+
+void pair_drives(RunComparison& runs) { Pairing(runs).run(); }
+
+MeasureChange measure_change(const YamlValue& before, const YamlValue& now) {
+    MeasureChange out;
+    const YamlValue *a = member_of(before, "measure"), *b = member_of(now, "measure");
+    std::vector<YamlChange> changes;
+    add_changes(a, b, "measure", changes);
+    std::vector<YamlChange> extents, others;
+    for (const YamlChange& change : changes) {
+        if (change.key == "measure.extent.limits_lx" || change.key == "measure.extent.width_at_m")
+            continue; // the readings' names say which
+        (change.key.starts_with("measure.extent.") ? extents : others).push_back(change);
+    }
+    std::erase_if(others, [](const YamlChange& change) { // what one alone measures has no partner anyway
+        return change.old_value.empty() || change.new_value.empty();
+    });
+    add_key(out.extent, extents);
+    add_key(out.others, others);
+    return out;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,198 @@
+#include "runner/experiments/reference/reference_result.h"
+#include "runner/files/json_text.h"
+#include "runner/files/picture_file.h"
+#include "runner/findings/context_json.h"
+#include "runner/write/plots/png.h"
+#include "runner/write/plots/svg.h"
+#include "scenarios/display/tone_curve.h"
+#include "scenarios/photometry.h"
+#include "scenarios/values/files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The square of a standard error as a float image.
+Image<float> variance_of(const Image<float>& standard_error) {
+    Image<float> out = standard_error;
+    for (float& value : out.pixels())
+        value *= value;
+    return out;
+}
+
+template <class T> Image<float> as_floats(const Image<T>& image) {
+    Image<float> out(image.width(), image.height());
+    std::ranges::transform(image.pixels(), out.data(), [](T value) { return static_cast<float>(value); });
+    return out;
+}
+
+std::vector<PictureChannel> channels_of(const ReferenceImage& image) {
+    std::vector<PictureChannel> channels;
+    const auto add = [&](const Estimate& estimate, const char* mean, const char* variance) {
+        if (estimate.mean.empty())
+            return;
+        channels.push_back({mean, estimate.mean});
+        channels.push_back({variance, variance_of(estimate.standard_error)});
+    };
+    add(image.illuminance_lx, "illuminance.lx", "illuminance.variance_lx2");
+    add(image.target_lx, "target.lx", "target.variance_lx2");
+    add(image.luminance_cdm2, "luminance.cdm2", "luminance.variance_cd2m4");
+    channels.push_back({"ids", as_floats(image.ids)});
+    channels.push_back({"samples", as_floats(image.samples)});
+    channels.push_back({"mixed", as_floats(image.mixed)});
+    return channels;
+}
+
+/// Luminance alone, in grey: the reference estimates no colours.
+Image<Rgb8> grey_picture(const Image<float>& cdm2, const ToneMapper& mapper) {
+    Image<Rgb8> out(cdm2.width(), cdm2.height());
+    for (std::size_t i = 0; i < cdm2.size(); ++i) {
+        const double shown = photometry::srgb_encoded(toned(mapper, static_cast<double>(cdm2.pixels()[i])));
+        const auto level = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(shown, 0.0, 1.0)));
+        out.pixels()[i] = {level, level, level};
+    }
+    return out;
+}
+
+plots::Axis pixel_axis(const char* label, double from, double to) { return {.label = label, .unit = "px", .from = from, .to = to}; }
+
+/// A picture in false colours with its key.
+std::string false_colours(const Image<float>& values, const plots::Axis& axis, const std::string& title, const std::string& subtitle) {
+    plots::Figure figure;
+    figure.title = title;
+    figure.subtitle = subtitle;
+    const double width = values.width(), height = values.height();
+    figure.width_px = 1000.0;
+    figure.height_px = std::clamp(140.0 + 800.0 * height / width, 320.0, 1600.0);
+    figure.x = pixel_axis("column", 0.0, width);
+    figure.y = pixel_axis("row", height, 0.0);
+    figure.equal_units = true;
+    figure.grid = false;
+    figure.rasters = {{plots::heat_map(values, axis), 0.0, width, 0.0, height}};
+    figure.colour_bar = plots::ColourBar{axis};
+    return plots::svg_of(figure);
+}
+
+Image<float> relative_error_percent(const Estimate& estimate, double floor) {
+    Image<float> out = estimate.standard_error;
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out.pixels()[i] *= 100.0F / std::max(estimate.mean.pixels()[i], static_cast<float>(floor));
+    return out;
+}
+
+Json error_json(const std::optional<ErrorReached>& error) {
+    if (!error)
+        return nullptr;
+    return {{"lit_pixels", error->lit_pixels},
+            {"median", error->median},
+            {"p95", error->p95},
+            {"worst", error->worst},
+            {"share_reached", error->share_reached}};
+}
+
+/// No seed and no driver: rays need none of them.
+Json machine_json(const RunContext& context) {
+    return {{"command", context.command}, {"started_utc", context.started_utc}, {"cpu", context.cpu},
+            {"os", context.os},           {"versions", versions_json(context)}, {"inputs", inputs_json(context)}};
+}
+
+/// Of the method that was used alone.
+Json solver_json(const ReferenceSettings& s) {
+    const SolverSettings& v = s.solver;
+    if (s.integrator == Integrator::radiosity)
+        return {{"reach_m", v.reach_m},
+                {"patch_m", v.patch_m},
+                {"form_factor_rays", v.form_factor_rays},
+                {"residual", v.residual},
+                {"final_gather", v.final_gather}};
+    if (s.integrator == Integrator::photon_map)
+        return {{"reach_m", v.reach_m}, {"photons", v.photons}, {"radius_m", v.radius_m}, {"final_gather", v.final_gather}};
+    return nullptr;
+}
+
+Json preparation_json(const ReferenceResult& r) {
+    const Preparation& p = r.image.preparation;
+    if (r.settings.integrator == Integrator::radiosity)
+        return {{"seconds", p.seconds}, {"rays", p.rays}, {"patches", p.patches}, {"sweeps", p.sweeps}, {"residual", p.residual}};
+    if (r.settings.integrator == Integrator::photon_map)
+        return {{"seconds", p.seconds}, {"rays", p.rays}, {"photons_stored", p.photons_stored}};
+    return nullptr;
+}
+
+Json settings_json(const ReferenceResult& r) {
+    const ReferenceSettings& s = r.settings;
+    return {{"integrator", integrator_name(s.integrator)},
+            {"target_error", s.target_error},
+            {"floor_lx", s.floor_lx},
+            {"floor_cdm2", s.floor_cdm2},
+            {"least_samples", s.least_samples},
+            {"most_samples", s.most_samples},
+            {"most_bounces", s.most_bounces},
+            {"lamp_radius_m", s.lamp_radius_m},
+            {"target_height_m", s.target_height_m},
+            {"shadows", s.shadows},
+            {"most_smooth", s.most_smooth},
+            {"solver", solver_json(s)},
+            {"seed", s.seed}};
+}
+
+Json reference_json(const ReferenceResult& r) {
+    std::uint64_t samples = 0;
+    for (const std::uint32_t count : r.image.samples.pixels())
+        samples += count;
+    return {{"schema", "fernlicht-reference"},
+            {"version", 1},
+            {"drive", r.drive},
+            {"title", r.title},
+            {"variant", r.variant},
+            {"view", r.view.name},
+            {"width_px", r.view.width_px},
+            {"height_px", r.view.height_px},
+            {"tick", r.moment.tick},
+            {"time_s", r.moment.time_s},
+            {"complete", r.image.complete},
+            {"settings", settings_json(r)},
+            {"inputs_hash", r.inputs_hash},
+            {"relative_standard_error",
+             {{"illuminance", error_json(r.illuminance())}, {"target", error_json(r.target())}, {"luminance", error_json(r.luminance())}}},
+            {"preparation", preparation_json(r)},
+            {"triangles", r.triangles},
+            {"samples", samples},
+            {"rays", r.image.rays},
+            {"seconds", r.image.seconds},
+            {"rays_per_second", static_cast<double>(r.image.rays) / std::max(r.image.seconds, 1e-9)},
+            {"context", machine_json(r.context)}};
+}
+
+} // namespace
+
+void write_reference(const ReferenceResult& r, const ToneMapper& tone_mapper, const std::filesystem::path& folder) {
+    const std::string where = fmt::format("{}, {}, after {:.3f} s", r.title.empty() ? r.drive : r.title, r.variant, r.moment.time_s);
+    write_channels(channels_of(r.image), r.moment, r.view,
+                   {{"fernlicht:drive", r.drive},
+                    {"fernlicht:variant", r.variant},
+                    {"fernlicht:integrator", integrator_name(r.settings.integrator)},
+                    {"fernlicht:target_error", fmt::format("{}", r.settings.target_error)},
+                    {"fernlicht:seed", fmt::format("{}", r.settings.seed)},
+                    {"fernlicht:inputs_hash", r.inputs_hash},
+                    {"fernlicht:variance", "of the pixel's mean: the square of its standard error"}},
+                   folder / "reference.exr");
+    if (!r.image.luminance_cdm2.mean.empty())
+        write_png(grey_picture(r.image.luminance_cdm2.mean, tone_mapper), folder / "reference.png");
+    const plots::Axis lux{.label = "illuminance", .unit = "lx", .from = 0.1, .to = 100.0, .scale = plots::Scale::logarithmic},
+        percent{.label = "standard error", .unit = "%", .from = 0.001, .to = 10.0, .scale = plots::Scale::logarithmic};
+    write_file(folder / "illuminance.png",
+               plots::png_of_svg(false_colours(r.image.illuminance_lx.mean, lux, "Illuminance on the surfaces seen", where)));
+    write_file(folder / "error.png",
+               plots::png_of_svg(false_colours(relative_error_percent(r.image.illuminance_lx, r.settings.floor_lx), percent,
+                                               "Standard error of the illuminance",
+                                               where + fmt::format("; of the mean or of {} lx", r.settings.floor_lx))));
+    write_file(folder / "reference.json", json_text(reference_json(r)));
+}
+
+} // namespace fernlicht

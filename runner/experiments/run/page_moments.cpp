@@ -1,0 +1,209 @@
+#include "runner/experiments/run/page_parts.h"
+#include "runner/experiments/run/page_plots.h"
+#include "runner/files/clean_text.h"
+#include "runner/write/plots/png.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+using kainjow::mustache::data;
+using List = data::type;
+
+constexpr std::size_t largest_picture_bytes = std::size_t{16} << 20;
+
+struct PicturedMoment {
+    int tick = 0;
+    double time_s = 0.0;
+    std::optional<double> distance_m;
+};
+
+/// Every moment that has a picture or a map in any lamp set, in order.
+std::vector<PicturedMoment> pictured(const ComparedDrive& drive) {
+    std::map<int, PicturedMoment> moments;
+    for (const PlayedVariant* const played : drive.variants) {
+        for (const StoredFrame& frame : played->frames)
+            moments[frame.tick] = {frame.tick, frame.time_s, {}};
+        for (const LuxMap& map : played->maps)
+            moments[map.tick] = {map.tick, map.time_s, {}};
+    }
+    for (const PlayedVariant* const played : drive.variants)
+        for (const ExtentRow& row : played->extents)
+            if (const auto found = moments.find(row.tick); found != moments.end())
+                found->second.distance_m = row.distance_m;
+    std::vector<PicturedMoment> out;
+    for (const auto& [tick, moment] : moments)
+        out.push_back(moment);
+    return out;
+}
+
+std::vector<std::string> views_of(const ComparedDrive& drive) {
+    std::vector<std::string> views;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const StoredFrame& frame : played->frames)
+            // A map view has no picture of its own: it is shown as the lux map.
+            if ((!frame.png.empty() || played->maps.empty()) && std::find(views.begin(), views.end(), frame.view) == views.end())
+                views.push_back(frame.view);
+    return views;
+}
+
+const StoredFrame* find_frame(const PlayedVariant& played, int tick, const std::string& view) {
+    for (const StoredFrame& frame : played.frames)
+        if (frame.tick == tick && frame.view == view)
+            return &frame;
+    return nullptr;
+}
+
+data picture(const StoredFrame* frame, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    data part;
+    const auto missing = [&](const std::string& why) { part.set("missing", clean_text(why)); };
+    if (!frame || (frame->png.empty() && frame->exr.empty())) {
+        missing("not stored at this moment");
+        return part;
+    }
+    part.set("link", relative_link(frame->png.empty() ? frame->exr : frame->png));
+    part.set("link_name", clean_text(frame->png.empty() ? frame->exr : frame->png));
+    if (frame->png.empty()) {
+        missing("stored as EXR only");
+        return part;
+    }
+    try {
+        FilesRead opened;
+        const std::string bytes = read_file(folder / frame->png, opened, std::min(largest_picture_bytes, budget_bytes));
+        budget_bytes -= std::min(budget_bytes, bytes.size());
+        part.set("embedded", plots::base64(bytes));
+    } catch (const InputError&) {
+        // Too large for what is left of the page, or gone: the link stands either way.
+        missing("not in this page");
+    }
+    return part;
+}
+
+data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const std::vector<std::string>& views,
+              const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    data rows{List::list};
+    for (const std::string& view : views) {
+        data row, cells{List::list};
+        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+            data cell = picture(find_frame(*drive.variants[i], moment.tick, view), folder, budget_bytes);
+            cell.set("lamp", short_text(drive.variants[i]->variant, 40));
+            cell.set("colour", variant_colour(i));
+            cell.set("view", short_text(view, 40));
+            cell.set("time", figure(moment.time_s, 2));
+            cells.push_back(cell);
+        }
+        row.set("view", short_text(view, 40));
+        row.set("pictures", cells);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
+    data maps{List::list};
+    for (const PlayedVariant* const played : drive.variants)
+        for (const LuxMap& map : played->maps)
+            if (map.tick == moment.tick)
+                if (std::string svg = lux_map_svg(map, played->variant); !svg.empty())
+                    maps.push_back(std::move(svg));
+    return maps;
+}
+
+/// By what differs in them, then by lamp set.
+data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    std::vector<std::pair<std::string, data>> kinds;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const PlayedVariant& played = *drive.variants[i];
+        std::vector<StoredSheet> all{{"in every technique", played.contact_sheet}};
+        all.insert(all.end(), played.more_sheets.begin(), played.more_sheets.end());
+        for (const StoredSheet& sheet : all) {
+            if (sheet.picture.png.empty())
+                continue;
+            data part = picture(&sheet.picture, folder, budget_bytes);
+            part.set("lamp", short_text(played.variant, 40));
+            part.set("colour", variant_colour(i));
+            part.set("time", figure(sheet.picture.time_s, 2));
+            part.set("what", sheet.what);
+            auto kind = std::ranges::find(kinds, sheet.what, &std::pair<std::string, data>::first);
+            if (kind == kinds.end())
+                kind = kinds.insert(kinds.end(), {sheet.what, data{List::list}});
+            kind->second.push_back(part);
+        }
+    }
+    data sheets{List::list};
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        data kind;
+        kind.set("what", kinds[k].first);
+        kind.set("kind", fmt::format("{}", k + 1));
+        kind.set("sheets", kinds[k].second);
+        sheets.push_back(kind);
+    }
+    return sheets;
+}
+
+/// Links to the stored pictures of moments that the page does not show.
+data links_of(const ComparedDrive& drive, const std::set<int>& shown) {
+    data links{List::list};
+    for (const PlayedVariant* const played : drive.variants)
+        for (const StoredFrame& frame : played->frames)
+            if (!shown.contains(frame.tick) && !frame.png.empty()) {
+                data link;
+                link.set("link", relative_link(frame.png));
+                link.set("text",
+                         fmt::format("{} s, {}, {}", figure(frame.time_s, 2), short_text(played->variant, 40), short_text(frame.view, 40)));
+                links.push_back(link);
+            }
+    return links;
+}
+
+/// Those with lux maps, where there are any: of the others maps were not kept.
+std::vector<PicturedMoment> shown_moments(const ComparedDrive& drive, const std::vector<PicturedMoment>& all) {
+    std::set<int> mapped;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const LuxMap& map : played->maps)
+            mapped.insert(map.tick);
+    std::vector<PicturedMoment> candidates, out;
+    for (const PicturedMoment& moment : all)
+        if (mapped.empty() || mapped.contains(moment.tick))
+            candidates.push_back(moment);
+    for (const std::size_t index : spread_over(candidates.size(), most_pictured_moments))
+        out.push_back(candidates[index]);
+    return out;
+}
+
+} // namespace
+
+data moments_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    const std::vector<PicturedMoment> all = pictured(drive);
+    const std::vector<std::string> views = views_of(drive);
+    data moments{List::list};
+    std::set<int> shown;
+    for (const PicturedMoment& moment : shown_moments(drive, all)) {
+        shown.insert(moment.tick);
+        data part;
+        part.set("tick", fmt::format("{}", moment.tick));
+        part.set("time", figure(moment.time_s, 2));
+        part.set("has_distance", moment.distance_m.has_value());
+        part.set("distance", moment.distance_m ? figure(*moment.distance_m, 1) : "");
+        part.set("maps", maps_at(drive, moment));
+        part.set("views", views_at(drive, moment, views, folder, budget_bytes));
+        moments.push_back(part);
+    }
+    data part;
+    const data sheets = contact_sheets(drive, folder, budget_bytes);
+    part.set("has_sheets", sheets.is_non_empty_list());
+    part.set("kinds", sheets);
+    part.set("has_moments", !all.empty());
+    part.set("moments", moments);
+    part.set("last_moment", fmt::format("{}", shown.empty() ? 0 : shown.size() - 1));
+    part.set("has_links", shown.size() < all.size());
+    part.set("links", links_of(drive, shown));
+    return part;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,277 @@
+#include "runner/experiments/run/page_plots.h"
+
+#include "runner/files/clean_text.h"
+#include "runner/findings/extent_keys.h"
+#include "runner/write/plots/svg.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <limits>
+
+namespace fernlicht {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN(); // what plots leave out
+
+plots::Colour darker(plots::Colour colour) {
+    const auto half = [](std::uint8_t channel) { return static_cast<std::uint8_t>(channel / 2); };
+    return {half(colour.r), half(colour.g), half(colour.b)};
+}
+
+/// A car that stands still, if only for a while, has no use for distance as its axis: all of that while would fall on one point. Neither
+/// has one on springs, whose beam swings in time.
+bool by_distance(const ComparedDrive& drive) {
+    constexpr double standing_m = 1e-3; // from one moment to the next
+    double farthest_m = 0.0;
+    for (const PlayedVariant* const played : drive.variants) {
+        if (!played->car.empty())
+            return false;
+        for (std::size_t i = 0; i < played->extents.size(); ++i) {
+            farthest_m = std::max(farthest_m, played->extents[i].distance_m);
+            if (i > 0 && played->extents[i].distance_m - played->extents[i - 1].distance_m < standing_m)
+                return false;
+        }
+    }
+    return farthest_m > 1.0;
+}
+
+std::vector<double> all_of(const plots::Polyline& points, double plots::Point::*coordinate) {
+    std::vector<double> values;
+    for (const plots::Point& point : points)
+        values.push_back(point.*coordinate);
+    return values;
+}
+
+plots::Polyline reach_line(const PlayedVariant& played, std::vector<LaneExtent> ExtentRow::*source, const ExtentKey& key, bool distance) {
+    plots::Polyline line;
+    for (const ExtentRow& row : played.extents) {
+        const LaneExtent* const extent = find_extent(row.*source, key);
+        line.push_back({distance ? row.distance_m : row.time_s, extent ? extent->reach_centre_m : not_a_number});
+    }
+    return line;
+}
+
+plots::Band aim_band(const PlayedVariant& played, const ExtentKey& key, const plots::Polyline& reach) {
+    plots::Band band;
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+        const auto& sensitivity = played.extents[i].sensitivity;
+        const auto found = std::find_if(sensitivity.begin(), sensitivity.end(), [&](const ReachSensitivity& entry) {
+            return entry.plane == key.plane && entry.limit_lx == key.limit_lx;
+        });
+        const double half_m = found == sensitivity.end() ? not_a_number : std::abs(found->metres_per_tenth_degree);
+        band.x.push_back(reach[i].x);
+        band.low.push_back(std::max(0.0, reach[i].y - half_m));
+        band.high.push_back(reach[i].y + half_m);
+    }
+    return band;
+}
+
+bool has_value(const plots::Polyline& line) {
+    return std::any_of(line.begin(), line.end(), [](const plots::Point& point) { return std::isfinite(point.y); });
+}
+
+void set_axes(plots::Figure& figure, const std::string& x_label, const std::string& x_unit, const std::string& y_label,
+              const std::string& y_unit) {
+    std::vector<double> x, y;
+    for (const plots::Series& series : figure.series) {
+        const std::vector<double> xs = all_of(series.points, &plots::Point::x), ys = all_of(series.points, &plots::Point::y);
+        x.insert(x.end(), xs.begin(), xs.end());
+        y.insert(y.end(), ys.begin(), ys.end());
+    }
+    for (const plots::Band& band : figure.bands)
+        y.insert(y.end(), band.high.begin(), band.high.end());
+    figure.x = plots::axis_around(x_label, x_unit, x);
+    figure.y = plots::axis_around(y_label, y_unit, y, plots::Scale::linear, true);
+    // Zero to the last sample fills the plot; round ends would leave it half empty.
+    if (const double last = *std::max_element(x.begin(), x.end()), first = *std::min_element(x.begin(), x.end()); last > first) {
+        figure.x.from = first;
+        figure.x.to = last;
+    }
+}
+
+/// One quantity of the car over time. `value`: none where a lamp set has no such actuator.
+std::string car_svg(const ComparedDrive& drive, const char* title, const char* label, const char* unit,
+                    const std::function<std::optional<double>(const CarRow&)>& value) {
+    plots::Figure figure;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.6, "", false};
+        for (const CarRow& row : drive.variants[i]->car)
+            if (const std::optional<double> found = value(row))
+                series.points.push_back({row.time_s, *found});
+        series.markers = series.points.size() == 1;
+        if (!series.points.empty())
+            figure.series.push_back(std::move(series));
+    }
+    if (figure.series.empty())
+        return {};
+    const plots::Polyline& first = figure.series.front().points;
+    const bool alike =
+        figure.series.size() == drive.variants.size() && std::ranges::all_of(figure.series, [&](const plots::Series& series) {
+            return std::ranges::equal(series.points, first,
+                                      [](const plots::Point& a, const plots::Point& b) { return a.x == b.x && a.y == b.y; });
+        });
+    if (alike) {
+        figure.series.resize(1);
+        figure.series.front().name.clear();
+        figure.series.front().colour = {60, 60, 60};
+    }
+    figure.title = title;
+    figure.width_px = 640.0;
+    figure.height_px = 240.0;
+    set_axes(figure, "time", "s", label, unit);
+    return plots::svg_of(figure);
+}
+
+} // namespace
+
+plots::Colour colour_of(std::size_t variant) {
+    unsigned rgb = 0;
+    std::from_chars(variant_colour(variant) + 1, variant_colour(variant) + 7, rgb, 16);
+    return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255), static_cast<std::uint8_t>(rgb & 255)};
+}
+
+std::vector<double> plotted_limits_lx(const ComparedDrive& drive) {
+    std::vector<double> limits;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const ExtentKey& key : extent_keys(*played))
+            if (key.lane == "own")
+                limits.push_back(key.limit_lx);
+    std::sort(limits.begin(), limits.end());
+    limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
+    std::vector<double> usual;
+    for (const double limit_lx : {1.0, 5.0})
+        if (std::binary_search(limits.begin(), limits.end(), limit_lx))
+            usual.push_back(limit_lx);
+    if (!usual.empty() || limits.size() < 2)
+        return usual.empty() ? limits : usual;
+    return {limits.front(), limits.back()};
+}
+
+std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limit_lx) {
+    const ExtentKey key{plane, "own", limit_lx};
+    const bool distance = by_distance(drive);
+    plots::Figure figure;
+    bool measured = false;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const PlayedVariant& played = *drive.variants[i];
+        const std::string name = short_text(played.variant, 24);
+        plots::Polyline rendered = reach_line(played, &ExtentRow::rendered, key, distance),
+                        twin = reach_line(played, &ExtentRow::twin, key, distance);
+        measured = measured || has_value(rendered) || has_value(twin);
+        plots::Band band = aim_band(played, key, has_value(rendered) ? rendered : twin);
+        band.colour = colour_of(i);
+        band.opacity = 0.16;
+        figure.bands.push_back(std::move(band));
+        const bool lone = played.extents.size() == 1;
+        if (has_value(rendered))
+            figure.series.push_back({name, std::move(rendered), colour_of(i), 2.2, "", lone});
+        if (has_value(twin))
+            figure.series.push_back({name + ", twin", std::move(twin), darker(colour_of(i)), 1.1, "2 4", lone});
+    }
+    if (!measured)
+        return {};
+    figure.title = fmt::format("Reach at {:g} lx on {}", limit_lx, plane == ExtentPlane::road ? "the road" : "a facing target");
+    figure.width_px = 640.0;
+    figure.height_px = 340.0;
+    set_axes(figure, distance ? "distance along the route" : "time", distance ? "m" : "s", "reach, own lane", "m");
+    return plots::svg_of(figure);
+}
+
+std::string speed_svg(const ComparedDrive& drive) {
+    plots::Figure figure;
+    plots::Series speed;
+    speed.colour = {60, 60, 60};
+    for (const auto& [time_s, mps] : drive.variants.front()->speed_mps)
+        speed.points.push_back({time_s, mps * 3.6});
+    if (!has_value(speed.points))
+        return {};
+    speed.markers = speed.points.size() == 1;
+    figure.series.push_back(std::move(speed));
+    figure.title = "Speed";
+    figure.width_px = 640.0;
+    figure.height_px = 240.0;
+    set_axes(figure, "time", "s", "speed", "km/h");
+    return plots::svg_of(figure);
+}
+
+std::vector<std::string> car_svgs(const ComparedDrive& drive) {
+    std::vector<std::string> svgs{
+        car_svg(drive, "Pitch of the body against the road", "pitch, nose up", "deg", [](const CarRow& row) { return row.pitch_deg; }),
+        car_svg(drive, "Lift of the body over the rear axle", "lift", "mm", [](const CarRow& row) { return row.rear_lift_mm; }),
+        car_svg(drive, "Levelling", "lamps up", "deg", [](const CarRow& row) { return row.levelling_deg; }),
+        car_svg(drive, "Swivel", "lamps to the left", "deg", [](const CarRow& row) { return row.swivel_deg; })};
+    std::erase(svgs, "");
+    return svgs;
+}
+
+std::string timing_svg(const ComparedDrive& drive) {
+    plots::Figure figure;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i)
+        for (const PassTime& pass : drive.variants[i]->passes) {
+            if (pass.name != "frame" || pass.seconds.empty())
+                continue;
+            plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.3, "", pass.seconds.size() == 1};
+            for (std::size_t k = 0; k < pass.seconds.size(); ++k)
+                series.points.push_back({static_cast<double>(k + 1), 1e3 * pass.seconds[k]});
+            figure.series.push_back(std::move(series));
+            plots::Mark median;
+            median.value = 1e3 * spread_of(pass.seconds)->median;
+            median.colour = colour_of(i);
+            figure.marks.push_back(median);
+        }
+    if (figure.series.empty())
+        return {};
+    figure.title = "Time per frame";
+    figure.subtitle = "frames drawn with nothing beside them; broken lines: medians";
+    figure.width_px = 640.0;
+    figure.height_px = 340.0;
+    set_axes(figure, "sample", "", "time", "ms");
+    return plots::svg_of(figure);
+}
+
+std::string error_svg(const ComparedDrive& drive) {
+    plots::Figure figure;
+    std::vector<double> times, errors;
+    double floor = 0.0;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const PlayedVariant& played = *drive.variants[i];
+        const auto pass = std::ranges::find(played.passes, std::string("frame"), &PassTime::name);
+        if (!played.error.road || played.error.road->pixels == 0 || pass == played.passes.end())
+            continue;
+        const auto time = spread_of(pass->seconds);
+        const PixelErrors& road = *played.error.road;
+        if (!time)
+            continue;
+        const auto [least, most] = std::ranges::minmax(played.error.road_p95);
+        const double x = 1e3 * time->median, claimed = 100.0 * std::max(road.error.p95, road.floor.p95);
+        floor = std::max(floor, 100.0 * road.floor.p95);
+        const double low = std::min(claimed, 100.0 * std::max(least, road.floor.p95)), high = std::max(claimed, 100.0 * most);
+        figure.series.push_back({"", {{1e3 * time->minimum, claimed}, {1e3 * time->maximum, claimed}}, colour_of(i), 1.2, "", false});
+        figure.series.push_back({"", {{x, low}, {x, high}}, colour_of(i), 1.2, "", false});
+        figure.series.push_back({short_text(played.variant, 24), {{x, claimed}}, colour_of(i), 1.2, "", true});
+        times.insert(times.end(), {1e3 * time->minimum, 1e3 * time->maximum});
+        errors.insert(errors.end(), {low, high});
+    }
+    if (figure.series.empty() || *std::ranges::max_element(errors) <= 0.0)
+        return {};
+    figure.title = fmt::format("Error against run time: {}", short_text(drive.variants.front()->technique, 24));
+    figure.width_px = 640.0;
+    figure.height_px = 300.0;
+    figure.x = plots::axis_around("time a frame, driver's view alone", "ms", times, plots::Scale::logarithmic);
+    if (floor > 0.0)
+        errors.push_back(0.5 * floor);
+    figure.y = plots::axis_around("lux error on the road, 95 %", "%", errors, plots::Scale::logarithmic);
+    if (floor > 0.0)
+        figure.bands.push_back({"below the reference's noise",
+                                {figure.x.from, figure.x.to},
+                                {figure.y.from, figure.y.from},
+                                {floor, floor},
+                                {150, 156, 163},
+                                0.35});
+    return plots::svg_of(figure);
+}
+
+} // namespace fernlicht

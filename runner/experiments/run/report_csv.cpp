@@ -1,0 +1,58 @@
+#include "runner/experiments/run/report_writers.h"
+#include "runner/files/clean_text.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace fernlicht {
+
+std::string report_csv(const Report& report) {
+    std::string out = "drive,variant,name,value,unit,where,frame,time_s,not_measured,bound\r\n";
+    for (const PlayedVariant& played : report.played)
+        for (const Reading& reading : played.readings) {
+            std::string time_s;
+            for (const ExtentRow& row : played.extents)
+                if (row.tick == reading.tick)
+                    time_s = fmt::format("{}", row.time_s);
+            out += fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", csv_text(played.drive), csv_text(played.variant),
+                               csv_text(reading.name), reading.value.measured() ? fmt::format("{}", *reading.value.figure()) : "",
+                               csv_text(reading.unit), csv_text(reading.where), reading.tick < 0 ? "" : fmt::format("{}", reading.tick),
+                               time_s, csv_text(reading.value.reason()), bound_name(reading.value));
+        }
+    return out;
+}
+
+std::string times_csv(const Report& report) {
+    std::string out = "drive,variant,name,value,unit\r\n";
+    for (const PlayedVariant& played : report.played) {
+        const auto add = [&](const std::string& name, std::optional<double> value, const char* unit) {
+            out += fmt::format("{},{},{},{},{}\r\n", csv_text(played.drive), csv_text(played.variant), csv_text(name),
+                               value ? fmt::format("{}", *value) : "", unit);
+        };
+        for (const PassTime& pass : played.passes)
+            if (const std::optional<Spread> spread = spread_of(pass.seconds)) {
+                add(pass.name + ", median", 1e3 * spread->median, "ms");
+                add(pass.name + ", 5th percentile", 1e3 * spread->p05, "ms");
+                add(pass.name + ", 95th percentile", 1e3 * spread->p95, "ms");
+            }
+        const Throughput& t = played.throughput;
+        const auto per_s = [](const std::optional<double>& seconds) { return seconds ? std::optional(1.0 / *seconds) : std::nullopt; };
+        add("moments per second", t.moments_per_s(), "1/s");
+        add("driver's view alone per second", per_s(t.view_s), "1/s");
+        add("all drawing alone per second", per_s(t.drawing_s), "1/s");
+        add("share of driver's view alone", t.share_of(t.view_s), "1");
+        add("share of all drawing alone", t.share_of(t.drawing_s), "1");
+        add("peak memory", t.peak_memory_mib, "MiB");
+        if (const std::optional<PairedRatio> ratio = played.savings.ratio()) {
+            add("frame back to back, median", 1e3 * spread_of(played.savings.pruned_s).value().median, "ms");
+            add("frame back to back with nothing left out, median", 1e3 * spread_of(played.savings.unpruned_s).value().median, "ms");
+            add("ratio to nothing left out, median", ratio->median, "1");
+            add("ratio to nothing left out, 5th percentile", ratio->p05, "1");
+            add("ratio to nothing left out, 95th percentile", ratio->p95, "1");
+        }
+    }
+    return out;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,409 @@
+#include "runner/experiments/run/run_drives.h"
+#include "runner/experiments/run/report_writers.h"
+
+#include "renderer/renderer.h"
+#include "renderer/sanity.h"
+#include "runner/experiments/accuracy/drive_error.h"
+#include "runner/experiments/bench/contact_sheet.h"
+#include "runner/experiments/run/display_sheet.h"
+#include "runner/experiments/run/savings.h"
+#include "runner/experiments/shadows/moment_sheet.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "runner/findings/summary.h"
+#include "runner/judge/cell_inputs.h"
+#include "runner/judge/limits.h"
+#include "runner/judge/references.h"
+#include "runner/judge/repeats.h"
+#include "runner/play/display_warnings.h"
+#include "runner/play/drawn_by.h"
+#include "runner/play/fit_tone_mapper.h"
+#include "runner/play/interruption.h"
+#include "runner/play/preparation.h"
+#include "runner/play/progress.h"
+#include "runner/play/shadows/check_planar.h"
+#include "runner/play/shadows/choose_shadows.h"
+#include "runner/play/stage.h"
+#include "runner/write/plots/png.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/bus_report.h"
+#include "scenarios/drives/play/drive_log.h"
+#include "scenarios/drives/play/motion.h"
+#include "scenarios/drives/play/sent_log.h"
+#include "scenarios/drives/play/signals_csv.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <deque>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace fernlicht {
+namespace {
+
+std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, const Renderer& renderer) {
+    std::vector<std::string> notes = stage.drive.notes;
+    if (variant.motion)
+        std::ranges::copy(variant.motion->notes, std::back_inserter(notes));
+    notes.insert(notes.end(), stage.network.warnings.begin(), stage.network.warnings.end());
+    const Technique& technique = renderer.technique();
+    if (stage.drive.beams && technique.kind != TechniqueKind::ours && technique.features.find("PROJECTED") == std::string_view::npos)
+        notes.push_back(
+            fmt::format("beams: technique {} has no beam textures, so that their size and depth change nothing", technique.name));
+    if (!stage.drive.traffic.empty() && technique.name != "photometric" && technique.name != "photometric-unpruned")
+        notes.push_back(fmt::format("traffic: technique {} does not draw the light of others' lamps, and its pictures do not show them as "
+                                    "sources; it draws the road users' bodies. photometric draws all three",
+                                    technique.name));
+    for (const MountedLamp& lamp : variant.lamps) {
+        if (lamp.photometric_distance_m > 0.0)
+            notes.push_back(fmt::format("{}: nearer than {} m it is in its near field, where a point source is an approximation", lamp.name,
+                                        lamp.photometric_distance_m));
+        for (const std::string& note : lamp.file->notes)
+            notes.push_back(lamp.name + ": " + note);
+        if (const std::optional<double> error = renderer.beam_error(*lamp.file))
+            notes.push_back(fmt::format("{}: as drawn, the beam differs from the candela table by at most {:.2g} % of the peak", lamp.name,
+                                        100.0 * *error));
+    }
+    return notes;
+}
+
+/// Plays one lamp set and completes it with readings and verdicts.
+PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options, Writers& writers,
+                           std::ostream* log = nullptr) {
+    prepare(renderer, stage.drive, stage.route, variant, options.ticks);
+    const int compiled = renderer.compiled_programs();
+    const Renderer::ShadowMapsUsed maps_before = renderer.shadow_maps_used();
+    const std::string label = stage.drive.name + ", " + variant.name;
+    Progress progress(label, ticks_to_play(stage.drive, options.ticks), options.quiet);
+    PlayOptions play_options;
+    play_options.log = log;
+    play_options.ticks = options.ticks;
+    play_options.folder = options.folder;
+    play_options.profile = options.profile;
+    play_options.go_on = [&](int done) {
+        progress.done(done);
+        return !Interruption::asked();
+    };
+    Renderer::ShadowMapsUsed first; // of the moments' first pictures: what stands then is an earlier moment's
+    int last_seen_tick = -1;
+    const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) {
+        const Renderer::ShadowMapsUsed before = renderer.shadow_maps_used();
+        Pending frame = renderer.submit(moment, view, wanted);
+        if (const Renderer::ShadowMapsUsed after = renderer.shadow_maps_used(); std::exchange(last_seen_tick, moment.tick) != moment.tick) {
+            first.used += after.used - before.used;
+            first.drawn += after.drawn - before.drawn;
+        }
+        return frame;
+    };
+    PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
+    const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
+    played.bus = bus_report(stage.drive, variant, std::max(0, options.ticks.first), last_tick);
+    played.inputs = cell_inputs(stage.drive, variant, stage.network.opened, std::max(0, options.ticks.first), last_tick);
+    if (const int late = renderer.compiled_programs() - compiled; late > 0)
+        played.notes.push_back(
+            fmt::format("{} shader variants were compiled during the drive: times of their first frames include that", late));
+    for (const LeftOut& left : renderer.left_out())
+        played.left_out.push_back(left.what + ": " + left.why);
+    const Renderer::ShadowMapsUsed maps = renderer.shadow_maps_used();
+    if (const long long kept = (maps.used - maps_before.used) - (maps.drawn - maps_before.drawn); kept > 0)
+        played.left_out.push_back(fmt::format("drawing {} of the {} shadow maps that pictures looked up: they stood from a picture before, "
+                                              "as pictures of one moment share theirs; of the {} that the first pictures of moments looked "
+                                              "up, {} stood from an earlier moment",
+                                              kept, maps.used - maps_before.used, first.used, first.used - first.drawn));
+    if (const double bound = stage.drive.shadows.redraw_texels; bound > 0.0 && first.used > 0 && first.used == first.drawn)
+        played.notes.push_back(
+            fmt::format("shadows: redraw_texels {:g}: none of the {} shadow maps that the first pictures of moments looked up stood, as "
+                        "edges moved by more from each moment to the next",
+                        bound, first.used));
+    std::ranges::copy(notes_for(stage, variant, renderer), std::back_inserter(played.notes));
+    if (stage.drive.extent)
+        played.extent_summaries = summarise_extents(played, *stage.drive.extent);
+    std::ranges::copy(extent_readings(played), std::back_inserter(played.readings));
+    Readings judged = played.readings;
+    std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not
+    played.verdicts = judge_limits(stage.drive, judged);
+    if (const Technique& technique = renderer.technique(); technique.kind != TechniqueKind::ours) {
+        played.title += fmt::format(", lit by technique {}", technique.name);
+        for (Verdict& verdict : played.verdicts)
+            verdict.text += fmt::format(" (as technique {} lights it)", technique.name);
+        played.notes.push_back(
+            fmt::format("lit by technique {}, which ignores: {}. Rendered figures are that technique's; those of the twin, their "
+                        "sensitivity to aim and flux, and the grid's error are calculated from the lamps' tables",
+                        technique.name, technique.ignores));
+    }
+    return played;
+}
+
+/// After all is played: the renderer that leaves nothing out takes memory of its own.
+void add_savings(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Renderer& renderer,
+                 std::span<PlayedVariant> played) {
+    std::optional<Renderer> unpruned;
+    for (std::size_t i = 0; i < played.size() && !Interruption::asked(); ++i) {
+        Savings& savings = played[i].savings;
+        savings.not_measured = options.profile ? "the run timed each pass" : no_savings(stage.drive, played[i]);
+        if (!savings.not_measured.empty())
+            continue;
+        if (!unpruned) {
+            RendererSettings all_in = settings_for(stage.drive, settings);
+            all_in.technique = unpruned_technique;
+            unpruned.emplace(device, stage.scene, all_in);
+        }
+        try {
+            savings = measure_savings(stage, stage.drive.variants[i], played[i], std::max(0, options.ticks.first), renderer, *unpruned);
+        } catch (const InputError& error) { // more than the unpruned technique can draw
+            savings = {};
+            savings.not_measured = error.what();
+        }
+    }
+}
+
+/// By the renderer that played: what it drew is what is measured.
+void add_errors(const Stage& stage, const RunOptions& options, Renderer& renderer, std::span<PlayedVariant> played) {
+    for (std::size_t i = 0; i < played.size() && !Interruption::asked(); ++i) {
+        DriveError& error = played[i].error;
+        error.not_measured = no_drive_error(stage.drive, played[i]);
+        if (error.not_measured.empty())
+            error = measure_drive_error(stage, stage.drive.variants[i], played[i], std::max(0, options.ticks.first), renderer);
+    }
+}
+
+/// The middle one of the captured moments, else of those played.
+int middle_tick(const PlayedVariant& played, int first_tick) {
+    std::vector<int> captured;
+    for (const StoredFrame& frame : played.frames)
+        if (captured.empty() || captured.back() != frame.tick)
+            captured.push_back(frame.tick);
+    return captured.empty() ? first_tick + played.ticks_done / 2 : captured[captured.size() / 2];
+}
+
+void add_contact_sheets(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options,
+                        std::span<PlayedVariant> played) {
+    std::vector<ContactSheet> sheets;
+    for (std::size_t i = 0; i < played.size(); ++i) {
+        const Variant& variant = stage.drive.variants[i];
+        const int tick = middle_tick(played[i], std::max(0, options.ticks.first));
+        sheets.push_back(new_sheet(stage, variant, moments_at({tick}, stage, variant).front()));
+    }
+    RendererSettings plain = settings_for(stage.drive, settings);
+    plain.profile = false;
+    add_all_techniques(sheets, stage, device, plain);
+    for (std::size_t i = 0; i < played.size(); ++i) {
+        const ContactSheet& sheet = sheets[i];
+        const Variant& variant = stage.drive.variants[i];
+        const auto stored = [&](const char* kind, const std::string& svg) {
+            const std::string file = kind + ("-" + file_name_of(sheet.drive + "-" + sheet.variant)) + ".png";
+            write_file(options.folder / file, plots::png_of_svg(svg));
+            return StoredFrame{sheet.moment.tick, sheet.moment.time_s, "driver", file, ""};
+        };
+        played[i].contact_sheet = stored("contact-sheet", contact_sheet_svg(sheet));
+        if (const DisplaySheet shown = display_sheet(stage, variant, sheet.moment, device, plain); !shown.mappers.empty())
+            played[i].more_sheets.push_back({"by every tone mapper and eye", stored("display-sheet", display_sheet_svg(shown))});
+        if (plain.technique == "photometric")
+            played[i].more_sheets.push_back(
+                {"in every shadow method",
+                 stored("shadow-sheet", shadow_sheet_svg(shadow_moment(stage, variant, sheet.moment, device, plain)))});
+    }
+}
+
+void run_drive(Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
+    std::shared_ptr<const ShadowChoice> shadows;
+    if (const auto chosen = choose_shadows(stage, device, settings_for(stage.drive, settings)))
+        shadows = std::make_shared<const ShadowChoice>(*chosen);
+    fit_tone_mapper(stage, device, settings_for(stage.drive, settings));
+    write_file(options.folder / (file_name_of(stage.drive.name) + ".yaml"), write_drive(stage.drive));
+    add_inputs(report.context.inputs, stage.drive.opened);
+    add_inputs(report.context.inputs, stage.network.opened);
+    Renderer renderer(device, stage.scene, settings_for(stage.drive, settings));
+    Writers writers;
+    const std::size_t before = report.played.size();
+    const std::filesystem::path log_file = options.folder / ("drive-log-" + file_name_of(stage.drive.name) + ".csv");
+    std::ofstream log(log_file, std::ios::binary);
+    log << drive_log_header << '\n';
+    for (const Variant& variant : stage.drive.variants) {
+        report.played.push_back(play_variant(stage, variant, renderer, options, writers, &log));
+        report.played.back().shadows = shadows;
+        if (variant.motion && variant.motion->control)
+            write_file(options.folder / ("signals-" + file_name_of(stage.drive.name + "-" + variant.name) + ".csv"),
+                       signals_csv(stage.drive, *variant.motion->control, options.ticks.first, options.ticks.last));
+        if (const std::string sent = sent_log(stage.drive, variant); !sent.empty())
+            write_file(options.folder / ("can-" + file_name_of(stage.drive.name + "-" + variant.name) + ".log"), sent);
+        if (!log.flush())
+            throw DeviceError(log_file.string() + ": cannot be written: " + std::generic_category().message(errno));
+        if (Interruption::asked()) {
+            report.complete = false;
+            report.interrupted = "interrupted by the user";
+            return;
+        }
+    }
+    const auto played = std::span(report.played).subspan(before);
+    add_savings(stage, device, settings, options, renderer, played);
+    if (options.accuracy)
+        add_errors(stage, options, renderer, played);
+    if (options.contact_sheet && !Interruption::asked())
+        add_contact_sheets(stage, device, settings, options, played);
+}
+
+/// What the frames of a further play take: gone where they are those of the first play, kept to be looked at where they are not.
+void remove_frames(const PlayedVariant& again, const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (const StoredFrame& frame : again.frames)
+        for (const std::string* const path : {&frame.exr, &frame.png})
+            if (!path->empty())
+                std::filesystem::remove(folder / *path, ignored);
+    for (const StoredFrame& frame : again.frames) // folders go when they are empty
+        for (std::filesystem::path path = frame.exr.empty() ? frame.png : frame.exr; path.has_parent_path(); path = path.parent_path())
+            std::filesystem::remove(folder / path.parent_path(), ignored);
+    std::filesystem::remove(folder, ignored);
+    std::filesystem::remove(folder.parent_path(), ignored);
+}
+
+/// A drive's lamp sets once more, by a renderer of its own. Backwards: what one lamp set or drive may leave behind in the driver meets
+/// another.
+void repeat_drive(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options,
+                  std::span<RepeatFold> folds, bool backwards) {
+    Renderer renderer(device, stage.scene, settings_for(stage.drive, settings));
+    Writers writers;
+    for (std::size_t i = 0; i < folds.size() && !Interruption::asked(); ++i) {
+        const std::size_t at = backwards ? folds.size() - 1 - i : i;
+        const PlayedVariant again = play_variant(stage, stage.drive.variants[at], renderer, options, writers);
+        if (!Interruption::asked() && folds[at].add(again, options.folder))
+            remove_frames(again, options.folder);
+    }
+}
+
+/// Plays everything again, by turns backwards and forwards, and says what differs.
+void repeat(const std::deque<Stage>& stages, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
+    std::vector<RepeatFold> folds;
+    for (const PlayedVariant& played : report.played)
+        folds.emplace_back(played, options.folder);
+    std::vector<std::span<RepeatFold>> by_drive;
+    std::size_t first = 0;
+    for (const Stage& stage : stages) {
+        by_drive.push_back(std::span(folds).subspan(first, stage.drive.variants.size()));
+        first += stage.drive.variants.size();
+    }
+    for (int play = 2; play <= options.repeats && !Interruption::asked(); ++play) {
+        RunOptions again = options;
+        again.folder = options.folder / "repeats" / fmt::format("{}", play);
+        const bool backwards = play % 2 == 0;
+        for (std::size_t i = 0; i < stages.size() && !Interruption::asked(); ++i) {
+            const std::size_t at = backwards ? stages.size() - 1 - i : i;
+            repeat_drive(stages[at], device, settings, again, by_drive[at], backwards);
+        }
+    }
+    for (std::size_t i = 0; i < folds.size(); ++i)
+        folds[i].finish(report.played[i], options.repeats, report.context.command);
+    if (Interruption::asked()) {
+        report.complete = false;
+        report.interrupted = "interrupted by the user";
+    }
+}
+
+/// So that nobody takes what is read of a part for the whole drive.
+void note_parts(const std::deque<Stage>& stages, const TickRange& ticks, Report& report) {
+    for (const Stage& stage : stages)
+        if (const int asked = ticks_to_play(stage.drive, ticks), all = tick_count(stage.drive); asked < all)
+            report.warnings.push_back(fmt::format("{}: {} of {} moments were to be played (--frames), and readings are of these alone",
+                                                  stage.drive.name, asked, all));
+}
+
+/// So that nobody takes a technique's own shadows, or none, for those of the method that was asked for.
+void note_shadows(const std::vector<Drive>& drives, Report& report) {
+    for (const Drive& drive : drives) {
+        const std::string instead = shadows_instead(drive);
+        if (!instead.empty() && drive.shadows.method != ShadowMethod::map) // which nobody needs to ask for
+            report.warnings.push_back(fmt::format("{}: shadows by '{}' were asked for, and technique {} does not use it: {}", drive.name,
+                                                  name(drive.shadows.method), drive.technique, instead));
+    }
+}
+
+/// So that nobody takes what a display hides for what lamps do not light.
+void note_displays(const std::vector<Drive>& drives, Report& report) {
+    for (const Drive& drive : drives)
+        if (drive.display.profile)
+            for (const std::string& warning : display_warnings(*drive.display.profile))
+                report.warnings.push_back(fmt::format("{}: {}", drive.name, warning));
+}
+
+/// So that nobody takes what policies made up for what a car said.
+void note_buses(const std::deque<Stage>& stages, Report& report) {
+    for (const Stage& stage : stages)
+        std::ranges::copy(bus_warnings(stage.drive), std::back_inserter(report.warnings));
+}
+
+/// Verdicts that need all of the run.
+void judge(const RunOptions& options, Report& report) {
+    if (!options.references.empty())
+        for (PlayedVariant& played : report.played)
+            std::ranges::copy(judge_against_references(played, report.context, options.folder, options.references, played.technique,
+                                                       options.across_devices),
+                              std::back_inserter(played.verdicts));
+    if (options.known) {
+        add_inputs(report.context.inputs, options.known->opened);
+        apply_known_failures(report, *options.known, options.today);
+    }
+}
+
+} // namespace
+
+Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
+    std::deque<Stage> stages; // everything is read and checked before the first frame; a route points into its own network
+    for (const Drive& drive : drives)
+        stages.emplace_back(drive);
+    for (const Stage& stage : stages)
+        if (ticks_to_play(stage.drive, options.ticks) == 0)
+            throw InputError({stage.drive.file, 0, 0, "--frames"}, fmt::format("found a range from {} on", options.ticks.first),
+                             fmt::format("moments of the drive, which has 0 to {}", tick_count(stage.drive) - 1));
+    for (const Stage& stage : stages)
+        if (options.contact_sheet && !driver_view(stage.drive))
+            throw InputError({stage.drive.file, 0, 0, "views"}, "found only maps", "a perspective view for --contact-sheet");
+    Device device = open_device(options.backend);
+    check_sanity(device);
+    const RendererSettings settings = settings_for(device, options.profile);
+    for (const Stage& stage : stages)
+        check_planar_shadows(stage, device, options.ticks);
+    OutputFolder folder(options.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
+    Report report;
+    report.context = make_context(device.info(), options.command, drives.front().seed);
+    const Interruption listening;
+    try {
+        for (Stage& stage : stages)
+            if (report.complete)
+                run_drive(stage, device, settings, options, report);
+        if (options.repeats > 1 && report.complete)
+            repeat(stages, device, settings, options, report);
+        judge(options, report);
+    } catch (const std::exception& error) {
+        report.complete = false;
+        report.interrupted = error.what();
+        note_parts(stages, options.ticks, report);
+        note_buses(stages, report);
+        note_shadows(drives, report);
+        note_displays(drives, report);
+        write_report(report, options.folder);
+        throw;
+    }
+    note_parts(stages, options.ticks, report);
+    note_buses(stages, report);
+    note_shadows(drives, report);
+    note_displays(drives, report);
+    write_report(report, options.folder);
+    if (report.complete)
+        folder.finish();
+    return report;
+}
+
+void refuse_equal_names(const std::vector<Drive>& drives) {
+    for (std::size_t i = 0; i < drives.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (drives[i].name == drives[k].name)
+                throw InputError({drives[i].file, 0, 0, "name"},
+                                 "found '" + printable(drives[i].name) + "', as in " + drives[k].file.string(),
+                                 "a name of its own for each drive of a run");
+}
+
+} // namespace fernlicht

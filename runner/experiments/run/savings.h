@@ -1,0 +1,25 @@
+// What it saves to leave out what a drive does not need, measured while the run still has its device.
+#pragma once
+
+#include "renderer/renderer.h"
+#include "runner/findings/report.h"
+#include "runner/play/stage.h"
+
+namespace fernlicht {
+
+/// The technique that leaves out, and the one that draws the same bytes with everything in.
+inline constexpr std::string_view pruned_technique = "photometric", unpruned_technique = "photometric-unpruned";
+
+/// How many moments, at most 4, both can draw in seven rounds within two seconds when a frame takes `frame_s`, pruned and read back.
+int affordable_moments(double frame_s);
+
+/// Why savings are not measured for what was played; "" where they can be: by the pruned technique, with a perspective view, long enough
+/// for frames to have been timed, and in two seconds.
+std::string no_savings(const Drive& drive, const PlayedVariant& played);
+
+/// The middles of equal parts of the ticks played, from `first_tick` on, in seven rounds: in each both draw all of them, in an order drawn
+/// anew from the drive's seed. Both renderers are of the stage's scene. Throws DeviceError.
+Savings measure_savings(const Stage& stage, const Variant& variant, const PlayedVariant& played, int first_tick, Renderer& pruned,
+                        Renderer& unpruned);
+
+} // namespace fernlicht

@@ -1,0 +1,115 @@
+// Cameras and pictures at the ends of what a view may ask for, and numbers on their way into files.
+#include "runner/experiments/stability/trial.h"
+#include "runner/experiments/stability/trial_files.h"
+#include "runner/files/picture_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+
+namespace fernlicht {
+namespace {
+
+using namespace stability;
+
+struct Size {
+    double fov_deg;
+    int width_px, height_px;
+};
+
+Found against_a_street(StabilityBench& bench, const std::vector<Size>& sizes) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "road", 0, {-20.0, -30.0, 0.0}, {120.0, 0.0, 0.0}, {0.0, 60.0, 0.0});
+    add_sheet(scene, "board", 1, {30.0, 1.0, 0.5}, {0.0, -2.0, 0.0}, {0.0, 0.0, 1.5});
+    Renderer renderer(bench.device(), scene, unshadowed());
+    Moment moment;
+    moment.lamps = {lamp(cut_off_table(), {3.5, 0.6, 0.65})};
+    Found worst;
+    for (const Size& size : sizes) {
+        const AgainstTwin found =
+            against_twin(renderer, scene, moment, camera({1.3, 0.35, 1.2}, 0.0, -0.05, size.fov_deg, size.width_px, size.height_px));
+        worst.add(found.error(), fmt::format("{} degrees, {} x {}: {}, {:.1e} relative over {} pixels", size.fov_deg, size.width_px,
+                                             size.height_px, found.where, found.worst_relative, found.compared));
+    }
+    return worst;
+}
+
+Found fields_of_view(StabilityBench& bench) {
+    return against_a_street(bench, {{0.1, 48, 32}, {1.0, 48, 32}, {90.0, 48, 32}, {170.0, 48, 32}, {179.0, 48, 32}});
+}
+
+Found sizes(StabilityBench& bench) {
+    return against_a_street(bench, {{2.0, 1, 1}, {40.0, 1, 64}, {4.0, 64, 1}, {10.0, 1, 16384}, {0.1, 16384, 1}});
+}
+
+/// 16384 x 16 pixels across 90 degrees: every pixel is finite, and those of a coarse grid are right.
+Found widest(StabilityBench& bench) { return against_a_street(bench, {{0.112, 16384, 16}}); }
+
+/// What a view must not ask for.
+Found refused_images(StabilityBench& bench) {
+    Found worst;
+    const std::pair<const char*, bool> views[] = {
+        {"vertical_fov_deg: 0.1", true},  {"vertical_fov_deg: 179", true},        {"vertical_fov_deg: 0", false},
+        {"vertical_fov_deg: 180", false}, {"vertical_fov_deg: .nan", false},      {"resolution_px: [1, 1]", true},
+        {"resolution_px: [0, 1]", false}, {"resolution_px: [16384, 16]", true},   {"resolution_px: [16385, 16]", false},
+        {"pitch_deg: .inf", false},       {"position_m: [1.0e+300, 0, 0]", false}};
+    for (const auto& [keys, good] : views) {
+        const std::filesystem::path path = write_drive_file(bench, "view.yaml", fmt::format("views: {{driver: {{{}}}}}", keys));
+        const std::string said = refusal([&] { read_drive(path); });
+        worst.add(said.empty() == good ? 0.0 : 1.0, fmt::format("{}: {}", keys, said.empty() ? "taken" : said));
+    }
+    return worst;
+}
+
+/// What is stored in EXR comes back to the bit. Beside it what half floats would have made of it.
+Found stored(StabilityBench& bench) {
+    Frame frame;
+    const float values[] = {0.0F,     1e-42F,  1.17549435e-38F, 1e-20F,   5.9e-8F, 0.01F,       0.25F, 1.0F,
+                            1.00001F, 2049.0F, 65504.0F,        65520.0F, 1e5F,    16777217.0F, 1e18F, std::numeric_limits<float>::max()};
+    frame.illuminance_lx = Image<float>(16, 1);
+    std::ranges::copy(values, frame.illuminance_lx.pixels().begin());
+    frame.luminance_cdm2 = frame.illuminance_lx;
+    const std::filesystem::path path = bench.file("stored.exr");
+    write_exr(frame, Moment{}, View{}, path);
+    Found worst;
+    std::size_t channels = 0;
+    for (const PictureChannel& channel : read_exr(path)) {
+        ++channels;
+        for (int x = 0; x < 16; ++x)
+            worst.add(channel.values.at(x, 0) == values[x] ? 0.0 : 1.0, fmt::format("{}: {:g}", channel.name, values[x]));
+    }
+    worst.add(channels == 2 ? 0.0 : 1.0, fmt::format("{} channels", channels));
+    double half_relative = 0.0;
+    int half_infinite = 0;
+    for (double e = 0.01; e <= 1e5; e *= 1.0003) {
+        const double half = static_cast<double>(glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(e))));
+        half_infinite += std::isfinite(half) ? 0 : 1;
+        half_relative = std::isfinite(half) ? std::max(half_relative, std::abs(half / e - 1.0)) : half_relative;
+    }
+    // A half path that did no harm would make this row's reason untrue.
+    worst.add(half_infinite > 0 && half_relative > 4e-4 ? 0.0 : 1.0, "half floats are harmless");
+    worst.where =
+        fmt::format("{}; half floats would be off by up to {:.1e} relative and infinite from 65520 lx on", worst.where, half_relative);
+    return worst;
+}
+
+} // namespace
+
+std::vector<StabilityCase> image_cases() {
+    const std::string of_bound = "of the pixel's rounding bound";
+    return {
+        {"image", "field-of-view", "0.1 to 179 degrees: tangents of 0.0009 and 115", 1.0, of_bound,
+         "the projection only decides where a pixel looks; light comes from positions relative to the car", fields_of_view},
+        {"image", "sizes", "1 x 1, one row, one column, 16384 to a side", 1.0, of_bound, "a pixel does not know of its neighbours", sizes},
+        {"image", "16384x16", "the widest picture that OpenGL 4.5 promises", 1.0, of_bound, "a pixel does not know of its neighbours",
+         widest},
+        {"image", "refused", "views without a picture: 0 or 180 degrees, 0 or 16385 pixels, places that are no numbers", 0.0,
+         "inputs not judged rightly", "0.01 to 179 degrees and 1 to 16384 pixels are taken, all else is refused", refused_images},
+        {"image", "stored", "numbers on their way into EXR: 1e5 lx, denormals, the largest float", 0.0, "values changed",
+         "channels are 32-bit floats; half floats end at 65504 lx and keep 11 bits", stored},
+    };
+}
+
+} // namespace fernlicht

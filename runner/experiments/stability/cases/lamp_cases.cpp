@@ -1,0 +1,129 @@
+// Where a lamp stands and shines: distance, grazing incidence, on a surface, unequal lamps in one frame.
+#include "runner/experiments/stability/trial.h"
+#include "scenarios/light/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace fernlicht {
+namespace {
+
+using namespace stability;
+
+constexpr double least_distance_m = 1e-3, greatest_distance_m = 1e4;
+
+/// A wall of 1 m at the car, a lamp before it at each distance. The car stands at the wall: what is far is the lamp.
+Found distance(StabilityBench& bench) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "wall", 0, {0.0, 0.5, -0.5}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}); // faces -x
+    Renderer renderer(bench.device(), scene, unshadowed());
+    Moment moment;
+    moment.lamps = {lamp(constant_table(1000.0), {})};
+    Found worst;
+    for (double d = least_distance_m; d < 1.01 * greatest_distance_m; d *= std::pow(10.0, 0.25)) {
+        moment.lamps[0].pose.position_m.x = -d;
+        const AgainstTwin found = against_twin(renderer, scene, moment, camera({-1.0, 0.05, 0.05}, 0.0, 0.0, 30.0, 32, 24));
+        worst.add(found.error(), fmt::format("{:.3g} m, {}: {:.1e} relative", d, found.where, found.worst_relative));
+    }
+    return worst;
+}
+
+/// The twin of the same against E = I / d^2.
+Found distance_in_double(StabilityBench&) {
+    Found worst;
+    Moment moment;
+    moment.lamps = {lamp(constant_table(1000.0), {})};
+    for (double d = least_distance_m; d < 1.01 * greatest_distance_m; d *= 1.1) {
+        const double truth = 1000.0 / (d * d);
+        worst.add(std::abs(target_illuminance_lx(moment, {d, 0.0, 0.0}) / truth - 1.0), fmt::format("target at {:.3g} m", d));
+        worst.add(std::abs(surface_illuminance_lx(moment, {d, 0.0, 0.0}, {-1.0, 0.0, 0.0}) / truth - 1.0),
+                  fmt::format("wall at {:.3g} m", d));
+    }
+    return worst;
+}
+
+/// A sheet 20 m ahead, turned so that light grazes it more and more, in attitudes that make every component of the normal round.
+Found grazing(StabilityBench& bench) {
+    Found worst;
+    for (const double graze_deg : {90.0, 45.0, 10.0, 1.0, 0.1, 0.01, 0.001})
+        for (const double roll_deg : {0.0, 17.3, 63.1}) {
+            const glm::dmat3 axes = axes_from_angles(0.0, 0.0, radians(roll_deg));
+            const double a = radians(graze_deg);
+            // Along the light and a little across it; the normal leans towards the lamp by the angle.
+            const glm::dvec3 along = axes * glm::dvec3(std::cos(a), 0.0, std::sin(a)), across = axes * glm::dvec3(0.0, 1.0, 0.0);
+            Scene scene = empty_scene();
+            add_sheet(scene, "sheet", 0, glm::dvec3(20.0, 0.0, 0.0) - 0.5 * along - 0.05 * across, along, 0.1 * across);
+            Renderer renderer(bench.device(), scene, unshadowed());
+            Moment moment;
+            moment.lamps = {lamp(constant_table(1000.0), {0.0, 0.0, 0.0})};
+            // Seen from above the sheet, so that pixels show its surface well.
+            const glm::dvec3 normal = glm::normalize(glm::cross(along, across));
+            const glm::dvec3 eye = glm::dvec3(20.0, 0.0, 0.0) + 2.0 * normal;
+            const double yaw = std::atan2(-normal.y, -normal.x), pitch = std::asin(-normal.z);
+            const AgainstTwin found = against_twin(renderer, scene, moment, camera(eye, yaw, pitch, 20.0, 24, 24));
+            worst.add(found.error(), fmt::format("{} degrees, rolled by {}: {:.1e} relative", graze_deg, roll_deg, found.worst_relative));
+        }
+    return worst;
+}
+
+/// A lamp in the middle of a sheet, exactly where a pixel's centre looks, and within rounding errors of it.
+Found lamp_on_a_surface(StabilityBench& bench) {
+    Found worst;
+    Scene scene = empty_scene();
+    add_sheet(scene, "wall", 0, {2.0, 1.0, -1.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, 2.0});
+    Renderer renderer(bench.device(), scene, unshadowed());
+    for (const double before_m : {0.0, 1e-300, 1e-45, 1e-30, 1e-12, 1e-7, 1e-6})
+        for (const double yaw : {0.0, pi}) {
+            Moment moment;
+            moment.lamps = {lamp(constant_table(1000.0), {2.0 - before_m, 0.0, 0.0}, yaw)};
+            const Frame frame = renderer.draw(moment, camera({0.0, 0.0, 0.0}, 0.0, 0.0, 40.0, 33, 33), everything);
+            worst.add(static_cast<double>(not_finite(frame)),
+                      fmt::format("{:.0e} m before the wall, yaw {:.0f} degrees", before_m, degrees(yaw)));
+            const glm::dvec3 place{2.0, 0.0, 0.0};
+            const bool finite = std::isfinite(target_illuminance_lx(moment, moment.lamps[0].pose.position_m)) &&
+                                std::isfinite(surface_illuminance_lx(moment, moment.lamps[0].pose.position_m, {-1.0, 0.0, 0.0})) &&
+                                (before_m < 1e-100 || std::isfinite(target_illuminance_lx(moment, place)));
+            worst.add(finite ? 0.0 : 1.0, fmt::format("in double, {:.0e} m before the wall", before_m));
+        }
+    return worst;
+}
+
+/// One lamp lights a wall with 1e5 lx, another the wall beside it with 1 lx, in one frame.
+Found unequal_lamps(StabilityBench& bench) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "bright wall", 0, {10.0, 3.0, -1.0}, {0.0, -2.9, 0.0}, {0.0, 0.0, 2.0});
+    add_sheet(scene, "dim wall", 0, {10.0, -0.1, -1.0}, {0.0, -2.9, 0.0}, {0.0, 0.0, 2.0});
+    add_sheet(scene, "board", 1, {9.0, 0.1, 1.2}, {0.0, -0.2, 0.0}, {0.0, 0.0, 0.2});
+    Moment moment;
+    CandelaTable left = constant_table(1e7), right = constant_table(100.0);
+    left.h_deg = {-85.0, 0.0}; // each lamp only its own side
+    right.h_deg = {0.0, 85.0};
+    moment.lamps = {lamp(left, {0.0, 0.0, 0.0}), lamp(right, {0.0, 0.0, 0.0})};
+    Renderer renderer(bench.device(), scene, unshadowed());
+    const AgainstTwin found = against_twin(renderer, scene, moment, camera({0.0, 0.0, 0.3}, 0.0, 0.0, 30.0, 64, 32));
+    Found worst;
+    worst.add(found.error(), fmt::format("{}: {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared));
+    return worst;
+}
+
+} // namespace
+
+std::vector<StabilityCase> lamp_cases() {
+    const std::string of_bound = "of the pixel's rounding bound";
+    return {
+        {"lamp", "distance", "1 / d^2 from 1 mm to 10 km: overflow near the lamp, positions that round far from it", 1.0, of_bound,
+         "24 roundings of light and 16 of the largest coordinate, seen in 1/d^2, cosine and beam", distance},
+        {"lamp", "distance-in-double", "the same in the twin, against E = I / d^2", 1e-14, "relative",
+         "some 20 roundings of a double (1.1e-16 each); the difference of positions is exact here", distance_in_double},
+        {"lamp", "grazing", "incidence from 90 to 0.001 degrees: the cosine is a difference of nearly equal products", 1.0, of_bound,
+         "the rounding of a position or of a dot product, over a cosine of down to 1.7e-5", grazing},
+        {"lamp", "on-a-surface", "a lamp in a surface: 0/0 in direction, distance and cosine", 0.0, "pixels that are not finite",
+         "at d = 0 there is no direction and so no light; everywhere else 1e-7 m keeps 1/d^2 below 1e14", lamp_on_a_surface},
+        {"lamp", "unequal", "1e5 lx beside 1 lx in one frame: one lamp's error must not show in the other's light", 1.0, of_bound,
+         "each lamp is added by itself; a dark lamp adds exactly 0", unequal_lamps},
+    };
+}
+
+} // namespace fernlicht

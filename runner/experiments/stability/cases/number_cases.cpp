@@ -1,0 +1,238 @@
+// Numbers themselves: rounding as IEEE 754 has it, denormals, the largest, and none that is not finite in a file.
+#include "renderer/reference/reference.h"
+#include "runner/experiments/run/run_drives.h"
+#include "runner/experiments/stability/float_habits.h"
+#include "runner/experiments/stability/trial.h"
+#include "runner/experiments/stability/trial_files.h"
+#include "runner/files/picture_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <limits>
+#include <regex>
+#include <sstream>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+namespace fernlicht {
+namespace {
+
+using namespace stability;
+
+/// Before and after a device, Embree and oneTBB had their chance to set flush-to-zero, on this thread and on theirs.
+Found float_rules(StabilityBench& bench) {
+    Found worst;
+    const auto add = [&](const std::string& at) {
+        const std::vector<std::string> broken = broken_float_rules();
+        worst.add(static_cast<double>(broken.size()), broken.empty() ? "every rule holds " + at : fmt::format("{} {}", broken.front(), at));
+    };
+    add("at first");
+    Scene scene = empty_scene();
+    add_sheet(scene, "wall", 0, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+    Moment moment;
+    moment.lamps = {lamp(constant_table(1000.0), {0.0, 0.0, 0.0})};
+    const View view = camera({0.0, 0.0, 0.0}, 0.0, 0.0, 30.0, 32, 32);
+    Renderer renderer(bench.device(), scene, unshadowed());
+    renderer.draw(moment, view, everything);
+    add("after drawing");
+    const Reference reference(scene);
+    ReferenceSettings settings;
+    settings.most_samples = 16;
+    reference.render(moment, view, {.illuminance = true}, settings);
+    add("after the reference's rays");
+    // As many tasks as to reach every worker that the two have left.
+    const int broken = tbb::parallel_reduce(
+        tbb::blocked_range<int>(0, 4096, 1), 0,
+        [](const tbb::blocked_range<int>& range, int sum) {
+            for (int i = range.begin(); i < range.end(); ++i)
+                sum += static_cast<int>(broken_float_rules().size());
+            return sum;
+        },
+        std::plus<>());
+    worst.add(broken, "in workers of oneTBB");
+    return worst;
+}
+
+/// Lamps so weak that their light is denormal in float, or none.
+Found denormals(StabilityBench& bench) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "wall", 1, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+    Renderer renderer(bench.device(), scene, unshadowed());
+    Found worst;
+    for (const double cd : {1e-300, 1e-45, 1e-42, 1e-38, 1e-36, 1e-30}) {
+        Moment moment;
+        moment.lamps = {lamp(constant_table(cd), {0.0, 0.0, 0.0})};
+        const View view = camera({0.0, 0.0, 0.0}, 0.0, 0.0, 30.0, 16, 16);
+        const Frame frame = renderer.draw(moment, view, everything);
+        const Twin twin(scene, false);
+        for (int i = 0; i < 16; ++i) {
+            const double truth = twin.pixel(moment, view, i + 0.5, i + 0.5).illuminance_lx;
+            const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(i, i)) - truth);
+            // Five products, each of which may lose what is below the smallest normal number.
+            worst.add(not_finite(frame) > 0 ? std::numeric_limits<double>::infinity() : off / (1e-6 * truth + 5.0 * 1.18e-38 * 100.0),
+                      fmt::format("{:.0e} cd", cd));
+        }
+    }
+    return worst;
+}
+
+/// The brightest lamps that a file may hold, eight of them, at a millimetre and at ten metres.
+Found brightest(StabilityBench& bench) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "wall", 1, {0.001, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+    add_sheet(scene, "road", 0, {-20.0, -10.0, -1.0}, {40.0, 0.0, 0.0}, {0.0, 20.0, 0.0});
+    Renderer renderer(bench.device(), scene, unshadowed());
+    Moment moment;
+    for (int i = 0; i < 8; ++i) {
+        moment.lamps.push_back(lamp(constant_table(1e12), {0.0, 0.001 * i, 0.0}, 0.0, -0.3));
+        moment.lamps.back().intensity_factor = 1.0;
+    }
+    Found worst;
+    for (const glm::dvec3& eye : {glm::dvec3(-0.5, 0.0, 0.0), glm::dvec3(-5.0, 0.0, 1.0)}) {
+        const AgainstTwin found = against_twin(renderer, scene, moment, camera(eye, 0.0, -0.1, 60.0, 32, 32));
+        worst.add(found.error(), fmt::format("seen from {} m: {}, {:.1e} relative", eye.x, found.where, found.worst_relative));
+    }
+    return worst;
+}
+
+/// NaN and infinity in lamps, roads and drives.
+Found refused_numbers(StabilityBench& bench) {
+    Found worst;
+    for (const char* bad : {"nan", "inf", "-inf", "1e999", "1e13", "-1"}) {
+        const std::filesystem::path lamp_path = bench.write("bad.csv", fmt::format("# unit: cd\nV\\H,-1,1\n-1,1,2\n1,3,{}\n", bad));
+        const std::string lamp_said = refusal([&] { read_lamp(lamp_path); });
+        worst.add(lamp_said.find("bad.csv") != std::string::npos ? 0.0 : 1.0,
+                  lamp_said.empty() ? fmt::format("{} cd was taken", bad) : lamp_said);
+    }
+    for (const char* bad : {"nan", "inf", "1e999"}) {
+        const std::string plan = fmt::format(R"(<geometry s="0" x="{}" y="0" hdg="0" length="600"><line/></geometry>)", bad);
+        const std::filesystem::path road = bench.write("bad.xodr", road_text(600.0, plan, lane_text(-1, 3.5)));
+        const std::string road_said = refusal([&] { read_opendrive(road); });
+        worst.add(road_said.find("bad.xodr") != std::string::npos ? 0.0 : 1.0,
+                  road_said.empty() ? fmt::format("a road at x = {} was taken", bad) : road_said);
+    }
+    for (const char* bad : {".nan", ".inf", "-.inf", "1.0e+999"}) {
+        const std::filesystem::path drive =
+            write_drive_file(bench, "bad.yaml", fmt::format("daylight: {{horizontal_illuminance_lx: {}}}", bad));
+        const std::string drive_said = refusal([&] { read_drive(drive); });
+        worst.add(drive_said.find("bad.yaml") != std::string::npos ? 0.0 : 1.0,
+                  drive_said.empty() ? fmt::format("a sky of {} lx was taken", bad) : drive_said);
+    }
+    return worst;
+}
+
+std::string content_of(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/// Numbers that are none, in a text of JSON or CSV.
+std::size_t not_numbers(const std::string& text) {
+    static const std::regex word(R"((^|[\s,:\[])-?(nan|inf|infinity)($|[\s,\]}]))", std::regex::icase);
+    return static_cast<std::size_t>(std::distance(std::sregex_iterator(text.begin(), text.end(), word), std::sregex_iterator()));
+}
+
+struct Played {
+    Report report;
+    std::filesystem::path folder;
+};
+
+/// Plays a drive file from start to end, as `fernlicht run` does.
+Played play_to_the_end(StabilityBench& bench, const std::filesystem::path& drive, const std::string& name) {
+    bench.close_device();
+    Played played;
+    played.folder = bench.file(name);
+    std::error_code ignored;
+    std::filesystem::remove_all(played.folder, ignored);
+    RunOptions options;
+    options.folder = played.folder;
+    options.quiet = true;
+    options.ticks = {0, 1};
+    options.backend = bench.backend();
+    played.report = run_drives({read_drive(drive)}, options);
+    return played;
+}
+
+/// A dark lamp, the brightest lamp, probes in the dark and right at a lamp: whatever is written must be a number.
+Found reports(StabilityBench& bench) {
+    const auto table = [](double cd) {
+        return matrix_text({{-40.0, 40.0}, {-20.0, 20.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd});
+    };
+    bench.write("dark.csv", table(0.0));
+    bench.write("brightest.csv", table(1e12));
+    Found worst;
+    for (const char* file : {"dark.csv", "brightest.csv"}) {
+        const std::string more = fmt::format(
+            "    left: {{file: {}, position_m: [3.5, 0.6, 0.65]}}\nviews: {{driver: {{resolution_px: [64, 48]}}}}\n"
+            "capture: {{all: true}}\nmeasure:\n  extent: {{ahead_m: 60, beside_m: 6}}\n"
+            "  probes: {{at_lamp: {{ahead_m: 3.5, left_m: 0.6, above_m: 0.65}}, dark: {{ahead_m: -50}}, road: {{ahead_m: 20}}}}",
+            file);
+        const Played played = play_to_the_end(bench, write_drive_file(bench, "report.yaml", more), "report");
+        for (const char* text : {"report.json", "readings.csv", "times.csv"})
+            worst.add(static_cast<double>(not_numbers(content_of(played.folder / text))), fmt::format("{} with {}", text, file));
+        std::size_t pictures = 0, values = 0, bad = 0;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(played.folder))
+            if (entry.path().extension() == ".exr")
+                for (const PictureChannel& channel : read_exr(entry.path())) {
+                    ++pictures;
+                    values += channel.values.size();
+                    bad +=
+                        static_cast<std::size_t>(std::ranges::count_if(channel.values.pixels(), [](float v) { return !std::isfinite(v); }));
+                }
+        worst.add(pictures == 0 ? std::nan("") : static_cast<double>(bad),
+                  fmt::format("{} channels of EXR, {} values, with {}", pictures, values, file));
+    }
+    return worst;
+}
+
+/// A probe nearer to a lamp than its photometric distance is marked, one farther away is not, and the report says so.
+Found near_field(StabilityBench& bench) {
+    const std::string more =
+        "    left: {file: even.csv, position_m: [3.5, 0.6, 0.65], photometric_distance_m: 10}\nviews: {driver: {resolution_px: [64, 48]}}\n"
+        "measure:\n  extent: false\n  probes: {near: {ahead_m: 3.501, left_m: 0.6, above_m: 0.65}, far: {ahead_m: 30}}";
+    const Played played = play_to_the_end(bench, write_drive_file(bench, "near.yaml", more), "near");
+    Found worst;
+    std::size_t near = 0, far = 0;
+    for (const PlayedVariant& variant : played.report.played) {
+        for (const Reading& reading : variant.readings) {
+            const bool marked = reading.where.find("near-field") != std::string::npos;
+            near += reading.name.find("probe_near") != std::string::npos && !marked ? 1U : 0U;
+            far += reading.name.find("probe_far") != std::string::npos && marked ? 1U : 0U;
+        }
+        worst.add(std::ranges::any_of(variant.notes, [](const std::string& note) { return note.find("near field") != std::string::npos; })
+                      ? 0.0
+                      : 1.0,
+                  "the report's notes");
+    }
+    worst.add(static_cast<double>(near), "readings nearer than 10 m that are not marked");
+    worst.add(static_cast<double>(far), "readings farther than 10 m that are marked");
+    worst.add(played.report.played.empty() ? 1.0 : 0.0, "nothing played");
+    return worst;
+}
+
+} // namespace
+
+std::vector<StabilityCase> number_cases() {
+    return {
+        {"number", "float-rules", "fast-math, fused a * b + c, flush-to-zero set by a library in some thread", 0.0, "rules broken",
+         "same inputs, same bytes: C++ rounds after each operation, keeps NaN, signed zeros and denormals", float_rules},
+        {"number", "denormals", "lamps of 1e-300 to 1e-30 cd: products below the smallest normal float", 1.0,
+         "of 6e-36 lx and 1e-6 of the light",
+         "a GPU may flush each of five factors to 0 below 1.2e-38, which the albedo and distance here scale by up to 100", denormals},
+        {"number", "brightest", "eight lamps of 1e12 cd at 1 mm: 1e18 lx each, luminances, tone mapping", 1.0,
+         "of the pixel's rounding bound", "the largest intensity a file may hold over the square of a millimetre is far below 3e38",
+         brightest},
+        {"number", "refused", "NaN, infinity and what no lamp can be, in lamp, road and drive files", 0.0, "inputs not refused",
+         "a number that is none is refused where it stands, with the file's name", refused_numbers},
+        {"number", "reports", "a dark lamp, one of 1e12 cd, a probe right at the lamp: whole runs", 0.0, "values that are not finite",
+         "what could not be measured is not_measured, never NaN or infinity", reports},
+        {"number", "near-field", "1 mm from a lamp that was measured from 10 m: a point source no more", 0.0, "readings not marked rightly",
+         "the photometric distance decides; marked are the probe's readings and the run's notes", near_field},
+    };
+}
+
+} // namespace fernlicht

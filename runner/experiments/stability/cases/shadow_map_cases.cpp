@@ -1,0 +1,244 @@
+// Methods that draw maps against rays: texels, lamps and eyes in hard places.
+#include "runner/experiments/stability/shadow_method_cases.h"
+#include "runner/experiments/stability/shadow_trial.h"
+
+#include "renderer/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace fernlicht {
+namespace {
+
+using namespace stability;
+
+constexpr double half_width_deg = 30.0, half_height_deg = 10.0;
+
+/// 30 degrees to each side and 10 up and down: of a map of 1024 x 512 texels the coarser axis is across.
+CandelaTable even_beam() {
+    CandelaTable table = even_table(half_width_deg);
+    table.v_deg = {-half_height_deg, half_height_deg};
+    return table;
+}
+double texel_of(int width, int height) {
+    return std::max(2.0 * std::tan(radians(half_width_deg)) / (width - 2),
+                    2.0 * 1.75 * std::tan(radians(half_height_deg)) / (height - 2)); // the window is so much higher
+}
+
+/// Posts, a board and a wall on a level road, from 6 m on.
+Scene row_of_posts(double low_m = 0.0) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    for (int i = 0; i < 6; ++i)
+        add_triangles(scene, fmt::format("post {}", i), 1, {6.0 + 9.0 * i, (i % 2 == 0 ? 0.9 : -1.4) * (1.0 + 0.5 * i), low_m + 0.6},
+                      box({0.1, 0.1 + 0.05 * i, 0.6}, 0.3 * i));
+    add_triangles(scene, "board", 1, {35.0, 2.5, 1.8}, box({0.03, 1.0, 0.5}));
+    add_triangles(scene, "wall", 1, {70.0, 0.0, 3.0}, box({0.2, 20.0, 3.0}));
+    return scene;
+}
+
+Moment lit_by(const std::vector<glm::dvec3>& lamps, double yaw_rad = 0.0) {
+    Moment moment;
+    static const LitLamp one = lamp(even_beam(), {}); // one table: shaders are compiled for each
+    for (const glm::dvec3& at : lamps) {
+        moment.lamps.push_back(one);
+        moment.lamps.back().pose = {at, axes_from_angles(yaw_rad, 0.0, 0.0)};
+    }
+    return moment;
+}
+
+const glm::dvec3 own_lamp_m(0.0, 0.0, 0.65);
+
+View driver_of_posts() { return camera({-1.5, 0.3, 1.25}, 0.0, -0.03, 30.0, 64, 48); }
+
+/// Warped maps may have texels up to twice as wide as the plain map's, which lie askew: their diagonals count.
+ShadowDoubt doubt_of_warped() {
+    ShadowDoubt doubt = doubt_of_map(2.0 * texel_of(1024, 512));
+    doubt.aside_share *= std::sqrt(2.0);
+    return doubt;
+}
+
+struct HardEye {
+    std::string name;
+    View view;
+};
+
+Found warps_from(StabilityBench& bench, const std::vector<HardEye>& eyes) {
+    const Scene scene = row_of_posts();
+    Found worst;
+    for (const ShadowMethod method : {ShadowMethod::perspective_map, ShadowMethod::light_space_map}) {
+        ShadowTrial trial(bench, scene, shadows_by(method));
+        for (const HardEye& eye : eyes)
+            judge_tally(worst, trial.tally(lit_by({own_lamp_m}), eye.view, doubt_of_warped()),
+                        fmt::format("{}, {}", name(method), eye.name), Tried::either);
+    }
+    return worst;
+}
+
+Found warp_eyes(StabilityBench& bench) {
+    return warps_from(bench, {{"eye on the lamp", camera(own_lamp_m, 0.0, -0.05, 40.0, 64, 48)},
+                              {"eye 1 mm above the lamp", camera(own_lamp_m + glm::dvec3(0.0, 0.0, 1e-3), 0.0, -0.05, 40.0, 64, 48)},
+                              {"lamp 5 m behind the eye", camera({5.0, 0.0, 0.66}, 0.0, -0.03, 40.0, 64, 48)},
+                              {"lamp 5 m before the eye", camera({-5.0, 0.0, 0.65}, 0.0, 0.0, 40.0, 64, 48)},
+                              {"lamp in the eye's plane", camera({0.0, 3.0, 0.65}, -0.05, -0.05, 40.0, 64, 48)},
+                              {"against the light", camera({50.0, 0.0, 1.5}, pi, -0.04, 40.0, 64, 48)},
+                              {"against the light, in its line", camera({50.0, 0.0, 0.65}, pi, 0.0, 40.0, 64, 48)},
+                              {"across the light", camera({25.0, -20.0, 1.5}, 0.5 * pi, -0.05, 40.0, 64, 48)},
+                              {"straight down", camera({20.0, 0.0, 15.0}, 0.0, -0.5 * pi, 60.0, 64, 48)},
+                              {"from behind a post", camera({-8.0, 1.2, 1.0}, -0.05, -0.05, 40.0, 64, 48)}});
+}
+
+Found warp_fields(StabilityBench& bench) {
+    return warps_from(bench, {{"0.2 degrees", camera({-1.5, 0.3, 1.25}, 0.02, -0.012, 0.2, 64, 48)},
+                              {"2 degrees", camera({-1.5, 0.3, 1.25}, 0.01, -0.02, 2.0, 64, 48)},
+                              {"120 degrees", camera({-1.5, 0.3, 1.25}, 0.0, 0.0, 120.0, 64, 48)},
+                              {"165 degrees", camera({-1.5, 0.3, 1.25}, 0.0, 0.0, 165.0, 96, 72)},
+                              {"256 x 4 pixels", camera({-1.5, 0.3, 1.25}, 0.0, -0.04, 2.0, 256, 4)},
+                              {"4 x 256 pixels", camera({-1.5, 0.3, 1.25}, 0.04, -0.05, 30.0, 4, 256)}});
+}
+
+Found warp_search(StabilityBench& bench) {
+    const Scene scene = row_of_posts();
+    Found worst;
+    for (const ShadowMethod method : {ShadowMethod::perspective_map, ShadowMethod::light_space_map}) {
+        ShadowTrial trial(bench, scene, shadows_by(method));
+        Chance chance(StabilityBench::seed);
+        ShadowTally all;
+        for (int i = 0; i < (bench.thorough ? 200 : 20); ++i) {
+            const Moment moment =
+                lit_by({{chance.between(-3.0, 3.0), chance.between(-1.0, 1.0), chance.between(0.2, 2.0)}}, chance.between(-0.3, 0.3));
+            const View view = camera({chance.between(-15.0, 60.0), chance.between(-15.0, 15.0), chance.between(0.2, 8.0)},
+                                     chance.between(-pi, pi), chance.between(-0.4, 0.1), std::exp(chance.between(0.0, 4.9)), 40, 30);
+            all.add(trial.tally(moment, view, doubt_of_warped()));
+        }
+        judge_tally(worst, all, std::string(name(method)));
+    }
+    return worst;
+}
+
+Found texels_of_maps(StabilityBench& bench) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    add_triangles(scene, "board", 1, {20.0, -3.0, 3.0}, box({0.05, 4.0, 3.0}));
+    add_triangles(scene, "wall", 1, {40.0, 0.0, 3.0}, box({0.2, 20.0, 3.0}));
+    Found worst;
+    for (const ShadowMethod method : {ShadowMethod::map, ShadowMethod::one_map, ShadowMethod::light_space_map, ShadowMethod::soft_map})
+        for (const auto& [width, height] : {std::pair(16, 16), std::pair(8192, 16), std::pair(16, 8192), std::pair(8192, 4096)}) {
+            ShadowSettings settings = shadows_by(method);
+            settings.width = width;
+            settings.height = height;
+            settings.lamp_places = 2;
+            if (method == ShadowMethod::soft_map && height == 4096)
+                continue; // as the others, and much memory
+            ShadowTrial trial(bench, scene, settings);
+            ShadowDoubt doubt = doubt_of_map((method == ShadowMethod::light_space_map ? 2.0 : 1.0) * 1.02 * texel_of(width, height));
+            doubt.lamp_radius_m = method == ShadowMethod::soft_map ? settings.lamp_radius_m : 0.0;
+            const ShadowTally tally = trial.tally(lit_by({own_lamp_m}), driver_of_posts(), doubt);
+            // Of 16 texels little is beyond doubt.
+            worst.add(tally.lit + tally.dark == 0 && height > 16 && width > 16 ? std::nan("") : tally.wrong(),
+                      fmt::format("{}, {} x {} texels: {}", name(method), width, height, tally.text()));
+        }
+    return worst;
+}
+
+/// One map for lamps side by side: shadows fall as from midway.
+Found lamps_apart(StabilityBench& bench) {
+    const Scene scene = row_of_posts();
+    ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::one_map));
+    Found worst;
+    for (const double apart_m : {0.01, 1.2, 3.0, 10.0})
+        for (const double yaw_rad : {0.0, 0.3}) {
+            const glm::dvec3 aside(0.0, 0.5 * apart_m, 0.0);
+            const Moment moment = lit_by({own_lamp_m + aside, own_lamp_m - aside}, yaw_rad);
+            ShadowDoubt doubt = doubt_of_map((1.0 + 0.5 * apart_m / 3.0 / std::tan(radians(half_width_deg))) *
+                                             texel_of(1024, 512)); // as wide as both beams from 3 m on
+            judge_tally(worst, trial.tally(moment, camera({2.0, 0.3, 1.5}, yaw_rad, -0.03, 30.0, 64, 48), doubt, {own_lamp_m, own_lamp_m}),
+                        fmt::format("lamps {} m apart, turned by {} rad", apart_m, yaw_rad));
+        }
+    return worst;
+}
+
+Found soft_radii(StabilityBench& bench) {
+    Found worst;
+    for (const auto& [radius_m, caster_m] : {std::pair(0.001, 0.3), std::pair(0.001, 20.0), std::pair(0.5, 20.0)}) {
+        Scene scene = row_of_posts();
+        add_triangles(scene, "plate", 1, own_lamp_m + glm::dvec3(caster_m, 0.0, 0.0), box({0.02, 0.3 * caster_m, 0.1 * caster_m}));
+        ShadowSettings settings = shadows_by(ShadowMethod::soft_map);
+        settings.lamp_radius_m = radius_m;
+        ShadowTrial trial(bench, scene, settings);
+        ShadowDoubt doubt = doubt_of_map(1.02 * texel_of(1024, 512));
+        doubt.lamp_radius_m = radius_m;
+        judge_tally(worst, trial.tally(lit_by({own_lamp_m}), camera({2.5, 0.3, 1.5}, 0.0, -0.03, 30.0, 32, 24), doubt),
+                    fmt::format("radius {} m, a plate {} m before the lamp", radius_m, caster_m), Tried::either);
+    }
+    return worst;
+}
+
+/// A plate within the radius of the lamp's face leaves half light everywhere: shares against rays to 256 places on the disc.
+Found soft_near(StabilityBench& bench) {
+    constexpr double radius_m = 0.5;
+    constexpr int rays = 256;
+    Found worst;
+    for (const double caster_m : {0.1, 0.3, 0.5}) {
+        Scene scene = empty_scene();
+        add_sheet(scene, "wall", 1, {12.0, 5.0, -4.0}, {0.0, -10.0, 0.0}, {0.0, 0.0, 8.0});
+        add_triangles(scene, "plate", 1, {caster_m, 0.1, 0.0}, box({0.01, 0.2, 0.2}));
+        const Moment moment = lit_by({{0.0, 0.0, 0.0}});
+        const View view = camera({3.0, 0.0, 0.0}, 0.0, 0.0, 25.0, 24, 18);
+        RendererSettings settings;
+        settings.shadows = shadows_by(ShadowMethod::soft_map);
+        settings.shadows.lamp_radius_m = radius_m;
+        Renderer drawn(bench.device(), scene, settings), free(bench.device(), scene, unshadowed());
+        const Frame with = drawn.draw(moment, view, {.illuminance = true}), without = free.draw(moment, view, {.illuminance = true});
+        const Twin twin(scene, false);
+        double squares = 0.0;
+        int pixels = 0;
+        for (int y = 0; y < view.height_px; ++y)
+            for (int x = 0; x < view.width_px; ++x) {
+                const TwinPixel here = twin.pixel(moment, view, x + 0.5, y + 0.5);
+                if (here.id == 0 || here.illuminance_lx < 1e-3)
+                    continue;
+                int seen = 0;
+                for (int k = 0; k < rays; ++k) {
+                    const double r = radius_m * std::sqrt((k + 0.5) / rays), angle = k * pi * (3.0 - std::sqrt(5.0));
+                    const glm::dvec3 from = here.point_m + 1e-3 * here.normal,
+                                     way = glm::dvec3(0.0, r * std::cos(angle), r * std::sin(angle)) - from;
+                    const auto blocker = twin.cast(moment, {from, glm::normalize(way)}, 1e-4, Twin::Met::casters);
+                    seen += blocker && blocker->distance_m < glm::length(way) ? 0 : 1;
+                }
+                const double share =
+                    static_cast<double>(with.illuminance_lx.at(x, y)) / static_cast<double>(without.illuminance_lx.at(x, y));
+                squares += std::pow(share - static_cast<double>(seen) / rays, 2.0);
+                ++pixels;
+            }
+        worst.add(pixels == 0 ? std::nan("") : std::sqrt(squares / pixels),
+                  fmt::format("a plate {} m before the lamp, {} pixels", caster_m, pixels));
+    }
+    return worst;
+}
+
+} // namespace
+
+std::vector<StabilityCase> shadow_map_cases() {
+    const std::string pixels = "pixels drawn wrongly";
+    const std::string in_doubt = "in doubt are pixels where rays from within a texel and the look-up's height do not agree";
+    return {
+        {"warp", "eyes", "the lamp in the eye, behind, before and beside it; along the light and against it", 0.0, pixels,
+         in_doubt + "; texels are up to twice as wide as the plain map's", warp_eyes},
+        {"warp", "fields-of-view", "fields of view of 0.2 to 165 degrees, pictures 64 times as wide as high", 0.0, pixels,
+         in_doubt + "; texels are up to twice as wide as the plain map's", warp_fields},
+        {"warp", "search", "lamps and eyes anywhere", 0.0, pixels, in_doubt + "; texels are up to twice as wide as the plain map's",
+         warp_search},
+        {"shadow", "texels", "maps of 16 x 16 to 8192 x 4096 texels, 512 times as wide as high", 0.0, pixels,
+         in_doubt + "; of 16 texels little is beyond doubt", texels_of_maps},
+        {"one-map", "lamps-apart", "lamps 1 cm to 10 m apart", 0.0, pixels,
+         "held against rays from midway: a limit, which docs/shadows.md tells; " + in_doubt, lamps_apart},
+        {"soft", "radii", "lamps of 1 mm and of 0.5 m", 0.0, pixels, in_doubt + ", and where places on the disc do not", soft_radii},
+        {"soft", "near-casters", "a lamp of 0.5 m, a caster nearer than that", 0.0625, "of the lamp's share, r.m.s.",
+         "of 16 places each stands for a sixteenth of the light", soft_near},
+    };
+}
+
+} // namespace fernlicht

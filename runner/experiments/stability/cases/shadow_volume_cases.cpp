@@ -1,0 +1,290 @@
+// Shadow volumes against rays: bodies of all kinds, lamps and cameras in all places.
+#include "runner/experiments/stability/shadow_method_cases.h"
+#include "runner/experiments/stability/shadow_trial.h"
+#include "runner/play/map_of.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <list>
+
+namespace fernlicht {
+namespace {
+
+using namespace stability;
+
+glm::dvec3 within_cube(Chance& chance, double half) {
+    return {chance.between(-half, half), chance.between(-half, half), chance.between(-half, half)};
+}
+
+/// Closed, open, inside out, with a side missing, doubled, or triangles of any sort, about 0.
+Triangles any_body(Chance& chance, double size_m) {
+    const glm::dvec3 half(size_m * chance.between(0.02, 1.0), size_m * chance.between(0.02, 1.0), size_m * chance.between(0.02, 1.0));
+    Triangles body = box(half, chance.between(0.0, 2.0 * pi));
+    switch (chance.below(7)) {
+    case 0:
+        return turned_round(body);
+    case 1: // a side missing
+        body.erase(body.begin(), body.begin() + 2);
+        return body;
+    case 2: // triangles missing and turned round
+        body.erase(body.begin() + chance.below(12));
+        std::swap(body[static_cast<std::size_t>(chance.below(11))][0], body[static_cast<std::size_t>(chance.below(11))][1]);
+        return body;
+    case 3: // a sheet, once or from both sides
+        body.resize(2);
+        if (chance.below(2) == 0)
+            for (const std::array<glm::dvec3, 3>& t : turned_round(body))
+                body.push_back(t);
+        return body;
+    case 4: { // triangles that share corners as chance has it
+        std::array<glm::dvec3, 5> corners;
+        for (glm::dvec3& corner : corners)
+            corner = within_cube(chance, size_m);
+        body.clear();
+        const auto corner = [&] { return corners[static_cast<std::size_t>(chance.below(5))]; };
+        for (int i = 0; i < 8; ++i)
+            body.push_back({corner(), corner(), corner()});
+        return body;
+    }
+    default:
+        return body;
+    }
+}
+
+Scene crowd_of_bodies(Chance& chance, int bodies, std::vector<glm::dvec3>& places) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    for (int i = 0; i < bodies; ++i) {
+        const double size_m = std::exp(chance.between(std::log(0.05), std::log(4.0)));
+        places.push_back({chance.between(2.0, 40.0), chance.between(-8.0, 8.0), chance.between(0.1, 1.0) * (size_m + 1.0)});
+        add_triangles(scene, fmt::format("body {}", i), 1, places.back(), any_body(chance, size_m));
+    }
+    return scene;
+}
+
+Found shadow_crowds(StabilityBench& bench) {
+    Found worst;
+    Chance chance(StabilityBench::seed);
+    for (int i = 0; i < (bench.thorough ? 60 : 6); ++i) {
+        std::vector<glm::dvec3> places;
+        const Scene scene = crowd_of_bodies(chance, 10, places);
+        ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
+        Moment moment;
+        moment.lamps = {lamp(even_table(40.0), {})};
+        ShadowTally all;
+        for (int k = 0; k < 8; ++k) {
+            const bool within = chance.below(3) == 0; // a body, or its shadow
+            const auto any_place = [&] { return places[static_cast<std::size_t>(chance.below(10))]; };
+            const glm::dvec3 at = within ? any_place() + within_cube(chance, 0.02)
+                                         : glm::dvec3(chance.between(-5.0, 20.0), chance.between(-5.0, 5.0), chance.between(0.05, 3.0));
+            moment.lamps.front().pose = {at, axes_from_angles(chance.between(-0.5, 0.5), chance.between(-0.3, 0.3), 0.0)};
+            const glm::dvec3 eye = chance.below(3) == 0
+                                       ? any_place() + within_cube(chance, 0.3)
+                                       : glm::dvec3(chance.between(-10.0, 30.0), chance.between(-10.0, 10.0), chance.between(0.2, 6.0));
+            const View view = camera(eye, chance.between(-0.7, 0.7), chance.between(-0.5, 0.1), chance.between(20.0, 110.0), 48, 36);
+            all.add(trial.tally(moment, view, doubt_of_volumes()));
+        }
+        judge_tally(worst, all, fmt::format("crowd {}", i));
+    }
+    return worst;
+}
+
+/// A road 200 m long, and one body on it.
+Scene street_with(const glm::dvec3& at, const Triangles& body) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    add_triangles(scene, "body", 1, at, body);
+    return scene;
+}
+
+Moment lit_from(const glm::dvec3& lamp_m) {
+    static const LitLamp one = lamp(even_table(40.0), {}); // one table: shaders are compiled for each
+    Moment moment;
+    moment.lamps = {one};
+    moment.lamps.front().pose.position_m = lamp_m;
+    return moment;
+}
+
+Found degenerate_bodies(StabilityBench& bench) {
+    const Triangles whole = box({0.5, 0.7, 0.9}, 0.3);
+    std::list<std::pair<std::string, Triangles>> bodies;
+    Triangles body = whole; // an edge cut in two on one side alone
+    const glm::dvec3 middle = 0.5 * (body[0][0] + body[0][1]);
+    body.push_back({middle, body[0][1], body[0][2]});
+    body[0][1] = middle;
+    bodies.emplace_back("a crack without a triangle in it", body);
+    body.push_back({whole[0][0], whole[0][1], middle});
+    bodies.emplace_back("a crack filled by a triangle without area", body);
+    body = whole;
+    body.insert(body.end(), whole.begin(), whole.begin() + 5);
+    bodies.emplace_back("five triangles twice", body);
+    body = whole;
+    body.insert(body.end(), whole.begin(), whole.end());
+    bodies.emplace_back("all triangles twice", body);
+    body = whole;
+    for (const std::array<glm::dvec3, 3>& t : turned_round(whole))
+        body.push_back(t);
+    bodies.emplace_back("from both sides", body);
+    body = whole;
+    body.push_back({whole[0][0], whole[0][1], glm::dvec3(0.9, 1.4, 1.6)});
+    bodies.emplace_back("a fin on an edge", body);
+    body = whole;
+    for (const std::size_t i : {0U, 3U, 7U})
+        std::swap(body[i][1], body[i][2]);
+    bodies.emplace_back("three triangles turned round", body);
+    bodies.emplace_back("inside out", turned_round(whole));
+    body = whole;
+    for (int i = 0; i < 4; ++i)
+        body.push_back({whole[0][0], whole[0][0], whole[0][i % 2 == 0 ? 0 : 2]});
+    bodies.emplace_back("triangles with corners in one place", body);
+    body = whole;
+    for (const std::array<glm::dvec3, 3>& t : turned_round(box({0.5, 0.7, 0.9}, 0.3)))
+        body.push_back({t[0] + 2.0 * whole[0][0], t[1] + 2.0 * whole[0][0], t[2] + 2.0 * whole[0][0]});
+    bodies.emplace_back("and its mirror image inside out at one corner", body);
+    Found worst;
+    for (const auto& [name, triangles] : bodies) {
+        const Scene scene = street_with({12.0, 0.0, 0.95}, triangles);
+        ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
+        ShadowTally all;
+        for (const glm::dvec3& at : {glm::dvec3(0.0, 0.3, 0.65), glm::dvec3(5.0, -2.0, 3.0), glm::dvec3(12.1, 0.2, 0.9)})
+            for (const View& view : {camera({0.0, 0.0, 3.0}, 0.0, -0.15, 50.0, 64, 48), camera({12.0, 0.1, 0.8}, 0.4, -0.1, 80.0, 32, 24)})
+                all.add(trial.tally(lit_from(at), view, doubt_of_volumes()));
+        judge_tally(worst, all, name);
+    }
+    return worst;
+}
+
+/// Lamp and camera to the bit in planes of triangles and of hulls.
+Found in_planes(StabilityBench& bench) {
+    const Scene scene = street_with({8.0, 0.0, 1.0}, box({0.5, 0.5, 0.5}));
+    ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
+    Found worst;
+    for (const glm::dvec3& at : {glm::dvec3(0.0, 0.5, 1.0), glm::dvec3(0.0, 0.5, 1.5), glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(0.0, 0.0, 0.5),
+                                 glm::dvec3(-8.0, 1.0, 2.0), glm::dvec3(7.5, 0.0, 1.0), glm::dvec3(6.5, 0.5, 1.5)}) {
+        ShadowTally all;
+        for (const glm::dvec3& corner : {glm::dvec3(7.5, 0.5, 1.5), glm::dvec3(7.5, -0.5, 0.5), glm::dvec3(8.5, 0.5, 1.5)})
+            for (const double share : {1.0, 1.25, 3.0}) { // before, at and behind the corner, on the edge of its hull
+                const glm::dvec3 eye = at + share * (corner - at);
+                if (eye.z <= 0.05)
+                    continue;
+                for (const double yaw : {0.0, 0.5 * pi, pi})
+                    all.add(trial.tally(lit_from(at), camera(eye, yaw, -0.2, 75.0, 32, 24), doubt_of_volumes()));
+            }
+        judge_tally(worst, all, fmt::format("lamp at {} {} {}", at.x, at.y, at.z), Tried::either);
+    }
+    return worst;
+}
+
+/// What is near the eye and near the lamp: casters that reach through the near plane, around the eye, and next to the lamp.
+Found near_planes(StabilityBench& bench) {
+    Found worst;
+    for (const double distance_m : {1e-3, 0.01, 0.05, 0.1, 0.10001, 0.3}) {
+        ShadowTally all;
+        for (const bool around_lamp : {false, true}) {
+            const glm::dvec3 eye(6.0, 0.0, 1.2), lamp_m(0.0, 0.0, 0.65), before = around_lamp ? lamp_m : eye;
+            // A plate from one side, so that half of what is seen is in its shadow.
+            const double half = 0.6 * distance_m;
+            const Scene scene = street_with(before + glm::dvec3(distance_m, 0.9 * half, 0.0), box({0.1 * distance_m, half, half}));
+            ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
+            for (const double yaw : {0.0, 0.4, pi})
+                all.add(trial.tally(lit_from(lamp_m), camera(eye, yaw, -0.2, 60.0, 48, 36), doubt_of_volumes()));
+        }
+        judge_tally(worst, all, fmt::format("{} m before eye and lamp", distance_m));
+    }
+    return worst;
+}
+
+/// Fronts must not shade themselves, however their depth is rounded: walls along the light, seen from near, far and aside.
+Found long_walls(StabilityBench& bench) {
+    Scene scene = empty_scene();
+    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    add_triangles(scene, "wall", 1, {140.0, -3.0, 1.0}, box({138.0, 0.2, 1.0}, 0.004));
+    for (int i = 1; i < 12; ++i)
+        add_triangles(scene, fmt::format("post {}", i), 1, {20.0 * i, -1.5, 0.5}, box({0.1, 0.1, 0.5}));
+    ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
+    Found worst;
+    for (const double beside_m : {0.0, -1.8, -2.1}) {
+        ShadowTally all;
+        for (const View& view :
+             {camera({0.0, 0.5, 1.3}, -0.03, -0.02, 20.0, 64, 48), camera({-40.0, 40.0, 20.0}, -0.5, -0.2, 30.0, 64, 48),
+              camera({250.0, 60.0, 8.0}, -2.2, -0.1, 40.0, 64, 48), camera({130.0, 95.0, 3.0}, -1.57, -0.03, 100.0, 64, 24),
+              camera({280.0, 0.0, 2.0}, pi, -0.01, 5.0, 64, 24)})
+            all.add(trial.tally(lit_from({2.5, beside_m, 0.65}), view, doubt_of_volumes()));
+        judge_tally(worst, all, fmt::format("lamp {} m beside", beside_m));
+    }
+    return worst;
+}
+
+/// Sheets one behind the other before a wall, each one layer.
+ShadowTally behind_layers(StabilityBench& bench, int layers) {
+    Triangles sheets;
+    for (int i = 0; i < layers; ++i) {
+        const double x = 5.0 + 0.01 * i;
+        const glm::dvec3 a(x, -0.5, 0.2), b(x, 0.5, 0.2), c(x, 0.0, 1.2);
+        sheets.push_back({a, b, c});
+    }
+    Scene scene = empty_scene();
+    add_sheet(scene, "wall", 1, {12.0, 4.0, 0.0}, {0.0, -8.0, 0.0}, {0.0, 0.0, 4.0});
+    add_triangles(scene, "sheets", 1, {}, sheets);
+    ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
+    return trial.tally(lit_from({0.0, 0.0, 0.65}), camera({9.0, 0.0, 1.0}, 0.0, 0.0, 60.0, 24, 18), doubt_of_volumes());
+}
+
+Found counted_layers(StabilityBench& bench) {
+    Found worst;
+    for (const int count : {1, 127, 128, 255, 257})
+        judge_tally(worst, behind_layers(bench, count), fmt::format("{} layers", count));
+    return worst;
+}
+
+Found layers_of_256(StabilityBench& bench) {
+    Found worst;
+    const ShadowTally tally = behind_layers(bench, 256);
+    worst.add(tally.lit == 0 || tally.dark == 0 || tally.acne > 0 ? std::nan("") : static_cast<double>(tally.leaks) / tally.dark,
+              "256 sheets one behind the other: " + tally.text());
+    return worst;
+}
+
+/// From above hulls have no infinity to end at.
+Found volumes_from_above(StabilityBench& bench) {
+    Found worst;
+    for (const double distance_m : {0.02, 0.5, 5.0, 50.0, 140.0}) {
+        const double size_m = 0.05 * std::max(distance_m, 0.05);
+        const Scene scene =
+            street_with({distance_m, 0.0, std::max(0.65 - 0.05 * distance_m, size_m)}, box({0.2 * size_m, size_m, size_m}, 0.2));
+        ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
+        const View view = map_of("map", 0.0, 149.0, 8.0, 33, 150);
+        judge_tally(worst, trial.tally(lit_from({0.0, 0.0, 0.65}), view, doubt_of_volumes()), fmt::format("caster {} m away", distance_m));
+    }
+    return worst;
+}
+
+} // namespace
+
+std::vector<StabilityCase> shadow_volume_cases() {
+    const std::string pixels = "pixels drawn wrongly";
+    return {
+        {"volumes", "crowds", "bodies closed, open, inside out, torn and tangled; lamp and camera in any of them and in their shadows", 0.0,
+         pixels, "hulls are exact: in doubt are only pixels at edges and those within twice the gap behind a caster", shadow_crowds},
+        {"volumes", "degenerate", "cracks, triangles without area, doubled, turned round, fins, bodies inside out", 0.0, pixels,
+         "walls are counted by what triangles leave uneven, whatever they are; of closed bodies fronts alone cast where those enclose a "
+         "volume",
+         degenerate_bodies},
+        {"volumes", "in-planes", "the lamp to the bit in planes of triangles, the eye on edges of hulls", 0.0, pixels,
+         "any choice of what casts gives a closed hull, and a hull seen edge-on covers nothing", in_planes},
+        {"volumes", "near-planes", "casters 1 mm to 0.3 m before the eye and before the lamp, across the near plane at 0.1 m", 0.0, pixels,
+         "hulls are counted behind surfaces, so that what the near plane cuts off does not count", near_planes},
+        {"volumes", "long-walls", "fronts along the light that shade themselves, seen from up to 280 m", 0.0, pixels,
+         "a hull begins 1 mm and 1e-4 of the distance behind its front, above the rounding of a float's depth", long_walls},
+        {"volumes", "layers", "more layers of shadow than a stencil buffer counts", 0.0, pixels, "counts have eight bits and wrap",
+         counted_layers},
+        {"volumes", "256-layers", "a multiple of 256 layers, which counts as none", 1.0, "of the shadow's pixels are lit",
+         "a limit of eight bits: a closed convex body is one layer, each triangle of an open one is one", layers_of_256},
+        {"volumes", "from-above", "hulls in maps, where they end at 100 000 times the caster's distance", 0.0, pixels,
+         "a caster 2 cm away has its shadow to 2 km", volumes_from_above},
+    };
+}
+
+} // namespace fernlicht

@@ -1,0 +1,198 @@
+#include "runner/experiments/stability/equations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+using Kind = EquationInput::Kind;
+
+EquationInput linear(std::size_t slot, double low, double high) { return {Kind::linear, slot, low, high}; }
+EquationInput logarithmic(std::size_t slot, double low, double high) { return {Kind::logarithmic, slot, low, high}; }
+EquationInput either_sign(std::size_t slot, double low, double high) { return {Kind::signed_logarithmic, slot, low, high}; }
+EquationInput direction(std::size_t slot) { return {Kind::direction, slot, -1.0, 1.0}; }
+
+/// Three of a kind.
+std::vector<EquationInput> three(EquationInput first) {
+    std::vector<EquationInput> all;
+    for (std::size_t i = 0; i < 3; ++i, ++first.slot)
+        all.push_back(first);
+    return all;
+}
+std::vector<EquationInput> operator+(std::vector<EquationInput> a, const std::vector<EquationInput>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+double length(const EquationDoubles& x, std::size_t slot) { return std::hypot(x[slot], x[slot + 1], x[slot + 2]); }
+
+double own(const EquationDoubles&, double value) { return std::abs(value); }
+double one(const EquationDoubles&, double) { return 1.0; }
+
+std::vector<Equation> of_sky_and_weather() {
+    const auto any = [](const EquationDoubles&, const std::array<double, 4>&) { return true; };
+    const auto first = [](const EquationDoubles& x, double) { return x[0]; };
+    // What is left of the light lies above 1e-37, and its optical depth within 80.
+    const auto not_dark = [](const EquationDoubles& x, const std::array<double, 4>&) { return x[0] * x[1] < 80.0; };
+    const auto near_enough = [](const EquationDoubles& x, const std::array<double, 4>&) {
+        const double from_lamp = x[2] / std::sqrt(1.0 - x[1] * x[1]);
+        return std::abs(x[1]) <= 0.99 && x[4] * (from_lamp + std::abs(x[3]) + from_lamp) < 10.0;
+    };
+    const auto above = [](const EquationDoubles& x, const std::array<double, 4>&) {
+        return x[0] * x[4] + x[1] * x[5] + x[2] * x[6] > 1e-3 && x[0] * x[8] + x[1] * x[9] + x[2] * x[10] > 1e-3;
+    };
+    return {{29, "directional_illuminance", "", "1e-6 to 150 000 lx, all round",
+             std::vector{logarithmic(0, 1e-6, 1.5e5), direction(4), direction(8)}, 1, first, any},
+            {30, "sky_illuminance", "", "1e-6 to 150 000 lx, all slopes", std::vector{logarithmic(0, 1e-6, 1.5e5), direction(4)}, 1, first,
+             any},
+            {31, "transmittance", "", "1e-9 to 10 per metre, 1 mm to 10 km, optical depths to 80",
+             std::vector{logarithmic(0, 1e-9, 10.0), logarithmic(1, 1e-3, 1e4)}, 1, own, not_dark},
+            {32, "henyey_greenstein", "", "all angles, g 0 to 0.9", std::vector{linear(0, -1.0, 1.0), linear(1, 0.0, 0.9)}, 1, own, any},
+            {33, "scattered_towards_eye", "", "1e-3 to 1e6 cd, angles of sines to 0.99, 1 mm to 100 m, optical depths to 10, g to 0.9",
+             std::vector{logarithmic(0, 1e-3, 1e6), linear(1, -0.99, 0.99), logarithmic(2, 1e-3, 100.0), logarithmic(3, 1e-3, 1e3),
+                         logarithmic(4, 1e-9, 10.0), linear(5, 0.0, 0.9)},
+             1, own, near_enough},
+            {34, "facet_cosine", "", "cosines 1e-6 to 1, alpha 0.01 to 1", std::vector{logarithmic(0, 1e-6, 1.0), linear(1, 0.01, 1.0)}, 1,
+             one, any},
+            {35, "water_reflectance", "", "cosines 1e-6 to 1", std::vector{logarithmic(0, 1e-6, 1.0)}, 1, one, any},
+            {36, "wet_albedo", "", "albedo 1e-4 to 1, cosines 0.01 to 1",
+             std::vector{logarithmic(0, 1e-4, 1.0), linear(1, 0.01, 1.0), linear(2, 0.01, 1.0)}, 1, own, any},
+            {37, "wet_mirrored", "", "alpha 0.1 to 1, both directions above the surface by a sine of 0.001",
+             std::vector{direction(0), linear(3, 0.1, 1.0), direction(4), direction(8)}, 1, own, above}};
+}
+
+std::vector<Equation> make() {
+    const auto any = [](const EquationDoubles&, const std::array<double, 4>&) { return true; };
+    const auto place = three(either_sign(0, 1e-3, 1e4)), to_lamp = three(either_sign(4, 1e-3, 1e4));
+    const auto colour = [](std::size_t slot) { return three(logarithmic(slot, 1e-4, 1.0)); };
+    const auto reflectances = colour(0) + colour(4) + std::vector{linear(7, 0.0, 1.0)} + colour(8);
+    const std::string of_colours = "reflectances 1e-4 to 1, opacity 0 to 1";
+    const auto ahead = [](const EquationDoubles& x, const auto&) { return x[2] > 0.0; };
+    const auto ahead_and_flat = [](const EquationDoubles& x, const auto&) { return x[2] > 0.0 && std::abs(x[1]) <= 0.5 * length(x, 0); };
+    std::vector<Equation> all{
+        {0, "lamp_space", "", "places 1 mm to 10 km, axes of unit length", place + std::vector{direction(4), direction(8), direction(12)},
+         3, [](const EquationDoubles& x, double) { return length(x, 0); }, any},
+        {1, "goniometer_angles", "", "places 1 mm to 10 km, all round", place, 2, one, any},
+        {2, "quick_atan_unit", "", "0 to 1", {logarithmic(0, 1e-30, 1.0)}, 1, own, any},
+        {3,
+         "quick_atan",
+         "",
+         "arguments 1e-10 to 1e10, either sign",
+         {either_sign(0, 1e-10, 1e10), either_sign(1, 1e-10, 1e10)},
+         1,
+         own,
+         any},
+        {4, "quick_asin_half", "", "-1 to 1", {either_sign(0, 1e-20, 1.0)}, 1, own, any},
+        {5, "quick_goniometer_angles", "flat", "places 1 mm to 10 km ahead, up to 30 degrees up or down", place, 2, one, ahead_and_flat},
+        {6, "quick_goniometer_angles", "steep", "places 1 mm to 10 km ahead", place, 2, one, ahead},
+        {7,
+         "beam_position",
+         "",
+         "angles to 90 degrees, steps of 0.004 to 5.7 degrees",
+         {linear(0, -1.6, 1.6), linear(1, -1.6, 1.6), linear(4, -1.6, 1.6), linear(5, -1.6, 1.6), logarithmic(6, 10.0, 15000.0),
+          logarithmic(7, 10.0, 15000.0)},
+         2,
+         nullptr,
+         any},
+        {8,
+         "beam_known",
+         "",
+         "positions -1 to 4096, 2 to 4096 samples",
+         {linear(0, -1.0, 4096.0), linear(1, -1.0, 4096.0), linear(4, 2.0, 4096.0), linear(5, 2.0, 4096.0)},
+         1,
+         one,
+         any},
+        {9,
+         "bilinear",
+         "",
+         "0.001 to 1e6 cd",
+         {logarithmic(0, 1e-3, 1e6), logarithmic(1, 1e-3, 1e6), logarithmic(2, 1e-3, 1e6), logarithmic(3, 1e-3, 1e6), linear(4, 0.0, 1.0),
+          linear(5, 0.0, 1.0)},
+         1,
+         [](const EquationDoubles& x, double) {
+             return std::max({x[0], x[1], x[2], x[3]});
+         },
+         any},
+        {10, "facing_illuminance", "", "0.001 to 1e7 cd, 1 mm to 10 km", std::vector{logarithmic(0, 1e-3, 1e7)} + to_lamp, 1, own, any},
+        {11,
+         "facing_illuminance_at",
+         "",
+         "0.001 to 1e7 cd, 1 mm to 10 km",
+         {logarithmic(0, 1e-3, 1e7), logarithmic(1, 1e-4, 1e3)},
+         1,
+         own,
+         any},
+        {12, "incidence", "", "90 degrees to grazing, 1 mm to 10 km", std::vector{direction(0)} + to_lamp, 1, one, any},
+        {13, "diffuse_luminance", "", "1e-6 to 1e6 lx", {logarithmic(0, 1e-4, 1.0), logarithmic(1, 1e-6, 1e6)}, 1, own, any},
+        {14, "combined_reflectance", "modulate", of_colours, reflectances, 3, one, any},
+        {15, "combined_reflectance", "replace", of_colours, reflectances, 3, one, any},
+        {16, "combined_reflectance", "decal", of_colours, reflectances, 3, one, any},
+        {17, "combined_reflectance", "blend", of_colours, reflectances, 3, one, any},
+        {18, "textured_rl", "", "reflectances 1e-4 to 1", colour(0) + std::vector{logarithmic(3, 1e-3, 1e3)} + colour(4), 1, own, any},
+        {19, "textured_rl_at", "", "reflectances 1e-4 to 1", colour(0) + std::vector{logarithmic(3, 1e-3, 1e6)}, 1, own, any},
+        {20, "observation_angle", "", "places 1 mm to 10 km", place + to_lamp, 1, one, any},
+        {21, "quick_observation_angle", "", "places 1 mm to 10 km", place + to_lamp, 1, one, any},
+        {22,
+         "retro_luminance",
+         "",
+         "R_L 0.001 to 1000, 1e-6 to 1e6 lx, 0 to 180 degrees, falling off to 1e-37 and luminances above 1e-30 cd/m2",
+         {logarithmic(0, 1e-3, 1e3), logarithmic(1, 1e-6, 1e6), logarithmic(2, 1e-6, 1.0), logarithmic(3, 1e-6, 3.1415927),
+          logarithmic(4, 1e-3, 0.1), logarithmic(5, 1.0, 200.0)},
+         1,
+         own,
+         [](const EquationDoubles& x, const std::array<double, 4>& value) { return value[0] > 1e-30 && (x[4] - x[3]) * x[5] > -85.0; }},
+        {23, "height_above_plane", "", "places 1 mm to 1 km",
+         three(either_sign(0, 1e-3, 1e3)) + three(either_sign(4, 1e-3, 1e3)) + std::vector{direction(8)}, 1,
+         [](const EquationDoubles& x, double) { return std::hypot(x[0] - x[4], x[1] - x[5], x[2] - x[6]); }, any},
+        {24,
+         "tone_linear",
+         "",
+         "1e-6 to 1e12 cd/m2, L_max 1e-6 to 1e9",
+         {logarithmic(0, 1e-6, 1e12), logarithmic(1, 1e-6, 1e9)},
+         1,
+         own,
+         any},
+        {25,
+         "tone_rational",
+         "",
+         "the same, s 1 to 1e6",
+         {logarithmic(0, 1e-6, 1e12), logarithmic(1, 1e-6, 1e9), logarithmic(2, 1.0, 1e6)},
+         1,
+         own,
+         any},
+        {26,
+         "tone_logarithmic",
+         "",
+         "the same, s 1 to 1e6",
+         {logarithmic(0, 1e-6, 1e12), logarithmic(1, 1e-6, 1e9), logarithmic(2, 1.0, 1e6)},
+         1,
+         one,
+         any},
+        {27, "srgb_encoded", "", "0 to 1", {logarithmic(0, 1e-9, 1.0)}, 1, one, any},
+        {28, "quick_srgb_encoded", "", "0 to 1", {logarithmic(0, 1e-9, 1.0)}, 1, one, any}};
+    for (const Equation& equation : of_sky_and_weather())
+        all.push_back(equation);
+    // Each position by its own angle, first angle and step; one scale for both is the larger one's.
+    all[7].scale = [](const EquationDoubles& x, double) {
+        return std::max((std::abs(x[0]) + std::abs(x[4])) * x[6], (std::abs(x[1]) + std::abs(x[5])) * x[7]);
+    };
+    return all;
+}
+
+} // namespace
+
+std::span<const Equation> equations() {
+    static const std::vector<Equation> all = make();
+    return all;
+}
+
+const EquationBound& bound_of(const std::string& function) {
+    for (const EquationBound& bound : equation_bounds())
+        if (bound.function == function)
+            return bound;
+    throw std::logic_error("no bound is stated for " + function);
+}
+
+} // namespace fernlicht

@@ -1,0 +1,154 @@
+#include "runner/experiments/stability/traffic_cases.h"
+
+#include "renderer/traffic_levels.h"
+#include "runner/experiments/stability/trial.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace fernlicht {
+namespace {
+
+using namespace stability;
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// A road, a board that returns light, and a wall that does not: what is lit by fragment and what by vertex.
+Scene lit_by_others() {
+    Scene scene = empty_scene();
+    add_sheet(scene, "road", 0, {-50.0, -50.0, 0.0}, {250.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
+    add_sheet(scene, "board", 1, {30.0, 3.0, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 3.0});
+    Material wall;
+    wall.name = "wall";
+    scene.materials.push_back(wall);
+    add_sheet(scene, "wall", static_cast<std::uint32_t>(scene.materials.size() - 1), {60.0, 12.0, 0.0}, {0.0, -24.0, 0.0}, {0.0, 0.0, 5.0});
+    return scene;
+}
+
+View eyes(int width = 48, int height = 32) { return camera({1.3, 0.35, 1.2}, 0.0, -0.05, 40.0, width, height); }
+
+/// A pair that shines back along the road, 1.2 m apart.
+void add_pair(Moment& moment, const glm::dvec3& middle_m, double factor, double yaw_rad, double apart_m = 1.2) {
+    static const LitLamp shape = lamp(cut_off_table(), {});
+    const int body = static_cast<int>(moment.other_lamps.size());
+    for (const double side : {0.5, -0.5}) {
+        LitLamp one = lamp({}, middle_m + glm::dvec3(0.0, side * apart_m, 0.0), yaw_rad, -0.01);
+        one.file = shape.file;
+        one.intensity_factor = factor;
+        one.body = body;
+        one.face_m = {0.16, 0.12};
+        moment.other_lamps.push_back(std::move(one));
+    }
+}
+
+struct TrafficPlace {
+    const char* name;
+    glm::dvec3 at_m;
+    double factor = 1.0, yaw_rad = pi, apart_m = 1.2;
+};
+
+/// Where lamps are hardest to draw. The camera's eye is at (1.3, 0.35, 1.2).
+const TrafficPlace hard_places[] = {
+    {"0.1 m from the eye", {1.4, 0.35, 1.2}},
+    {"in the eye", {1.3, 0.35, 1.2}},
+    {"1 um from the road", {20.0, 0.0, 1e-6}},
+    {"on the road, its beam along it", {20.0, 0.0, 0.0}},
+    {"below the road", {20.0, 0.0, -1.0}},
+    {"in the board", {30.0, 0.0, 1.0}},
+    {"1 mm before the wall", {59.999, 0.0, 1.0}, 1.0, 0.0},
+    {"both lamps in one place", {40.0, 0.0, 0.65}, 1.0, pi, 0.0},
+    {"lamps 1000 km apart", {40.0, 0.0, 0.65}, 1.0, pi, 1e6},
+    {"50 km away", {5e4, 0.0, 0.65}},
+    {"1e9 m away", {1e9, 0.0, 0.65}},
+    {"off", {40.0, 0.0, 0.65}, 0.0},
+    {"of 1e-38 of its light", {40.0, 0.0, 0.65}, 1e-38},
+    {"of 1e8 times its light", {40.0, 0.0, 0.65}, 1e8},
+    {"behind, looking away", {-10.0, 0.0, 0.65}},
+    {"behind, looking ahead", {-10.0, 0.0, 0.65}, 1.0, 0.0},
+};
+
+/// Every picture is made of numbers, with levels and without, and pruning changes no byte.
+Found hardest_places_of_others(StabilityBench& bench) {
+    const Scene scene = lit_by_others();
+    RendererSettings unpruned = unshadowed(), fine = unshadowed();
+    unpruned.technique = "photometric-unpruned";
+    fine.traffic_levels = false;
+    Renderer coarse(bench.device(), scene, unshadowed()), whole(bench.device(), scene, unpruned), each(bench.device(), scene, fine);
+    Found worst;
+    for (const TrafficPlace& place : hard_places)
+        for (const double least_lx : {1e-9, 0.05, 100.0}) {
+            Moment moment;
+            moment.least_traffic_lx = least_lx;
+            add_pair(moment, place.at_m, place.factor, place.yaw_rad, place.apart_m);
+            const Frame a = coarse.draw(moment, eyes(), everything), b = whole.draw(moment, eyes(), everything),
+                        c = each.draw(moment, eyes(), everything);
+            double wrong = static_cast<double>(not_finite(a) + not_finite(b) + not_finite(c));
+            for (std::size_t i = 0; i < a.illuminance_lx.size(); ++i)
+                wrong += a.illuminance_lx.pixels()[i] != b.illuminance_lx.pixels()[i] ? 1.0 : 0.0;
+            worst.add(wrong, fmt::format("{}, least {} lx", place.name, least_lx));
+        }
+    return worst;
+}
+
+/// Drawn against the twin, which has each lamp and leaves out nothing; in what the levels may be off for this many pairs, and 1e-4 of the
+/// light for floats.
+Found levels_against_the_twin(StabilityBench& bench) {
+    const Scene scene = lit_by_others();
+    Renderer renderer(bench.device(), scene, unshadowed());
+    const Twin twin(scene, false);
+    Found worst;
+    const View view = eyes(24, 16);
+    for (const double from_m : {8.0, 25.0, 70.0})
+        for (const double least_lx : {1e-4, 0.05, 1.0}) {
+            Moment moment;
+            moment.least_traffic_lx = least_lx;
+            for (int k = 0; k < 3; ++k)
+                add_pair(moment, {from_m * (k + 1), 2.0 * k - 2.0, 0.65}, 1.0, k == 2 ? 0.0 : pi);
+            const Frame frame = renderer.draw(moment, view, everything);
+            for (int y = 0; y < view.height_px; ++y)
+                for (int x = 0; x < view.width_px; ++x) {
+                    const TwinPixel pixel = twin.pixel(moment, view, x + 0.5, y + 0.5);
+                    if (pixel.id != frame.ids.at(x, y) || pixel.id == 0)
+                        continue;
+                    const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - pixel.illuminance_lx);
+                    worst.add(off / (3.0 * worst_traffic_error * least_lx + 4.0 * pixel.bound_lx + 1e-4 * pixel.illuminance_lx),
+                              fmt::format("pairs each {} m, least {} lx, pixel {} {}", from_m, least_lx, x, y));
+                }
+        }
+    return worst;
+}
+
+/// 2000 cars: numbers everywhere, and no more light than all of them bring facing the receiver.
+Found two_thousand_cars(StabilityBench& bench) {
+    const Scene scene = lit_by_others();
+    Renderer renderer(bench.device(), scene, unshadowed());
+    Found worst;
+    for (const double every_m : {0.0, 0.5, 20.0}) {
+        Moment moment;
+        double most = 0.0;
+        for (int i = 0; i < 2000; ++i)
+            add_pair(moment, {20.0 + every_m * i, -2.0, 0.65}, 1.0, pi);
+        const Frame frame = renderer.draw(moment, eyes(), everything);
+        for (const float lx : frame.illuminance_lx.pixels())
+            most = std::max(most, static_cast<double>(lx));
+        worst.add(not_finite(frame) > 0 || !(most > 1.0) || most > 2000.0 * 2.0 * 20'000.0 / (0.5 * 0.5) ? unbounded : 0.0,
+                  fmt::format("each {} m", every_m));
+    }
+    return worst;
+}
+
+} // namespace
+
+std::vector<StabilityCase> traffic_cases() {
+    return {{"traffic", "hardest-places",
+             "lamps in the eye, in bodies, on and below the road, coincident, 1e9 m away, off and far too bright", 0.0,
+             "values that are not finite or that pruning changes", "distances and ramps are clamped; what is left out adds exactly 0",
+             hardest_places_of_others},
+            {"traffic", "levels", "coarse levels add up to more than they promise", 1.0, "of the bound",
+             "3.25 times the least lux for each of three pairs, and floats", levels_against_the_twin},
+            {"traffic", "two-thousand-cars", "lists of 4000 lamps, all in one place or in a row of 40 km", 0.0,
+             "pictures with values that are not finite or impossible", "sums of floats of one sign", two_thousand_cars}};
+}
+
+} // namespace fernlicht

@@ -1,0 +1,45 @@
+// A drawn frame of a small scene held against the double-precision twin.
+#pragma once
+
+#include "renderer/renderer.h"
+#include "renderer/twin.h"
+#include "runner/experiments/stability/stability_case.h"
+#include "runner/play/small_scenes.h"
+
+namespace fernlicht::stability {
+
+using namespace small_scenes;
+
+/// Without shadows, which the comparisons with twin and plane leave out; shadow_cases.cpp has them.
+RendererSettings unshadowed();
+
+inline constexpr Wanted everything{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+
+/// Values of the frame's pictures that are NaN or infinite.
+std::size_t not_finite(const Frame& frame);
+
+struct AgainstTwin {
+    double of_bound = 0.0;       ///< largest |drawn - twin| of an illuminance over the bound of its pixel
+    double worst_relative = 0.0; ///< and over the twin's own value, where that is above 0
+    int compared = 0;            ///< pixels that show a surface; those on silhouettes are left out
+    std::size_t not_finite = 0;  ///< pixels of any picture
+    std::string where;
+
+    /// of_bound; infinite where a pixel is not finite or nothing was compared.
+    double error() const;
+};
+
+/// Draws and compares pixel by pixel. The bound of a pixel: 24 roundings of light, and what 16 roundings of the largest coordinate among
+/// scene, lamp and camera move the point, as seen in 1 / d^2, in the cosine, and in the beam's gradient (twin.h).
+AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& moment, const View& view);
+
+/// The same for a scene that is all one horizontal plane at height 0 of the car, in closed form: for scenes of too many triangles for the
+/// twin. `inside` tells which places (relative to the car) must be covered; there a pixel that shows nothing is a hole, and infinitely
+/// wrong.
+AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& view, double reach_m,
+                          const std::function<bool(const glm::dvec3&)>& inside);
+
+/// The bound for one lamp at one point; `reach_m` is the largest coordinate involved, relative to the car.
+double rounding_bound_lx(const LitLamp& lamp, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m);
+
+} // namespace fernlicht::stability

@@ -1,0 +1,158 @@
+#include "metrics/readings/reading_words.h"
+#include "runner/experiments/study/study_result.h"
+#include "runner/findings/summary.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+/// Of one intensity's difference between two lamps, relative: the larger of both sides.
+double noise_between(const StudyResult& result, const std::string& tested, const std::string& against) {
+    double noise = 0.0;
+    for (const LampComparison& lamps : result.lamps)
+        if (lamps.tested == tested && lamps.against == against)
+            noise = std::max(noise, lamps.difference.noise_relative);
+    return noise;
+}
+
+Change change_of(const StudyResult& result, std::size_t tested, std::size_t against, const std::string& name) {
+    Change change;
+    const CellResult &now = result.cells[tested], &before = result.cells[against];
+    const double noise = noise_between(result, result.study.lamps[now.cell.lamp].name, result.study.lamps[before.cell.lamp].name);
+    static_cast<ReadingChange&>(change) = change_of_reading(name, now, before, noise);
+    change.tested = tested;
+    change.against = against;
+    change.decides = std::ranges::find(result.study.readings, name) != result.study.readings.end();
+    return change;
+}
+
+/// Cells of everything but the lamp alike.
+bool is_same_place(const StudyCell& a, const StudyCell& b) {
+    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage &&
+           a.mirror == b.mirror;
+}
+
+void compare_pair(StudyResult& result, const StudyComparison& comparison) {
+    const auto lamp_of = [&](const CellResult& cell) { return result.study.lamps[cell.cell.lamp].name; };
+    for (std::size_t i = 0; i < result.cells.size(); ++i)
+        for (std::size_t k = 0; k < result.cells.size(); ++k) {
+            const CellResult &a = result.cells[i], &b = result.cells[k];
+            if (lamp_of(a) != comparison.tested || lamp_of(b) != comparison.against || !is_same_place(a.cell, b.cell))
+                continue;
+            for (const auto& [name, reading] : a.readings)
+                if (!says_how_exact(name) && !is_unit_of_time(reading.unit) && b.readings.contains(name))
+                    result.changes.push_back(change_of(result, i, k, name));
+        }
+}
+
+/// Of each deciding reading its largest real change, and of these the three largest.
+void rank(StudyResult& result) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < result.changes.size(); ++i)
+        if (result.changes[i].kind == ChangeKind::real && result.changes[i].decides)
+            order.push_back(i);
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return result.changes[i].size(); });
+    std::set<std::string> shown;
+    for (const std::size_t i : order)
+        if (result.largest.size() < 3 && shown.insert(result.changes[i].reading).second)
+            result.largest.push_back(i);
+}
+
+Verdict verdict_on(const std::string& name, const Value& value, const std::string& unit, const std::optional<double>& least,
+                   const std::optional<double>& most, const std::string& rerun) {
+    if (!value.measured())
+        return {VerdictKind::not_measured, name, value.reason(), rerun};
+    std::string limits = least ? fmt::format("at least {:g} {}", *least, unit) : "";
+    if (most)
+        limits += fmt::format("{}at most {:g} {}", limits.empty() ? "" : ", ", *most, unit);
+    const std::optional<bool> kept = holds(value, least, most);
+    return {!kept   ? VerdictKind::not_measured
+            : *kept ? VerdictKind::pass
+                    : VerdictKind::fail,
+            name, fmt::format("{} {}, limit {}", with_bound(value, fmt::format("{:.4g}", *value.figure())), unit, limits), rerun};
+}
+
+/// Of all cells that were played.
+std::set<std::string> names_in(const StudyResult& result) {
+    std::set<std::string> names;
+    for (const CellResult& cell : result.cells)
+        for (const auto& [name, reading] : cell.readings)
+            names.insert(name);
+    return names;
+}
+
+std::string no_such_reading(const std::string& name, const std::set<std::string>& names) {
+    const std::string nearest = nearest_name(name, names);
+    return "there is no reading of this name" + (nearest.empty() ? "" : "; the nearest name is " + nearest);
+}
+
+/// A reading that the study names and that nothing has decides nothing, and must not look as if it had not changed. Of the usual ones a
+/// drive need not have all.
+void judge_deciding(StudyResult& result) {
+    const std::set<std::string> names = names_in(result);
+    if (result.study.readings == usual_readings() || names.empty()) // cells that were not played say so themselves
+        return;
+    for (const std::string& name : result.study.readings) {
+        const auto missing = [&](const std::string& why) {
+            result.verdicts.push_back({VerdictKind::not_measured, "deciding reading " + name, why, result.context.command});
+        };
+        if (!names.contains(name))
+            missing(no_such_reading(name, names));
+        else if (!result.changes.empty() && std::ranges::find(result.changes, name, &ReadingChange::reading) == result.changes.end())
+            missing("no two cells were compared by it: it is a time, says how exact another is, or one lamp alone has it");
+    }
+}
+
+void judge_values(StudyResult& result, const StudyLimit& limit) {
+    for (const CellResult& cell : result.cells) {
+        if (!limit.lamp.empty() && result.study.lamps[cell.cell.lamp].name != limit.lamp)
+            continue;
+        const auto found = cell.readings.find(limit.reading);
+        const bool known = found != cell.readings.end();
+        const Value value = known ? found->second.value
+                                  : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, names_in(result))
+                                                                            : "the cell was not played: " + cell.failed);
+        result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, value, known ? found->second.unit : "", limit.at_least,
+                                             limit.at_most, cell.command));
+    }
+}
+
+void judge_changes(StudyResult& result, const StudyLimit& limit) {
+    bool found = false;
+    for (const Change& change : result.changes) {
+        if (change.reading != limit.reading)
+            continue;
+        found = true;
+        const CellResult& cell = result.cells[change.tested];
+        result.verdicts.push_back(verdict_on(cell.cell.name + ": change of " + limit.reading, change.change(), change.unit,
+                                             limit.change_at_least, limit.change_at_most, cell.command));
+    }
+    const std::set<std::string> names = names_in(result);
+    if (!found)
+        result.verdicts.push_back(
+            {VerdictKind::not_measured, "change of " + limit.reading,
+             names.empty() || names.contains(limit.reading) ? "no comparison has this reading" : no_such_reading(limit.reading, names),
+             result.context.command});
+}
+
+} // namespace
+
+bool StudyResult::complete() const {
+    return interrupted.empty() && std::ranges::all_of(cells, [](const CellResult& cell) { return cell.failed.empty(); });
+}
+
+void compare_cells(StudyResult& result) {
+    for (const StudyComparison& comparison : result.study.comparisons)
+        compare_pair(result, comparison);
+    rank(result);
+    judge_deciding(result);
+    for (const StudyLimit& limit : result.study.limits)
+        limit.change_at_least || limit.change_at_most ? judge_changes(result, limit) : judge_values(result, limit);
+}
+
+} // namespace fernlicht

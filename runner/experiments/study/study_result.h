@@ -1,0 +1,71 @@
+// What a study found: its cells as read back from their reports, what changed from lamp to lamp, verdicts.
+#pragma once
+
+#include "metrics/beam/lamp_difference.h"
+#include "metrics/readings/significance.h"
+#include "runner/experiments/compare/runs/played_report.h"
+#include "runner/judge/known_failures.h"
+#include "scenarios/studies/study.h"
+
+namespace fernlicht {
+
+struct CellResult : PlayedResult {
+    StudyCell cell;
+    std::string title;                       ///< of the drive, for people
+    std::vector<View> maps;                  ///< the drive's views from above
+    std::vector<LuxMap::Polyline> map_edges; ///< lanes and car on the map that is shown
+    std::string failed;                      ///< why there is no report; "" when there is one
+    bool reused = false;                     ///< played by an earlier call
+    std::string command;                     ///< that repeats it
+    int moments = 0, moments_of_drive = 0;   ///< that were to be played, and that the whole drive has
+};
+
+/// One reading of one drive under one condition: a lamp against another.
+struct Change : ReadingChange {
+    std::size_t tested = 0, against = 0; ///< cells
+    bool decides = false;
+};
+
+struct LampComparison {
+    std::string tested, against; ///< lamps of the study
+    std::string side;            ///< "left", "right", or "left and right" where both are the same files
+    std::filesystem::path file, other_file;
+    LampDifference difference;
+};
+
+struct StudyFigure {
+    std::string name;  ///< of its files below figures/, without extension
+    std::string title; ///< for people
+    std::string svg;
+    std::vector<std::size_t> cells; ///< whose reports it was drawn from
+};
+
+struct StudyResult {
+    Study study;
+    RunContext context; ///< of this call
+    std::string frames; ///< "0:8": the moments asked for; "" for all
+    std::vector<CellResult> cells;
+    std::vector<LampComparison> lamps;
+    std::vector<Change> changes;      ///< all readings, in the order of comparisons, cells and names
+    std::vector<std::size_t> largest; ///< at most three of `changes`: the largest real ones, each reading once
+    std::vector<Verdict> verdicts;    ///< the study's own limits
+    std::vector<StudyFigure> figures;
+    std::vector<std::string> warnings; ///< of the list of known failures
+    std::string interrupted;           ///< why not all cells were tried; "" when they were
+    bool complete() const;
+};
+
+/// As of a run (report.h): fail if a limit or a reference was exceeded, flaky, not_measured if anything is missing (a cell that failed,
+/// too), else pass.
+VerdictKind overall(const StudyResult& result);
+
+/// As of a run, over all cells (known_failures.h); a cell's own report does not know of it.
+void apply_known_failures(StudyResult& result, const KnownFailures& known, const std::string& today);
+
+/// Fills a cell's result from the report in its folder. Throws InputError when that is no complete report of one drive.
+void read_cell_report(const std::filesystem::path& study_folder, CellResult& cell);
+
+/// The comparisons, ranking and limits of what was played.
+void compare_cells(StudyResult& result);
+
+} // namespace fernlicht

@@ -1,0 +1,242 @@
+#include "runner/experiments/study/study_run.h"
+
+#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/study/study_maps.h"
+#include "runner/files/checked_json.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "runner/play/capture.h"
+#include "runner/play/interruption.h"
+#include "runner/play/shadows/choose_shadows.h"
+#include "runner/play/stage.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Planned {
+    StudyCell cell;
+    Drive drive;
+};
+
+std::vector<StudyCell> wanted_cells(const Study& study, const std::string& only) {
+    std::vector<StudyCell> cells = cells_of(study);
+    std::erase_if(cells, [&](const StudyCell& cell) { return cell.name.find(only) == std::string::npos; });
+    if (cells.empty())
+        throw InputError({study.file, 0, 0, "--only"}, "found no cell whose name holds '" + printable(only) + "'",
+                         "part of a name that --list shows");
+    return cells;
+}
+
+std::vector<Planned> plan(const Study& study, const std::string& only) {
+    std::vector<Planned> planned;
+    for (const StudyCell& cell : wanted_cells(study, only)) {
+        planned.push_back({cell, cell_drive(study, cell)});
+        refuse_open_shadows(planned.back().drive); // each cell would choose for itself
+    }
+    const StudyCell* last = nullptr;
+    for (const Planned& one : planned) { // roads and techniques too, once each
+        if (!last || last->drive != one.cell.drive || last->technique != one.cell.technique || last->mirror != one.cell.mirror)
+            const Stage stage(one.drive);
+        last = &one.cell;
+    }
+    return planned;
+}
+
+/// The files of one lamp set against those of another, sides apart where they differ.
+std::vector<LampComparison> compare_lamp_files(const Study& study) {
+    const auto find = [&](const std::string& name) { return *std::ranges::find(study.lamps, name, &StudyLamp::name); };
+    std::vector<LampComparison> out;
+    for (const StudyComparison& pair : study.comparisons) {
+        const StudyLamp now = find(pair.tested), before = find(pair.against);
+        const bool alike = now.left == now.right && before.left == before.right;
+        for (const bool left : {true, false}) {
+            if (alike && !left)
+                continue;
+            const fs::path &file = left ? now.left : now.right, &other = left ? before.left : before.right;
+            out.push_back({pair.tested, pair.against,
+                           alike  ? "left and right"
+                           : left ? "left"
+                                  : "right",
+                           file, other, difference_of(read_lamp(file), read_lamp(other), study.noise_relative)});
+        }
+    }
+    return out;
+}
+
+std::string resolved_name(const Drive& drive) { return file_name_of(drive.name) + ".yaml"; }
+
+/// Played from the same resolved drive, the same bytes of every file and over the same moments.
+bool is_same_cell(const fs::path& folder, const Drive& drive, const TickRange& ticks) {
+    FilesRead ignored;
+    if (!fs::is_regular_file(folder / resolved_name(drive)) || read_file(folder / resolved_name(drive), ignored) != write_drive(drive))
+        return false;
+    const CheckedJson report = CheckedJson::read(folder / "report.json");
+    std::map<std::string, std::string> hashes;
+    for (const CheckedJson& input : report.at("context").at("inputs").items())
+        hashes[input.at("path").text()] = input.at("xxh128").text();
+    const auto is_known = [&](const FileRead& file) { return file.path == drive.file || hashes[file.path.string()] == file.xxh128; };
+    const std::vector<CheckedJson> played = report.at("drives").items();
+    return played.size() == 1 && played.front().at("ticks_planned").whole() == ticks_to_play(drive, ticks) &&
+           std::ranges::all_of(drive.opened, is_known);
+}
+
+/// True where the cell's folder holds what is wanted. Clears what a stopped run left there.
+bool is_finished(const fs::path& folder, const Planned& planned, const StudyOptions& options) {
+    if (!fs::exists(folder))
+        return false;
+    if (is_marked_incomplete(folder)) {
+        fs::remove_all(folder);
+        return false;
+    }
+    if (!is_same_cell(folder, planned.drive, options.run.ticks))
+        throw InputError({folder, 0, 0, "--resume"}, "found a cell that was played with other files or settings",
+                         "the study as it was begun");
+    return true;
+}
+
+/// As `--frames` takes it; "" for all moments.
+std::string frames_text(const TickRange& ticks) {
+    if (ticks.last == TickRange{}.last)
+        return ticks.first > 0 ? fmt::format("{}:", ticks.first) : "";
+    return fmt::format("{}:{}", ticks.first, ticks.last);
+}
+
+/// A range that lies beyond some drives leaves their cells out; one that lies beyond all is a mistake.
+void refuse_no_moments(const Study& study, const std::vector<Planned>& planned, const TickRange& ticks) {
+    int most = 0;
+    for (const Planned& one : planned) {
+        if (ticks_to_play(one.drive, ticks) > 0)
+            return;
+        most = std::max(most, tick_count(one.drive));
+    }
+    throw InputError({study.file, 0, 0, "--frames"}, fmt::format("found a range from {} on", ticks.first),
+                     fmt::format("moments of a drive, the longest of which has 0 to {}", most - 1));
+}
+
+/// Before a study that ended is written anew: what it kept is what is asked for now.
+void refuse_other_cells(const std::vector<Planned>& planned, const StudyOptions& options) {
+    for (const Planned& one : planned)
+        if (const fs::path cell = options.folder / "cells" / one.cell.name; fs::exists(cell) && !is_marked_incomplete(cell))
+            is_finished(cell, one, options);
+}
+
+/// A new folder, or with --resume that of a study that was stopped, or of one that ended, whose report is then written anew.
+OutputFolder folder_for(const std::vector<Planned>& planned, const StudyOptions& options) {
+    if (!options.resume && is_marked_incomplete(options.folder) && fs::is_directory(options.folder / "cells"))
+        throw InputError({options.folder, 0, 0, "--out"}, "holds a study that did not end",
+                         "--resume to go on with it, or a new or an empty folder");
+    if (!options.resume)
+        return OutputFolder(options.folder);
+    if (is_marked_incomplete(options.folder) || !fs::is_regular_file(options.folder / "study.json"))
+        return OutputFolder::left_incomplete(options.folder);
+    refuse_other_cells(planned, options);
+    write_file(options.folder / "INCOMPLETE", "This study's report is being written anew.\n");
+    return OutputFolder::left_incomplete(options.folder);
+}
+
+std::string repeating(const StudyOptions& options, const fs::path& folder, const Planned& planned) {
+    std::vector<std::string> words{options.run.command.empty() ? "fernlicht" : options.run.command.front(), "run",
+                                   (folder / resolved_name(planned.drive)).string()};
+    if (const std::string frames = frames_text(options.run.ticks); !frames.empty()) {
+        words.emplace_back("--frames");
+        words.push_back(frames);
+    }
+    words.emplace_back("--out");
+    words.push_back("out/" + planned.cell.name);
+    return shell_quoted(words);
+}
+
+/// Plays the cell or takes it as it lies there; false when the user stopped it.
+bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& result, RunContext& context) {
+    const fs::path folder = options.folder / "cells" / planned.cell.name;
+    result.reused = is_finished(folder, planned, options);
+    if (!result.reused) {
+        RunOptions run = options.run;
+        run.folder = folder;
+        const Report report = run_drives({planned.drive}, run);
+        context = report.context;
+        if (!report.complete) {
+            result.failed = report.interrupted;
+            return false;
+        }
+    }
+    read_cell_report(options.folder, result);
+    return true;
+}
+
+/// To the maps of what was played, drive by drive.
+void add_lanes(const std::vector<Planned>& planned, StudyResult& result) {
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> alike;
+    for (std::size_t i = 0; i < result.cells.size(); ++i)
+        if (result.cells[i].failed.empty())
+            alike[{result.cells[i].cell.drive, result.cells[i].cell.mirror}].push_back(i);
+    for (const auto& [key, indices] : alike) {
+        std::vector<CellResult*> cells;
+        for (const std::size_t i : indices)
+            cells.push_back(&result.cells[i]);
+        add_map_edges(planned[indices.front()].drive, std::move(cells));
+    }
+}
+
+} // namespace
+
+StudyResult run_study(const Study& study, const StudyOptions& options) {
+    StudyResult result;
+    result.study = study;
+    const std::vector<Planned> planned = plan(study, options.only);
+    refuse_no_moments(study, planned, options.run.ticks);
+    result.frames = frames_text(options.run.ticks);
+    result.lamps = compare_lamp_files(study);
+    // A machine that cannot draw says so before there is a folder.
+    result.context = make_context(open_device(options.run.backend).info(), options.run.command, planned.front().drive.seed);
+    OutputFolder folder = folder_for(planned, options);
+    const Interruption listening;
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+        CellResult cell;
+        cell.cell = planned[i].cell;
+        cell.title = planned[i].drive.title;
+        cell.step_s = planned[i].drive.step_s;
+        cell.moments = ticks_to_play(planned[i].drive, options.run.ticks);
+        cell.moments_of_drive = tick_count(planned[i].drive);
+        for (const SpeedPoint& point : planned[i].drive.speed)
+            cell.step_m = std::max(cell.step_m, point.speed_mps * cell.step_s);
+        cell.look_step_m = planned[i].drive.seeing.visibility ? planned[i].drive.seeing.visibility->step_m : 0.0;
+        cell.grid_cell_m = planned[i].drive.extent ? planned[i].drive.extent->cell_m : cell.grid_cell_m;
+        std::ranges::copy_if(planned[i].drive.views, std::back_inserter(cell.maps),
+                             [](const View& view) { return view.projection == Projection::map; });
+        cell.command = repeating(options, options.folder / "cells" / cell.cell.name, planned[i]);
+        if (result.interrupted.empty() && !options.run.quiet)
+            fmt::print(stderr, "cell {} of {}: {}\n", i + 1, planned.size(), cell.cell.name);
+        try {
+            if (!result.interrupted.empty())
+                cell.failed = "not reached";
+            else if (!play_cell(planned[i], options, cell, result.context) || Interruption::asked())
+                result.interrupted = "interrupted by the user";
+        } catch (const InputError& error) {
+            if (error.where().key == "--resume")
+                throw;
+            cell.failed = error.what();
+        } catch (const std::exception& error) {
+            cell.failed = error.what();
+        }
+        result.cells.push_back(std::move(cell));
+    }
+    add_lanes(planned, result);
+    compare_cells(result);
+    if (options.known)
+        apply_known_failures(result, *options.known, options.run.today);
+    write_study(result, options.folder);
+    if (result.complete())
+        folder.finish();
+    return result;
+}
+
+} // namespace fernlicht

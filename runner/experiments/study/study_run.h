@@ -1,0 +1,26 @@
+// Plays a study: each cell by the same door as `fernlicht run`, into a run's folder of its own below the study's.
+#pragma once
+
+#include "runner/experiments/run/run_drives.h"
+#include "runner/experiments/study/study_result.h"
+
+namespace fernlicht {
+
+struct StudyOptions {
+    std::filesystem::path folder;
+    std::string only;                   ///< cells whose name holds this; "" for all
+    std::optional<KnownFailures> known; ///< over all cells
+    bool resume = false;                ///< go on in the study's folder; finished cells are kept, the report is written anew
+    RunOptions run; ///< backend, moments, references, repeats, day, quiet, accuracy, command; the folder is each cell's own
+};
+
+/// Reads all drives and lamps first, plays the cells in the order of cells_of, reads their reports back, compares. A cell that fails is
+/// noted and the next one played; SIGINT ends the study after the moment at hand. Throws InputError and DeviceError where nothing can be
+/// played, or where a folder to go on in holds cells of another study.
+StudyResult run_study(const Study& study, const StudyOptions& options);
+
+/// Writes study.json, study.csv, study.md, study.tex, junit.xml, figures/ and report.html below `folder`; pictures are read from the cells
+/// there.
+void write_study(StudyResult& result, const std::filesystem::path& folder);
+
+} // namespace fernlicht

@@ -1,0 +1,45 @@
+#include "runner/experiments/study/study_result.h"
+
+#include "runner/experiments/run/run_drives.h"
+
+namespace fernlicht {
+namespace {
+
+/// All verdicts of a study as those of a run: a lamp set for each cell, by the names of its drive and its lamp set.
+Report as_report(const StudyResult& result) {
+    Report report;
+    report.context = result.context;
+    report.complete = result.complete();
+    for (const CellResult& cell : result.cells) {
+        PlayedVariant played;
+        played.drive = cell.drive;
+        played.variant = cell.variant;
+        played.technique = result.study.techniques[cell.cell.technique];
+        played.verdicts = cell.verdicts;
+        report.played.push_back(std::move(played));
+    }
+    PlayedVariant own;
+    own.drive = result.study.name;
+    own.verdicts = result.verdicts;
+    report.played.push_back(std::move(own));
+    return report;
+}
+
+} // namespace
+
+VerdictKind overall(const StudyResult& result) { return overall(as_report(result)); }
+
+void apply_known_failures(StudyResult& result, const KnownFailures& known, const std::string& today) {
+    Report report = as_report(result);
+    apply_known_failures(report, known, today);
+    for (std::size_t i = 0; i < result.cells.size(); ++i)
+        result.cells[i].verdicts = std::move(report.played[i].verdicts);
+    result.verdicts = std::move(report.played.back().verdicts);
+    for (Verdict& listed : report.listed) {
+        listed.name = "known failure " + listed.name;
+        result.verdicts.push_back(std::move(listed));
+    }
+    result.warnings = std::move(report.warnings);
+}
+
+} // namespace fernlicht

@@ -1,0 +1,73 @@
+#include "runner/files/durable_files.h"
+
+#include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, int error) {
+    throw DeviceError(path.string() + ": " + what + ": " + std::generic_category().message(error));
+}
+
+void sync(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        fail(path, "cannot be opened", errno);
+    const int error = ::fsync(file) == 0 ? 0 : errno;
+    ::close(file);
+    // Some network file systems cannot sync a folder and say EINVAL; they have no later moment at which they could.
+    if (error != 0 && error != EINVAL)
+        fail(path, "cannot be written to the disk", error);
+}
+
+} // namespace
+
+void write_durably(const std::filesystem::path& path, const std::string& content) {
+    write_file(path, content);
+    sync(path);
+}
+
+void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
+    std::error_code error;
+    std::filesystem::rename(from, to, error);
+    if (error)
+        fail(to, "cannot be written", error.value());
+    sync_folder(to.parent_path());
+}
+
+void sync_folder(const std::filesystem::path& folder) { sync(folder.empty() ? "." : folder); }
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        fail(folder, "cannot be created", error.value());
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder, For what) : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    const bool reading = what == For::reading;
+    if (file_ < 0 && !reading)
+        fail(folder, "cannot be opened", errno);
+    while (file_ >= 0 && ::flock(file_, reading ? LOCK_SH : LOCK_EX) != 0)
+        if (errno != EINTR) {
+            const int error = errno;
+            if (reading)
+                return;
+            ::close(file_);
+            fail(folder, "cannot be locked", error);
+        }
+}
+
+FolderLock::~FolderLock() {
+    if (file_ >= 0)
+        ::close(file_);
+}
+
+} // namespace fernlicht

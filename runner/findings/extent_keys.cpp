@@ -1,0 +1,54 @@
+#include "runner/findings/extent_keys.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace fernlicht {
+
+const char* plane_name(ExtentPlane plane) { return plane == ExtentPlane::road ? "road" : "target"; }
+
+const char* verdict_name(VerdictKind kind) {
+    switch (kind) {
+    case VerdictKind::pass:
+        return "pass";
+    case VerdictKind::fail:
+        return "fail";
+    case VerdictKind::flaky:
+        return "flaky";
+    case VerdictKind::not_measured:
+        break;
+    }
+    return "not_measured";
+}
+
+std::vector<ExtentKey> extent_keys(const PlayedVariant& played) {
+    std::vector<std::string> lanes;
+    std::vector<ExtentKey> keys;
+    const auto collect = [&](const std::vector<LaneExtent>& extents) {
+        for (const LaneExtent& extent : extents) {
+            if (std::find(lanes.begin(), lanes.end(), extent.lane) == lanes.end())
+                lanes.push_back(extent.lane);
+            const ExtentKey key{extent.plane, extent.lane, extent.limit_lx};
+            if (std::find(keys.begin(), keys.end(), key) == keys.end())
+                keys.push_back(key);
+        }
+    };
+    for (const ExtentRow& row : played.extents) {
+        collect(row.rendered);
+        collect(row.twin);
+    }
+    const auto rank = [&](const ExtentKey& key) {
+        return std::tuple(key.plane, std::find(lanes.begin(), lanes.end(), key.lane) - lanes.begin(), key.limit_lx);
+    };
+    std::stable_sort(keys.begin(), keys.end(), [&](const ExtentKey& a, const ExtentKey& b) { return rank(a) < rank(b); });
+    return keys;
+}
+
+const LaneExtent* find_extent(const std::vector<LaneExtent>& extents, const ExtentKey& key) {
+    const auto found = std::find_if(extents.begin(), extents.end(), [&](const LaneExtent& extent) {
+        return extent.plane == key.plane && extent.limit_lx == key.limit_lx && extent.lane == key.lane;
+    });
+    return found == extents.end() ? nullptr : &*found;
+}
+
+} // namespace fernlicht

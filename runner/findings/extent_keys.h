@@ -1,0 +1,17 @@
+// Which extents a drive has, and where to find them among its moments.
+#pragma once
+
+#include "runner/findings/report.h"
+
+namespace fernlicht {
+
+const char* plane_name(ExtentPlane plane);  ///< "road", "target"
+const char* verdict_name(VerdictKind kind); ///< "pass", "fail", "not_measured"
+
+/// Every key that occurs in any moment (rendered or twin): planes, then lanes, in the order of first sight, then limits ascending.
+std::vector<ExtentKey> extent_keys(const PlayedVariant& played);
+
+/// The extent of that key in one moment's list; nullptr where there is none (a lane that ended).
+const LaneExtent* find_extent(const std::vector<LaneExtent>& extents, const ExtentKey& key);
+
+} // namespace fernlicht

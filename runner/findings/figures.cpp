@@ -1,0 +1,55 @@
+#include "runner/findings/figures.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+
+std::string two_digits(double value) {
+    const double size = std::abs(value);
+    if (size == 0.0)
+        return "0";
+    if (size < 1e-3 || size >= 1e5)
+        return fmt::format("{:.1e}", value);
+    const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(size))));
+    return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit) {
+    if (!row.error)
+        return "not measured";
+    const std::string text = two_digits(row.claimed_error()) + (unit.empty() ? "" : " " + unit);
+    return row.below_floor() ? "< " + text : text;
+}
+
+std::string time_text(double seconds) {
+    return seconds < 1e-3  ? fmt::format("{:.1f} us", 1e6 * seconds)
+           : seconds < 0.1 ? fmt::format("{:.2f} ms", 1e3 * seconds)
+           : seconds < 1.0 ? fmt::format("{:.0f} ms", 1e3 * seconds)
+                           : fmt::format("{:.1f} s", seconds);
+}
+
+std::string counted(std::size_t count, const std::string& what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
+
+std::string interval_name(const Interval& time) {
+    if (time.samples == 0)
+        return "";
+    return time.samples == 1 ? "one timing" : time.of_median ? "95 % interval of the median" : "least to most";
+}
+
+std::string timings_text(const Interval& time) {
+    if (time.samples <= 1)
+        return "of one round, whose spread is unknown: nobody is surely faster";
+    if (time.of_median)
+        return fmt::format("medians of {} rounds with their 95 % intervals", time.samples);
+    return fmt::format("medians of {} rounds, bars from the least to the most{}", time.samples,
+                       time.samples < fewest_timings ? ": too few for anybody to be surely faster" : "");
+}
+
+std::string standing_text(const Standing& standing) {
+    if (standing.on_front)
+        return "front";
+    return standing.dominated_by ? fmt::format("{} by {}", standing.surely ? "beaten" : "perhaps", *standing.dominated_by + 1) : "";
+}
+
+} // namespace fernlicht

@@ -1,0 +1,26 @@
+// Figures of the accuracy's tables and plots as text.
+#pragma once
+
+#include "metrics/statistics/work_precision.h"
+
+#include <string>
+
+namespace fernlicht {
+
+/// Two significant digits without an exponent from 0.001 on: "0.053", "12", "1.2e-05"; "0".
+std::string two_digits(double value);
+/// "0.053 %"; "< 0.02 %" for an error below the floor; "not measured".
+std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit);
+/// "12.3 ms", "0.85 s".
+std::string time_text(double seconds);
+/// What a time and its bar come from: "medians of 7 rounds with their 95 % intervals", "medians of 4 rounds, bars from the least to the
+/// most", "of one round, so that nobody is surely faster". For `samples` > 0.
+std::string timings_text(const Interval& time);
+/// "95 % interval of the median", "least to most", "one timing"; "" for what was not timed repeatedly.
+std::string interval_name(const Interval& time);
+/// "1 moment", "3 moments".
+std::string counted(std::size_t count, const std::string& what);
+/// "front", "beaten by 3" (numbers from 1), "perhaps by 3" where that is not sure, "".
+std::string standing_text(const Standing& standing);
+
+} // namespace fernlicht

@@ -1,0 +1,218 @@
+#include "runner/findings/summary.h"
+
+#include "runner/findings/extent_keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr double median = 0.5;
+constexpr const char* cut_off = "cut off by the end of the road or lane";
+
+/// What all readings of one plane, lane and limit share.
+struct Subject {
+    ExtentKey key;
+    std::string stem;  ///< "5lx_road_own"
+    std::string where; ///< "own lane on the road"
+};
+
+Subject subject_of(const ExtentKey& key) {
+    const std::string place = key.lane == "all" ? "whole width" : key.lane + " lane";
+    return {key, fmt::format("{}lx_{}_{}", key.limit_lx, plane_name(key.plane), name_part(key.lane)),
+            place + (key.plane == ExtentPlane::road ? ", on the road" : ", on a target")};
+}
+
+void add_quantile(Readings& readings, const std::string& name, const ManyMoments& moments, double share, const std::string& unit,
+                  const std::string& where) {
+    readings.push_back({name, moments.quantile(share), unit, fmt::format("{}; {}", where, moments.account())});
+}
+
+/// Median without a suffix, then minimum and 5th percentile. `name` without its unit.
+void add_quantiles(Readings& readings, const std::string& name, const ManyMoments& moments, const std::string& unit,
+                   const std::string& where) {
+    add_quantile(readings, name + "_" + unit, moments, median, unit, where + ", median");
+    add_quantile(readings, name + "_min_" + unit, moments, 0.0, unit, where + ", smallest");
+    add_quantile(readings, name + "_p05_" + unit, moments, 0.05, unit, where + ", 5th percentile");
+}
+
+/// Folds the extents of one key. Light that goes on where the grid ends is "at least so far"; what the road's or the lane's end cuts off
+/// nearer says nothing of the lamps and is left out.
+class Folding {
+  public:
+    Folding(const ExtentKey& key, const ExtentParameters& parameters, const std::string& not_drawn)
+        : last_row_m_(parameters.ahead_m - parameters.cell_m) {
+        const ManyMoments moments = not_drawn.empty() ? ManyMoments() : ManyMoments(not_drawn);
+        summary_.key = key;
+        for (ManyMoments* each : {&summary_.reach, &summary_.left_edge, &summary_.right_edge, &summary_.unlit_before_reach, &summary_.area,
+                                  &summary_.twin_difference})
+            *each = moments;
+        for (const double at_m : parameters.width_at_m)
+            summary_.widths.emplace(at_m, moments);
+    }
+
+    void add(const LaneExtent& extent) {
+        for (const LaneExtent::Width& width : extent.widths)
+            summary_.widths[width.at_m].add(width.cut_off ? Value::at_least(width.width_m) : Value(width.width_m));
+        const Value reach = reach_of(extent.reach_centre_m, extent.reach_is_cut_off);
+        const Value left = reach_of(extent.reach_left_edge_m, extent.left_edge_is_cut_off),
+                    right = reach_of(extent.reach_right_edge_m, extent.right_edge_is_cut_off);
+        summary_.cut_off += extent.reach_is_cut_off ? 1U : 0U;
+        summary_.reach.add(reach);
+        summary_.left_edge.add(left);
+        summary_.right_edge.add(right);
+        summary_.unlit_before_reach.add(!reach.measured()  ? reach
+                                        : reach.censored() ? Value::at_least(extent.unlit_before_reach_m)
+                                                           : Value(extent.unlit_before_reach_m));
+        const bool ends_early = !reach.measured() || !left.measured() || !right.measured();
+        summary_.area.add(ends_early                 ? Value::not_measured(cut_off)
+                          : extent.area_is_cut_off() ? Value::at_least(extent.area_m2)
+                                                     : Value(extent.area_m2));
+    }
+
+    void compare(const LaneExtent& rendered, const LaneExtent& twin) {
+        const Value gap = difference(reach_of(rendered.reach_centre_m, rendered.reach_is_cut_off),
+                                     reach_of(twin.reach_centre_m, twin.reach_is_cut_off), "m");
+        summary_.twin_difference.add(gap.number()     ? Value(std::abs(*gap.number()))
+                                     : gap.censored() ? Value::at_least(std::max(0.0, std::max(gap.low(), -gap.high())))
+                                                      : gap);
+    }
+
+    void add_trust(const ExtentRow& row) {
+        const auto of_key = [&](const auto& entries, auto&& take) {
+            for (const auto& entry : entries)
+                if (entry.plane == summary_.key.plane && entry.limit_lx == summary_.key.limit_lx)
+                    take(entry);
+        };
+        of_key(row.sensitivity, [&](const ReachSensitivity& sensitivity) {
+            summary_.per_tenth_degree.add(sensitivity.metres_per_tenth_degree);
+            summary_.per_tenth_flux.add(sensitivity.metres_per_tenth_flux);
+        });
+        of_key(row.grid_errors, [&](const GridError& error) { summary_.grid_error.add(error.reach_m); });
+    }
+
+    const ExtentSummary& finish() const { return summary_; }
+
+  private:
+    Value reach_of(double reach_m, bool lit_at_end) const {
+        return !lit_at_end ? Value(reach_m) : reach_m < last_row_m_ ? Value::not_measured(cut_off) : Value::at_least(reach_m);
+    }
+
+    double last_row_m_;
+    ExtentSummary summary_;
+};
+
+void add_extent(Readings& readings, const ExtentSummary& summary) {
+    const Subject subject = subject_of(summary.key);
+    const std::string& stem = subject.stem;
+    const std::string& where = subject.where;
+    const bool all = subject.key.lane == "all"; // has no centre line and no edges of its own
+    const char* const centre = all ? ", line that reaches farthest" : ", centre";
+    const char *const left = all ? ", leftmost line looked at" : ", left edge", *const right =
+                                                                                    all ? ", rightmost line looked at" : ", right edge";
+    add_quantiles(readings, "reach_" + stem, summary.reach, "m", where + centre);
+    add_quantile(readings, "reach_" + stem + "_left_edge_m", summary.left_edge, median, "m", fmt::format("{}{}, median", where, left));
+    add_quantile(readings, "reach_" + stem + "_right_edge_m", summary.right_edge, median, "m", fmt::format("{}{}, median", where, right));
+    add_quantile(readings, "unlit_before_reach_" + stem + "_m", summary.unlit_before_reach, median, "m",
+                 fmt::format("{}{}, median", where, centre));
+    for (const auto& [at_m, width] : summary.widths)
+        add_quantiles(readings, fmt::format("width_{}_at_{}m", stem, at_m), width, "m", fmt::format("{}, {} m ahead", where, at_m));
+    add_quantiles(readings, "area_" + stem, summary.area, "m2", where);
+    add_quantile(readings, "reach_" + stem + "_twin_difference_m", summary.twin_difference, median, "m",
+                 where + ", |rendered - twin|, median");
+    add_quantile(readings, "reach_" + stem + "_twin_difference_worst_m", summary.twin_difference, 1.0, "m",
+                 where + ", |rendered - twin|, largest");
+    if (subject.key.lane != "own")
+        return;
+    add_quantile(readings, "reach_" + stem + "_per_tenth_degree_m", summary.per_tenth_degree, median, "m",
+                 where + ", gained by 0.1 degrees more pitch of all lamps, median");
+    add_quantile(readings, "reach_" + stem + "_per_tenth_flux_m", summary.per_tenth_flux, median, "m",
+                 where + ", gained by 10 % more flux, median");
+    add_quantile(readings, "reach_" + stem + "_grid_error_m", summary.grid_error, median, "m",
+                 where + ", grid of half the samples, median");
+}
+
+/// How far extents beside the own lane's reach and the whole width's area can be trusted: the grid's error in each of them.
+void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
+    const auto add = [&](const std::string& name, const std::string& unit, double LaneGridError::*figure) {
+        ManyMoments moments;
+        for (const ExtentRow& row : played.extents)
+            for (const LaneGridError& error : row.lane_grid_errors)
+                if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx && error.lane == subject.key.lane)
+                    moments.add(error.*figure);
+        add_quantile(readings, name, moments, median, unit, subject.where + ", grid of half the samples, median");
+    };
+    if (subject.key.lane != "own")
+        add("reach_" + subject.stem + "_grid_error_m", "m", &LaneGridError::reach_m);
+    add("reach_" + subject.stem + "_edge_grid_error_m", "m", &LaneGridError::edge_m);
+    add("unlit_before_reach_" + subject.stem + "_grid_error_m", "m", &LaneGridError::unlit_m);
+    if (subject.key.lane != "all")
+        add("area_" + subject.stem + "_grid_error_m2", "m2", &LaneGridError::area_m2);
+}
+
+void add_area_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
+    ManyMoments moments;
+    for (const ExtentRow& row : played.extents)
+        for (const GridError& error : row.grid_errors)
+            if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx)
+                moments.add(error.area_m2);
+    add_quantile(readings, "area_" + subject.stem + "_grid_error_m2", moments, median, "m2",
+                 subject.where + ", grid of half the samples, median");
+}
+
+void add_times(Readings& readings, const PassTime& pass) {
+    const std::optional<Spread> spread = spread_of(pass.seconds);
+    const std::string stem = name_part(pass.name) + "_time_";
+    const auto add = [&](const std::string& statistic, const std::string& what, double seconds) {
+        readings.push_back({stem + statistic + "_ms", spread ? Value(1e3 * seconds) : Value::not_measured("no samples after the warm-up"),
+                            "ms", pass.name + ", " + what});
+    };
+    const Spread figures = spread.value_or(Spread{});
+    add("median", "median", figures.median);
+    add("p95", "95th percentile", figures.p95);
+    add("spread", "95th less 5th percentile", figures.p95 - figures.p05);
+}
+
+} // namespace
+
+std::vector<ExtentSummary> summarise_extents(const PlayedVariant& played, const ExtentParameters& parameters) {
+    std::vector<ExtentSummary> summaries;
+    for (const ExtentKey& key : extent_keys(played)) {
+        Folding folding(key, parameters, key.plane == ExtentPlane::road ? played.no_road_lx : played.no_target_lx);
+        for (const ExtentRow& row : played.extents) {
+            const LaneExtent* const rendered = find_extent(row.rendered, key);
+            const LaneExtent* const twin = find_extent(row.twin, key);
+            if (rendered)
+                folding.add(*rendered);
+            if (rendered && twin)
+                folding.compare(*rendered, *twin);
+            if (key.lane == "own")
+                folding.add_trust(row);
+        }
+        summaries.push_back(folding.finish());
+    }
+    return summaries;
+}
+
+Readings extent_readings(const PlayedVariant& played) {
+    Readings readings;
+    for (const ExtentSummary& summary : played.extent_summaries) {
+        const Subject subject = subject_of(summary.key);
+        add_extent(readings, summary);
+        if (subject.key.lane == "all")
+            add_area_trust(readings, played, subject);
+        add_lane_trust(readings, played, subject);
+    }
+    return readings;
+}
+
+Readings times(const PlayedVariant& played) {
+    Readings readings;
+    for (const PassTime& pass : played.passes)
+        add_times(readings, pass);
+    return readings;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,17 @@
+// A drive's moments in readings: what limits are set on. docs/readings.md defines every name.
+#pragma once
+
+#include "runner/findings/report.h"
+
+namespace fernlicht {
+
+/// What the extents of all moments add up to, one for each of extent_keys(). The same inputs give the same bytes.
+std::vector<ExtentSummary> summarise_extents(const PlayedVariant& played, const ExtentParameters& parameters);
+
+/// Readings of the whole drive from `extent_summaries`, with the grid's error in each lane from `extents`.
+Readings extent_readings(const PlayedVariant& played);
+
+/// How long each pass took: median, 95th percentile and spread. Kept apart from summarise because no two runs agree on them.
+Readings times(const PlayedVariant& played);
+
+} // namespace fernlicht

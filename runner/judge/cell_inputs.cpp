@@ -1,0 +1,44 @@
+#include "runner/judge/cell_inputs.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+bool uses(const Variant& variant, const LampFile* file) {
+    return std::ranges::any_of(variant.lamps, [&](const MountedLamp& lamp) { return lamp.file.get() == file; }) ||
+           std::ranges::any_of(variant.changes, [&](const LampChange& change) { return change.file.get() == file; });
+}
+
+std::string hash_of(const FilesRead& files) {
+    std::string all;
+    for (const FileRead& file : files)
+        all += file.xxh128 + "\n";
+    return content_hash(all.data(), all.size());
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>> cell_inputs(const Drive& drive, const Variant& variant, const FilesRead& road,
+                                                             int first_tick, int last_tick) {
+    Drive one = drive;
+    one.variants = {variant};
+    one.title.clear();
+    one.limits.clear();
+    one.road_file = "road";
+    std::vector<std::pair<std::string, std::string>> lamps;
+    for (LampSource& source : one.lamp_sources)
+        if (uses(variant, source.file.get())) {
+            source.path = fmt::format("lamp file {}", lamps.size() + 1);
+            lamps.emplace_back(source.path.string(), hash_of(source.file->opened));
+        }
+    std::string text = write_drive(one);
+    text.erase(0, text.find('\n') + 1); // the comment names the program's version
+    text += fmt::format("moments: [{}, {}]\n", first_tick, last_tick);
+    std::vector<std::pair<std::string, std::string>> inputs{{"drive", content_hash(text.data(), text.size())}, {"road", hash_of(road)}};
+    std::ranges::move(lamps, std::back_inserter(inputs));
+    return inputs;
+}
+
+} // namespace fernlicht

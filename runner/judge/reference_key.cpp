@@ -1,0 +1,62 @@
+#include "runner/judge/reference_key.h"
+
+#include "scenarios/values/files.h"
+
+#include <fmt/format.h>
+#include <map>
+
+namespace fernlicht {
+namespace {
+
+/// A context's cpu is "model (simd class)"; the model does not decide over a bit of the results. Nor does AVX-512 beside AVX2, other than
+/// for Embree: Mesa's llvmpipe draws 256 bits wide with either, the C library takes the same functions (docs/references.md: measured).
+std::string simd_of(const RunContext& context) {
+    const std::string& cpu = context.cpu;
+    const std::size_t open = cpu.rfind('(');
+    if (open == std::string::npos || !cpu.ends_with(')'))
+        return cpu;
+    const std::string simd = cpu.substr(open + 1, cpu.size() - open - 2);
+    return simd == "avx512" && context.backend != "rays" ? "avx2" : simd;
+}
+
+/// llvmpipe is the same code whether EGL or OSMesa hands out the context: the same bytes.
+std::string backend_of(const RunContext& context) { return context.gl_renderer.starts_with("llvmpipe") ? "software" : context.backend; }
+
+} // namespace
+
+ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context,
+                           const std::vector<std::pair<std::string, std::string>>& inputs) {
+    std::map<std::string, std::string> by_name(inputs.begin(), inputs.end()); // files give them in another order
+    std::string hashes;
+    for (const auto& [name, hash] : by_name)
+        hashes += hash + "\n";
+    return {
+        drive, variant, technique, backend_of(context), context.gl_renderer, simd_of(context), content_hash(hashes.data(), hashes.size())};
+}
+
+bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b) {
+    ReferenceKey other = b;
+    other.inputs = a.inputs;
+    return a == other;
+}
+
+bool same_but_lamp_set(const ReferenceKey& a, const ReferenceKey& b) {
+    ReferenceKey other = b;
+    other.inputs = a.inputs;
+    other.variant = a.variant;
+    return a == other && a.variant != b.variant;
+}
+
+bool same_but_device(const ReferenceKey& a, const ReferenceKey& b) {
+    return a.drive == b.drive && a.variant == b.variant && a.technique == b.technique && a.inputs == b.inputs;
+}
+
+std::string key_text(const ReferenceKey& key) {
+    return fmt::format("{}, {}, {}; {}", key.drive, key.variant, key.technique, device_text(key));
+}
+
+std::string device_text(const ReferenceKey& key) { return fmt::format("{}, {}, {}", key.backend, key.gl_renderer, key.simd); }
+
+std::string cell_text(const ReferenceKey& key) { return fmt::format("{}/{}/{}", key.drive, key.variant, key.technique); }
+
+} // namespace fernlicht

@@ -1,0 +1,34 @@
+// What must agree before two runs can be expected to give the same pictures.
+#pragma once
+
+#include "runner/findings/report.h"
+
+namespace fernlicht {
+
+struct ReferenceKey {
+    std::string drive, variant, technique;
+    /// Class of device. Pictures of one class are the same bytes; llvmpipe's depend on how wide it draws, which its name tells, the twin's
+    /// last digits on the C library's choice by the CPU's SIMD. backend: "software" for llvmpipe.
+    std::string backend, gl_renderer, simd;
+    std::string inputs; ///< XXH3-128 over the hashes of what decides the results (cell_inputs.h)
+    bool operator==(const ReferenceKey&) const = default;
+};
+
+ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context,
+                           const std::vector<std::pair<std::string, std::string>>& inputs);
+
+/// The same drive, lamp set and technique on the same class of device, whatever the inputs.
+bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b);
+/// The same drive and technique on the same class of device, another lamp set.
+bool same_but_lamp_set(const ReferenceKey& a, const ReferenceKey& b);
+/// The same drive, lamp set, technique and inputs, whatever the device.
+bool same_but_device(const ReferenceKey& a, const ReferenceKey& b);
+
+/// "straight, halogen, photometric; software, llvmpipe (LLVM 15.0.6, 256 bits), avx2".
+std::string key_text(const ReferenceKey& key);
+/// "software, llvmpipe (LLVM 15.0.6, 256 bits), avx2".
+std::string device_text(const ReferenceKey& key);
+/// "straight/halogen/photometric".
+std::string cell_text(const ReferenceKey& key);
+
+} // namespace fernlicht

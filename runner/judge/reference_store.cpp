@@ -1,0 +1,256 @@
+#include "runner/judge/reference_store.h"
+
+#include "runner/files/durable_files.h"
+#include "runner/judge/reference_json.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+#include <tuple>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* index_schema = "fernlicht references";
+constexpr int index_version = 2;
+constexpr std::size_t most_object_bytes = std::size_t{1} << 30;
+
+fs::path object_path(const fs::path& store, const std::string& hash) { return store / "objects" / hash.substr(0, 2) / hash.substr(2); }
+
+bool is_whole(const fs::path& object, const std::string& hash) {
+    try {
+        FilesRead opened;
+        read_file(object, opened, most_object_bytes);
+        return opened.front().xxh128 == hash;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+/// Writes an object beside the others; nothing refers to it yet. One that is there and whole stays as it is.
+std::string write_object(const fs::path& store, const std::string& content) {
+    const std::string hash = content_hash(content.data(), content.size());
+    const fs::path path = object_path(store, hash);
+    if (!is_whole(path, hash)) {
+        make_folder(path.parent_path());
+        write_durably(path, content);
+        sync_folder(path.parent_path());
+    }
+    return hash;
+}
+
+void check_object(const fs::path& path, const std::string& hash, const std::string& what) {
+    FilesRead opened;
+    read_file(path, opened, most_object_bytes);
+    if (opened.front().xxh128 != hash)
+        throw InputError({path, 0, 0, {}}, fmt::format("is not the {} that was accepted: its hash is {}", what, opened.front().xxh128),
+                         hash);
+}
+
+/// A version 1 store knew neither inputs nor producers, so nothing of it can be put under today's keys.
+void check_version(const CheckedJson& index, const fs::path& store) {
+    const CheckedJson version = index.at("schema_version");
+    if (index.at("schema").text() == index_schema && version.whole() == 1)
+        throw InputError({store / "index.json", 0, 0, {}}, "is a store of the old form, which does not know the inputs of its results",
+                         "a new folder, into which the runs are accepted again");
+    index.expect_schema(index_schema, index_version);
+}
+
+std::string index_text(const std::vector<StoredReference>& entries) {
+    Json references = Json::array();
+    for (const StoredReference& entry : entries)
+        references.push_back({{"id", entry.id}, {"key", key_json(entry.key)}, {"note", entry.note}, {"played_utc", entry.played_utc}});
+    const Json index{{"schema", index_schema}, {"schema_version", index_version}, {"references", references}};
+    return index.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// Here a change takes hold.
+void write_index(const fs::path& store, std::vector<StoredReference> entries) {
+    std::ranges::sort(entries, {},
+                      [](const StoredReference& entry) { return std::tuple(key_text(entry.key), entry.key.inputs, entry.id); });
+    const fs::path next = store / fmt::format(".index-{}.json", ::getpid());
+    write_durably(next, index_text(entries));
+    rename_durably(next, store / "index.json");
+}
+
+/// What a killed process left half written. Nobody else is at it: the store is locked.
+void remove_leftovers(const fs::path& store) {
+    std::vector<fs::path> leftovers;
+    for (const fs::directory_entry& entry : fs::directory_iterator(store))
+        if (entry.path().filename().string().starts_with(".index-"))
+            leftovers.push_back(entry.path());
+    for (const fs::path& leftover : leftovers) {
+        std::error_code ignored;
+        fs::remove(leftover, ignored);
+    }
+}
+
+/// Objects that entries need: their results, and the frames that these name. Throws InputError where results cannot be read.
+std::set<std::string> needed(const fs::path& store, const std::vector<StoredReference>& entries) {
+    std::set<std::string> hashes;
+    for (const StoredReference& entry : entries) {
+        hashes.insert(entry.id);
+        check_object(object_path(store, entry.id), entry.id, "result");
+        for (const ReferenceFrame& frame : read_reference_object(object_path(store, entry.id)).frames)
+            hashes.insert(frame.xxh128);
+    }
+    return hashes;
+}
+
+/// Everything below objects/ that is not needed, what a killed process left among it.
+Removal collect(const fs::path& store, const std::set<std::string>& hashes, bool dry) {
+    Removal removal;
+    std::error_code error;
+    if (!fs::exists(store / "objects", error))
+        return removal;
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(store / "objects"))
+        if (entry.is_regular_file() && !hashes.contains(entry.path().parent_path().filename().string() + entry.path().filename().string()))
+            files.push_back(entry.path());
+    for (const fs::path& file : files) {
+        ++removal.objects;
+        removal.bytes += fs::file_size(file, error);
+        if (dry)
+            continue;
+        if (!fs::remove(file, error) || error)
+            throw DeviceError(file.string() + ": cannot be removed: " + error.message());
+        fs::remove(file.parent_path(), error); // where it was the last one
+    }
+    return removal;
+}
+
+/// The reference with the hashes of its frames, and the entry that it would be. Writes nothing.
+StoredReference name_reference(AcceptedReference& reference) {
+    for (ReferenceFrame& frame : reference.frames) {
+        FilesRead opened;
+        read_file(frame.exr, opened, most_object_bytes);
+        frame.xxh128 = opened.front().xxh128;
+    }
+    const std::string object = reference_object(reference);
+    return {content_hash(object.data(), object.size()), reference.key, "", ""};
+}
+
+/// Copies frames and results into the store.
+void write_reference(const fs::path& store, const AcceptedReference& reference) {
+    for (const ReferenceFrame& frame : reference.frames) {
+        FilesRead opened;
+        if (write_object(store, read_file(frame.exr, opened, most_object_bytes)) != frame.xxh128)
+            throw InputError({frame.exr, 0, 0, {}}, "changed while it was read", "a run that has ended");
+    }
+    write_object(store, reference_object(reference));
+}
+
+/// Whether an entry holds the very results; one that is damaged does not.
+bool holds(const fs::path& store, const StoredReference& entry, const AcceptedReference& results) {
+    try {
+        return same_results(load_reference(store, entry), results);
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+/// Puts one reference among the entries.
+Stored place(const fs::path& store, std::vector<StoredReference>& entries, StoredReference entry, const AcceptedReference& results,
+             Acceptance how) {
+    const auto same_key = [&](const StoredReference& other) { return other.key == entry.key; };
+    const auto known = std::ranges::find_if(
+        entries, [&](const StoredReference& other) { return same_key(other) && (other.id == entry.id || holds(store, other, results)); });
+    Stored stored{known == entries.end() ? entry.id : known->id, known == entries.end(), 0};
+    const auto is_other = [&](const StoredReference& other) { return same_key(other) && other.id != stored.id; };
+    if (how == Acceptance::first && stored.is_new)
+        if (const auto other = std::ranges::find_if(entries, is_other); other != entries.end())
+            throw InputError({store, 0, 0, {}}, fmt::format("holds other results for {}: {}", key_text(entry.key), short_id(other->id)),
+                             "--replace, if these are right in their place, or --add, if either is right");
+    if (!stored.is_new && !entry.note.empty())
+        known->note = entry.note;
+    if (how == Acceptance::replace || how == Acceptance::replace_class)
+        stored.removed = std::erase_if(entries, is_other);
+    if (stored.is_new)
+        entries.push_back(std::move(entry));
+    return stored;
+}
+
+} // namespace
+
+std::string short_id(const std::string& id) { return id.substr(0, 12); }
+
+std::vector<StoredReference> list_references(const fs::path& store) {
+    std::vector<StoredReference> entries;
+    std::error_code error;
+    if (!fs::exists(store / "index.json", error) && !error)
+        return entries;
+    const CheckedJson index = CheckedJson::read(store / "index.json");
+    check_version(index, store);
+    for (const CheckedJson& entry : index.at("references").items())
+        entries.push_back({read_hash(entry.at("id")), read_key(entry.at("key")), entry.at("note").text(), entry.at("played_utc").text()});
+    return entries;
+}
+
+AcceptedReference load_reference(const fs::path& store, const StoredReference& entry) {
+    check_object(object_path(store, entry.id), entry.id, "result");
+    AcceptedReference reference = read_reference_object(object_path(store, entry.id));
+    for (ReferenceFrame& frame : reference.frames) {
+        frame.exr = object_path(store, frame.xxh128);
+        check_object(frame.exr, frame.xxh128, "frame");
+    }
+    return reference;
+}
+
+std::vector<StoredReference> with_prefix(const std::vector<StoredReference>& entries, const std::string& prefix) {
+    std::vector<StoredReference> found;
+    std::ranges::copy_if(entries, std::back_inserter(found), [&](const StoredReference& entry) { return entry.id.starts_with(prefix); });
+    return found;
+}
+
+std::vector<Stored> store_references(const fs::path& store, const std::vector<AcceptedReference>& references, Acceptance how,
+                                     const std::string& note, const std::string& played_utc) {
+    make_folder(store);
+    const FolderLock lock(store);
+    remove_leftovers(store);
+    std::vector<StoredReference> entries = list_references(store);
+    std::vector<AcceptedReference> to_write = references;
+    std::vector<Stored> outcome;
+    for (AcceptedReference& reference : to_write) {
+        StoredReference entry = name_reference(reference);
+        entry.note = note;
+        entry.played_utc = played_utc;
+        outcome.push_back(place(store, entries, std::move(entry), reference, how));
+    }
+    if (how == Acceptance::replace_class && !outcome.empty())
+        outcome.front().removed += std::erase_if(entries, [&](const StoredReference& entry) {
+            return std::ranges::any_of(to_write, [&](const auto& taken) { return device_text(taken.key) == device_text(entry.key); }) &&
+                   std::ranges::none_of(outcome, [&](const Stored& stored) { return stored.id == entry.id; });
+        });
+    for (const AcceptedReference& reference : to_write)
+        write_reference(store, reference);
+    write_index(store, entries);
+    if (std::ranges::any_of(outcome, [](const Stored& stored) { return stored.removed > 0; }))
+        collect(store, needed(store, entries), false);
+    return outcome;
+}
+
+Removal remove_references(const fs::path& store, const std::vector<std::string>& ids, bool dry) {
+    std::error_code error;
+    if (!fs::is_directory(store, error))
+        throw InputError({store, 0, 0, {}}, "is no folder of references", "one that `fernlicht accept` made");
+    const FolderLock lock(store);
+    std::vector<StoredReference> entries = list_references(store);
+    const std::size_t gone =
+        std::erase_if(entries, [&](const StoredReference& entry) { return std::ranges::find(ids, entry.id) != ids.end(); });
+    const std::set<std::string> hashes = needed(store, entries);
+    if (!dry) {
+        remove_leftovers(store);
+        write_index(store, entries);
+    }
+    Removal removal = collect(store, hashes, dry);
+    removal.references = gone;
+    return removal;
+}
+
+} // namespace fernlicht

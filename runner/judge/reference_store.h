@@ -1,0 +1,56 @@
+// Accepted results on disk: index.json says what is accepted for which key, objects/ holds results and frames, each file named by the hash
+// of its bytes. The index is replaced in one rename, so a reader sees all of a change or nothing of it.
+#pragma once
+
+#include "runner/judge/accepted_reference.h"
+
+namespace fernlicht {
+
+/// One accepted result. Several may stand under one key.
+struct StoredReference {
+    std::string id; ///< 32 hexadecimal digits: the hash of its object
+    ReferenceKey key;
+    std::string note;       ///< why it was accepted, in the words of who did; "" for none
+    std::string played_utc; ///< when the run began that gave it
+};
+
+/// How an id is shown: its first 12 digits.
+std::string short_id(const std::string& id);
+
+/// All that is accepted, ordered by key and id; empty where there is no store. Throws InputError for a damaged index, or one that another
+/// version wrote, with what to do.
+std::vector<StoredReference> list_references(const std::filesystem::path& store);
+
+/// The results behind an entry, their frames' paths set. Throws InputError where an object is missing or is not what was stored.
+AcceptedReference load_reference(const std::filesystem::path& store, const StoredReference& entry);
+
+/// The entries whose ids begin like this.
+std::vector<StoredReference> with_prefix(const std::vector<StoredReference>& entries, const std::string& prefix);
+
+enum class Acceptance {
+    first,         ///< only where nothing else is accepted
+    add,           ///< beside what is there: either will do
+    replace,       ///< in place of all that is there under the same key
+    replace_class, ///< in place of all that is there for the same class of device, whatever its drive
+};
+struct Stored {
+    std::string id;
+    bool is_new = false;     ///< false: these results were accepted before
+    std::size_t removed = 0; ///< others that were under the key; with replace_class the first has all that are gone
+};
+/// Takes all of these (their frames are copied) or none; other keys stay. Interrupted at any moment, the store holds either everything
+/// from before or everything new. Waits while another process changes the store.
+/// Throws InputError where `how` is `first` and other results are accepted, when a frame cannot be read or the index is damaged;
+/// DeviceError when the folder cannot be written.
+std::vector<Stored> store_references(const std::filesystem::path& store, const std::vector<AcceptedReference>& references, Acceptance how,
+                                     const std::string& note, const std::string& played_utc);
+
+struct Removal {
+    std::size_t references = 0, objects = 0;
+    std::uintmax_t bytes = 0;
+};
+/// Takes these entries out, and every object that no entry needs then. `dry`: only says what would go.
+/// Throws InputError for a damaged index or a damaged object of an entry that stays, DeviceError when the folder cannot be written.
+Removal remove_references(const std::filesystem::path& store, const std::vector<std::string>& ids, bool dry);
+
+} // namespace fernlicht

@@ -1,0 +1,27 @@
+// A run against accepted results. Changes no reference.
+#pragma once
+
+#include "runner/judge/reference_difference.h"
+
+namespace fernlicht {
+
+/// Passes, and says that results of other classes of device judged.
+inline constexpr const char* other_device_verdict = "reference device";
+
+/// What was played as it would be accepted; frames' paths lead into the run's folder, their hashes are left out.
+AcceptedReference results_of(const PlayedVariant& played, const RunContext& context, const std::filesystem::path& run_folder,
+                             const std::string& technique);
+
+/// Verdicts on all frames and readings against what was accepted for this drive, lamp set, technique, class of device and inputs. Where
+/// several results are accepted, one that agrees in everything decides, and the text says which; else the nearest, by the number of
+/// things that differ. What differs gets a verdict of its own; what agrees is summed up in one. Nothing accepted, a damaged reference,
+/// a frame or reading that only one side has: failed. A reading that varies too much to tell: not measured.
+/// `across_devices`: where nothing is accepted for this class of device, readings are judged by what other classes gave (one by the
+/// tolerance alone, several by their spread on top), frames by the nearest of them, and a verdict called other_device_verdict says so.
+/// Never where something is accepted: within a class the same bytes are promised, and more would hide mistakes.
+std::vector<Verdict> judge_against_references(const PlayedVariant& played, const RunContext& context,
+                                              const std::filesystem::path& run_folder, const std::filesystem::path& references_folder,
+                                              const std::string& technique, bool across_devices = false,
+                                              const ReferenceTolerance& tolerance = {});
+
+} // namespace fernlicht

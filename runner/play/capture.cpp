@@ -1,0 +1,111 @@
+#include "runner/play/capture.h"
+
+#include "runner/files/picture_file.h"
+#include "scenarios/values/errors.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+
+Writers::Writers(int threads, std::size_t most_waiting) : most_waiting_(most_waiting) {
+    for (int i = 0; i < threads; ++i)
+        threads_.emplace_back([this] { work(); });
+}
+
+Writers::~Writers() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& thread : threads_)
+        thread.join();
+}
+
+void Writers::work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+        changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+        if (waiting_.empty())
+            return;
+        const std::function<void()> job = std::move(waiting_.front());
+        waiting_.pop_front();
+        ++running_;
+        lock.unlock();
+        std::exception_ptr failure;
+        try {
+            job();
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        lock.lock();
+        --running_;
+        if (failure && !failure_)
+            failure_ = failure;
+        changed_.notify_all();
+    }
+}
+
+void Writers::submit(std::function<void()> job) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return waiting_.size() < most_waiting_ || failure_; });
+    if (failure_)
+        std::rethrow_exception(std::exchange(failure_, nullptr));
+    waiting_.push_back(std::move(job));
+    changed_.notify_all();
+}
+
+void Writers::finish() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return waiting_.empty() && running_ == 0; });
+    if (failure_)
+        std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+bool is_captured(const Capture& capture, int tick, double step_s) {
+    if (capture.all || tick == 0)
+        return true;
+    if (!(capture.per_second > 0.0))
+        return false;
+    // A hair of tolerance: 15 * (1 / 30) is a little less than 0.5.
+    const auto index = [&](int t) { return std::floor(t * step_s * capture.per_second + 1e-9); };
+    return index(tick) > index(tick - 1);
+}
+
+std::string file_name_of(const std::string& text) {
+    std::string name;
+    for (const char c : text.substr(0, 80)) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+                           (c == '.' && !name.empty());
+        name += plain ? c : '_';
+    }
+    return name.empty() ? "_" : name;
+}
+
+StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,
+                        const Moment& moment, const View& view, const WritePicture& write_picture) {
+    const std::filesystem::path place = std::filesystem::path("frames") / file_name_of(set);
+    const std::string stem = fmt::format("{}-{:06}", file_name_of(view.name), moment.tick);
+    StoredFrame stored{moment.tick, moment.time_s, view.name, {}, {}};
+    const bool png = capture.png && !frame.colour.empty(), exr = capture.exr && has_linear_picture(frame);
+    if (!png && !exr)
+        return stored; // and no folder for nothing
+    std::error_code error;
+    std::filesystem::create_directories(folder / place, error);
+    if (error)
+        throw DeviceError((folder / place).string() + ": cannot be made: " + error.message());
+    const auto shared = std::make_shared<const Frame>(std::move(frame));
+    if (png) {
+        stored.png = (place / (stem + ".png")).generic_string();
+        writers.submit([shared, view, write_picture, path = folder / stored.png] { write_picture(*shared, view, path); });
+    }
+    if (exr) {
+        stored.exr = (place / (stem + ".exr")).generic_string();
+        writers.submit([shared, moment, view, path = folder / stored.exr] { write_exr(*shared, moment, view, path); });
+    }
+    return stored;
+}
+
+} // namespace fernlicht

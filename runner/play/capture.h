@@ -1,0 +1,51 @@
+// Stores frames by other threads while the next ones are drawn.
+#pragma once
+
+#include "runner/findings/report.h"
+#include "runner/play/display_step.h"
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace fernlicht {
+
+/// A bounded queue of things to write. Memory stays constant: submit() waits while the queue is full.
+class Writers {
+  public:
+    explicit Writers(int threads = 1, std::size_t most_waiting = 8);
+    ~Writers(); ///< waits for what is queued; an error that nobody asked for is dropped
+
+    /// Throws what an earlier job threw.
+    void submit(std::function<void()> job);
+    /// Waits until everything is written. Throws what a job threw.
+    void finish();
+
+  private:
+    void work();
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::function<void()>> waiting_;
+    std::size_t most_waiting_;
+    int running_ = 0;
+    bool stopping_ = false;
+    std::exception_ptr failure_;
+    std::vector<std::thread> threads_;
+};
+
+/// True for the ticks that are stored: the first at or after each multiple of 1 / per_second.
+bool is_captured(const Capture& capture, int tick, double step_s);
+
+/// Queues the files of one captured frame under `folder`/frames/`set`/ and returns their paths relative to `folder`; "" for a file that
+/// the frame has no picture for.
+StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,
+                        const Moment& moment, const View& view, const WritePicture& write_picture);
+
+/// A file or folder name made of letters, digits, '-', '_' and '.', from any text.
+std::string file_name_of(const std::string& text);
+
+} // namespace fernlicht

@@ -1,0 +1,117 @@
+#include "runner/play/live/live_loop.h"
+
+#include "runner/play/capture.h"
+#include "scenarios/drives/play/advance.h"
+
+namespace fernlicht {
+namespace {
+
+constexpr std::int64_t listening_step_ns = 5'000'000;
+constexpr std::size_t most_pending = 16;
+
+double seconds_of(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+} // namespace
+
+void LiveLoop::sleep_until(std::int64_t time_ns) const {
+    if (parts_.wait)
+        parts_.clock.sleep_until(time_ns);
+}
+
+void LiveLoop::receive(std::int64_t now_ns) {
+    batch_.clear();
+    parts_.bus.receive(batch_, parts_.clock, now_ns);
+    for (CanFrame& frame : batch_)
+        order_.add(std::move(frame), now_ns);
+}
+
+void LiveLoop::send(const std::vector<CanFrame>& frames, LiveFigures& figures) {
+    figures.outputs += frames.size();
+    for (const CanFrame& frame : frames) {
+        parts_.bus.send(frame);
+        parts_.sent.add(frame);
+    }
+}
+
+/// What signals are before the first tick.
+bool LiveLoop::listen() {
+    for (std::int64_t at_ns = -parts_.listen_ns; parts_.wait && at_ns < 0; at_ns += listening_step_ns) {
+        sleep_until(at_ns);
+        if (parts_.interrupted())
+            return false;
+        receive(parts_.clock.now_ns());
+    }
+    return true;
+}
+
+/// Settled moments that the drawing thread may want.
+void LiveLoop::offer_pictures(LiveFigures& figures) {
+    for (const int settled = parts_.play.moments(); next_moment_ < settled; ++next_moment_) {
+        const bool captured = is_captured(parts_.drive.capture, next_moment_, parts_.drive.step_s);
+        ++figures.moments;
+        figures.captures += captured ? 1 : 0;
+        if (parts_.pictures && pending_.size() < most_pending && parts_.pictures->wanted(captured))
+            pending_.push_back({parts_.play.moment(next_moment_), captured});
+    }
+    while (!pending_.empty() && parts_.pictures->offer(pending_.front()))
+        pending_.pop_front();
+}
+
+bool LiveLoop::tick(LiveFigures& figures) {
+    BusDrive& play = parts_.play;
+    const std::int64_t time_ns = play.next_tick_ns();
+    for (std::int64_t due_ns = play.next_output_ns(); due_ns < time_ns; due_ns = play.next_output_ns()) {
+        sleep_until(due_ns);
+        send(play.send_until(due_ns), figures);
+    }
+    sleep_until(time_ns);
+    if (parts_.interrupted())
+        return false;
+    const std::int64_t begun_ns = now_ns(time_ns);
+    receive(begun_ns);
+    for (const CanFrame& frame : order_.due(time_ns)) {
+        play.take(frame);
+        parts_.recording.add(frame);
+        ++figures.used;
+    }
+    send(play.step(), figures);
+    const std::int64_t done_ns = now_ns(time_ns);
+    figures.late_s.push_back(seconds_of(begun_ns - time_ns));
+    figures.work_s.push_back(seconds_of(done_ns - begun_ns));
+    figures.overruns += done_ns > time_ns + std::llround(1e9 * figures.period_s) ? 1U : 0U;
+    offer_pictures(figures);
+    return true;
+}
+
+void LiveLoop::play(LiveFigures& figures) {
+    const auto planned = static_cast<std::size_t>(figures.ticks_planned) + 1;
+    figures.late_s.reserve(planned);
+    figures.work_s.reserve(planned);
+    interrupted_ = !listen();
+    while (!interrupted_ && !parts_.play.done())
+        interrupted_ = !tick(figures);
+}
+
+void LiveLoop::run(LiveFigures& figures) {
+    const auto account = [&] {
+        if (parts_.wait)
+            receive(parts_.clock.now_ns());
+        figures.unused = order_.waiting();
+        figures.late = order_.late();
+        figures.latest_s = seconds_of(order_.latest_ns());
+        figures.from_future = order_.from_future();
+        figures.clock_set_by_ns = parts_.clock.set_by_ns();
+        parts_.bus.account(figures, parts_.clock);
+        if (parts_.pictures)
+            parts_.pictures->end();
+    };
+    try {
+        play(figures);
+    } catch (...) {
+        account();
+        throw;
+    }
+    account();
+}
+
+} // namespace fernlicht

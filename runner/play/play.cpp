@@ -1,0 +1,217 @@
+#include "runner/play/play.h"
+
+#include "metrics/folds/seeing_fold.h"
+#include "runner/play/drawn_by.h"
+#include "runner/play/extent_fold.h"
+#include "runner/play/frame_times.h"
+#include "runner/play/lux_map.h"
+#include "runner/play/probe_fold.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/drive_log.h"
+#include "scenarios/drives/play/motion.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <future>
+
+namespace fernlicht {
+namespace {
+
+/// Draws the views of a moment: all of them where it is captured, else the driver's; then hands to the writers what is stored.
+class Pictures {
+  public:
+    Pictures(const Drive& drive, const Route& route, const PlayOptions& options, PlayedVariant& played, Writers& writers, FrameTimes& times)
+        : drive_(drive), route_(route), options_(options), played_(played), writers_(writers), times_(times),
+          maps_(captured_moments(drive, options.ticks)), display_(drive) {}
+
+    /// "frame" is what a simulator would draw each time: the driver's view in colour; where every frame is stored, with its linear results.
+    std::string kind(const Moment& moment) const {
+        return is_captured(drive_.capture, moment.tick, drive_.step_s) && drive_.capture.exr && !drive_.capture.all ? "frame, stored"
+                                                                                                                    : "frame";
+    }
+
+    void draw(const Moment& moment, const Draw& draw) {
+        const bool captured = is_captured(drive_.capture, moment.tick, drive_.step_s);
+        for (std::size_t i = 0; i < (captured ? drive_.views.size() : std::min<std::size_t>(1, drive_.views.size())); ++i) {
+            const View& view = drive_.views[i];
+            const Wanted wanted = captured ? stored_results(view, drive_.capture) : Wanted{.colour = true};
+            Frame frame = draw(moment, view, display_.with_light(wanted, view, captured, i == 0))();
+            i == 0 ? times_.add(kind(moment), frame) : times_.add(frame);
+            if (i == 0)
+                display_.see(frame);
+            if (captured)
+                drawn_.emplace_back(&view, std::move(frame));
+        }
+    }
+
+    void store(const Moment& moment) {
+        for (auto& [view, frame] : drawn_) {
+            if (view->projection == Projection::map)
+                keep_map(frame, moment, *view);
+            StoredFrame stored = store_frame(writers_, options_.folder, drive_.name + "-" + played_.variant, drive_.capture,
+                                             std::move(frame), moment, *view, display_.writer());
+            played_.frames.push_back(std::move(stored));
+        }
+        captured_ += drawn_.empty() ? 0U : 1U;
+        drawn_.clear();
+    }
+
+    void finish(bool all_played) {
+        played_.maps = maps_.finish(all_played);
+        std::ranges::copy(display_.times(), std::back_inserter(played_.passes));
+        played_.display = display_.seen();
+    }
+
+  private:
+    static std::size_t captured_moments(const Drive& drive, TickRange range) {
+        std::size_t captured = 0;
+        for (int k = 0, tick = std::max(0, range.first); k < ticks_to_play(drive, range); ++k, ++tick)
+            captured += is_captured(drive.capture, tick, drive.step_s) ? 1U : 0U;
+        return captured;
+    }
+
+    void keep_map(const Frame& frame, const Moment& moment, const View& view) {
+        if (!frame.illuminance_lx.empty())
+            maps_.add(captured_, [&] { return lux_map_of(frame, moment, view, route_, drive_.bumper_m); });
+        else if (const std::string note = "lux maps are not measured: " + no_illuminance(drive_.technique);
+                 std::ranges::find(played_.notes, note) == played_.notes.end())
+            played_.notes.push_back(note);
+    }
+
+    const Drive& drive_;
+    const Route& route_;
+    const PlayOptions& options_;
+    PlayedVariant& played_;
+    Writers& writers_;
+    FrameTimes& times_;
+    LuxMaps maps_;
+    DisplayStep display_;
+    std::vector<std::pair<const View*, Frame>> drawn_; ///< of this moment, to be stored
+    std::size_t captured_ = 0;                         ///< moments until now
+};
+
+/// Measures moments by other threads while the next ones are drawn. Rows stand in the order of the moments, and an error comes out of the
+/// add() or finish() that meets it. Memory stays constant: add() waits while too many moments are waiting.
+class Measuring {
+  public:
+    Measuring(const ExtentFold& fold, std::vector<ExtentRow>& rows)
+        : fold_(fold), rows_(rows), most_waiting_(std::clamp(std::thread::hardware_concurrency(), 2U, 8U)) {}
+
+    void add(ExtentDrawing drawing) {
+        if (waiting_.size() == most_waiting_)
+            join_first();
+        waiting_.push_back(std::async(std::launch::async, [this, drawing = std::move(drawing)] { return fold_.measure(drawing); }));
+    }
+    void finish() {
+        while (!waiting_.empty())
+            join_first();
+    }
+
+  private:
+    void join_first() {
+        std::future<ExtentRow> first = std::move(waiting_.front());
+        waiting_.pop_front();
+        rows_.push_back(first.get());
+    }
+
+    const ExtentFold& fold_;
+    std::vector<ExtentRow>& rows_;
+    std::size_t most_waiting_;
+    std::deque<std::future<ExtentRow>> waiting_; ///< each waits for its thread when it is destroyed
+};
+
+CarRow car_row(const Motion& motion, double time_s) {
+    const CarPlace place = motion.car->at(time_s);
+    CarRow row{time_s, degrees(place.pitch_rad), 1e3 * place.rear_lift_m, std::nullopt, std::nullopt};
+    if (motion.levelling)
+        row.levelling_deg = degrees(motion.levelling->angle_rad(time_s));
+    if (motion.swivel)
+        row.swivel_deg = degrees(motion.swivel->angle_rad(time_s));
+    return row;
+}
+
+} // namespace
+
+std::string no_illuminance(const std::string& technique) { return fmt::format("technique {} does not compute an illuminance", technique); }
+
+Wanted stored_results(const View& view, const Capture& capture) {
+    Wanted wanted;
+    wanted.colour = view.projection == Projection::perspective; // a map is shown by its lux, in false colour
+    wanted.illuminance = wanted.luminance = capture.exr;
+    wanted.depth = capture.exr && view.projection == Projection::perspective;
+    wanted.target = capture.exr && view.projection == Projection::map;
+    if (view.projection == Projection::map)
+        wanted.illuminance = true; // the bird's-eye lux map of the report
+    return wanted;
+}
+
+int ticks_to_play(const Drive& drive, TickRange range) {
+    return std::max(0, std::min(tick_count(drive) - 1, range.last) - std::max(0, range.first) + 1);
+}
+
+PlayedVariant play(const Drive& drive, const Route& route, const Variant& variant, const PlayOptions& options, const Draw& draw,
+                   Writers& writers) {
+    PlayedVariant played;
+    played.drive = drive.name;
+    played.title = drive.title;
+    played.variant = variant.name;
+    played.technique = drive.technique;
+    played.drawn_by = std::make_shared<const DrawnBy>(drawn_by(drive));
+    for (const MountedLamp& lamp : variant.lamps)
+        played.lamps.emplace_back(lamp.name, lamp.file->name);
+    played.ticks_planned = ticks_to_play(drive, options.ticks);
+    FrameTimes times(options.warm_up, options.profile);
+    Pictures pictures(drive, route, options, played, writers, times);
+    const ExtentFold extent(drive, route);
+    Measuring measuring(extent, played.extents);
+    ProbeFold probes(drive, route);
+    SeeingFold seeing(drive, route);
+
+    State state = start(drive);
+    while (state.tick < std::max(0, options.ticks.first) && state.tick + 1 < tick_count(drive))
+        state = advance(state, drive);
+    for (int k = 0; k < played.ticks_planned; ++k, state = advance(state, drive)) {
+        const Moment moment = moment_at(state, drive, route, variant);
+        if (options.log)
+            *options.log << logged_moment(variant.name, moment);
+        if (times.begin_moment(pictures.kind(moment))) {
+            measuring.finish();
+            writers.finish();
+        }
+        // All drawing comes first, so that what it leaves to others does not slow it down where its time is taken.
+        pictures.draw(moment, draw);
+        std::optional<ExtentDrawing> drawn;
+        if (drive.extent) {
+            drawn = extent.draw(moment, draw);
+            times.add("extent map", drawn->frame);
+            if (drawn->frame.illuminance_lx.empty())
+                played.no_road_lx = no_illuminance(drive.technique);
+            if (drawn->frame.target_lx.empty())
+                played.no_target_lx = played.no_road_lx.empty()
+                                          ? fmt::format("technique {} does not compute the illuminance of targets", drive.technique)
+                                          : played.no_road_lx;
+        }
+        probes.add(moment, draw);
+        times.end_moment();
+        seeing.add(moment, variant);
+        pictures.store(moment);
+        if (drawn)
+            measuring.add(std::move(*drawn));
+        played.speed_mps.emplace_back(moment.time_s, moment.speed_mps);
+        if (variant.motion && variant.motion->car)
+            played.car.push_back(car_row(*variant.motion, moment.time_s));
+        ++played.ticks_done;
+        if (!options.go_on(played.ticks_done))
+            break;
+    }
+    measuring.finish();
+    writers.finish();
+    times.finish(played);
+    pictures.finish(played.ticks_done == played.ticks_planned);
+    played.readings = probes.finish();
+    std::ranges::copy(seeing.readings(), std::back_inserter(played.readings));
+    played.seeing = seeing.series();
+    return played;
+}
+
+} // namespace fernlicht

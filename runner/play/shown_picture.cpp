@@ -1,0 +1,87 @@
+#include "runner/play/shown_picture.h"
+
+#include "metrics/display/display_colour.h"
+#include "metrics/display/night_vision.h"
+#include "metrics/display/scatter.h"
+#include "scenarios/display/tone_curve.h"
+#include "scenarios/values/files.h"
+
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fernlicht {
+namespace {
+
+/// Of a pixel in the middle of the picture.
+double scene_pixel_deg(double vertical_fov_rad, int height) {
+    return std::atan(2.0 * std::tan(0.5 * vertical_fov_rad) / height) * 180.0 / std::numbers::pi;
+}
+
+Image<glm::vec3> behind_windscreen(const Image<glm::vec3>& light, double vertical_fov_rad, const Windscreen& screen) {
+    Image<glm::vec3> seen = scattered(light, vertical_fov_rad, windscreen_scatter(screen.haze));
+    for (glm::vec3& pixel : seen.pixels())
+        pixel *= static_cast<float>(screen.transmittance);
+    return seen;
+}
+
+} // namespace
+
+ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper) {
+    using Clock = std::chrono::steady_clock;
+    ShownPicture shown;
+    Image<glm::vec3> seen = light;
+    const auto stage = [&](const char* name, auto make) {
+        const Clock::time_point began = Clock::now();
+        make();
+        shown.stage_s.emplace_back(name, std::chrono::duration<double>(Clock::now() - began).count());
+    };
+    const double pixel_deg = scene_pixel_deg(vertical_fov_rad, std::max(light.height(), 1));
+    if (display.windscreen)
+        stage("windscreen", [&] { seen = behind_windscreen(seen, vertical_fov_rad, *display.windscreen); });
+    if (display.veil)
+        stage("veil in the eye", [&] {
+            seen = scattered(seen, vertical_fov_rad, eye_scatter({display.veil->age_years, display.veil->pigmentation}));
+        });
+    if (display.night_colours)
+        stage("colours at night", [&] { seen = colours_at_night(seen, pixel_deg); });
+    if (display.night_sharpness)
+        stage("sharpness at night", [&] { seen = sharpness_at_night(seen, pixel_deg); });
+    const DisplayProfile profile = display.profile.value_or(srgb_display());
+    shown.bits = profile.bits;
+    stage("tone mapper and display", [&] { shown.codes = display_picture(profile, mapper, seen); });
+    return shown;
+}
+
+bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& mapper) {
+    return display.after_drawing() || mapper.kind == ToneMapperKind::histogram;
+}
+
+std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
+    std::string text = std::string(name(mapper.kind));
+    if (mapper.kind == ToneMapperKind::rational || mapper.kind == ToneMapperKind::logarithmic)
+        text += fmt::format(" s={:.6g}", mapper.s);
+    if (mapper.kind == ToneMapperKind::histogram)
+        text += fmt::format(" curve={}", content_hash(mapper.curve.data(), mapper.curve.size() * sizeof(ToneKnot)).substr(0, 8));
+    text += fmt::format(" white={:.6g} cd/m2; display {}", mapper.l_max_cdm2, display.profile ? display.profile->name : "srgb");
+    if (!display.profile && is_shown_after_drawing(display, mapper))
+        text += ", luminance kept";
+    if (display.profile) {
+        const std::string profile = write_display_profile(*display.profile);
+        text += fmt::format(" ({})", content_hash(profile.data(), profile.size()).substr(0, 8));
+    }
+    if (display.windscreen)
+        text += fmt::format("; windscreen {:g} haze {:g}", display.windscreen->transmittance, display.windscreen->haze);
+    if (display.veil)
+        text += fmt::format("; eye of {:g} years, pigmentation {:g}", display.veil->age_years, display.veil->pigmentation);
+    if (display.night_colours)
+        text += "; colours at night";
+    if (display.night_sharpness)
+        text += "; sharpness at night";
+    if (display.adaptation)
+        text += "; adapting";
+    return text;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,66 @@
+#include "runner/play/stage.h"
+
+#include "metrics/folds/limit_names.h"
+#include "metrics/folds/seeing_fold.h"
+#include "renderer/technique.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/staged_scene.h"
+#include "scenarios/drives/story/tell_story.h"
+#include "scenarios/roads/mirrored_road.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+
+namespace {
+
+/// The road, and what the drive's storyboard makes of drive and route on it.
+RoadNetwork network_of(Drive& drive) {
+    RoadNetwork network = read_opendrive(drive.road_file);
+    if (drive.mirrored_road)
+        network = mirrored(std::move(network));
+    tell_story(drive, network);
+    return network;
+}
+
+/// Lanes are named as the road's file has them.
+Route::Start start_of(const Drive& drive) {
+    Route::Start start = drive.start;
+    if (drive.mirrored_road)
+        start.lane = -start.lane;
+    return start;
+}
+
+} // namespace
+
+Stage::Stage(Drive d)
+    : drive(std::move(d)), network(network_of(drive)), route(network, start_of(drive), drive.via),
+      scene(staged_scene(drive, network, route)) {
+    check_limit_names(drive, SeeingFold(drive, route).readings());
+    technique_named(drive.technique, drive.file);
+    if (drive.extent && !drive.traffic.empty())
+        drive.notes.emplace_back(
+            "other road users: pictures and lux maps show the light of all lamps; reach, width and area are of the own lamps "
+            "alone. Drawn, they end where a body hides road or target; the calculation, and what aim and flux change, know "
+            "no bodies");
+}
+
+std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant) {
+    std::vector<Moment> moments;
+    State state = start(stage.drive);
+    for (const int tick : ticks) {
+        while (state.tick < tick)
+            state = advance(state, stage.drive);
+        moments.push_back(moment_at(state, stage.drive, stage.route, variant));
+    }
+    return moments;
+}
+
+void add_inputs(FilesRead& all, const FilesRead& more) {
+    for (const FileRead& file : more)
+        if (std::none_of(all.begin(), all.end(), [&](const FileRead& known) { return known.path == file.path; }))
+            all.push_back(file);
+}
+
+} // namespace fernlicht

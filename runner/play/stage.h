@@ -1,0 +1,27 @@
+// Everything of a drive that does not change over its lamp sets: read and checked before the first frame.
+#pragma once
+
+#include "scenarios/drives/play/moment.h"
+#include "scenarios/values/scene.h"
+
+namespace fernlicht {
+
+struct Stage {
+    Drive drive;
+    RoadNetwork network;
+    Route route; ///< points into `network`: a stage stays where it was made
+    Scene scene;
+
+    /// Throws InputError for what the drive's road, route or technique lacks.
+    explicit Stage(Drive drive);
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+};
+
+/// The moments at these ticks, which rise.
+std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant);
+
+/// Adds what is not there yet, by path.
+void add_inputs(FilesRead& all, const FilesRead& more);
+
+} // namespace fernlicht

@@ -1,0 +1,65 @@
+#include "runner/write/page_base.h"
+
+#include "runner/files/clean_text.h"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace fernlicht {
+
+using kainjow::mustache::data;
+
+const char* variant_colour(std::size_t index) {
+    constexpr std::array<const char*, 6> colours{"#c24e00", "#0068a8", "#00795a", "#a8407f", "#8a6a00", "#4a4a4a"};
+    return colours[index % colours.size()];
+}
+
+std::string figure(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-')
+        text.erase(0, 1); // minus nothing
+    if (text.front() == '-')
+        text.replace(0, 1, "\u2212");
+    return text;
+}
+
+std::string signed_figure(double value, int decimals) {
+    const std::string text = figure(value, decimals);
+    const bool negative = text.starts_with("\u2212"), nothing = text.find_first_not_of("0.") == std::string::npos;
+    return negative || nothing ? text : "+" + text;
+}
+
+data context_part(const RunContext& context) {
+    data part;
+    part.set("command", clean_text(context.command));
+    part.set("started_utc", clean_text(context.started_utc));
+    data facts{data::type::list}, inputs{data::type::list};
+    const auto fact = [&](const std::string& name, const std::string& text) {
+        data row;
+        row.set("name", clean_text(name));
+        row.set("text", text.empty() ? "not known" : clean_text(text));
+        facts.push_back(row);
+    };
+    fact("Started", context.started_utc);
+    fact("Seed", fmt::format("{}", context.seed));
+    fact("Backend", context.backend);
+    fact("OpenGL renderer", context.gl_renderer);
+    fact("OpenGL version", context.gl_version);
+    fact("CPU", context.cpu);
+    fact("System", context.os);
+    for (const auto& [name, version] : context.versions)
+        fact(name, version);
+    for (const FileRead& file : context.inputs) {
+        data row;
+        row.set("path", clean_text(file.path.string()));
+        row.set("bytes", fmt::format("{}", file.bytes));
+        row.set("xxh128", clean_text(file.xxh128));
+        inputs.push_back(row);
+    }
+    part.set("facts", facts);
+    part.set("has_inputs", !context.inputs.empty());
+    part.set("inputs", inputs);
+    return part;
+}
+
+} // namespace fernlicht

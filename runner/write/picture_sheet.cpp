@@ -1,0 +1,147 @@
+#include "runner/write/picture_sheet.h"
+
+#include "runner/write/plots/png.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+using plots::Canvas;
+using plots::Colour;
+
+constexpr Colour ink{24, 24, 32}, faint{100, 100, 108};
+constexpr double edge_px = 16.0, gap_px = 12.0, caption_px = 26.0, head_px = 54.0, key_px = 22.0, legend_px = 112.0;
+/// Letters grow with wide panels: such sheets are shown smaller than they are.
+constexpr double plain_letters_px = 560.0, largest_letters = 1.8;
+constexpr int least_width_px = 320, most_width_px = 1024;
+constexpr double signed_decades = 3.0;
+
+Image<Colour> magnified(const Image<Colour>& pixels, int factor) {
+    if (factor == 1)
+        return pixels;
+    Image<Colour> out(pixels.width() * factor, pixels.height() * factor);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            out.at(x, y) = pixels.at(x / factor, y / factor);
+    return out;
+}
+
+/// At the line's right end, of dashed ones at the left: of lines beside each other both can be read.
+void draw_label(Canvas& canvas, const SheetLine& line, double scale, double width, double letters) {
+    const bool left = !line.dash.empty();
+    const auto [leftmost, rightmost] = std::ranges::minmax_element(line.points, {}, &plots::Point::x);
+    const plots::Point& end = left ? *leftmost : *rightmost;
+    const double room = 26.0 * letters;
+    canvas.text(std::clamp(end.x * scale + (left ? -3.0 : 3.0), left ? room : 2.0, left ? width : width - room),
+                end.y * scale + 4.0 * letters, line.label,
+                {.size_px = 11.0 * letters, .colour = line.colour, .anchor = left ? "end" : "start", .halo = "#000000"});
+}
+
+void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top, double scale, double letters) {
+    const double width = panel.pixels.width() * scale, height = panel.pixels.height() * scale;
+    canvas.picture(left, top, width, height, scale > 1.0 ? magnified(panel.pixels, static_cast<int>(scale)) : panel.pixels);
+    canvas.begin_window(left, top, width, height);
+    for (const SheetLine& line : panel.lines) {
+        plots::Polyline points = line.points;
+        for (plots::Point& p : points)
+            p = {p.x * scale, p.y * scale};
+        canvas.line(points, {.colour = line.colour, .width_px = 1.3 * letters, .dash = line.dash});
+    }
+    for (const SheetLine& line : panel.lines)
+        if (!line.label.empty() && !line.points.empty())
+            draw_label(canvas, line, scale, width, letters);
+    canvas.end_window();
+    canvas.text(left, top + height + 17.0 * letters, panel.caption, {.size_px = 13.0 * letters, .colour = ink});
+}
+
+void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double top, double height, double letters) {
+    constexpr int steps = 256;
+    Image<Colour> bar(1, steps);
+    for (int i = 0; i < steps; ++i)
+        bar.at(0, i) = legend.colour(1.0 - (i + 0.5) / steps);
+    canvas.picture(left, top, 14.0, height, bar);
+    canvas.rectangle(left, top, 14.0, height, {.stroke = css(ink)});
+    double widest = 0.0;
+    for (const auto& [position, text] : legend.ticks) {
+        const double y = top + height * (1.0 - position);
+        canvas.line({{left + 14.0, y}, {left + (text.empty() ? 16.0 : 18.0), y}}, {.colour = ink});
+        canvas.text(left + 21.0, y + 4.0 * letters, text, {.size_px = 11.0 * letters, .colour = ink});
+        widest = std::max(widest, plots::text_width(text, 11.0 * letters));
+    }
+    canvas.text(left + 30.0 + 16.0 * letters + widest, top + 0.5 * height, legend.label,
+                {.size_px = 12.0 * letters, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
+}
+
+} // namespace
+
+std::string svg_of_sheet(const Sheet& sheet) {
+    const Image<Colour>& first = sheet.panels.at(0).pixels;
+    const double scale = first.width() < least_width_px  ? std::ceil(static_cast<double>(least_width_px) / first.width())
+                         : first.width() > most_width_px ? static_cast<double>(most_width_px) / first.width()
+                                                         : 1.0;
+    const double width = first.width() * scale, height = first.height() * scale;
+    const double letters = std::clamp(0.5 * (width + std::max(width, height)) / plain_letters_px, 1.0, largest_letters);
+    const double top = letters * (head_px + (sheet.key.empty() ? 0.0 : key_px));
+    const double across = static_cast<double>(sheet.panels.size()) * (width + gap_px) - gap_px;
+    const double heading = std::max(plots::text_width(sheet.title, 16.0 * letters), plots::text_width(sheet.subtitle, 12.0 * letters));
+    Canvas canvas(2.0 * edge_px + std::max(across + (sheet.legend ? legend_px * letters : 0.0), heading),
+                  top + height + letters * caption_px + 8.0, sheet.title);
+    canvas.text(edge_px, 24.0 * letters, sheet.title, {.size_px = 16.0 * letters, .colour = ink, .bold = true});
+    canvas.text(edge_px, 42.0 * letters, sheet.subtitle, {.size_px = 12.0 * letters, .colour = faint});
+    double at = edge_px;
+    for (const auto& [name, line] : sheet.key) {
+        const double middle = letters * (head_px + 7.0), sample = 30.0 * letters;
+        canvas.rectangle(at, middle - 6.0 * letters, sample, 12.0 * letters, {.fill = "#333333"});
+        canvas.line({{at, middle}, {at + sample, middle}}, {.colour = line.colour, .width_px = 2.0 * letters, .dash = line.dash});
+        canvas.text(at + sample + 6.0, middle + 5.0 * letters, name, {.size_px = 12.0 * letters, .colour = ink});
+        at += sample + 24.0 + plots::text_width(name, 12.0 * letters);
+    }
+    for (std::size_t i = 0; i < sheet.panels.size(); ++i)
+        draw_panel(canvas, sheet.panels[i], edge_px + static_cast<double>(i) * (width + gap_px), top, scale, letters);
+    if (sheet.legend)
+        draw_legend(canvas, *sheet.legend, edge_px + across + 14.0, top, height, letters);
+    return canvas.finish();
+}
+
+std::string png_of_sheet(const Sheet& sheet) { return plots::png_of_svg(svg_of_sheet(sheet)); }
+
+double rounded_up(double value) {
+    if (!(value > 0.0))
+        return 1.0;
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (value <= digit * power * (1.0 + 1e-12))
+            return digit * power;
+    return 10.0 * power;
+}
+
+SheetLegend legend_of(const plots::Axis& axis) {
+    SheetLegend legend{
+        axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]", [](double t) { return plots::sequential(t); }, {}};
+    for (const plots::Tick& tick : plots::ticks_of(axis, 12))
+        legend.ticks.emplace_back(plots::position(axis, tick.value), tick.label);
+    return legend;
+}
+
+double SignedScale::position(double difference) const {
+    const double size = std::abs(difference) / top;
+    const double t = size > 0.0 ? std::clamp(1.0 + std::log10(size) / signed_decades, 0.0, 1.0) : 0.0;
+    return difference < 0.0 ? -t : t;
+}
+
+plots::Colour SignedScale::colour(double difference) const { return plots::diverging(position(difference)); }
+
+SheetLegend SignedScale::legend(const std::string& label, const std::string& unit) const {
+    SheetLegend legend{label + " [" + unit + "], log scale", [](double t) { return plots::diverging(2.0 * t - 1.0); }, {}};
+    for (const double decade : {1.0, 0.1, 0.01}) {
+        legend.ticks.emplace_back(0.5 + 0.5 * position(decade * top), "+" + plots::number(decade * top));
+        legend.ticks.emplace_back(0.5 - 0.5 * position(decade * top), "-" + plots::number(decade * top));
+    }
+    legend.ticks.emplace_back(0.5, "0 \u00b1 " + plots::number(top * std::pow(10.0, -signed_decades)));
+    return legend;
+}
+
+} // namespace fernlicht

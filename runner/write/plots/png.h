@@ -1,0 +1,20 @@
+// Pixels and drawings to PNG bytes, in memory.
+#pragma once
+
+#include "runner/write/plots/colour.h"
+#include "scenarios/values/image.h"
+
+#include <string>
+
+namespace fernlicht::plots {
+
+/// 8-bit RGB, sRGB encoded. The same pixels give the same bytes. Throws std::runtime_error when the image is empty or too large (32767).
+std::string png_of_pixels(const Image<Colour>& pixels);
+
+/// The drawing at `scale` times its own size in pixels. Throws std::invalid_argument with librsvg's reason when it is no valid SVG.
+std::string png_of_svg(const std::string& svg, double scale = 1.0);
+
+/// RFC 4648, with padding.
+std::string base64(const std::string& bytes);
+
+} // namespace fernlicht::plots

@@ -1,0 +1,391 @@
+#include "scenarios/drives/drive.h"
+
+#include "scenarios/drives/keys/bus_keys.h"
+#include "scenarios/drives/keys/control_keys.h"
+#include "scenarios/drives/keys/daylight_keys.h"
+#include "scenarios/drives/keys/display_keys.h"
+#include "scenarios/drives/keys/flow_list.h"
+#include "scenarios/drives/keys/seeing_keys.h"
+#include "scenarios/drives/keys/shadow_keys.h"
+#include "scenarios/drives/keys/storyboard_keys.h"
+#include "scenarios/yaml/yaml_text.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <iterator>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+/// Writes lines at a depth of two spaces each.
+class Lines {
+  public:
+    template <class... Args> void add(int depth, fmt::format_string<Args...> format, Args&&... args) {
+        text_.append(static_cast<std::size_t>(2 * depth), ' ');
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+        text_ += '\n';
+    }
+    void add_all(const std::string& lines) { text_ += lines; }
+    std::string take() { return std::move(text_); }
+
+  private:
+    std::string text_;
+};
+
+std::string_view word(SourceKind kind) { return kind == SourceKind::filament ? "filament" : kind == SourceKind::arc ? "arc" : "led"; }
+std::string_view word(BetweenSamples rule) { return rule == BetweenSamples::linear_cd ? "linear_cd" : "log_cd"; }
+std::string_view word(TypeCAxis axis) {
+    return axis == TypeCAxis::automatic ? "automatic" : axis == TypeCAxis::horizontal ? "horizontal" : "nadir";
+}
+
+void write_texture(Lines& out, int depth, const LampReadOptions& options) {
+    const double(&h)[2] = options.texture_h_extent_deg;
+    const double(&v)[2] = options.texture_v_extent_deg;
+    const std::string h_extent = h[0] == h[1] ? "" : fmt::format(", h_extent_deg: [{}, {}]", h[0], h[1]);
+    const std::string v_extent = v[0] == v[1] ? "" : fmt::format(", v_extent_deg: [{}, {}]", v[0], v[1]);
+    out.add(depth, "texture: {{scale_lx: {}, distance_m: {}{}{}}}", options.texture_scale_lx, options.texture_distance_m, h_extent,
+            v_extent);
+}
+
+void write_file_keys(Lines& out, int depth, const Drive& drive, const std::shared_ptr<const LampFile>& file) {
+    for (const LampSource& source : drive.lamp_sources) {
+        if (source.file != file)
+            continue;
+        out.add(depth, "file: {}", quoted(source.path.string()));
+        out.add(depth, "between_samples: {}", word(source.options.rule));
+        out.add(depth, "type_c_axis: {}", word(source.options.type_c_axis));
+        write_texture(out, depth, source.options);
+        if (source.options.mirrored)
+            out.add(depth, "mirrored: true");
+        return;
+    }
+    throw std::invalid_argument("write_drive: a lamp's file is not among the drive's lamp_sources");
+}
+
+void write_colour(Lines& out, int depth, const LampColour& colour) {
+    out.add(depth, "colour: {{linear_srgb: {}, sp_ratio: {}, cct_k: {}}}", flow_list(colour.linear_srgb), colour.sp_ratio, colour.cct_k);
+}
+
+void write_lamp_keys(Lines& out, const Drive& drive, const MountedLamp& lamp) {
+    out.add(3, "{}:", quoted(lamp.name));
+    write_file_keys(out, 4, drive, lamp.file);
+    out.add(4, "position_m: {}", flow_list(lamp.position_m));
+    if (const Turn& m = lamp.mount; m != Turn{})
+        out.add(4, "mount_turn: {{{}, {}, {}}}", angle_entry("yaw", m.yaw_rad), angle_entry("pitch", m.pitch_rad),
+                angle_entry("roll", m.roll_rad));
+    out.add(4, "aim: {{{}, {}, {}}}", angle_entry("pitch", lamp.pitch_rad), angle_entry("yaw", lamp.yaw_rad),
+            angle_entry("roll", lamp.roll_rad));
+    out.add(4, "level: {}", lamp.level);
+    out.add(4, "source: {}", word(lamp.source));
+    out.add(4, "voltage_v: {}", lamp.voltage_v);
+    out.add(4, "reference_voltage_v: {}", lamp.reference_voltage_v);
+    write_colour(out, 4, lamp.colour);
+    out.add(4, "photometric_distance_m: {}", lamp.photometric_distance_m);
+}
+
+void write_street_lamps(Lines& out, const Drive& drive) {
+    if (drive.street_lamps.empty())
+        return;
+    out.add(0, "street_lamps:");
+    for (const StreetLampRow& row : drive.street_lamps) {
+        out.add(1, "{}:", quoted(row.name));
+        write_file_keys(out, 2, drive, row.file);
+        if (row.on_objects.empty()) {
+            out.add(2, "first_m: {}", row.first_m);
+            out.add(2, "last_m: {}", row.last_m);
+            out.add(2, "every_m: {}", row.every_m);
+            out.add(2, "beside_m: {}", row.beside_m);
+        } else {
+            out.add(2, "on_objects:");
+            for (const std::string& word : row.on_objects)
+                out.add(3, "- {}", quoted(word));
+        }
+        if (row.on_objects.empty() || row.height_m > 0.0)
+            out.add(2, "height_m: {}", row.height_m);
+        out.add(2, "arm_m: {}", row.arm_m);
+        out.add(2, "{}", angle_entry("tilt", row.tilt_rad));
+        out.add(2, "level: {}", row.level);
+        write_colour(out, 2, row.colour);
+    }
+}
+
+void write_change(Lines& out, const Drive& drive, const LampChange& change) {
+    out.add(3, "- at_s: {}", change.time_s);
+    out.add(4, "lamp: {}", quoted(change.lamp));
+    if (change.level)
+        out.add(4, "level: {}", *change.level);
+    std::vector<std::string> aim;
+    if (change.pitch_rad)
+        aim.push_back(angle_entry("pitch", *change.pitch_rad));
+    if (change.yaw_rad)
+        aim.push_back(angle_entry("yaw", *change.yaw_rad));
+    if (change.roll_rad)
+        aim.push_back(angle_entry("roll", *change.roll_rad));
+    if (!aim.empty())
+        out.add(4, "aim: {{{}}}", fmt::join(aim, ", "));
+    if (change.file)
+        write_file_keys(out, 4, drive, change.file);
+    if (change.source)
+        out.add(4, "source: {}", word(*change.source));
+    if (change.colour)
+        write_colour(out, 4, *change.colour);
+}
+
+void write_axle(Lines& out, std::string_view name, const AxleParameters& axle) {
+    out.add(1,
+            "{}: {{unsprung_mass_kg: {}, spring_n_per_m: {}, damper_ns_per_m: {}, tyre_spring_n_per_m: {}, "
+            "cornering_stiffness_n_per_rad: {}, slip_stiffness_n: {}, wheel_inertia_kgm2: {}}}",
+            name, axle.unsprung_mass_kg, axle.spring_n_per_m, axle.damper_ns_per_m, axle.tyre_spring_n_per_m,
+            axle.cornering_stiffness_n_per_rad, axle.slip_stiffness_n, axle.wheel_inertia_kgm2);
+}
+
+void write_vehicle(Lines& out, const VehicleParameters& car) {
+    out.add(0, "vehicle:");
+    out.add(1, "model: single-track");
+    out.add(1, "mass_kg: {}", car.mass_kg);
+    out.add(1, "front_load: {}", car.front_load);
+    out.add(1, "centre_of_gravity_height_m: {}", car.centre_of_gravity_height_m);
+    out.add(1, "yaw_inertia_kgm2: {}", car.yaw_inertia_kgm2);
+    out.add(1, "pitch_inertia_kgm2: {}", car.pitch_inertia_kgm2);
+    write_axle(out, "front", car.front);
+    write_axle(out, "rear", car.rear);
+    out.add(1, "relaxation_length_m: {}", car.relaxation_length_m);
+    out.add(1, "friction: {}", car.friction);
+    out.add(1, "wheel_radius_m: {}", car.wheel_radius_m);
+    out.add(1, "brake_balance: {}", car.brake_balance);
+    out.add(1, "anti_pitch: {}", car.anti_pitch);
+    out.add(1, "drag_area_m2: {}", car.drag_area_m2);
+    out.add(1, "rolling_resistance: {}", car.rolling_resistance);
+    out.add(1, "road_steps:{}", car.road_steps.empty() ? " []" : "");
+    for (const RoadStep& step : car.road_steps)
+        out.add(2, "- {{at_m: {}, height_m: {}}}", step.at_m, step.height_m);
+    out.add(1, "solver: {}", name(car.solver));
+    out.add(1, "tolerance: {}", car.tolerance);
+}
+
+std::string actuator_keys(const ActuatorParameters& actuator) {
+    return fmt::format("natural_frequency_hz: {}, damping: {}, rate_limit_rad_s: {}, {}, {}, control_period_s: {}, dead_time_s: {}",
+                       actuator.natural_frequency_hz, actuator.damping, actuator.rate_limit_rad_s, angle_entry("least", actuator.least_rad),
+                       angle_entry("greatest", actuator.greatest_rad), actuator.control_period_s, actuator.dead_time_s);
+}
+
+void write_actuators(Lines& out, const Variant& variant) {
+    if (!variant.levelling && !variant.swivel)
+        return;
+    out.add(2, "actuators:");
+    if (const auto& levelling = variant.levelling)
+        out.add(3, "levelling: {{control: {}, {}}}", levelling->control == LevellingControl::slow ? "static" : "dynamic",
+                actuator_keys(levelling->actuator));
+    if (const auto& swivel = variant.swivel)
+        out.add(3, "swivel: {{preview_s: {}, {}}}", swivel->preview_s, actuator_keys(swivel->actuator));
+}
+
+void write_variants(Lines& out, const Drive& drive) {
+    out.add(0, "variants:");
+    for (const Variant& variant : drive.variants) {
+        out.add(1, "{}:", quoted(variant.name));
+        out.add(2, "lamps:");
+        for (const MountedLamp& lamp : variant.lamps)
+            write_lamp_keys(out, drive, lamp);
+        out.add(2, "changes:{}", variant.changes.empty() ? " []" : "");
+        for (const LampChange& change : variant.changes)
+            write_change(out, drive, change);
+        write_actuators(out, variant);
+        out.add_all(write_control(drive, variant));
+    }
+}
+
+std::string traffic_place(const TrafficRow& row) {
+    if (row.place == TrafficPlace::storyboard) {
+        std::string names;
+        for (const std::string& entity : row.entities)
+            names += (names.empty() ? "" : ", ") + quoted(entity);
+        return row.entities.empty() ? "entities: all" : fmt::format("entities: [{}]", names);
+    }
+    if (row.place == TrafficPlace::lane)
+        return fmt::format("lane: {{{}lane: {}, s_m: {}}}", row.start.road.empty() ? "" : fmt::format("road: {}, ", quoted(row.start.road)),
+                           row.start.lane, row.start.s_m);
+    return fmt::format("{}: {{gap_m: {}}}", row.place == TrafficPlace::ahead ? "ahead" : "oncoming", row.gap_m);
+}
+
+void write_traffic(Lines& out, const Drive& drive) {
+    if (drive.traffic_rows.empty())
+        return;
+    out.add(0, "traffic_light: {{least_lx: {}}}", drive.least_traffic_lx);
+    out.add(0, "traffic:");
+    for (const TrafficRow& row : drive.traffic_rows) {
+        out.add(1, "{}:", quoted(row.name));
+        out.add(2, "kind: {}", road_user_kinds[static_cast<std::size_t>(row.kind)]);
+        if (row.size_m)
+            out.add(2, "size_m: {}", flow_list(*row.size_m));
+        if (!row.model.empty())
+            out.add(2, "model: {}", quoted(row.model.string()));
+        if (row.model_yaw_rad != 0.0)
+            out.add(2, "{}", angle_entry("yaw", row.model_yaw_rad));
+        if (row.model_scale != 1.0)
+            out.add(2, "scale: {}", row.model_scale);
+        out.add(2, "{}", traffic_place(row));
+        if (row.place != TrafficPlace::storyboard)
+            out.add(2, "speed:");
+        for (const SpeedPoint& point : row.speed)
+            out.add(3, "- {{at_s: {}, speed_mps: {}}}", point.time_s, point.speed_mps);
+        if (!row.lamps.empty())
+            out.add(2, "lamps:");
+        for (const MountedLamp& lamp : row.lamps)
+            write_lamp_keys(out, drive, lamp);
+        if (!row.changes.empty())
+            out.add(2, "changes:");
+        for (const LampChange& change : row.changes)
+            write_change(out, drive, change);
+        out.add(2, "face_m: [{}, {}]", row.face_m.x, row.face_m.y);
+        out.add(2, "tail_cd: {}", row.tail_cd);
+        out.add(2, "brake_cd: {}", row.brake_cd);
+        if (row.place != TrafficPlace::storyboard)
+            out.add(2, "repeat: {{count: {}, every_m: {}}}", row.count, row.every_m);
+    }
+}
+
+void write_views(Lines& out, const Drive& drive) {
+    out.add(0, "views:");
+    for (const View& view : drive.views) {
+        out.add(1, "{}:", quoted(view.name));
+        if (view.projection == Projection::map) {
+            out.add(2, "map: {{ahead_m: {}, behind_m: {}, left_m: {}, right_m: {}}}", view.map_ahead_m, view.map_behind_m, view.map_left_m,
+                    view.map_right_m);
+        } else {
+            out.add(2, "position_m: {}", flow_list(view.position_m));
+            out.add(2, "{}", angle_entry("yaw", view.yaw_rad));
+            out.add(2, "{}", angle_entry("pitch", view.pitch_rad));
+            out.add(2, "{}", angle_entry("roll", view.roll_rad));
+            out.add(2, "{}", angle_entry("vertical_fov", view.vertical_fov_rad));
+            if (view.mirrored)
+                out.add(2, "mirrored: true");
+        }
+        out.add(2, "resolution_px: [{}, {}]", view.width_px, view.height_px);
+    }
+}
+
+void write_scenery(Lines& out, const Drive& drive) {
+    if (!drive.scenery.empty())
+        out.add(0, "scenery:");
+    for (const PlacedModel& placed : drive.scenery) {
+        const glm::dvec3& p = placed.position_m;
+        out.add(1, "- model: {}", quoted(placed.file.string()));
+        if (placed.along_route)
+            out.add(2, "along: {{distance_m: {}, left_m: {}, above_m: {}}}", p.x, p.y, p.z);
+        else
+            out.add(2, "position_m: {}", flow_list(p));
+        for (const auto& [key, value] :
+             {std::pair("yaw", placed.yaw_rad), std::pair("pitch", placed.pitch_rad), std::pair("roll", placed.roll_rad)})
+            out.add(2, "{}", angle_entry(key, value));
+        out.add(2, "scale: {}", placed.scale);
+        out.add(2, "ground: {}", placed.ground);
+    }
+}
+
+void write_route(Lines& out, const Drive& drive) {
+    out.add(0, "road: {}", quoted(drive.road_file.string()));
+    if (drive.mirrored_road)
+        out.add(0, "mirrored_road: true");
+    if (drive.storyboard) { // says the route
+        out.add_all(write_storyboard(*drive.storyboard));
+        return;
+    }
+    out.add(0, "route:");
+    if (!drive.start.road.empty())
+        out.add(1, "road: {}", quoted(drive.start.road));
+    out.add(1, "lane: {}", drive.start.lane);
+    out.add(1, "s_m: {}", drive.start.s_m);
+    std::vector<std::string> via;
+    for (const std::string& road : drive.via)
+        via.push_back(quoted(road));
+    out.add(1, "via: [{}]", fmt::join(via, ", "));
+}
+
+void write_time(Lines& out, const Drive& drive) {
+    if (!drive.storyboard)
+        out.add(0, "speed:");
+    for (const SpeedPoint& point : drive.storyboard ? std::vector<SpeedPoint>{} : drive.speed)
+        out.add(1, "- {{at_s: {}, speed_mps: {}}}", point.time_s, point.speed_mps);
+    out.add(0, "step_s: {}", drive.step_s);
+    out.add(0, "duration_s: {}", drive.duration_s);
+}
+
+/// Of a drive with a storyboard only what the drive itself says: the storyboard's environments are told again.
+void write_sky(Lines& out, const Drive& drive) {
+    if (!drive.storyboard || drive.storyboard->own_daylight)
+        out.add_all(write_daylight(drive.daylight));
+    const std::string weather = !drive.storyboard || drive.storyboard->own_weather ? write_weather(drive.weather) : "";
+    out.add_all(weather.empty() && drive.storyboard && drive.storyboard->own_weather ? "weather: {wetness: 0}\n" : weather);
+}
+
+void write_measure(Lines& out, const Drive& drive) {
+    out.add(0, "measure:");
+    if (const auto& extent = drive.extent) {
+        out.add(1, "extent:");
+        out.add(2, "limits_lx: {}", flow_list(extent->limits_lx));
+        out.add(2, "target_height_m: {}", extent->target_height_m);
+        out.add(2, "ahead_m: {}", extent->ahead_m);
+        out.add(2, "beside_m: {}", extent->beside_m);
+        out.add(2, "cell_m: {}", extent->cell_m);
+        out.add(2, "width_at_m: {}", flow_list(extent->width_at_m));
+    } else {
+        out.add(1, "extent: false");
+    }
+    if (!drive.probes.empty())
+        out.add(1, "probes:");
+    for (const Probe& probe : drive.probes)
+        out.add(2, "{}: {{ahead_m: {}, left_m: {}, above_m: {}}}", quoted(probe.name), probe.ahead_m, probe.left_m, probe.above_m);
+}
+
+void write_limits(Lines& out, const Drive& drive) {
+    out.add(0, "limits:{}", drive.limits.empty() ? " []" : "");
+    for (const Limit& limit : drive.limits)
+        out.add(1, "- {{reading: {}{}{}}}", quoted(limit.reading), limit.at_least ? fmt::format(", at_least: {}", *limit.at_least) : "",
+                limit.at_most ? fmt::format(", at_most: {}", *limit.at_most) : "");
+}
+
+} // namespace
+
+std::string write_drive(const Drive& drive) {
+    Lines out;
+    out.add(0, "# The resolved drive, written by fernlicht {}: running it again gives the same results.", FERNLICHT_VERSION);
+    out.add(0, "fernlicht: 1");
+    out.add(0, "name: {}", quoted(drive.name));
+    out.add(0, "title: {}", quoted(drive.title));
+    write_route(out, drive);
+    write_time(out, drive);
+    write_sky(out, drive);
+    write_street_lamps(out, drive);
+    const std::string body = drive.own_car ? fmt::format(", model: {}, {}, scale: {}", quoted(drive.own_car->file.string()),
+                                                         angle_entry("yaw", drive.own_car->yaw_rad), drive.own_car->scale)
+                                           : "";
+    out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}{}}}", drive.bumper_m, drive.wheelbase_m, body);
+    if (drive.vehicle)
+        write_vehicle(out, *drive.vehicle);
+    write_variants(out, drive);
+    out.add_all(write_can(drive));
+    write_traffic(out, drive);
+    write_views(out, drive);
+    write_scenery(out, drive);
+    out.add(0, "capture: {{per_second: {}, all: {}, exr: {}, png: {}}}", drive.capture.per_second, drive.capture.all, drive.capture.exr,
+            drive.capture.png);
+    out.add_all(write_tone_mapper(drive.tone_mapper));
+    out.add_all(write_display(drive.display));
+    out.add(0, "technique: {}", quoted(drive.technique));
+    write_measure(out, drive);
+    out.add_all(write_seeing(drive.seeing));
+    write_limits(out, drive);
+    out.add_all(write_shadows(drive.shadows));
+    if (drive.beams && *drive.beams != eight_bit_texels)
+        out.add(0, "beams: {{width: {}, height: {}, bits: {}}}", drive.beams->width, drive.beams->height, drive.beams->bits);
+    else
+        out.add(0, "beams: {}", drive.beams ? "eight-bit" : "float");
+    out.add(0, "textures: {}", drive.textured ? "shipped" : "none");
+    out.add(0, "seed: {}", drive.seed);
+    return out.take();
+}
+
+} // namespace fernlicht

@@ -1,0 +1,81 @@
+#include "scenarios/drives/play/bus_recording.h"
+
+#include "scenarios/control/control_parameters.h"
+#include "scenarios/drives/play/control_play.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+/// The first lamp that is not named itself stands for all where a mapping says so.
+std::string one_signal(const std::string& name, const Variant& variant, const BusMapping& mapping) {
+    const std::size_t star = name.find('*');
+    if (star == std::string::npos || variant.lamps.empty())
+        return name;
+    const auto of_lamp = [&](const MountedLamp& lamp) { return name.substr(0, star) + lamp.name + name.substr(star + 1); };
+    for (const MountedLamp& lamp : variant.lamps)
+        if (std::ranges::find(mapping.inputs, of_lamp(lamp), &BusInput::name) == mapping.inputs.end())
+            return of_lamp(lamp);
+    return of_lamp(variant.lamps.front());
+}
+
+/// physical = (value - offset) / factor.
+BusOutput turned_round(const BusInput& input, const BusSource& source, const std::string& name, double period_s,
+                       const std::vector<CanDatabase>& databases) {
+    BusOutput output;
+    output.target = source;
+    output.name = name;
+    output.values = input.values;
+    output.opposite = input.opposite;
+    output.where = input.where;
+    if (input.factor || input.offset) {
+        output.factor = 1.0 / input.factor.value_or(1.0);
+        output.offset = -input.offset.value_or(0.0) * *output.factor;
+    }
+    const CanMessage* message = nullptr;
+    for (const CanDatabase& database : databases)
+        message = message ? message : database.message(source.message);
+    if (message && !(message->cycle_s && *message->cycle_s > 0.0))
+        output.cycle_s = period_s;
+    return output;
+}
+
+} // namespace
+
+std::vector<CanFrame> recorded_inputs(const Drive& drive, const Route& route, const Variant& variant, FilesRead& opened,
+                                      std::vector<std::string>& notes) {
+    if (!drive.can || drive.can->inputs.empty())
+        throw InputError({drive.file, 0, 0, "can.inputs"}, "found a drive without signals from a bus", "some to be recorded");
+    const std::vector<CanDatabase> databases = read_bus_databases(*drive.can, opened);
+    const ControlWorld world(drive, route, variant.motion ? variant.motion->car.get() : nullptr);
+    ControlPlay play(drive, variant, world);
+    BusMapping mapping;
+    mapping.channel = drive.can->channel;
+    for (const BusInput& input : drive.can->inputs) {
+        const std::string name = one_signal(input.name, variant, *drive.can);
+        mapping.outputs.push_back(turned_round(input, input.source, name, variant.control->period_s, databases));
+        if (input.also)
+            mapping.outputs.push_back(turned_round(input, *input.also, name, variant.control->period_s, databases));
+    }
+    BusOutputs outputs(mapping, databases, play.signals());
+    std::vector<CanFrame> frames;
+    const auto add = [&](std::int64_t until_ns) {
+        const std::vector<CanFrame> due = outputs.due(until_ns);
+        frames.insert(frames.end(), due.begin(), due.end());
+    };
+    while (play.next_s() < drive.duration_s) {
+        const std::int64_t now_ns = std::llround(1.0e9 * play.next_s());
+        add(now_ns - 1);
+        play.step();
+        outputs.set(play.signals());
+        add(now_ns);
+    }
+    add(std::llround(1.0e9 * drive.duration_s) - 1);
+    notes = outputs.notes();
+    return frames;
+}
+
+} // namespace fernlicht

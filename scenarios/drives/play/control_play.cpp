@@ -1,0 +1,129 @@
+#include "scenarios/drives/play/control_play.h"
+
+#include "scenarios/control/control_parameters.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/vehicle/car_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+ControlledCar controlled_car(const Drive& drive) {
+    ControlledCar car{drive.wheelbase_m, 0.0};
+    if (drive.vehicle) {
+        CarModel model;
+        model.car = *drive.vehicle;
+        model.wheelbase_m = drive.wheelbase_m;
+        car.self_steering_s2_per_m = model.self_steering_gradient();
+    }
+    return car;
+}
+
+SolverOptions actuator_options(const Drive& drive) {
+    return drive.vehicle ? SolverOptions{.solver = drive.vehicle->solver, .tolerance = drive.vehicle->tolerance} : SolverOptions{};
+}
+
+std::vector<ControlledLamp> controlled_lamps(const Variant& variant) {
+    std::vector<ControlledLamp> lamps;
+    for (const MountedLamp& lamp : variant.lamps) {
+        lamps.push_back({lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad, {}});
+        if (variant.control->glare_free)
+            for (const SegmentedLamp& segmented : variant.control->glare_free->lamps)
+                if (segmented.name == lamp.name)
+                    lamps.back().windows_deg = segmented.windows_deg;
+    }
+    return lamps;
+}
+
+std::optional<BusWriter> bus_writer(const Drive& drive, const Variant& variant) {
+    if (!drive.can || drive.can->scripted)
+        return std::nullopt;
+    std::vector<std::string> lamps;
+    for (const MountedLamp& lamp : variant.lamps)
+        lamps.push_back(lamp.name);
+    return BusWriter(*drive.can, lamps);
+}
+
+} // namespace
+
+ControlPlay::ControlPlay(const Drive& drive, const Variant& variant, const ControlWorld& world, const std::vector<CanDatabase>& databases)
+    : drive_(drive), variant_(variant), world_(world), resting_(world.load_on_springs(variant.control->load)),
+      writer_(bus_writer(drive, variant)), runner_(*variant.control, controlled_lamps(variant), controlled_car(drive), drive.step_s,
+                                                   actuator_options(drive), writer_ ? writer_->names() : std::vector<std::string>{}),
+      masks_(drive, variant), motion_(variant.motion ? *variant.motion : Motion{}) {
+    if (drive.can && !drive.can->outputs.empty() && !databases.empty())
+        outputs_.emplace(*drive.can, databases, runner_.signals());
+}
+
+void ControlPlay::step(const std::vector<BusValue>& values) {
+    ControlInputs inputs = world_.at(runner_.next_s(), *variant_.control);
+    if (writer_ && !values.empty())
+        inputs.written = writer_->at(values);
+    const std::int64_t now_ns = std::llround(1.0e9 * inputs.time_s);
+    send_until(now_ns - 1);
+    runner_.step(inputs);
+    if (outputs_)
+        outputs_->set(runner_.signals());
+    send_until(now_ns);
+}
+
+void ControlPlay::send_until(std::int64_t time_ns) {
+    if (!outputs_)
+        return;
+    const std::vector<CanFrame> frames = outputs_->due(time_ns);
+    motion_.sent.insert(motion_.sent.end(), frames.begin(), frames.end());
+}
+
+std::int64_t ControlPlay::next_output_ns() const { return outputs_ ? outputs_->next_ns() : std::numeric_limits<std::int64_t>::max(); }
+
+Motion ControlPlay::at(double time_s) {
+    Motion now{motion_.car, motion_.levelling, motion_.swivel, runner_.at(time_s), {}, {}};
+    now.control->body_pitch_rad = resting_.body_pitch_rad;
+    now.control->rear_lift_m = resting_.rear_lift_m;
+    masks_.add(*now.control);
+    return now;
+}
+
+Motion ControlPlay::finish() {
+    // Frames of the last period: the drive's end itself is no part of it.
+    send_until(std::llround(1.0e9 * drive_.duration_s) - 1);
+    motion_.control = runner_.finish(drive_.duration_s);
+    ControlRun& run = *motion_.control;
+    run.body_pitch_rad = resting_.body_pitch_rad;
+    run.rear_lift_m = resting_.rear_lift_m;
+    masks_.add(run);
+    motion_.notes.push_back(fmt::format("lamp control: {} ticks of {:g} ms", run.ticks, 1e3 * run.period_s));
+    motion_.notes.insert(motion_.notes.end(), run.notes.begin(), run.notes.end());
+    for (const std::vector<std::string>& notes : {masks_.notes(), outputs_ ? outputs_->notes() : std::vector<std::string>{}})
+        motion_.notes.insert(motion_.notes.end(), notes.begin(), notes.end());
+    return std::move(motion_);
+}
+
+void simulate_control(Drive& drive, const Route& route) {
+    if (drive.live || std::ranges::none_of(drive.variants, [](const Variant& variant) { return variant.control != nullptr; }))
+        return;
+    const std::shared_ptr<const CarRun> car = drive.vehicle ? drive.variants.front().motion->car : nullptr;
+    const ControlWorld world(drive, route, car.get());
+    const std::vector<CanDatabase> databases = drive.bus                                  ? drive.bus->databases
+                                               : drive.can && !drive.can->outputs.empty() ? read_bus_databases(*drive.can, drive.opened)
+                                                                                          : std::vector<CanDatabase>{};
+    for (Variant& variant : drive.variants) {
+        if (!variant.control)
+            continue;
+        try {
+            ControlPlay play(drive, variant, world, databases);
+            for (std::size_t tick = 0; play.next_s() < drive.duration_s; ++tick)
+                play.step(drive.bus ? drive.bus->ticks[tick] : std::vector<BusValue>{});
+            variant.motion = std::make_shared<const Motion>(play.finish());
+        } catch (const InputError& error) {
+            if (!error.where().file.empty())
+                throw;
+            throw InputError({drive.file, 0, 0, fmt::format("control of '{}'", variant.name)}, error.what());
+        }
+    }
+}
+
+} // namespace fernlicht

@@ -1,0 +1,49 @@
+// Lamp control of a variant over a drive: before the first frame, or tick by tick while the drive happens.
+#pragma once
+
+#include "scenarios/can/bus_outputs.h"
+#include "scenarios/drives/play/beam_masks.h"
+#include "scenarios/drives/play/bus_play.h"
+#include "scenarios/drives/play/control_world.h"
+#include "scenarios/drives/play/motion.h"
+
+namespace fernlicht {
+
+class ControlPlay {
+  public:
+    /// `variant` has control; all must outlive it. `databases`: of the drive's bus, empty without outputs to one. Throws InputError for
+    /// what the control or the mapping names and the variant lacks.
+    ControlPlay(const Drive& drive, const Variant& variant, const ControlWorld& world, const std::vector<CanDatabase>& databases = {});
+
+    double next_s() const { return runner_.next_s(); } ///< time of the next tick
+    /// The next tick; `values`: what the bus says at it, empty without one. Frames that were due until then are sent.
+    void step(const std::vector<BusValue>& values = {});
+    /// Sends what is due until then, which lies before the next tick.
+    void send_until(std::int64_t time_ns);
+    const std::vector<CanFrame>& sent() const { return motion_.sent; } ///< since the beginning
+    /// When the next frame is due; the largest number there is without outputs.
+    std::int64_t next_output_ns() const;
+    const SignalTable& signals() const { return runner_.signals(); }
+
+    /// At a time before the last tick: for moments of a drive that is still happening.
+    Motion at(double time_s);
+    /// Until the drive's end. Used up then.
+    Motion finish();
+
+  private:
+    const Drive& drive_;
+    const Variant& variant_;
+    const ControlWorld& world_;
+    ControlWorld::Resting resting_;
+    std::optional<BusWriter> writer_;
+    ControlRunner runner_;
+    std::optional<BusOutputs> outputs_;
+    BeamMasks masks_;
+    Motion motion_;
+};
+
+/// Runs the control of each variant that has one and puts it into the variant's motion, with notes: after simulate_bus(), simulate() and
+/// place_traffic(). Nothing for a drive without, or one that is live. Throws InputError for what the control names and the variant lacks.
+void simulate_control(Drive& drive, const Route& route);
+
+} // namespace fernlicht

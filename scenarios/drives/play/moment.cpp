@@ -1,0 +1,114 @@
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/drive_log.h"
+#include "scenarios/drives/play/moment_traffic.h"
+#include "scenarios/drives/play/motion.h"
+#include "scenarios/drives/play/place_street_lamps.h"
+#include "scenarios/drives/play/told_story.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+/// Surface point and normal at a distance; beyond the route's end the surface goes on straight.
+Pose contact(const Route& route, double distance_m, double offset_left_m) {
+    Pose pose = route.pose(std::min(distance_m, route.length_m()), offset_left_m);
+    pose.position_m += pose.forward() * std::max(distance_m - route.length_m(), 0.0);
+    return pose;
+}
+
+/// The body on its springs and beside its lane: over the rear axle lifted, turned about it.
+Pose moved(Pose ego, const CarPlace& place) {
+    ego.position_m += place.rear_lift_m * ego.up();
+    ego.axes = ego.axes * axes_from_angles(place.heading_rad, place.pitch_rad, 0.0);
+    return ego;
+}
+
+/// False where nothing is loaded.
+bool rest_on_load(CarPlace& place, const Motion& motion) {
+    if (!motion.control || (motion.control->body_pitch_rad == 0.0 && motion.control->rear_lift_m == 0.0))
+        return false;
+    place.pitch_rad += motion.control->body_pitch_rad;
+    place.rear_lift_m += motion.control->rear_lift_m;
+    return true;
+}
+
+LitLamp lit(const MountedLamp& lamp, const Pose& ego) {
+    return {lamp.name, lamp.file, compose(ego, lamp.pose()), lamp.intensity_factor(), lamp.colour, lamp.photometric_distance_m};
+}
+
+} // namespace
+
+Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double offset_left_m) {
+    const Pose rear = contact(route, distance_m, offset_left_m);
+    // The front axle's place seen from the lane there: the lane may bend away from under it.
+    const glm::dvec3 straight_ahead = to_parent(rear, {wheelbase_m, 0.0, 0.0});
+    const glm::dvec3 beside = to_local(contact(route, distance_m + wheelbase_m, 0.0), straight_ahead);
+    const Pose front = contact(route, distance_m + wheelbase_m + beside.x, beside.y);
+
+    const glm::dvec3 forward = glm::normalize(front.position_m - rear.position_m);
+    const glm::dvec3 left = glm::normalize(glm::cross(rear.up() + front.up(), forward));
+    return {rear.position_m, {forward, left, glm::cross(forward, left)}};
+}
+
+Moment moment_at(const State& state, const Drive& drive, const Route& route, const Variant& variant) {
+    std::vector<MountedLamp> lamps = variant.lamps;
+    for (const LampChange& change : variant.changes) {
+        if (change.time_s > state.time_s + tick_tolerance * drive.step_s)
+            break; // sorted by time
+        for (MountedLamp& lamp : lamps)
+            if (lamp.name == change.lamp)
+                apply(change, lamp);
+    }
+    for (const LampChange& change : variant.told) {
+        if (change.time_s > state.time_s + tick_tolerance * drive.step_s)
+            break;
+        for (MountedLamp& lamp : lamps)
+            if (lamp.name == change.lamp)
+                apply(change, lamp);
+    }
+    Moment moment;
+    moment.tick = state.tick;
+    moment.time_s = state.time_s;
+    moment.distance_m = state.distance_m;
+    moment.speed_mps = state.speed_mps;
+    moment.daylight = daylight_of(drive, state.time_s);
+    moment.weather = weather_of(drive, state.time_s);
+    if (drive.ego_track) {
+        const TrackPoint at = drive.ego_track->at(state.time_s);
+        moment.ego = at.pose;
+        moment.speed_mps = at.speed_mps;
+        if (CarPlace place; variant.motion && rest_on_load(place, *variant.motion))
+            moment.ego = moved(moment.ego, place);
+    } else if (!drive.vehicle) {
+        moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
+        if (CarPlace place; variant.motion && rest_on_load(place, *variant.motion))
+            moment.ego = moved(moment.ego, place);
+    } else {
+        if (!variant.motion)
+            throw std::logic_error("moment_at: a drive with a vehicle that was not simulated");
+        CarPlace place = variant.motion->car->at(state.time_s);
+        rest_on_load(place, *variant.motion);
+        moment.distance_m = std::max(place.distance_m, 0.0);
+        moment.speed_mps = place.speed_mps;
+        moment.ego = moved(ego_pose(route, moment.distance_m, drive.wheelbase_m, place.offset_left_m), place);
+    }
+    if (variant.motion)
+        for (MountedLamp& lamp : lamps)
+            turn(lamp, *variant.motion, state.time_s);
+    else if (variant.control)
+        throw std::logic_error("moment_at: a drive with lamp control that was not simulated");
+    for (const MountedLamp& lamp : lamps)
+        moment.lamps.push_back(lit(lamp, moment.ego));
+    add_traffic(drive, moment);
+    add_street_lamps(drive, route, street_lamps_within_m, moment);
+    if (drive.replay)
+        replay(*drive.replay, variant.name, moment);
+    if (drive.own_car)
+        moment.bodies.push_back({"own car", moment.ego, true, moment.speed_mps, true});
+    return moment;
+}
+
+} // namespace fernlicht

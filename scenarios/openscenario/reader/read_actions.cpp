@@ -1,0 +1,337 @@
+#include "scenarios/openscenario/reader/read_actions.h"
+
+#include "scenarios/openscenario/osc_catalogs.h"
+#include "scenarios/openscenario/reader/read_environment.h"
+#include "scenarios/openscenario/reader/read_positions.h"
+#include "scenarios/values/errors.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht::osc {
+namespace {
+
+Shape shape_of(const OscNode& node) { return static_cast<Shape>(node.choice("dynamicsShape", {"linear", "cubic", "sinusoidal", "step"})); }
+
+Dynamics dynamics_of(const OscNode& node) {
+    Dynamics out;
+    out.shape = shape_of(node);
+    out.dimension = static_cast<Dimension>(node.choice("dynamicsDimension", {"rate", "time", "distance"}));
+    const double value = node.number_or("value", 0.0);
+    if (!std::isfinite(value))
+        node.refuse("value", fmt::format("found {}", value), "a finite value");
+    if (value < 0.0 && out.dimension != Dimension::rate)
+        node.refuse("value", fmt::format("found {}", value),
+                    out.dimension == Dimension::time ? "a time not below 0" : "a distance not below 0");
+    if (value < 0.0) // a rate's sign follows from start and target
+        node.unsupported(fmt::format("the sign of the rate {} in value", value));
+    out.value = std::abs(value);
+    if (out.dimension == Dimension::rate && out.value == 0.0 && out.shape != Shape::step)
+        node.refuse("value", "found 0", "a rate above 0");
+    return out;
+}
+
+SpeedAction speed_of(const OscNode& node) {
+    SpeedAction out;
+    out.dynamics = dynamics_of(node.require("SpeedActionDynamics"));
+    const OscNode target = node.require("SpeedActionTarget");
+    if (const auto absolute = target.find("AbsoluteTargetSpeed")) {
+        out.target = absolute->number("value");
+    } else {
+        const OscNode relative = target.require("RelativeTargetSpeed");
+        RelativeSpeed speed;
+        speed.entity = relative.entity("entityRef");
+        speed.value = relative.number("value");
+        speed.factor = relative.choice("speedTargetValueType", {"delta", "factor"}) == 1;
+        speed.continuous = relative.flag_or("continuous", false);
+        out.target = speed;
+    }
+    return out;
+}
+
+SpeedProfileAction profile_of(const OscNode& node) {
+    SpeedProfileAction out;
+    out.relative_to = node.text_or("entityRef", "");
+    if (const auto limits = node.find("DynamicConstraints"))
+        out.limits = read_limits(*limits);
+    for (const OscNode& entry : node.children("SpeedProfileEntry")) {
+        out.entries.push_back({entry.number_if("time"), entry.number("speed")});
+        if (out.entries.back().duration_s && *out.entries.back().duration_s < 0.0)
+            entry.refuse("time", fmt::format("found {}", *out.entries.back().duration_s), "a time not below 0");
+    }
+    if (out.entries.empty())
+        node.refuse("", "has no entry", "at least one SpeedProfileEntry");
+    return out;
+}
+
+std::optional<PrivateAction> read_longitudinal(const OscNode& node) {
+    const std::string kind = node.element();
+    if (kind == "SpeedAction")
+        return speed_of(node);
+    if (kind == "SpeedProfileAction")
+        return profile_of(node);
+    if (kind == "LongitudinalDistanceAction") {
+        LongitudinalDistanceAction out;
+        out.entity = node.entity("entityRef");
+        out.distance_m = node.number_if("distance");
+        out.time_gap_s = node.number_if("timeGap");
+        if (out.distance_m.has_value() == out.time_gap_s.has_value())
+            node.refuse("", "has not exactly one of distance and timeGap", "one of the two");
+        out.freespace = node.flag_or("freespace", false);
+        out.continuous = node.flag_or("continuous", false);
+        if (node.has("displacement")) {
+            const std::size_t side = node.choice("displacement", {"trailingReferencedEntity", "leadingReferencedEntity", "any"});
+            out.ahead = side == 1;
+            out.any_side = side == 2;
+        }
+        if (const auto limits = node.find("DynamicConstraints"))
+            out.limits = read_limits(*limits);
+        return out;
+    }
+    node.unsupported(fmt::format("the action {}", printable(kind)));
+    return {};
+}
+
+LaneChangeAction lane_change_of(const OscNode& node) {
+    LaneChangeAction out;
+    out.dynamics = dynamics_of(node.require("LaneChangeActionDynamics"));
+    out.target_offset_m = node.number_or("targetLaneOffset", 0.0);
+    const OscNode target = node.require("LaneChangeTarget");
+    if (const auto absolute = target.find("AbsoluteTargetLane")) {
+        out.target = absolute->whole("value");
+    } else {
+        const OscNode relative = target.require("RelativeTargetLane");
+        out.target = RelativeLane{relative.entity("entityRef"), relative.whole("value")};
+    }
+    return out;
+}
+
+LaneOffsetAction lane_offset_of(const OscNode& node) {
+    LaneOffsetAction out;
+    out.continuous = node.flag_or("continuous", false);
+    const OscNode dynamics = node.require("LaneOffsetActionDynamics");
+    out.shape = shape_of(dynamics);
+    out.max_lateral_acceleration = dynamics.number_if("maxLateralAcc");
+    const OscNode target = node.require("LaneOffsetTarget");
+    if (const auto absolute = target.find("AbsoluteTargetLaneOffset")) {
+        out.target = absolute->number("value");
+    } else {
+        const OscNode relative = target.require("RelativeTargetLaneOffset");
+        out.target = RelativeOffset{relative.entity("entityRef"), relative.number("value")};
+    }
+    return out;
+}
+
+std::optional<PrivateAction> read_lateral(const OscNode& node) {
+    const std::string kind = node.element();
+    if (kind == "LaneChangeAction")
+        return lane_change_of(node);
+    if (kind == "LaneOffsetAction")
+        return lane_offset_of(node);
+    if (kind == "LateralDistanceAction") {
+        LateralDistanceAction out;
+        out.entity = node.entity("entityRef");
+        out.distance_m = node.number_or("distance", 0.0);
+        out.freespace = node.flag_or("freespace", false);
+        out.continuous = node.flag_or("continuous", false);
+        if (const auto limits = node.find("DynamicConstraints"))
+            out.max_speed_mps = limits->number_if("maxSpeed");
+        return out;
+    }
+    node.unsupported(fmt::format("the action {}", printable(kind)));
+    return {};
+}
+
+FollowTrajectoryAction follow_of(const OscNode& node) {
+    FollowTrajectoryAction out;
+    const auto holder = node.find("TrajectoryRef");
+    out.trajectory = read_trajectory(holder ? *holder : node);
+    out.initial_offset_m = node.number_or("initialDistanceOffset", 0.0);
+    if (const auto timing = node.require("TimeReference").find("Timing")) {
+        out.timed = true;
+        out.time_absolute = timing->choice("domainAbsoluteRelative", {"absolute", "relative"}) == 0;
+        out.time_scale = timing->number("scale");
+        out.time_offset_s = timing->number("offset");
+        if (!(out.time_scale > 0.0))
+            timing->refuse("scale", fmt::format("found {}", out.time_scale), "a factor above 0");
+    }
+    return out;
+}
+
+std::optional<PrivateAction> read_routing(const OscNode& node) {
+    const std::string kind = node.element();
+    if (kind == "AssignRouteAction")
+        return AssignRouteAction{read_route(node)};
+    if (kind == "AcquirePositionAction")
+        return AcquirePositionAction{read_position(node)};
+    if (kind == "FollowTrajectoryAction")
+        return follow_of(node);
+    node.unsupported(fmt::format("the action {}", printable(kind)));
+    return {};
+}
+
+SynchronizeAction synchronize_of(const OscNode& node) {
+    SynchronizeAction out;
+    out.master = node.entity("masterEntityRef");
+    out.master_target = read_position(node.find("TargetPositionMaster").value_or(node));
+    out.target = read_position(node.require("TargetPosition"));
+    out.master_tolerance_m = node.number_or("targetToleranceMaster", 0.0);
+    out.tolerance_m = node.number_or("targetTolerance", 0.0);
+    if (const auto final_speed = node.find("FinalSpeed")) {
+        const OscNode given = final_speed->only("AbsoluteSpeed or RelativeSpeedToMaster");
+        FinalSpeed speed;
+        speed.relative = given.element() == "RelativeSpeedToMaster";
+        speed.value = given.number("value");
+        if (const auto steady = given.find("TargetDistanceSteadyState"))
+            speed.steady_distance_m = steady->number("distance");
+        if (const auto steady = given.find("TargetTimeSteadyState"))
+            speed.steady_time_s = steady->number("time");
+        out.final_speed = speed;
+    }
+    return out;
+}
+
+LightStateAction light_of(const OscNode& node) {
+    LightStateAction out;
+    out.transition_s = node.number_or("transitionTime", 0.0);
+    if (!(out.transition_s >= 0.0))
+        node.refuse("transitionTime", fmt::format("found {}", out.transition_s), "a time not below 0");
+    const OscNode type = node.require("LightType").only("VehicleLight or UserDefinedLight");
+    if (type.element() == "VehicleLight") {
+        static constexpr std::string_view known[] = {
+            "brakeLights",     "daytimeRunningLights", "fogLights",      "fogLightsFront",           "fogLightsRear",
+            "highBeam",        "indicatorLeft",        "indicatorRight", "licensePlateIllumination", "lowBeam",
+            "reversingLights", "specialPurposeLights", "warningLights"};
+        const std::size_t at = type.choice("vehicleLightType", {known[0], known[1], known[2], known[3], known[4], known[5], known[6],
+                                                                known[7], known[8], known[9], known[10], known[11], known[12]});
+        out.light = known[at];
+    } else {
+        out.light = type.text("userDefinedLightType");
+    }
+    const OscNode state = node.require("LightState");
+    out.mode = static_cast<LightMode>(state.choice("mode", {"off", "on", "flashing"}));
+    out.flash_on_s = state.number_or("flashingOnDuration", 0.5);
+    out.flash_off_s = state.number_or("flashingOffDuration", 0.5);
+    if (!(out.flash_on_s > 0.0))
+        state.refuse("flashingOnDuration", fmt::format("found {}", out.flash_on_s), "a time above 0");
+    if (!(out.flash_off_s >= 0.0))
+        state.refuse("flashingOffDuration", fmt::format("found {}", out.flash_off_s), "a time not below 0");
+    if (constexpr double shortest_s = 0.01; out.mode == LightMode::flashing && out.flash_on_s + out.flash_off_s < shortest_s)
+        state.refuse("flashingOnDuration", fmt::format("found a light that flashes every {} s", out.flash_on_s + out.flash_off_s),
+                     fmt::format("{} s at least: faster, it is seen as steady light", shortest_s));
+    out.luminous_intensity_cd = state.number_if("luminousIntensity");
+    if (out.luminous_intensity_cd && !(*out.luminous_intensity_cd >= 0.0))
+        state.refuse("luminousIntensity", fmt::format("found {}", *out.luminous_intensity_cd), "candela not below 0");
+    if (const auto colour = state.find("Color"))
+        if (const auto rgb = colour->find("ColorRgb"))
+            out.rgb = {rgb->number("red"), rgb->number("green"), rgb->number("blue")};
+    return out;
+}
+
+std::optional<PrivateAction> read_appearance(const OscNode& node) {
+    if (node.element() == "LightStateAction")
+        return light_of(node);
+    node.unsupported(fmt::format("the action {}", printable(node.element())));
+    return {};
+}
+
+ControllerAction controller_of(const OscNode& node) {
+    std::string what = node.element();
+    if (const auto inner = node.children(); node.element() == "ControllerAction" && !inner.empty()) {
+        what.clear();
+        for (const OscNode& part : inner)
+            what += (what.empty() ? "" : ", ") + part.element();
+    }
+    node.note(fmt::format("controllers are not run: {} changes nothing, the entity goes on as the storyboard moves it", what));
+    return {what};
+}
+
+SetValueAction set_value_of(const OscNode& node, bool variable) {
+    SetValueAction out;
+    out.variable = variable;
+    out.name = node.text(variable ? "variableRef" : "parameterRef");
+    const OscNode how = node.only("SetAction or ModifyAction");
+    if (how.element() == "SetAction" || how.element() == "SetParameterAction") {
+        out.value = how.text("value");
+        return out;
+    }
+    const OscNode rule = how.require("Rule").only("AddValue or MultiplyByValue");
+    out.how = rule.element() == "AddValue" ? SetValueAction::How::add : SetValueAction::How::multiply;
+    out.value = fmt::format("{}", rule.number("value"));
+    return out;
+}
+
+} // namespace
+
+SpeedLimits read_limits(const OscNode& node) {
+    SpeedLimits out;
+    out.speed_mps = node.number_if("maxSpeed");
+    out.acceleration = node.number_if("maxAcceleration");
+    out.deceleration = node.number_if("maxDeceleration");
+    for (std::optional<double>* limit : {&out.speed_mps, &out.acceleration, &out.deceleration}) {
+        if (*limit && !(**limit >= 0.0))
+            node.refuse("", fmt::format("found a limit of {}", **limit), "limits not below 0");
+        if (*limit && !std::isfinite(**limit))
+            limit->reset();
+    }
+    return out;
+}
+
+std::optional<PrivateAction> read_private_action(const OscNode& node) {
+    const OscNode kind = node.only("an action");
+    const std::string name = kind.element();
+    if (name == "LongitudinalAction")
+        return read_longitudinal(kind.only("an action"));
+    if (name == "LateralAction")
+        return read_lateral(kind.only("an action"));
+    if (name == "RoutingAction")
+        return read_routing(kind.only("an action"));
+    if (name == "AppearanceAction")
+        return read_appearance(kind.only("an action"));
+    if (name == "TeleportAction")
+        return TeleportAction{read_position(kind)};
+    if (name == "VisibilityAction")
+        return VisibilityAction{kind.flag_or("graphics", true)};
+    if (name == "SynchronizeAction")
+        return synchronize_of(kind);
+    if (name == "ControllerAction" || name == "ActivateControllerAction" || name == "AssignControllerAction" ||
+        name == "OverrideControllerValueAction")
+        return controller_of(kind);
+    kind.unsupported(fmt::format("the action {}", printable(name)));
+    return {};
+}
+
+std::optional<GlobalAction> read_global_action(const OscNode& node) {
+    const OscNode kind = node.only("an action");
+    const std::string name = kind.element();
+    if (name == "EnvironmentAction") {
+        if (const auto environment = own_or_catalog(kind, "Environment"))
+            return EnvironmentAction{read_environment(*environment)};
+        kind.refuse("", "has no environment", "an Environment or a CatalogReference");
+    }
+    if (name == "EntityAction") {
+        EntityAction out{kind.entity("entityRef"), {}};
+        if (const auto add = kind.find("AddEntityAction"))
+            out.add_at = read_position(*add);
+        else
+            kind.require("DeleteEntityAction");
+        return out;
+    }
+    if (name == "ParameterAction")
+        return set_value_of(kind, false);
+    if (name == "VariableAction")
+        return set_value_of(kind, true);
+    if (name == "InfrastructureAction") {
+        const OscNode signal = kind.require("TrafficSignalAction").only("an action");
+        if (signal.element() == "TrafficSignalStateAction")
+            return TrafficSignalAction{signal.text("name"), signal.text("state"), false};
+        if (signal.element() == "TrafficSignalControllerAction")
+            return TrafficSignalAction{signal.text("trafficSignalControllerRef"), signal.text("phase"), true};
+        signal.unsupported(fmt::format("the action {}", printable(signal.element())));
+        return {};
+    }
+    kind.unsupported(fmt::format("the action {}", printable(name)));
+    return {};
+}
+
+} // namespace fernlicht::osc

@@ -1,0 +1,111 @@
+#include "scenarios/openscenario/reader/read_entities.h"
+
+#include "scenarios/openscenario/osc_catalogs.h"
+#include "scenarios/openscenario/reader/read_actions.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht::osc {
+namespace {
+
+void read_box(const OscNode& node, BoundingBox& box) {
+    if (const auto centre = node.find("Center")) {
+        box.x_m = centre->number_or("x", box.x_m);
+        box.y_m = centre->number_or("y", box.y_m);
+        box.z_m = centre->number_or("z", box.z_m);
+    }
+    if (const auto size = node.find("Dimensions")) {
+        box.length_m = size->number_or("length", box.length_m);
+        box.width_m = size->number_or("width", box.width_m);
+        box.height_m = size->number_or("height", box.height_m);
+        if (!(box.length_m >= 0.0 && box.width_m >= 0.0 && box.height_m >= 0.0))
+            size->refuse("", "has a size below 0", "sizes not below 0");
+    }
+}
+
+void read_properties(const OscNode& node, Entity& entity) {
+    const auto properties = node.find("Properties");
+    if (!properties)
+        return;
+    for (const OscNode& property : properties->children("Property"))
+        entity.properties[property.text("name")] = property.text_or("value", "");
+    if (const auto file = properties->find("File"); file && entity.model.empty())
+        entity.model = file->text("filepath");
+}
+
+double default_size(EntityKind kind, double vehicle, double pedestrian, double object) {
+    return kind == EntityKind::vehicle ? vehicle : kind == EntityKind::pedestrian ? pedestrian : object;
+}
+
+Entity entity_from(const OscNode& node, const std::string& name) {
+    Entity entity;
+    entity.name = name;
+    entity.kind = node.element() == "Vehicle"      ? EntityKind::vehicle
+                  : node.element() == "Pedestrian" ? EntityKind::pedestrian
+                                                   : EntityKind::object;
+    const char* category = entity.kind == EntityKind::vehicle      ? "vehicleCategory"
+                           : entity.kind == EntityKind::pedestrian ? "pedestrianCategory"
+                                                                   : "miscObjectCategory";
+    entity.category = node.text_or(category, "");
+    entity.model = node.text_or("model3d", "");
+    const double length = default_size(entity.kind, 4.5, 0.5, 1.0);
+    entity.box = {default_size(entity.kind, 1.4, 0.0, 0.0),  0.0,
+                  default_size(entity.kind, 0.75, 0.9, 0.5), length,
+                  default_size(entity.kind, 1.8, 0.6, 1.0),  default_size(entity.kind, 1.5, 1.8, 1.0)};
+    if (const auto box = node.find("BoundingBox"))
+        read_box(*box, entity.box);
+    if (const auto performance = node.find("Performance"))
+        entity.limits = read_limits(*performance);
+    if (const auto axles = node.find("Axles"))
+        if (const auto front = axles->find("FrontAxle"))
+            entity.wheelbase_m = front->number_or("positionX", entity.wheelbase_m);
+    read_properties(node, entity);
+    return entity;
+}
+
+} // namespace
+
+ReadEntities read_entities(const OscNode& scenario) {
+    ReadEntities out;
+    const OscNode list = scenario.require("Entities");
+    const auto take_name = [&](const OscNode& node) {
+        std::string name = node.text("name");
+        auto& known = scenario.reading().entities;
+        if (std::find(known.begin(), known.end(), name) != known.end())
+            node.refuse("name", fmt::format("found a second '{}'", printable(name)), "each name once");
+        known.push_back(name);
+        return name;
+    };
+    for (const OscNode& object : list.children("ScenarioObject")) {
+        const std::string name = take_name(object);
+        std::optional<OscNode> what;
+        for (const char* kind : {"Vehicle", "Pedestrian", "MiscObject"})
+            if (const auto own = object.find(kind))
+                what = own->with_declared();
+        if (const auto reference = object.find("CatalogReference"); !what && reference)
+            what = catalog_entry(*reference);
+        if (!what)
+            object.refuse("", "holds no entity", "Vehicle, Pedestrian, MiscObject or CatalogReference");
+        out.entities.push_back(entity_from(*what, name));
+        if (object.find("ObjectController"))
+            object.find("ObjectController")->note("controllers are not run: the entity moves as the storyboard says");
+    }
+    for (const OscNode& selection : list.children("EntitySelection")) {
+        std::vector<std::string> members;
+        const OscNode names = selection.require("Members");
+        for (const OscNode& member : names.children("EntityRef"))
+            members.push_back(member.entity("entityRef"));
+        for (const OscNode& member : names.children("ByObjectType")) // 1.0: ByType
+            for (const Entity& entity : out.entities)
+                if (member.text("type") == (entity.kind == EntityKind::vehicle      ? "vehicle"
+                                            : entity.kind == EntityKind::pedestrian ? "pedestrian"
+                                                                                    : "miscellaneous"))
+                    members.push_back(entity.name);
+        out.selections[take_name(selection)] = members;
+    }
+    return out;
+}
+
+} // namespace fernlicht::osc

@@ -1,0 +1,201 @@
+#include "scenarios/openscenario/reader/read_positions.h"
+
+#include "scenarios/openscenario/osc_catalogs.h"
+#include "scenarios/values/errors.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht::osc {
+namespace {
+
+std::optional<Orientation> orientation_of(const OscNode& node) {
+    const auto given = node.find("Orientation");
+    return given ? std::optional(read_orientation(*given)) : std::nullopt;
+}
+
+std::string entity_of(const OscNode& node) { return node.entity(node.has("entityRef") ? "entityRef" : "object"); }
+
+RoutePosition read_route_position(const OscNode& node) {
+    RoutePosition position;
+    const OscNode holder = node.require("RouteRef");
+    position.route = read_route(holder);
+    const auto inside = node.find("InRoutePosition");
+    const OscNode where = (inside ? *inside : node).only("a position on the route");
+    position.orientation = orientation_of(node);
+    if (where.element() == "FromLaneCoordinates") {
+        position.s_m = where.number("pathS");
+        position.lane = where.whole("laneId");
+        position.offset_m = where.number_or("laneOffset", 0.0);
+    } else if (where.element() == "FromRoadCoordinates") {
+        position.s_m = where.number("pathS");
+        position.t_m = where.number("t");
+    } else if (where.element() == "FromCurrentEntity") {
+        position.current_entity = where.entity("entityRef");
+    } else {
+        where.refuse("", "cannot be used here", "FromLaneCoordinates, FromRoadCoordinates or FromCurrentEntity");
+    }
+    return position;
+}
+
+Position read_kind(const OscNode& node) {
+    const std::string kind = node.element();
+    if (kind == "WorldPosition") {
+        for (const char* axis : {"x", "y", "z"})
+            if (const double at = node.number_or(axis, 0.0); !(std::abs(at) <= 1e9))
+                node.refuse(axis, fmt::format("found {}", at), "a place within 1e9 m of the origin");
+        return WorldPosition{node.number("x"),    node.number("y"),    node.number_if("z"),
+                             node.number_if("h"), node.number_if("p"), node.number_if("r")};
+    }
+    if (kind == "LanePosition")
+        return LanePosition{node.text("roadId"), node.whole("laneId"), node.number("s"), node.number_or("offset", 0.0),
+                            orientation_of(node)};
+    if (kind == "RoadPosition")
+        return RoadPosition{node.text("roadId"), node.number("s"), node.number("t"), orientation_of(node)};
+    if (kind == "RelativeLanePosition")
+        return RelativeLanePosition{entity_of(node),
+                                    node.whole("dLane"),
+                                    node.has("dsLane") ? node.number("dsLane") : node.number("ds"),
+                                    node.number_or("offset", 0.0),
+                                    node.has("dsLane"),
+                                    orientation_of(node)};
+    if (kind == "RelativeRoadPosition")
+        return RelativeRoadPosition{entity_of(node), node.number("ds"), node.number("dt"), orientation_of(node)};
+    if (kind == "RelativeObjectPosition" || kind == "RelativeWorldPosition")
+        return RelativePosition{
+            entity_of(node),     node.number("dx"), node.number("dy"), node.number_or("dz", 0.0), kind == "RelativeWorldPosition",
+            orientation_of(node)};
+    if (kind == "RoutePosition")
+        return read_route_position(node);
+    if (kind == "TrajectoryPosition")
+        return TrajectoryPosition{read_trajectory(node.require("TrajectoryRef")), node.number("s"), node.number_or("t", 0.0),
+                                  orientation_of(node)};
+    if (kind == "GeoPosition") {
+        node.unsupported("geographic positions");
+        return WorldPosition{};
+    }
+    node.refuse("", "is no position", "one of OpenSCENARIO's positions");
+}
+
+std::optional<double> time_of(const OscNode& node) { return node.number_if("time"); }
+
+void refuse_falling_times(const std::vector<OscNode>& points) {
+    std::optional<double> before;
+    for (const OscNode& point : points) {
+        const std::optional<double> time = time_of(point);
+        if (time && before && !(*time >= *before))
+            point.refuse("time", fmt::format("found {} after {}", *time, *before), "times that do not fall");
+        before = time ? time : before;
+    }
+}
+
+ClothoidSegment read_segment(const OscNode& node) {
+    const bool spline = node.element() == "ClothoidSplineSegment";
+    ClothoidSegment segment;
+    segment.length_m = node.number("length");
+    if (!(segment.length_m > 0.0 && segment.length_m <= 1e6))
+        node.refuse("length", fmt::format("found {}", segment.length_m), "a length above 0, at most 1e6 m");
+    if (spline) {
+        segment.curvature_per_m = node.number("curvatureStart");
+        segment.end_curvature_per_m = node.number("curvatureEnd");
+        segment.h_offset_rad = node.number_or("hOffset", 0.0);
+        segment.time_start_s = node.number_if("timeStart");
+        if (const auto start = node.find("PositionStart"))
+            segment.start = read_position(start->find("Position").value_or(*start));
+    } else {
+        const char* dot = node.has("curvaturePrime") ? "curvaturePrime" : "curvatureDot";
+        segment.curvature_per_m = node.number("curvature");
+        segment.end_curvature_per_m = segment.curvature_per_m + node.number(dot) * segment.length_m;
+        segment.time_start_s = node.number_if("startTime");
+        segment.time_end_s = node.number_if("stopTime");
+        segment.start = read_position(node);
+    }
+    return segment;
+}
+
+Nurbs read_nurbs(const OscNode& node) {
+    Nurbs nurbs;
+    nurbs.order = node.whole("order");
+    for (const OscNode& point : node.children("ControlPoint"))
+        nurbs.points.push_back({time_of(point), point.number_or("weight", 1.0), read_position(point)});
+    refuse_falling_times(node.children("ControlPoint"));
+    for (const OscNode& knot : node.children("Knot"))
+        nurbs.knots.push_back(knot.number("value"));
+    if (nurbs.order < 2 || nurbs.order > 16 || nurbs.points.size() < static_cast<std::size_t>(nurbs.order))
+        node.refuse("order", fmt::format("found {} with {} control points", nurbs.order, nurbs.points.size()),
+                    "an order from 2 to 16 and at least as many control points");
+    if (nurbs.knots.size() != nurbs.points.size() + static_cast<std::size_t>(nurbs.order))
+        node.refuse("", fmt::format("has {} knots", nurbs.knots.size()),
+                    fmt::format("{}: control points and order added", nurbs.points.size() + static_cast<std::size_t>(nurbs.order)));
+    for (std::size_t i = 1; i < nurbs.knots.size(); ++i)
+        if (nurbs.knots[i] < nurbs.knots[i - 1])
+            node.refuse("Knot", fmt::format("found {} after {}", nurbs.knots[i], nurbs.knots[i - 1]), "knots that do not fall");
+    return nurbs;
+}
+
+std::shared_ptr<const Trajectory> trajectory_of(const OscNode& node) {
+    const OpenEntry open(node);
+    auto trajectory = std::make_shared<Trajectory>();
+    trajectory->name = node.name();
+    trajectory->closed = node.flag_or("closed", false);
+    const OscNode shape = node.require("Shape").only("a polyline, clothoid or NURBS");
+    if (shape.element() == "Polyline") {
+        Polyline line;
+        for (const OscNode& vertex : shape.children("Vertex"))
+            line.vertices.push_back({time_of(vertex), read_position(vertex)});
+        refuse_falling_times(shape.children("Vertex"));
+        if (line.vertices.size() < 2)
+            shape.refuse("", fmt::format("has {} vertices", line.vertices.size()), "at least 2");
+        trajectory->shape = std::move(line);
+    } else if (shape.element() == "Clothoid") {
+        trajectory->shape = ClothoidPath{{read_segment(shape)}};
+    } else if (shape.element() == "ClothoidSpline") {
+        ClothoidPath path;
+        for (const OscNode& segment : shape.children("ClothoidSplineSegment"))
+            path.segments.push_back(read_segment(segment));
+        if (path.segments.empty())
+            shape.refuse("", "has no segment", "at least one ClothoidSplineSegment");
+        path.segments.back().time_end_s = shape.number_if("timeEnd");
+        trajectory->shape = std::move(path);
+    } else if (shape.element() == "Nurbs") {
+        trajectory->shape = read_nurbs(shape);
+    } else {
+        shape.refuse("", "is no shape of a trajectory", "Polyline, Clothoid, ClothoidSpline or Nurbs");
+    }
+    return trajectory;
+}
+
+} // namespace
+
+Orientation read_orientation(const OscNode& node) {
+    return {node.has("type") && node.choice("type", {"absolute", "relative"}) == 1, node.number_or("h", 0.0), node.number_or("p", 0.0),
+            node.number_or("r", 0.0)};
+}
+
+Position read_position(const OscNode& node) {
+    const OscNode position = node.element() == "Position" ? node : node.find("Position").value_or(node);
+    return read_kind(position.only("a position"));
+}
+
+std::shared_ptr<const Route> read_route(const OscNode& holder) {
+    const auto node = own_or_catalog(holder, "Route");
+    if (!node)
+        holder.refuse("", "has no route", "a Route or a CatalogReference");
+    const OpenEntry open(*node);
+    auto route = std::make_shared<Route>();
+    route->name = node->name();
+    route->closed = node->flag_or("closed", false);
+    for (const OscNode& point : node->children("Waypoint"))
+        route->waypoints.push_back({read_position(point), point.text_or("routeStrategy", point.text_or("strategy", "shortest"))});
+    if (route->waypoints.size() < 2)
+        node->refuse("", fmt::format("has {} waypoints", route->waypoints.size()), "at least 2");
+    return route;
+}
+
+std::shared_ptr<const Trajectory> read_trajectory(const OscNode& holder) {
+    if (const auto node = own_or_catalog(holder, "Trajectory"))
+        return trajectory_of(*node);
+    holder.refuse("", "has no trajectory", "a Trajectory or a CatalogReference");
+}
+
+} // namespace fernlicht::osc

@@ -1,0 +1,229 @@
+#include "scenarios/roads/mesh/mesh_cross_section.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fernlicht {
+
+namespace {
+
+struct Heights {
+    double inner_m = 0.0, outer_m = 0.0;
+};
+
+/// Straight between the records: a kerb goes down as a ramp, and the surface has no hole where a record begins.
+Heights heights_at(const Lane& lane, double ds) {
+    const auto& all = lane.heights;
+    if (all.empty())
+        return {};
+    const auto next = std::find_if(all.begin(), all.end(), [ds](const Lane::Height& h) { return h.s_m > ds; });
+    if (next == all.begin())
+        return {next->inner_m, next->outer_m};
+    const Lane::Height& a = *(next - 1);
+    if (next == all.end())
+        return {a.inner_m, a.outer_m};
+    const double f = (ds - a.s_m) / (next->s_m - a.s_m);
+    return {a.inner_m + f * (next->inner_m - a.inner_m), a.outer_m + f * (next->outer_m - a.outer_m)};
+}
+
+bool same_surface(const Strip& a, const Strip& b) { return a.material == b.material && a.paved == b.paved && !a.kerb_face && !b.kerb_face; }
+
+/// Joins neighbours of one material. Only where no lane has heights: there is no kink between them then.
+std::vector<Strip> joined(const std::vector<Strip>& strips) {
+    std::vector<Strip> out;
+    for (const Strip& strip : strips) {
+        if (!out.empty() && same_surface(out.back(), strip))
+            out.back().left_t_m = strip.left_t_m;
+        else
+            out.push_back(strip);
+    }
+    return out;
+}
+
+/// Closes the steps between lanes of different heights.
+std::vector<Strip> with_kerb_faces(const std::vector<Strip>& strips) {
+    std::vector<Strip> out;
+    for (const Strip& strip : strips) {
+        if (!out.empty()) {
+            Strip face;
+            face.right_t_m = face.left_t_m = strip.right_t_m;
+            face.right_h_m = out.back().left_h_m;
+            face.left_h_m = strip.right_h_m;
+            face.material = RoadMaterial::kerb;
+            face.kerb_face = true;
+            out.push_back(face);
+        }
+        out.push_back(strip);
+    }
+    return out;
+}
+
+} // namespace
+
+bool is_paved(const std::string& lane_type) {
+    const RoadMaterial material = lane_material(lane_type);
+    return material == RoadMaterial::asphalt && lane_type != "border";
+}
+
+double Strip::height_at(double t_m) const {
+    const double width = left_t_m - right_t_m;
+    if (width <= 0.0)
+        return right_h_m;
+    return right_h_m + (left_h_m - right_h_m) * std::clamp((t_m - right_t_m) / width, 0.0, 1.0);
+}
+
+SectionProfile::SectionProfile(const Road& road, const LaneSection& section) : road_(&road), section_(&section) {
+    const Lane* right_neighbour = nullptr;
+    const Lane* centre = nullptr;
+    const auto add_edge = [&](const Lane* right, const Lane* left) {
+        Edge edge;
+        edge.right = right;
+        edge.left = left;
+        const Lane* owner = left && left->id < 0 ? left : right && right->id > 0 ? right : centre; // an edge is outer to one lane only
+        if (owner)
+            edge.stripes = stripes_of(section, *owner);
+        std::sort(edge.stripes.begin(), edge.stripes.end(), [](const Stripe& a, const Stripe& b) { return a.t_m < b.t_m; });
+        keep_on_one_side(edge, owner);
+        edges_.push_back(std::move(edge));
+    };
+    for (const Lane& lane : section.lanes)
+        if (lane.id == 0)
+            centre = &lane;
+    for (auto lane = section.lanes.rbegin(); lane != section.lanes.rend(); ++lane) {
+        if (lane->id == 0)
+            continue;
+        has_heights_ = has_heights_ || !lane->heights.empty();
+        add_edge(right_neighbour, &*lane);
+        right_neighbour = &*lane;
+    }
+    if (right_neighbour)
+        add_edge(right_neighbour, nullptr);
+}
+
+/// At a kerb and at the road's edge a mark lies wholly on its owner's lane: half of it would hang in the air.
+void SectionProfile::keep_on_one_side(Edge& edge, const Lane* owner) {
+    const bool kerb = edge.left && edge.right && !(edge.left->heights.empty() && edge.right->heights.empty());
+    if (edge.left && edge.right && !kerb)
+        return;
+    edge.only_right = !edge.left || (edge.right && owner == edge.right);
+    edge.only_left = !edge.only_right;
+    for (const Stripe& stripe : edge.stripes) {
+        if (edge.only_right)
+            edge.shift_m = std::min(edge.shift_m, -(stripe.t_m + 0.5 * stripe.width_m));
+        else
+            edge.shift_m = std::max(edge.shift_m, 0.5 * stripe.width_m - stripe.t_m);
+    }
+}
+
+SectionProfile::Span SectionProfile::span(const Lane& lane, double s_m) const {
+    // A station may stand for a border some millimetres away; the section has no widths outside itself.
+    const double s = std::clamp(s_m, section_->s_m, std::max(section_->s_m, section_->end_m));
+    const LaneEdges edges = lane_edges(*road_, *section_, lane.id, s);
+    // A width that is negative for rounding or by mistake counts as none; the inner edge stays where the neighbours put it.
+    return lane.id > 0 ? Span{edges.inner_t_m, std::max(edges.inner_t_m, edges.outer_t_m)}
+                       : Span{std::min(edges.inner_t_m, edges.outer_t_m), edges.inner_t_m};
+}
+
+Strip SectionProfile::whole_lane(const Lane& lane, double s_m) const {
+    const Span edges = span(lane, s_m);
+    const Heights heights = heights_at(lane, s_m - section_->s_m);
+    Strip strip;
+    strip.right_t_m = edges.right_t_m;
+    strip.left_t_m = edges.left_t_m;
+    strip.right_h_m = lane.id > 0 ? heights.inner_m : heights.outer_m;
+    strip.left_h_m = lane.id > 0 ? heights.outer_m : heights.inner_m;
+    strip.material = lane_material(lane.type);
+    strip.paved = is_paved(lane.type);
+    return strip;
+}
+
+std::vector<SectionProfile::Paint> SectionProfile::paint(const Edge& edge, double layout_s_m, double s_m) const {
+    std::vector<Paint> out;
+    if (edge.stripes.empty())
+        return out;
+    const Span neighbour = span(edge.left ? *edge.left : *edge.right, s_m);
+    const double t = edge.left ? neighbour.right_t_m : neighbour.left_t_m;
+    const double half_right = edge.right && !edge.only_left ? 0.5 * (t - span(*edge.right, s_m).right_t_m) : 0.0;
+    const double half_left = edge.left && !edge.only_right ? 0.5 * (span(*edge.left, s_m).left_t_m - t) : 0.0;
+    for (const Stripe& stripe : edge.stripes) {
+        if (!stripe.painted_at(layout_s_m))
+            continue;
+        const double from_edge = stripe.t_m + edge.shift_m, middle = t + from_edge, half = 0.5 * stripe.width_m;
+        // Not beyond the middle of a lane, where the other edge's paint begins; and stripes that meet share the border.
+        const double from = out.empty() ? t - half_right : out.back().left_t_m;
+        const double right = std::clamp(middle - half, from, std::max(from, t + half_left));
+        const double left = std::clamp(middle + half, right, std::max(right, t + half_left));
+        out.push_back({right, left, stripe.material, from_edge - half<0.0, from_edge + half> 0.0});
+    }
+    return out;
+}
+
+void SectionProfile::append_lane(std::vector<Strip>& out, const Lane& lane, const std::vector<Paint>& right, const std::vector<Paint>& left,
+                                 double s_m) const {
+    const Strip base = whole_lane(lane, s_m);
+    double t = base.right_t_m;
+    const auto add = [&](double to_t, RoadMaterial material) {
+        Strip strip = base;
+        strip.right_t_m = t;
+        strip.left_t_m = std::max(t, to_t);
+        strip.right_h_m = base.height_at(strip.right_t_m);
+        strip.left_h_m = base.height_at(strip.left_t_m);
+        strip.material = material;
+        out.push_back(strip);
+        t = strip.left_t_m;
+    };
+    const auto add_paint = [&](const Paint& stripe) {
+        add(std::clamp(stripe.right_t_m, base.right_t_m, base.left_t_m), base.material);
+        add(std::clamp(stripe.left_t_m, base.right_t_m, base.left_t_m), stripe.material);
+    };
+    for (const Paint& stripe : right)
+        if (stripe.reaches_left)
+            add_paint(stripe);
+    for (const Paint& stripe : left)
+        if (stripe.reaches_right)
+            add_paint(stripe);
+    add(base.left_t_m, base.material);
+}
+
+std::vector<Strip> SectionProfile::strips(double layout_s_m, double s_m) const {
+    std::vector<Strip> out;
+    if (edges_.empty())
+        return out;
+    if (!has_heights_) {
+        std::vector<Paint> right = paint(edges_.front(), layout_s_m, s_m);
+        for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
+            std::vector<Paint> left = paint(edges_[i + 1], layout_s_m, s_m);
+            append_lane(out, *edges_[i].left, right, left, s_m);
+            right = std::move(left);
+        }
+        return joined(out);
+    }
+    std::vector<Strip> lanes;
+    std::vector<Strip> all;
+    for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
+        lanes.clear();
+        append_lane(lanes, *edges_[i].left, paint(edges_[i], layout_s_m, s_m), paint(edges_[i + 1], layout_s_m, s_m), s_m);
+        all.insert(all.end(), lanes.begin(), lanes.end());
+    }
+    return with_kerb_faces(all);
+}
+
+void SectionProfile::append_stations(std::vector<double>& stations) const {
+    stations.push_back(section_->s_m);
+    stations.push_back(section_->end_m);
+    for (const Lane& lane : section_->lanes) {
+        for (const auto* knots : {&lane.widths, &lane.borders})
+            for (const Cubic& cubic : *knots)
+                stations.push_back(section_->s_m + cubic.s0);
+        for (const Lane::Height& height : lane.heights)
+            stations.push_back(section_->s_m + height.s_m);
+    }
+    for (const Edge& edge : edges_)
+        for (const Stripe& stripe : edge.stripes)
+            stripe.append_ends(stations);
+}
+
+double SectionProfile::rightmost_t(double s_m) const { return edges_.empty() ? 0.0 : span(*edges_.front().left, s_m).right_t_m; }
+double SectionProfile::leftmost_t(double s_m) const { return edges_.empty() ? 0.0 : span(*edges_.back().right, s_m).left_t_m; }
+
+} // namespace fernlicht

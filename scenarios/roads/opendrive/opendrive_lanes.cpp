@@ -1,0 +1,155 @@
+#include "scenarios/roads/cubics.h"
+#include "scenarios/roads/opendrive/opendrive_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht::opendrive {
+namespace {
+
+/// No lane edge lies further from the reference line; beyond, a number is mistyped.
+constexpr double widest_m = 1000.0;
+
+std::optional<int> read_link(OpenDriveXml& xml, pugi::xml_node lane_node, const char* name) {
+    const pugi::xml_node link = lane_node.child("link").child(name);
+    return link ? std::optional(xml.integer(link, "id")) : std::nullopt;
+}
+
+Lane read_lane(OpenDriveXml& xml, pugi::xml_node node) {
+    Lane lane;
+    lane.id = xml.integer(node, "id");
+    lane.type = xml.text(node, "type", "none");
+    const std::string level = xml.text(node, "level", "false");
+    lane.level = level == "true" || level == "1";
+    lane.reversed = xml.text(node, "direction") == "reversed";
+    lane.predecessor = read_link(xml, node, "predecessor");
+    lane.successor = read_link(xml, node, "successor");
+    lane.marks = read_marks(xml, node);
+    if (lane.id == 0)
+        return lane;
+    lane.widths = read_cubics(xml, node, "width", "sOffset");
+    lane.borders = read_cubics(xml, node, "border", "sOffset");
+    if (!lane.widths.empty() && !lane.borders.empty()) {
+        xml.warn(node, fmt::format("lane {} has widths and borders; the widths hold", lane.id));
+        lane.borders.clear();
+    }
+    for (const pugi::xml_node height : node.children("height"))
+        lane.heights.push_back({xml.number(height, "sOffset"), xml.number(height, "inner"), xml.number(height, "outer")});
+    std::stable_sort(lane.heights.begin(), lane.heights.end(), [](const auto& a, const auto& b) { return a.s_m < b.s_m; });
+    return lane;
+}
+
+void read_side(OpenDriveXml& xml, pugi::xml_node side, int sign, LaneSection& section) {
+    for (const pugi::xml_node node : side.children("lane")) {
+        Lane lane = read_lane(xml, node);
+        const int lane_sign = lane.id > 0 ? 1 : lane.id < 0 ? -1 : 0;
+        if (lane_sign != sign)
+            xml.refuse(node, "id", fmt::format("found lane {} in '{}'", lane.id, side.name()),
+                       sign > 0   ? "an id above 0"
+                       : sign < 0 ? "an id below 0"
+                                  : "the id 0");
+        section.lanes.push_back(std::move(lane));
+    }
+}
+
+LaneSection read_section(OpenDriveXml& xml, pugi::xml_node node, const std::string& road_name) {
+    LaneSection section;
+    section.s_m = xml.length(node, "s");
+    const std::string single = xml.text(node, "singleSide", "false");
+    section.single_side = single == "true" || single == "1";
+    read_side(xml, node.child("left"), 1, section);
+    read_side(xml, node.child("center"), 0, section);
+    read_side(xml, node.child("right"), -1, section);
+    auto& lanes = section.lanes;
+    if (std::none_of(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.id == 0; }))
+        lanes.push_back({});
+    std::stable_sort(lanes.begin(), lanes.end(), [](const Lane& a, const Lane& b) { return a.id > b.id; });
+    for (std::size_t i = 1; i < lanes.size(); ++i) {
+        if (lanes[i].id == lanes[i - 1].id)
+            xml.refuse(node, "id", fmt::format("found lane {} twice in {}, section at s = {}", lanes[i].id, road_name, section.s_m),
+                       "each id once");
+        if (lanes[i].id != lanes[i - 1].id - 1)
+            xml.warn(node, fmt::format("{}: lanes {} and {} of the section at s = {} are numbered with a gap", road_name, lanes[i - 1].id,
+                                       lanes[i].id, section.s_m));
+    }
+    return section;
+}
+
+bool has_roll(const Road& road) {
+    return std::any_of(road.superelevation.begin(), road.superelevation.end(),
+                       [](const Cubic& piece) { return piece.a != 0.0 || piece.b != 0.0 || piece.c != 0.0 || piece.d != 0.0; });
+}
+
+/// Edges in steps over the section: cubics may run away, or cross, between the values that look sane.
+void check_edges(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const LaneSection& section) {
+    constexpr int samples = 20;
+    constexpr double told_overlap_m = 0.001;
+    const std::string road_name = named("road", road.id);
+    for (const Lane& lane : section.lanes) {
+        double overlap = 0.0, overlap_s = 0.0;
+        for (int i = 0; i <= samples && lane.id != 0; ++i) {
+            const double s = section.s_m + (section.end_m - section.s_m) * i / samples, ds = s - section.s_m;
+            const LaneEdges edges = lane_edges(road, section, lane.id, s);
+            if (!(std::abs(edges.outer_t_m) <= widest_m))
+                xml.refuse(node, {},
+                           fmt::format("the edge of lane {} of {} lies at t = {} m at s = {}", lane.id, road_name, edges.outer_t_m, s),
+                           fmt::format("at most {} m from the reference line", widest_m));
+            const double side = lane.id > 0 ? 1.0 : -1.0;
+            const double width = !lane.widths.empty() ? value_at(lane.widths, ds)
+                                 : !lane.borders.empty()
+                                     ? side * (value_at(road.lane_offset, s) + value_at(lane.borders, ds) - edges.inner_t_m)
+                                     : 0.0;
+            if (-width > overlap)
+                overlap = -width, overlap_s = s;
+        }
+        if (overlap > told_overlap_m)
+            xml.warn(node, fmt::format("{}: lane {} overlaps its inner neighbour by {:.3f} m at s = {}; it has no width there", road_name,
+                                       lane.id, overlap, overlap_s));
+        if (lane.id != 0 && !lane.borders.empty() && !road.lane_offset.empty())
+            xml.warn(node,
+                     fmt::format("{}: lane {} has borders although the road has a lane offset; they are counted from the shifted centre",
+                                 road_name, lane.id));
+        if (lane.level && (has_roll(road) || !road.shapes.empty()))
+            xml.warn_once(node, "level",
+                          fmt::format("{}: lane {} is to stay level; it follows the road's superelevation and shape all the same",
+                                      road_name, lane.id));
+    }
+}
+
+} // namespace
+
+void read_lanes(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+    const pugi::xml_node lanes = road_node.child("lanes");
+    const std::string road_name = named("road", road.id);
+    road.lane_offset = read_cubics(xml, lanes, "laneOffset", "s");
+    std::vector<pugi::xml_node> nodes;
+    for (const pugi::xml_node node : lanes.children("laneSection")) {
+        LaneSection section = read_section(xml, node, road_name);
+        if (!road.sections.empty() && section.s_m <= road.sections.back().s_m)
+            xml.refuse(node, "s", fmt::format("found {} after {} in {}", section.s_m, road.sections.back().s_m, road_name),
+                       "lane sections in ascending order");
+        if (section.s_m >= road.length_m) {
+            xml.warn(node,
+                     fmt::format("{}: the lane section at s = {} lies beyond the road's end and is left out", road_name, section.s_m));
+            continue;
+        }
+        road.sections.push_back(std::move(section));
+        nodes.push_back(node);
+    }
+    if (road.sections.empty()) {
+        xml.warn(road_node, fmt::format("{} has no lane section: it is a reference line without surface", road_name));
+        road.sections.push_back({0.0, road.length_m, false, {Lane{}}});
+        nodes.push_back(road_node);
+    }
+    if (road.sections.front().s_m > 0.0) {
+        xml.warn(nodes.front(), fmt::format("{}: the first lane section begins at s = {}; it is extended back to 0", road_name,
+                                            road.sections.front().s_m));
+    }
+    for (std::size_t i = 0; i < road.sections.size(); ++i) {
+        road.sections[i].end_m = i + 1 < road.sections.size() ? road.sections[i + 1].s_m : road.length_m;
+        check_edges(xml, nodes[i], road, road.sections[i]);
+    }
+}
+
+} // namespace fernlicht::opendrive

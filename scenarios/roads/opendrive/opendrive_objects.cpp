@@ -1,0 +1,183 @@
+#include "scenarios/roads/opendrive/opendrive_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht::opendrive {
+namespace {
+
+constexpr double widest_object_m = 2000.0; ///< of one object
+constexpr double most_repeats = 100'000.0;
+constexpr double longest_piece_m = 4.0; ///< of a continuous object: 5 mm of sagitta at a radius of 400 m
+
+/// The object's own frame on the road.
+Pose object_frame(const Road& road, const RoadObject& object) {
+    const Pose surface = surface_pose({}, road, object.s_m, object.t_m);
+    const Pose stand{{0.0, 0.0, object.z_offset_m}, axes_from_angles(object.heading_rad, object.pitch_rad, object.roll_rad)};
+    return compose(surface, stand);
+}
+
+void add_corner(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const Pose& frame, RoadObject& object) {
+    const double height = xml.number(node, "height", 0.0);
+    glm::dvec3 base;
+    if (std::string_view(node.name()) == "cornerLocal") {
+        base = {xml.number(node, "u"), xml.number(node, "v"), xml.number(node, "z", 0.0)};
+    } else {
+        const Pose surface = surface_pose({}, road, xml.number(node, "s"), xml.number(node, "t"));
+        base = to_local(frame, surface.position_m + glm::dvec3(0.0, 0.0, xml.number(node, "dz", 0.0)));
+    }
+    object.outline_m.push_back({base.x, base.y, height});
+    object.outline_base_m.push_back(base.z);
+}
+
+/// One object for each outer outline that has corners enough.
+std::vector<RoadObject> with_outlines(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const RoadObject& object) {
+    std::vector<pugi::xml_node> outlines;
+    for (const pugi::xml_node parent : {node, node.child("outlines")}) // 1.4 has the outline in the object itself
+        for (const pugi::xml_node outline : parent.children("outline"))
+            outlines.push_back(outline);
+    std::vector<RoadObject> objects;
+    const Pose frame = object_frame(road, object);
+    const auto inner = [&](pugi::xml_node outline) { return xml.text(outline, "outer", "true") == "false"; };
+    const bool all_inner = std::all_of(outlines.begin(), outlines.end(), inner); // some exporters call their only outline an inner one
+    for (const pugi::xml_node outline : outlines) {
+        if (inner(outline) && !all_inner) {
+            xml.warn_once(outline, "hole", fmt::format("{}: an inner outline (a hole) is left out", named("object", object.id)));
+            continue;
+        }
+        RoadObject shaped = object;
+        shaped.closed_outline = xml.text(outline, "closed", "true") != "false";
+        for (const pugi::xml_node corner : outline.children())
+            if (const std::string_view name = corner.name(); name == "cornerLocal" || name == "cornerRoad")
+                add_corner(xml, corner, road, frame, shaped);
+        const std::size_t least = shaped.closed_outline ? 3 : 2;
+        if (shaped.outline_m.size() < least)
+            xml.warn_once(outline, "few corners",
+                          fmt::format("{}: an outline of {} corners encloses nothing and is left out", named("object", object.id),
+                                      shaped.outline_m.size()));
+        else
+            objects.push_back(std::move(shaped));
+    }
+    return objects;
+}
+
+struct Ramp {
+    double from = 0.0, to = 0.0;
+    double at(double part) const { return from + part * (to - from); }
+};
+
+/// `nameStart` and `nameEnd` of a repeat, else the object's own value.
+Ramp ramp(const OpenDriveXml& xml, pugi::xml_node repeat, const std::string& name, double own) {
+    const double from = xml.number(repeat, (name + "Start").c_str(), own);
+    return {from, xml.number(repeat, (name + "End").c_str(), from)};
+}
+
+void append_repeats(OpenDriveXml& xml, pugi::xml_node repeat, const RoadObject& object, const Road& road,
+                    std::vector<RoadObject>& objects) {
+    const double start = xml.number(repeat, "s", object.s_m), distance = xml.length(repeat, "distance", 0.0);
+    const double length = std::clamp(xml.length(repeat, "length", 0.0), 0.0, std::max(0.0, road.length_m - start));
+    const Ramp t = ramp(xml, repeat, "t", object.t_m), z = ramp(xml, repeat, "zOffset", object.z_offset_m);
+    const Ramp width = ramp(xml, repeat, "width", object.width_m), height = ramp(xml, repeat, "height", object.height_m);
+    const Ramp size = ramp(xml, repeat, "length", object.length_m), radius = ramp(xml, repeat, "radius", object.radius_m);
+    const bool continuous = distance == 0.0;
+    const double steps = continuous ? std::ceil(length / longest_piece_m) : std::floor(length / distance + 1e-9) + 1.0;
+    if (steps > most_repeats)
+        xml.refuse(repeat, "distance", fmt::format("found {} over {} m", distance, length),
+                   fmt::format("at most {} objects", most_repeats));
+    for (double i = 0.0; i < steps; i += 1.0) {
+        const double along = continuous ? (i + 0.5) * length / steps : i * distance;
+        const double part = length > 0.0 ? along / length : 0.0;
+        RoadObject copy = object;
+        copy.s_m = start + along;
+        copy.t_m = t.at(part), copy.z_offset_m = z.at(part);
+        copy.width_m = width.at(part), copy.height_m = height.at(part);
+        copy.length_m = size.at(part), copy.radius_m = radius.at(part);
+        if (continuous) {
+            copy.length_m = length / steps;
+            copy.radius_m = 0.0;
+            copy.heading_rad = length > 0.0 ? std::atan2(t.to - t.from, length) : 0.0;
+            copy.outline_m.clear();
+            copy.outline_base_m.clear();
+        }
+        objects.push_back(std::move(copy));
+    }
+}
+
+RoadObject read_object(OpenDriveXml& xml, pugi::xml_node node) {
+    RoadObject object;
+    object.id = xml.text(node, "id"), object.name = xml.text(node, "name"), object.type = xml.text(node, "type", "none");
+    object.s_m = xml.number(node, "s"), object.t_m = xml.number(node, "t");
+    object.z_offset_m = xml.number(node, "zOffset", 0.0);
+    object.heading_rad = xml.number(node, "hdg", 0.0);
+    object.pitch_rad = xml.number(node, "pitch", 0.0), object.roll_rad = xml.number(node, "roll", 0.0);
+    object.length_m = xml.length(node, "length", 0.0), object.width_m = xml.length(node, "width", 0.0);
+    object.height_m = xml.length(node, "height", 0.0), object.radius_m = xml.length(node, "radius", 0.0);
+    for (const double size : {object.length_m, object.width_m, object.height_m, object.radius_m})
+        if (size > widest_object_m)
+            xml.refuse(node, {}, fmt::format("{} measures {} m", named("object", object.id), size),
+                       fmt::format("at most {} m", widest_object_m));
+    return object;
+}
+
+bool has_size(const RoadObject& object) {
+    return !object.outline_m.empty() || object.radius_m > 0.0 || (object.length_m > 0.0 && object.width_m > 0.0) || object.height_m > 0.0;
+}
+
+} // namespace
+
+void read_objects(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+    for (const pugi::xml_node node : road_node.child("objects").children("object")) {
+        const RoadObject object = read_object(xml, node);
+        if (object.s_m < 0.0 || object.s_m > road.length_m + 0.01)
+            xml.warn(node, fmt::format("{} stands at s = {}, beyond {} of {} m; it is moved to the end", named("object", object.id),
+                                       object.s_m, named("road", road.id), road.length_m));
+        if (node.child("skeleton"))
+            xml.warn_once(node, "skeleton", fmt::format("{}: its skeleton is left out", named("object", object.id)));
+        for (const char* part : {"markings", "borders"})
+            if (node.child(part))
+                xml.warn_once(node, part, fmt::format("{}: its {} are left out", named("object", object.id), part));
+        if (object.radius_m > 0.0 && (object.length_m > 0.0 || object.width_m > 0.0))
+            xml.warn_once(node, "radius and length",
+                          fmt::format("{} has a radius beside length or width; the radius holds", named("object", object.id)));
+        std::vector<RoadObject> shaped = with_outlines(xml, node, road, object);
+        if (shaped.empty())
+            shaped.push_back(object);
+        for (const RoadObject& one : shaped) {
+            const std::size_t before = road.objects.size();
+            for (const pugi::xml_node repeat : node.children("repeat"))
+                append_repeats(xml, repeat, one, road, road.objects);
+            if (road.objects.size() == before)
+                road.objects.push_back(one);
+            if (!has_size(road.objects.back()))
+                xml.warn_once(node, "no size", fmt::format("{} has no size: it is not drawn", named("object", object.id)));
+        }
+    }
+}
+
+void read_signals(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+    for (const pugi::xml_node node : road_node.child("signals").children("signal")) {
+        RoadSignal signal;
+        signal.id = xml.text(node, "id"), signal.name = xml.text(node, "name");
+        signal.type = xml.text(node, "type"), signal.subtype = xml.text(node, "subtype"), signal.country = xml.text(node, "country");
+        signal.s_m = xml.number(node, "s"), signal.t_m = xml.number(node, "t");
+        signal.z_offset_m = xml.number(node, "zOffset", 0.0);
+        signal.heading_offset_rad = xml.number(node, "hOffset", 0.0);
+        signal.width_m = xml.length(node, "width", 0.0), signal.height_m = xml.length(node, "height", 0.0);
+        for (const double size : {signal.width_m, signal.height_m})
+            if (size > widest_object_m)
+                xml.refuse(node, {}, fmt::format("{} measures {} m", named("signal", signal.id), size),
+                           fmt::format("at most {} m", widest_object_m));
+        signal.facing_forward = xml.text(node, "orientation", "+") != "-";
+        signal.dynamic = xml.text(node, "dynamic", "no") == "yes";
+        if (signal.s_m < 0.0 || signal.s_m > road.length_m + 0.01)
+            xml.warn(node, fmt::format("{} stands at s = {}, beyond {} of {} m; it is moved to the end", named("signal", signal.id),
+                                       signal.s_m, named("road", road.id), road.length_m));
+        if (node.child("positionInertial") || node.child("positionRoad"))
+            xml.warn_once(node, "physical position",
+                          fmt::format("{}: its physical position is left out; it stands at its s and t", named("signal", signal.id)));
+        road.signals.push_back(std::move(signal));
+    }
+}
+
+} // namespace fernlicht::opendrive

@@ -1,0 +1,192 @@
+// The cut-off's ruler: edges whose sharpness, place and kink are known in closed form.
+#include "metrics/beam/cut_off.h"
+
+#include "metrics/regulation/aim.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+
+struct Edge {
+    double level_deg = -0.57, kink_h_deg = 0.0, slope = 0.2679491924311227; ///< tan 15 degrees
+    double line(double h) const { return level_deg + std::max(0.0, h - kink_h_deg) * slope; }
+};
+
+/// The profile over the distance above the edge, in cd.
+template <class Profile> CandelaTable edge_table(const Edge& edge, Profile profile, double v_step = 0.01, double h_step = 0.1) {
+    CandelaTable t;
+    for (int i = 0; - 7.0 + i * h_step <= 7.0 + 1e-9; ++i)
+        t.h_deg.push_back(-7.0 + i * h_step);
+    for (int i = 0; - 5.0 + i * v_step <= 5.0 + 1e-9; ++i)
+        t.v_deg.push_back(-5.0 + i * v_step);
+    for (const double v : t.v_deg)
+        for (const double h : t.h_deg)
+            t.cd.push_back(profile(v - edge.line(h)));
+    t.rule = BetweenSamples::log_cd;
+    return t;
+}
+
+/// 10 000 cd falling to 100 cd in a logistic of the logarithm: G = 2 tanh(0.1 / (4 s)) by hand, inflection on the edge.
+double logistic(double above, double softness) { return std::pow(10.0, 2.0 + 2.0 / (1.0 + std::exp(above / softness))); }
+
+/// A ramp of k decades a degree over `width`: G = 0.1 k anywhere on it.
+double ramp(double above, double k, double width) { return 1e4 * std::pow(10.0, -k * std::clamp(above + width / 2.0, 0.0, width)); }
+
+/// A detector sees most of the brighter side of a steep edge: with 0.069 degrees and softness 0.1 it finds the edge 0.003 degrees higher.
+constexpr double detector_lift_deg = 0.004;
+
+const CutOffOptions by_point{.sharpness = SharpnessRule::maximum, .detector_deg = 0.0};
+
+TEST(CutOff, SharpnessOfARampIsATenthOfItsSlope) {
+    for (const double k : {1.3, 2.0, 4.0}) {
+        const CandelaTable t = edge_table({}, [&](double above) { return ramp(above, k, 0.5); });
+        const CutOffFigures c = measure_cut_off({&t, {}}, by_point);
+        EXPECT_NEAR(*c.level.sharpness, 0.1 * k, 1e-9) << k;
+        EXPECT_NEAR(*c.level.inflection_deg, -0.57, 1e-3) << k;
+    }
+}
+
+TEST(CutOff, SharpnessOfALogisticIsItsClosedForm) {
+    for (const double softness : {0.08, 0.12, 0.2}) {
+        const CandelaTable t = edge_table({}, [&](double above) { return logistic(above, softness); });
+        const CutOffFigures c = measure_cut_off({&t, {}}, by_point);
+        EXPECT_NEAR(*c.level.sharpness, 2.0 * std::tanh(0.1 / (4.0 * softness)), 2e-4) << softness;
+        EXPECT_NEAR(*c.level.inflection_deg, -0.57, 1e-3) << softness;
+        EXPECT_LE(*c.linearity_deg, 1e-3);
+        // From the inflection on upwards: 2 (1/2 - 1 / (1 + exp(0.1 / s)))
+        const CutOffFigures at = measure_cut_off({&t, {}}, {.sharpness = SharpnessRule::at_inflection, .detector_deg = 0.0});
+        EXPECT_NEAR(*at.level.sharpness, 2.0 * (0.5 - 1.0 / (1.0 + std::exp(0.1 / softness))), 3e-3) << softness;
+    }
+}
+
+// A disc of diameter d over an exponential ramp of q = k ln 10 per degree multiplies all of it alike: G stays; at the ends it is rounded.
+TEST(CutOff, ADetectorChangesNoSharpnessOnALongRampAndSoftensANarrowOne) {
+    const CandelaTable wide = edge_table({}, [](double above) { return ramp(above, 3.0, 0.6); });
+    EXPECT_NEAR(*measure_cut_off({&wide, {}}).level.sharpness, 0.3, 1e-4);
+    const CandelaTable narrow = edge_table({}, [](double above) { return ramp(above, 10.0, 0.1); });
+    EXPECT_NEAR(*measure_cut_off({&narrow, {}}, by_point).level.sharpness, 1.0, 1e-6);
+    EXPECT_LT(*measure_cut_off({&narrow, {}}).level.sharpness, 0.97);
+}
+
+TEST(CutOff, KinkIsFoundWhereItIs) {
+    for (const double kink : {-0.6, 0.0, 0.4})
+        for (const double angle : {15.0, 10.0}) {
+            const Edge edge{-0.57, kink, std::tan(angle * 3.14159265358979 / 180.0)};
+            const CandelaTable t = edge_table(edge, [](double above) { return logistic(above, 0.1); });
+            const CutOffFigures c = measure_cut_off({&t, {}});
+            EXPECT_NEAR(*c.kink_h_deg, kink, 0.02);
+            EXPECT_NEAR(*c.rise_angle_deg, angle, 0.1);
+        }
+}
+
+// On the line 0.37 above the level part a shoulder of slope m lies 0.37 / m to the right of the kink.
+TEST(CutOff, ShoulderIsFoundOnTheLineAt02D) {
+    const Edge edge{-0.57, 0.2, 1.0};
+    const CandelaTable t = edge_table(
+        edge, [](double above) { return logistic(above, 0.1); }, 0.01, 0.05);
+    const CutOffFigures c = measure_cut_off({&t, {}});
+    EXPECT_NEAR(c.shoulder.at_deg, -0.20, detector_lift_deg);
+    EXPECT_NEAR(*c.shoulder.inflection_deg, 0.57, 0.01);
+    EXPECT_NEAR(*c.shoulder.sharpness, 2.0 * std::tanh(0.1 / 0.4), 0.02);
+}
+
+TEST(CutOff, LinearityIsTheSpreadOfThreeVerticals) {
+    CandelaTable t = edge_table({}, [](double above) { return logistic(above, 0.1); });
+    const Edge edge;
+    for (std::size_t v = 0; v < t.v_deg.size(); ++v) // falling to the left by 0.06 a degree
+        for (std::size_t h = 0; h < t.h_deg.size(); ++h)
+            t.at(v, h) = logistic(t.v_deg[v] - edge.line(t.h_deg[h]) - 0.06 * std::min(0.0, t.h_deg[h]), 0.1);
+    EXPECT_NEAR(*measure_cut_off({&t, {}}).linearity_deg, 0.12, 2e-3);
+}
+
+TEST(CutOff, ACoarseFileHasNoSharpnessButAPlace) {
+    const CandelaTable t = edge_table(
+        {}, [](double above) { return logistic(above, 0.1); }, 0.2);
+    const CutOffFigures c = measure_cut_off({&t, {}});
+    EXPECT_FALSE(c.level.sharpness);
+    EXPECT_THAT(c.level.reason, HasSubstr("step of 0.2 degrees at the edge is coarser than the 0.1 degrees"));
+    EXPECT_NEAR(*c.level.inflection_deg, -0.57, 0.1);
+    EXPECT_NEAR(c.level.position_error_deg, 0.1, 1e-9);
+}
+
+TEST(CutOff, WhereThereIsNoneItSaysSo) {
+    const CandelaTable flat = edge_table({}, [](double) { return 500.0; });
+    EXPECT_FALSE(measure_cut_off({&flat, {}}).level.inflection_deg);
+    const CandelaTable soft = edge_table({}, [](double above) { return ramp(above, 0.5, 2.0); });
+    EXPECT_THAT(measure_cut_off({&soft, {}}).level.reason, HasSubstr("no edge: the greatest G is 0.050"));
+    CandelaTable dark = edge_table({}, [](double above) { return above > 0.0 ? 0.0 : 1000.0; });
+    EXPECT_THAT(measure_cut_off({&dark, {}}).level.reason, HasSubstr("ends in 0 cd"));
+    CandelaTable elsewhere = edge_table({}, [](double above) { return logistic(above, 0.1); });
+    for (double& v : elsewhere.v_deg)
+        v -= 40.0;
+    EXPECT_THAT(measure_cut_off({&elsewhere, {}}).level.reason, HasSubstr("outside the file's angles"));
+    const CutOffFigures level = [] {
+        const CandelaTable t = edge_table({-0.57, 0.0, 0.0}, [](double above) { return logistic(above, 0.1); });
+        return measure_cut_off({&t, {}});
+    }();
+    EXPECT_FALSE(level.kink_h_deg);
+    EXPECT_THAT(level.kink_reason, HasSubstr("too little to meet"));
+}
+
+TEST(Aim, FindsALampTurnedAway) {
+    for (const auto& [right, up] : {std::pair{0.0, 0.3}, {0.4, -0.2}, {-0.7, 0.5}}) {
+        const Edge edge{-0.57 + up, right};
+        const CandelaTable t = edge_table(edge, [](double above) { return logistic(above, 0.1); });
+        const Aim aim = aim_of(t, AimRule::cut_off);
+        EXPECT_TRUE(aim.found);
+        EXPECT_NEAR(aim.turned.v_deg, -up, 0.01);
+        EXPECT_NEAR(aim.turned.h_deg, -right, 0.02);
+        EXPECT_NEAR(*aim.cut_off->level.inflection_deg, -0.57, 0.003);
+        EXPECT_NEAR(*aim.cut_off->kink_h_deg, 0.0, 0.003);
+    }
+}
+
+TEST(Aim, ByTheLineAt02DPutsTheShoulderOnLineA) {
+    const Edge edge{-0.40, 0.6, 0.8}; // the shoulder at 0.37 / 0.8 right of the kink
+    const CandelaTable t = edge_table(
+        edge, [](double above) { return logistic(above, 0.1); }, 0.01, 0.05);
+    const Aim aim = aim_of(t, AimRule::cut_off_by_line);
+    EXPECT_NEAR(aim.turned.v_deg, -0.17, 0.01);
+    EXPECT_NEAR(aim.turned.h_deg, 0.5 - (0.6 + 0.37 / 0.8), 0.02);
+}
+
+TEST(Aim, OfTheUsPutsTheGradientWhereTheStandardSays) {
+    const CandelaTable t = edge_table({-0.3, 0.0}, [](double above) { return logistic(above, 0.1); });
+    const Aim vol = aim_of(t, AimRule::vol);
+    EXPECT_NEAR(vol.turned.v_deg, -0.4 + 0.3, detector_lift_deg);
+    EXPECT_EQ(vol.turned.h_deg, 0.0);
+    const Aim vor = aim_of(t, AimRule::vor); // the edge 2 degrees right: -0.3 + 2 tan 15
+    EXPECT_NEAR(vor.turned.v_deg, 0.3 - 2.0 * std::tan(15.0 * 3.14159265358979 / 180.0), detector_lift_deg);
+}
+
+TEST(Aim, ByMaximumCentresTheAreaOf80PerCent) {
+    CandelaTable t = edge_table(
+        {}, [](double) { return 0.0; }, 0.1);
+    for (std::size_t v = 0; v < t.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < t.h_deg.size(); ++h)
+            t.at(v, h) = 50000.0 * std::exp(-0.5 * (std::pow((t.h_deg[h] - 0.7) / 3.0, 2) + std::pow((t.v_deg[v] + 0.25) / 1.0, 2)));
+    const Aim aim = aim_of(t, AimRule::maximum);
+    EXPECT_NEAR(aim.turned.h_deg, -0.7, 0.02);
+    EXPECT_NEAR(aim.turned.v_deg, 0.25, 0.02);
+}
+
+TEST(Aim, WithoutAnEdgeTheLampStaysAndItIsSaid) {
+    const CandelaTable flat = edge_table({}, [](double) { return 500.0; });
+    for (const AimRule rule : {AimRule::cut_off, AimRule::cut_off_by_line, AimRule::vol, AimRule::vor}) {
+        const Aim aim = aim_of(flat, rule);
+        EXPECT_FALSE(aim.found);
+        EXPECT_EQ(aim.turned, Direction{});
+        EXPECT_THAT(aim.how, HasSubstr("left as filed"));
+    }
+    const CandelaTable coarse = edge_table(
+        {}, [](double above) { return logistic(above, 0.3); }, 1.0);
+    EXPECT_THAT(aim_of(coarse, AimRule::cut_off).how, HasSubstr("known to 0.5 degrees only"));
+}
+
+} // namespace
+} // namespace fernlicht

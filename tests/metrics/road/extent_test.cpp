@@ -1,0 +1,285 @@
+#include "metrics/road/extent.h"
+
+#include "metrics/road/lane_grid_error.h"
+#include "tests/metrics/straight_grid.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+using tests::extent_of;
+using tests::lit_by;
+using tests::straight_grid;
+using tests::two_lanes;
+
+constexpr double pi_ = 3.14159265358979323846;
+
+// A lamp of constant intensity I at height h above offset 0 of the bumper: E = I h / d^3 on the road.
+struct BareLamp {
+    double cd = 10000.0, height_m = 0.65;
+    double road_lx(double ahead_m, double offset_m) const {
+        return cd * height_m / std::pow(ahead_m * ahead_m + offset_m * offset_m + height_m * height_m, 1.5);
+    }
+    double target_lx(double ahead_m, double offset_m) const { return cd / (ahead_m * ahead_m + offset_m * offset_m + height_m * height_m); }
+    /// Distance on the road at which the limit is met, along offset `b`.
+    double road_reach_m(double limit_lx, double b = 0.0) const {
+        return std::sqrt(std::pow(cd * height_m / limit_lx, 2.0 / 3.0) - height_m * height_m - b * b);
+    }
+    double target_reach_m(double limit_lx, double b = 0.0) const { return std::sqrt(cd / limit_lx - height_m * height_m - b * b); }
+};
+
+class BareLampOnTheRoad : public ::testing::Test {
+  protected:
+    const BareLamp lamp;
+    const ExtentGrid grid = straight_grid({});
+    const std::vector<double> lx = lit_by(grid, [this](double x, double y) { return lamp.road_lx(x, y); });
+    const std::vector<double> limits{1.0, 3.0, 5.0, 10.0};
+    const std::vector<LaneExtent> extents = measure_extent(grid, lx, ExtentPlane::road, limits, {5.0, 10.0});
+};
+
+// Straight in ln E over a cell c, the error of a power law x^-3 is about c^2 / (8 x): 2.5 mm at 12 m.
+TEST_F(BareLampOnTheRoad, ReachesWhereTheLawSays) {
+    for (const double limit : limits) {
+        const LaneExtent own = extent_of(extents, "own", limit);
+        EXPECT_NEAR(own.reach_centre_m, lamp.road_reach_m(limit), 0.004) << limit;
+        EXPECT_NEAR(own.reach_left_edge_m, lamp.road_reach_m(limit, 1.75), 0.004) << limit;
+        EXPECT_EQ(own.reach_left_edge_m, own.reach_right_edge_m) << "the lamp and the lane are symmetrical";
+        EXPECT_EQ(own.unlit_before_reach_m, 0.0);
+        EXPECT_FALSE(own.reach_is_cut_off);
+        EXPECT_NEAR(extent_of(extents, "left 1", limit).reach_centre_m, lamp.road_reach_m(limit, 3.5), 0.004);
+        EXPECT_NEAR(extent_of(extents, "right 1", limit).reach_right_edge_m, lamp.road_reach_m(limit, 3.25), 0.004);
+    }
+}
+
+TEST_F(BareLampOnTheRoad, LanesComeFromLeftToRightThenAll) {
+    ASSERT_EQ(extents.size(), 16U);
+    EXPECT_EQ(extents[0].lane, "left 1");
+    EXPECT_FALSE(extents[0].same_direction);
+    EXPECT_EQ(extents[4].lane, "own");
+    EXPECT_TRUE(extents[4].same_direction);
+    EXPECT_EQ(extents[8].lane, "right 1");
+    EXPECT_EQ(extents[12].lane, "all");
+}
+
+// Lit inside the circle r about the lamp's foot; the half ahead of the bumper counts.
+TEST_F(BareLampOnTheRoad, AreaIsHalfACircle) {
+    for (const double limit : limits) {
+        const double radius_m = lamp.road_reach_m(limit);
+        const LaneExtent all = extent_of(extents, "all", limit);
+        EXPECT_NEAR(all.area_m2 / (0.5 * pi_ * radius_m * radius_m), 1.0, 1e-3) << limit;
+        EXPECT_NEAR(all.reach_centre_m, radius_m, 0.004);
+    }
+}
+
+// Half the circle between the chords at offsets a and b: integral of sqrt(r^2 - y^2).
+TEST_F(BareLampOnTheRoad, AreaOfALaneIsTheCircleBetweenItsEdges) {
+    const auto up_to = [](double r, double y) { return 0.5 * (y * std::sqrt(r * r - y * y) + r * r * std::asin(y / r)); };
+    const double radius_m = lamp.road_reach_m(3.0);
+    const auto between = [&](double right_m, double left_m) { return up_to(radius_m, left_m) - up_to(radius_m, right_m); };
+    EXPECT_NEAR(extent_of(extents, "own", 3.0).area_m2 / between(-1.75, 1.75), 1.0, 1e-3);
+    EXPECT_NEAR(extent_of(extents, "left 1", 3.0).area_m2 / between(1.75, 5.25), 1.0, 1e-3);
+    EXPECT_NEAR(extent_of(extents, "right 1", 3.0).area_m2 / between(-3.25, -1.75), 1.0, 1e-3);
+}
+
+TEST_F(BareLampOnTheRoad, WidthIsTheChord) {
+    const double half_m = std::sqrt(std::pow(lamp.road_reach_m(3.0), 2) - 100.0);
+    const LaneExtent all = extent_of(extents, "all", 3.0);
+    ASSERT_EQ(all.widths.size(), 2U);
+    EXPECT_EQ(all.widths[1].at_m, 10.0);
+    EXPECT_NEAR(all.widths[1].left_m, half_m, 1e-3);
+    EXPECT_NEAR(all.widths[1].right_m, -half_m, 1e-3);
+    EXPECT_NEAR(all.widths[1].width_m, 2.0 * half_m, 2e-3);
+    const LaneExtent own = extent_of(extents, "own", 3.0);
+    EXPECT_DOUBLE_EQ(own.widths[1].left_m, 1.75);
+    EXPECT_DOUBLE_EQ(own.widths[1].width_m, 3.5);
+}
+
+TEST(Extent, OnATargetFacingTheLamp) {
+    const BareLamp lamp;
+    const ExtentGrid grid = straight_grid({.ahead_m = 120.0});
+    const auto extents =
+        measure_extent(grid, lit_by(grid, [&](double x, double y) { return lamp.target_lx(x, y); }), ExtentPlane::target, {1.0, 5.0}, {});
+    EXPECT_NEAR(extent_of(extents, "own", 1.0).reach_centre_m, lamp.target_reach_m(1.0), 1e-3);
+    EXPECT_NEAR(extent_of(extents, "own", 5.0).reach_left_edge_m, lamp.target_reach_m(5.0, 1.75), 2e-3);
+    EXPECT_EQ(extent_of(extents, "own", 5.0).plane, ExtentPlane::target);
+}
+
+TEST(Extent, BeyondTheGridIsCutOffNotInvented) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 30.0});
+    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {20.0, 50.0});
+    for (const LaneExtent& extent : extents) {
+        EXPECT_TRUE(extent.reach_is_cut_off) << extent.lane;
+        EXPECT_EQ(extent.reach_centre_m, 30.0) << extent.lane;
+        ASSERT_EQ(extent.widths.size(), 1U) << "50 m was not looked at";
+        EXPECT_EQ(extent.widths[0].at_m, 20.0);
+    }
+    EXPECT_NEAR(extent_of(extents, "all", 5.0).area_m2, 30.0 * 40.0, 1e-9);
+    EXPECT_NEAR(extent_of(extents, "own", 5.0).area_m2, 30.0 * 3.5, 1e-9);
+    EXPECT_NEAR(extent_of(extents, "all", 5.0).widths[0].width_m, 40.0, 1e-12);
+}
+
+TEST(Extent, UnlitIsZeroEverywhere) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 30.0});
+    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 0.0), ExtentPlane::road, {1.0}, {20.0});
+    ASSERT_EQ(extents.size(), 4U);
+    for (const LaneExtent& extent : extents) {
+        EXPECT_EQ(extent.reach_centre_m, 0.0);
+        EXPECT_EQ(extent.area_m2, 0.0);
+        EXPECT_FALSE(extent.reach_is_cut_off);
+        ASSERT_EQ(extent.widths.size(), 1U);
+        EXPECT_EQ(extent.widths[0].width_m, 0.0);
+    }
+}
+
+// Lit between y = -x/10 and y = x/10, up to 50 m: a triangle of area 250, 4 m wide at 20 m. E is linear across the edge, 1 lx on it,
+// so that the linear fall-back at the dark side would be seen; slope small enough for the logarithm to agree to a millimetre.
+TEST(Extent, WedgeHasItsWidthsAndArea) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 50.0, .beside_m = 6.0});
+    const auto wedge = [](double x, double y) { return std::exp(x / 10.0 - std::abs(y)); };
+    const auto extents = measure_extent(grid, lit_by(grid, wedge), ExtentPlane::road, {1.0}, {20.0, 33.3});
+    const LaneExtent all = extent_of(extents, "all", 1.0);
+    EXPECT_NEAR(all.area_m2, 250.0, 1e-9);
+    ASSERT_EQ(all.widths.size(), 2U);
+    EXPECT_NEAR(all.widths[0].width_m, 4.0, 1e-12);
+    EXPECT_NEAR(all.widths[1].left_m, 3.33, 1e-12);
+    EXPECT_NEAR(all.widths[1].right_m, -3.33, 1e-12);
+    // The own lane is dark on its edge until x = 17.5 m, then lit throughout.
+    const LaneExtent own = extent_of(extents, "own", 1.0);
+    EXPECT_NEAR(own.area_m2, 17.5 * 1.75 + 32.5 * 3.5, 1e-9);
+    EXPECT_NEAR(own.widths[0].width_m, 3.5, 1e-12);
+    EXPECT_TRUE(own.reach_is_cut_off);
+}
+
+TEST(Extent, DarkGapOnTheWayIsReported) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 60.0});
+    const auto extents = measure_extent(
+        grid, lit_by(grid, [](double x, double) { return (x >= 10.0 && x <= 20.0) || (x >= 30.0 && x <= 40.0) ? 10.0 : 0.1; }),
+        ExtentPlane::road, {1.0}, {});
+    // Half a cell of fall-off at each of the four edges: 10 : 0.1 about 1.
+    const LaneExtent own = extent_of(extents, "own", 1.0);
+    EXPECT_NEAR(own.reach_centre_m, 40.25, 1e-12);
+    EXPECT_NEAR(own.unlit_before_reach_m, 9.75 + 9.5, 1e-12);
+}
+
+// Two separate pools of light: the edges are the outermost, the width leaves the dark between them out.
+TEST(Extent, WidthCountsOnlyWhatIsLit) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 10.0, .beside_m = 4.0});
+    const auto pools = [](double, double y) { return std::abs(y) >= 1.0 && std::abs(y) <= 2.0 ? 10.0 : 0.0; };
+    const auto extents = measure_extent(grid, lit_by(grid, pools), ExtentPlane::road, {5.0}, {5.0});
+    const LaneExtent::Width width = extent_of(extents, "all", 5.0).widths.at(0);
+    EXPECT_NEAR(width.left_m, 2.0625, 1e-12);
+    EXPECT_NEAR(width.right_m, -2.0625, 1e-12);
+    EXPECT_NEAR(width.width_m, 2.0 * 1.125, 1e-12);
+}
+
+TEST(Extent, EndsWhereTheLaneEnds) {
+    ExtentGrid grid = straight_grid({.ahead_m = 40.0});
+    for (std::size_t row = 0; row < grid.sections.size(); ++row)
+        if (grid.ahead_m[row] > 25.0)
+            grid.sections[row].lanes.erase(grid.sections[row].lanes.begin()); // the oncoming lane is gone
+    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {20.0, 30.0});
+    const LaneExtent left = extent_of(extents, "left 1", 5.0);
+    EXPECT_EQ(left.reach_centre_m, 25.0);
+    EXPECT_TRUE(left.reach_is_cut_off);
+    EXPECT_NEAR(left.area_m2, 25.0 * 3.5, 1e-9);
+    ASSERT_EQ(left.widths.size(), 1U);
+    EXPECT_EQ(left.widths[0].at_m, 20.0);
+}
+
+TEST(Extent, LaneEdgesMayRunSlanting) {
+    ExtentGrid grid = straight_grid({.ahead_m = 40.0});
+    for (std::size_t row = 0; row < grid.sections.size(); ++row)
+        grid.sections[row].lanes = {{"own", "driving", -1, true, 1.0 + grid.ahead_m[row] * 0.05, -1.0}};
+    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {10.3});
+    const LaneExtent own = extent_of(extents, "own", 5.0);
+    EXPECT_NEAR(own.area_m2, 40.0 * 2.0 + 0.5 * 40.0 * 2.0, 1e-9);
+    EXPECT_NEAR(own.widths.at(0).width_m, 2.515, 1e-9);
+}
+
+TEST(Extent, LaneOutsideTheWidthThatWasLookedAtIsLeftOut) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 10.0, .beside_m = 3.0});
+    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {});
+    ASSERT_EQ(extents.size(), 2U);
+    EXPECT_EQ(extents[0].lane, "own");
+    EXPECT_EQ(extents[1].lane, "all");
+}
+
+// On a circular arc of 50 m radius to the left the strip from offset a to b has (R - (a + b) / 2) / R times the straight one's area.
+TEST(Extent, AreaIsThatOfTheRoadNotOfTheGrid) {
+    ExtentGrid grid = straight_grid({.ahead_m = 60.0, .beside_m = 6.0});
+    for (std::size_t row = 0; row < grid.ahead_m.size(); ++row)
+        for (std::size_t column = 0; column < grid.offset_m.size(); ++column) {
+            const double angle = grid.ahead_m[row] / 50.0, radius_m = 50.0 - grid.offset_m[column];
+            grid.surface[row * grid.offset_m.size() + column].position_m = {radius_m * std::sin(angle), 50.0 - radius_m * std::cos(angle),
+                                                                            0.0};
+        }
+    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {});
+    EXPECT_NEAR(extent_of(extents, "left 1", 5.0).area_m2 / (60.0 * 3.5 * (50.0 - 3.5) / 50.0), 1.0, 1e-4);
+    EXPECT_NEAR(extent_of(extents, "own", 5.0).area_m2 / (60.0 * 3.5), 1.0, 1e-4);
+}
+
+TEST(Extent, RefusesWhatCannotBeMeasured) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 10.0});
+    std::vector<double> lx(grid.surface.size(), 1.0);
+    EXPECT_THROW(measure_extent(grid, {1.0}, ExtentPlane::road, {1.0}, {}), std::invalid_argument);
+    EXPECT_THROW(measure_extent(grid, lx, ExtentPlane::road, {0.0}, {}), std::invalid_argument);
+    lx[17] = std::nan("");
+    EXPECT_THROW(measure_extent(grid, lx, ExtentPlane::road, {1.0}, {}), std::invalid_argument);
+    EXPECT_TRUE(measure_extent({}, {}, ExtentPlane::road, {1.0}, {}).empty());
+}
+
+// The error of the reach goes as the square of the cell: E = x^-3 gives c^2 / (8 x) on top of another phase in the cell.
+TEST(GridError, IsSmallForSmoothLightAndShrinksWithTheCell) {
+    const BareLamp lamp;
+    const auto error_with = [&](double cell_m) {
+        const ExtentGrid grid = straight_grid({.ahead_m = 60.0, .along_m = cell_m, .across_m = cell_m / 4.0});
+        return grid_error(grid, lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); }), ExtentPlane::road, {3.0}).at(0);
+    };
+    const GridError coarse = error_with(2.0), fine = error_with(0.5);
+    EXPECT_LT(coarse.reach_m, 4.0 * 4.0 / (8.0 * 12.0));
+    EXPECT_GT(coarse.area_m2, 0.0);
+    EXPECT_LT(fine.reach_m, 0.015);
+    EXPECT_LT(fine.area_m2, 0.2 * coarse.area_m2);
+    EXPECT_EQ(fine.limit_lx, 3.0);
+}
+
+// Of every lane what grid_error tells of the own lane's reach and of the whole width's area.
+TEST(LaneGridErrors, AgreeWithTheGridsErrorAndShrinkWithTheCell) {
+    const BareLamp lamp;
+    const auto errors_with = [&](double cell_m) {
+        const ExtentGrid grid = straight_grid({.ahead_m = 60.0, .along_m = cell_m, .across_m = cell_m / 4.0});
+        const std::vector<double> lx = lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); });
+        const std::vector<LaneExtent> measured = measure_extent(grid, lx, ExtentPlane::road, {3.0}, {});
+        const std::vector<LaneGridError> errors = lane_grid_errors(grid, lx, ExtentPlane::road, {3.0}, measured);
+        EXPECT_EQ(errors.size(), measured.size());
+        const GridError whole = grid_error(grid, lx, ExtentPlane::road, {3.0}).at(0);
+        for (const LaneGridError& error : errors) {
+            EXPECT_NEAR(error.lane == "own" ? error.reach_m : whole.reach_m, whole.reach_m, 1e-12);
+            EXPECT_NEAR(error.lane == "all" ? error.area_m2 : whole.area_m2, whole.area_m2, 1e-9);
+        }
+        return errors;
+    };
+    const auto coarse = errors_with(2.0), fine = errors_with(0.5);
+    ASSERT_EQ(coarse.size(), fine.size());
+    ASSERT_GT(fine.size(), 2U);
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+        EXPECT_LE(fine[i].reach_m, 0.3 * coarse[i].reach_m + 0.01) << fine[i].lane;
+        EXPECT_LE(fine[i].edge_m, 0.3 * coarse[i].edge_m + 0.01) << fine[i].lane;
+        EXPECT_LE(fine[i].area_m2, 0.3 * coarse[i].area_m2 + 0.05) << fine[i].lane;
+    }
+}
+
+TEST(GridError, EvenNumbersOfRowsCompareTheSameGround) {
+    ExtentGrid grid = straight_grid({.ahead_m = 10.5});
+    ASSERT_EQ(grid.ahead_m.size() % 2, 0U);
+    const auto errors = grid_error(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::target, {5.0});
+    ASSERT_EQ(errors.size(), 1U);
+    EXPECT_EQ(errors[0].reach_m, 0.0);
+    EXPECT_NEAR(errors[0].area_m2, 0.0, 1e-9);
+    EXPECT_EQ(errors[0].plane, ExtentPlane::target);
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,143 @@
+#include "metrics/road/extent.h"
+
+#include "scenarios/light/light.h"
+#include "tests/metrics/straight_grid.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+namespace fernlicht {
+namespace {
+
+using tests::extent_of;
+using tests::straight_grid;
+
+LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double pitch_rad = 0.0) {
+    auto file = std::make_shared<LampFile>();
+    file->table = std::move(table);
+    LitLamp lamp;
+    lamp.file = std::move(file);
+    lamp.pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)};
+    return lamp;
+}
+
+CandelaTable everywhere(double cd) { return {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd}; }
+
+/// `cd` below the lamp's horizon, nothing above it.
+CandelaTable cut_off_at_horizon(double cd) {
+    return {{-180.0, 180.0}, {-90.0, 0.0, 1e-9, 90.0}, {cd, cd, cd, cd, 0.0, 0.0, 0.0, 0.0}, {}, BetweenSamples::linear_cd};
+}
+
+Moment moment_of(std::vector<LitLamp> lamps) {
+    Moment moment;
+    moment.lamps = std::move(lamps);
+    return moment;
+}
+
+// 0.65 m above the road, 1 % down: its cut-off meets the road 65 m ahead.
+LitLamp dipped_lamp() { return lamp_with(cut_off_at_horizon(50000.0), {0.0, 0.0, 0.65}, -std::atan(0.01)); }
+
+TEST(TwinIlluminance, IsTheLawOfLampAndRoad) {
+    ExtentGrid grid = straight_grid({.ahead_m = 60.0, .target_height_m = 0.25});
+    const Moment moment =
+        moment_of({lamp_with(everywhere(10000.0), {-0.2, 0.6, 0.65}), lamp_with(everywhere(10000.0), {-0.2, -0.6, 0.65})});
+    const auto road = twin_illuminance_lx(grid, moment, ExtentPlane::road);
+    const auto target = twin_illuminance_lx(grid, moment, ExtentPlane::target);
+    for (std::size_t row = 0; row < grid.ahead_m.size(); row += 7)
+        for (std::size_t column = 0; column < grid.offset_m.size(); column += 5) {
+            const double x = grid.ahead_m[row] + 0.2, y = grid.offset_m[column];
+            double on_road = 0.0, on_target = 0.0;
+            for (const double side : {0.6, -0.6}) {
+                on_road += 10000.0 * 0.65 / std::pow(x * x + (y - side) * (y - side) + 0.65 * 0.65, 1.5);
+                on_target += 10000.0 / (x * x + (y - side) * (y - side) + 0.4 * 0.4);
+            }
+            const std::size_t i = row * grid.offset_m.size() + column;
+            EXPECT_NEAR(road[i] / on_road, 1.0, 1e-12);
+            EXPECT_NEAR(target[i] / on_target, 1.0, 1e-12);
+        }
+}
+
+TEST(TwinIlluminance, LampsThatAreOffAddExactlyNothing) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 20.0});
+    LitLamp on = lamp_with(everywhere(1000.0), {0.0, 0.0, 0.65}), off = on;
+    off.intensity_factor = 0.0;
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
+        EXPECT_EQ(twin_illuminance_lx(grid, moment_of({on}), plane), twin_illuminance_lx(grid, moment_of({off, on, off}), plane));
+        for (const double lx : twin_illuminance_lx(grid, moment_of({off}), plane))
+            ASSERT_EQ(lx, 0.0);
+    }
+}
+
+TEST(TwinIlluminance, TheSkyLightsTheRoadAndNotTheTarget) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 5.0});
+    Moment moment;
+    moment.daylight.horizontal_illuminance_lx = 0.2;
+    EXPECT_EQ(twin_illuminance_lx(grid, moment, ExtentPlane::road).front(), 0.2);
+    EXPECT_EQ(twin_illuminance_lx(grid, moment, ExtentPlane::target).front(), 0.0);
+}
+
+TEST(TwinIlluminance, ThreadsDoNotChangeABit) {
+    const ExtentGrid grid = straight_grid({});
+    const Moment moment = moment_of({dipped_lamp(), lamp_with(everywhere(1234.5), {0.1, 0.6, 0.7})});
+    const auto with_all = twin_illuminance_lx(grid, moment, ExtentPlane::road);
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(with_all, twin_illuminance_lx(grid, moment, ExtentPlane::road));
+}
+
+TEST(TwinExtent, BareLampReachesWhereTheLawSays) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .target_height_m = 0.25});
+    const Moment moment = moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})});
+    const auto road = measure_extent(grid, twin_illuminance_lx(grid, moment, ExtentPlane::road), ExtentPlane::road, {3.0}, {});
+    const auto target = measure_extent(grid, twin_illuminance_lx(grid, moment, ExtentPlane::target), ExtentPlane::target, {1.0}, {});
+    EXPECT_NEAR(extent_of(road, "own", 3.0).reach_centre_m, std::sqrt(std::pow(6500.0 / 3.0, 2.0 / 3.0) - 0.65 * 0.65), 3e-3);
+    EXPECT_NEAR(extent_of(target, "own", 1.0).reach_centre_m, std::sqrt(10000.0 - 0.4 * 0.4), 1e-3);
+}
+
+// At the cut-off I / 65^2 = 11.8 lx: every lower limit ends there, 65 m ahead on the road, h / tan(dip). 65 m is a row of the grid.
+TEST(TwinExtent, CutOffEndsTheReach) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 100.0, .across_m = 0.5});
+    const auto lx = twin_illuminance_lx(grid, moment_of({dipped_lamp()}), ExtentPlane::target);
+    const auto extents = measure_extent(grid, lx, ExtentPlane::target, {1.0, 5.0}, {});
+    EXPECT_NEAR(extent_of(extents, "own", 1.0).reach_centre_m, 65.0, 0.5);
+    EXPECT_NEAR(extent_of(extents, "own", 5.0).reach_centre_m, 65.0, 0.5);
+    EXPECT_FALSE(extent_of(extents, "own", 1.0).reach_is_cut_off);
+}
+
+// The cut-off meets the road at h / tan(dip): the derivative at 1 % is h / sin^2 = 113 m per degree. The central difference over +-0.1
+// degrees is h sin(0.2 deg) / (2 sin(dip - 0.1 deg) sin(dip + 0.1 deg)), 3 % more, since the reach curves upwards.
+TEST(ReachSensitivity, CutOffAnswersToAimAndNotToFlux) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 100.0, .beside_m = 1.0});
+    const auto sensitivities = reach_sensitivity(grid, moment_of({dipped_lamp()}), {1.0, 3.0});
+    ASSERT_EQ(sensitivities.size(), 4U);
+    const double dip = std::atan(0.01), tenth = radians(0.1);
+    const double central_m = 0.65 * std::sin(2.0 * tenth) / (2.0 * std::sin(dip - tenth) * std::sin(dip + tenth));
+    const double metres_per_degree = 0.65 / (std::sin(dip) * std::sin(dip)) * radians(1.0);
+    ASSERT_NEAR(metres_per_degree, 113.4, 0.1);
+    for (const ReachSensitivity& sensitivity : sensitivities)
+        if (sensitivity.plane == ExtentPlane::target) {
+            EXPECT_NEAR(sensitivity.metres_per_tenth_degree, central_m, 1e-5) << sensitivity.limit_lx;
+            EXPECT_NEAR(sensitivity.metres_per_tenth_degree / (0.1 * metres_per_degree), 1.0, 0.035);
+            EXPECT_NEAR(sensitivity.metres_per_tenth_flux, 0.0, 1e-5);
+        }
+}
+
+// Constant intensity does not care for aim; d' = sqrt(I / E) answers to flux: (sqrt(1.1) - sqrt(0.9)) / 2 of the distance.
+TEST(ReachSensitivity, BareLampAnswersToFluxAndNotToAim) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .beside_m = 1.0, .target_height_m = 0.65});
+    const auto sensitivities = reach_sensitivity(grid, moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})}), {1.0});
+    ASSERT_EQ(sensitivities.size(), 2U);
+    EXPECT_EQ(sensitivities[1].plane, ExtentPlane::target);
+    EXPECT_NEAR(sensitivities[1].metres_per_tenth_flux, 100.0 * 0.5 * (std::sqrt(1.1) - std::sqrt(0.9)), 1e-5);
+    EXPECT_NEAR(sensitivities[1].metres_per_tenth_degree, 0.0, 1e-5);
+}
+
+TEST(ReachSensitivity, HasNothingToSayOfADarkOrUnendingReach) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 50.0, .beside_m = 1.0});
+    EXPECT_TRUE(reach_sensitivity(grid, moment_of({}), {1.0}).empty());
+    EXPECT_TRUE(reach_sensitivity(grid, moment_of({lamp_with(everywhere(1e7), {0.0, 0.0, 0.65})}), {1.0}).empty());
+    EXPECT_TRUE(reach_sensitivity({}, moment_of({}), {1.0}).empty());
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,242 @@
+#include "runner/commands/lamp_command.h"
+
+#include "scenarios/lamps/lamp_model.h"
+#include "scenarios/lamps/spots/spot_fit.h"
+#include "scenarios/values/errors.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+
+class LampCommand : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(testing::TempDir()) /
+                  ("lamp_command_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    static LampRequest shipped(const std::string& name) {
+        LampRequest request;
+        request.file = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/lamps" / (name + ".ies");
+        return request;
+    }
+    std::string printed(const LampRequest& request) {
+        testing::internal::CaptureStdout();
+        const int code = lamp_command(request);
+        std::fflush(stdout);
+        const std::string text = testing::internal::GetCapturedStdout();
+        EXPECT_EQ(code, 0);
+        return text;
+    }
+    static std::string refusal(const LampRequest& request) {
+        try {
+            lamp_command(request);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "not refused";
+    }
+    static std::string content(const std::filesystem::path& path) {
+        std::ifstream in(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    std::filesystem::path folder_;
+};
+
+TEST_F(LampCommand, TellsAShippedLamp) {
+    const std::string text = printed(shipped("halogen-low"));
+    EXPECT_THAT(text, HasSubstr("halogen low beam (model)"));
+    EXPECT_THAT(text, HasSubstr("lx at 25 m, at H 1.5"));
+    EXPECT_THAT(text, HasSubstr("a model, not a measurement"));
+}
+
+TEST_F(LampCommand, FitsSpotLightsWhereAsked) {
+    LampRequest request = shipped("xenon-low");
+    request.spots = 2;
+    const std::string text = printed(request);
+    EXPECT_THAT(text, HasSubstr("2 fitted; they leave over "));
+    EXPECT_THAT(text, HasSubstr("exponent 128, cut-off "));
+    request.json = true;
+    const auto json = nlohmann::json::parse(printed(request));
+    const SpotFit fit = fit_spots(lamp_of(request).table, 2);
+    ASSERT_EQ(json["spot_fit"]["spots"].size(), 2u);
+    EXPECT_EQ(json["spot_fit"]["relative_l2"], fit.relative_l2);
+    EXPECT_EQ(json["spot_fit"]["spots"][1]["cutoff_deg"], fit.spots[1].cutoff_deg);
+    request.spots.reset();
+    EXPECT_FALSE(nlohmann::json::parse(printed(request)).contains("spot_fit"));
+    for (const int count : {-1, 0, 9}) {
+        request.spots = count;
+        EXPECT_THAT(refusal(request), HasSubstr("--spots"));
+    }
+}
+
+TEST_F(LampCommand, JsonHasTheFiguresOfTheTable) {
+    LampRequest request = shipped("xenon-low");
+    request.json = true;
+    const auto j = nlohmann::json::parse(printed(request));
+    const LampFile lamp = read_lamp(request.file);
+    EXPECT_DOUBLE_EQ(j["peak"]["cd"].get<double>(), peak_of(lamp.table).cd);
+    EXPECT_DOUBLE_EQ(j["flux_lm"].get<double>(), flux_lm(lamp.table));
+    EXPECT_GT(j["interpolation_error"]["samples"].get<int>(), 1000);
+}
+
+TEST_F(LampCommand, ModelsConvertToTheShippedFiles) {
+    for (const LampModel& model : lamp_models()) {
+        LampRequest request;
+        request.model = model.name;
+        request.convert = folder_ / (model.name + ".ies");
+        printed(request);
+        EXPECT_TRUE(content(request.convert) == content(shipped(model.name).file)) << model.name;
+    }
+}
+
+TEST_F(LampCommand, ScaleMirrorAddAndSubtractComeInThisOrder) {
+    LampRequest request = shipped("halogen-low");
+    const LampFile plain = lamp_of(request), high = lamp_of(shipped("halogen-high"));
+    request.scale = 0.5;
+    request.mirror = true;
+    request.add = {shipped("halogen-high").file};
+    LampFile changed = lamp_of(request);
+    for (const double h : {-9.0, -2.5, 0.0, 1.3, 17.0})
+        for (const double v : {-5.0, -0.86, -0.57, 0.0, 2.0})
+            EXPECT_NEAR(intensity_cd(changed.table, h, v), 0.5 * intensity_cd(plain.table, -h, v) + intensity_cd(high.table, h, v), 1e-6)
+                << h << " " << v;
+    EXPECT_EQ(changed.opened.size(), 2u);
+    request.subtract = {shipped("halogen-high").file};
+    changed = lamp_of(request);
+    EXPECT_NEAR(intensity_cd(changed.table, -1.3, -1.0), 0.5 * intensity_cd(plain.table, 1.3, -1.0), 1e-6);
+    EXPECT_THAT(changed.notes.back(), HasSubstr("would be negative"));
+}
+
+TEST_F(LampCommand, WhatWasChangedIsSaidInTheFileWritten) {
+    for (const char* name : {"changed.ies", "changed.csv"}) {
+        LampRequest request = shipped("halogen-low");
+        request.scale = 1.05;
+        request.mirror = true;
+        request.add = {shipped("halogen-high").file};
+        request.convert = folder_ / name;
+        printed(request);
+        LampRequest again;
+        again.file = request.convert;
+        const LampFile lamp = lamp_of(again);
+        ASSERT_FALSE(lamp.labels.empty());
+        std::size_t said = 0;
+        for (const auto& [key, value] : lamp.labels)
+            said += key == "OTHER" && value ==
+                                          "changed, other texts are of the lamp before: scaled by 1.05; mirrored, left and right traffic "
+                                          "exchanged; added halogen high beam (model)";
+        EXPECT_EQ(said, 1U) << content(request.convert).substr(0, 1500);
+    }
+}
+
+TEST_F(LampCommand, SubtractedFromItselfALampIsDarkAndStillPrintsAndPictures) {
+    LampRequest request = shipped("halogen-low");
+    request.subtract = {request.file};
+    request.picture = folder_ / "dark.svg";
+    EXPECT_THAT(printed(request), HasSubstr("no light in any direction"));
+    EXPECT_THAT(content(request.picture), HasSubstr("no light in any direction"));
+}
+
+TEST_F(LampCommand, PicturesAreWrittenAsTheirNamesSay) {
+    LampRequest request = shipped("xenon-low");
+    request.picture = folder_ / "lamp.png";
+    request.window = {-12, 14, -6, 4};
+    printed(request);
+    EXPECT_EQ(content(request.picture).substr(1, 3), "PNG");
+    request.picture = folder_ / "lamp.svg";
+    printed(request);
+    const std::string once = content(request.picture);
+    EXPECT_THAT(once, HasSubstr("20 lx"));
+    request.force = true;
+    printed(request);
+    EXPECT_TRUE(content(request.picture) == once);
+}
+
+TEST_F(LampCommand, WhatCannotBeDoneIsRefusedInOneSentence) {
+    EXPECT_THAT(refusal({}), HasSubstr("found no lamp"));
+    LampRequest request = shipped("halogen-low");
+    request.model = "xenon-low";
+    EXPECT_THAT(refusal(request), HasSubstr("found both"));
+    request.file.clear();
+    request.model = "xenon";
+    EXPECT_THAT(refusal(request), HasSubstr("halogen-low, halogen-high, xenon-low, xenon-high"));
+    request = shipped("halogen-low");
+    request.picture = folder_ / "lamp.gif";
+    EXPECT_THAT(refusal(request), HasSubstr(".svg or .png"));
+    request = shipped("halogen-low");
+    request.scale = -1.0;
+    EXPECT_THAT(refusal(request), HasSubstr("--scale: found -1"));
+    request.scale = 0.0;
+    EXPECT_THAT(refusal(request), HasSubstr("--scale: found 0, expected a number above 0"));
+    request = shipped("halogen-low");
+    request.picture = folder_ / "lamp.svg";
+    request.window = {5, -5, -3, 3};
+    EXPECT_THAT(refusal(request), HasSubstr("--window"));
+    EXPECT_FALSE(std::filesystem::exists(request.picture));
+    request = shipped("halogen-low");
+    request.convert = folder_ / "lamp.xyz";
+    EXPECT_THAT(refusal(request), HasSubstr("lamp.xyz"));
+    EXPECT_THAT(refusal(shipped("missing")), HasSubstr("missing.ies"));
+}
+
+TEST_F(LampCommand, AFileThatIsReadIsNeverOverwritten) {
+    const auto copy = folder_ / "copy.ies";
+    std::filesystem::copy_file(shipped("halogen-low").file, copy);
+    const std::string before = content(copy);
+    LampRequest request = shipped("halogen-low");
+    request.add = {copy};
+    request.convert = folder_ / "." / "copy.ies";
+    EXPECT_THAT(refusal(request), HasSubstr("found a file that is read"));
+    EXPECT_TRUE(content(copy) == before);
+}
+
+TEST_F(LampCommand, AFileThatIsThereIsReplacedByForceAlone) {
+    const auto there = folder_ / "there.ies";
+    std::ofstream(there) << "somebody's work";
+    LampRequest request = shipped("halogen-low");
+    request.convert = there;
+    EXPECT_THAT(refusal(request), HasSubstr("--convert: found a file of that name, expected another name to write to, or --force"));
+    std::filesystem::rename(there, folder_ / "there.svg");
+    request.convert.clear();
+    request.picture = folder_ / "there.svg";
+    EXPECT_THAT(refusal(request), HasSubstr("--picture: found a file of that name"));
+    EXPECT_EQ(content(request.picture), "somebody's work");
+    request.force = true;
+    printed(request);
+    EXPECT_THAT(content(request.picture), HasSubstr("<svg"));
+}
+
+TEST_F(LampCommand, TellsWhatDiffersFromAnotherLamp) {
+    LampRequest request = shipped("halogen-low");
+    request.against = request.file;
+    EXPECT_THAT(printed(request), HasSubstr("no difference beyond noise"));
+    request.json = true;
+    EXPECT_EQ(nlohmann::json::parse(printed(request)).at("differs"), false);
+    request.scale = 0.97;
+    request.picture = folder_ / "difference.svg";
+    const nlohmann::json told = nlohmann::json::parse(printed(request));
+    EXPECT_NEAR(told.at("level_share").at("value").get<double>(), -0.03, 1e-4);
+    EXPECT_EQ(told.at("zones").size(), 0U);
+    EXPECT_THAT(content(request.picture), HasSubstr("dimmer all over"));
+    request.spots = 3;
+    request.force = true;
+    EXPECT_THAT(refusal(request), HasSubstr("--against: found --spots or --convert beside it"));
+}
+
+TEST_F(LampCommand, RefusesToCompareWithDarkness) {
+    LampRequest request = shipped("halogen-low");
+    request.against = request.file;
+    request.subtract = {request.file};
+    EXPECT_THAT(refusal(request), HasSubstr("found no light in it"));
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,138 @@
+#include "runner/write/aligned_table.h"
+#include "runner/write/plots/png.h"
+#include "scenarios/values/files.h"
+#include "tests/runner/experiments/bench/sample_bench.h"
+#include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
+
+#include <algorithm>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using tests::sample_bench;
+
+TEST(BenchRows, AreWhatTheSamplesSay) {
+    const BenchResult result = sample_bench();
+    const std::vector<BenchRow> rows = summarise(result);
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_DOUBLE_EQ(rows[0].frame.median, 0.010);
+    EXPECT_DOUBLE_EQ(rows[0].frames_per_s(), 100.0);
+    EXPECT_DOUBLE_EQ(rows[0].frame.p95, 0.017); // seven samples, the last 20 ms: at place 5.7
+    EXPECT_EQ(rows[0].frame_deviation_s, 0.0);
+    EXPECT_DOUBLE_EQ(rows[1].ratio->median, 2.0); // the slow round was slow for both
+    EXPECT_NEAR(rows[1].ratio->p95, 2.0, 1e-14);
+    EXPECT_EQ(rows[1].ratio->difference, Difference::slower);
+    EXPECT_EQ(rows[3].ratio->difference, Difference::faster);
+    EXPECT_DOUBLE_EQ(rows[1].cpu.median, 0.040);
+    EXPECT_DOUBLE_EQ(rows[1].latency.median, 0.050); // six of 30, six of 50, then 60 and 100 ms
+    EXPECT_EQ(rows[1].latency.count, 14U);
+    EXPECT_FALSE(rows[1].gpu);
+    EXPECT_EQ(rows[1].work->triangles, 4000U);
+    EXPECT_EQ(rows[1].work->draws, 20);
+}
+
+TEST(BenchRows, VerdictsSayRatioAndSpread) {
+    EXPECT_EQ(verdict_text({7, 1.02, 0.97, 1.06, Difference::not_distinguishable}), "not distinguishable (ratio 1.02, spread 0.97..1.06)");
+    EXPECT_EQ(verdict_text({7, 2.312, 2.251, 2.399, Difference::slower}), "slower (ratio 2.31, spread 2.25..2.40)");
+}
+
+TEST(BenchRows, WarnOfWhatMakesTimesDoubtful) {
+    BenchResult result = sample_bench();
+    EXPECT_THAT(bench_warnings(result), IsEmpty());
+    result.others = {1.25, "cc1plus", 0.9};
+    EXPECT_THAT(bench_warnings(result),
+                ElementsAre(HasSubstr("others used 1.25 of the machine's 2 cores meanwhile (busiest seen: 'cc1plus' with 0.90)")));
+    result.others.cores.reset();
+    result.orders.resize(3);
+    result.interrupted = "interrupted by the user";
+    result.techniques.erase(result.techniques.begin());
+    EXPECT_THAT(bench_warnings(result), ElementsAre(HasSubstr("/proc/stat does not tell"), HasSubstr("3 rounds are too few"),
+                                                    HasSubstr("3 of 7 rounds were done: interrupted by the user"),
+                                                    HasSubstr("no ratios: texturing-only did not take part")));
+    EXPECT_FALSE(summarise(result)[0].ratio);
+}
+
+TEST(BenchText, AlignsColumns) { EXPECT_EQ(aligned_table("<>", {"a", "long"}, {{"word", "1"}, {"x", ""}}), "a     long\nword     1\nx\n"); }
+
+TEST(BenchText, TablesStandBesideTheThesis) {
+    const std::string text = bench_tables(sample_bench());
+    EXPECT_THAT(text, HasSubstr("#  technique       thesis, frames/s  here, frames/s  ratio      spread  verdict\n"
+                                "3  texturing-only             >= 60           100.0   1.00              is what they are held against\n"
+                                "4  full                         ~22            50.0   2.00  2.00..2.00  slower\n"
+                                "8  clamped                      ~30            49.5   2.02  1.98..2.02  slower\n"));
+    EXPECT_THAT(text, HasSubstr("technique  frames/s  ratio      spread  verdict\n"
+                                "light-map    1000.0   0.10  0.10..0.10  faster\n"));
+    EXPECT_THAT(
+        text, HasSubstr("full             20.00  34.00    50.00  74.00  40.00    -       1     20       4000     300000            3.0\n"));
+    EXPECT_THAT(bench_heading(sample_bench()), HasSubstr("load average 0.25 before, 1.50 after"));
+}
+
+TEST(BenchJson, FitsItsSchema) {
+    FilesRead opened;
+    tests::Schema schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/bench/bench.schema.json", opened)));
+    BenchResult result = sample_bench();
+    const json whole = json::parse(bench_json(result));
+    EXPECT_THAT(schema.check(whole), IsEmpty());
+    result.techniques[1].samples.gpu_s.assign(7, 0.001);
+    result.techniques[2].work.clear();
+    result.techniques.erase(result.techniques.begin()); // no reference
+    result.orders.assign(7, {0, 1, 2});
+    result.others = {};
+    result.load_before.reset();
+    EXPECT_THAT(schema.check(json::parse(bench_json(result))), IsEmpty());
+    EXPECT_THAT(schema.check(json::parse(bench_json({}))), IsEmpty());
+    json bad = whole;
+    bad["techniques"][0]["frame_s"] = 3;
+    EXPECT_THAT(schema.check(bad), Not(IsEmpty()));
+}
+
+TEST(BenchJson, KeepsRawSamplesAndComparesEveryTwo) {
+    const BenchResult result = sample_bench();
+    const json whole = json::parse(bench_json(result));
+    EXPECT_EQ(whole.at("techniques").at(1).at("samples").at("frame_s").get<std::vector<double>>(), result.techniques[1].samples.frame_s);
+    EXPECT_EQ(whole.at("context").at("inputs").at(0).at("xxh128"), "00112233445566778899aabbccddeeff");
+    EXPECT_EQ(whole.at("orders").at(6), json({"clamped", "texturing-only", "light-map", "full"}));
+    EXPECT_EQ(whole.at("techniques").at(0).at("gpu_not_measured"), "the driver draws on the CPU");
+    ASSERT_EQ(whole.at("comparisons").size(), 6U);
+    const json& clamped_full = whole.at("comparisons").at(2);
+    EXPECT_EQ(clamped_full.at("technique"), "clamped");
+    EXPECT_EQ(clamped_full.at("against"), "full");
+    EXPECT_EQ(clamped_full.at("verdict"), "not distinguishable");
+    EXPECT_EQ(clamped_full.at("text"), "not distinguishable (ratio 1.01, spread 0.99..1.01)");
+}
+
+TEST(BenchCsv, HasALinePerTechniqueAndRound) {
+    const std::string text = bench_csv(sample_bench());
+    EXPECT_THAT(text, HasSubstr("technique,round,place,frame_s,cpu_s,gpu_s,latency_median_s\r\ntexturing-only,0,1,0.01,0.02,,0.02\r\n"));
+    EXPECT_THAT(text, HasSubstr("\r\nlight-map,3,2,0.002,0.004,,0.004\r\n"));
+    EXPECT_EQ(std::ranges::count(text, '\n'), 1 + 4 * 7);
+}
+
+TEST(BenchPlot, ShowsEachWithItsTimeAndRatio) {
+    const std::string svg = bench_svg(sample_bench());
+    for (const char* text : {">4. full<", ">20.00 ms, x 2.00<", ">light-map<", ">1.00 ms, x 0.10<", "[ms]", "llvmpipe &lt;&amp;&gt;"})
+        EXPECT_THAT(svg, HasSubstr(text));
+    EXPECT_LT(svg.find(">4. full<"), svg.find(">light-map<"));
+    EXPECT_EQ(plots::png_of_svg(svg).substr(1, 3), "PNG");
+    EXPECT_EQ(svg, bench_svg(sample_bench()));
+    EXPECT_THAT(bench_svg({}), HasSubstr("</svg>"));
+}
+
+TEST(BenchFiles, AreWritten) {
+    const TemporaryFolder folder;
+    write_bench(sample_bench(), folder.path());
+    EXPECT_EQ(content_of(folder.path() / "bench.json"), bench_json(sample_bench()));
+    EXPECT_EQ(content_of(folder.path() / "bench.csv"), bench_csv(sample_bench()));
+    EXPECT_EQ(content_of(folder.path() / "bench.svg"), bench_svg(sample_bench()));
+    EXPECT_THAT(content_of(folder.path() / "bench.png"), HasSubstr("PNG"));
+}
+
+} // namespace
+} // namespace fernlicht

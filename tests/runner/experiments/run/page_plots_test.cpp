@@ -1,0 +1,67 @@
+// Figures of the page, by what stands on their axes.
+#include "runner/experiments/run/page_plots.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// Lit as far as 50 m at each moment, a moment a second, at these places.
+PlayedVariant at(const std::vector<double>& distances_m) {
+    PlayedVariant played;
+    played.variant = "xenon";
+    LaneExtent extent;
+    extent.lane = "own";
+    extent.limit_lx = 1.0;
+    extent.reach_centre_m = 50.0;
+    for (const double distance_m : distances_m)
+        played.extents.push_back({.tick = static_cast<int>(played.extents.size()),
+                                  .time_s = static_cast<double>(played.extents.size()),
+                                  .distance_m = distance_m,
+                                  .rendered = {extent},
+                                  .twin = {},
+                                  .sensitivity = {},
+                                  .grid_errors = {}});
+    return played;
+}
+
+std::string reach_of(const PlayedVariant& played) {
+    ComparedDrive drive;
+    drive.variants = {&played};
+    return reach_svg(drive, ExtentPlane::road, 1.0);
+}
+
+TEST(PagePlots, ReachIsOverTimeWhereTheCarStandsStillOrMovesOnSprings) {
+    EXPECT_THAT(reach_of(at({0.0, 20.0, 40.0})), HasSubstr("distance along the route"));
+    EXPECT_THAT(reach_of(at({0.0, 20.0, 20.0, 40.0})), Not(HasSubstr("distance along the route")));
+    EXPECT_THAT(reach_of(at({0.0, 20.0, 20.0, 40.0})), HasSubstr("time [s]"));
+    PlayedVariant sprung = at({0.0, 20.0, 40.0});
+    sprung.car.resize(3);
+    EXPECT_THAT(reach_of(sprung), HasSubstr("time [s]"));
+}
+
+TEST(PagePlots, ErrorOverTimeHasAPointALampSetAndTheFloor) {
+    PlayedVariant played = at({0.0, 20.0});
+    played.technique = "photometric";
+    ComparedDrive drive;
+    drive.variants = {&played};
+    EXPECT_THAT(error_svg(drive), IsEmpty()); // neither error nor time
+    PixelErrors errors;
+    errors.pixels = 100;
+    errors.error.p95 = 0.03;
+    errors.floor.p95 = 0.01;
+    played.error.road = errors;
+    played.error.road_p95 = {0.02, 0.04};
+    EXPECT_THAT(error_svg(drive), IsEmpty()); // no time
+    played.passes = {{"frame", {0.010, 0.012, 0.011}}};
+    for (const char* part :
+         {"xenon", "time a frame, driver&#39;s view alone [ms]", "lux error on the road, 95 % [%]", "noise", "photometric"})
+        EXPECT_THAT(error_svg(drive), HasSubstr(part));
+}
+
+} // namespace
+} // namespace fernlicht

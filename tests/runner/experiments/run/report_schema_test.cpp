@@ -1,0 +1,97 @@
+// report.json against runner/experiments/run/report.schema.json.
+#include "runner/experiments/run/report_writers.h"
+#include "scenarios/values/files.h"
+#include "tests/runner/sample_report.h"
+#include "tests/runner/schema_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+tests::Schema report_schema() {
+    FilesRead opened;
+    return tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/run/report.schema.json", opened)));
+}
+
+TEST(ReportSchema, DescribesReports) {
+    Report report = tests::sample_report(3);
+    EXPECT_THAT(report_schema().check(json::parse(report_json(report))), IsEmpty());
+    report.played[0].extents[1] = {};
+    report.played[1].extents.clear();
+    report.complete = false;
+    report.interrupted = "a reason";
+    report.played[0].passes[0].seconds.clear();
+    EXPECT_THAT(report_schema().check(json::parse(report_json(report))), IsEmpty());
+    EXPECT_THAT(report_schema().check(json::parse(report_json({}))), IsEmpty());
+}
+
+TEST(ReportSchema, DescribesTheCarOfADriveWithAVehicle) {
+    Report report = tests::sample_report(2);
+    EXPECT_FALSE(json::parse(report_json(report))["drives"][0].contains("car")) << "drives without a vehicle";
+    report.played[0].car = {{0.0, -1.5, 30.25, std::nullopt, std::nullopt}, {0.1, -1.25, 31.0, std::nullopt, std::nullopt}};
+    report.played[1].car = {{0.0, -1.5, 30.25, 1.125, -4.0}, {0.1, -1.25, 31.0, 1.25, -4.5}};
+    const json written = json::parse(report_json(report));
+    EXPECT_THAT(report_schema().check(written), IsEmpty());
+    EXPECT_EQ(written["drives"][0]["car"], json::parse(R"({"time_s": [0, 0.1], "pitch_deg": [-1.5, -1.25], "rear_lift_mm": [30.25, 31]})"));
+    EXPECT_EQ(written["drives"][1]["car"]["levelling_deg"], json({1.125, 1.25}));
+    EXPECT_EQ(written["drives"][1]["car"]["swivel_deg"], json({-4.0, -4.5}));
+}
+
+TEST(ReportSchema, ThePagePlotsTheCarBesideTheSpeed) {
+    Report report = tests::sample_report(2);
+    const auto page = [&] { return report_html(report, {}); };
+    EXPECT_THAT(page(), testing::Not(HasSubstr("Pitch of the body")));
+    report.played[0].car = {{0.0, -1.5, 30.25, std::nullopt, std::nullopt}, {0.1, -1.25, 31.0, std::nullopt, std::nullopt}};
+    report.played[1].car = {{0.0, -1.5, 30.25, 1.125, std::nullopt}, {0.1, -1.25, 31.0, 1.25, std::nullopt}};
+    const std::string shown = page();
+    EXPECT_THAT(shown, testing::AllOf(HasSubstr("Pitch of the body against the road"), HasSubstr("Lift of the body over the rear axle"),
+                                      HasSubstr("Levelling"), testing::Not(HasSubstr("Swivel"))));
+}
+
+TEST(ReportSchema, DescribesSeeingWhereADriveAsks) {
+    Report report = tests::sample_report(2);
+    EXPECT_FALSE(json::parse(report_json(report))["drives"][0].contains("seeing"));
+    EXPECT_THAT(report_html(report, {}), testing::Not(HasSubstr("Seeing and glare")));
+    report.played[0].seeing = {{"glare_eye",
+                                "Oncoming driver",
+                                "distance to the observer",
+                                {0, 1},
+                                {30.0, 20.0},
+                                {{"facing_lx", "illuminance facing the lamps", "lx", true, true, {0.5, 1.25}},
+                                 {"de_boer", "de Boer's rating", "", false, true, {std::nullopt, 4.0}},
+                                 {"theta_left_deg", "angle of left", "deg", false, false, {1.0, 2.0}}}}};
+    const json written = json::parse(report_json(report));
+    EXPECT_THAT(report_schema().check(written), IsEmpty());
+    const json& seen = written["drives"][0]["seeing"][0];
+    EXPECT_EQ(seen["subject"], "glare_eye");
+    EXPECT_EQ(seen["at_m"], json({30.0, 20.0}));
+    EXPECT_EQ(seen["columns"][1]["values"], json::parse("[null, 4.0]"));
+    const std::string page = report_html(report, {});
+    EXPECT_THAT(page, testing::AllOf(HasSubstr("Seeing and glare"), HasSubstr("Oncoming driver: illuminance facing the lamps"),
+                                     HasSubstr("de Boer"), testing::Not(HasSubstr("angle of left"))));
+}
+
+TEST(ReportSchema, RefusesWhatIsNoReport) {
+    const json good = json::parse(report_json(tests::sample_report(1)));
+    const auto complaint = [&](const char* pointer, const json& value) {
+        json bad = good;
+        bad[json::json_pointer(pointer)] = value;
+        const std::vector<std::string> complaints = report_schema().check(bad);
+        return complaints.empty() ? std::string("none") : complaints.front();
+    };
+    EXPECT_THAT(complaint("/schema_version", 2), HasSubstr("/schema_version: is not 1"));
+    EXPECT_THAT(complaint("/rows/0/value", "61.2"), HasSubstr("/rows/0/value: is no"));
+    EXPECT_THAT(complaint("/verdict", "maybe"), HasSubstr("/verdict: is none of"));
+    EXPECT_THAT(complaint("/drives/0/extents/twin/0/widths/0/left_m/0", true), HasSubstr("is no"));
+    EXPECT_THAT(complaint("/surprise", 1), HasSubstr("unknown member 'surprise'"));
+}
+
+} // namespace
+} // namespace fernlicht

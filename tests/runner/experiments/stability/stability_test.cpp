@@ -1,0 +1,172 @@
+// Every case of `fernlicht stability`, judged as the command judges it; and the judging itself.
+#include "runner/experiments/stability/equations.h"
+#include "runner/experiments/stability/stability_case.h"
+#include "runner/experiments/stability/stability_text.h"
+#include "scenarios/values/errors.h"
+#include "tests/runner/program.h"
+
+#include <algorithm>
+#include <gmock/gmock.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+namespace fernlicht {
+namespace {
+
+std::string test_name(const testing::TestParamInfo<const StabilityCase*>& info) {
+    std::string name = info.param->full_name();
+    std::ranges::replace_if(
+        name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+    return name;
+}
+
+std::vector<const StabilityCase*> all_cases() {
+    std::vector<const StabilityCase*> cases;
+    for (const StabilityCase& one : stability_cases())
+        cases.push_back(&one);
+    return cases;
+}
+
+class Stability : public testing::TestWithParam<const StabilityCase*> {};
+
+TEST_P(Stability, HoldsItsBound) {
+    const TemporaryFolder folder;
+    StabilityBench bench("auto", folder.path(), false);
+    const StabilityRow row = judge(*GetParam(), bench);
+    EXPECT_EQ(row.verdict, Judgement::pass) << stability_text(row);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Stability, testing::ValuesIn(all_cases()), test_name);
+
+StabilityRow judged(double bound, const std::function<Found(StabilityBench&)>& measure) {
+    static StabilityCase one;
+    one = {"trial", "case", "nothing", bound, "units", "none", measure};
+    StabilityBench bench("auto", "unused", false);
+    return judge(one, bench);
+}
+
+Found found(double error) {
+    Found result;
+    result.add(error, "here");
+    return result;
+}
+
+TEST(StabilityJudging, ComparesWithTheBound) {
+    EXPECT_EQ(judged(1.0, [](auto&) { return found(1.0); }).verdict, Judgement::pass);
+    EXPECT_EQ(judged(1.0, [](auto&) { return found(1.0000001); }).verdict, Judgement::fail);
+    EXPECT_EQ(judged(0.0, [](auto&) { return found(0.0); }).verdict, Judgement::pass);
+}
+
+TEST(StabilityJudging, WhatIsNoNumberFails) {
+    EXPECT_EQ(judged(1e300, [](auto&) { return found(std::numeric_limits<double>::quiet_NaN()); }).verdict, Judgement::fail);
+    EXPECT_EQ(judged(1e300, [](auto&) { return found(std::numeric_limits<double>::infinity()); }).verdict, Judgement::fail);
+    const StabilityRow thrown = judged(1.0, [](auto&) -> Found { throw std::logic_error("a bug"); });
+    EXPECT_EQ(thrown.verdict, Judgement::fail);
+    EXPECT_EQ(thrown.found.where, "thrown: a bug");
+}
+
+TEST(StabilityJudging, NotMeasuredIsNoPass) {
+    const StabilityRow row = judged(1.0, [](auto&) {
+        Found result;
+        result.not_measured = "no such device";
+        return result;
+    });
+    EXPECT_EQ(row.verdict, Judgement::not_measured);
+    EXPECT_THAT(stability_summary({row}), testing::HasSubstr("0 pass, 0 fail, 1 not_measured: trial/case"));
+}
+
+TEST(StabilityJudging, TheWorstTrialStays) {
+    Found worst;
+    worst.add(1.0, "a");
+    worst.add(3.0, "b");
+    worst.add(2.0, "c");
+    EXPECT_EQ(worst.where, "b");
+    worst.add(std::numeric_limits<double>::quiet_NaN(), "d");
+    worst.add(9.0, "e");
+    EXPECT_EQ(worst.where, "d");
+    EXPECT_TRUE(std::isnan(worst.error));
+}
+
+TEST(StabilityCases, HaveNamesOfTheirOwnAndReasons) {
+    std::set<std::string> names;
+    for (const StabilityCase& one : stability_cases()) {
+        EXPECT_TRUE(names.insert(one.full_name()).second) << one.full_name();
+        EXPECT_GT(one.reason.size(), 20U) << one.full_name();
+        EXPECT_GT(one.could_break.size(), 10U) << one.full_name();
+        EXPECT_FALSE(one.unit.empty()) << one.full_name();
+    }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+TEST(StabilityEquations, AreAllExaminedAndSayWhatIsHeld) {
+    const std::vector<std::string> lines = lines_of(content_of(FERNLICHT_SOURCE_DIR "/scenarios/photometry.glsl"));
+    std::set<std::string> examined;
+    for (const Equation& equation : equations())
+        examined.insert(equation.function);
+    std::size_t functions = 0;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        if (!lines[i].starts_with("FN "))
+            continue;
+        ++functions;
+        const std::size_t name = lines[i].find(' ', 3) + 1;
+        const std::string function = lines[i].substr(name, lines[i].find('(') - name);
+        EXPECT_TRUE(examined.contains(function)) << function;
+        EXPECT_EQ(lines[i - 1], "// " + bound_of(function).comment()) << "beside " << function;
+    }
+    EXPECT_EQ(functions, equation_bounds().size());
+    EXPECT_EQ(examined.size(), functions);
+}
+
+TEST(StabilityEquations, AreCalledByTheirNumbers) {
+    // a = 3 cd, distance 2 m: 0.75 lx; the dark end of the sRGB curve: 12.92 c.
+    EXPECT_DOUBLE_EQ(equation_in_double(10, {3.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0})[0], 0.75);
+    EXPECT_DOUBLE_EQ(equation_in_double(28, {0.001})[0], 0.01292);
+    EXPECT_EQ(equation_in_float(10, {3.0F, 0.0F, 0.0F, 0.0F, 0.0F, 2.0F, 0.0F})[0], 0.75F);
+    Device device = open_device("auto");
+    EquationProbe probe(device, 10);
+    std::vector<EquationArguments> points(70'000); // more than one draw takes
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {static_cast<float>(i), 0.0F, 0.0F, 0.0F, 0.0F, 2.0F, 0.0F};
+    const std::vector<EquationValue> values = probe.at(points);
+    ASSERT_EQ(values.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        ASSERT_EQ(values[i][0], 0.25F * static_cast<float>(i));
+}
+
+/// In float, 1 + x loses what is below half a unit: the search must find that, far from where it begins.
+TEST(StabilityEquations, TheSearchFindsWhatFloatsLose) {
+    Device device = open_device("auto");
+    const auto examination = [&] { return examine(equations()[26], device, 0.2, 1); }; // log(1 + s x) / log(1 + s)
+    const Examination found = examination();
+    EXPECT_GT(found.in_float.error, 1e-7);
+    EXPECT_LT(found.in_float.error, 1e-6);
+    EXPECT_EQ(found.in_float.at, examination().in_float.at) << "same seed, same search";
+}
+
+TEST(StabilityCommand, TriesWhatItIsAskedFor) {
+    const Outcome outcome = run_program("stability --only 'table/w*' --json");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    const auto rows = nlohmann::json::parse(outcome.output).at("rows");
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].at("case"), "table/wrap-around");
+    EXPECT_EQ(rows[0].at("verdict"), "pass");
+    EXPECT_LE(rows[0].at("error").get<double>(), rows[0].at("bound").get<double>());
+}
+
+TEST(StabilityCommand, RefusesAPatternThatFitsNothing) {
+    const Outcome outcome = run_program("stability --only table/zerro");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, testing::HasSubstr("expected table/zero"));
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,314 @@
+// What counts as a change, by hand-made cells.
+#include "runner/experiments/study/study_result.h"
+#include "runner/experiments/study/study_writers.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+void put(CellResult& cell, const std::string& name, std::optional<double> value, const std::string& unit, const std::string& why = "") {
+    cell.readings[name] = {name, Value::of(value, why), unit, ""};
+}
+
+/// Two lamps on one drive. Of reach each side leaves 0.3 + 0.1 m open, so 0.57 m together; 0.1 degrees move it by 4 m.
+StudyResult two_cells(double old_reach_m, double new_reach_m) {
+    StudyResult result;
+    result.study.name = result.study.title = "by hand";
+    result.study.lamps.resize(2);
+    result.study.lamps[0].name = "old";
+    result.study.lamps[1].name = "new";
+    result.study.drives = {"one.yaml"};
+    result.study.conditions.times_of_day = {{}};
+    result.study.comparisons = {{"new", "old"}};
+    result.study.readings = {"reach_5lx_target_own_m"};
+    for (std::size_t lamp = 0; lamp < 2; ++lamp) {
+        CellResult cell;
+        cell.cell.lamp = lamp;
+        cell.cell.name = lamp == 0 ? "one_old" : "one_new";
+        cell.drive = "one-1";
+        put(cell, "reach_5lx_target_own_m", lamp == 0 ? old_reach_m : new_reach_m, "m");
+        put(cell, "reach_5lx_target_own_grid_error_m", 0.3, "m");
+        put(cell, "reach_5lx_target_own_twin_difference_m", 0.1, "m");
+        put(cell, "reach_5lx_target_own_per_tenth_degree_m", lamp == 0 ? 4.0 : -3.0, "m");
+        result.cells.push_back(cell);
+    }
+    return result;
+}
+
+const Change& change_in(const StudyResult& result, const std::string& name) {
+    for (const Change& change : result.changes)
+        if (change.reading == name)
+            return change;
+    throw std::runtime_error("no change of " + name);
+}
+
+ChangeKind kind_for(double old_m, double new_m) {
+    StudyResult result = two_cells(old_m, new_m);
+    compare_cells(result);
+    EXPECT_EQ(result.changes.size(), 1U) << "rows on trust are no readings";
+    EXPECT_NEAR(result.changes.front().uncertainty.value_or(0.0), 0.4 * std::sqrt(2.0), 1e-12);
+    return result.changes.front().kind;
+}
+
+TEST(StudyCompare, AChangeIsRealBeyondCalculationAndAim) {
+    EXPECT_EQ(kind_for(40.0, 40.0), ChangeKind::none);
+    EXPECT_EQ(kind_for(40.0, 40.56), ChangeKind::none);
+    EXPECT_EQ(kind_for(40.0, 40.58), ChangeKind::within_aim);
+    EXPECT_EQ(kind_for(40.0, 36.0), ChangeKind::within_aim); // 4 < hypot(4, 0.57)
+    EXPECT_EQ(kind_for(40.0, 44.1), ChangeKind::real);       // 4.1 > 4.04
+    EXPECT_EQ(kind_for(40.0, 35.9), ChangeKind::real);
+}
+
+TEST(StudyCompare, RanksByShareEachReadingOnce) {
+    StudyResult result = two_cells(40.0, 50.0); // 20 % of the larger
+    result.study.readings = {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "width_1lx_road_all_at_20m_m"};
+    for (CellResult& cell : result.cells) {
+        put(cell, "reach_1lx_road_own_m", cell.cell.lamp == 0 ? 20.0 : 10.0, "m"); // 50 %
+        put(cell, "reach_1lx_road_own_grid_error_m", 0.1, "m");
+        put(cell, "reach_1lx_road_own_twin_difference_m", 0.0, "m");
+        put(cell, "width_1lx_road_all_at_20m_m", cell.cell.lamp == 0 ? 5.0 : 5.3, "m"); // 0.3 < 0.35: a column of the grid at each edge
+        put(cell, "area_1lx_road_all_m2", cell.cell.lamp == 0 ? 10.0 : 90.0, "m2");     // decides nothing
+        put(cell, "area_1lx_road_all_grid_error_m2", 1.0, "m2");
+    }
+    compare_cells(result);
+    ASSERT_EQ(result.largest.size(), 2U);
+    EXPECT_EQ(result.changes[result.largest[0]].reading, "reach_1lx_road_own_m");
+    EXPECT_EQ(result.changes[result.largest[1]].reading, "reach_5lx_target_own_m");
+    EXPECT_EQ(change_in(result, "width_1lx_road_all_at_20m_m").kind, ChangeKind::none);
+    EXPECT_EQ(change_in(result, "area_1lx_road_all_m2").kind, ChangeKind::real);
+    EXPECT_DOUBLE_EQ(change_in(result, "reach_1lx_road_own_m").size(), 0.5);
+}
+
+TEST(StudyCompare, WhatNobodyVouchesForIsNotKnown) {
+    StudyResult result = two_cells(40.0, 50.0);
+    put(result.cells[0], "light_at_eye_lx", 0.2, "lx");
+    put(result.cells[1], "light_at_eye_lx", 0.4, "lx");
+    put(result.cells[0], "signals", 3.0, "1");
+    put(result.cells[1], "signals", 3.0, "1");
+    put(result.cells[0], "dazzle_lx", 0.2, "lx");
+    put(result.cells[1], "dazzle_lx", 0.4, "lx");
+    put(result.cells[0], "dazzle_standard_error_lx", 0.03, "lx");
+    put(result.cells[1], "dazzle_standard_error_lx", 0.04, "lx");
+    for (CellResult& cell : result.cells) { // calculated from the tables in double precision; lengths hang on the moments
+        put(cell, "glare_a_facing_max_lx", cell.cell.lamp == 0 ? 0.2 : 0.2001, "lx");
+        put(cell, "glare_a_length_above_1lx_m", cell.cell.lamp == 0 ? 20.0 : 30.0, "m");
+    }
+    put(result.cells[0], "reach_10lx_road_own_m", 3.0, "m");
+    put(result.cells[1], "reach_10lx_road_own_m", std::nullopt, "m", "never lit");
+    compare_cells(result);
+    EXPECT_EQ(change_in(result, "light_at_eye_lx").kind, ChangeKind::unknown);
+    EXPECT_THAT(change_in(result, "light_at_eye_lx").why_not, HasSubstr("nothing tells"));
+    EXPECT_EQ(change_in(result, "signals").kind, ChangeKind::none) << "however exact, there is nothing to explain";
+    EXPECT_EQ(change_in(result, "dazzle_lx").kind, ChangeKind::real);
+    EXPECT_DOUBLE_EQ(*change_in(result, "dazzle_lx").uncertainty, 0.05);
+    EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::real);
+    EXPECT_EQ(change_in(result, "glare_a_length_above_1lx_m").kind, ChangeKind::unknown);
+    EXPECT_EQ(change_in(result, "reach_10lx_road_own_m").why_not, "never lit");
+}
+
+/// Each kind of reading by what its calculation leaves open, both sides together: a row on trust, the distance of moments or of places, or
+/// the width of a double.
+TEST(StudyCompare, EachKindOfReadingHasItsOwnUncertainty) {
+    StudyResult result = two_cells(40.0, 40.0);
+    for (CellResult& cell : result.cells) {
+        const double more = cell.cell.lamp == 1 ? 1.0 : 0.0;
+        cell.step_s = 0.1;
+        cell.step_m = 2.0;
+        cell.look_step_m = 1.0;
+        put(cell, "reach_1lx_road_left_1_m", 20.0 + more, "m");
+        put(cell, "reach_1lx_road_left_1_grid_error_m", 0.2, "m");
+        put(cell, "reach_1lx_road_left_1_twin_difference_m", 0.1, "m");
+        put(cell, "reach_1lx_road_left_1_left_edge_m", 20.0 + more, "m");
+        put(cell, "reach_1lx_road_left_1_edge_grid_error_m", 0.9, "m");
+        put(cell, "unlit_before_reach_1lx_road_left_1_m", 5.0 + more, "m");
+        put(cell, "unlit_before_reach_1lx_road_left_1_grid_error_m", 0.4, "m");
+        put(cell, "area_1lx_road_right_12_min_m2", 9.0 + more, "m2");
+        put(cell, "area_1lx_road_right_12_grid_error_m2", 0.3, "m2");
+        put(cell, "glare_a_length_above_1lx_m", 20.0 + more, "m");
+        put(cell, "glare_a_time_above_1lx_s", 2.0 + more, "s");
+        put(cell, "sensor_a_reach_5lx_m", 20.0 + more, "m");
+        put(cell, "detection_card_own_m", 30.0 + more, "m");
+        put(cell, "patch_dark_own_m", 3.0 + more, "m");
+        put(cell, "board_left_at_50m_cdm2", 3.0 + more, "cd/m2");
+        put(cell, "foreground_ratio_own", 3.0 + more, "1");
+    }
+    compare_cells(result);
+    const double both = std::sqrt(2.0);
+    for (const auto& [name, open] :
+         {std::pair("reach_1lx_road_left_1_m", 0.3), std::pair("reach_1lx_road_left_1_left_edge_m", 1.0),
+          std::pair("unlit_before_reach_1lx_road_left_1_m", 0.5), std::pair("area_1lx_road_right_12_min_m2", 0.3),
+          std::pair("glare_a_length_above_1lx_m", 2.0), std::pair("glare_a_time_above_1lx_s", 0.1), std::pair("sensor_a_reach_5lx_m", 2.0),
+          std::pair("detection_card_own_m", 1.0), std::pair("patch_dark_own_m", 1.0)}) {
+        EXPECT_NEAR(change_in(result, name).uncertainty.value(), both * open, 1e-12) << name;
+        EXPECT_EQ(change_in(result, name).kind, 1.0 > both * open ? ChangeKind::real : ChangeKind::none) << name;
+    }
+    for (const char* name : {"board_left_at_50m_cdm2", "foreground_ratio_own"})
+        EXPECT_NEAR(change_in(result, name).uncertainty.value(), 5e-6, 1e-12) << name; // a millionth of 3 and of 4
+}
+
+/// Noise of 1 % in the difference of two intensities, three deviations of it: 3 % more or less light.
+TEST(StudyCompare, WhatNoiseOfTheTablesWouldDoIsNoDifference) {
+    StudyResult result = two_cells(40.0, 40.0);
+    result.lamps.resize(1);
+    result.lamps[0].tested = "new";
+    result.lamps[0].against = "old";
+    result.lamps[0].difference.noise_relative = 0.01;
+    for (CellResult& cell : result.cells) {
+        const bool tested = cell.cell.lamp == 1;
+        put(cell, "reach_5lx_target_own_per_tenth_flux_m", 2.0, "m"); // 20 m for 100 %: 0.6 m
+        put(cell, "area_1lx_road_all_m2", 100.0 + (tested ? 1.0 : 0.0), "m2");
+        put(cell, "area_1lx_road_all_grid_error_m2", 0.0, "m2");
+        put(cell, "area_3lx_road_all_m2", 60.0 + (tested ? 1.6 : 0.0), "m2");
+        put(cell, "area_3lx_road_all_grid_error_m2", 0.0, "m2");
+        put(cell, "area_10lx_road_all_m2", 20.0, "m2");
+        put(cell, "area_10lx_road_all_grid_error_m2", 0.0, "m2");
+        put(cell, "glare_a_facing_max_lx", tested ? 2.05 : 2.0, "lx");
+        put(cell, "glare_a_de_boer_min", tested ? 5.03 : 5.0, "1"); // 3 % move W by 2 lg 1.03 = 0.0257, with 1.03 - 1 for ln: 0.0261
+        put(cell, "slippery_standard_error_m", 0.0, "m");
+        put(cell, "slippery_m", tested ? 2.0 : 1.0, "m");
+    }
+    compare_cells(result);
+    EXPECT_NEAR(change_in(result, "reach_5lx_target_own_m").by_noise.value(), 0.6, 1e-12);
+    EXPECT_NEAR(change_in(result, "area_1lx_road_all_m2").by_noise.value(), 0.03 * 40.0 / std::log(3.0), 1e-12);
+    EXPECT_EQ(change_in(result, "area_1lx_road_all_m2").kind, ChangeKind::none); // 1.0 < 1.09
+    EXPECT_NEAR(change_in(result, "area_3lx_road_all_m2").by_noise.value(), 0.03 * 40.0 / std::log(3.0), 1e-12)
+        << "to 1 lx the old lamp has 40 m2 and the new 39.4, to 10 lx 33.2 and 34.6 of a natural logarithm";
+    EXPECT_EQ(change_in(result, "area_3lx_road_all_m2").kind, ChangeKind::real);  // 1.6 > 1.09
+    EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::none); // 0.05 < 3 % of 2.05
+    EXPECT_NEAR(change_in(result, "glare_a_de_boer_min").by_noise.value(), 0.02606, 1e-5);
+    EXPECT_EQ(change_in(result, "glare_a_de_boer_min").kind, ChangeKind::real);
+    EXPECT_EQ(change_in(result, "slippery_m").kind, ChangeKind::unknown);
+    EXPECT_THAT(change_in(result, "slippery_m").why_not, HasSubstr("noise of the lamp tables"));
+}
+
+TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
+    StudyResult result = two_cells(40.0, 50.0);
+    result.study.limits.resize(3);
+    result.study.limits[0].reading = result.study.limits[1].reading = "reach_5lx_target_own_m";
+    result.study.limits[0].lamp = "new";
+    result.study.limits[0].at_least = 45.0;
+    result.study.limits[1].change_at_most = 9.0;
+    result.study.limits[2].reading = "nothing_m";
+    result.study.limits[2].change_at_least = 0.0;
+    compare_cells(result);
+    ASSERT_EQ(result.verdicts.size(), 3U);
+    EXPECT_EQ(result.verdicts[0].kind, VerdictKind::pass);
+    EXPECT_EQ(result.verdicts[1].kind, VerdictKind::fail);
+    EXPECT_EQ(result.verdicts[2].kind, VerdictKind::not_measured);
+    EXPECT_EQ(overall(result), VerdictKind::fail);
+    EXPECT_THAT(study_junit(result), HasSubstr("<failure"));
+    EXPECT_THAT(study_text(result), HasSubstr("FAIL one_new: change of reach_5lx_target_own_m: 10 m, limit at most 9 m"));
+}
+
+TEST(StudyCompare, ADecidingReadingThatNothingHasIsNotMeasured) {
+    StudyResult result = two_cells(40.0, 50.0);
+    result.study.readings = {"reach_5lx_tarket_own_m", "reach_5lx_target_own_grid_error_m"};
+    result.study.limits.resize(2);
+    result.study.limits[0].reading = result.study.limits[1].reading = "reach_5lx_tarket_own_m";
+    result.study.limits[0].lamp = "new";
+    result.study.limits[0].at_least = result.study.limits[1].change_at_least = 0.0;
+    compare_cells(result);
+    EXPECT_EQ(overall(result), VerdictKind::not_measured);
+    const std::string text = study_text(result), nearest = "there is no reading of this name; the nearest name is reach_5lx_target_own_m";
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED deciding reading reach_5lx_tarket_own_m: " + nearest));
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED deciding reading reach_5lx_target_own_grid_error_m: no two cells were compared by it"));
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED one_new: reach_5lx_tarket_own_m: " + nearest));
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED change of reach_5lx_tarket_own_m: " + nearest));
+    EXPECT_THAT(text, HasSubstr("Nothing could be compared: no deciding reading is in two cells that are compared."));
+    EXPECT_THAT(text, Not(HasSubstr("no deciding reading changed")));
+}
+
+TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
+    StudyResult result = two_cells(40.0, 40.0);
+    for (CellResult& cell : result.cells) {
+        cell.failed = "not reached";
+        cell.readings.clear();
+    }
+    compare_cells(result);
+    for (const std::string& text : {study_text(result), study_json(result), study_html(result, {})}) {
+        EXPECT_THAT(text, HasSubstr("Nothing could be compared: of no two lamps was the same cell played."));
+        EXPECT_THAT(text, Not(HasSubstr("deciding reading changed")));
+    }
+    StudyResult same = two_cells(40.0, 40.0);
+    compare_cells(same);
+    EXPECT_THAT(study_text(same), HasSubstr("no deciding reading changed"));
+    EXPECT_THAT(study_html(same, {}), HasSubstr("No deciding reading changed"));
+}
+
+TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
+    StudyResult result = two_cells(40.0, 50.0);
+    compare_cells(result);
+    EXPECT_THAT(study_text(result), HasSubstr("by hand: no limits were set\n"));
+    EXPECT_THAT(study_html(result, {}), AllOf(HasSubstr("No limits were set"), Not(HasSubstr("Within limits"))));
+    EXPECT_THAT(study_junit(result), HasSubstr("all moments"));
+    EXPECT_THAT(study_markdown(result), Not(HasSubstr("--frames")));
+    for (CellResult& cell : result.cells) {
+        cell.moments = 9;
+        cell.moments_of_drive = 660;
+    }
+    result.frames = "0:8";
+    result.study.limits.resize(1);
+    result.study.limits[0].reading = "reach_5lx_target_own_m";
+    result.study.limits[0].at_least = 1.0;
+    compare_cells(result);
+    const std::string part = "9 of 660 moments of each drive were played (--frames 0:8)";
+    for (const std::string& text :
+         {study_text(result), study_json(result), study_markdown(result), study_latex(result), study_html(result, {})})
+        EXPECT_THAT(text, HasSubstr(part));
+    EXPECT_THAT(study_junit(result), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
+    EXPECT_THAT(study_html(result, {}), HasSubstr("Within limits"));
+    result.cells[1].moments_of_drive = 900;
+    EXPECT_THAT(study_text(result), HasSubstr("9 of 660 to 900 moments of each drive"));
+}
+
+TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
+    StudyResult result = two_cells(40.0, 40.0);
+    compare_cells(result);
+    EXPECT_EQ(overall(result), VerdictKind::pass);
+    result.cells[1].failed = "the disk is full";
+    EXPECT_EQ(overall(result), VerdictKind::not_measured);
+    EXPECT_THAT(study_junit(result), HasSubstr("the disk is full"));
+}
+
+TEST(StudyText, SaysReadingsInWords) {
+    EXPECT_EQ(reading_in_words("reach_5lx_target_own_m"), "reach at 5 lx on a target, own lane");
+    EXPECT_EQ(reading_in_words("width_1lx_road_all_at_20m_m"), "width at 1 lx on the road, whole width, 20 m ahead");
+    EXPECT_EQ(reading_in_words("area_1lx_road_all_m2"), "area at 1 lx on the road, whole width");
+    EXPECT_EQ(reading_in_words("probe_kerb_lx"), "probe_kerb_lx");
+    EXPECT_EQ(reading_in_words("glare_oncoming_facing_max_lx"), "largest illuminance, eyes of an oncoming driver");
+    EXPECT_EQ(reading_in_words("glare_far_away_length_above_0.5lx_m"), "metres above 0.5 lx, eyes of oncoming driver far_away");
+    EXPECT_EQ(reading_in_words("glare_mirrors_at_15m_at_50m_lx"), "illuminance 50 m before it, mirrors of a car 15 m ahead");
+    EXPECT_EQ(reading_in_words("glare_mirrors_at_15m_de_boer_min"), "smallest de Boer rating, mirrors of a car 15 m ahead");
+    EXPECT_EQ(reading_in_words("detection_card_own_m"), "detection distance of card, own lane");
+    EXPECT_EQ(reading_in_words("detection_pedestrian-dark_right_p05_m"),
+              "detection distance of pedestrian-dark, right edge of the lanes, 5th percentile");
+    EXPECT_EQ(reading_in_words("visibility_level_card_own_at_50m"), "visibility level of card, own lane, 50 m ahead");
+    EXPECT_EQ(reading_in_words("board_left_at_50m_cdm2"), "luminance of a board, left, 50 m ahead");
+}
+
+TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
+    StudyResult result = two_cells(40.0, 50.0);
+    result.study.lamps[1].name = result.study.comparisons[0].tested = "a_b|c%";
+    compare_cells(result);
+    EXPECT_THAT(study_latex(result), HasSubstr("a\\_b|c\\% / old"));
+    EXPECT_THAT(study_latex(result), HasSubstr("$40.00$ & $50.00$ & $+10.00$ & $0.57$"));
+    EXPECT_THAT(study_markdown(result), HasSubstr("a_b\\|c% / old"));
+    EXPECT_THAT(study_csv(result), HasSubstr("c0,a_b|c%,old,one-1"));
+    for (CellResult& cell : result.cells)
+        put(cell, "area_1lx_road_all_m2", cell.cell.lamp == 0 ? 10.0 : 90.0, "m2");
+    result.study.readings = {"area_1lx_road_all_m2"};
+    result.changes.clear();
+    compare_cells(result);
+    EXPECT_THAT(study_latex(result), AllOf(HasSubstr("& m$^2$ &"), HasSubstr("\\resizebox{\\linewidth}"), Not(HasSubstr("²"))));
+    EXPECT_THAT(study_markdown(result), HasSubstr("| m² |"));
+    EXPECT_THAT(study_csv(result), HasSubstr(",m2,"));
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,162 @@
+#include "runner/findings/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+using ::testing::HasSubstr;
+
+LaneExtent reaching(double reach_m, const std::string& lane = "own", double limit_lx = 5.0, bool cut_off = false) {
+    LaneExtent extent;
+    extent.limit_lx = limit_lx;
+    extent.lane = lane;
+    extent.reach_centre_m = reach_m;
+    extent.reach_left_edge_m = reach_m - 1.0;
+    extent.reach_right_edge_m = reach_m + 2.0;
+    extent.reach_is_cut_off = cut_off;
+    extent.widths = {{20.0, 2.0, -1.0, 0.1 * reach_m}};
+    extent.area_m2 = 10.0 * reach_m;
+    return extent;
+}
+
+/// Moments with these rendered extents of the own lane; the twin reaches half a metre farther.
+PlayedVariant played(const std::vector<LaneExtent>& extents) {
+    PlayedVariant variant;
+    for (const LaneExtent& extent : extents) {
+        ExtentRow row;
+        row.tick = static_cast<int>(variant.extents.size());
+        row.rendered = {extent};
+        row.twin = {extent};
+        row.twin[0].reach_centre_m += 0.5;
+        row.sensitivity = {{5.0, ExtentPlane::road, 7.0 + row.tick, 1.0}};
+        row.grid_errors = {{5.0, ExtentPlane::road, 0.02, 3.0}};
+        variant.extents.push_back(row);
+    }
+    return variant;
+}
+
+/// Readings of such a variant.
+Readings summarise(PlayedVariant variant, const Drive& drive) {
+    variant.extent_summaries = summarise_extents(variant, *drive.extent);
+    return extent_readings(variant);
+}
+
+Drive looking_200_m() {
+    Drive drive;
+    drive.extent = ExtentParameters{};
+    drive.extent->width_at_m = {20.0};
+    return drive;
+}
+
+const Reading& find(const Readings& readings, const std::string& name) {
+    for (const Reading& reading : readings)
+        if (reading.name == name)
+            return reading;
+    throw std::out_of_range("no reading " + name);
+}
+
+double value(const Readings& readings, const std::string& name) { return find(readings, name).value.number().value(); }
+
+TEST(Summary, MediansMinimaAndPercentilesOverTheMoments) {
+    const Readings readings = summarise(played({reaching(60.0), reaching(50.0), reaching(80.0)}), looking_200_m());
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_m"), 60.0);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 50.0);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_p05_m"), 51.0);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_left_edge_m"), 59.0);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_right_edge_m"), 62.0);
+    EXPECT_DOUBLE_EQ(value(readings, "unlit_before_reach_5lx_road_own_m"), 0.0);
+    EXPECT_DOUBLE_EQ(value(readings, "width_5lx_road_own_at_20m_m"), 6.0);
+    EXPECT_DOUBLE_EQ(value(readings, "width_5lx_road_own_at_20m_min_m"), 5.0);
+    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_m2"), 600.0);
+    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_p05_m2"), 510.0);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_twin_difference_m"), 0.5);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_twin_difference_worst_m"), 0.5);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_per_tenth_degree_m"), 8.0);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_per_tenth_flux_m"), 1.0);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_grid_error_m"), 0.02);
+    EXPECT_EQ(find(readings, "reach_5lx_road_own_m").unit, "m");
+    EXPECT_EQ(find(readings, "area_5lx_road_own_m2").unit, "m2");
+}
+
+TEST(Summary, NamesSayLimitPlaneAndLane) {
+    LaneExtent extent = reaching(60.0, "left 1", 0.5);
+    extent.plane = ExtentPlane::target;
+    const Readings readings = summarise(played({extent}), looking_200_m());
+    EXPECT_DOUBLE_EQ(value(readings, "reach_0.5lx_target_left_1_m"), 60.0);
+    EXPECT_THROW(find(readings, "reach_0.5lx_target_left_1_per_tenth_degree_m"), std::out_of_range);
+    EXPECT_EQ(name_part("Bus Lane 2\xc3\xbc"), "bus_lane_2__");
+}
+
+TEST(Summary, TheGridsAreaErrorBelongsToAll) {
+    const Readings readings = summarise(played({reaching(60.0, "all")}), looking_200_m());
+    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_all_grid_error_m2"), 3.0);
+}
+
+// Three of four moments measured: the median lies between the 2nd and the 3rd and is exact, whatever the fourth would be.
+TEST(Summary, LightBeyondTheGridRanksAboveAll) {
+    const Readings readings =
+        summarise(played({reaching(200.0, "own", 5.0, true), reaching(150.0), reaching(140.0), reaching(130.0)}), looking_200_m());
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_m"), 145.0);
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 130.0);
+}
+
+TEST(Summary, WhatRestsOnALowerBoundIsOne) {
+    const Readings readings = summarise(played({reaching(200.0, "own", 5.0, true), reaching(150.0)}), looking_200_m());
+    const Reading& median = find(readings, "reach_5lx_road_own_m");
+    EXPECT_EQ(median.value, Value::at_least(175.0)) << "half way from 150 to what may be anything beyond 200";
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 150.0);
+    EXPECT_EQ(find(readings, "area_5lx_road_own_m2").value, Value::at_least(1750.0));
+    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_min_m2"), 1500.0);
+    EXPECT_EQ(find(readings, "reach_5lx_road_own_twin_difference_worst_m").value, Value(0.5)) << "both beyond: left out";
+}
+
+// Near the road's end the grid shrinks: 12 m "at least" must not become the drive's smallest reach.
+TEST(Summary, TheRoadsEndIsNotAShortReach) {
+    const Readings readings = summarise(played({reaching(60.0), reaching(12.0, "own", 5.0, true), reaching(62.0)}), looking_200_m());
+    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 60.0);
+    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_min_m2"), 600.0);
+    EXPECT_THAT(find(readings, "reach_5lx_road_own_min_m").where, HasSubstr("2 moments, 1 left out"));
+    const Readings none = summarise(played({reaching(12.0, "own", 5.0, true)}), looking_200_m());
+    EXPECT_FALSE(find(none, "reach_5lx_road_own_m").value.measured());
+    EXPECT_EQ(find(none, "reach_5lx_road_own_m").value.reason(), "cut off by the end of the road or lane in every moment");
+}
+
+TEST(Summary, TheWholeWidthHasNoCentre) {
+    const Readings all = summarise(played({reaching(60.0, "all")}), looking_200_m()),
+                   own = summarise(played({reaching(60.0)}), looking_200_m());
+    EXPECT_THAT(find(all, "reach_5lx_road_all_m").where, HasSubstr("whole width, on the road, line that reaches farthest, median"));
+    EXPECT_THAT(find(all, "reach_5lx_road_all_left_edge_m").where, HasSubstr("leftmost line looked at, median"));
+    EXPECT_THAT(find(all, "reach_5lx_road_all_right_edge_m").where, HasSubstr("rightmost line looked at, median"));
+    EXPECT_THAT(find(own, "reach_5lx_road_own_m").where, HasSubstr("own lane, on the road, centre, median"));
+    EXPECT_THAT(find(own, "reach_5lx_road_own_left_edge_m").where, HasSubstr("own lane, on the road, left edge, median"));
+}
+
+TEST(Summary, WidthsThatWereNeverLookedAtAreNotMeasured) {
+    Drive drive = looking_200_m();
+    drive.extent->width_at_m = {20.0, 300.0};
+    const Reading width = find(summarise(played({reaching(60.0)}), drive), "width_5lx_road_own_at_300m_m");
+    EXPECT_FALSE(width.value.measured());
+    EXPECT_EQ(width.value.reason(), "not there in any moment");
+}
+
+TEST(Summary, TwinAloneIsNotTakenForRendered) {
+    PlayedVariant variant = played({reaching(60.0)});
+    variant.extents[0].rendered.clear();
+    EXPECT_FALSE(find(summarise(variant, looking_200_m()), "reach_5lx_road_own_m").value.measured());
+}
+
+TEST(Summary, TimesOfPasses) {
+    PlayedVariant variant;
+    variant.passes = {{"frame", {0.010, 0.012, 0.030}}, {"shadow", {}}};
+    const Readings readings = times(variant);
+    EXPECT_DOUBLE_EQ(value(readings, "frame_time_median_ms"), 12.0);
+    EXPECT_NEAR(value(readings, "frame_time_p95_ms"), 28.2, 1e-9);
+    EXPECT_NEAR(value(readings, "frame_time_spread_ms"), 28.2 - 10.2, 1e-9);
+    EXPECT_FALSE(find(readings, "shadow_time_median_ms").value.measured());
+    EXPECT_TRUE(is_unit_of_time(readings[0].unit));
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,107 @@
+#include "runner/play/contest.h"
+
+#include "metrics/statistics/random_order.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace fernlicht {
+namespace {
+
+/// A device that draws when it is waited for, on a clock of its own: submitting costs a second, drawing what the contestant says.
+struct Machine {
+    double now_s = 0.0, cpu_s = 0.0, queued_s = 0.0, gpu_s = 0.0;
+    std::vector<std::string> calls;
+
+    Contestant contestant(const std::string& name, double frame_s) {
+        return {[this, name, frame_s](std::size_t moment) {
+                    calls.push_back(fmt::format("{}{}", name, moment));
+                    now_s += 1.0;
+                    cpu_s += 1.0;
+                    queued_s += frame_s;
+                },
+                [this] {
+                    calls.emplace_back("finish");
+                    now_s += queued_s;
+                    cpu_s += 0.5 * queued_s;
+                    queued_s = 0.0;
+                }};
+    }
+    ContestClocks clocks() {
+        ContestClocks c;
+        c.wall_s = [this] { return now_s; };
+        c.cpu_s = [this] { return cpu_s; };
+        return c;
+    }
+};
+
+ContestOptions small(std::size_t moments, std::size_t rounds) {
+    ContestOptions options;
+    options.moments = moments;
+    options.rounds = rounds;
+    options.warm_up_plays = 1;
+    return options;
+}
+
+TEST(Contest, TimesFramesBackToBackAndOneByOne) {
+    Machine machine;
+    const Contest contest = hold_contest({machine.contestant("a", 8.0), machine.contestant("b", 2.0)}, small(4, 2), machine.clocks());
+    ASSERT_EQ(contest.samples.size(), 2U);
+    EXPECT_EQ(contest.samples[0].frame_s, (std::vector<double>{9.0, 9.0})); // (4 * 1 + 4 * 8) / 4
+    EXPECT_EQ(contest.samples[0].cpu_s, (std::vector<double>{5.0, 5.0}));
+    EXPECT_EQ(contest.samples[0].latency_s, std::vector<double>(8, 9.0));
+    EXPECT_EQ(contest.samples[1].frame_s, (std::vector<double>{3.0, 3.0}));
+    EXPECT_TRUE(contest.samples[0].gpu_s.empty());
+}
+
+TEST(Contest, WarmsAllUpFirstThenFinishesOnceBackToBackAndAfterEachFrame) {
+    Machine machine;
+    const Contest contest = hold_contest({machine.contestant("a", 1.0), machine.contestant("b", 1.0)}, small(2, 1), machine.clocks());
+    std::vector<std::string> expected{"a0", "a1", "finish", "b0", "b1", "finish"};
+    for (const std::size_t i : contest.orders.at(0))
+        for (const char* call : {"{}0", "{}1", "finish", "{}0", "finish", "{}1", "finish"})
+            expected.push_back(fmt::format(fmt::runtime(call), "ab"[i]));
+    EXPECT_EQ(machine.calls, expected);
+}
+
+TEST(Contest, EachRoundHasTheSeedsNextOrder) {
+    Machine machine;
+    std::vector<Contestant> contestants;
+    for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"})
+        contestants.push_back(machine.contestant(name, 1.0));
+    ContestOptions options = small(1, 3);
+    const Contest contest = hold_contest(contestants, options, machine.clocks());
+    std::mt19937_64 chance(1);
+    ASSERT_EQ(contest.orders.size(), 3U);
+    for (const auto& order : contest.orders)
+        EXPECT_EQ(order, random_order(8, chance));
+    const std::size_t first_turn = 16; // after 8 warm-ups of a draw and a finish; a turn has two of each
+    for (std::size_t k = 0; k < 8; ++k)
+        EXPECT_EQ(machine.calls[first_turn + 4 * k], fmt::format("{}0", "abcdefgh"[contest.orders[0][k]]));
+    options.seed = 2;
+    EXPECT_NE(hold_contest(contestants, options, machine.clocks()).orders, contest.orders);
+}
+
+TEST(Contest, ReadsTheGpusClockRoundEachFrame) {
+    Machine machine;
+    ContestClocks clocks = machine.clocks();
+    double began_s = 0.0;
+    clocks.gpu_begin = [&] { began_s = machine.now_s; };
+    clocks.gpu_end = [&] { machine.gpu_s += 3.0 * (machine.now_s - began_s); };
+    clocks.gpu_s = [&] { return std::exchange(machine.gpu_s, 0.0); };
+    const Contest contest = hold_contest({machine.contestant("a", 8.0)}, small(4, 2), clocks);
+    EXPECT_EQ(contest.samples[0].gpu_s, (std::vector<double>{3.0, 3.0}));
+}
+
+TEST(Contest, StopsBetweenRounds) {
+    Machine machine;
+    ContestOptions options = small(2, 10);
+    options.go_on = [](std::size_t done) { return done < 3; };
+    const Contest contest = hold_contest({machine.contestant("a", 1.0), machine.contestant("b", 1.0)}, options, machine.clocks());
+    EXPECT_EQ(contest.orders.size(), 3U);
+    for (const ContestSamples& samples : contest.samples)
+        EXPECT_EQ(samples.frame_s.size(), 3U);
+}
+
+} // namespace
+} // namespace fernlicht

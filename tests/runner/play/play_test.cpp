@@ -1,0 +1,76 @@
+// The play loop with a picture that is made up: no GPU, so that what the loop does can be told exactly.
+#include "runner/play/play.h"
+
+#include "tests/runner/program.h"
+
+#include <atomic>
+#include <gtest/gtest.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+TEST(Capture, TakesTheFirstTickAtOrAfterEachInterval) {
+    const Capture twice_a_second{};
+    std::vector<int> captured;
+    for (int tick = 0; tick < 91; ++tick)
+        if (is_captured(twice_a_second, tick, 1.0 / 30.0))
+            captured.push_back(tick);
+    EXPECT_EQ(captured, (std::vector<int>{0, 15, 30, 45, 60, 75, 90}));
+    Capture none;
+    none.per_second = 0.0;
+    EXPECT_TRUE(is_captured(none, 0, 0.1));
+    EXPECT_FALSE(is_captured(none, 1, 0.1));
+    Capture all;
+    all.all = true;
+    EXPECT_TRUE(is_captured(all, 17, 0.1));
+    Capture often;
+    often.per_second = 1000.0;
+    EXPECT_TRUE(is_captured(often, 1, 0.1));
+}
+
+TEST(Capture, FileNamesKeepToPlainLetters) {
+    EXPECT_EQ(file_name_of("driver"), "driver");
+    EXPECT_EQ(file_name_of("../../etc/passwd"), "_._.._etc_passwd");
+    EXPECT_EQ(file_name_of("<script>\n"), "_script__");
+    EXPECT_EQ(file_name_of(""), "_");
+    EXPECT_LE(file_name_of(std::string(500, 'x')).size(), 80U);
+}
+
+TEST(Writers, DoEverythingAndReportTheFirstFailure) {
+    std::atomic<int> done{0};
+    {
+        Writers writers(2, 3);
+        for (int i = 0; i < 50; ++i)
+            writers.submit([&] { ++done; });
+        writers.finish();
+        EXPECT_EQ(done, 50);
+        writers.submit([] { throw std::runtime_error("full disk"); });
+        EXPECT_THROW(writers.finish(), std::runtime_error);
+        writers.submit([&] { ++done; }); // goes on afterwards
+        writers.finish();
+    }
+    EXPECT_EQ(done, 51);
+}
+
+TEST(Writers, AFailureReachesTheNextSubmit) {
+    Writers writers(1, 2);
+    writers.submit([] { throw std::runtime_error("full disk"); });
+    bool thrown = false;
+    for (int i = 0; i < 1000 && !thrown; ++i) {
+        try {
+            writers.submit([] {});
+        } catch (const std::runtime_error&) {
+            thrown = true;
+        }
+    }
+    try {
+        writers.finish();
+    } catch (const std::runtime_error&) {
+        thrown = true;
+    }
+    EXPECT_TRUE(thrown);
+}
+
+} // namespace
+} // namespace fernlicht

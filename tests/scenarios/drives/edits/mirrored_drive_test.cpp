@@ -1,0 +1,70 @@
+#include "scenarios/drives/edits/mirrored_drive.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+TEST(MirroredDrive, NamesChangeSidesByWholeWords) {
+    EXPECT_EQ(other_side("left"), "right");
+    EXPECT_EQ(other_side("high-right"), "high-left");
+    EXPECT_EQ(other_side("reach_5lx_road_left_1_m"), "reach_5lx_road_right_1_m");
+    EXPECT_EQ(other_side("bright"), "bright");
+    EXPECT_EQ(other_side("leftover right"), "leftover left");
+}
+
+/// Every key of a drive, some of them to one side.
+Drive example() {
+    Drive drive = read_drive(FERNLICHT_SOURCE_DIR "/scenarios/drive.example.yaml");
+    drive.variants.front().lamps.front().yaw_rad = 0.01;
+    return drive;
+}
+
+TEST(MirroredDrive, TwiceIsTheDriveAsItWas) {
+    Drive drive = example();
+    const std::string before = write_drive(drive);
+    mirror_traffic(drive, true);
+    const std::string once = write_drive(drive);
+    EXPECT_NE(once, before);
+    EXPECT_THAT(once, testing::HasSubstr("mirrored_road: true"));
+    EXPECT_THAT(once, testing::Not(testing::HasSubstr("-0,")));
+    mirror_traffic(drive, true);
+    EXPECT_EQ(write_drive(drive), before);
+}
+
+TEST(MirroredDrive, IsWrittenAndReadBack) {
+    Drive drive = example();
+    mirror_traffic(drive, true);
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / ("mirrored-" + std::to_string(::getpid()) + ".yaml");
+    std::ofstream(file) << write_drive(drive);
+    const Drive back = read_drive(file);
+    std::filesystem::remove(file);
+    EXPECT_EQ(write_drive(back), write_drive(drive));
+    EXPECT_TRUE(back.mirrored_road);
+    for (std::size_t v = 0; v < back.variants.size(); ++v)
+        for (std::size_t i = 0; i < back.variants[v].lamps.size(); ++i)
+            EXPECT_EQ(back.variants[v].lamps[i].file->table, drive.variants[v].lamps[i].file->table);
+}
+
+TEST(MirroredDrive, MirrorsLampsOnlyWhereAsked) {
+    const Drive drive = example();
+    Drive all = drive, road = drive;
+    mirror_traffic(all, true);
+    mirror_traffic(road, false);
+    const MountedLamp &lamp = drive.variants[0].lamps[0], &turned = all.variants[0].lamps[0], &kept = road.variants[0].lamps[0];
+    EXPECT_EQ(turned.name, other_side(lamp.name));
+    EXPECT_EQ(turned.position_m.y, -lamp.position_m.y);
+    EXPECT_EQ(turned.yaw_rad, -0.01);
+    EXPECT_EQ(turned.file->table, mirrored(lamp.file->table));
+    EXPECT_EQ(kept.name, lamp.name);
+    EXPECT_EQ(kept.file, lamp.file);
+    EXPECT_EQ(kept.position_m, lamp.position_m);
+    EXPECT_TRUE(road.mirrored_road);
+    EXPECT_EQ(road.views[0].position_m.y, -drive.views[0].position_m.y) << "the driver changes seats";
+}
+
+} // namespace
+} // namespace fernlicht

@@ -1,0 +1,239 @@
+// The textures repeat without a seam, keep the means of what they lie on, and give nothing away from afar.
+#include "scenarios/photometry.h"
+#include "scenarios/roads/mesh/mesh_materials.h"
+#include "scenarios/roads/mesh/road_mesh.h"
+#include "scenarios/roads/mesh/surface_textures.h"
+#include "scenarios/roads/mesh/tiling_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+constexpr double pi_value = 3.14159265358979323846;
+
+/// Averages of one channel over blocks of `block` x `block` texels, 0..255.
+struct Blocks {
+    int side = 0;
+    std::vector<double> values;
+    double at(int x, int y) const { return values[static_cast<std::size_t>(y * side + x)]; }
+};
+
+Blocks blocks(const SurfaceTexture& texture, std::size_t channel, int block) {
+    Blocks out;
+    out.side = texture.width / block;
+    out.values.assign(static_cast<std::size_t>(out.side) * static_cast<std::size_t>(out.side), 0.0);
+    for (int y = 0; y < texture.height; ++y)
+        for (int x = 0; x < texture.width; ++x)
+            out.values[static_cast<std::size_t>((y / block) * out.side + x / block)] +=
+                texture.rgba[4 * static_cast<std::size_t>(y * texture.width + x) + channel] / static_cast<double>(block * block);
+    return out;
+}
+
+/// Mean squared step from block column `left` to column `right`, or between rows.
+double step(const Blocks& b, int left, int right, bool rows) {
+    double sum = 0.0;
+    for (int i = 0; i < b.side; ++i) {
+        const double d = rows ? b.at(i, left) - b.at(i, right) : b.at(left, i) - b.at(right, i);
+        sum += d * d;
+    }
+    return sum / b.side;
+}
+
+std::size_t varying_channel(const SurfaceTexture& texture) { return texture.name == "paint-wear" ? 3 : 1; }
+
+const SurfaceTexture& named(const std::vector<SurfaceTexture>& all, const std::string& name) {
+    for (const SurfaceTexture& texture : all)
+        if (texture.name == name)
+            return texture;
+    throw std::out_of_range(name);
+}
+
+Scene textured_materials() {
+    Scene scene;
+    scene.materials = road_materials();
+    add_road_textures(scene, 1);
+    return scene;
+}
+
+TEST(TilingNoise, RepeatsAndIsContinuousAcrossItsBorder) {
+    const TilingNoise noise(5, 1);
+    for (int i = 0; i < 64; ++i) {
+        const double v = (i + 0.3) / 64.0;
+        for (const int cells : {1, 7, 16}) {
+            EXPECT_EQ(noise.gradient(0.25, v, cells), noise.gradient(1.25, v, cells));
+            EXPECT_EQ(noise.gradient(v, 0.25, cells), noise.gradient(v, 2.25, cells));
+            EXPECT_NEAR(noise.gradient(0.0, v, cells), noise.gradient(1.0 - 1e-9, v, cells), 1e-7);
+            EXPECT_NEAR(noise.gradient(v, 0.0, cells), noise.gradient(v, 1.0 - 1e-9, cells), 1e-7);
+        }
+    }
+}
+
+TEST(TilingNoise, GradientNoiseIsZeroOnItsLatticeAndBounded) {
+    const TilingNoise noise(5, 1);
+    double greatest = 0.0;
+    for (int i = 0; i < 8; ++i)
+        EXPECT_EQ(noise.gradient(i / 8.0, 0.375, 8), 0.0);
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 128; ++x)
+            greatest = std::max(greatest, std::abs(noise.gradient(x / 128.0, y / 128.0, 16)));
+    EXPECT_LE(greatest, 1.0);
+    EXPECT_GT(greatest, 0.3);
+}
+
+TEST(TilingNoise, UniformHasMeanAndVarianceOfItsLaw) {
+    const TilingNoise noise(5, 1);
+    double sum = 0.0, squares = 0.0;
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 256; ++x) {
+            const double value = noise.uniform(x, y);
+            ASSERT_TRUE(value >= 0.0 && value < 1.0);
+            sum += value;
+            squares += value * value;
+        }
+    EXPECT_NEAR(sum / 65536.0, 0.5, 0.005); // 4 sigma: 4 sqrt(1 / 12 / 65536) = 0.0045
+    EXPECT_NEAR(squares / 65536.0 - sum * sum / 65536.0 / 65536.0, 1.0 / 12.0, 0.002);
+    EXPECT_NE(noise.uniform(3, 4), noise.uniform(4, 3));
+    EXPECT_NE(noise.uniform(3, 4), TilingNoise(5, 2).uniform(3, 4));
+}
+
+TEST(SurfaceTextures, AllHaveOneSize) {
+    const std::vector<SurfaceTexture> all = road_textures(1);
+    std::set<std::string> names;
+    for (const SurfaceTexture& texture : all) {
+        EXPECT_EQ(texture.width, 256);
+        EXPECT_EQ(texture.height, 256);
+        EXPECT_EQ(texture.rgba.size(), 4U * 256U * 256U);
+        names.insert(texture.name);
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"asphalt", "concrete", "grass", "paint-wear"}));
+}
+
+TEST(SurfaceTextures, OneSeedGivesTheSameBytesAndAnotherOthers) {
+    const std::vector<SurfaceTexture> a = road_textures(7), b = road_textures(7), c = road_textures(8);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].rgba, b[i].rgba) << a[i].name;
+        EXPECT_NE(a[i].rgba, c[i].rgba) << a[i].name;
+    }
+}
+
+TEST(SurfaceTextures, ModulatingOnesHaveTheirStatedMeanExactly) {
+    for (const std::uint64_t seed : {1ULL, 2ULL, 0xFFFFFFFFFFFFFFFFULL})
+        for (const auto& [name, level] : {std::pair{"asphalt", 128U}, std::pair{"concrete", 190U}, std::pair{"grass", 112U}}) {
+            const std::vector<SurfaceTexture> all = road_textures(seed);
+            const SurfaceTexture& texture = named(all, name);
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                std::uint64_t sum = 0;
+                for (std::size_t i = channel; i < texture.rgba.size(); i += 4)
+                    sum += texture.rgba[i];
+                EXPECT_EQ(sum, level * 65536ULL) << name << " channel " << channel;
+            }
+        }
+}
+
+/// A border is a seam if it is rougher than all borders within the texture.
+TEST(SurfaceTextures, HaveNoSeam) {
+    for (const SurfaceTexture& texture : road_textures(1)) {
+        const Blocks b = blocks(texture, varying_channel(texture), 4);
+        for (const bool rows : {false, true}) {
+            double roughest = 0.0;
+            for (int i = 0; i + 1 < b.side; ++i)
+                roughest = std::max(roughest, step(b, i, i + 1, rows));
+            EXPECT_LE(step(b, b.side - 1, 0, rows), roughest) << texture.name;
+        }
+    }
+}
+
+TEST(SurfaceTextures, AverageOutOverHalfAMetre) {
+    const std::vector<SurfaceTexture> all = road_textures(1);
+    for (const char* name : {"asphalt", "concrete", "grass"})
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const Blocks b = blocks(named(all, name), channel, 16);
+            double sum = 0.0, squares = 0.0;
+            for (const double value : b.values) {
+                sum += value / 256.0;
+                squares += value * value / 256.0;
+            }
+            const double contrast = std::sqrt(squares - sum * sum) / sum;
+            EXPECT_LE(contrast, name == std::string("grass") ? 0.065 : 0.03) << name << " channel " << channel;
+            EXPECT_GT(contrast, 0.005) << name << " is more than white noise";
+        }
+}
+
+TEST(SurfaceTextures, WornPaintIsAsphaltInPlaces) {
+    const std::vector<SurfaceTexture> all = road_textures(1);
+    const SurfaceTexture& texture = named(all, "paint-wear");
+    double opacity = 0.0;
+    std::size_t whole = 0;
+    for (std::size_t i = 0; i < texture.rgba.size(); i += 4) {
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            ASSERT_EQ(texture.rgba[i + channel], 20);
+        opacity += texture.rgba[i + 3] / 255.0 / 65536.0;
+        whole += texture.rgba[i + 3] == 0 ? 1U : 0U;
+    }
+    EXPECT_GT(opacity, 0.03);
+    EXPECT_LT(opacity, 0.12);
+    EXPECT_GT(whole, 52000U) << "most of it is paint";
+}
+
+TEST(SurfaceTextures, MeanReflectanceByHand) {
+    SurfaceTexture two{"two", 2, 1, {255, 0, 51, 0, 0, 255, 51, 255}};
+    const glm::dvec3 own(0.5, 0.25, 1.0), blend_colour(1.0, 1.0, 0.0);
+    const auto mean = [&](TextureMode mode) { return mean_reflectance(two, mode, own, blend_colour); };
+    const auto near = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a - b) < 1e-15; };
+    EXPECT_TRUE(near(mean(TextureMode::modulate), {0.25, 0.125, 0.2}));
+    EXPECT_TRUE(near(mean(TextureMode::replace), {0.5, 0.5, 0.2}));
+    EXPECT_TRUE(near(mean(TextureMode::decal), {0.25, 0.625, 0.6})); // half own, half the second texel
+    EXPECT_TRUE(near(mean(TextureMode::blend), {0.75, 0.625, 0.8})); // (1 + 0.5) / 2, (0.25 + 1) / 2, 0.8
+}
+
+TEST(SurfaceTextures, MaterialsKeepTheirMeanReflectance) {
+    const std::vector<Material> plain = road_materials();
+    const Scene scene = textured_materials();
+    ASSERT_EQ(scene.materials.size(), plain.size());
+    std::size_t textured = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const Material& material = scene.materials[i];
+        if (material.texture < 0) {
+            EXPECT_EQ(material, plain[i]);
+            continue;
+        }
+        ++textured;
+        const SurfaceTexture& texture = scene.textures.at(static_cast<std::size_t>(material.texture));
+        const glm::dvec3 mean =
+            mean_reflectance(texture, material.texture_mode, glm::dvec3(material.albedo), glm::dvec3(material.blend_colour));
+        for (glm::length_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(mean[c], static_cast<double>(plain[i].albedo[c]), 1e-7) << material.name; // single precision of the albedo
+    }
+    EXPECT_EQ(textured, 7U);
+}
+
+/// The mean over the texels of L / E_perp in EN 1436's geometry, as mesh_materials_test.cpp has it for plain materials.
+TEST(SurfaceTextures, RoadSurfacesKeepTheirRl) {
+    const Scene scene = textured_materials();
+    for (const auto& [which, rl_mcd] : {std::pair{RoadMaterial::asphalt, 15.0}, std::pair{RoadMaterial::marking_white, 150.0},
+                                        std::pair{RoadMaterial::marking_yellow, 120.0}, std::pair{RoadMaterial::verge, 5.0}}) {
+        const Material& material = scene.materials[index_of(which)];
+        const SurfaceTexture& texture = scene.textures.at(static_cast<std::size_t>(material.texture));
+        const glm::dvec3 own(material.albedo);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < texture.rgba.size(); i += 4) {
+            const glm::dvec4 texel(texture.rgba[i], texture.rgba[i + 1], texture.rgba[i + 2], texture.rgba[i + 3]);
+            const glm::dvec3 reflectance =
+                photometry::combined_reflectance(static_cast<int>(material.texture_mode), own, texel / 255.0, glm::dvec3(0.0));
+            for (glm::length_t c = 0; c < 3; ++c)
+                ASSERT_TRUE(reflectance[c] >= 0.0 && reflectance[c] <= 1.0) << material.name;
+            const double y = 0.2126 * reflectance.r + 0.7152 * reflectance.g + 0.0722 * reflectance.b;
+            sum += y * std::sin(1.24 * pi_value / 180.0) / pi_value +
+                   photometry::textured_rl(static_cast<double>(material.retro_rl), own, reflectance);
+        }
+        EXPECT_NEAR(1000.0 * sum / 65536.0, rl_mcd, 1e-4 * rl_mcd) << material.name;
+    }
+}
+
+} // namespace
+} // namespace fernlicht
