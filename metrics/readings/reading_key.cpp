@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstddef>
 #include <fmt/format.h>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -21,7 +22,7 @@ struct Word {
     Surface surface = Surface::none;
     const char *lane = "", *subject = "";
 };
-constexpr Word words[] = {
+constexpr Word known_words[] = {
     {.word = "median", .spelt = "", .statistic = Statistic::median}, // goes without saying
     {.word = "mean", .spelt = "", .statistic = Statistic::mean},
     {.word = "_median", .spelt = "_median", .statistic = Statistic::median},
@@ -76,8 +77,8 @@ constexpr Word words[] = {
 };
 
 const Word& find_word(std::string_view word) {
-    const auto found = std::ranges::find(words, word, &Word::word);
-    if (found == std::end(words))
+    const auto found = std::ranges::find(known_words, word, &Word::word);
+    if (found == std::end(known_words))
         throw std::logic_error(fmt::format("a form has the unknown word {}", word));
     return *found;
 }
@@ -93,22 +94,19 @@ void say(const Word& word, ReadingKey& key) {
 
 /// How much of the key the word says; nullopt where it says something else.
 std::optional<int> said(const Word& word, const ReadingKey& key) {
-    ReadingKey with = key, without;
-    say(word, with);
-    say(word, without);
-    if (with != key)
-        return std::nullopt;
-    return (without.aspect != Aspect::value) + (without.statistic != Statistic::none) + (without.place != Place::none) +
-           (without.surface != Surface::none) + !without.lane.empty() + !without.subject.empty();
-}
-
-/// A form's first part, "(left|right)", "<lx>" or a letter, and what follows.
-struct Parts {
-    std::string_view first, rest;
-};
-Parts parts_of(std::string_view form) {
-    const std::size_t size = form[0] == '(' ? form.find(')') + 1 : form[0] == '<' ? form.find('>') + 1 : 1;
-    return {form.substr(0, size), form.substr(size)};
+    int much = 0;
+    bool agrees = true;
+    const auto field = [&](const auto& says, const auto& nothing, const auto& is) {
+        much += says != nothing ? 1 : 0;
+        agrees = agrees && (says == nothing || says == is);
+    };
+    field(word.aspect, Aspect::value, key.aspect);
+    field(word.statistic, Statistic::none, key.statistic);
+    field(word.place, Place::none, key.place);
+    field(word.surface, Surface::none, key.surface);
+    field(std::string_view(word.lane), "", key.lane);
+    field(std::string_view(word.subject), "", key.subject);
+    return agrees ? std::optional(much) : std::nullopt;
 }
 
 std::vector<std::string_view> split(std::string_view text, char by) {
@@ -121,19 +119,32 @@ std::vector<std::string_view> split(std::string_view text, char by) {
     return parts;
 }
 
-/// Of "(left|right)".
-std::vector<const Word*> words_of(std::string_view group) {
-    std::vector<const Word*> all;
-    for (const std::string_view word : split(group.substr(1, group.size() - 2), '|'))
-        all.push_back(&find_word(word));
-    return all;
+/// "(left|right)" with its words, "<lx>", or text that stands for itself.
+struct Part {
+    std::string text;
+    std::vector<const Word*> words = {};
+};
+
+std::vector<Part> parts_of(std::string_view form) {
+    std::vector<Part> parts;
+    while (!form.empty()) {
+        const std::size_t size = form[0] == '('   ? form.find(')') + 1
+                                 : form[0] == '<' ? form.find('>') + 1
+                                                  : std::min(form.find_first_of("(<"), form.size());
+        Part& part = parts.emplace_back(Part{std::string(form.substr(0, size))});
+        if (form[0] == '(')
+            for (const std::string_view word : split(form.substr(1, size - 2), '|'))
+                part.words.push_back(&find_word(word));
+        form.remove_prefix(size);
+    }
+    return parts;
 }
 
 constexpr const char* eyes[] = {"(mirrors)_at_<m>m", "(own_eyes)", "<name>"};
 
 struct Form {
     Quantity quantity;
-    std::string text;
+    std::vector<Part> parts;
 };
 
 /// Of all quantities, with every kind of eye in place of <eye>.
@@ -142,13 +153,11 @@ const std::vector<Form>& forms() {
         std::vector<Form> made;
         for (const QuantityRow& row : quantities())
             for (const std::string_view form : split(row.forms, ' '))
-                for (const char* eye : eyes) {
-                    const std::size_t at = form.find("<eye>");
-                    if (at != std::string_view::npos)
-                        made.push_back({row.quantity, std::string(form).replace(at, 5, eye)});
-                    else if (eye == eyes[0])
-                        made.push_back({row.quantity, std::string(form)});
-                }
+                if (const std::size_t at = form.find("<eye>"); at == std::string_view::npos)
+                    made.push_back({row.quantity, parts_of(form)});
+                else
+                    for (const char* eye : eyes)
+                        made.push_back({row.quantity, parts_of(std::string(form).replace(at, 5, eye))});
         return made;
     }();
     return all;
@@ -159,36 +168,34 @@ ThresholdUnit threshold_unit(std::string_view slot) {
 }
 
 /// A name in this form; nullopt where the key lacks what it asks for.
-std::optional<std::string> spell(std::string_view form, const ReadingKey& key) {
+std::optional<std::string> spell(std::span<const Part> form, const ReadingKey& key) {
     std::string text;
-    while (!form.empty()) {
-        const auto [first, rest] = parts_of(form);
-        form = rest;
-        if (first[0] == '(') {
+    for (const auto& [part, words] : form) {
+        if (!words.empty()) {
             const Word* best = nullptr;
-            for (const Word* word : words_of(first))
+            for (const Word* word : words)
                 if (const auto much = said(*word, key); much && (!best || *much > *said(*best, key)))
                     best = word;
             if (!best)
                 return std::nullopt;
             text += best->spelt;
-        } else if (first == "<name>" || first == "<lane>") {
-            std::string named = first == "<name>" ? key.subject : key.lane;
-            if (first == "<lane>")
+        } else if (part == "<name>" || part == "<lane>") {
+            std::string named = part == "<name>" ? key.subject : key.lane;
+            if (part == "<lane>")
                 std::ranges::replace(named, ' ', '_');
             if (named.empty())
                 return std::nullopt;
             text += named;
-        } else if (first == "<m>") {
+        } else if (part == "<m>") {
             if (!key.distance_m)
                 return std::nullopt;
             text += fmt::format("{}", *key.distance_m);
-        } else if (first[0] == '<') {
-            if (key.threshold.unit != threshold_unit(first))
+        } else if (part[0] == '<') {
+            if (key.threshold.unit != threshold_unit(part))
                 return std::nullopt;
             text += fmt::format("{}", key.threshold.value);
         } else
-            text += first;
+            text += part;
     }
     return text;
 }
@@ -215,24 +222,24 @@ std::size_t lane_end(std::string_view text) {
 }
 
 /// Whether the text is a name in this form; then `key` has its fields. Of several ways to read it the one with the shortest subject.
-bool match(std::string_view form, std::string_view text, ReadingKey& key) {
+bool match(std::span<const Part> form, std::string_view text, ReadingKey& key) {
     if (form.empty())
         return text.empty();
-    const auto [first, rest] = parts_of(form);
+    const auto& [part, words] = form.front();
     const auto goes_on = [&](std::size_t from, auto&& set) {
         ReadingKey next = key;
         set(next);
-        const bool found = match(rest, text.substr(from), next);
+        const bool found = match(form.subspan(1), text.substr(from), next);
         if (found)
             key = std::move(next);
         return found;
     };
-    if (first[0] == '(')
-        return std::ranges::any_of(words_of(first), [&](const Word* word) {
+    if (!words.empty())
+        return std::ranges::any_of(words, [&](const Word* word) {
             return text.starts_with(word->spelt) &&
                    goes_on(std::string_view(word->spelt).size(), [&](ReadingKey& next) { say(*word, next); });
         });
-    if (first == "<name>") {
+    if (part == "<name>") {
         const std::size_t longest =
             std::min(text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-"), text.size());
         for (std::size_t size = 1; size <= longest; ++size)
@@ -240,48 +247,46 @@ bool match(std::string_view form, std::string_view text, ReadingKey& key) {
                 return true;
         return false;
     }
-    if (first == "<lane>") {
+    if (part == "<lane>") {
         const std::size_t size = lane_end(text);
-        return size > 0 && size != std::string_view::npos && goes_on(size, [&](ReadingKey& next) {
+        return size > 0 && goes_on(size, [&](ReadingKey& next) {
                    next.lane = text.substr(0, size);
                    std::ranges::replace(next.lane, '_', ' ');
                });
     }
-    if (first[0] == '<') {
+    if (part[0] == '<') {
         const auto number = number_at(text);
         return number && goes_on(number->first, [&](ReadingKey& next) {
-                   if (first == "<m>")
+                   if (part == "<m>")
                        next.distance_m = number->second;
                    else
-                       next.threshold = {number->second, threshold_unit(first)};
+                       next.threshold = {number->second, threshold_unit(part)};
                });
     }
-    return text.starts_with(first) && match(rest, text.substr(1), key);
+    return text.starts_with(part) && match(form.subspan(1), text.substr(part.size()), key);
 }
 
-void add_shapes(std::string_view form, ReadingKey key, const ReadingKey& sample, std::vector<ReadingKey>& shapes) {
+void add_shapes(std::span<const Part> form, ReadingKey key, const ReadingKey& sample, std::vector<ReadingKey>& shapes) {
     if (form.empty()) {
         shapes.push_back(std::move(key));
         return;
     }
-    const auto [first, rest] = parts_of(form);
-    if (first[0] == '(') {
-        for (const Word* word : words_of(first)) {
-            ReadingKey next = key;
-            say(*word, next);
-            add_shapes(rest, std::move(next), sample, shapes);
-        }
-        return;
-    }
-    if (first == "<name>")
+    const auto& [part, words] = form.front();
+    if (part == "<name>")
         key.subject = sample.subject;
-    else if (first == "<lane>")
+    else if (part == "<lane>")
         key.lane = sample.lane;
-    else if (first == "<m>")
+    else if (part == "<m>")
         key.distance_m = sample.distance_m;
-    else if (first[0] == '<')
-        key.threshold = {sample.threshold.value, threshold_unit(first)};
-    add_shapes(rest, std::move(key), sample, shapes);
+    else if (part[0] == '<')
+        key.threshold = {sample.threshold.value, threshold_unit(part)};
+    for (const Word* word : words) {
+        ReadingKey next = key;
+        say(*word, next);
+        add_shapes(form.subspan(1), std::move(next), sample, shapes);
+    }
+    if (words.empty())
+        add_shapes(form.subspan(1), std::move(key), sample, shapes);
 }
 
 constexpr std::string_view exact = "_standard_error_";
@@ -304,7 +309,7 @@ std::optional<std::string> spell(const ReadingKey& key) {
         return name ? std::optional(fmt::format("{}{}{}", *name, exact, unit)) : std::nullopt;
     }
     for (const Form& form : forms())
-        if (std::optional<std::string> name = form.quantity == key.quantity ? spell(form.text, key) : std::nullopt)
+        if (std::optional<std::string> name = form.quantity == key.quantity ? spell(form.parts, key) : std::nullopt)
             return name;
     return std::nullopt;
 }
@@ -337,10 +342,14 @@ std::optional<ReadingKey> key_of(std::string_view name) {
         return standard_error_of(name, at);
     for (const Form& form : forms()) {
         ReadingKey key{.quantity = form.quantity};
-        if (match(form.text, name, key))
+        if (match(form.parts, name, key))
             return key;
     }
     return std::nullopt;
+}
+
+bool is_named(const ReadingKey& key, const std::vector<std::string>& names) {
+    return std::ranges::any_of(names, [&](const std::string& name) { return key_of(name) == key; });
 }
 
 bool is_clear_subject(SubjectKind kind, std::string_view subject) {
@@ -370,14 +379,14 @@ std::string pass_subject(std::string_view pass) {
 
 std::string eye_name(const ReadingKey& key) {
     for (const char* eye : eyes)
-        if (const auto name = spell("glare_" + std::string(eye), key))
+        if (const auto name = spell(parts_of("glare_" + std::string(eye)), key))
             return *name;
     return {};
 }
 
 std::optional<ReadingKey> eye_of(std::string_view name) {
     for (const char* eye : eyes)
-        if (ReadingKey key{.quantity = Quantity::glare_facing}; match("glare_" + std::string(eye), name, key))
+        if (ReadingKey key{.quantity = Quantity::glare_facing}; match(parts_of("glare_" + std::string(eye)), name, key))
             return key;
     return std::nullopt;
 }
@@ -391,7 +400,7 @@ std::vector<ReadingKey> shapes_of(const ReadingKey& sample) {
     std::vector<ReadingKey> shapes;
     for (const Form& form : forms())
         if (form.quantity == sample.quantity)
-            add_shapes(form.text, {.quantity = form.quantity}, sample, shapes);
+            add_shapes(form.parts, {.quantity = form.quantity}, sample, shapes);
     return shapes;
 }
 
@@ -399,22 +408,19 @@ std::vector<std::string> forms_in_words(const QuantityRow& row) {
     static constexpr std::pair<const char*, const char*> slots[] = {
         {"<name>", "NAME"}, {"<lane>", "LANE"}, {"<eye>", "EYE"}, {"<m>", "50"}, {"<lx>", "5"}, {"<percent>", "10"}, {"<rating>", "5"}};
     std::vector<std::string> all;
-    for (std::string_view form : split(row.forms, ' ')) {
+    for (const std::string_view form : split(row.forms, ' ')) {
         std::string& text = all.emplace_back();
-        while (!form.empty()) {
-            const auto [first, rest] = parts_of(form);
-            form = rest;
-            if (first[0] == '(') {
-                std::string choice;
-                const std::vector<const Word*> choices = words_of(first);
-                for (const Word* word : choices)
-                    choice += (choice.empty() || !*word->spelt ? "" : "/") + std::string(word->spelt);
-                const bool may_miss = !*choices.front()->spelt && !choice.empty();
-                text += may_miss ? "[" + choice + "]" : choices.size() > 1 ? "(" + choice + ")" : choice;
-            } else if (first[0] == '<')
-                text += std::ranges::find(slots, first, &std::pair<const char*, const char*>::first)->second;
+        for (const auto& [part, words] : parts_of(form)) {
+            std::string choice;
+            for (const Word* word : words)
+                choice += (choice.empty() || !*word->spelt ? "" : "/") + std::string(word->spelt);
+            const bool may_miss = !words.empty() && !*words.front()->spelt && !choice.empty();
+            if (!words.empty())
+                text += may_miss ? "[" + choice + "]" : words.size() > 1 ? "(" + choice + ")" : choice;
+            else if (part[0] == '<')
+                text += std::ranges::find(slots, part, &std::pair<const char*, const char*>::first)->second;
             else
-                text += first;
+                text += part;
         }
     }
     return all;

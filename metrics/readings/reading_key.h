@@ -53,6 +53,9 @@ std::string name_of(const ReadingKey& key);
 /// The inverse; nullopt for what is no reading's name.
 std::optional<ReadingKey> key_of(std::string_view name);
 
+/// Whether one of the names is the key's.
+bool is_named(const ReadingKey& key, const std::vector<std::string>& names);
+
 /// Whether every name with this subject leads back to it. A probe "x_min" is not clear: its median and the minimum of "x" have one name.
 bool is_clear_subject(SubjectKind kind, std::string_view subject);
 /// A pass's name as it stands in readings: "display: glare" is "display__glare".

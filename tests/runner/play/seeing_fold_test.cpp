@@ -128,17 +128,12 @@ TEST(Seeing, LimitsKnowItsReadings) {
     straight.drive.seeing.sensors = SensorParameters{{5.0}, {}, {{"edge", 100.0, Across::right_edge, 0.25}}};
     const Readings readings = SeeingFold(straight.drive, straight.route).readings();
     straight.drive.limits = {{"sensor_edge_reach_5lx_m", 10.0, std::nullopt}};
-    EXPECT_NO_THROW(check_limit_names(straight.drive, readings));
+    EXPECT_NO_THROW(check_names(straight.drive, readings));
     EXPECT_EQ(judge_limits(straight.drive, straight.played().readings()).at(0).kind, VerdictKind::pass);
     straight.drive.limits[0].at_least = 20.0;
     EXPECT_EQ(judge_limits(straight.drive, straight.played().readings()).at(0).kind, VerdictKind::fail);
     straight.drive.limits[0].reading = "sensor_kerb_reach_5lx_m";
-    EXPECT_THROW(check_limit_names(straight.drive, readings), InputError);
-}
-
-TEST(Seeing, SecondsOfADriveAreComparedAndMillisecondsOfAMachineNot) {
-    EXPECT_FALSE(is_unit_of_time("s"));
-    EXPECT_TRUE(is_unit_of_time("ms"));
+    EXPECT_THROW(check_names(straight.drive, readings), InputError);
 }
 
 } // namespace
