@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/beam/received_beam.h"
+#include "metrics/regulation/regulation.h"
 
 #include <string>
 #include <vector>
