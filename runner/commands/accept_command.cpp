@@ -184,15 +184,14 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
 void add_accept_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<AcceptFlags>();
     CLI::App* command = app.add_subcommand("accept", "take a run's results as references for later runs; judges nothing");
-    command->add_option("RUN", flags->run, "folder of a complete run or study, or of a picture by `fernlicht reference`")->required();
+    command->add_option("RUN", flags->run, "folder of a complete run or study, or of a `fernlicht reference` picture")->required();
     command->add_option("--to,--store", flags->to, "folder of references")->capture_default_str();
-    command->add_flag("--replace", flags->replace, "these are right in place of what was accepted under the same keys");
+    command->add_flag("--replace", flags->replace, "replace what was accepted under the same keys");
     command->add_flag("--replace-class", flags->replace_class,
-                      "these are right in place of all that was accepted for their class of device; other classes keep theirs");
-    command->add_flag("--add", flags->add, "these are right as well: a run passes that agrees with either; needs --note");
-    command->add_flag("--readings-only", flags->readings_only,
-                      "leave the frames out: a thousandth of the size; pictures are then not compared");
-    command->add_option("--note", flags->note, "why, in a sentence; `fernlicht references` shows it");
+                      "replace everything accepted for this device class; other classes keep theirs");
+    command->add_flag("--add", flags->add, "accept these as well: a run that agrees with either passes; needs --note");
+    command->add_flag("--readings-only", flags->readings_only, "store no frames, a thousandth of the size; pictures are then not compared");
+    command->add_option("--note", flags->note, "the reason, in one sentence; `fernlicht references` shows it");
     command->callback([flags, &chosen] { chosen = [flags] { return accept(*flags); }; });
 }
 

@@ -6,7 +6,9 @@
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -63,8 +65,13 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
     request.folder = flags.out.empty() ? default_output_folder("accuracy", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
     request.quiet = flags.quiet;
+    request.write = [&](const AccuracyResult& result) {
+        write_file(request.folder / "accuracy.json", accuracy_json(result));
+        write_file(request.folder / "accuracy.csv", accuracy_csv(result));
+        write_document(document(result), result, request.folder, "accuracy");
+    };
     const AccuracyResult result = run_accuracy(request);
-    fmt::print("{}\n{}\n", accuracy_text(result), (request.folder / "accuracy.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "accuracy.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
     for (const std::string& missing : result.missing)
@@ -79,40 +86,42 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
 
 void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<AccuracyFlags>();
-    CLI::App* sub = app.add_subcommand("accuracy", "hold the techniques against the reference: error beside run time");
+    CLI::App* sub = app.add_subcommand("accuracy", "compare the techniques with the reference: error against run time");
     sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
     sub->add_option(
            "--diagrams", flags->diagrams,
            "all, or some of techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic, shadows; "
            "else techniques")
         ->allow_extra_args(false);
-    sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
-    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);
+    sub->add_option("--variant", flags->variant, "lamp set of the drives (default: the first of each)");
+    sub->add_option("--techniques", flags->techniques, "comma-separated names (default: all)")->allow_extra_args(false);
     sub->add_option("--resolutions", flags->resolutions,
-                    "WIDTHxHEIGHT,...: the first for all, the others beside it; else the drive's, a half and a quarter of it")
+                    "WIDTHxHEIGHT,...: the first for all, the others varied (default: the drive's, a half and a quarter of it)")
         ->allow_extra_args(false);
     sub->add_option("--shadow-maps", flags->shadow_maps,
-                    "WIDTHxHEIGHT,...: the first for all, the others beside it; else 1024x512, twice, a half and a quarter of it")
+                    "WIDTHxHEIGHT,...: the first for all, the others varied (default: 1024x512, and twice, half and a quarter of it)")
         ->allow_extra_args(false);
     sub->add_option("--beams", flags->beams,
-                    "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others beside it; else the drive's and four others")
+                    "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others varied (default: the drive's and four more)")
         ->allow_extra_args(false);
-    sub->add_flag("--full", flags->sweep.full, "every technique with every resolution, shadow map and beam; else one varied at a time");
-    sub->add_option("--moments", flags->sweep.moments, "spread evenly over the drive")->check(CLI::Range(1, 1000))->capture_default_str();
-    sub->add_option("--rounds", flags->sweep.rounds, "of times; in each, every configuration draws the moments once")
+    sub->add_flag("--full", flags->sweep.full, "every technique with every resolution, shadow map and beam (default: vary one at a time)");
+    sub->add_option("--moments", flags->sweep.moments, "number of moments, spread evenly over the drive")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    sub->add_option("--rounds", flags->sweep.rounds, "number of timing rounds; in each, every configuration renders the moments once")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    sub->add_option("--target-error", flags->target_error, "standard error wanted of each pixel of the reference, e.g. 0.5% or 0.005")
+    sub->add_option("--target-error", flags->target_error, "target standard error of each reference pixel, e.g. 0.5% or 0.005")
         ->capture_default_str();
-    sub->add_option("--samples", flags->sweep.most_samples, "most samples a pixel of the reference")
+    sub->add_option("--samples", flags->sweep.most_samples, "maximum samples per reference pixel")
         ->check(CLI::Range(16, 1 << 20))
         ->capture_default_str();
-    sub->add_option("--seed", flags->sweep.seed, "of the reference and of the order in each round")
+    sub->add_option("--seed", flags->sweep.seed, "seed of the reference and of the order in each round")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
     sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
-    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return accuracy(*flags, command); }; });
 }
 

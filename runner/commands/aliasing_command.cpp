@@ -6,7 +6,9 @@
 #include "runner/experiments/aliasing/sequence_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -119,13 +121,20 @@ AliasingResult run(const AliasingFlags& flags, const std::vector<std::string>& c
         folder = flags.out.empty() ? default_output_folder(name + "-aliasing", utc_now()) : std::filesystem::path(flags.out);
         return folder;
     };
+    const auto write = [&folder](const AliasingResult& result) {
+        write_file(folder / "aliasing.json", aliasing_json(result));
+        write_file(folder / "aliasing.csv", aliasing_csv(result));
+        write_document(document(result), result, folder, "aliasing");
+    };
     if (!flags.sequence.empty()) {
         SequenceRequest request = sequence_request_of(flags);
+        request.write = write;
         request.command = command;
         request.folder = place("sequence");
         return run_sequence_aliasing(request);
     }
     AliasingRequest request = request_of(flags);
+    request.write = write;
     request.command = command;
     request.folder = place(request.drive.name);
     return run_aliasing(request);
@@ -137,7 +146,7 @@ int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command
                          "a drive file, or --sequence with a folder of frames");
     std::filesystem::path folder;
     const AliasingResult result = run(flags, command, folder);
-    fmt::print("{}{}\n", aliasing_text(result), (folder / "aliasing.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), (folder / "aliasing.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
     const bool measured =
@@ -149,38 +158,38 @@ int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command
 
 void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<AliasingFlags>();
-    CLI::App* sub = app.add_subcommand("aliasing", "how much of what a picture shows is not there, by how it is drawn");
+    CLI::App* sub = app.add_subcommand("aliasing", "measure how much of a picture is not in the scene, by how it is rendered");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML)");
-    sub->add_option("--moment", flags->moment_s, "seconds into the drive; the nearest moment is drawn; else its middle");
-    sub->add_option("--frames", flags->frames, "FIRST:LAST, 8 to 64 frames in a row: measures flicker and crawl, too");
-    sub->add_flag("--flow", flags->flow, "with --frames: holds optical flow against the motion that is known, too");
-    CLI::Option* const sequence =
-        sub->add_option("--sequence", flags->sequence,
-                        "instead of a drive: a folder of frames that others drew, PNG or EXR with numbers, or FOLDER/BEGIN*END");
-    sub->add_option("--against", flags->against, "the same frames drawn 4, 6 ... 16 times as fine each way")->needs(sequence);
+    sub->add_option("--moment", flags->moment_s, "seconds into the drive; renders the nearest moment (default: the middle one)");
+    sub->add_option("--frames", flags->frames, "FIRST:LAST, 8 to 64 consecutive moments: also measure flicker and crawl");
+    sub->add_flag("--flow", flags->flow, "with --frames: also compare optical flow with the known motion");
+    CLI::Option* const sequence = sub->add_option(
+        "--sequence", flags->sequence, "instead of a drive: folder of numbered PNG or EXR frames from elsewhere, or FOLDER/BEGIN*END");
+    sub->add_option("--against", flags->against, "the same frames at 4, 6 ... 16 times the resolution in each direction")->needs(sequence);
     sub->add_option("--rate", flags->rate_hz, "frames per second of the sequence")->needs(sequence);
     sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree of the sequence")->needs(sequence);
-    sub->add_option("--view-fov", flags->view_fov_deg, "vertical angle of the sequence's view, degrees: instead of --ppd")->needs(sequence);
-    sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
+    sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view of the sequence in degrees, instead of --ppd")
+        ->needs(sequence);
+    sub->add_option("--variant", flags->variant, "lamp set of the drive (default: its first)");
     const auto list = [&](const char* name, auto& values, const char* text) {
         return sub->add_option(name, values, text)->delimiter(',')->allow_extra_args(false);
     };
-    list("--techniques", flags->techniques, "names with commas between them; else the drive's");
+    list("--techniques", flags->techniques, "comma-separated names (default: the drive's)");
     list("--beams", flags->beams,
-         "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others beside it; else the drive's and eight-bit");
-    list("--samples", flags->samples, "1, 4, 9 or 16 a pixel: the first for all, the others beside it")->capture_default_str();
-    list("--filter", flags->filters, "of surface textures, none, mipmapped or trilinear: the first for all, the others beside it")
+         "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others varied (default: the drive's and eight-bit)");
+    list("--samples", flags->samples, "1, 4, 9 or 16 per pixel: the first for all, the others varied")->capture_default_str();
+    list("--filter", flags->filters, "texture filter: none, mipmapped or trilinear; the first for all, the others varied")
         ->capture_default_str();
-    sub->add_option("--supersample", flags->supersample, "how many times as fine each way the reference is drawn: even, 4 to 16")
+    sub->add_option("--supersample", flags->supersample, "resolution of the reference in each direction, as a multiple: even, 4 to 16")
         ->capture_default_str();
-    sub->add_option("--picture", flags->picture, "luminance: of the scene, cd/m2; display: of the tone-mapped picture on a display")
+    sub->add_option("--picture", flags->picture, "luminance: of the scene, in cd/m2; display: of the tone-mapped picture on a display")
         ->check(CLI::IsMember({"luminance", "display"}))
         ->capture_default_str();
-    sub->add_option("--level", flags->level_lx, "lux of the line whose jaggedness is measured")->capture_default_str();
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the view; else the drive's");
+    sub->add_option("--level", flags->level_lx, "illuminance in lux of the line whose jaggedness is measured")->capture_default_str();
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the view (default: the drive's)");
     sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
-    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    sub->add_flag("--quiet", flags->quiet, "show no progress");
     for (const char* of_drives : {"--moment", "--variant", "--techniques", "--beams", "--samples", "--filter", "--supersample", "--picture",
                                   "--level", "--resolution", "--backend", "--flow"})
         sequence->excludes(of_drives);

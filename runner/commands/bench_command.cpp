@@ -5,7 +5,9 @@
 #include "runner/experiments/bench/bench_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -47,8 +49,13 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     request.folder = flags.out.empty() ? default_output_folder("bench", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
     request.quiet = flags.quiet;
+    request.write = [&](const BenchResult& result) {
+        write_file(request.folder / "bench.json", bench_json(result));
+        write_file(request.folder / "bench.csv", bench_csv(result));
+        write_document(document(result), result, request.folder, "bench");
+    };
     const BenchResult result = run_bench(request);
-    fmt::print("{}\n{}\n{}\n", bench_heading(result), bench_tables(result), (request.folder / "bench.json").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "bench.html").string());
     return result.interrupted.empty() ? 0 : 1;
 }
 
@@ -57,19 +64,21 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
 void add_bench_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<BenchFlags>();
     CLI::App* sub = app.add_subcommand("bench", "time the techniques against one another");
-    sub->add_option("--drive", flags->drive, "drive file (YAML) whose moments are drawn")->capture_default_str();
-    sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
-    sub->add_option("--techniques", flags->techniques, "names with commas between them; else all")->allow_extra_args(false);
-    sub->add_option("--frames", flags->frames,
-                    fmt::format("moments, spread evenly over the drive; else {}, or all that it has", usual_bench_moments));
-    sub->add_option("--rounds", flags->rounds, "in each, every technique draws the moments once")->capture_default_str();
-    sub->add_option("--seed", flags->seed, "of the order in each round")
+    sub->add_option("--drive", flags->drive, "drive file (YAML) whose moments are rendered")->capture_default_str();
+    sub->add_option("--variant", flags->variant, "lamp set of the drive (default: its first)");
+    sub->add_option("--techniques", flags->techniques, "comma-separated names (default: all)")->allow_extra_args(false);
+    sub->add_option(
+        "--frames", flags->frames,
+        fmt::format("number of moments, spread evenly over the drive (default: {}, or all of a shorter drive)", usual_bench_moments));
+    sub->add_option("--rounds", flags->rounds, "number of rounds; in each, every technique renders the moments once")
+        ->capture_default_str();
+    sub->add_option("--seed", flags->seed, "seed of the order in each round")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT; else the drive's");
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT (default: the drive's)");
     sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
-    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return bench(*flags, command); }; });
 }
 

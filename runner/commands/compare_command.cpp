@@ -142,25 +142,23 @@ int compare(const CompareFlags& flags) {
 void add_compare_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<CompareFlags>();
     CLI::App* sub = app.add_subcommand(
-        "compare", "tells how two pictures, two runs or two lamps differ: in numbers, in pictures, and whether they are alike enough");
+        "compare", "show how two pictures, runs or lamps differ, in numbers and pictures, and whether they are close enough");
     sub->add_option("A", flags->reference,
                     "the reference: PNG (display) or EXR (linear) as run writes them, a run's folder, or a lamp file")
         ->required();
-    sub->add_option("B", flags->tested, "what is compared with it: of the same kind")->required();
-    sub->add_option(
-        "--strictness", flags->strictness,
-        "identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md); exit code 1 when B does not keep it");
-    CLI::Option* density = sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree, for FLIP; 67.02 when nothing is said");
+    sub->add_option("B", flags->tested, "what to compare with A, of the same kind")->required();
+    sub->add_option("--strictness", flags->strictness,
+                    "identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md); exit with 1 if B fails it");
+    CLI::Option* density = sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree, for FLIP (default: 67.02)");
     sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view in degrees, instead of --ppd")->excludes(density);
     sub->add_option("--out", flags->out,
-                    "a new or empty folder for pictures of the difference and compare.json; of two runs or lamps for report.html, too");
-    sub->add_option("--pictures", flags->pictures, "of two runs: how many moments of each drive and view are drawn, or all")
-        ->capture_default_str();
-    sub->add_option("--regulation", flags->regulation, "of two lamps: each row's margin with both; exit code 1 when B does not pass")
+                    "new or empty folder for difference pictures and compare.json, and for report.html of two runs or lamps");
+    sub->add_option("--pictures", flags->pictures, "two runs: moments to show of each drive and view, or all")->capture_default_str();
+    sub->add_option("--regulation", flags->regulation, "two lamps: margin of both in each row; exit with 1 if B does not pass")
         ->option_text("ID");
-    sub->add_option("--noise", flags->noise, "of two lamps: standard deviation of an intensity, e.g. 1%");
-    sub->add_flag("--lamps", flags->lamps, "takes pictures for beam textures");
-    sub->add_flag("--json", flags->json, "prints JSON");
+    sub->add_option("--noise", flags->noise, "two lamps: standard deviation of an intensity, e.g. 1%");
+    sub->add_flag("--lamps", flags->lamps, "read pictures as beam textures");
+    sub->add_flag("--json", flags->json, "print JSON");
     sub->callback([flags, &chosen] { chosen = [flags] { return compare(*flags); }; });
 }
 

@@ -84,7 +84,7 @@ int doctor() {
 } // namespace
 
 void add_doctor_command(CLI::App& app, std::function<int()>& chosen) {
-    CLI::App* command = app.add_subcommand("doctor", "tell what this machine can draw with; exit code 3 when nothing can");
+    CLI::App* command = app.add_subcommand("doctor", "report which backends work on this machine; exit with 3 if none does");
     command->callback([&chosen] { chosen = doctor; });
 }
 

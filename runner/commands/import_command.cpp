@@ -108,13 +108,13 @@ int import_command(const ImportRequest& request) {
 void add_import_command(CLI::App& app, std::function<int()>& chosen) {
     const auto request = std::make_shared<ImportRequest>();
     const auto forward = std::make_shared<std::string>("y");
-    CLI::App* command = app.add_subcommand("import", "turns an OpenFlight database (.flt) into glTF (.glb)");
+    CLI::App* command = app.add_subcommand("import", "convert an OpenFlight database (.flt) to glTF (.glb)");
     command->add_option("FILE", request->file, "OpenFlight, 14.0 to 17.0")->required();
-    command->add_option("OUT", request->out, "the .glb to be written")->required();
-    command->add_option("--forward", *forward, "the file's axis that looks forward: y for vehicles, x where x is east and y north")
+    command->add_option("OUT", request->out, "the .glb to write")->required();
+    command->add_option("--forward", *forward, "the file's forward axis: y for vehicles, x where x is east and y north")
         ->check(CLI::IsMember({"x", "y"}))
         ->capture_default_str();
-    command->add_flag("--force", request->force, "lets OUT be replaced");
+    command->add_flag("--force", request->force, "replace OUT if it exists");
     command->callback([request, forward, &chosen] {
         chosen = [request, forward] {
             request->forward = (*forward)[0];

@@ -24,12 +24,12 @@ std::string today_of(const JudgingFlags& flags) {
 void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
     command.add_option("--references", flags.references, "folder of accepted results to judge against");
     command.add_flag("--across-devices", flags.across_devices,
-                     "where nothing is accepted for this class of device, judge by what others gave");
-    command.add_option("--repeat", flags.repeats, "plays of each lamp set; results that differ in a byte are flaky, which is red")
+                     "where nothing is accepted for this device class, judge by results of other classes");
+    command.add_option("--repeat", flags.repeats, "times to play each lamp set; results that differ in a byte are flaky, which is red")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command.add_option("--known", flags.known, "YAML list of known failures and flakes, each with reason and expiry");
-    command.add_option("--today", flags.today, "YYYY-MM-DD by which known failures expire; else the clock's day, UTC");
+    command.add_option("--today", flags.today, "YYYY-MM-DD, the day used to expire known failures (default: today, UTC)");
 }
 
 std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options) {

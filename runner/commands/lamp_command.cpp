@@ -129,9 +129,9 @@ template <class Value> void add_choice(CLI::App& command, const std::string& nam
 }
 
 void add_texture_options(CLI::App& command, LampReadOptions& reading) {
-    const char* group = "Beam textures (where the image's own metadata are silent)";
-    command.add_option("--texture-scale", reading.texture_scale_lx, "lux of a pixel of value 1 (8-bit: 255)")->group(group);
-    command.add_option("--texture-distance", reading.texture_distance_m, "metres at which those lux hold")
+    const char* group = "Beam textures (where the image has no metadata)";
+    command.add_option("--texture-scale", reading.texture_scale_lx, "lux for a pixel value of 1 (8-bit: 255)")->group(group);
+    command.add_option("--texture-distance", reading.texture_distance_m, "distance in metres of --texture-scale")
         ->capture_default_str()
         ->group(group);
     const auto extent = [&](const char* name, double(&edges)[2], const char* text) {
@@ -146,8 +146,8 @@ void add_texture_options(CLI::App& command, LampReadOptions& reading) {
             ->expected(2)
             ->group(group);
     };
-    extent("--texture-h", reading.texture_h_extent_deg, "degrees of the left and the right edge");
-    extent("--texture-v", reading.texture_v_extent_deg, "degrees of the bottom and the top edge");
+    extent("--texture-h", reading.texture_h_extent_deg, "left and right edge in degrees");
+    extent("--texture-v", reading.texture_v_extent_deg, "bottom and top edge in degrees");
 }
 
 /// In place of the description; the picture is that of the difference.
@@ -229,35 +229,34 @@ int lamp_command(const LampRequest& request) {
 
 void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
     const auto request = std::make_shared<LampRequest>();
-    CLI::App* command = app.add_subcommand("lamp", "tells what a lamp file holds; scales, mirrors, sums, converts and pictures it");
+    CLI::App* command = app.add_subcommand("lamp", "describe a lamp file; scale, mirror, add, convert or plot it");
     command->add_option("FILE", request->file, "IES LM-63, EULUMDAT, beam matrix (CSV) or beam texture (image)");
-    command->add_option("--model", request->model,
-                        "one of our own models in place of a file: halogen-low, halogen-high, xenon-low, xenon-high");
-    command->add_flag("--json", request->json, "prints JSON");
+    command->add_option("--model", request->model, "built-in model instead of a file: halogen-low, halogen-high, xenon-low, xenon-high");
+    command->add_flag("--json", request->json, "print JSON");
     command->add_option("--picture", request->picture,
-                        "writes the isocandela diagram, with --cut-off its scans and the elbow: .svg or .png");
-    command->add_flag("--force", request->force, "lets --convert and --picture replace a file that is there");
-    command->add_option("--window", request->window, "of the picture: left, right, bottom and top in degrees")->expected(4);
-    command->add_option("--spots", request->spots, "fits this many spot lights of OpenGL 1.x (1 to 8) and tells what they leave over");
+                        "write the isocandela diagram, or with --cut-off its scans and the elbow, as .svg or .png");
+    command->add_flag("--force", request->force, "let --convert and --picture replace an existing file");
+    command->add_option("--window", request->window, "left, right, bottom and top edge of the picture in degrees")->expected(4);
+    command->add_option("--spots", request->spots, "fit this many OpenGL 1.x spot lights (1 to 8) and report the residual");
     command->add_option("--convert", request->convert,
-                        "writes the lamp: .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");
-    command->add_option("--scale", request->scale, "multiplies the intensities")->capture_default_str();
-    command->add_flag("--mirror", request->mirror, "exchanges left and right: right-hand to left-hand traffic and back");
-    command->add_option("--add", request->add, "adds another lamp's light");
+                        "write the lamp as .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");
+    command->add_option("--scale", request->scale, "multiply the intensities")->capture_default_str();
+    command->add_flag("--mirror", request->mirror, "swap left and right: right-hand to left-hand traffic and back");
+    command->add_option("--add", request->add, "add another lamp's light");
     command->add_option("--against", request->against,
-                        "tells what differs from this lamp: aim, cut-off, level, zones; and what is only noise");
+                        "report what differs from this lamp (aim, cut-off, level, zones) and what is only noise");
     command->add_option_function<std::string>(
         "--noise", [request](const std::string& text) { request->noise_relative = share_of("--noise", text); },
-        "with --against: standard deviation of an intensity, e.g. 1%; what the tables themselves show counts where it is larger");
-    command->add_option("--subtract", request->subtract, "takes another lamp's light off; what would be negative becomes 0 and is counted");
+        "with --against: standard deviation of an intensity, e.g. 1%; the noise found in the tables is used if larger");
+    command->add_option("--subtract", request->subtract, "subtract another lamp's light; negative results become 0 and are counted");
     add_choice(*command, "--rule", request->reading.rule, {{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}},
-               "between the samples: linear (in cd) or log (in log cd)");
+               "interpolation between samples: linear (in cd) or log (in log cd)");
     add_choice(*command, "--axis", request->reading.type_c_axis,
                {{"automatic", TypeCAxis::automatic}, {"horizontal", TypeCAxis::horizontal}, {"nadir", TypeCAxis::nadir}},
                "where Type C and EULUMDAT beams point: automatic, horizontal or nadir");
     add_texture_options(*command, request->reading);
     add_regulation_options(*command, *request);
-    command->footer("Order of the changes: scale, mirror, add, subtract.");
+    command->footer("Changes are applied in this order: scale, mirror, add, subtract.");
     command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
 }
 

@@ -111,19 +111,23 @@ void refuse_regulation_options(const LampRequest& request) {
 }
 
 void add_regulation_options(CLI::App& command, LampRequest& request) {
-    const char* group = "Regulations (our tables of them; no approval)";
+    const char* group = "Regulations (our copies of their tables; not an approval)";
     command
-        .add_option("--regulation", request.regulation, "holds the lamp against a table, each row with its margin; `list` names them all")
+        .add_option("--regulation", request.regulation,
+                    "check the lamp against a table, with the margin of each row; `list` names all tables")
         ->option_text("ID|list")
         ->group(group);
-    command.add_flag("--cut-off", request.cut_off, "measures the cut-off: place, sharpness, linearity, kink")->group(group);
-    command.add_flag("--left-hand-traffic", request.left_hand_traffic, "the table by mirror")->group(group);
+    command.add_flag("--cut-off", request.cut_off, "measure the cut-off: position, sharpness, linearity, kink")->group(group);
+    command.add_flag("--left-hand-traffic", request.left_hand_traffic, "use the mirrored table")->group(group);
     command
-        .add_option("--aim", request.aim, "in place of the regulation's own: auto, as-is, cut-off, cut-off-line, elbow, vol, vor, maximum")
+        .add_option("--aim", request.aim,
+                    "how to aim, instead of the regulation's way: auto, as-is, cut-off, cut-off-line, elbow, vol, vor, maximum")
         ->group(group);
-    command.add_option("--aim-by", request.aim_by, "a passing beam whose aim this beam keeps")->group(group);
-    command.add_flag("--no-re-aim", request.no_re_aim, "does not turn a lamp that fails within what the edition allows")->group(group);
-    command.add_option("--detector", request.detector_mm, "of --cut-off: mm at 25 m; 0: a point")->capture_default_str()->group(group);
+    command.add_option("--aim-by", request.aim_by, "low-beam file whose aim this beam takes over")->group(group);
+    command.add_flag("--no-re-aim", request.no_re_aim, "do not re-aim a failing lamp within the edition's allowance")->group(group);
+    command.add_option("--detector", request.detector_mm, "with --cut-off: detector diameter in mm at 25 m; 0: a point")
+        ->capture_default_str()
+        ->group(group);
     command
         .add_option_function<std::string>(
             "--sharpness",
@@ -132,7 +136,7 @@ void add_regulation_options(CLI::App& command, LampRequest& request) {
                     throw InputError({{}, 0, 0, "--sharpness"}, "found '" + printable(word) + "'", "maximum or at-inflection");
                 request.sharpness = word == "maximum" ? SharpnessRule::maximum : SharpnessRule::at_inflection;
             },
-            "of --cut-off: the G that stands for a scan, maximum or at-inflection")
+            "with --cut-off: which G represents a scan, maximum or at-inflection")
         ->group(group);
 }
 

@@ -108,25 +108,24 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
 
 void add_live_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<LiveFlags>();
-    CLI::App* sub = app.add_subcommand("live", "drive against the clock: inputs from a CAN bus, outputs onto it");
+    CLI::App* sub = app.add_subcommand("live", "play a drive in real time, with inputs from a CAN bus and outputs onto it");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML) with the key `can`")->required();
     sub->add_option("--can", flags->interface, "CAN interface of the kernel, e.g. can0 or vcan0");
-    sub->add_option("--can-log", flags->log, "a recording (candump) at its own pace, instead of an interface");
-    sub->add_option("--can-start", flags->start, "stamp of the recording that is the drive's 0 s");
+    sub->add_option("--can-log", flags->log, "candump log, played at its own pace instead of listening on an interface");
+    sub->add_option("--can-start", flags->start, "timestamp of the recording that is the drive's 0 s");
     sub->add_option("--duration", flags->duration_s, "seconds to drive, instead of the drive's own")->check(CLI::Range(0.01, 1.0e6));
-    sub->add_option("--variant", flags->variant, "which lamp set is driven, where there are several");
+    sub->add_option("--variant", flags->variant, "lamp set to drive with, where there are several");
     sub->add_option("--listen", flags->listen_s, "seconds to listen to the bus before 0 s")->check(CLI::Range(0.0, 3600.0));
-    sub->add_option("--record", flags->record, "new file for the frames used, a candump log; default: in the report's folder");
-    sub->add_option("--receive-buffer", flags->receive_buffer,
-                    "bytes that the kernel may hold for the socket; default: 4 MiB where permitted")
+    sub->add_option("--record", flags->record, "candump log to write the used frames to (default: one in the report's folder)");
+    sub->add_option("--receive-buffer", flags->receive_buffer, "socket receive buffer in bytes (default: 4 MiB where permitted)")
         ->check(CLI::Range(1, 1 << 30));
-    sub->add_flag("--no-draw", flags->no_draw, "no pictures; needs nothing that draws");
-    sub->add_flag("--no-wait", flags->no_wait, "of a recording: as fast as it goes, without pictures");
+    sub->add_flag("--no-draw", flags->no_draw, "render no pictures; needs no GL");
+    sub->add_flag("--no-wait", flags->no_wait, "with --can-log: as fast as possible, without pictures");
     sub->add_flag("--lossless", flags->lossless,
-                  "exit code 1 when a frame was dropped, not sent or not recorded, or the interface was away");
+                  "exit with 1 if a frame was dropped, not sent or not recorded, or the interface went down");
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
-    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
+    sub->add_option("--out", flags->out, "new or empty folder for the report");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return live(*flags, command); }; });
 }
 

@@ -28,10 +28,11 @@ std::int64_t utc_offset_of(const std::string& text) {
 } // namespace
 
 void add_log_flags(CLI::App& command, LogFlags& flags) {
-    command.add_option("--stamps", flags.stamps, "what stamps count from: absolute, zero (-tz) or delta (-td); found out where it can be");
-    command.add_option("--start", flags.start, "when the first frame came, in s, where stamps are zero or delta (0)");
-    command.add_option("--utc-offset", flags.utc_offset, "of dates in stamps (-tA), as +02:00 (UTC)");
-    command.add_flag("--lenient", flags.lenient, "skip lines that are no frames, and tell how many");
+    command.add_option("--stamps", flags.stamps,
+                       "what timestamps count from: absolute, zero (-tz) or delta (-td); detected where possible");
+    command.add_option("--start", flags.start, "time of the first frame in s, where timestamps are zero or delta (default: 0)");
+    command.add_option("--utc-offset", flags.utc_offset, "UTC offset of dates in timestamps (-tA), e.g. +02:00 (default: UTC)");
+    command.add_flag("--lenient", flags.lenient, "skip lines that are not frames, and report how many");
 }
 
 std::int64_t nanoseconds_of(const char* flag, const std::string& text, bool negative) {

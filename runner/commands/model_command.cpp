@@ -132,24 +132,23 @@ int model_command(const ModelRequest& request) {
 
 void add_model_command(CLI::App& app, std::function<int()>& chosen) {
     const auto request = std::make_shared<ModelRequest>();
-    CLI::App* command = app.add_subcommand("model", "tells what a model holds; pictures it at night in our lamps");
+    CLI::App* command = app.add_subcommand("model", "describe a model; render it at night in our lamps");
     command->add_option("FILE", request->file, "glTF: .gltf or .glb");
-    command->add_option("--body", request->body,
-                        "one of our own bodies in place of a file: car, van, truck, bus, motorcycle, bicycle, pedestrian");
-    command->add_option("--picture", request->picture, "writes a PNG: the model on a level road, lit by two lamps, from the driver's eye");
-    command->add_option("--write", request->write, "writes the body as a .glb");
+    command->add_option("--body", request->body, "built-in body instead of a file: car, van, truck, bus, motorcycle, bicycle, pedestrian");
+    command->add_option("--picture", request->picture, "write a PNG of the model on a level road, lit by two lamps, seen by the driver");
+    command->add_option("--write", request->write, "write the body as a .glb");
     command->add_option("--distance", request->distance_m, "metres from the lamps to the model")
         ->check(CLI::Range(1.0, 300.0))
         ->capture_default_str();
-    command->add_option("--yaw", request->yaw_deg, "turns the model to the left, in degrees: 0 drives away, 180 comes towards us")
+    command->add_option("--yaw", request->yaw_deg, "turn the model left, in degrees: 0 drives away, 180 comes towards you")
         ->check(CLI::Range(-360.0, 360.0))
         ->capture_default_str();
-    command->add_option("--scale", request->scale, "metres in a unit of the file")->check(CLI::Range(1.0e-4, 1.0e4))->capture_default_str();
+    command->add_option("--scale", request->scale, "metres per unit of the file")->check(CLI::Range(1.0e-4, 1.0e4))->capture_default_str();
     command->add_option("--lamp", request->lamp, "halogen-low, halogen-high, xenon-low or xenon-high")->capture_default_str();
-    command->add_option("--technique", request->technique, "how it is lit")->capture_default_str();
+    command->add_option("--technique", request->technique, "technique to light it with")->capture_default_str();
     command->add_option("--backend", request->backend, backend_names)->capture_default_str();
-    command->add_flag("--json", request->json, "prints JSON");
-    command->add_flag("--force", request->force, "lets --picture and --write replace a file that is there");
+    command->add_flag("--json", request->json, "print JSON");
+    command->add_flag("--force", request->force, "let --picture and --write replace an existing file");
     command->callback([request, &chosen] { chosen = [request] { return model_command(*request); }; });
 }
 

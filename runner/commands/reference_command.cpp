@@ -130,64 +130,64 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
 
 void add_solver_options(CLI::App& sub, ReferenceFlags& flags) {
     SolverSettings& solver = flags.solver;
-    sub.add_option("--smooth-depth", flags.most_smooth, "whitted: mirrors and boundaries of glass in a row")
+    sub.add_option("--smooth-depth", flags.most_smooth, "whitted: maximum mirrors and glass surfaces in sequence")
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
-    sub.add_option("--reach", solver.reach_m, "radiosity, photon-map: metres about the car within which surfaces send light on")
+    sub.add_option("--reach", solver.reach_m, "radiosity, photon-map: metres around the car within which surfaces reflect light")
         ->check(CLI::Range(1.0, 2000.0))
         ->capture_default_str();
     sub.add_option("--patch", solver.patch_m, "radiosity: width of a patch, metres")->check(CLI::Range(0.01, 100.0))->capture_default_str();
-    sub.add_option("--form-factor-rays", solver.form_factor_rays, "radiosity: from each patch; becomes a multiple of 16")
+    sub.add_option("--form-factor-rays", solver.form_factor_rays, "radiosity: rays per patch, rounded to a multiple of 16")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
-    sub.add_option("--residual", solver.residual, "radiosity: share of the light left when the iteration ends")
+    sub.add_option("--residual", solver.residual, "radiosity: share of the light left undistributed when iteration stops")
         ->check(CLI::Range(1e-14, 1.0))
         ->capture_default_str();
-    sub.add_option("--photons", solver.photons, "photon-map: sent out; becomes a multiple of 16")
+    sub.add_option("--photons", solver.photons, "photon-map: photons emitted, rounded to a multiple of 16")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 26))
         ->capture_default_str();
     sub.add_option("--photon-radius", solver.radius_m, "photon-map: metres over which light is averaged")
         ->check(CLI::Range(0.001, 100.0))
         ->capture_default_str();
-    sub.add_flag("--no-gather", flags.no_gather, "radiosity, photon-map: as solved, without final gathering");
+    sub.add_flag("--no-gather", flags.no_gather, "radiosity, photon-map: show the solution without final gathering");
 }
 
 } // namespace
 
 void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ReferenceFlags>();
-    CLI::App* sub = app.add_subcommand("reference", "draw one moment by rays, each pixel with its standard error (not: `references`)");
+    CLI::App* sub = app.add_subcommand("reference", "ray-trace one moment, each pixel with its standard error");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
     sub->add_option("--moment", flags->moment_s,
-                    "seconds into the drive, 0 to its last moment, one step before its end; the nearest moment is drawn")
+                    "seconds into the drive, from 0 to its last moment, one step before its end; renders the nearest moment")
         ->capture_default_str();
-    sub->add_option("--variant", flags->variant, "lamp set of the drive; else its first");
-    sub->add_option("--view", flags->view, "view of the drive; else the driver's");
+    sub->add_option("--variant", flags->variant, "lamp set of the drive (default: its first)");
+    sub->add_option("--view", flags->view, "view of the drive (default: the driver's)");
     sub->add_option("--integrator", flags->integrator,
-                    "direct: lamps and sky once; path: light that bounces, too; whitted, radiosity, photon-map: the classical methods")
+                    "direct: light of lamps and sky; path: with bounced light; whitted, radiosity, photon-map: the classical methods")
         ->check(CLI::IsMember({"direct", "path", "whitted", "radiosity", "photon-map"}))
         ->capture_default_str();
     add_solver_options(*sub, *flags);
-    sub->add_option("--target-error", flags->target_error, "standard error wanted of each pixel, e.g. 0.5% or 0.005")
+    sub->add_option("--target-error", flags->target_error, "target standard error of each pixel, e.g. 0.5% or 0.005")
         ->capture_default_str();
     sub->add_option("--most-samples", flags->most_samples,
-                    "in a pixel's mean, whatever its error; a power of two, others are rounded down; at least 128 where light bounces")
+                    "maximum samples per pixel, whatever its error; rounded down to a power of two; at least 128 where light bounces")
         ->check(CLI::Range(16, 1 << 24))
         ->capture_default_str();
-    sub->add_option(
-           "--lamp-radius", flags->lamp_radius_m,
-           "metres; lamps are discs of this radius, 0: points; else lamp_radius_m of a drive with shadows by soft-map, 0 of others")
+    sub->add_option("--lamp-radius", flags->lamp_radius_m,
+                    "radius of lamps as discs in metres, 0: points (default: lamp_radius_m of a drive with soft-map shadows, else 0)")
         ->check(CLI::Range(0.0, 1.0));
-    sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
+    sub->add_option("--lamp", flags->lamps,
+                    "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
         ->allow_extra_args(false);
-    sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
+    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of a perspective view");
-    sub->add_option("--seed", flags->seed, "of the samples")
+    sub->add_option("--seed", flags->seed, "seed of the samples")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
-    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
-    sub->add_flag("--resume", flags->resume, "go on with what was interrupted in the folder --out");
-    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    sub->add_flag("--resume", flags->resume, "continue what was interrupted in the --out folder");
+    sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, sub, &chosen] {
         for (const CLI::Option* option : std::as_const(*sub).get_options())
             if (option->count() > 0)

@@ -261,18 +261,18 @@ void add_references_command(CLI::App& app, std::function<int()>& chosen) {
         return sub;
     };
     CLI::App* listing = add("list", "what is accepted", list);
-    listing->add_flag("--json", flags->json, "for programs");
+    listing->add_flag("--json", flags->json, "print JSON");
     CLI::App* showing = add("show", "one accepted result: who made it, readings, frames", show);
     showing->add_option("ID", flags->word, "first digits of an id, or DRIVE/LAMP SET/TECHNIQUE")->required();
-    showing->add_flag("--json", flags->json, "for programs");
+    showing->add_flag("--json", flags->json, "print JSON");
     CLI::App* comparing = add("diff", "two results, reading by reading and pixel by pixel", diff);
     comparing->add_option("ID", flags->word, "the accepted result")->required();
     comparing->add_option("OTHER", flags->other, "a run's folder, or another id")->required();
-    comparing->add_flag("--all", flags->all, "also what agrees");
-    CLI::App* removing = add("remove", "take accepted results out, and files that nothing needs then", remove);
+    comparing->add_flag("--all", flags->all, "list what agrees, too");
+    CLI::App* removing = add("remove", "remove accepted results, and files no longer needed", remove);
     removing->add_option("ID", flags->words, "first digits of an id, or DRIVE/LAMP SET/TECHNIQUE");
-    removing->add_flag("--dry-run", flags->dry, "only say what would go");
-    removing->add_flag("--unreferenced", flags->unreferenced, "without an ID: only files that nothing needs");
+    removing->add_flag("--dry-run", flags->dry, "only show what would be removed");
+    removing->add_flag("--unreferenced", flags->unreferenced, "without an ID: remove only files that nothing refers to");
     command->allow_extras(); // to say what is wrong with them; the actions, added before, take none
     command->callback([command, &chosen] {
         if (command->get_subcommands().empty())

@@ -137,32 +137,32 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("DRIVE", flags->drives,
                     "drive files (YAML), or storyboards (OpenSCENARIO, .xosc): played with halogen low beams on all cars")
         ->required();
-    sub->add_option("--lamp", flags->lamps, "[SIDE=]FILE: use this lamp file, on all lamps or on those whose name holds SIDE (left, right)")
+    sub->add_option("--lamp", flags->lamps,
+                    "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
         ->allow_extra_args(false);
-    sub->add_option("--road", flags->road, "OpenDRIVE file to drive on instead");
-    sub->add_option("--road-folder", flags->road_folders, "where the road of a drive's storyboard is looked for, too")
-        ->allow_extra_args(false);
-    sub->add_flag("--lenient", flags->lenient, "leave out what a storyboard has that is not supported, each with a note");
+    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
+    sub->add_option("--road-folder", flags->road_folders, "also look here for the road of a drive's storyboard")->allow_extra_args(false);
+    sub->add_flag("--lenient", flags->lenient, "skip what is unsupported in a storyboard, with a note for each");
     sub->add_option("--ego", flags->ego, "the storyboard's entity that is the own car");
-    sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: take all places and lamps from it");
+    sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: replay its poses and lamps");
     sub->add_option("--can-log", flags->can_log,
-                    "candump log that gives the signals of the drive's `can`; none: the drive's own speed and signals");
-    sub->add_option("--can-start", flags->can_start, "stamp in the log that is the drive's 0 s, in s; by default that of its first frame");
-    sub->add_option("--can-channel", flags->can_channel, "frames of this channel alone");
-    sub->add_option("--technique", flags->technique, "how to light the scene");
+                    "candump log with the signals of the drive's `can`; none: use the drive's own speed and signals");
+    sub->add_option("--can-start", flags->can_start, "timestamp in the log, in s, that is the drive's 0 s (default: its first frame's)");
+    sub->add_option("--can-channel", flags->can_channel, "use only frames of this channel");
+    sub->add_option("--technique", flags->technique, "technique to light the scene with; `fernlicht techniques` lists them");
     sub->add_option_function<std::string>(
         "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
-        "how shadows are drawn, as `fernlicht techniques` lists them");
+        "shadow method; `fernlicht techniques` lists them");
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
-    sub->add_option("--frames", flags->frames, "FIRST:LAST moments to play, from 0");
-    sub->add_option("--capture", flags->capture, "all: store every frame");
+    sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments only, counted from 0");
+    sub->add_option("--capture", flags->capture, "all: store every moment");
     add_judging_flags(*sub, flags->judging);
-    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
-    sub->add_flag("--profile", flags->profile, "time each pass (slows the frames down)");
-    sub->add_flag("--contact-sheet", flags->contact_sheet, "add one moment in every technique, tone mapper and shadow method");
-    sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments lie from the reference");
-    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->add_option("--out", flags->out, "new or empty folder for the report");
+    sub->add_flag("--profile", flags->profile, "time each pass (slows rendering)");
+    sub->add_flag("--contact-sheet", flags->contact_sheet, "add a sheet of one moment in every technique, tone mapper and shadow method");
+    sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments with the reference");
+    sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });
 }
 

@@ -6,7 +6,9 @@
 #include "runner/experiments/shadows/shadow_study.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -95,8 +97,14 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.folder = flags.out.empty() ? default_output_folder("shadows", utc_now()) : std::filesystem::path(flags.out);
     request.command = command;
     request.quiet = flags.quiet;
+    request.write = [&](const ShadowResult& result) {
+        write_file(request.folder / "shadows.json", shadow_json(result));
+        write_file(request.folder / "shadows.csv", shadow_csv(result));
+        write_document(document(result), result, request.folder, "shadows");
+    };
     const ShadowResult result = run_shadow_study(request);
-    fmt::print("{}\n{}\n", flags.markdown ? shadow_markdown(result) : shadow_text(result), (request.folder / "shadows.html").string());
+    fmt::print("{}\n{}\n", flags.markdown ? table_markdown(shadow_table(result)) : document_text(document(result)),
+               (request.folder / "shadows.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
     for (const std::string& missing : result.missing)
@@ -108,33 +116,33 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
 
 void add_shadows_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ShadowsFlags>();
-    CLI::App* sub = app.add_subcommand("shadows", "how wrong each shadow method is against rays, and what it costs");
-    sub->add_option("DRIVE", flags->drives, "drive files (YAML), beside the scenes that are hard on shadows");
-    sub->add_option("--methods", flags->methods, "names with commas between them; else all")->allow_extra_args(false);
-    sub->add_option("--scenes", flags->scenes, "names of hard scenes, with * and ?, commas between; or none; else all")
+    CLI::App* sub = app.add_subcommand("shadows", "measure how wrong each shadow method is against ray tracing, and what it costs");
+    sub->add_option("DRIVE", flags->drives, "drive files (YAML), in addition to the hard scenes");
+    sub->add_option("--methods", flags->methods, "comma-separated names (default: all)")->allow_extra_args(false);
+    sub->add_option("--scenes", flags->scenes, "comma-separated names of hard scenes, * and ? allowed, or none (default: all)")
         ->allow_extra_args(false)
         ->default_str("");
     sub->add_option("--map-texels", flags->texels, "WIDTHxHEIGHT of each map")->capture_default_str();
-    sub->add_option("--variant", flags->variant, "lamp set of the drives; else their first");
-    sub->add_option("--lamp", flags->lamp, "lamp file, the beam of the hard scenes; the default is found from the repository's root")
+    sub->add_option("--variant", flags->variant, "lamp set of the drives (default: the first of each)");
+    sub->add_option("--lamp", flags->lamp, "lamp file for the hard scenes (default: one in the repository, found from its root)")
         ->capture_default_str();
-    sub->add_option("--lamp-radius", flags->lamp_radius_m, "m, of lamps as discs, for soft shadows; 0: not measured")
+    sub->add_option("--lamp-radius", flags->lamp_radius_m, "radius in m of lamps as discs, for soft shadows; 0: do not measure them")
         ->capture_default_str();
-    sub->add_option("--floor", flags->floor_lx, "lx: what gets less without shadows does not count")->capture_default_str();
-    sub->add_option("--vertical-fov", flags->vertical_fov_deg, "degrees, of the driver's view in the hard scenes, 4:3")
+    sub->add_option("--floor", flags->floor_lx, "lx; points that get less than this without shadows do not count")->capture_default_str();
+    sub->add_option("--vertical-fov", flags->vertical_fov_deg, "vertical field of view in degrees in the hard scenes, 4:3")
         ->default_str(fmt::format("{:.1f}", flags->vertical_fov_deg));
-    sub->add_option("--moments", flags->moments, "of each drive, spread evenly over it")->check(CLI::Range(1, 100))->capture_default_str();
-    sub->add_option("--rounds", flags->rounds, "of times; in each, every method draws the moments once")
+    sub->add_option("--moments", flags->moments, "moments of each drive, spread evenly")->check(CLI::Range(1, 100))->capture_default_str();
+    sub->add_option("--rounds", flags->rounds, "number of timing rounds; in each, every method renders the moments once")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the frames that are timed")->capture_default_str();
-    sub->add_option("--seed", flags->seed, "of the order in each round")
+    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the timed frames")->capture_default_str();
+    sub->add_option("--seed", flags->seed, "seed of the order in each round")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
         ->capture_default_str();
     sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "folder for the results; must not exist or be empty");
-    sub->add_flag("--markdown", flags->markdown, "prints the table as docs/shadow-tables.md has it");
-    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    sub->add_flag("--markdown", flags->markdown, "print the table as in docs/shadow-tables.md");
+    sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return shadows(*flags, command); }; });
 }
 

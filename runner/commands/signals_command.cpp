@@ -40,8 +40,8 @@ void print_json() {
 void add_signals_command(CLI::App& app, std::function<int()>& chosen) {
     const auto json = std::make_shared<bool>(false);
     CLI::App* command =
-        app.add_subcommand("signals", "list the signals of lamp control: name, unit, range, who writes them, whether a CAN bus may");
-    command->add_flag("--json", *json, "prints JSON");
+        app.add_subcommand("signals", "list the signals of lamp control: name, unit, range, who writes them, and whether a CAN bus may");
+    command->add_flag("--json", *json, "print JSON");
     command->callback([json, &chosen] {
         chosen = [json] {
             *json ? print_json() : print_text();

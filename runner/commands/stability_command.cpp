@@ -3,6 +3,7 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/stability/stability_text.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -92,7 +93,7 @@ int try_cases(const StabilityFlags& flags) {
     if (flags.json)
         fmt::print("{}", stability_json(rows, bench.drew() ? bench.device().info().gl_renderer : ""));
     else if (flags.markdown)
-        fmt::print("{}", stability_markdown(rows));
+        fmt::print("{}", table_markdown(stability_table(rows)));
     else
         fmt::print("\n{}", stability_summary(rows));
     return std::ranges::any_of(rows, [](const StabilityRow& row) { return row.verdict == Judgement::fail; }) ? 1 : 0;
@@ -102,20 +103,19 @@ int try_cases(const StabilityFlags& flags) {
 
 void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StabilityFlags>();
-    CLI::App* sub =
-        app.add_subcommand("stability", "try extreme and degenerate inputs, each held against a bound; exit code 1 when one fails");
-    CLI::Option* only = sub->add_option("--only", flags->only, "names of cases, with * and ?, commas between: 'lamp/*,table/zero'")
+    CLI::App* sub = app.add_subcommand("stability", "check extreme and degenerate inputs against bounds; exit with 1 if one fails");
+    CLI::Option* only = sub->add_option("--only", flags->only, "comma-separated names of cases, * and ? allowed: 'lamp/*,table/zero'")
                             ->allow_extra_args(false)
                             ->default_str("");
     sub->add_flag_callback(
-           "--equations", [flags] { flags->only = {"equation/*"}; }, "the light equations one by one")
+           "--equations", [flags] { flags->only = {"equation/*"}; }, "check the light equations one by one")
         ->excludes(only);
-    CLI::Option* json = sub->add_flag("--json", flags->json, "prints JSON");
-    CLI::Option* markdown = sub->add_flag("--markdown", flags->markdown, "prints the table of docs/accuracy.md")->excludes(json);
-    sub->add_flag("--list", flags->list, "names the cases and tries none")->excludes(json)->excludes(markdown);
-    sub->add_flag("--thorough", flags->thorough, "searches ten times as long");
+    CLI::Option* json = sub->add_flag("--json", flags->json, "print JSON");
+    CLI::Option* markdown = sub->add_flag("--markdown", flags->markdown, "print the table of docs/accuracy.md")->excludes(json);
+    sub->add_flag("--list", flags->list, "list the cases and run none")->excludes(json)->excludes(markdown);
+    sub->add_flag("--thorough", flags->thorough, "search ten times as long");
     sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "folder in which the files that the cases write are kept");
+    sub->add_option("--out", flags->out, "keep the files that the cases write in this folder");
     sub->callback([flags, &chosen] { chosen = [flags] { return try_cases(*flags); }; });
 }
 

@@ -118,17 +118,17 @@ int run(const StoryboardFlags& flags) {
 
 void add_storyboard_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StoryboardFlags>();
-    CLI::App* sub = app.add_subcommand("storyboard", "play an OpenSCENARIO XML file without drawing, and tell where everything goes");
-    sub->add_option("FILE", flags->file, "scenario, or parameter variation file (all its cases)")->required();
-    sub->add_option("--road", flags->road, "OpenDRIVE file to play on instead");
-    sub->add_option("--road-folder", flags->road_folders, "where the scenario's road is looked for, too")->allow_extra_args(false);
-    sub->add_option("--parameter", flags->parameters, "NAME=VALUE of a parameter that the file declares")->allow_extra_args(false);
-    sub->add_option("--duration", flags->most_s, "longest time played, in s (60)");
-    sub->add_option("--step", flags->step_s, "time step in s (0.01)");
-    sub->add_option("--out", flags->out, "CSV with a row for each step and entity");
-    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
-    sub->add_flag("--lenient", flags->lenient, "leave out what is not supported, each with a note");
-    sub->add_flag("--quiet", flags->quiet, "no entities and notes");
+    CLI::App* sub = app.add_subcommand("storyboard", "play an OpenSCENARIO XML file without rendering, and report where everything goes");
+    sub->add_option("FILE", flags->file, "scenario, or parameter variation file (plays all its cases)")->required();
+    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the scenario's");
+    sub->add_option("--road-folder", flags->road_folders, "also look here for the scenario's road")->allow_extra_args(false);
+    sub->add_option("--parameter", flags->parameters, "NAME=VALUE for a parameter that the file declares")->allow_extra_args(false);
+    sub->add_option("--duration", flags->most_s, "maximum time to play, in s (default: 60)");
+    sub->add_option("--step", flags->step_s, "time step in s (default: 0.01)");
+    sub->add_option("--out", flags->out, "write a CSV with one row per step and entity");
+    sub->add_flag("--force", flags->force, "let --out replace an existing file");
+    sub->add_flag("--lenient", flags->lenient, "skip what is unsupported, with a note for each");
+    sub->add_flag("--quiet", flags->quiet, "list neither entities nor notes");
     sub->callback([flags, &chosen] { chosen = [flags] { return run(*flags); }; });
 }
 

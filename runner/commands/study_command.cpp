@@ -55,18 +55,18 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
 
 void add_study_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StudyFlags>();
-    CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and tell what differs beyond noise");
+    CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and report what differs beyond noise");
     sub->add_option("FILE", flags->file, "study file (YAML)")->required();
-    sub->add_option("--out", flags->out, "folder for the report; must not exist or be empty");
+    sub->add_option("--out", flags->out, "new or empty folder for the report");
     sub->add_flag("--resume", flags->resume,
-                  "go on in the --out folder of this study: finished cells are kept, others played, the report is written anew");
+                  "continue in the --out folder of this study: keep finished cells, play the others, write the report again");
     sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--frames", flags->frames, "FIRST:LAST moments of each drive to play, from 0");
+    sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments of each drive only, counted from 0");
     add_judging_flags(*sub, flags->judging);
-    sub->add_flag("--no-accuracy", flags->no_accuracy, "leave out how far a few moments of each cell lie from the reference");
-    sub->add_option("--only", flags->only, "play only cells whose name holds this");
-    sub->add_flag("--list", flags->list, "only name the cells");
-    sub->add_flag("--quiet", flags->quiet, "no progress");
+    sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
+    sub->add_option("--only", flags->only, "play only cells whose name contains this");
+    sub->add_flag("--list", flags->list, "list the cells and play none");
+    sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });
 }
 

@@ -13,10 +13,9 @@ void add_techniques_command(CLI::App& app, std::function<int()>& chosen) {
         bool json = false, markdown = false;
     };
     const auto form = std::make_shared<Form>();
-    CLI::App* command =
-        app.add_subcommand("techniques", "list the ways to light a scene and to draw its shadows: what each computes and what it ignores");
-    CLI::Option* json = command->add_flag("--json", form->json, "prints JSON");
-    command->add_flag("--markdown", form->markdown, "prints docs/techniques.md")->excludes(json);
+    CLI::App* command = app.add_subcommand("techniques", "list techniques and shadow methods: what each computes and ignores");
+    CLI::Option* json = command->add_flag("--json", form->json, "print JSON");
+    command->add_flag("--markdown", form->markdown, "print docs/techniques.md")->excludes(json);
     command->callback([form, &chosen] {
         chosen = [form] {
             const auto list = form->json ? techniques_json : form->markdown ? techniques_markdown : techniques_text;

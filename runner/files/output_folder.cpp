@@ -106,4 +106,14 @@ bool is_marked_incomplete(const fs::path& folder) {
     return fs::exists(folder / mark_name, ignored);
 }
 
+std::string file_name_of(const std::string& text) {
+    std::string name;
+    for (const char c : text.substr(0, 80)) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+                           (c == '.' && !name.empty());
+        name += plain ? c : '_';
+    }
+    return name.empty() ? "_" : name;
+}
+
 } // namespace fernlicht

@@ -35,4 +35,7 @@ class OutputFolder {
 /// True for a folder whose run did not end.
 bool is_marked_incomplete(const std::filesystem::path& folder);
 
+/// A file or folder name made of letters, digits, '-', '_' and '.', from any text.
+std::string file_name_of(const std::string& text);
+
 } // namespace fernlicht

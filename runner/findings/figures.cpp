@@ -22,6 +22,8 @@ std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit) {
     return row.below_floor() ? "< " + text : text;
 }
 
+std::string mib_text(std::uint64_t bytes) { return fmt::format("{:.1f}", static_cast<double>(bytes) / (1 << 20)); }
+
 std::string time_text(double seconds) {
     return seconds < 1e-3  ? fmt::format("{:.1f} us", 1e6 * seconds)
            : seconds < 0.1 ? fmt::format("{:.2f} ms", 1e3 * seconds)

@@ -11,6 +11,8 @@ namespace fernlicht {
 std::string two_digits(double value);
 /// "0.053 %"; "< 0.02 %" for an error below the floor; "not measured".
 std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit);
+/// Of bytes, in MiB: "1.9".
+std::string mib_text(std::uint64_t bytes);
 /// "12.3 ms", "0.85 s".
 std::string time_text(double seconds);
 /// What a time and its bar come from: "medians of 7 rounds with their 95 % intervals", "medians of 4 rounds, bars from the least to the

@@ -9,6 +9,7 @@
 #include "metrics/statistics/paired_ratio.h"
 #include "metrics/statistics/statistics.h"
 #include "renderer/renderer.h"
+#include "runner/findings/findings.h"
 #include "runner/findings/reach_error.h"
 #include "scenarios/drives/play/bus_report.h"
 #include "scenarios/drives/play/frame.h"
@@ -21,39 +22,6 @@
 #include <vector>
 
 namespace fernlicht {
-
-struct RunContext {
-    std::vector<std::pair<std::string, std::string>> versions; ///< fernlicht, libraries, compiler
-    std::string backend, gl_renderer, gl_version, cpu, os;
-    std::string command;     ///< as typed, shell-quoted, ready to paste
-    std::string started_utc; ///< ISO 8601
-    std::uint64_t seed = 1;
-    FilesRead inputs;
-};
-
-/// flaky: repeats of the same thing differ.
-enum class VerdictKind { pass, fail, not_measured, flaky };
-/// What the list of known failures says of a verdict.
-enum class Expectation {
-    none,           ///< it is not listed
-    known,          ///< red as it was listed: no news
-    expired,        ///< red as it was listed, but the entry's time is over
-    unexpected_pass ///< listed as failing and green
-};
-struct Verdict {
-    VerdictKind kind = VerdictKind::pass;
-    std::string name;  ///< "reach_5lx_road_own_m"
-    std::string text;  ///< "61.2 m, limit at least 60 m"
-    std::string rerun; ///< command that repeats just this
-    Expectation expectation = Expectation::none;
-    std::string known = {}; ///< the list's entry in a sentence; "" where it is not listed
-};
-
-/// What turns a run red: whatever is not green and not known, and what is green against expectation.
-inline bool is_red(const Verdict& verdict) {
-    return verdict.expectation == Expectation::unexpected_pass ||
-           (verdict.kind != VerdictKind::pass && verdict.expectation != Expectation::known);
-}
 
 /// A picture stored at a captured moment; paths are relative to the report's folder.
 struct StoredFrame {

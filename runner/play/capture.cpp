@@ -1,5 +1,6 @@
 #include "runner/play/capture.h"
 
+#include "runner/files/output_folder.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
 
@@ -72,16 +73,6 @@ bool is_captured(const Capture& capture, int tick, double step_s) {
     // A hair of tolerance: 15 * (1 / 30) is a little less than 0.5.
     const auto index = [&](int t) { return std::floor(t * step_s * capture.per_second + 1e-9); };
     return index(tick) > index(tick - 1);
-}
-
-std::string file_name_of(const std::string& text) {
-    std::string name;
-    for (const char c : text.substr(0, 80)) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-                           (c == '.' && !name.empty());
-        name += plain ? c : '_';
-    }
-    return name.empty() ? "_" : name;
 }
 
 StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,

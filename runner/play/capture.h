@@ -45,7 +45,4 @@ bool is_captured(const Capture& capture, int tick, double step_s);
 StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,
                         const Moment& moment, const View& view, const WritePicture& write_picture);
 
-/// A file or folder name made of letters, digits, '-', '_' and '.', from any text.
-std::string file_name_of(const std::string& text);
-
 } // namespace fernlicht

@@ -16,7 +16,7 @@
 namespace fernlicht {
 
 void add_can_command(CLI::App& app, std::function<int()>& chosen) {
-    CLI::App* can = app.add_subcommand("can", "small tools for logs of a CAN bus, as candump writes them");
+    CLI::App* can = app.add_subcommand("can", "tools for candump logs of a CAN bus");
     can->require_subcommand(0, 1);
     add_can_merge(*can, chosen);
     add_can_cut(*can, chosen);

@@ -154,21 +154,21 @@ int convert_log(const ConvertFlags& flags) {
 
 void add_can_convert(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ConvertFlags>();
-    CLI::App* sub = can.add_subcommand("convert", "a candump log in another of its forms, with candump's options");
-    sub->add_option("FILE", flags->file, "log of candump in any form, - for standard input")->required();
-    sub->add_flag("--screen", flags->screen, "as candump prints, in place of its log form (-L)");
-    sub->add_option("-t", flags->stamps, "stamps written: a(bsolute), A (with date), d(elta), z(ero), n(one)");
-    sub->add_flag("-N", flags->nanoseconds, "nanoseconds in stamps");
-    sub->add_flag("-a", flags->ascii, "with text");
-    sub->add_flag("-i", flags->binary, "bits in place of hexadecimal digits");
+    CLI::App* sub = can.add_subcommand("convert", "convert a candump log to another of its forms, with candump's options");
+    sub->add_option("FILE", flags->file, "candump log in any form, or - for standard input")->required();
+    sub->add_flag("--screen", flags->screen, "candump's screen form instead of its log form (-L)");
+    sub->add_option("-t", flags->stamps, "timestamps to write: a(bsolute), A (with date), d(elta), z(ero), n(one)");
+    sub->add_flag("-N", flags->nanoseconds, "write nanoseconds in timestamps");
+    sub->add_flag("-a", flags->ascii, "add the data as text");
+    sub->add_flag("-i", flags->binary, "bits instead of hexadecimal digits");
     sub->add_flag("-S", flags->swapped, "last byte first");
     sub->add_flag("-8", flags->dlc, "raw data length codes");
     sub->add_flag("-e", flags->explained, "error frames in words");
-    sub->add_flag("-x", flags->directions, "sent or received, and flags of CAN FD; what does not say so counts as received");
+    sub->add_flag("-x", flags->directions, "sent or received, and CAN FD flags; frames without a direction count as received");
     sub->add_flag("-c", flags->colour, "colours, up to three times");
-    sub->add_flag("--sort", flags->sort, "by stamps, equal ones as they stand; takes all of the log into memory");
-    sub->add_option("-o,--out", flags->out, "file in place of standard output");
-    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
+    sub->add_flag("--sort", flags->sort, "sort by timestamp, equal ones in file order; reads the whole log into memory");
+    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
+    sub->add_flag("--force", flags->force, "let --out replace an existing file");
     add_log_flags(*sub, flags->log);
     sub->callback([flags, &chosen] { chosen = [flags] { return convert_log(*flags); }; });
 }

@@ -161,19 +161,20 @@ int cut_log(const CutFlags& flags) {
 
 void add_can_cut(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<CutFlags>();
-    CLI::App* sub = can.add_subcommand("cut", "the part of a candump log between two times, of some identifiers and channels");
-    sub->add_option("FILE", flags->file, "log of candump, - for standard input")->required();
-    sub->add_option("--from", flags->from, "first time kept, in s as the stamps count; +S: since the first frame");
-    sub->add_option("--to", flags->to, "last time kept, likewise");
-    sub->add_option("--id", flags->ids, "identifiers kept, as 123 or 18FEF100 (8 digits: extended); a list with commas")
+    CLI::App* sub = can.add_subcommand("cut", "extract part of a candump log by time, identifier and channel");
+    sub->add_option("FILE", flags->file, "candump log, or - for standard input")->required();
+    sub->add_option("--from", flags->from, "first time to keep, in s on the timestamps' clock; +S: since the first frame");
+    sub->add_option("--to", flags->to, "last time to keep, likewise");
+    sub->add_option("--id", flags->ids, "identifiers to keep, e.g. 123 or 18FEF100 (8 digits: extended), comma-separated")
         ->allow_extra_args(false);
-    sub->add_option("--filter", flags->filters, "candump's filters: ID:MASK, ID~MASK, #ERROR_MASK, j; several with commas: any passes")
+    sub->add_option("--filter", flags->filters,
+                    "candump's filters: ID:MASK, ID~MASK, #ERROR_MASK, j; of several, comma-separated, any may match")
         ->allow_extra_args(false);
-    sub->add_option("--channel", flags->channels, "channel kept, with filters as candump takes them: can0 or can0,123:7FF,#FFFFFFFF")
+    sub->add_option("--channel", flags->channels, "channel to keep, with filters as for candump: can0 or can0,123:7FF,#FFFFFFFF")
         ->allow_extra_args(false);
-    sub->add_flag("--invert", flags->inverted, "keeps what would go");
-    sub->add_option("-o,--out", flags->out, "file in place of standard output");
-    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
+    sub->add_flag("--invert", flags->inverted, "keep what would be dropped");
+    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
+    sub->add_flag("--force", flags->force, "let --out replace an existing file");
     add_log_flags(*sub, flags->log);
     sub->callback([flags, &chosen] { chosen = [flags] { return cut_log(*flags); }; });
 }

@@ -25,10 +25,10 @@ std::uint64_t lookup_key(std::uint32_t id, bool extended) { return id | (extende
 } // namespace
 
 void add_database_flags(CLI::App& command, DatabaseFlags& flags) {
-    command.add_option("--dbc", flags.files, "DBC file; may be given several times, the first that describes a frame counts")
+    command.add_option("--dbc", flags.files, "DBC file; may be given several times, the first that describes a frame wins")
         ->required()
         ->allow_extra_args(false);
-    command.add_option("-m,--frame-id-mask", flags.id_mask, "bits of identifiers that are compared, as 0x00FFFF00 for J1939 (all)");
+    command.add_option("-m,--frame-id-mask", flags.id_mask, "identifier bits to compare, e.g. 0x00FFFF00 for J1939 (default: all)");
 }
 
 Databases::Databases(const DatabaseFlags& flags) {

@@ -177,19 +177,19 @@ int decode_logs(const DecodeFlags& flags) {
 
 void add_can_decode(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<DecodeFlags>();
-    CLI::App* sub = can.add_subcommand("decode", "what the frames of a candump log mean, by DBC files");
-    sub->add_option("LOG", flags->logs, "logs of candump in any of its forms, - for standard input (-)");
+    CLI::App* sub = can.add_subcommand("decode", "decode the frames of a candump log with DBC files");
+    sub->add_option("LOG", flags->logs, "candump logs in any form, or - for standard input (default: -)");
     add_database_flags(*sub, flags->databases);
-    sub->add_flag("-s,--single-line", flags->single_line, "signals behind the frame, on its line");
-    sub->add_flag("-c,--numbers", flags->numbers, "numbers in place of their labels");
-    sub->add_option("--only", flags->only, "messages and signals shown: MESSAGE, SIGNAL or MESSAGE.SIGNAL; may be given several times")
+    sub->add_flag("-s,--single-line", flags->single_line, "put signals on the frame's line");
+    sub->add_flag("-c,--numbers", flags->numbers, "show numbers instead of labels");
+    sub->add_option("--only", flags->only, "messages and signals to show: MESSAGE, SIGNAL or MESSAGE.SIGNAL; may be given several times")
         ->allow_extra_args(false);
-    sub->add_flag("--known", flags->known, "leaves out frames that no message describes, and counts them");
-    sub->add_flag("--notes", flags->notes, "what was odd in the DBC files and how it was taken, on standard error");
-    sub->add_flag("--json", flags->json, "one JSON object a line");
-    sub->add_flag("--csv", flags->csv, "a table: a frame a row, a signal a column; numbers, not labels");
-    sub->add_option("-o,--out", flags->out, "file in place of standard output");
-    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
+    sub->add_flag("--known", flags->known, "skip frames that no message describes, and count them");
+    sub->add_flag("--notes", flags->notes, "report oddities of the DBC files and how they were read, on standard error");
+    sub->add_flag("--json", flags->json, "one JSON object per line");
+    sub->add_flag("--csv", flags->csv, "a table with a row per frame and a column per signal; numbers, not labels");
+    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
+    sub->add_flag("--force", flags->force, "let --out replace an existing file");
     add_log_flags(*sub, flags->log);
     sub->callback([flags, &chosen] { chosen = [flags] { return decode_logs(*flags); }; });
 }

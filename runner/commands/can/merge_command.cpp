@@ -190,12 +190,12 @@ int merge_logs(const MergeFlags& flags) {
 
 void add_can_merge(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<MergeFlags>();
-    CLI::App* sub = can.add_subcommand("merge", "several candump logs as one, in order of time; equal stamps in order of the files");
-    sub->add_option("FILE", flags->files, "logs of candump, - for standard input")->required();
-    sub->add_option("--channel", flags->channels, "new name of channels: NEW, OLD=NEW, FILE=NEW or FILE=OLD=NEW")->allow_extra_args(false);
-    sub->add_option("--offset", flags->offsets, "seconds added to stamps: S or FILE=S, as -0.25")->allow_extra_args(false);
-    sub->add_option("-o,--out", flags->out, "file in place of standard output");
-    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
+    CLI::App* sub = can.add_subcommand("merge", "merge candump logs in time order; equal timestamps in file order");
+    sub->add_option("FILE", flags->files, "candump logs, or - for standard input")->required();
+    sub->add_option("--channel", flags->channels, "rename channels: NEW, OLD=NEW, FILE=NEW or FILE=OLD=NEW")->allow_extra_args(false);
+    sub->add_option("--offset", flags->offsets, "seconds to add to timestamps: S or FILE=S, e.g. -0.25")->allow_extra_args(false);
+    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
+    sub->add_flag("--force", flags->force, "let --out replace an existing file");
     add_log_flags(*sub, flags->log);
     sub->callback([flags, &chosen] { chosen = [flags] { return merge_logs(*flags); }; });
 }

@@ -58,12 +58,12 @@ int record_drive(const RecordFlags& flags) {
 
 void add_can_record(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<RecordFlags>();
-    CLI::App* sub = can.add_subcommand("record", "what a bus would carry if a drive's own script were the car: a candump log");
+    CLI::App* sub = can.add_subcommand("record", "write the candump log that a bus would carry if the drive's own script were the car");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML) with `can`")->required();
-    sub->add_option("--variant", flags->variant, "whose script is recorded; by default the first");
-    sub->add_option("--start", flags->start, "stamp of the drive's 0 s, in s");
-    sub->add_option("-o,--out", flags->out, "file in place of standard output");
-    sub->add_flag("--force", flags->force, "lets --out replace a file that is there");
+    sub->add_option("--variant", flags->variant, "lamp set whose script is recorded (default: the first)");
+    sub->add_option("--start", flags->start, "timestamp of the drive's 0 s, in s");
+    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
+    sub->add_flag("--force", flags->force, "let --out replace an existing file");
     sub->callback([flags, &chosen] { chosen = [flags] { return record_drive(*flags); }; });
 }
 

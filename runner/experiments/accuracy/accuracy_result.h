@@ -4,6 +4,7 @@
 #include "metrics/images/pixel_errors.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
+#include "runner/findings/document.h"
 #include "runner/findings/reach_error.h"
 
 namespace fernlicht {
@@ -67,14 +68,11 @@ struct DriveAccuracy {
     std::string shadow_choice = {}; ///< where the drive says `shadows: auto`: what was chosen and why, a clause
 };
 
-struct AccuracyResult {
-    RunContext context;
+struct AccuracyResult : Findings {
     std::size_t cores = 0, rounds = 0;
     double target_error = 0.0;
     int most_samples = 0;
     OtherUse others; ///< while times were taken
-    std::string interrupted;
-    std::vector<std::string> missing; ///< what was not measured because of that, one sentence each
     std::vector<DriveAccuracy> drives;
     std::vector<WorkPrecision> diagrams;
 };
@@ -100,16 +98,11 @@ WorkPrecision shadow_methods_diagram(const DriveAccuracy& drive);
 /// more than one resolution, shadow map or shadow method.
 std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
 
-/// Tables for a terminal. Lines end with a newline.
-std::string accuracy_text(const AccuracyResult& result);
+/// docs/accuracy.md tells how to read it.
+Document document(const AccuracyResult& result);
 /// docs/accuracy.md and accuracy.schema.json describe it.
 std::string accuracy_json(const AccuracyResult& result);
 /// RFC 4180: a line for each row of each diagram.
 std::string accuracy_csv(const AccuracyResult& result);
-/// Error over time, both logarithmic: rows with their bars, the front as a line, the floor shaded, dominated rows hollow.
-std::string work_precision_svg(const WorkPrecision& diagram);
-std::string accuracy_html(const AccuracyResult& result);
-/// accuracy.json, .csv, .html and a picture of each diagram, each as a whole or not at all.
-void write_accuracy(const AccuracyResult& result, const std::filesystem::path& folder);
 
 } // namespace fernlicht

@@ -6,7 +6,9 @@
 #include "metrics/aliasing/spatial_aliasing.h"
 #include "metrics/aliasing/temporal_aliasing.h"
 #include "renderer/surface_filter.h"
-#include "runner/findings/report.h"
+#include "runner/findings/document.h"
+#include "runner/findings/findings.h"
+#include "scenarios/drives/play/frame.h"
 #include "scenarios/lamps/beam_texels.h"
 
 namespace fernlicht {
@@ -58,8 +60,7 @@ struct FlowComparison {
 };
 std::string method_name(FlowMethod method); ///< "dense inverse search", "Farneback"
 
-struct AliasingResult {
-    RunContext context;
+struct AliasingResult : Findings {
     std::string drive, title, variant;
     View view;
     double rate_hz = 0.0;
@@ -72,7 +73,6 @@ struct AliasingResult {
     std::vector<AliasingRow> rows;
     std::vector<FlowComparison> flows; ///< empty where not asked for
     std::vector<std::string> notes;    ///< what is not known of frames of others, one sentence each
-    std::string interrupted;           ///< "" where all was measured
 };
 
 /// White of the reference display of sRGB (IEC 61966-2-1).
@@ -80,10 +80,10 @@ inline constexpr double display_white_cdm2 = 80.0;
 /// Luminance of a pixel on it, cd/m2.
 float displayed_cdm2(const Rgb8& pixel);
 
-std::string aliasing_text(const AliasingResult& result);
+/// docs/aliasing.md tells how to read it.
+Document document(const AliasingResult& result);
 std::string aliasing_json(const AliasingResult& result);
 std::string aliasing_csv(const AliasingResult& result);
-std::string aliasing_html(const AliasingResult& result);
 bool measured_over_space(const AliasingRow& row);
 /// Rows measured over space, by what an eye sees of them, least first.
 std::vector<std::size_t> ranked(const AliasingResult& result);
@@ -96,7 +96,5 @@ std::string flow_svg(const AliasingResult& result);
 std::string spatial_plot_svg(const AliasingResult& result);
 /// "" where nothing was measured over time.
 std::string temporal_plot_svg(const AliasingResult& result);
-/// aliasing.json, aliasing.csv, aliasing.html and every picture as SVG and PNG. Throws DeviceError.
-void write_aliasing(const AliasingResult& result, const std::filesystem::path& folder);
 
 } // namespace fernlicht

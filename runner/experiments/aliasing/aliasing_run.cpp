@@ -375,7 +375,7 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
     }
     if (result.rows.size() < configurations.size())
         result.interrupted = "interrupted by the user";
-    write_aliasing(result, request.folder);
+    request.write(result);
     if (result.interrupted.empty())
         folder.finish();
     return result;

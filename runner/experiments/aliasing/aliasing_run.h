@@ -22,6 +22,7 @@ struct AliasingRequest {
     std::filesystem::path folder;
     std::vector<std::string> command;
     bool quiet = false;
+    std::function<void(const AliasingResult&)> write; ///< takes what was found; the folder is there
 };
 
 /// What is drawn: each technique with the first beams, samples and filter, then the others one at a time. Throws InputError for a technique

@@ -132,7 +132,7 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
         }
         result.rows.push_back(std::move(row));
     }
-    write_aliasing(result, request.folder);
+    request.write(result);
     if (result.interrupted.empty())
         folder.finish();
     return result;

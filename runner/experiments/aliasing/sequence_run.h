@@ -14,6 +14,7 @@ struct SequenceRequest {
     std::filesystem::path folder;
     std::vector<std::string> command;
     bool quiet = false;
+    std::function<void(const AliasingResult&)> write; ///< takes what was found; the folder is there
 };
 
 /// With `against`, aliasing over space and time as for drives, but motion is estimated on what the display could show. Without, only how

@@ -5,6 +5,7 @@
 #include "metrics/statistics/statistics.h"
 #include "renderer/renderer.h"
 #include "renderer/technique.h"
+#include "runner/findings/document.h"
 #include "runner/findings/report.h"
 #include "runner/play/contest.h"
 #include "runner/play/machine_load.h"
@@ -19,8 +20,7 @@ struct BenchedTechnique {
     std::vector<Work> work; ///< by moment
 };
 
-struct BenchResult {
-    RunContext context;
+struct BenchResult : Findings {
     std::size_t cores = 0;
     std::string gl_vendor;
     std::optional<std::array<double, 3>> load_before, load_after;
@@ -31,7 +31,6 @@ struct BenchResult {
     std::size_t rounds_planned = 0, warm_up_plays = 0;
     std::vector<std::vector<std::size_t>> orders; ///< of each round done, into `techniques`
     std::string gpu_not_measured;                 ///< why; "" where it was
-    std::string interrupted;                      ///< why fewer rounds were done; "" otherwise
     std::vector<BenchedTechnique> techniques;
 };
 
@@ -62,18 +61,13 @@ const char* difference_name(Difference difference); ///< "faster", "slower", "no
 /// What makes the times doubtful, one sentence each: others at work, few rounds, an end before its time.
 std::vector<std::string> bench_warnings(const BenchResult& result);
 
-/// What stands above the tables: drive, device, machine, seed, load. Lines end with a newline.
-std::string bench_heading(const BenchResult& result);
-/// Table 6.1 beside ours, then all other techniques, then what a frame costs. Lines end with a newline.
-std::string bench_tables(const BenchResult& result);
+/// What was drawn on what, Table 6.1 beside ours, all other techniques, and what a frame costs.
+Document document(const BenchResult& result);
 /// docs/benchmarks.md and bench.schema.json describe it.
 std::string bench_json(const BenchResult& result);
 /// RFC 4180, one line per technique and round.
 std::string bench_csv(const BenchResult& result);
 /// Bars of the median time a frame with spread, in the tables' order, the ratio beside each.
 std::string bench_svg(const BenchResult& result);
-
-/// bench.json, bench.csv, bench.svg and bench.png, each as a whole or not at all.
-void write_bench(const BenchResult& result, const std::filesystem::path& folder);
 
 } // namespace fernlicht

@@ -180,7 +180,7 @@ BenchResult run_bench(const BenchRequest& request) {
     std::deque<Renderer> renderers;
     const std::vector<Contestant> contestants = take_part(rows, device, stage, view, moments, renderers, result);
     time_rounds(contestants, request, device, result);
-    write_bench(result, request.folder);
+    request.write(result);
     if (result.interrupted.empty()) {
         ContactSheet sheet = new_sheet(stage, variant, moments[moments.size() / 2]);
         for (Renderer& renderer : renderers)

@@ -18,6 +18,7 @@ struct BenchRequest {
     std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
     std::vector<std::string> command;
     bool quiet = false;
+    std::function<void(const BenchResult&)> write; ///< takes what was found, also when it was interrupted; the folder is there
 };
 
 /// Holds the contest and writes its files. Ends after a round when interrupted. Throws InputError and DeviceError.

@@ -5,6 +5,7 @@
 #include "metrics/shadows/shadow_spots.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
+#include "runner/findings/document.h"
 #include "scenarios/drives/shadow_settings.h"
 
 #include <array>
@@ -53,14 +54,11 @@ struct ShadowSceneResult {
     double white_cdm2 = 1.0;             ///< white_of_ground() without shadows
 };
 
-struct ShadowResult {
-    RunContext context;
+struct ShadowResult : Findings {
     std::size_t cores = 0, rounds = 0;
     int map_width = 0, map_height = 0; ///< texels of the methods that have maps
     double lamp_radius_m = 0.0, floor_lx = shadow_floor_lx;
     OtherUse others;
-    std::string interrupted;
-    std::vector<std::string> missing; ///< because of that, one clause each
     std::vector<ShadowSceneResult> scenes;
 };
 
@@ -76,16 +74,13 @@ std::vector<WorkPrecision> shadow_diagrams(const ShadowResult& result);
 /// One moment in all methods beside the picture by rays, and where they are wrong.
 std::string shadow_sheet_svg(const ShadowSceneResult& scene);
 
-/// Tables for a terminal. Lines end with a newline.
-std::string shadow_text(const ShadowResult& result);
-/// A table as docs/shadow-tables.md has them.
-std::string shadow_markdown(const ShadowResult& result);
+/// docs/shadows.md tells how to read it.
+Document document(const ShadowResult& result);
+/// All scenes in one table, as docs/shadow-tables.md has it.
+Table shadow_table(const ShadowResult& result);
 /// docs/shadows.md and shadows.schema.json describe it.
 std::string shadow_json(const ShadowResult& result);
 /// RFC 4180: a line for each scene and method.
 std::string shadow_csv(const ShadowResult& result);
-std::string shadow_html(const ShadowResult& result);
-/// shadows.json, .csv, .html, and pictures, each as a whole or not at all.
-void write_shadows(const ShadowResult& result, const std::filesystem::path& folder);
 
 } // namespace fernlicht

@@ -109,7 +109,7 @@ ShadowResult run_shadow_study(const ShadowRequest& request) {
     result.others = other_use(before, cpu_use(), ::getpid());
     if (Interruption::asked())
         result.interrupted = "interrupted by the user";
-    write_shadows(result, request.folder);
+    request.write(result);
     if (result.interrupted.empty())
         folder.finish();
     return result;

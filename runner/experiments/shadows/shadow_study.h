@@ -17,6 +17,7 @@ struct ShadowRequest {
     std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
     std::vector<std::string> command;
     bool quiet = false;
+    std::function<void(const ShadowResult&)> write; ///< takes what was found, also when it was interrupted; the folder is there
 };
 
 /// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.

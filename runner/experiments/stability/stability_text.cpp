@@ -24,13 +24,6 @@ std::string where(const StabilityRow& row) {
     return row.found.error == 0.0 && row.found.trials > 1 ? fmt::format("none in {} trials", row.found.trials) : row.found.where;
 }
 
-std::string cell(const std::string& text) {
-    std::string out;
-    for (const char c : text)
-        out += c == '|' ? std::string("\\|") : c == '\n' ? std::string(" ") : std::string(1, c);
-    return out;
-}
-
 } // namespace
 
 std::string stability_text(const StabilityRow& row) {
@@ -53,12 +46,14 @@ std::string stability_summary(const std::vector<StabilityRow>& rows) {
     return fmt::format("{}: {} pass, {} fail, {} not_measured{}\n", counted(rows.size(), "case"), passed, failed, unmeasured, names);
 }
 
-std::string stability_markdown(const std::vector<StabilityRow>& rows) {
-    std::string text = "| case | what could break | worst error | bound | reason of the bound | verdict |\n|---|---|---|---|---|---|\n";
+Table stability_table(const std::vector<StabilityRow>& rows) {
+    Table table{"stability", "", {}, {}};
+    for (const char* head : {"case", "what could break", "worst error", "bound", "reason of the bound", "verdict"})
+        table.columns.push_back({.head = head, .words = true});
     for (const StabilityRow& row : rows)
-        text += fmt::format("| {} | {} | {} ({}) | {:g} {} | {} | {} |\n", row.of->full_name(), cell(row.of->could_break), measured(row),
-                            cell(where(row)), row.of->bound, cell(row.of->unit), cell(row.of->reason), judgement_name(row.verdict));
-    return text;
+        table.rows.push_back({row.of->full_name(), row.of->could_break, fmt::format("{} ({})", measured(row), where(row)),
+                              fmt::format("{:g} {}", row.of->bound, row.of->unit), row.of->reason, judgement_name(row.verdict)});
+    return table;
 }
 
 std::string stability_json(const std::vector<StabilityRow>& rows, const std::string& device) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runner/experiments/stability/stability_case.h"
+#include "runner/findings/document.h"
 
 namespace fernlicht {
 
@@ -10,7 +11,7 @@ std::string stability_text(const StabilityRow& row);
 /// "51 cases: 50 pass, 1 not_measured (road/x: reason)".
 std::string stability_summary(const std::vector<StabilityRow>& rows);
 /// One table, as in docs/accuracy.md. No times: the same on every run of one machine.
-std::string stability_markdown(const std::vector<StabilityRow>& rows);
+Table stability_table(const std::vector<StabilityRow>& rows);
 /// `device`: "" when nothing was drawn.
 std::string stability_json(const std::vector<StabilityRow>& rows, const std::string& device);
 

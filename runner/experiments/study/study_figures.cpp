@@ -6,8 +6,8 @@
 #include "runner/experiments/study/study_words.h"
 #include "runner/experiments/study/study_writers.h"
 #include "runner/files/clean_text.h"
+#include "runner/files/output_folder.h"
 #include "runner/findings/extent_keys.h"
-#include "runner/play/capture.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

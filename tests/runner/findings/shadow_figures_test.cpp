@@ -1,5 +1,6 @@
 // Figures of shadows for people, and what sheets show.
 #include "runner/findings/shadow_figures.h"
+#include "runner/write/document.h"
 
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/experiments/shadows/shown_picture.h"
@@ -53,11 +54,11 @@ TEST(ShadowFigures, MarkdownHasTheFormOfTheTables) {
     row.method = ShadowMethod::planar;
     row.why_not = "the ground is not one plane";
     scene.rows.push_back(row);
-    const std::string text = shadow_markdown(result);
+    const std::string text = table_markdown(shadow_table(result));
     EXPECT_THAT(text, HasSubstr("\n| post | map | 5.1 | 0 | 101 | 0 | - | 0 \xE2\x88\x92"
                                 "2 +1 | 2 | - | 1 (182 px) | 0 | - | - | - | 4.0 | - | - |\n"));
     EXPECT_THAT(text, HasSubstr("\n| post | planar | refused | | | | | | | | | | | | | | | |\n"));
-    EXPECT_THAT(shadow_text(result), Not(HasSubstr("e-")));
+    EXPECT_THAT(document_text(document(result)), Not(HasSubstr("e-")));
 }
 
 TEST(ShownPicture, IsShadedByTheRaysShareOfTheLight) {

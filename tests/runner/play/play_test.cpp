@@ -1,4 +1,5 @@
 // The play loop with a picture that is made up: no GPU, so that what the loop does can be told exactly.
+#include "runner/files/output_folder.h"
 #include "runner/play/play.h"
 
 #include "tests/runner/program.h"

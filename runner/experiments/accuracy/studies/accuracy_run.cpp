@@ -146,7 +146,7 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     result.others = other_use(before, cpu_use(), ::getpid());
     if (Interruption::asked())
         result.interrupted = "interrupted by the user";
-    write_accuracy(result, request.folder);
+    request.write(result);
     if (result.interrupted.empty())
         folder.finish();
     return result;

@@ -13,6 +13,7 @@ struct AccuracyRequest {
     std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
     std::vector<std::string> command;
     bool quiet = false;
+    std::function<void(const AccuracyResult&)> write; ///< takes what was found, also when it was interrupted; the folder is there
 };
 
 /// "techniques", "reference", "classical", "solvers", "control", "extent", "beam", "metrics", "step", "shadows" ...

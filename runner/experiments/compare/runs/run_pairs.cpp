@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/runs/run_pairs.h"
 
-#include "runner/play/capture.h"
+#include "runner/files/output_folder.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "runner/write/aligned_table.h"
+#include "runner/write/document.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/values/files.h"
 #include "tests/runner/experiments/bench/sample_bench.h"
@@ -62,16 +63,16 @@ TEST(BenchRows, WarnOfWhatMakesTimesDoubtful) {
 TEST(BenchText, AlignsColumns) { EXPECT_EQ(aligned_table("<>", {"a", "long"}, {{"word", "1"}, {"x", ""}}), "a     long\nword     1\nx\n"); }
 
 TEST(BenchText, TablesStandBesideTheThesis) {
-    const std::string text = bench_tables(sample_bench());
+    const std::string text = document_text(document(sample_bench()));
     EXPECT_THAT(text, HasSubstr("#  technique       thesis, frames/s  here, frames/s  ratio      spread  verdict\n"
-                                "3  texturing-only             >= 60           100.0   1.00              is what they are held against\n"
+                                "3  texturing-only             >= 60           100.0   1.00           -  is what they are held against\n"
                                 "4  full                         ~22            50.0   2.00  2.00..2.00  slower\n"
                                 "8  clamped                      ~30            49.5   2.02  1.98..2.02  slower\n"));
     EXPECT_THAT(text, HasSubstr("technique  frames/s  ratio      spread  verdict\n"
                                 "light-map    1000.0   0.10  0.10..0.10  faster\n"));
     EXPECT_THAT(
         text, HasSubstr("full             20.00  34.00    50.00  74.00  40.00    -       1     20       4000     300000            3.0\n"));
-    EXPECT_THAT(bench_heading(sample_bench()), HasSubstr("load average 0.25 before, 1.50 after"));
+    EXPECT_THAT(text, HasSubstr("load average 0.25 before, 1.50 after"));
 }
 
 TEST(BenchJson, FitsItsSchema) {

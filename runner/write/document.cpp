@@ -1,0 +1,104 @@
+#include "runner/write/document.h"
+
+#include "runner/files/clean_text.h"
+#include "runner/files/output_folder.h"
+#include "runner/write/aligned_table.h"
+#include "runner/write/plots/png.h"
+#include "runner/write/plots/work_precision_plot.h"
+#include "scenarios/values/files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+std::string head_of(const Column& column) {
+    const std::string head = column.group.empty() ? column.head : column.group + " " + column.head;
+    return column.unit.empty() ? head : head + ", " + column.unit;
+}
+
+/// Within a table of Markdown.
+std::string markdown_cell(const std::string& text) {
+    std::string out;
+    for (const char c : text)
+        out += c == '|' ? std::string("\\|") : c == '\n' ? std::string(" ") : std::string(1, c);
+    return out;
+}
+
+/// Heads in up to three lines: group, head, unit.
+std::string text_of(const Table& table) {
+    std::string alignment, after;
+    std::vector<std::vector<std::string>> lines;
+    for (const auto part : {&Column::group, &Column::head, &Column::unit})
+        if (std::ranges::any_of(table.columns, [&](const Column& column) { return !(column.*part).empty(); })) {
+            std::vector<std::string>& line = lines.emplace_back();
+            for (const Column& column : table.columns)
+                line.push_back(column.*part);
+        }
+    for (const Column& column : table.columns)
+        alignment += column.words ? '<' : '>';
+    for (const std::vector<Cell>& row : table.rows) {
+        if (row.size() < table.columns.size()) { // words in place of figures stand below the table
+            after += fmt::format("{}: {}\n", row.front().text, row.back().text);
+            continue;
+        }
+        std::vector<std::string>& line = lines.emplace_back();
+        for (const Cell& cell : row)
+            line.push_back(clean_text(cell.text.empty() ? "-" : cell.text));
+    }
+    return table.caption + "\n" + aligned_table(alignment, lines.front(), {lines.begin() + 1, lines.end()}) + after;
+}
+
+} // namespace
+
+std::string plot_svg(const Plot& plot) {
+    if (const auto* diagram = std::get_if<WorkPrecision>(&plot.figure))
+        return work_precision_svg(*diagram);
+    return std::get<Drawing>(plot.figure).svg;
+}
+
+std::string document_text(const Document& document) {
+    std::string text;
+    for (const Section& section : document.sections) {
+        text += section.title.empty() ? "" : "\n" + clean_text(section.title) + "\n";
+        for (const Block& block : section.blocks)
+            if (const auto* paragraph = std::get_if<std::string>(&block))
+                text += clean_text(*paragraph) + "\n";
+            else if (const auto* table = std::get_if<Table>(&block))
+                text += table->aside ? "" : text_of(*table);
+            else
+                for (const std::string& caption : std::get<Plot>(block).captions)
+                    text += "  " + clean_text(caption) + "\n";
+    }
+    return text;
+}
+
+std::string table_markdown(const Table& table) {
+    std::string out = "|", line = "|";
+    for (const Column& column : table.columns) {
+        out += " " + head_of(column) + " |";
+        line += column.words ? "---|" : "--:|";
+    }
+    out += "\n" + line + "\n";
+    for (const std::vector<Cell>& row : table.rows) {
+        out += "|";
+        for (std::size_t i = 0; i < table.columns.size(); ++i)
+            out += i >= row.size() ? " |" : row[i].text.empty() ? " - |" : " " + markdown_cell(row[i].text) + " |";
+        out += "\n";
+    }
+    return out;
+}
+
+void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem) {
+    for (const Section& section : document.sections)
+        for (const Block& block : section.blocks)
+            if (const auto* plot = std::get_if<Plot>(&block)) {
+                const std::string svg = plot_svg(*plot), name = file_name_of(plot->name);
+                write_file(folder / (name + ".svg"), svg);
+                write_file(folder / (name + ".png"), plots::png_of_svg(svg, plot->scale));
+            }
+    write_file(folder / (stem + ".html"), document_html(document, findings));
+}
+
+} // namespace fernlicht

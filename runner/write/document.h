@@ -1,0 +1,22 @@
+// A document in the forms that people read.
+#pragma once
+
+#include "runner/findings/document.h"
+#include "runner/findings/findings.h"
+
+#include <filesystem>
+
+namespace fernlicht {
+
+std::string plot_svg(const Plot& plot);
+/// One self-contained page, without scripts; plots stand in it as SVG.
+std::string document_html(const Document& document, const Findings& findings);
+/// For a terminal: paragraphs, tables in columns, captions of plots. Lines end with a newline.
+std::string document_text(const Document& document);
+/// A table in Markdown's pipes.
+std::string table_markdown(const Table& table);
+
+/// STEM.html, and each plot as SVG and PNG, each as a whole or not at all. Figures for programs are the caller's, and come first.
+void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem);
+
+} // namespace fernlicht
