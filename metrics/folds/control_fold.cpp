@@ -155,7 +155,8 @@ Readings ControlFold::readings() const {
     };
     const auto pair = [&](ReadingKey key, const std::string& where, std::optional<double> Light::*figure) {
         key.statistic = Statistic::median;
-        for (const auto& [side, place, word] : {std::tuple(1, Place::left_bends, "left"), std::tuple(-1, Place::right_bends, "right")}) {
+        for (const auto& [side, place, word] :
+             {std::tuple(1, ReadingPlace::left_bends, "left"), std::tuple(-1, ReadingPlace::right_bends, "right")}) {
             const std::string none = fmt::format("no moment in a {} bend of less than 1500 m radius has such a place", word);
             key.place = place;
             key.aspect = Aspect::value;

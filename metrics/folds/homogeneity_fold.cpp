@@ -60,7 +60,7 @@ void HomogeneityFold::add(const Moment& moment) {
 Readings HomogeneityFold::readings() const {
     const HomogeneityParameters& asked = *drive_.seeing.homogeneity;
     Readings readings;
-    const auto say = [&](Quantity quantity, Place place, const std::string& what, const std::function<double(const Row&)>& figure) {
+    const auto say = [&](Quantity quantity, ReadingPlace place, const std::string& what, const std::function<double(const Row&)>& figure) {
         std::vector<double> values;
         for (const Row& row : rows_)
             values.push_back(figure(row));
@@ -72,15 +72,17 @@ Readings HomogeneityFold::readings() const {
         key.statistic = Statistic::maximum;
         readings.push_back({key, spread ? Value(spread->maximum) : none, where + ", largest"});
     };
-    say(Quantity::gradient_per_m, Place::along, "largest |d lg E| along", [](const Row& row) { return row.gradients.along.per_m; });
-    say(Quantity::gradient_per_deg, Place::along, "largest |d lg E| along, seen from the driver",
+    say(Quantity::gradient_per_m, ReadingPlace::along, "largest |d lg E| along", [](const Row& row) { return row.gradients.along.per_m; });
+    say(Quantity::gradient_per_deg, ReadingPlace::along, "largest |d lg E| along, seen from the driver",
         [](const Row& row) { return row.gradients.along.per_degree; });
-    say(Quantity::gradient_per_m, Place::across, "largest |d lg E| across", [](const Row& row) { return row.gradients.across.per_m; });
-    say(Quantity::gradient_per_deg, Place::across, "largest |d lg E| across, seen from the driver",
+    say(Quantity::gradient_per_m, ReadingPlace::across, "largest |d lg E| across",
+        [](const Row& row) { return row.gradients.across.per_m; });
+    say(Quantity::gradient_per_deg, ReadingPlace::across, "largest |d lg E| across, seen from the driver",
         [](const Row& row) { return row.gradients.across.per_degree; });
     const std::string beyond = fmt::format(" than its surroundings by more than a factor of {}", asked.patch_factor);
-    say(Quantity::patch_dark, Place::none, "longest patch darker" + beyond, [](const Row& row) { return row.patches.dark.longest_m; });
-    say(Quantity::patch_bright, Place::none, "longest patch brighter" + beyond,
+    say(Quantity::patch_dark, ReadingPlace::none, "longest patch darker" + beyond,
+        [](const Row& row) { return row.patches.dark.longest_m; });
+    say(Quantity::patch_bright, ReadingPlace::none, "longest patch brighter" + beyond,
         [](const Row& row) { return row.patches.bright.longest_m; });
     std::vector<double> ratios;
     std::string missing = rows_.empty() ? "no lamp was lit in any moment" : "";

@@ -9,7 +9,7 @@ namespace fernlicht {
 namespace {
 
 /// Of the driver of a car ahead.
-ReadingKey eyes_behind(double gap_m) { return {.quantity = Quantity::glare_facing, .place = Place::mirrors, .distance_m = gap_m}; }
+ReadingKey eyes_behind(double gap_m) { return {.quantity = Quantity::glare_facing, .place = ReadingPlace::mirrors, .distance_m = gap_m}; }
 
 } // namespace
 

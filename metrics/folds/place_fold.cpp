@@ -18,13 +18,13 @@ constexpr double kerb_target_m = 0.25;
 
 /// Where boards stand: beside or over the road, and how high. Places usual on country roads, ours.
 struct BoardPlace {
-    Place place;
+    ReadingPlace place;
     Across from;
     double left_m, above_m;
 };
-constexpr BoardPlace boards[] = {{Place::right, Across::right_edge, -2.0, 2.0},
-                                 {Place::left, Across::left_edge, 2.0, 2.0},
-                                 {Place::overhead, Across::own_centre, 0.0, 5.5}};
+constexpr BoardPlace boards[] = {{ReadingPlace::right, Across::right_edge, -2.0, 2.0},
+                                 {ReadingPlace::left, Across::left_edge, 2.0, 2.0},
+                                 {ReadingPlace::overhead, Across::own_centre, 0.0, 5.5}};
 
 Material material_named(const std::string& name) {
     for (const Material& material : road_materials())
@@ -50,7 +50,7 @@ PlaceFold::PlaceFold(const Drive& drive, const Route& route)
     eye_m_ = view ? view->position_m : glm::dvec3(1.3, 0.35, 1.2);
     const PlaceParameters& asked = *drive.seeing.places;
     for (const double distance_m : asked.distances_m) {
-        const auto figure = [&](Quantity quantity, Surface surface, Place place, const std::string& where) {
+        const auto figure = [&](Quantity quantity, ReadingSurface surface, ReadingPlace place, const std::string& where) {
             figures_.push_back(
                 {{.quantity = quantity, .surface = surface, .place = place, .distance_m = distance_m, .statistic = Statistic::median},
                  fmt::format("{} m ahead of the bumper, {}, median", distance_m, where),
@@ -58,18 +58,20 @@ PlaceFold::PlaceFold(const Drive& drive, const Route& route)
                  {}});
         };
         if (asked.kerb) {
-            figure(Quantity::kerb_illuminance, Surface::road, Place::none, "right edge of the lanes, on the road");
-            figure(Quantity::kerb_illuminance, Surface::target, Place::none, "0.25 m over the right edge of the lanes, facing the lamps");
+            figure(Quantity::kerb_illuminance, ReadingSurface::road, ReadingPlace::none, "right edge of the lanes, on the road");
+            figure(Quantity::kerb_illuminance, ReadingSurface::target, ReadingPlace::none,
+                   "0.25 m over the right edge of the lanes, facing the lamps");
         }
         for (const BoardPlace& board : boards)
             if (asked.boards) {
-                figure(Quantity::board_illuminance, Surface::none, board.place, fmt::format("board {} m up, on its face", board.above_m));
-                figure(Quantity::board_luminance, Surface::none, board.place,
+                figure(Quantity::board_illuminance, ReadingSurface::none, board.place,
+                       fmt::format("board {} m up, on its face", board.above_m));
+                figure(Quantity::board_luminance, ReadingSurface::none, board.place,
                        fmt::format("board {} m up, as the driver sees it, class RA2 as pictures have it", board.above_m));
             }
         if (asked.markings)
-            for (const Place side : {Place::right, Place::left})
-                figure(Quantity::marking_luminance, Surface::none, side,
+            for (const ReadingPlace side : {ReadingPlace::right, ReadingPlace::left})
+                figure(Quantity::marking_luminance, ReadingSurface::none, side,
                        fmt::format("white marking on the own lane's {} edge, as the driver sees it", name_of(side)));
     }
 }

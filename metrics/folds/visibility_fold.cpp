@@ -35,9 +35,9 @@ ReadingKey detection_of(const VisibilityTarget& target, Across across) {
             .lane = across == Across::own_centre        ? "own"
                     : across == Across::oncoming_centre ? "oncoming"
                                                         : "",
-            .place = across == Across::right_edge  ? Place::right
-                     : across == Across::left_edge ? Place::left
-                                                   : Place::none};
+            .place = across == Across::right_edge  ? ReadingPlace::right
+                     : across == Across::left_edge ? ReadingPlace::left
+                                                   : ReadingPlace::none};
 }
 
 } // namespace

@@ -17,7 +17,7 @@ std::optional<double> of_grid_and_drawing(const PlayedReadings& played, const Re
     const auto centre = value_of(played, about_lane(Quantity::reach, key, Aspect::grid_error)),
                twin = value_of(played, about_lane(Quantity::reach, key, Aspect::twin_difference));
     ReadingKey line = about_lane(key.quantity, key, Aspect::grid_error);
-    line.place = key.place == Place::none ? Place::none : Place::edges;
+    line.place = key.place == ReadingPlace::none ? ReadingPlace::none : ReadingPlace::edges;
     auto grid = value_of(played, line);
     grid = grid ? grid : centre;
     return grid && twin ? std::optional(*grid + *twin) : std::nullopt;

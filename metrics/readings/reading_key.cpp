@@ -11,69 +11,65 @@
 namespace fernlicht {
 namespace {
 
-/// A word of a form, how it is spelt in names, and what it says. Forms (quantities.h) are made of such words in brackets, of which a name
+/// A word of a form and what it says. Forms (quantities.h) are made of such words in brackets, of which a name
 /// has one; of slots: <name>, <lane>, <eye>, <m> for a distance, <lx>, <percent> and <rating> for a threshold; and of letters that stand
 /// for themselves. "Not set" is each field's default.
 struct Word {
-    const char *word, *spelt;
+    const char* word;
     Aspect aspect = Aspect::value;
     Statistic statistic = Statistic::none;
-    Place place = Place::none;
-    Surface surface = Surface::none;
+    ReadingPlace place = ReadingPlace::none;
+    ReadingSurface surface = ReadingSurface::none;
     const char *lane = "", *subject = "";
+    const char* spelt_as = nullptr; ///< where it is not itself
+
+    std::string_view spelt() const { return spelt_as ? spelt_as : word; }
 };
 constexpr Word known_words[] = {
-    {.word = "median", .spelt = "", .statistic = Statistic::median}, // goes without saying
-    {.word = "mean", .spelt = "", .statistic = Statistic::mean},
-    {.word = "_median", .spelt = "_median", .statistic = Statistic::median},
-    {.word = "_min", .spelt = "_min", .statistic = Statistic::minimum},
-    {.word = "_max", .spelt = "_max", .statistic = Statistic::maximum},
-    {.word = "_p05", .spelt = "_p05", .statistic = Statistic::p05},
-    {.word = "_p95", .spelt = "_p95", .statistic = Statistic::p95},
-    {.word = "_spread", .spelt = "_spread", .statistic = Statistic::spread},
-    {.word = "_twin", .spelt = "_twin", .aspect = Aspect::twin, .statistic = Statistic::median},
-    {.word = "_twin_difference", .spelt = "_twin_difference", .aspect = Aspect::twin_difference, .statistic = Statistic::median},
-    {.word = "_twin_difference_worst",
-     .spelt = "_twin_difference_worst",
-     .aspect = Aspect::twin_difference,
-     .statistic = Statistic::maximum},
-    {.word = "_per_tenth_degree", .spelt = "_per_tenth_degree", .aspect = Aspect::per_tenth_degree, .statistic = Statistic::median},
-    {.word = "_per_tenth_flux", .spelt = "_per_tenth_flux", .aspect = Aspect::per_tenth_flux, .statistic = Statistic::median},
-    {.word = "_grid_error", .spelt = "_grid_error", .aspect = Aspect::grid_error, .statistic = Statistic::median},
-    {.word = "_edge_grid_error",
-     .spelt = "_edge_grid_error",
-     .aspect = Aspect::grid_error,
-     .statistic = Statistic::median,
-     .place = Place::edges},
-    {.word = "_left_edge", .spelt = "_left_edge", .statistic = Statistic::median, .place = Place::left_edge},
-    {.word = "_right_edge", .spelt = "_right_edge", .statistic = Statistic::median, .place = Place::right_edge},
-    {.word = "left", .spelt = "left", .place = Place::left},
-    {.word = "right", .spelt = "right", .place = Place::right},
-    {.word = "overhead", .spelt = "overhead", .place = Place::overhead},
-    {.word = "along", .spelt = "along", .place = Place::along},
-    {.word = "across", .spelt = "across", .place = Place::across},
-    {.word = "left_bends", .spelt = "left_bends", .place = Place::left_bends},
-    {.word = "right_bends", .spelt = "right_bends", .place = Place::right_bends},
-    {.word = "mirrors", .spelt = "mirrors", .place = Place::mirrors},
-    {.word = "own_eyes", .spelt = "own", .place = Place::own_eyes},
-    {.word = "road", .spelt = "road", .surface = Surface::road},
-    {.word = "target", .spelt = "target", .surface = Surface::target},
-    {.word = "kerb", .spelt = "kerb", .surface = Surface::road},
-    {.word = "kerb_target", .spelt = "kerb_target", .surface = Surface::target},
-    {.word = "own", .spelt = "own", .lane = "own"},
-    {.word = "oncoming", .spelt = "oncoming", .lane = "oncoming"},
-    {.word = "inside", .spelt = "inside"},
-    {.word = "inside_gain", .spelt = "inside_gain", .aspect = Aspect::by_control},
-    {.word = "reach", .spelt = "reach"},
-    {.word = "reach_gain", .spelt = "reach_gain", .aspect = Aspect::by_control},
-    {.word = "glare", .spelt = "glare"},
-    {.word = "glare_cost", .spelt = "glare_cost", .aspect = Aspect::by_control},
-    {.word = "others", .spelt = "others"},
-    {.word = "others_still", .spelt = "others_still", .aspect = Aspect::held_still},
-    {.word = "c", .spelt = "c", .subject = "c"},
-    {.word = "v", .spelt = "v", .subject = "v"},
-    {.word = "e", .spelt = "e", .subject = "e"},
-    {.word = "w", .spelt = "w", .subject = "w"},
+    {.word = "median", .statistic = Statistic::median, .spelt_as = ""}, // goes without saying
+    {.word = "mean", .statistic = Statistic::mean, .spelt_as = ""},
+    {.word = "_median", .statistic = Statistic::median},
+    {.word = "_min", .statistic = Statistic::minimum},
+    {.word = "_max", .statistic = Statistic::maximum},
+    {.word = "_p05", .statistic = Statistic::p05},
+    {.word = "_p95", .statistic = Statistic::p95},
+    {.word = "_spread", .statistic = Statistic::spread},
+    {.word = "_twin", .aspect = Aspect::twin, .statistic = Statistic::median},
+    {.word = "_twin_difference", .aspect = Aspect::twin_difference, .statistic = Statistic::median},
+    {.word = "_twin_difference_worst", .aspect = Aspect::twin_difference, .statistic = Statistic::maximum},
+    {.word = "_per_tenth_degree", .aspect = Aspect::per_tenth_degree, .statistic = Statistic::median},
+    {.word = "_per_tenth_flux", .aspect = Aspect::per_tenth_flux, .statistic = Statistic::median},
+    {.word = "_grid_error", .aspect = Aspect::grid_error, .statistic = Statistic::median},
+    {.word = "_edge_grid_error", .aspect = Aspect::grid_error, .statistic = Statistic::median, .place = ReadingPlace::edges},
+    {.word = "_left_edge", .statistic = Statistic::median, .place = ReadingPlace::left_edge},
+    {.word = "_right_edge", .statistic = Statistic::median, .place = ReadingPlace::right_edge},
+    {.word = "left", .place = ReadingPlace::left},
+    {.word = "right", .place = ReadingPlace::right},
+    {.word = "overhead", .place = ReadingPlace::overhead},
+    {.word = "along", .place = ReadingPlace::along},
+    {.word = "across", .place = ReadingPlace::across},
+    {.word = "left_bends", .place = ReadingPlace::left_bends},
+    {.word = "right_bends", .place = ReadingPlace::right_bends},
+    {.word = "mirrors", .place = ReadingPlace::mirrors},
+    {.word = "own_eyes", .place = ReadingPlace::own_eyes, .spelt_as = "own"},
+    {.word = "road", .surface = ReadingSurface::road},
+    {.word = "target", .surface = ReadingSurface::target},
+    {.word = "kerb", .surface = ReadingSurface::road},
+    {.word = "kerb_target", .surface = ReadingSurface::target},
+    {.word = "own", .lane = "own"},
+    {.word = "oncoming", .lane = "oncoming"},
+    {.word = "inside"},
+    {.word = "inside_gain", .aspect = Aspect::by_control},
+    {.word = "reach"},
+    {.word = "reach_gain", .aspect = Aspect::by_control},
+    {.word = "glare"},
+    {.word = "glare_cost", .aspect = Aspect::by_control},
+    {.word = "others"},
+    {.word = "others_still", .aspect = Aspect::held_still},
+    {.word = "c", .subject = "c"},
+    {.word = "v", .subject = "v"},
+    {.word = "e", .subject = "e"},
+    {.word = "w", .subject = "w"},
 };
 
 const Word& find_word(std::string_view word) {
@@ -86,8 +82,8 @@ const Word& find_word(std::string_view word) {
 void say(const Word& word, ReadingKey& key) {
     key.aspect = word.aspect != Aspect::value ? word.aspect : key.aspect;
     key.statistic = word.statistic != Statistic::none ? word.statistic : key.statistic;
-    key.place = word.place != Place::none ? word.place : key.place;
-    key.surface = word.surface != Surface::none ? word.surface : key.surface;
+    key.place = word.place != ReadingPlace::none ? word.place : key.place;
+    key.surface = word.surface != ReadingSurface::none ? word.surface : key.surface;
     key.lane = *word.lane ? word.lane : key.lane;
     key.subject = *word.subject ? word.subject : key.subject;
 }
@@ -102,8 +98,8 @@ std::optional<int> said(const Word& word, const ReadingKey& key) {
     };
     field(word.aspect, Aspect::value, key.aspect);
     field(word.statistic, Statistic::none, key.statistic);
-    field(word.place, Place::none, key.place);
-    field(word.surface, Surface::none, key.surface);
+    field(word.place, ReadingPlace::none, key.place);
+    field(word.surface, ReadingSurface::none, key.surface);
     field(std::string_view(word.lane), "", key.lane);
     field(std::string_view(word.subject), "", key.subject);
     return agrees ? std::optional(much) : std::nullopt;
@@ -178,7 +174,7 @@ std::optional<std::string> spell(std::span<const Part> form, const ReadingKey& k
                     best = word;
             if (!best)
                 return std::nullopt;
-            text += best->spelt;
+            text += best->spelt();
         } else if (part == "<name>" || part == "<lane>") {
             std::string named = part == "<name>" ? key.subject : key.lane;
             if (part == "<lane>")
@@ -236,8 +232,7 @@ bool match(std::span<const Part> form, std::string_view text, ReadingKey& key) {
     };
     if (!words.empty())
         return std::ranges::any_of(words, [&](const Word* word) {
-            return text.starts_with(word->spelt) &&
-                   goes_on(std::string_view(word->spelt).size(), [&](ReadingKey& next) { say(*word, next); });
+            return text.starts_with(word->spelt()) && goes_on(word->spelt().size(), [&](ReadingKey& next) { say(*word, next); });
         });
     if (part == "<name>") {
         const std::size_t longest =
@@ -413,8 +408,8 @@ std::vector<std::string> forms_in_words(const QuantityRow& row) {
         for (const auto& [part, words] : parts_of(form)) {
             std::string choice;
             for (const Word* word : words)
-                choice += (choice.empty() || !*word->spelt ? "" : "/") + std::string(word->spelt);
-            const bool may_miss = !words.empty() && !*words.front()->spelt && !choice.empty();
+                choice.append(choice.empty() || word->spelt().empty() ? "" : "/").append(word->spelt());
+            const bool may_miss = !words.empty() && words.front()->spelt().empty() && !choice.empty();
             if (!words.empty())
                 text += may_miss ? "[" + choice + "]" : words.size() > 1 ? "(" + choice + ")" : choice;
             else if (part[0] == '<')
@@ -437,12 +432,12 @@ const char* name_of(Statistic statistic) {
     return names[static_cast<std::size_t>(statistic)];
 }
 
-const char* name_of(Surface surface) {
+const char* name_of(ReadingSurface surface) {
     static constexpr const char* names[] = {"", "road", "target"};
     return names[static_cast<std::size_t>(surface)];
 }
 
-const char* name_of(Place place) {
+const char* name_of(ReadingPlace place) {
     static constexpr const char* names[] = {"",      "left_edge", "right_edge", "edges",       "left",    "right",   "overhead",
                                             "along", "across",    "left_bends", "right_bends", "mirrors", "own_eyes"};
     return names[static_cast<std::size_t>(place)];

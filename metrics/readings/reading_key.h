@@ -24,8 +24,22 @@ enum class Aspect {
     standard_error
 };
 enum class Statistic { none, median, minimum, maximum, p05, p95, spread, mean };
-enum class Surface { none, road, target };
-enum class Place { none, left_edge, right_edge, edges, left, right, overhead, along, across, left_bends, right_bends, mirrors, own_eyes };
+enum class ReadingSurface { none, road, target };
+enum class ReadingPlace {
+    none,
+    left_edge,
+    right_edge,
+    edges,
+    left,
+    right,
+    overhead,
+    along,
+    across,
+    left_bends,
+    right_bends,
+    mirrors,
+    own_eyes
+};
 enum class ThresholdUnit { none, lx, percent, de_boer };
 
 struct Threshold {
@@ -38,10 +52,10 @@ struct Threshold {
 struct ReadingKey {
     Quantity quantity = Quantity::reach;
     std::string subject = {}; ///< the drive's name of a probe, sensor, eye, mirror or target; a pass; "" where there is none
-    Surface surface = Surface::none;
+    ReadingSurface surface = ReadingSurface::none;
     std::string lane = {}; ///< "own", "oncoming", "left 1", "right 2" ..., "all"
     Threshold threshold = {};
-    Place place = Place::none;
+    ReadingPlace place = ReadingPlace::none;
     std::optional<double> distance_m = {};
     Aspect aspect = Aspect::value;
     Statistic statistic = Statistic::none;
@@ -78,8 +92,8 @@ std::vector<std::string> forms_in_words(const QuantityRow& row);
 /// As tables have them: "grid_error", "median", "road", "left_edge", "de_boer"; "" for none.
 const char* name_of(Aspect aspect);
 const char* name_of(Statistic statistic);
-const char* name_of(Surface surface);
-const char* name_of(Place place);
+const char* name_of(ReadingSurface surface);
+const char* name_of(ReadingPlace place);
 const char* name_of(ThresholdUnit unit);
 
 } // namespace fernlicht

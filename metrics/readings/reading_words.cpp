@@ -44,14 +44,16 @@ std::string beyond_in_words(const Threshold& threshold) {
 std::string filled(std::string_view slot, const ReadingKey& key) {
     const std::string distance = key.distance_m ? fmt::format("{} m", *key.distance_m) : "";
     const auto plain_place = [&] {
-        return key.place == Place::left_bends ? "left bends" : key.place == Place::right_bends ? "right bends" : name_of(key.place);
+        return key.place == ReadingPlace::left_bends    ? "left bends"
+               : key.place == ReadingPlace::right_bends ? "right bends"
+                                                        : name_of(key.place);
     };
     if (slot == "limit")
         return fmt::format("{} lx", key.threshold.value);
     if (slot == "beyond")
         return beyond_in_words(key.threshold);
     if (slot == "surface")
-        return key.surface == Surface::road ? " on the road" : " on a target";
+        return key.surface == ReadingSurface::road ? " on the road" : " on a target";
     if (slot == "lane")
         return ", " + lane_in_words(key.lane);
     if (slot == "stand")
@@ -63,7 +65,7 @@ std::string filled(std::string_view slot, const ReadingKey& key) {
     if (slot == "distance")
         return distance;
     if (slot == "before")
-        return distance.empty() || key.place == Place::mirrors ? "" : fmt::format(" {} before it", distance);
+        return distance.empty() || key.place == ReadingPlace::mirrors ? "" : fmt::format(" {} before it", distance);
     if (slot == "most")
         return key.statistic == Statistic::maximum ? "largest " : key.statistic == Statistic::minimum ? "smallest " : "";
     if (slot == "eye")
@@ -83,19 +85,19 @@ std::string reading_in_words(const ReadingKey& key) {
             at = end + 1;
         } else
             text += words[at++];
-    if (key.place == Place::left_edge || key.place == Place::right_edge || key.place == Place::edges)
-        text += key.place == Place::left_edge ? ", left edge" : key.place == Place::right_edge ? ", right edge" : ", edges";
+    if (key.place == ReadingPlace::left_edge || key.place == ReadingPlace::right_edge || key.place == ReadingPlace::edges)
+        text += key.place == ReadingPlace::left_edge ? ", left edge" : key.place == ReadingPlace::right_edge ? ", right edge" : ", edges";
     if (words.find("{most}") == std::string_view::npos)
         text += statistic_in_words(key.statistic);
     return text + aspect_in_words(key.aspect);
 }
 
 std::string eyes_in_words(const ReadingKey& key) {
-    if (key.place == Place::mirrors)
+    if (key.place == ReadingPlace::mirrors)
         return fmt::format("mirrors of a car {} m ahead", key.distance_m.value_or(0.0));
-    return key.place == Place::own_eyes ? "eyes of the own driver"
-           : key.subject == "oncoming"  ? "eyes of an oncoming driver"
-                                        : "eyes of oncoming driver " + key.subject;
+    return key.place == ReadingPlace::own_eyes ? "eyes of the own driver"
+           : key.subject == "oncoming"         ? "eyes of an oncoming driver"
+                                               : "eyes of oncoming driver " + key.subject;
 }
 
 } // namespace fernlicht

@@ -16,9 +16,9 @@ struct Subject {
     ExtentKey key;
     std::string where; ///< "own lane on the road"
 
-    ReadingKey of(Quantity quantity, Place place = Place::none, Aspect aspect = Aspect::value) const {
+    ReadingKey of(Quantity quantity, ReadingPlace place = ReadingPlace::none, Aspect aspect = Aspect::value) const {
         return {.quantity = quantity,
-                .surface = key.plane == ExtentPlane::road ? Surface::road : Surface::target,
+                .surface = key.plane == ExtentPlane::road ? ReadingSurface::road : ReadingSurface::target,
                 .lane = key.lane,
                 .threshold = {key.limit_lx, ThresholdUnit::lx},
                 .place = place,
@@ -121,8 +121,8 @@ void add_extent(Readings& readings, const ExtentSummary& summary) {
                       left = where + (all ? ", leftmost line looked at" : ", left edge"),
                       right = where + (all ? ", rightmost line looked at" : ", right edge");
     add_quantiles(readings, subject.of(Quantity::reach), summary.reach, centre);
-    add_median(readings, subject.of(Quantity::reach, Place::left_edge), summary.left_edge, left);
-    add_median(readings, subject.of(Quantity::reach, Place::right_edge), summary.right_edge, right);
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::left_edge), summary.left_edge, left);
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::right_edge), summary.right_edge, right);
     add_median(readings, subject.of(Quantity::unlit_before_reach), summary.unlit_before_reach, centre);
     for (const auto& [at_m, width] : summary.widths) {
         ReadingKey key = subject.of(Quantity::width);
@@ -130,22 +130,22 @@ void add_extent(Readings& readings, const ExtentSummary& summary) {
         add_quantiles(readings, key, width, fmt::format("{}, {} m ahead", where, at_m));
     }
     add_quantiles(readings, subject.of(Quantity::area), summary.area, where);
-    const ReadingKey twin = subject.of(Quantity::reach, Place::none, Aspect::twin_difference);
+    const ReadingKey twin = subject.of(Quantity::reach, ReadingPlace::none, Aspect::twin_difference);
     add_median(readings, twin, summary.twin_difference, where + ", |rendered - twin|");
     add_quantile(readings, twin, Statistic::maximum, summary.twin_difference, 1.0, where + ", |rendered - twin|, largest");
     if (subject.key.lane != "own")
         return;
-    add_median(readings, subject.of(Quantity::reach, Place::none, Aspect::per_tenth_degree), summary.per_tenth_degree,
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::none, Aspect::per_tenth_degree), summary.per_tenth_degree,
                where + ", gained by 0.1 degrees more pitch of all lamps");
-    add_median(readings, subject.of(Quantity::reach, Place::none, Aspect::per_tenth_flux), summary.per_tenth_flux,
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::none, Aspect::per_tenth_flux), summary.per_tenth_flux,
                where + ", gained by 10 % more flux");
-    add_median(readings, subject.of(Quantity::reach, Place::none, Aspect::grid_error), summary.grid_error,
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::none, Aspect::grid_error), summary.grid_error,
                where + ", grid of half the samples");
 }
 
 /// How far extents beside the own lane's reach and the whole width's area can be trusted: the grid's error in each of them.
 void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
-    const auto add = [&](Quantity quantity, Place place, double LaneGridError::*figure) {
+    const auto add = [&](Quantity quantity, ReadingPlace place, double LaneGridError::*figure) {
         ManyMoments moments;
         for (const ExtentRow& row : played.extents)
             for (const LaneGridError& error : row.lane_grid_errors)
@@ -154,11 +154,11 @@ void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subje
         add_median(readings, subject.of(quantity, place, Aspect::grid_error), moments, subject.where + ", grid of half the samples");
     };
     if (subject.key.lane != "own")
-        add(Quantity::reach, Place::none, &LaneGridError::reach_m);
-    add(Quantity::reach, Place::edges, &LaneGridError::edge_m);
-    add(Quantity::unlit_before_reach, Place::none, &LaneGridError::unlit_m);
+        add(Quantity::reach, ReadingPlace::none, &LaneGridError::reach_m);
+    add(Quantity::reach, ReadingPlace::edges, &LaneGridError::edge_m);
+    add(Quantity::unlit_before_reach, ReadingPlace::none, &LaneGridError::unlit_m);
     if (subject.key.lane != "all")
-        add(Quantity::area, Place::none, &LaneGridError::area_m2);
+        add(Quantity::area, ReadingPlace::none, &LaneGridError::area_m2);
 }
 
 void add_area_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
@@ -167,7 +167,7 @@ void add_area_trust(Readings& readings, const PlayedVariant& played, const Subje
         for (const GridError& error : row.grid_errors)
             if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx)
                 moments.add(error.area_m2);
-    add_median(readings, subject.of(Quantity::area, Place::none, Aspect::grid_error), moments,
+    add_median(readings, subject.of(Quantity::area, ReadingPlace::none, Aspect::grid_error), moments,
                subject.where + ", grid of half the samples");
 }
 

@@ -113,8 +113,8 @@ TEST(Seeing, SaysWhereThereIsNobody) {
     glare.adaptation_cdm2 = 0.01;
     const SeeingFold unplayed(straight.drive, straight.route);
     for (const Reading& reading : unplayed.readings()) {
-        EXPECT_FALSE(reading.value.measured()) << reading.name;
-        EXPECT_FALSE(reading.value.reason().empty()) << reading.name;
+        EXPECT_FALSE(reading.value.measured()) << reading.name();
+        EXPECT_FALSE(reading.value.reason().empty()) << reading.name();
     }
     const Readings played = straight.played().readings();
     EXPECT_TRUE(named(played, "glare_near_veiling_max_cdm2").value.measured());

@@ -86,7 +86,7 @@ void read_accuracy(const CheckedJson& report, const CheckedJson& played, PlayedR
 
 ReadingKey ReachOverDrive::key() const {
     return {.quantity = Quantity::reach,
-            .surface = plane == ExtentPlane::road ? Surface::road : Surface::target,
+            .surface = plane == ExtentPlane::road ? ReadingSurface::road : ReadingSurface::target,
             .lane = "own",
             .threshold = {limit_lx, ThresholdUnit::lx},
             .statistic = Statistic::median};
