@@ -10,6 +10,7 @@
 #include "runner/commands/lamp_command.h"
 #include "runner/commands/live_command.h"
 #include "runner/commands/model_command.h"
+#include "runner/commands/readings_command.h"
 #include "runner/commands/reference_command.h"
 #include "runner/commands/references_command.h"
 #include "runner/commands/run_command.h"
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
     fernlicht::add_shadows_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_techniques_command(app, chosen);
+    fernlicht::add_readings_command(app, chosen);
     fernlicht::add_signals_command(app, chosen);
     fernlicht::add_can_command(app, chosen);
     fernlicht::add_lamp_command(app, chosen);

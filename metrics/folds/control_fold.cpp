@@ -136,16 +136,15 @@ void ControlFold::add(const Moment& moment, const Variant& variant) {
 
 Readings ControlFold::readings() const {
     Readings readings;
-    const auto say = [&](const std::string& name, const char* unit, const std::string& where, std::optional<double> value,
-                         const std::string& why_not) {
-        readings.push_back({name, Value::of(value, why_not), unit, where});
+    const auto say = [&](const ReadingKey& key, const std::string& where, std::optional<double> value, const std::string& why_not) {
+        readings.push_back({key, Value::of(value, why_not), where});
     };
     double most_deg = 0.0;
     for (const Row& row : rows_)
         for (const std::optional<double>& swivel : row.swivel_deg)
             most_deg = std::max(most_deg, std::abs(swivel.value_or(0.0)));
-    say("control_swivel_max_deg", "deg", "largest swivel of any lamp", rows_.empty() ? std::nullopt : std::optional(most_deg),
-        "no moment was played");
+    say({.quantity = Quantity::control_swivel, .statistic = Statistic::maximum}, "largest swivel of any lamp",
+        rows_.empty() ? std::nullopt : std::optional(most_deg), "no moment was played");
     const auto in_bends = [&](int side, auto&& value) -> std::optional<double> {
         std::vector<double> values;
         for (const Row& row : rows_)
@@ -154,14 +153,17 @@ Readings ControlFold::readings() const {
         const auto spread = spread_of(values);
         return spread ? std::optional(spread->median) : std::nullopt;
     };
-    const auto pair = [&](const char* name, const char* change, const char* unit, const std::string& where,
-                          std::optional<double> Light::*figure) {
-        for (const auto& [side, word] : {std::pair(1, "left"), std::pair(-1, "right")}) {
+    const auto pair = [&](ReadingKey key, const std::string& where, std::optional<double> Light::*figure) {
+        key.statistic = Statistic::median;
+        for (const auto& [side, place, word] :
+             {std::tuple(1, ReadingPlace::left_bends, "left"), std::tuple(-1, ReadingPlace::right_bends, "right")}) {
             const std::string none = fmt::format("no moment in a {} bend of less than 1500 m radius has such a place", word);
-            say(fmt::format("control_{}_bends_{}_{}", word, name, unit), unit, fmt::format("{}, median in {} bends", where, word),
-                in_bends(side, [&](const Row& row) { return row.moved.*figure; }), none);
-            say(fmt::format("control_{}_bends_{}_{}", word, change, unit), unit,
-                fmt::format("{}, against the same lamps held still, median in {} bends", where, word),
+            key.place = place;
+            key.aspect = Aspect::value;
+            say(key, fmt::format("{}, median in {} bends", where, word), in_bends(side, [&](const Row& row) { return row.moved.*figure; }),
+                none);
+            key.aspect = Aspect::by_control;
+            say(key, fmt::format("{}, against the same lamps held still, median in {} bends", where, word),
                 in_bends(side,
                          [&](const Row& row) -> std::optional<double> {
                              return row.moved.*figure && row.still.*figure ? std::optional(*(row.moved.*figure) - *(row.still.*figure))
@@ -170,24 +172,26 @@ Readings ControlFold::readings() const {
                 none);
         }
     };
-    pair("inside_at_50m", "inside_gain_at_50m", "lx", "own lane's edge inside the bend, 50 m ahead, facing target at 0.25 m",
-         &Light::inside_lx);
-    pair("reach_5lx", "reach_gain_5lx", "m", "own lane's centre, facing target at 0.25 m", &Light::reach_m);
-    pair("glare_at_50m", "glare_cost_at_50m", "lx", "eyes at 1.1 m, oncoming lane's centre, 50 m ahead, facing the lamps",
+    pair({.quantity = Quantity::control_inside, .distance_m = look_m},
+         "own lane's edge inside the bend, 50 m ahead, facing target at 0.25 m", &Light::inside_lx);
+    pair({.quantity = Quantity::control_reach, .threshold = {reach_lx, ThresholdUnit::lx}}, "own lane's centre, facing target at 0.25 m",
+         &Light::reach_m);
+    pair({.quantity = Quantity::control_glare, .distance_m = look_m}, "eyes at 1.1 m, oncoming lane's centre, 50 m ahead, facing the lamps",
          &Light::glare_lx);
     if (!drive_.traffic.empty())
-        for (const auto& [name, where, of] :
-             {std::tuple("control_others_max_lx", "eyes of oncoming road users, largest of the drive", &Row::moved),
-              std::tuple("control_others_still_max_lx", "the same with lamps held still and no window dark", &Row::still)}) {
+        for (const auto& [aspect, where, of] :
+             {std::tuple(Aspect::value, "eyes of oncoming road users, largest of the drive", &Row::moved),
+              std::tuple(Aspect::held_still, "the same with lamps held still and no window dark", &Row::still)}) {
             std::optional<double> most;
             for (const Row& row : rows_)
                 if (const std::optional<double> lx = (row.*of).others_lx)
                     most = std::max(most.value_or(0.0), *lx);
-            say(name, "lx", where, most, "nobody came towards the car");
+            say({.quantity = Quantity::control_others, .aspect = aspect, .statistic = Statistic::maximum}, where, most,
+                "nobody came towards the car");
         }
     const bool any_mode = std::ranges::any_of(drive_.variants, [](const Variant& v) { return v.control && v.control->modes; });
     const bool any_high = std::ranges::any_of(drive_.variants, [](const Variant& v) { return v.control && v.control->high_beam; });
-    const auto share = [&](const std::string& name, const std::string& where, const auto& holds) {
+    const auto share = [&](Quantity quantity, const std::string& subject, const std::string& where, const auto& holds) {
         double sum = 0.0;
         std::size_t count = 0;
         for (const Row& row : rows_)
@@ -195,13 +199,14 @@ Readings ControlFold::readings() const {
                 sum += *part;
                 ++count;
             }
-        say(name, "1", where, count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt, "the lamp set has no such law");
+        say({.quantity = quantity, .subject = subject, .statistic = Statistic::mean}, where,
+            count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt, "the lamp set has no such law");
     };
     if (any_high)
-        share("control_high_beam_share", "of the moments, mean level", [](const Row& row) { return row.high_beam; });
+        share(Quantity::control_high_beam, "", "of the moments, mean level", [](const Row& row) { return row.high_beam; });
     for (const auto& [name, mode] : {std::pair{"c", 0.0}, {"v", 1.0}, {"e", 2.0}, {"w", 3.0}})
         if (any_mode)
-            share(fmt::format("control_class_{}_share", name), "of the moments", [mode = mode](const Row& row) -> std::optional<double> {
+            share(Quantity::control_class, name, "of the moments", [mode = mode](const Row& row) -> std::optional<double> {
                 return row.mode ? std::optional(*row.mode == mode ? 1.0 : 0.0) : std::nullopt;
             });
     return readings;

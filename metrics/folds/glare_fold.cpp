@@ -36,7 +36,7 @@ GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facin
 void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, const GlareFigures& figures) {
     ticks.push_back(moment.tick);
     facing.push_back({moment.time_s, to_go_m, figures.facing_lx});
-    eye.push_back({moment.time_s, to_go_m, figures.eye_lx});
+    eye_lx.push_back({moment.time_s, to_go_m, figures.eye_lx});
     veiling.push_back({moment.time_s, to_go_m, figures.veiling_cdm2.number()});
     increment.push_back({moment.time_s, to_go_m, figures.increment_percent.number()});
     de_boer.push_back({moment.time_s, to_go_m, figures.de_boer.number()});
@@ -51,40 +51,45 @@ void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<
         no_de_boer = figures.de_boer.reason();
 }
 
-void GlareFollowed::say(Readings& readings, const std::string& stem, const std::string& where, const std::string& why_none,
+void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
                         const GlareParameters& parameters) const {
-    const auto add = [&](const std::string& suffix, const char* unit, const std::string& what, const Value& found) {
-        readings.push_back({stem + "_" + suffix, found, unit, where + ", " + what});
+    const auto add = [&](Quantity quantity, Statistic statistic, const Threshold& threshold, const std::string& what, const Value& found) {
+        ReadingKey key = eye;
+        key.quantity = quantity;
+        key.threshold = threshold;
+        key.statistic = statistic;
+        readings.push_back({key, found, where + ", " + what});
     };
     const std::string none = why_none.empty() ? no_moment : why_none;
-    add("facing_max_lx", "lx", "facing the lamps, largest", over_drive(largest(facing), "", none));
-    add("eye_max_lx", "lx", "across the line of sight, largest", over_drive(largest(eye), "", none));
-    add("veiling_max_cdm2", "cd/m2", fmt::format("veiling luminance, {}, largest", name(parameters.equation)),
-        over_drive(largest(veiling), no_veiling, none));
-    add("threshold_increment_max_percent", "%", fmt::format("adapted to {} cd/m2, largest", parameters.adaptation_cdm2),
-        over_drive(largest(increment), no_increment, none));
+    const auto most = [&](Quantity quantity, const std::string& what, const Approach& figure, const std::string& missing) {
+        add(quantity, Statistic::maximum, {}, what, over_drive(largest(figure), missing, none));
+    };
+    most(Quantity::glare_facing, "facing the lamps, largest", facing, "");
+    most(Quantity::glare_eye, "across the line of sight, largest", eye_lx, "");
+    most(Quantity::glare_veiling, fmt::format("veiling luminance, {}, largest", name(parameters.equation)), veiling, no_veiling);
+    most(Quantity::glare_increment, fmt::format("adapted to {} cd/m2, largest", parameters.adaptation_cdm2), increment, no_increment);
     const bool dark = !facing.empty() && no_de_boer.empty() && !smallest(de_boer);
-    add("de_boer_min", "1",
+    add(Quantity::glare_de_boer, Statistic::minimum, {},
         fmt::format("adapted to {} cd/m2, smallest; 9 unnoticeable, 5 just acceptable, 1 unbearable", parameters.adaptation_cdm2),
         over_drive(smallest(de_boer), no_de_boer, dark ? "no light reaches the eye" : none));
-    const auto limits = [&](const std::vector<double>& values, const Approach& figure, const std::string& missing, bool over,
-                            const std::string& unit, const std::string& what) {
+    const auto limits = [&](const std::vector<double>& values, const Approach& figure, const std::string& missing, ThresholdUnit unit,
+                            const std::string& what) {
         for (const double limit : values) {
-            const Stretch stretch = over ? at_or_above(figure, limit) : below(figure, limit);
-            const std::string suffix = fmt::format("{}_{}{}", over ? "above" : "below", limit, unit);
+            const Stretch stretch = unit == ThresholdUnit::de_boer ? below(figure, limit) : at_or_above(figure, limit);
             const bool measured = missing.empty() && !figure.empty();
-            add("time_" + suffix + "_s", "s", what, over_drive(measured ? std::optional(stretch.time_s) : std::nullopt, missing, none));
-            add("length_" + suffix + "_m", "m", what, over_drive(measured ? std::optional(stretch.length_m) : std::nullopt, missing, none));
+            const auto figure_of = [&](double found) { return over_drive(measured ? std::optional(found) : std::nullopt, missing, none); };
+            add(Quantity::glare_time, Statistic::none, {limit, unit}, what, figure_of(stretch.time_s));
+            add(Quantity::glare_length, Statistic::none, {limit, unit}, what, figure_of(stretch.length_m));
         }
     };
-    limits(parameters.limits_lx, facing, "", true, "lx", "facing the lamps");
-    limits(parameters.limits_percent, increment, no_increment, true, "percent", "threshold increment");
-    limits(parameters.limits_de_boer, de_boer, no_de_boer, false, "_de_boer", "de Boer's rating");
+    limits(parameters.limits_lx, facing, "", ThresholdUnit::lx, "facing the lamps");
+    limits(parameters.limits_percent, increment, no_increment, ThresholdUnit::percent, "threshold increment");
+    limits(parameters.limits_de_boer, de_boer, no_de_boer, ThresholdUnit::de_boer, "de Boer's rating");
 }
 
-SeeingSeries GlareFollowed::series(const std::string& subject, const std::string& title, const std::string& over,
+SeeingSeries GlareFollowed::series(const ReadingKey& eye, const std::string& title, const std::string& over,
                                    const std::vector<std::string>& lamps) const {
-    SeeingSeries series{subject, title, over, ticks, {}, {}};
+    SeeingSeries series{eye_name(eye), title, over, ticks, {}, {}};
     for (const ApproachSample& sample : facing)
         series.at_m.push_back(sample.distance_m);
     const auto column = [&](const char* name, const char* label, const char* unit, bool logarithmic, const Approach& figure) {
@@ -94,7 +99,7 @@ SeeingSeries GlareFollowed::series(const std::string& subject, const std::string
         series.columns.push_back(std::move(values));
     };
     column("facing_lx", "illuminance facing the lamps", "lx", true, facing);
-    column("eye_lx", "illuminance across the line of sight", "lx", true, eye);
+    column("eye_lx", "illuminance across the line of sight", "lx", true, eye_lx);
     series.columns.back().drawn = false;
     column("veiling_cdm2", "veiling luminance", "cd/m2", true, veiling);
     column("threshold_increment_percent", "threshold increment", "%", true, increment);
@@ -155,16 +160,16 @@ Readings OncomingFold::readings() const {
     const GlareParameters& parameters = *drive_.seeing.glare;
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
         const GlareObserver& observer = parameters.oncoming[i];
-        const std::string stem = "glare_" + observer.name;
+        const ReadingKey eye{.quantity = Quantity::glare_facing, .subject = observer.name};
         const std::string cut = cut_short(eyes_[i].followed.facing, eyes_[i].passed);
         const std::string where = fmt::format("oncoming driver {} m along the route, eyes {} m above the road{}", observer.at_m,
                                               observer.eye_height_m, cut.empty() ? "" : " (" + cut + ")");
         const std::string none = eyes_[i].place_m ? "" : fmt::format("there is no oncoming lane at {} m", observer.at_m);
-        eyes_[i].followed.say(readings, stem, where, none, parameters);
+        eyes_[i].followed.say(readings, eye, where, none, parameters);
         for (const double distance_m : parameters.distances_m) {
             const Value lx = none.empty() ? value_at(eyes_[i].followed.facing, distance_m) : Value::not_measured(none);
-            readings.push_back({fmt::format("{}_at_{}m_lx", stem, distance_m), lx, "lx",
-                                fmt::format("{}, the bumper {} m before it, facing the lamps", where, distance_m)});
+            readings.push_back({eye, lx, fmt::format("{}, the bumper {} m before it, facing the lamps", where, distance_m)});
+            readings.back().key.distance_m = distance_m;
         }
     }
     return readings;
@@ -174,7 +179,8 @@ std::vector<SeeingSeries> OncomingFold::series() const {
     std::vector<SeeingSeries> all;
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
         const std::string& name = drive_.seeing.glare->oncoming[i].name;
-        all.push_back(eyes_[i].followed.series("glare_" + name, fmt::format("Oncoming driver \u201c{}\u201d", name),
+        all.push_back(eyes_[i].followed.series({.quantity = Quantity::glare_facing, .subject = name},
+                                               fmt::format("Oncoming driver \u201c{}\u201d", name),
                                                "distance from the bumper to the observer", lamps_));
     }
     return all;

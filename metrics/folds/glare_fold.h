@@ -20,16 +20,16 @@ GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facin
 /// Figures of one eye over the moments.
 struct GlareFollowed {
     std::vector<int> ticks;
-    Approach facing, eye, veiling, increment, de_boer;
+    Approach facing, eye_lx, veiling, increment, de_boer;
     std::vector<std::vector<double>> theta_deg;       ///< by lamp
     std::string no_veiling, no_increment, no_de_boer; ///< why it was not measured in some moment; "" where it was in all
 
     void add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, const GlareFigures& figures);
-    /// Figures over the drive under `stem`: largest illuminances, veiling luminance and threshold increment, smallest rating; times and
-    /// metres beyond the limits.
-    void say(Readings& readings, const std::string& stem, const std::string& where, const std::string& why_none,
+    /// Figures over the drive, under the eye's key: largest illuminances, veiling luminance and threshold increment, smallest rating; times
+    /// and metres beyond the limits.
+    void say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
              const GlareParameters& parameters) const;
-    SeeingSeries series(const std::string& subject, const std::string& title, const std::string& over,
+    SeeingSeries series(const ReadingKey& eye, const std::string& title, const std::string& over,
                         const std::vector<std::string>& lamps) const;
 };
 

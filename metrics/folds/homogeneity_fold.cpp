@@ -60,26 +60,30 @@ void HomogeneityFold::add(const Moment& moment) {
 Readings HomogeneityFold::readings() const {
     const HomogeneityParameters& asked = *drive_.seeing.homogeneity;
     Readings readings;
-    const auto say = [&](const std::string& name, const std::string& end, const char* unit, const std::string& what,
-                         const std::function<double(const Row&)>& figure) {
+    const auto say = [&](Quantity quantity, ReadingPlace place, const std::string& what, const std::function<double(const Row&)>& figure) {
         std::vector<double> values;
         for (const Row& row : rows_)
             values.push_back(figure(row));
         const std::optional<Spread> spread = spread_of(values);
         const std::string where = fmt::format("own lane to {} m, where it has {} lx, {}", asked.ahead_m, asked.least_lx, what);
         const Value none = Value::not_measured("no lamp was lit in any moment");
-        readings.push_back({name + end, spread ? Value(spread->median) : none, unit, where + ", median"});
-        readings.push_back({name + "_max" + end, spread ? Value(spread->maximum) : none, unit, where + ", largest"});
+        ReadingKey key{.quantity = quantity, .lane = "own", .place = place, .statistic = Statistic::median};
+        readings.push_back({key, spread ? Value(spread->median) : none, where + ", median"});
+        key.statistic = Statistic::maximum;
+        readings.push_back({key, spread ? Value(spread->maximum) : none, where + ", largest"});
     };
-    say("gradient_along_own", "_per_m", "1/m", "largest |d lg E| along", [](const Row& row) { return row.gradients.along.per_m; });
-    say("gradient_along_own", "_per_deg", "1/deg", "largest |d lg E| along, seen from the driver",
+    say(Quantity::gradient_per_m, ReadingPlace::along, "largest |d lg E| along", [](const Row& row) { return row.gradients.along.per_m; });
+    say(Quantity::gradient_per_deg, ReadingPlace::along, "largest |d lg E| along, seen from the driver",
         [](const Row& row) { return row.gradients.along.per_degree; });
-    say("gradient_across_own", "_per_m", "1/m", "largest |d lg E| across", [](const Row& row) { return row.gradients.across.per_m; });
-    say("gradient_across_own", "_per_deg", "1/deg", "largest |d lg E| across, seen from the driver",
+    say(Quantity::gradient_per_m, ReadingPlace::across, "largest |d lg E| across",
+        [](const Row& row) { return row.gradients.across.per_m; });
+    say(Quantity::gradient_per_deg, ReadingPlace::across, "largest |d lg E| across, seen from the driver",
         [](const Row& row) { return row.gradients.across.per_degree; });
     const std::string beyond = fmt::format(" than its surroundings by more than a factor of {}", asked.patch_factor);
-    say("patch_dark_own", "_m", "m", "longest patch darker" + beyond, [](const Row& row) { return row.patches.dark.longest_m; });
-    say("patch_bright_own", "_m", "m", "longest patch brighter" + beyond, [](const Row& row) { return row.patches.bright.longest_m; });
+    say(Quantity::patch_dark, ReadingPlace::none, "longest patch darker" + beyond,
+        [](const Row& row) { return row.patches.dark.longest_m; });
+    say(Quantity::patch_bright, ReadingPlace::none, "longest patch brighter" + beyond,
+        [](const Row& row) { return row.patches.bright.longest_m; });
     std::vector<double> ratios;
     std::string missing = rows_.empty() ? "no lamp was lit in any moment" : "";
     for (const Row& row : rows_) {
@@ -89,7 +93,8 @@ Readings HomogeneityFold::readings() const {
             missing = "in some moment: " + row.foreground.reason();
     }
     const std::optional<Spread> spread = missing.empty() ? spread_of(ratios) : std::nullopt;
-    readings.push_back({"foreground_ratio_own", spread ? Value(spread->median) : Value::not_measured(missing), "1",
+    readings.push_back({{.quantity = Quantity::foreground_ratio, .lane = "own", .statistic = Statistic::median},
+                        spread ? Value(spread->median) : Value::not_measured(missing),
                         "own lane, mean from 5 to 15 m over mean from 40 to 60 m before the lamps, median"});
     return readings;
 }

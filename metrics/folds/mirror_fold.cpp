@@ -6,6 +6,12 @@
 #include <fmt/format.h>
 
 namespace fernlicht {
+namespace {
+
+/// Of the driver of a car ahead.
+ReadingKey eyes_behind(double gap_m) { return {.quantity = Quantity::glare_facing, .place = ReadingPlace::mirrors, .distance_m = gap_m}; }
+
+} // namespace
 
 MirrorFold::MirrorFold(const Drive& drive, const Route& route)
     : drive_(drive), route_(route), gaps_(drive.seeing.glare->mirrors->gaps_m.size()) {
@@ -48,20 +54,22 @@ Readings MirrorFold::readings() const {
     Readings readings;
     const MirrorParameters& mirrors = *drive_.seeing.glare->mirrors;
     for (std::size_t i = 0; i < gaps_.size(); ++i) {
-        const std::string gap = fmt::format("{}m", mirrors.gaps_m[i]);
         const std::string where = fmt::format("car {} m ahead in the own lane", mirrors.gaps_m[i]);
         const std::string none = "the car ahead is beyond the route's end in every moment";
         for (std::size_t k = 0; k < mirrors.mirrors.size(); ++k) {
             const std::optional<Spread> spread = spread_of(gaps_[i].mirror_lx[k]);
-            const std::string stem = fmt::format("mirror_{}_at_{}", mirrors.mirrors[k].name, gap);
-            const auto say = [&](const char* suffix, const char* what, double Spread::*figure) {
-                readings.push_back({stem + suffix, spread ? Value(*spread.*figure) : Value::not_measured(none), "lx",
+            const auto say = [&](Statistic statistic, const char* what, double Spread::*figure) {
+                readings.push_back({{.quantity = Quantity::mirror_illuminance,
+                                     .subject = mirrors.mirrors[k].name,
+                                     .distance_m = mirrors.gaps_m[i],
+                                     .statistic = statistic},
+                                    spread ? Value(*spread.*figure) : Value::not_measured(none),
                                     fmt::format("{}, {} mirror, facing the lamps, {}", where, mirrors.mirrors[k].name, what)});
             };
-            say("_lx", "median", &Spread::median);
-            say("_max_lx", "largest", &Spread::maximum);
+            say(Statistic::median, "median", &Spread::median);
+            say(Statistic::maximum, "largest", &Spread::maximum);
         }
-        gaps_[i].eye.say(readings, fmt::format("glare_mirrors_at_{}", gap), where + ", its driver's eye through all mirrors", none,
+        gaps_[i].eye.say(readings, eyes_behind(mirrors.gaps_m[i]), where + ", its driver's eye through all mirrors", none,
                          *drive_.seeing.glare);
     }
     return readings;
@@ -71,8 +79,8 @@ std::vector<SeeingSeries> MirrorFold::series() const {
     std::vector<SeeingSeries> all;
     for (std::size_t i = 0; i < gaps_.size(); ++i) {
         const double gap_m = drive_.seeing.glare->mirrors->gaps_m[i];
-        all.push_back(gaps_[i].eye.series(fmt::format("glare_mirrors_at_{}m", gap_m), fmt::format("Mirrors of a car {} m ahead", gap_m),
-                                          "distance along the route", sources_));
+        all.push_back(gaps_[i].eye.series(eyes_behind(gap_m), fmt::format("Mirrors of a car {} m ahead", gap_m), "distance along the route",
+                                          sources_));
     }
     return all;
 }

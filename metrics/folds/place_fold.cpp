@@ -18,12 +18,13 @@ constexpr double kerb_target_m = 0.25;
 
 /// Where boards stand: beside or over the road, and how high. Places usual on country roads, ours.
 struct BoardPlace {
-    const char* name;
+    ReadingPlace place;
     Across from;
     double left_m, above_m;
 };
-constexpr BoardPlace boards[] = {
-    {"right", Across::right_edge, -2.0, 2.0}, {"left", Across::left_edge, 2.0, 2.0}, {"overhead", Across::own_centre, 0.0, 5.5}};
+constexpr BoardPlace boards[] = {{ReadingPlace::right, Across::right_edge, -2.0, 2.0},
+                                 {ReadingPlace::left, Across::left_edge, 2.0, 2.0},
+                                 {ReadingPlace::overhead, Across::own_centre, 0.0, 5.5}};
 
 Material material_named(const std::string& name) {
     for (const Material& material : road_materials())
@@ -49,28 +50,29 @@ PlaceFold::PlaceFold(const Drive& drive, const Route& route)
     eye_m_ = view ? view->position_m : glm::dvec3(1.3, 0.35, 1.2);
     const PlaceParameters& asked = *drive.seeing.places;
     for (const double distance_m : asked.distances_m) {
-        const auto figure = [&](const std::string& stem, const char* unit, const char* suffix, const std::string& where) {
-            figures_.push_back({fmt::format("{}_at_{}m_{}", stem, distance_m, suffix),
-                                unit,
-                                fmt::format("{} m ahead of the bumper, {}, median", distance_m, where),
-                                {},
-                                {}});
+        const auto figure = [&](Quantity quantity, ReadingSurface surface, ReadingPlace place, const std::string& where) {
+            figures_.push_back(
+                {{.quantity = quantity, .surface = surface, .place = place, .distance_m = distance_m, .statistic = Statistic::median},
+                 fmt::format("{} m ahead of the bumper, {}, median", distance_m, where),
+                 {},
+                 {}});
         };
         if (asked.kerb) {
-            figure("kerb", "lx", "lx", "right edge of the lanes, on the road");
-            figure("kerb_target", "lx", "lx", "0.25 m over the right edge of the lanes, facing the lamps");
+            figure(Quantity::kerb_illuminance, ReadingSurface::road, ReadingPlace::none, "right edge of the lanes, on the road");
+            figure(Quantity::kerb_illuminance, ReadingSurface::target, ReadingPlace::none,
+                   "0.25 m over the right edge of the lanes, facing the lamps");
         }
-        for (const BoardPlace& place : boards)
+        for (const BoardPlace& board : boards)
             if (asked.boards) {
-                const std::string stem = fmt::format("board_{}", place.name);
-                figure(stem, "lx", "lx", fmt::format("board {} m up, on its face", place.above_m));
-                figure(stem, "cd/m2", "cdm2",
-                       fmt::format("board {} m up, as the driver sees it, class RA2 as pictures have it", place.above_m));
+                figure(Quantity::board_illuminance, ReadingSurface::none, board.place,
+                       fmt::format("board {} m up, on its face", board.above_m));
+                figure(Quantity::board_luminance, ReadingSurface::none, board.place,
+                       fmt::format("board {} m up, as the driver sees it, class RA2 as pictures have it", board.above_m));
             }
         if (asked.markings)
-            for (const char* side : {"right", "left"})
-                figure(fmt::format("marking_{}", side), "cd/m2", "cdm2",
-                       fmt::format("white marking on the own lane's {} edge, as the driver sees it", side));
+            for (const ReadingPlace side : {ReadingPlace::right, ReadingPlace::left})
+                figure(Quantity::marking_luminance, ReadingSurface::none, side,
+                       fmt::format("white marking on the own lane's {} edge, as the driver sees it", name_of(side)));
     }
 }
 
@@ -127,9 +129,9 @@ Readings PlaceFold::readings() const {
     for (const Figure& figure : figures_) {
         const std::optional<Spread> spread = figure.missing.empty() ? spread_of(figure.values) : std::nullopt;
         readings.push_back(
-            {figure.name,
+            {figure.key,
              spread ? Value(spread->median) : Value::not_measured(figure.missing.empty() ? "no moment was played" : figure.missing),
-             figure.unit, figure.where});
+             figure.where});
     }
     return readings;
 }

@@ -21,7 +21,8 @@ class PlaceFold {
 
   private:
     struct Figure {
-        std::string name, unit, where;
+        ReadingKey key;
+        std::string where;
         std::vector<double> values;
         std::string missing;
     };

@@ -47,17 +47,19 @@ Readings SensorFold::readings() const {
         const std::string where = fmt::format(
             "{}, {} m along the route, {} m above the road, facing the lamps{}{}", place_name(sensor.across), sensor.at_m, sensor.above_m,
             here.near_field ? ", near-field: nearer than a lamp's photometric distance" : "", cut.empty() ? "" : "; " + cut);
-        const auto say = [&](const std::string& suffix, const char* unit, Value found) {
+        const auto say = [&](const ReadingKey& key, Value found) {
             if (!here.point_m)
                 found = Value::not_measured(fmt::format("there is no {} at {} m", place_name(sensor.across), sensor.at_m));
-            readings.push_back({fmt::format("sensor_{}_{}", sensor.name, suffix), found, unit, where});
+            readings.push_back({key, found, where});
+            readings.back().key.subject = sensor.name;
         };
         for (const double limit : parameters.limits_lx)
-            say(fmt::format("reach_{}lx_m", limit), "m", reached_from_m(here.approach, limit, here.passed));
+            say({.quantity = Quantity::sensor_reach, .threshold = {limit, ThresholdUnit::lx}},
+                reached_from_m(here.approach, limit, here.passed));
         for (const double distance_m : parameters.distances_m)
-            say(fmt::format("at_{}m_lx", distance_m), "lx", value_at(here.approach, distance_m));
-        const std::optional<double> most = largest(here.approach);
-        say("max_lx", "lx", Value::of(most, "no moment of the drive before this place was measured"));
+            say({.quantity = Quantity::sensor_illuminance, .distance_m = distance_m}, value_at(here.approach, distance_m));
+        say({.quantity = Quantity::sensor_illuminance, .statistic = Statistic::maximum},
+            Value::of(largest(here.approach), "no moment of the drive before this place was measured"));
     }
     return readings;
 }

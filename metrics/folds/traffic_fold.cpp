@@ -24,7 +24,8 @@ void TrafficFold::add(const Moment& moment) {
 
 Readings TrafficFold::readings() const {
     Readings readings;
-    eye_.say(readings, "glare_own", "own driver's eye, lamps of others", "", *drive_.seeing.glare);
+    eye_.say(readings, {.quantity = Quantity::glare_facing, .place = ReadingPlace::own_eyes}, "own driver's eye, lamps of others", "",
+             *drive_.seeing.glare);
     return readings;
 }
 

@@ -29,12 +29,15 @@ Material asphalt() {
     throw std::logic_error("there is no asphalt among the road's materials");
 }
 
-/// "own", "right", "left", "oncoming".
-std::string short_place(Across across) {
-    return across == Across::own_centre        ? "own"
-           : across == Across::oncoming_centre ? "oncoming"
-           : across == Across::right_edge      ? "right"
-                                               : "left";
+ReadingKey detection_of(const VisibilityTarget& target, Across across) {
+    return {.quantity = Quantity::detection,
+            .subject = target.name,
+            .lane = across == Across::own_centre        ? "own"
+                    : across == Across::oncoming_centre ? "oncoming"
+                                                        : "",
+            .place = across == Across::right_edge  ? ReadingPlace::right
+                     : across == Across::left_edge ? ReadingPlace::left
+                                                   : ReadingPlace::none};
 }
 
 } // namespace
@@ -51,7 +54,7 @@ VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(
             });
             if (stand == stands_.end())
                 stand = stands_.insert(stands_.end(), {across, target.size_m, target.squares, {}});
-            stand->sights.push_back({&target, target.name + "_" + short_place(across), {}, {}});
+            stand->sights.push_back({&target, detection_of(target, across), {}, {}});
             stand->sights.back().at.resize(asked.distances_m.size());
         }
 }
@@ -195,12 +198,11 @@ void VisibilityFold::add(const Moment& moment) {
 Readings VisibilityFold::readings() const {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
     Readings readings;
-    const auto median = [&](const std::string& name, const char* unit, const std::string& conditions, const std::vector<double>& values,
+    const auto median = [&](const ReadingKey& key, const std::string& conditions, const std::vector<double>& values,
                             const std::string& missing) {
         const std::optional<Spread> spread = missing.empty() ? spread_of(values) : std::nullopt;
-        readings.push_back({name,
-                            spread ? Value(spread->median) : Value::not_measured(missing.empty() ? "no moment was measured" : missing),
-                            unit, conditions + ", median"});
+        readings.push_back({key, spread ? Value(spread->median) : Value::not_measured(missing.empty() ? "no moment was measured" : missing),
+                            conditions + ", median"});
     };
     for (const Stand& stand : stands_)
         for (const Sight& sight : stand.sights) {
@@ -213,24 +215,31 @@ Readings VisibilityFold::readings() const {
                 reach.add(detection.from_m);
                 undetected.add(detection.undetected_m);
             }
-            const auto quantile = [&](const std::string& name, const ManyMoments& moments, double share, const char* what) {
-                readings.push_back({name, moments.quantile(share), "m", fmt::format("{}, {}; {}", where, what, moments.account())});
+            ReadingKey key = sight.key;
+            const auto quantile = [&](Statistic statistic, const ManyMoments& moments, double share, const char* what) {
+                key.statistic = statistic;
+                readings.push_back({key, moments.quantile(share), fmt::format("{}, {}; {}", where, what, moments.account())});
             };
-            quantile("detection_" + sight.stem + "_m", reach, 0.5, "farthest place, median");
-            quantile("detection_" + sight.stem + "_min_m", reach, 0.0, "farthest place, smallest");
-            quantile("detection_" + sight.stem + "_p05_m", reach, 0.05, "farthest place, 5th percentile");
-            quantile("undetected_before_detection_" + sight.stem + "_m", undetected, 0.5, "nearer places where it is not, median");
-            for (std::size_t d = 0; d < sight.at.size(); ++d)
-                median(fmt::format("visibility_level_{}_at_{}m", sight.stem, asked.distances_m[d]), "1",
-                       fmt::format("{}, {} m ahead, level", where, asked.distances_m[d]), sight.at[d].level, sight.at[d].no_level);
+            quantile(Statistic::median, reach, 0.5, "farthest place, median");
+            quantile(Statistic::minimum, reach, 0.0, "farthest place, smallest");
+            quantile(Statistic::p05, reach, 0.05, "farthest place, 5th percentile");
+            key.quantity = Quantity::undetected;
+            quantile(Statistic::median, undetected, 0.5, "nearer places where it is not, median");
+            key.quantity = Quantity::visibility_level;
+            for (std::size_t d = 0; d < sight.at.size(); ++d) {
+                key.distance_m = asked.distances_m[d];
+                median(key, fmt::format("{}, {} m ahead, level", where, asked.distances_m[d]), sight.at[d].level, sight.at[d].no_level);
+            }
         }
     for (std::size_t d = 0; d < backgrounds_.size(); ++d) {
         const Background& seen = backgrounds_[d];
-        const std::string at = fmt::format("own_at_{}m_cdm2", asked.distances_m[d]),
-                          where = fmt::format("own lane, road seen behind a place {} m ahead, {} m up", asked.distances_m[d],
-                                              background_above_m);
-        median("background_luminance_" + at, "cd/m2", where + ", luminance", seen.photopic, seen.missing);
-        median("mesopic_luminance_" + at, "cd/m2", where + ", mesopic luminance (CIE 191)", seen.mesopic,
+        const std::string where =
+            fmt::format("own lane, road seen behind a place {} m ahead, {} m up", asked.distances_m[d], background_above_m);
+        ReadingKey key{
+            .quantity = Quantity::background_luminance, .lane = "own", .distance_m = asked.distances_m[d], .statistic = Statistic::median};
+        median(key, where + ", luminance", seen.photopic, seen.missing);
+        key.quantity = Quantity::mesopic_luminance;
+        median(key, where + ", mesopic luminance (CIE 191)", seen.mesopic,
                !seen.missing.empty()                         ? seen.missing
                : seen.mesopic.size() == seen.photopic.size() ? ""
                                                              : "dark in some moment, or lit by a sky whose ratio S/P is not known");
@@ -244,12 +253,13 @@ std::vector<SeeingSeries> VisibilityFold::series() const {
     std::vector<SeeingSeries> all;
     for (const Stand& stand : stands_)
         for (const Sight& sight : stand.sights) {
-            SeeingSeries series{"detection_" + sight.stem,
-                                fmt::format("{}, {}", sight.target->name, place_name(stand.across)),
-                                "distance along the route",
-                                ticks_,
-                                along_m_,
-                                {}};
+            SeeingSeries series{
+                fmt::format("detection_{}_{}", sight.key.subject, sight.key.lane.empty() ? name_of(sight.key.place) : sight.key.lane),
+                fmt::format("{}, {}", sight.target->name, place_name(stand.across)),
+                "distance along the route",
+                ticks_,
+                along_m_,
+                {}};
             SeeingSeries::Column from{
                 "detection_m", fmt::format("detection distance, level {}", sight.target->level), "m", false, true, {}};
             for (const Detection& detection : sight.detections)

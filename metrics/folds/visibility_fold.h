@@ -35,7 +35,7 @@ class VisibilityFold {
     /// A target at one of its places.
     struct Sight {
         const VisibilityTarget* target;
-        std::string stem; ///< "card_own"
+        ReadingKey key; ///< of its detection distance
         std::vector<Detection> detections;
         struct AtDistance {
             std::vector<double> level;

@@ -1,116 +1,103 @@
 #include "metrics/readings/reading_words.h"
 
-#include <algorithm>
 #include <fmt/format.h>
-#include <regex>
-#include <utility>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
 
-std::string extent_in_words(const std::string& name) {
-    std::string words = name;
-    for (const auto& [from, to] : {std::pair("reach_", "reach at "), std::pair("width_", "width at "), std::pair("area_", "area at "),
-                                   std::pair("unlit_before_reach_", "unlit before reach at ")})
-        if (words.starts_with(from)) {
-            words = to + words.substr(std::string(from).size());
-            break;
-        }
-    if (words == name)
-        return name;
-    for (const auto& [from, to] :
-         {std::pair("lx_road_", " lx on the road, "), std::pair("lx_target_", " lx on a target, "), std::pair("own", "own lane"),
-          std::pair("all", "whole width"), std::pair("_at_", ", "), std::pair("_p05", ", 5th percentile"), std::pair("_min", ", least"),
-          std::pair("_left_edge", ", left edge"), std::pair("_right_edge", ", right edge")})
-        if (const std::size_t at = words.find(from); at != std::string::npos)
-            words.replace(at, std::string(from).size(), to);
-    for (const char* unit : {"m_m", "_m2", "_m"}) // "20m_m" is at 20 m, in metres
-        if (words.ends_with(unit)) {
-            words.resize(words.size() - std::string(unit).size());
-            words += unit == std::string("m_m") ? " m ahead" : "";
-            break;
-        }
-    std::ranges::replace(words, '_', ' ');
-    return words;
+const char* statistic_in_words(Statistic statistic) {
+    static constexpr const char* words[] = {
+        "", "", ", least", ", largest", ", 5th percentile", ", 95th percentile", ", 95th less 5th percentile", ""};
+    return words[static_cast<std::size_t>(statistic)];
 }
 
-/// What is read in an eye, after the eye's name.
-std::string of_eye(const std::string& quantity) {
-    static const std::pair<std::regex, const char*> forms[] = {
-        {std::regex("facing_max_lx"), "largest illuminance"},
-        {std::regex("eye_max_lx"), "largest illuminance across the line of sight"},
-        {std::regex("veiling_max_cdm2"), "largest veiling luminance"},
-        {std::regex("threshold_increment_max_percent"), "largest threshold increment"},
-        {std::regex("de_boer_min"), "smallest de Boer rating"},
-        {std::regex("at_([0-9.]+)m_lx"), "illuminance $1 m before it"},
-        {std::regex("time_above_([0-9.]+)lx_s"), "time above $1 lx"},
-        {std::regex("length_above_([0-9.]+)lx_m"), "metres above $1 lx"},
-        {std::regex("time_above_([0-9.]+)percent_s"), "time above $1 % of threshold increment"},
-        {std::regex("length_above_([0-9.]+)percent_m"), "metres above $1 % of threshold increment"},
-        {std::regex("time_below_([0-9.]+)_de_boer_s"), "time below de Boer's $1"},
-        {std::regex("length_below_([0-9.]+)_de_boer_m"), "metres below de Boer's $1"}};
-    for (const auto& [form, words] : forms)
-        if (std::regex_match(quantity, form))
-            return std::regex_replace(quantity, form, words);
-    return {};
+const char* aspect_in_words(Aspect aspect) {
+    static constexpr const char* words[] = {"",
+                                            ", gained by control",
+                                            ", lamps held still",
+                                            ", by the lamps' tables",
+                                            ", drawn against calculated",
+                                            ", error of the grid",
+                                            ", by 0.1° of aim",
+                                            ", by 10 % of flux",
+                                            ", standard error"};
+    return words[static_cast<std::size_t>(aspect)];
 }
 
-/// "pedestrian-dark, right edge of the lanes, least" of "pedestrian-dark_right_min".
-std::string target_in_words(const std::string& name) {
-    static const std::regex form("(.+)_(own|oncoming|right|left)(_min|_p05)?");
-    std::smatch parts;
-    if (!std::regex_match(name, parts, form))
-        return name;
-    const std::string place = parts[2], which = parts[3];
-    return parts[1].str() +
-           (place == "own"        ? ", own lane"
-            : place == "oncoming" ? ", oncoming lane"
-                                  : ", " + place + " edge of the lanes") +
-           (which == "_min"   ? ", least"
-            : which == "_p05" ? ", 5th percentile"
-                              : "");
+std::string lane_in_words(const std::string& lane) {
+    return lane == "own" ? "own lane" : lane == "oncoming" ? "oncoming lane" : lane == "all" ? "whole width" : lane;
 }
 
-std::string seeing_in_words(const std::string& name) {
-    static const std::regex detection("detection_(.+)_m"), level("visibility_level_(.+)_at_([0-9.]+)m");
-    if (std::smatch parts; std::regex_match(name, parts, detection))
-        return "detection distance of " + target_in_words(parts[1]);
-    else if (std::regex_match(name, parts, level))
-        return "visibility level of " + target_in_words(parts[1]) + ", " + parts[2].str() + " m ahead";
-    if (name.starts_with("glare_"))
-        for (std::size_t at = name.find('_', 7); at != std::string::npos; at = name.find('_', at + 1))
-            if (const std::string quantity = of_eye(name.substr(at + 1)); !quantity.empty())
-                return quantity + ", " + eyes_in_words(name.substr(0, at));
-    static const std::pair<std::regex, const char*> forms[] = {
-        {std::regex("foreground_ratio_own"), "light from 5 to 15 m over light from 40 to 60 m, own lane"},
-        {std::regex("kerb_at_([0-9.]+)m_lx"), "illuminance at the right edge of the lanes, $1 m ahead"},
-        {std::regex("board_(left|right|overhead)_at_([0-9.]+)m_lx"), "illuminance on a board, $1, $2 m ahead"},
-        {std::regex("board_(left|right|overhead)_at_([0-9.]+)m_cdm2"), "luminance of a board, $1, $2 m ahead"},
-        {std::regex("marking_(left|right)_at_([0-9.]+)m_cdm2"), "luminance of the $1 marking, $2 m ahead"}};
-    for (const auto& [form, words] : forms)
-        if (std::regex_match(name, form))
-            return std::regex_replace(name, form, words);
-    return name;
+std::string beyond_in_words(const Threshold& threshold) {
+    switch (threshold.unit) {
+    case ThresholdUnit::percent:
+        return fmt::format("above {} % of threshold increment", threshold.value);
+    case ThresholdUnit::de_boer:
+        return fmt::format("below de Boer's {}", threshold.value);
+    default:
+        return fmt::format("above {} lx", threshold.value);
+    }
+}
+
+/// What stands for a word in braces (quantities.cpp).
+std::string filled(std::string_view slot, const ReadingKey& key) {
+    const std::string distance = key.distance_m ? fmt::format("{} m", *key.distance_m) : "";
+    const auto plain_place = [&] {
+        return key.place == ReadingPlace::left_bends    ? "left bends"
+               : key.place == ReadingPlace::right_bends ? "right bends"
+                                                        : name_of(key.place);
+    };
+    if (slot == "limit")
+        return fmt::format("{} lx", key.threshold.value);
+    if (slot == "beyond")
+        return beyond_in_words(key.threshold);
+    if (slot == "surface")
+        return key.surface == ReadingSurface::road ? " on the road" : " on a target";
+    if (slot == "lane")
+        return ", " + lane_in_words(key.lane);
+    if (slot == "stand")
+        return key.lane.empty() ? fmt::format("{} edge of the lanes", name_of(key.place)) : lane_in_words(key.lane);
+    if (slot == "place")
+        return plain_place();
+    if (slot == "subject")
+        return key.subject;
+    if (slot == "distance")
+        return distance;
+    if (slot == "before")
+        return distance.empty() || key.place == ReadingPlace::mirrors ? "" : fmt::format(" {} before it", distance);
+    if (slot == "most")
+        return key.statistic == Statistic::maximum ? "largest " : key.statistic == Statistic::minimum ? "smallest " : "";
+    if (slot == "eye")
+        return eyes_in_words(key);
+    throw std::logic_error(fmt::format("words with {{{}}}", slot));
 }
 
 } // namespace
 
-std::string eyes_in_words(const std::string& subject) {
-    static const std::regex mirrors("glare_mirrors_at_([0-9.]+)m"), oncoming("glare_(.+)");
-    if (std::regex_match(subject, mirrors))
-        return std::regex_replace(subject, mirrors, "mirrors of a car $1 m ahead");
-    if (subject == "glare_oncoming")
-        return "eyes of an oncoming driver";
-    return std::regex_replace(subject, oncoming, "eyes of oncoming driver $1");
+std::string reading_in_words(const ReadingKey& key) {
+    const std::string_view words = row_of(key.quantity).words;
+    std::string text;
+    for (std::size_t at = 0; at < words.size();)
+        if (words[at] == '{') {
+            const std::size_t end = words.find('}', at);
+            text += filled(words.substr(at + 1, end - at - 1), key);
+            at = end + 1;
+        } else
+            text += words[at++];
+    if (key.place == ReadingPlace::left_edge || key.place == ReadingPlace::right_edge || key.place == ReadingPlace::edges)
+        text += key.place == ReadingPlace::left_edge ? ", left edge" : key.place == ReadingPlace::right_edge ? ", right edge" : ", edges";
+    if (words.find("{most}") == std::string_view::npos)
+        text += statistic_in_words(key.statistic);
+    return text + aspect_in_words(key.aspect);
 }
 
-std::string reading_in_words(const std::string& name) {
-    const std::string words = extent_in_words(name);
-    return words == name ? seeing_in_words(name) : words;
-}
-
-std::string with_bound(const Value& value, const std::string& figure) {
-    return value.censored() ? fmt::format("{} {}", bound_sign(value), figure) : figure;
+std::string eyes_in_words(const ReadingKey& key) {
+    if (key.place == ReadingPlace::mirrors)
+        return fmt::format("mirrors of a car {} m ahead", key.distance_m.value_or(0.0));
+    return key.place == ReadingPlace::own_eyes ? "eyes of the own driver"
+           : key.subject == "oncoming"         ? "eyes of an oncoming driver"
+                                               : "eyes of oncoming driver " + key.subject;
 }
 
 } // namespace fernlicht

@@ -11,24 +11,22 @@ namespace {
 /// The spread between repeats on top of what calculation leaves open, where they differ.
 std::optional<double> with_repeats(const PlayedReadings& cell, const Reading& reading) {
     const std::optional<double> calculated = left_open(cell, reading);
-    const auto spread = cell.by_repeats.find(reading.name);
+    const auto spread = cell.by_repeats.find(reading.key);
     return spread == cell.by_repeats.end() ? calculated : std::hypot(calculated.value_or(0.0), spread->second);
 }
 
-std::optional<double> by_aim(const PlayedReadings& a, const PlayedReadings& b, const std::string& name) {
-    if (!name.starts_with("reach_") || extent_subject(name).empty())
-        return std::nullopt;
-    const std::string row = extent_subject(name) + "_per_tenth_degree_m";
+std::optional<double> by_aim(const PlayedReadings& a, const PlayedReadings& b, const ReadingKey& key) {
+    const ReadingKey row = about_lane(Quantity::reach, key, Aspect::per_tenth_degree);
     const auto first = value_of(a, row), second = value_of(b, row);
-    if (!first && !second)
+    if (key.quantity != Quantity::reach || (!first && !second))
         return std::nullopt;
     return std::max(std::abs(first.value_or(0.0)), std::abs(second.value_or(0.0)));
 }
 
-std::optional<double> by_noise(const PlayedReadings& a, const PlayedReadings& b, const std::string& name, double lamp_noise) {
+std::optional<double> by_noise(const PlayedReadings& a, const PlayedReadings& b, const ReadingKey& key, double lamp_noise) {
     if (lamp_noise == 0.0)
         return 0.0;
-    const auto now = moved_by_light(a, a.readings.at(name)), before = moved_by_light(b, b.readings.at(name));
+    const auto now = moved_by_light(a, a.readings.at(key)), before = moved_by_light(b, b.readings.at(key));
     if (!now && !before)
         return std::nullopt;
     return noise_deviations * lamp_noise * std::max(now.value_or(0.0), before.value_or(0.0));
@@ -65,9 +63,18 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
 
 } // namespace
 
-std::optional<double> value_of(const PlayedReadings& played, const std::string& name) {
-    const auto found = played.readings.find(name);
+std::optional<double> value_of(const PlayedReadings& played, const ReadingKey& key) {
+    const auto found = played.readings.find(key);
     return found == played.readings.end() ? std::nullopt : found->second.value.number();
+}
+
+ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect) {
+    return {.quantity = quantity,
+            .surface = key.surface,
+            .lane = key.lane,
+            .threshold = key.threshold,
+            .aspect = aspect,
+            .statistic = Statistic::median};
 }
 
 const char* change_name(ChangeKind kind) {
@@ -90,22 +97,13 @@ double ReadingChange::size() const {
     return largest > 0.0 ? least() / largest : 0.0;
 }
 
-bool says_how_exact(const std::string& name) {
-    for (const char* part : {"_twin_difference", "_grid_error", "_per_tenth_", "_standard_error"})
-        if (name.find(part) != std::string::npos)
-            return true;
-    return name.find("_twin_") != std::string::npos;
-}
-
-ReadingChange change_of_reading(const std::string& name, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise) {
-    const Reading &tested = now.readings.at(name), &against = before.readings.at(name);
-    ReadingChange change;
-    change.reading = name;
-    change.unit = tested.unit;
-    change.new_value = tested.value;
-    change.old_value = against.value;
-    change.by_aim = by_aim(now, before, name);
-    change.by_noise = by_noise(now, before, name, lamp_noise);
+ReadingChange change_of_reading(const ReadingKey& key, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise) {
+    const Reading &tested = now.readings.at(key), &against = before.readings.at(key);
+    ReadingChange change{.reading = key,
+                         .new_value = tested.value,
+                         .old_value = against.value,
+                         .by_aim = by_aim(now, before, key),
+                         .by_noise = by_noise(now, before, key, lamp_noise)};
     judge(change, with_repeats(now, tested), with_repeats(before, against));
     return change;
 }

@@ -19,16 +19,17 @@ const char* change_name(ChangeKind kind); ///< "real", "within aim", "no differe
 
 /// One reading, new against old.
 struct ReadingChange {
-    std::string reading, unit;
-    Value new_value, old_value;
-    std::optional<double> uncertainty; ///< of the difference, same unit; docs/studies.md
-    std::optional<double> by_aim;      ///< what 0.1 degrees of aim moves the reading by, the larger of both sides
-    std::optional<double> by_noise;    ///< what three standard deviations of the lamps' noise move it by; nullopt when nothing tells
+    ReadingKey reading = {};
+    Value new_value = {}, old_value = {};
+    std::optional<double> uncertainty = {}; ///< of the difference, same unit; docs/studies.md
+    std::optional<double> by_aim = {};      ///< what 0.1 degrees of aim moves the reading by, the larger of both sides
+    std::optional<double> by_noise = {};    ///< what three standard deviations of the lamps' noise move it by; nullopt when nothing tells
     ChangeKind kind = ChangeKind::unknown;
     std::string why_not = {}; ///< for unknown
 
+    const char* unit() const { return unit_of(reading); }
     double unsure() const { return std::hypot(uncertainty.value_or(0.0), by_noise.value_or(0.0)); } ///< calculation and noise
-    Value change() const { return difference(new_value, old_value, unit); }
+    Value change() const { return difference(new_value, old_value, unit()); }
     double least() const;                   ///< |change| is at least this; 0 where it is not measured
     std::optional<double> relative() const; ///< to the old value's size; nullopt where that is 0, or one of both is no number
     /// least() over the larger of both sizes, 0 to 2: the measure by which changes are ranked. 1 where the old value was 0.
@@ -44,18 +45,18 @@ struct Steps {
 
 /// What one side of a comparison read over a whole drive, rows that say how exact others are among it.
 struct PlayedReadings : Steps {
-    std::map<std::string, Reading> readings;  ///< by name
-    std::map<std::string, double> by_repeats; ///< of readings that differ between repeats: what chance reaches in 5 % of them
+    std::map<ReadingKey, Reading> readings;
+    std::map<ReadingKey, double> by_repeats; ///< of readings that differ between repeats: what chance reaches in 5 % of them
 };
 
 /// Of a reading; nullopt where it is missing or no number.
-std::optional<double> value_of(const PlayedReadings& played, const std::string& name);
+std::optional<double> value_of(const PlayedReadings& played, const ReadingKey& key);
 
-/// Whether a row tells how exact another reading is: such rows are not compared.
-bool says_how_exact(const std::string& name);
+/// What is told of all readings of the key's surface, lane and threshold: its median on the lane's centre.
+ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect);
 
-/// Both sides must have a reading of this name. `lamp_noise` is the standard deviation of the difference of two intensities of the lamps'
+/// Both sides must have this reading. `lamp_noise` is the standard deviation of the difference of two intensities of the lamps'
 /// tables that is no difference of the lamps, relative; 0 where both sides' tables are taken as they are.
-ReadingChange change_of_reading(const std::string& name, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise = 0.0);
+ReadingChange change_of_reading(const ReadingKey& key, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise = 0.0);
 
 } // namespace fernlicht

@@ -63,6 +63,10 @@ const char* bound_sign(const Value& value) {
     return value.kind() == Value::Kind::at_least ? ">" : value.kind() == Value::Kind::at_most ? "<" : "";
 }
 
+std::string with_bound(const Value& value, const std::string& figure) {
+    return value.censored() ? fmt::format("{} {}", bound_sign(value), figure) : figure;
+}
+
 const char* bound_name(const Value& value) {
     return value.kind() == Value::Kind::at_least ? "at_least" : value.kind() == Value::Kind::at_most ? "at_most" : "";
 }

@@ -53,6 +53,8 @@ Value difference(const Value& a, const Value& b, std::string_view unit);
 bool ranks_before(const Value& a, const Value& b);
 
 const char* bound_sign(const Value& value); ///< ">", "<" or ""
+/// The figure's text with what bounds it: "> 200" for a value of at least 200.
+std::string with_bound(const Value& value, const std::string& figure);
 const char* bound_name(const Value& value); ///< "at_least", "at_most" or ""
 
 /// Whether the value holds a limit. nullopt: its bound, or that it is not measured, leaves it open.

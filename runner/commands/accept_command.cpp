@@ -31,7 +31,7 @@ RunContext context_of(const CheckedJson& report) {
 AcceptedReading reading_of(const CheckedJson& row, int count) {
     const CheckedJson frame = row.at("frame");
     const Value value = value_in(row.at("value"));
-    return {row.at("name").text(), row.at("unit").text(), frame.is_null() ? -1 : frame.whole(), value, value.measured() ? count : 0, 0.0};
+    return {key_with_unit(row), frame.is_null() ? -1 : frame.whole(), value, value.measured() ? count : 0, 0.0};
 }
 
 /// A frame's file: below the run's folder, wherever a report of others would lead.
@@ -64,9 +64,9 @@ void add_spread(AcceptedReference& reference, const CheckedJson& repeats) {
     for (const CheckedJson& spread : repeats.at("spread").items()) {
         const CheckedJson frame = spread.at("frame");
         const int tick = frame.is_null() ? -1 : frame.whole();
-        const std::string name = spread.at("name").text();
+        const ReadingKey key = key_in(spread.at("name"));
         for (AcceptedReading& reading : reference.readings)
-            if (reading.name == name && reading.tick == tick) {
+            if (reading.key == key && reading.tick == tick) {
                 reading.mean = spread.at("mean").number();
                 reading.count = spread.at("count").whole();
                 reading.variance = spread.at("variance").number();
@@ -78,7 +78,7 @@ void add_spread(AcceptedReference& reference, const CheckedJson& repeats) {
 void add_readings(AcceptedReference& reference, const CheckedJson& rows, const CheckedJson& repeats) {
     for (const CheckedJson& row : rows.items())
         if (row.at("drive").text() == reference.key.drive && row.at("variant").text() == reference.key.variant)
-            if (AcceptedReading reading = reading_of(row, repeats.at("count").whole()); !is_unit_of_time(reading.unit))
+            if (AcceptedReading reading = reading_of(row, repeats.at("count").whole()); !is_time(reading.key))
                 reference.readings.push_back(std::move(reading));
     add_spread(reference, repeats);
 }

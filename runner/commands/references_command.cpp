@@ -1,6 +1,5 @@
 #include "runner/commands/references_command.h"
 
-#include "metrics/readings/reading_words.h"
 #include "runner/commands/accept_command.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/json_text.h"
@@ -97,10 +96,10 @@ std::string figure_of(const AcceptedReading& reading) {
 Json reference_json(const StoredReference& entry, const AcceptedReference& reference) {
     Json out = entry_json(entry), readings = Json::array(), frames = Json::array();
     for (const AcceptedReading& reading : reference.readings)
-        readings.push_back({{"name", reading.name},
+        readings.push_back({{"name", name_of(reading.key)},
                             {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
                             {"mean", value_json(reading.mean)},
-                            {"unit", reading.unit},
+                            {"unit", unit_of(reading.key)},
                             {"count", reading.count},
                             {"variance", reading.variance}});
     for (const ReferenceFrame& frame : reference.frames)
@@ -140,8 +139,8 @@ void print_device_spread(const DeviceSpread& spread) {
     std::vector<std::vector<std::string>> rows{{"differs between devices", "frame", "mean", "unit", "classes", "standard deviation"}};
     for (const AcceptedReading& reading : spread.readings)
         if (reading.variance > 0.0)
-            rows.push_back({printable(reading.name, 100), reading.tick < 0 ? "" : fmt::format("{}", reading.tick), figure_of(reading),
-                            printable(reading.unit), fmt::format("{}", reading.count), fmt::format("{:.3g}", std::sqrt(reading.variance))});
+            rows.push_back({name_of(reading.key), reading.tick < 0 ? "" : fmt::format("{}", reading.tick), figure_of(reading),
+                            unit_of(reading.key), fmt::format("{}", reading.count), fmt::format("{:.3g}", std::sqrt(reading.variance))});
     if (rows.size() == 1)
         fmt::print("\n{} classes of device agree in every reading\n", spread.devices);
     else
@@ -159,8 +158,8 @@ int show(const ReferencesFlags& flags) {
     print_facts(entry, reference.producer);
     std::vector<std::vector<std::string>> readings{{"reading", "frame", "mean", "unit", "repeats", "standard deviation"}};
     for (const AcceptedReading& reading : reference.readings)
-        readings.push_back({printable(reading.name, 100), reading.tick < 0 ? "" : fmt::format("{}", reading.tick), figure_of(reading),
-                            printable(reading.unit), fmt::format("{}", reading.count),
+        readings.push_back({name_of(reading.key), reading.tick < 0 ? "" : fmt::format("{}", reading.tick), figure_of(reading),
+                            unit_of(reading.key), fmt::format("{}", reading.count),
                             reading.count > 1 ? fmt::format("{:.3g}", std::sqrt(reading.variance)) : ""});
     fmt::print("\n{}", table(readings));
     print_device_spread(spread_over_devices(flags.store, list_references(flags.store), entry.key));

@@ -1,7 +1,7 @@
-// Values in JSON: a number, {"at_least": 200}, {"at_most": 10}, or null.
+// Values in JSON: a number, {"at_least": 200}, {"at_most": 10}, or null; and names of readings.
 #pragma once
 
-#include "metrics/readings/value.h"
+#include "metrics/readings/readings.h"
 #include "runner/files/checked_json.h"
 
 #include <nlohmann/json.hpp>
@@ -21,6 +21,22 @@ inline Value value_in(const CheckedJson& json, const std::string& reason = {}) {
     if (json.has("at_most"))
         return Value::at_most(json.at("at_most").number());
     return Value::of(json.number_or_null(), reason);
+}
+
+/// Refuses what is no reading's name.
+inline ReadingKey key_in(const CheckedJson& name) {
+    const auto key = key_of(name.text());
+    if (!key)
+        name.refuse("the name of a reading");
+    return *key;
+}
+
+/// Of an object with a reading's name and unit.
+inline ReadingKey key_with_unit(const CheckedJson& row) {
+    ReadingKey key = key_in(row.at("name"));
+    if (const CheckedJson unit = row.at("unit"); unit.text() != unit_of(key))
+        unit.refuse(std::string("the unit ") + unit_of(key));
+    return key;
 }
 
 } // namespace fernlicht

@@ -131,7 +131,7 @@ struct CarRow {
 
 /// A reading over the repeats of a run.
 struct ReadingSpread {
-    std::string name;
+    ReadingKey key;
     int tick = -1;                     ///< -1: of the whole drive
     int count = 0;                     ///< repeats in which it was measured
     double mean = 0.0, variance = 0.0; ///< the sample's (n - 1)

@@ -9,33 +9,42 @@
 namespace fernlicht {
 namespace {
 
-constexpr double median = 0.5;
 constexpr const char* cut_off = "cut off by the end of the road or lane";
 
 /// What all readings of one plane, lane and limit share.
 struct Subject {
     ExtentKey key;
-    std::string stem;  ///< "5lx_road_own"
     std::string where; ///< "own lane on the road"
+
+    ReadingKey of(Quantity quantity, ReadingPlace place = ReadingPlace::none, Aspect aspect = Aspect::value) const {
+        return {.quantity = quantity,
+                .surface = key.plane == ExtentPlane::road ? ReadingSurface::road : ReadingSurface::target,
+                .lane = key.lane,
+                .threshold = {key.limit_lx, ThresholdUnit::lx},
+                .place = place,
+                .aspect = aspect};
+    }
 };
 
 Subject subject_of(const ExtentKey& key) {
     const std::string place = key.lane == "all" ? "whole width" : key.lane + " lane";
-    return {key, fmt::format("{}lx_{}_{}", key.limit_lx, plane_name(key.plane), name_part(key.lane)),
-            place + (key.plane == ExtentPlane::road ? ", on the road" : ", on a target")};
+    return {key, place + (key.plane == ExtentPlane::road ? ", on the road" : ", on a target")};
 }
 
-void add_quantile(Readings& readings, const std::string& name, const ManyMoments& moments, double share, const std::string& unit,
+void add_quantile(Readings& readings, ReadingKey key, Statistic statistic, const ManyMoments& moments, double share,
                   const std::string& where) {
-    readings.push_back({name, moments.quantile(share), unit, fmt::format("{}; {}", where, moments.account())});
+    key.statistic = statistic;
+    readings.push_back({std::move(key), moments.quantile(share), fmt::format("{}; {}", where, moments.account())});
 }
 
-/// Median without a suffix, then minimum and 5th percentile. `name` without its unit.
-void add_quantiles(Readings& readings, const std::string& name, const ManyMoments& moments, const std::string& unit,
-                   const std::string& where) {
-    add_quantile(readings, name + "_" + unit, moments, median, unit, where + ", median");
-    add_quantile(readings, name + "_min_" + unit, moments, 0.0, unit, where + ", smallest");
-    add_quantile(readings, name + "_p05_" + unit, moments, 0.05, unit, where + ", 5th percentile");
+void add_median(Readings& readings, const ReadingKey& key, const ManyMoments& moments, const std::string& where) {
+    add_quantile(readings, key, Statistic::median, moments, 0.5, where + ", median");
+}
+
+void add_quantiles(Readings& readings, const ReadingKey& key, const ManyMoments& moments, const std::string& where) {
+    add_median(readings, key, moments, where);
+    add_quantile(readings, key, Statistic::minimum, moments, 0.0, where + ", smallest");
+    add_quantile(readings, key, Statistic::p05, moments, 0.05, where + ", 5th percentile");
 }
 
 /// Folds the extents of one key. Light that goes on where the grid ends is "at least so far"; what the road's or the lane's end cuts off
@@ -106,50 +115,50 @@ class Folding {
 
 void add_extent(Readings& readings, const ExtentSummary& summary) {
     const Subject subject = subject_of(summary.key);
-    const std::string& stem = subject.stem;
     const std::string& where = subject.where;
     const bool all = subject.key.lane == "all"; // has no centre line and no edges of its own
-    const char* const centre = all ? ", line that reaches farthest" : ", centre";
-    const char *const left = all ? ", leftmost line looked at" : ", left edge", *const right =
-                                                                                    all ? ", rightmost line looked at" : ", right edge";
-    add_quantiles(readings, "reach_" + stem, summary.reach, "m", where + centre);
-    add_quantile(readings, "reach_" + stem + "_left_edge_m", summary.left_edge, median, "m", fmt::format("{}{}, median", where, left));
-    add_quantile(readings, "reach_" + stem + "_right_edge_m", summary.right_edge, median, "m", fmt::format("{}{}, median", where, right));
-    add_quantile(readings, "unlit_before_reach_" + stem + "_m", summary.unlit_before_reach, median, "m",
-                 fmt::format("{}{}, median", where, centre));
-    for (const auto& [at_m, width] : summary.widths)
-        add_quantiles(readings, fmt::format("width_{}_at_{}m", stem, at_m), width, "m", fmt::format("{}, {} m ahead", where, at_m));
-    add_quantiles(readings, "area_" + stem, summary.area, "m2", where);
-    add_quantile(readings, "reach_" + stem + "_twin_difference_m", summary.twin_difference, median, "m",
-                 where + ", |rendered - twin|, median");
-    add_quantile(readings, "reach_" + stem + "_twin_difference_worst_m", summary.twin_difference, 1.0, "m",
-                 where + ", |rendered - twin|, largest");
+    const std::string centre = where + (all ? ", line that reaches farthest" : ", centre"),
+                      left = where + (all ? ", leftmost line looked at" : ", left edge"),
+                      right = where + (all ? ", rightmost line looked at" : ", right edge");
+    add_quantiles(readings, subject.of(Quantity::reach), summary.reach, centre);
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::left_edge), summary.left_edge, left);
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::right_edge), summary.right_edge, right);
+    add_median(readings, subject.of(Quantity::unlit_before_reach), summary.unlit_before_reach, centre);
+    for (const auto& [at_m, width] : summary.widths) {
+        ReadingKey key = subject.of(Quantity::width);
+        key.distance_m = at_m;
+        add_quantiles(readings, key, width, fmt::format("{}, {} m ahead", where, at_m));
+    }
+    add_quantiles(readings, subject.of(Quantity::area), summary.area, where);
+    const ReadingKey twin = subject.of(Quantity::reach, ReadingPlace::none, Aspect::twin_difference);
+    add_median(readings, twin, summary.twin_difference, where + ", |rendered - twin|");
+    add_quantile(readings, twin, Statistic::maximum, summary.twin_difference, 1.0, where + ", |rendered - twin|, largest");
     if (subject.key.lane != "own")
         return;
-    add_quantile(readings, "reach_" + stem + "_per_tenth_degree_m", summary.per_tenth_degree, median, "m",
-                 where + ", gained by 0.1 degrees more pitch of all lamps, median");
-    add_quantile(readings, "reach_" + stem + "_per_tenth_flux_m", summary.per_tenth_flux, median, "m",
-                 where + ", gained by 10 % more flux, median");
-    add_quantile(readings, "reach_" + stem + "_grid_error_m", summary.grid_error, median, "m",
-                 where + ", grid of half the samples, median");
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::none, Aspect::per_tenth_degree), summary.per_tenth_degree,
+               where + ", gained by 0.1 degrees more pitch of all lamps");
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::none, Aspect::per_tenth_flux), summary.per_tenth_flux,
+               where + ", gained by 10 % more flux");
+    add_median(readings, subject.of(Quantity::reach, ReadingPlace::none, Aspect::grid_error), summary.grid_error,
+               where + ", grid of half the samples");
 }
 
 /// How far extents beside the own lane's reach and the whole width's area can be trusted: the grid's error in each of them.
 void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
-    const auto add = [&](const std::string& name, const std::string& unit, double LaneGridError::*figure) {
+    const auto add = [&](Quantity quantity, ReadingPlace place, double LaneGridError::*figure) {
         ManyMoments moments;
         for (const ExtentRow& row : played.extents)
             for (const LaneGridError& error : row.lane_grid_errors)
                 if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx && error.lane == subject.key.lane)
                     moments.add(error.*figure);
-        add_quantile(readings, name, moments, median, unit, subject.where + ", grid of half the samples, median");
+        add_median(readings, subject.of(quantity, place, Aspect::grid_error), moments, subject.where + ", grid of half the samples");
     };
     if (subject.key.lane != "own")
-        add("reach_" + subject.stem + "_grid_error_m", "m", &LaneGridError::reach_m);
-    add("reach_" + subject.stem + "_edge_grid_error_m", "m", &LaneGridError::edge_m);
-    add("unlit_before_reach_" + subject.stem + "_grid_error_m", "m", &LaneGridError::unlit_m);
+        add(Quantity::reach, ReadingPlace::none, &LaneGridError::reach_m);
+    add(Quantity::reach, ReadingPlace::edges, &LaneGridError::edge_m);
+    add(Quantity::unlit_before_reach, ReadingPlace::none, &LaneGridError::unlit_m);
     if (subject.key.lane != "all")
-        add("area_" + subject.stem + "_grid_error_m2", "m2", &LaneGridError::area_m2);
+        add(Quantity::area, ReadingPlace::none, &LaneGridError::area_m2);
 }
 
 void add_area_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
@@ -158,21 +167,21 @@ void add_area_trust(Readings& readings, const PlayedVariant& played, const Subje
         for (const GridError& error : row.grid_errors)
             if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx)
                 moments.add(error.area_m2);
-    add_quantile(readings, "area_" + subject.stem + "_grid_error_m2", moments, median, "m2",
-                 subject.where + ", grid of half the samples, median");
+    add_median(readings, subject.of(Quantity::area, ReadingPlace::none, Aspect::grid_error), moments,
+               subject.where + ", grid of half the samples");
 }
 
 void add_times(Readings& readings, const PassTime& pass) {
     const std::optional<Spread> spread = spread_of(pass.seconds);
-    const std::string stem = name_part(pass.name) + "_time_";
-    const auto add = [&](const std::string& statistic, const std::string& what, double seconds) {
-        readings.push_back({stem + statistic + "_ms", spread ? Value(1e3 * seconds) : Value::not_measured("no samples after the warm-up"),
-                            "ms", pass.name + ", " + what});
+    const auto add = [&](Statistic statistic, const std::string& what, double seconds) {
+        readings.push_back({{.quantity = Quantity::pass_time, .subject = pass_subject(pass.name), .statistic = statistic},
+                            spread ? Value(1e3 * seconds) : Value::not_measured("no samples after the warm-up"),
+                            pass.name + ", " + what});
     };
     const Spread figures = spread.value_or(Spread{});
-    add("median", "median", figures.median);
-    add("p95", "95th percentile", figures.p95);
-    add("spread", "95th less 5th percentile", figures.p95 - figures.p05);
+    add(Statistic::median, "median", figures.median);
+    add(Statistic::p95, "95th percentile", figures.p95);
+    add(Statistic::spread, "95th less 5th percentile", figures.p95 - figures.p05);
 }
 
 } // namespace

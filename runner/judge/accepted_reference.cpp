@@ -23,7 +23,7 @@ Json texts_json(const std::vector<std::pair<std::string, std::string>>& texts) {
 
 /// What goes without saying is left out: of the whole drive, played once, no variance.
 Json reading_json(const AcceptedReading& reading) {
-    Json json{{"name", reading.name}, {"unit", reading.unit}, {"mean", value_json(reading.mean)}};
+    Json json{{"name", name_of(reading.key)}, {"unit", unit_of(reading.key)}, {"mean", value_json(reading.mean)}};
     if (reading.tick >= 0)
         json["frame"] = reading.tick;
     if (reading.count != (reading.mean.measured() ? 1 : 0))
@@ -36,7 +36,7 @@ Json reading_json(const AcceptedReading& reading) {
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 AcceptedReading read_reading(const CheckedJson& json) {
-    AcceptedReading reading{json.at("name").text(), json.at("unit").text(), -1, value_in(json.at("mean")), 0, 0.0};
+    AcceptedReading reading{key_with_unit(json), -1, value_in(json.at("mean")), 0, 0.0};
     reading.tick = json.has("frame") ? json.at("frame").whole() : -1;
     reading.count = json.has("count") ? json.at("count").whole() : reading.mean.measured() ? 1 : 0;
     reading.variance = json.has("variance") ? json.at("variance").number() : 0.0;

@@ -1,7 +1,7 @@
 // Accepted results of one drive with one lamp set, technique and class of device: what later runs are judged by.
 #pragma once
 
-#include "metrics/readings/value.h"
+#include "metrics/readings/readings.h"
 #include "runner/judge/reference_key.h"
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace fernlicht {
 
 /// A reading over the repeats in which it was measured.
 struct AcceptedReading {
-    std::string name, unit;
+    ReadingKey key;
     int tick = -1;         ///< -1: of the whole drive
     Value mean;            ///< without a reason where it is not measured
     int count = 1;         ///< repeats

@@ -3,20 +3,20 @@
 #include "metrics/statistics/statistics.h"
 
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace fernlicht {
 namespace {
 
-/// What tells readings apart: in the order of their names, then of their moments.
-using Name = std::tuple<std::string, int, std::string>;
+/// What tells readings apart.
+using Name = std::pair<ReadingKey, int>;
 using Values = std::map<Name, std::vector<double>>;
 
 Values values_of(const AcceptedReference& reference) {
     Values values;
     for (const AcceptedReading& reading : reference.readings)
         if (const auto mean = reading.mean.figure())
-            values[{reading.name, reading.tick, reading.unit}].push_back(*mean);
+            values[{reading.key, reading.tick}].push_back(*mean);
     return values;
 }
 
@@ -42,9 +42,8 @@ DeviceSpread spread_over_devices(const std::filesystem::path& store, const std::
     for (const auto& [name, samples] : means)
         if (samples.size() == spread.devices) {
             const Spread over = *spread_of(samples);
-            const auto& [reading, tick, unit] = name;
             spread.readings.push_back(
-                {reading, unit, tick, over.mean, static_cast<int>(over.count), over.standard_deviation * over.standard_deviation});
+                {name.first, name.second, over.mean, static_cast<int>(over.count), over.standard_deviation * over.standard_deviation});
         }
     return spread;
 }

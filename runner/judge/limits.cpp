@@ -1,13 +1,11 @@
 #include "runner/judge/limits.h"
 
-#include "metrics/readings/reading_words.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <regex>
 
 namespace fernlicht {
 namespace {
@@ -37,9 +35,10 @@ std::string figure(const Limit& limit, double value) {
 
 /// The readings that a limit means: the whole drive's, else those of moments.
 std::vector<const Reading*> meant(const Limit& limit, const Readings& readings) {
+    const auto key = key_of(limit.reading);
     std::vector<const Reading*> named;
     for (const Reading& reading : readings)
-        if (reading.name == limit.reading)
+        if (reading.key == key)
             named.push_back(&reading);
     if (std::ranges::any_of(named, [](const Reading* reading) { return reading->tick < 0; }))
         std::erase_if(named, [](const Reading* reading) { return reading->tick >= 0; });
@@ -49,7 +48,7 @@ std::vector<const Reading*> meant(const Limit& limit, const Readings& readings) 
 Verdict unknown(const Limit& limit, const Readings& readings) {
     std::vector<std::string> names;
     for (const Reading& reading : readings)
-        names.push_back(reading.name);
+        names.push_back(reading.name());
     const std::string nearest = nearest_name(limit.reading, names);
     const std::string hint = nearest.empty() ? "" : fmt::format("; the nearest name is {}", nearest);
     return {VerdictKind::not_measured, limit.reading, fmt::format("there is no reading of this name{}", hint), ""};
@@ -72,12 +71,12 @@ Verdict judge(const Limit& limit, const Readings& readings) {
     }
     const bool fails = worst && holds(worst->value, limit.at_least, limit.at_most) == false;
     const Reading& told = missing && !fails ? *missing : *worst;
-    const std::string found = told.value.measured() ? with_bound(told.value, figure(limit, *told.value.figure())) + " " + told.unit
+    const std::string found = told.value.measured() ? with_bound(told.value, figure(limit, *told.value.figure())) + " " + told.unit()
                                                     : "not measured: " + told.value.reason();
     return {fails     ? VerdictKind::fail
             : missing ? VerdictKind::not_measured
                       : VerdictKind::pass,
-            limit.reading, fmt::format("{}{}, {}", found, moment_text(told), limit_text(limit, told.unit)), ""};
+            limit.reading, fmt::format("{}{}, {}", found, moment_text(told), limit_text(limit, told.unit())), ""};
 }
 
 } // namespace

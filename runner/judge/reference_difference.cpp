@@ -2,7 +2,6 @@
 
 #include "metrics/images/image_difference.h"
 #include "metrics/images/noisy_difference.h"
-#include "metrics/readings/reading_words.h"
 #include "metrics/statistics/spread_test.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
@@ -15,15 +14,17 @@ namespace fernlicht {
 namespace {
 
 std::string value_text(const AcceptedReading& reading) {
-    return reading.mean.measured() ? with_bound(reading.mean, fmt::format("{:.7g} {}", *reading.mean.figure(), reading.unit))
+    return reading.mean.measured() ? with_bound(reading.mean, fmt::format("{:.7g} {}", *reading.mean.figure(), unit_of(reading.key)))
                                    : "not measured";
 }
 
 std::string label_of(const AcceptedReading& reading) {
-    return reading.tick < 0 ? reading.name : fmt::format("{} at frame {}", reading.name, reading.tick);
+    return name_of(reading.key) + (reading.tick < 0 ? "" : fmt::format(" at frame {}", reading.tick));
 }
 
-ResultDifference only_one(const std::string& what, const std::string& text) { return {what, Agreement::differs, text, 0.0}; }
+ResultDifference only_one(const std::string& what, const std::string& text, const std::optional<ReadingKey>& reading = {}) {
+    return {what, Agreement::differs, text, 0.0, reading};
+}
 
 /// By the spread over the repeats: the tolerance for rounding, and on top what chance reaches.
 ResultDifference judge_by_spread(ResultDifference difference, double off, double rounding, const SpreadTest& test,
@@ -45,10 +46,10 @@ ResultDifference judge_by_spread(ResultDifference difference, double off, double
 
 ResultDifference compare(const AcceptedReading& tested, const AcceptedReading& accepted, const ReferenceTolerance& tolerance,
                          std::size_t comparisons) {
-    ResultDifference difference{label_of(accepted), Agreement::agrees, "", 0.0};
+    ResultDifference difference{label_of(accepted), Agreement::agrees, "", 0.0, accepted.key};
     const std::string text = fmt::format("{}, accepted {}", value_text(tested), value_text(accepted));
-    if (tested.unit != accepted.unit || tested.mean.measured() != accepted.mean.measured())
-        return only_one(difference.what, text);
+    if (tested.mean.measured() != accepted.mean.measured())
+        return only_one(difference.what, text, accepted.key);
     difference.text = text;
     if (!accepted.mean.measured())
         return difference;
@@ -148,18 +149,18 @@ void compare_channels(std::vector<ResultDifference>& out, const std::string& lab
 
 std::vector<ResultDifference> compare_readings(const std::vector<AcceptedReading>& tested, const std::vector<AcceptedReading>& accepted,
                                                const ReferenceTolerance& tolerance) {
-    const auto same = [](const AcceptedReading& a, const AcceptedReading& b) { return a.name == b.name && a.tick == b.tick; };
+    const auto same = [](const AcceptedReading& a, const AcceptedReading& b) { return a.key == b.key && a.tick == b.tick; };
     std::vector<ResultDifference> out;
     for (const AcceptedReading& reference : accepted) {
         const auto found = std::ranges::find_if(tested, [&](const AcceptedReading& reading) { return same(reading, reference); });
         if (found == tested.end())
-            out.push_back(only_one(label_of(reference), "not in this run, accepted " + value_text(reference)));
+            out.push_back(only_one(label_of(reference), "not in this run, accepted " + value_text(reference), reference.key));
         else
             out.push_back(compare(*found, reference, tolerance, accepted.size()));
     }
     for (const AcceptedReading& reading : tested)
         if (std::ranges::none_of(accepted, [&](const AcceptedReading& reference) { return same(reading, reference); }))
-            out.push_back(only_one(label_of(reading), value_text(reading) + ", nothing accepted to compare with"));
+            out.push_back(only_one(label_of(reading), value_text(reading) + ", nothing accepted to compare with", reading.key));
     return out;
 }
 

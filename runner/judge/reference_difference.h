@@ -26,8 +26,9 @@ enum class Agreement { agrees, differs, undecided };
 struct ResultDifference {
     std::string what; ///< "reach_5lx_road_own_m", "10 driver"
     Agreement agreement = Agreement::agrees;
-    std::string text;        ///< figures, and what they are judged by
-    double of_allowed = 0.0; ///< how far off, 1: as far as is allowed; to find the farthest of those that agree
+    std::string text;                       ///< figures, and what they are judged by
+    double of_allowed = 0.0;                ///< how far off, 1: as far as is allowed; to find the farthest of those that agree
+    std::optional<ReadingKey> reading = {}; ///< nullopt for frames
 };
 
 /// One entry for each reading that either side has. A reading that varies over the repeats of either side is judged by Student's test

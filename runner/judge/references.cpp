@@ -60,8 +60,6 @@ std::string input_text(const std::string& name, const Inputs& of_run) {
     return name == "lamp file 1" && !several ? "lamp file" : name;
 }
 
-bool usually_decides(const std::string& reading) { return std::ranges::find(usual_readings(), reading) != usual_readings().end(); }
-
 struct MovedReadings {
     std::size_t count;
     std::string text;
@@ -76,12 +74,12 @@ MovedReadings moved_readings(const AcceptedReference& run, const AcceptedReferen
     if (differences.empty())
         return {0, fmt::format("all {} readings agree", all)};
     const ResultDifference& farthest = *std::ranges::max_element(differences, {}, [](const ResultDifference& difference) {
-        return std::tuple(usually_decides(difference.what), !says_how_exact(difference.what), difference.of_allowed);
+        return std::tuple(is_named(*difference.reading, usual_readings()), !says_how_exact(*difference.reading), difference.of_allowed);
     });
-    return {differences.size(),
-            fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
-                        usually_decides(farthest.what) ? "of those that usually decide the farthest off" : "the farthest off",
-                        farthest.what, farthest.text)};
+    return {differences.size(), fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
+                                            is_named(*farthest.reading, usual_readings()) ? "of those that usually decide the farthest off"
+                                                                                          : "the farthest off",
+                                            farthest.what, farthest.text)};
 }
 
 /// Why there is nothing to judge by. Where all but the inputs is known, which of them are others, and what that came to.
@@ -183,13 +181,12 @@ AcceptedReference results_of(const PlayedVariant& played, const RunContext& cont
     results.key = reference_key(played.drive, played.variant, technique, context, played.inputs);
     results.producer = {context.versions, context.gl_version, context.cpu, context.os, played.inputs};
     for (const Reading& reading : played.readings) {
-        if (is_unit_of_time(reading.unit))
+        if (is_time(reading.key))
             continue;
-        AcceptedReading result{
-            reading.name, reading.unit, reading.tick, without_reason(reading.value), reading.value.measured() ? played.repeats.count : 0,
-            0.0};
+        AcceptedReading result{reading.key, reading.tick, without_reason(reading.value),
+                               reading.value.measured() ? played.repeats.count : 0, 0.0};
         for (const ReadingSpread& spread : played.repeats.spread)
-            if (spread.name == reading.name && spread.tick == reading.tick) {
+            if (spread.key == reading.key && spread.tick == reading.tick) {
                 result.mean = spread.mean;
                 result.count = spread.count;
                 result.variance = spread.variance;

@@ -1,6 +1,5 @@
 #include "runner/judge/repeats.h"
 
-#include "metrics/readings/reading_words.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/judge/verdict_json.h"
 #include "scenarios/values/errors.h"
@@ -57,11 +56,11 @@ bool same(const Value& a, const Value& b) {
 
 std::string value_text(const Reading& reading) {
     const Value& value = reading.value;
-    return value.measured() ? with_bound(value, fmt::format("{} {}", *value.figure(), reading.unit)) : "not measured: " + value.reason();
+    return value.measured() ? with_bound(value, fmt::format("{} {}", *value.figure(), reading.unit())) : "not measured: " + value.reason();
 }
 
 std::string label_of(const Reading& reading) {
-    return reading.tick < 0 ? reading.name : fmt::format("{} at frame {}", reading.name, reading.tick);
+    return reading.name() + (reading.tick < 0 ? "" : fmt::format(" at frame {}", reading.tick));
 }
 
 /// Where two files differ first; "" where they are the same.
@@ -147,7 +146,7 @@ bool RepeatFold::add(const PlayedVariant& again, const std::filesystem::path& fo
         const Reading &a = first_->readings[i], &b = again.readings[i];
         if (const auto number = b.value.number())
             values_[i].push_back(*number);
-        if (a.name == b.name && a.tick == b.tick && same(a.value, b.value))
+        if (a.key == b.key && a.tick == b.tick && same(a.value, b.value))
             continue;
         readings.add(fmt::format("{}: {}, at first {}", label_of(b), value_text(b), value_text(a)));
         if (std::ranges::find(varying_, i) == varying_.end())
@@ -171,7 +170,7 @@ void RepeatFold::finish(PlayedVariant& first, int asked, const std::string& reru
         if (values == values_.end())
             continue;
         const std::optional<Spread> spread = spread_of(values->second);
-        first.repeats.spread.push_back({first.readings[i].name, first.readings[i].tick, static_cast<int>(spread->count), spread->mean,
+        first.repeats.spread.push_back({first.readings[i].key, first.readings[i].tick, static_cast<int>(spread->count), spread->mean,
                                         spread->standard_deviation * spread->standard_deviation});
     }
     Verdict verdict{VerdictKind::pass, "repeats", "", rerun};

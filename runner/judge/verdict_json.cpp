@@ -66,7 +66,7 @@ nlohmann::ordered_json counts_json(const VerdictCounts& counts) {
 nlohmann::ordered_json repeats_json(const Repeats& repeats) {
     Json spread = Json::array();
     for (const ReadingSpread& reading : repeats.spread)
-        spread.push_back({{"name", reading.name},
+        spread.push_back({{"name", name_of(reading.key)},
                           {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
                           {"count", reading.count},
                           {"mean", reading.mean},

@@ -55,18 +55,19 @@ Readings ProbeFold::finish() const {
         const Probe& probe = drive_.probes[i];
         const std::string where = fmt::format("{} m ahead, {} m left, {} m above the road{}", probe.ahead_m, probe.left_m, probe.above_m,
                                               found_[i].near_field ? ", near-field: nearer than a lamp's photometric distance" : "");
-        const auto say = [&](const char* suffix, std::optional<double> value, const std::string& why_not) {
-            readings.push_back({fmt::format("probe_{}{}_lx", probe.name, suffix), Value::of(value, why_not), "lx", where});
+        const auto say = [&](Statistic statistic, Aspect aspect, std::optional<double> value, const std::string& why_not) {
+            const ReadingKey key{.quantity = Quantity::probe_illuminance, .subject = probe.name, .aspect = aspect, .statistic = statistic};
+            readings.push_back({key, Value::of(value, why_not), where});
         };
         const std::optional<Spread> drawn = spread_of(found_[i].drawn), twin = spread_of(found_[i].twin);
         const std::string unseen = probe.above_m != 0.0  ? "the point is not on a surface that is drawn"
                                    : found_[i].not_drawn ? no_illuminance(drive_.technique)
                                                          : "no moment was played";
-        say("", drawn ? std::optional(drawn->median) : std::nullopt, unseen);
-        say("_min", drawn ? std::optional(drawn->minimum) : std::nullopt, unseen);
-        say("_max", drawn ? std::optional(drawn->maximum) : std::nullopt, unseen);
+        say(Statistic::median, Aspect::value, drawn ? std::optional(drawn->median) : std::nullopt, unseen);
+        say(Statistic::minimum, Aspect::value, drawn ? std::optional(drawn->minimum) : std::nullopt, unseen);
+        say(Statistic::maximum, Aspect::value, drawn ? std::optional(drawn->maximum) : std::nullopt, unseen);
         const bool known = twin && !found_[i].beside_road;
-        say("_twin", known ? std::optional(twin->median) : std::nullopt,
+        say(Statistic::median, Aspect::twin, known ? std::optional(twin->median) : std::nullopt,
             twin ? "the point lies beside the pavement: the twin knows the road's surface, not the verge" : "no moment was played");
     }
     return readings;

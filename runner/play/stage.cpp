@@ -1,6 +1,6 @@
 #include "runner/play/stage.h"
 
-#include "metrics/folds/limit_names.h"
+#include "metrics/folds/reading_names.h"
 #include "metrics/folds/seeing_fold.h"
 #include "renderer/technique.h"
 #include "scenarios/drives/play/advance.h"
@@ -37,7 +37,7 @@ Route::Start start_of(const Drive& drive) {
 Stage::Stage(Drive d)
     : drive(std::move(d)), network(network_of(drive)), route(network, start_of(drive), drive.via),
       scene(staged_scene(drive, network, route)) {
-    check_limit_names(drive, SeeingFold(drive, route).readings());
+    check_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);
     if (drive.extent && !drive.traffic.empty())
         drive.notes.emplace_back(

@@ -31,9 +31,9 @@ struct StoredRun {
         result.technique = "photometric";
         result.ticks_planned = result.ticks_done = 20;
         result.inputs = {{"drive", "hash of the drive"}, {"road", "hash of the road"}};
-        result.readings = {{"reach_5lx_road_own_m", 60.0 * light, "m", "", -1},
-                           {"reach_1lx_road_own_m", Value::not_measured("beyond"), "m", "", -1},
-                           {"frame_time_median_ms", 12.5 + 100.0 * light, "ms", "", -1}};
+        result.readings = {{key_of("reach_5lx_road_own_m").value(), 60.0 * light},
+                           {key_of("reach_1lx_road_own_m").value(), Value::not_measured("beyond")},
+                           {key_of("frame_time_median_ms").value(), 12.5 + 100.0 * light}};
         for (const int tick : {0, 10}) {
             const std::string exr = "frames/" + variant + "-" + std::to_string(tick) + ".exr";
             write_frame(exr, tick, light);

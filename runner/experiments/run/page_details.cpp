@@ -1,4 +1,3 @@
-#include "metrics/readings/reading_words.h"
 #include "runner/experiments/run/page_parts.h"
 #include "runner/files/clean_text.h"
 
@@ -12,9 +11,7 @@ using kainjow::mustache::data;
 using List = data::type;
 
 /// What tells one reading of a drive from another; the lamp set does not.
-bool same_reading(const Reading& a, const Reading& b) {
-    return a.name == b.name && a.where == b.where && a.tick == b.tick && a.unit == b.unit;
-}
+bool same_reading(const Reading& a, const Reading& b) { return a.key == b.key && a.where == b.where && a.tick == b.tick; }
 
 const Reading* find_reading(const PlayedVariant& played, const Reading& wanted) {
     const auto found =
@@ -36,9 +33,9 @@ data reading_row(const ComparedDrive& drive, const Reading& reading) {
         cell.set("why_not", !own ? "not asked for" : own->value.measured() ? "" : "not measured: " + clean_text(own->value.reason()));
         cells.push_back(cell);
     }
-    row.set("name", clean_text(reading.name));
+    row.set("name", clean_text(reading.name()));
     row.set("cells", cells);
-    row.set("unit", unit_text(reading.unit));
+    row.set("unit", unit_text(reading.unit()));
     row.set("where", clean_text(reading.where));
     row.set("frame", reading.tick < 0 ? "whole drive" : fmt::format("{}", reading.tick));
     return row;

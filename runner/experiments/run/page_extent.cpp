@@ -1,4 +1,3 @@
-#include "metrics/readings/reading_words.h"
 #include "runner/experiments/run/page_parts.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"

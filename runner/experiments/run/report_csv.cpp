@@ -3,22 +3,40 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <stdexcept>
 
 namespace fernlicht {
 
 std::string report_csv(const Report& report) {
-    std::string out = "drive,variant,name,value,unit,where,frame,time_s,not_measured,bound\r\n";
+    std::string out = "drive,lamp_set,technique,frame,quantity,aspect,threshold,threshold_unit,surface,lane,place,distance_m,statistic,"
+                      "subject,bound,value,unit,reason,where,name\r\n";
+    const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; };
     for (const PlayedVariant& played : report.played)
         for (const Reading& reading : played.readings) {
-            std::string time_s;
-            for (const ExtentRow& row : played.extents)
-                if (row.tick == reading.tick)
-                    time_s = fmt::format("{}", row.time_s);
-            out += fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", csv_text(played.drive), csv_text(played.variant),
-                               csv_text(reading.name), reading.value.measured() ? fmt::format("{}", *reading.value.figure()) : "",
-                               csv_text(reading.unit), csv_text(reading.where), reading.tick < 0 ? "" : fmt::format("{}", reading.tick),
-                               time_s, csv_text(reading.value.reason()), bound_name(reading.value));
+            const ReadingKey& key = reading.key;
+            const bool has_threshold = key.threshold.unit != ThresholdUnit::none;
+            const std::string fields[] = {csv_text(played.drive),
+                                          csv_text(played.variant),
+                                          csv_text(played.technique),
+                                          reading.tick < 0 ? "" : fmt::format("{}", reading.tick),
+                                          row_of(key.quantity).id,
+                                          name_of(key.aspect),
+                                          has_threshold ? number(key.threshold.value) : "",
+                                          name_of(key.threshold.unit),
+                                          name_of(key.surface),
+                                          key.lane,
+                                          name_of(key.place),
+                                          number(key.distance_m),
+                                          name_of(key.statistic),
+                                          csv_text(key.subject),
+                                          bound_name(reading.value),
+                                          number(reading.value.figure()),
+                                          csv_text(reading.unit()),
+                                          csv_text(reading.value.reason()),
+                                          csv_text(reading.where),
+                                          csv_text(reading.name())};
+            out += fmt::format("{}\r\n", fmt::join(fields, ","));
         }
     return out;
 }

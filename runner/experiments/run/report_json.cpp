@@ -77,9 +77,9 @@ Json rows_json(const Report& report) {
     Json rows = Json::array();
     for (const PlayedVariant& played : report.played)
         for (const Reading& reading : played.readings) {
-            Json row{{"name", reading.name},
+            Json row{{"name", reading.name()},
                      {"value", value_json(reading.value)},
-                     {"unit", reading.unit},
+                     {"unit", reading.unit()},
                      {"where", reading.where},
                      {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
                      {"drive", played.drive},

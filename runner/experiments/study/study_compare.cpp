@@ -1,4 +1,3 @@
-#include "metrics/readings/reading_words.h"
 #include "runner/experiments/study/study_result.h"
 #include "runner/findings/summary.h"
 #include "scenarios/values/errors.h"
@@ -20,14 +19,14 @@ double noise_between(const StudyResult& result, const std::string& tested, const
     return noise;
 }
 
-Change change_of(const StudyResult& result, std::size_t tested, std::size_t against, const std::string& name) {
+Change change_of(const StudyResult& result, std::size_t tested, std::size_t against, const ReadingKey& key) {
     Change change;
     const CellResult &now = result.cells[tested], &before = result.cells[against];
     const double noise = noise_between(result, result.study.lamps[now.cell.lamp].name, result.study.lamps[before.cell.lamp].name);
-    static_cast<ReadingChange&>(change) = change_of_reading(name, now, before, noise);
+    static_cast<ReadingChange&>(change) = change_of_reading(key, now, before, noise);
     change.tested = tested;
     change.against = against;
-    change.decides = std::ranges::find(result.study.readings, name) != result.study.readings.end();
+    change.decides = is_named(key, result.study.readings);
     return change;
 }
 
@@ -44,9 +43,9 @@ void compare_pair(StudyResult& result, const StudyComparison& comparison) {
             const CellResult &a = result.cells[i], &b = result.cells[k];
             if (lamp_of(a) != comparison.tested || lamp_of(b) != comparison.against || !is_same_place(a.cell, b.cell))
                 continue;
-            for (const auto& [name, reading] : a.readings)
-                if (!says_how_exact(name) && !is_unit_of_time(reading.unit) && b.readings.contains(name))
-                    result.changes.push_back(change_of(result, i, k, name));
+            for (const auto& [key, reading] : a.readings)
+                if (!says_how_exact(key) && !is_time(key) && b.readings.contains(key))
+                    result.changes.push_back(change_of(result, i, k, key));
         }
 }
 
@@ -57,7 +56,7 @@ void rank(StudyResult& result) {
         if (result.changes[i].kind == ChangeKind::real && result.changes[i].decides)
             order.push_back(i);
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return result.changes[i].size(); });
-    std::set<std::string> shown;
+    std::set<ReadingKey> shown;
     for (const std::size_t i : order)
         if (result.largest.size() < 3 && shown.insert(result.changes[i].reading).second)
             result.largest.push_back(i);
@@ -78,65 +77,74 @@ Verdict verdict_on(const std::string& name, const Value& value, const std::strin
 }
 
 /// Of all cells that were played.
-std::set<std::string> names_in(const StudyResult& result) {
-    std::set<std::string> names;
+std::set<ReadingKey> keys_in(const StudyResult& result) {
+    std::set<ReadingKey> keys;
     for (const CellResult& cell : result.cells)
-        for (const auto& [name, reading] : cell.readings)
-            names.insert(name);
-    return names;
+        for (const auto& [key, reading] : cell.readings)
+            keys.insert(key);
+    return keys;
 }
 
-std::string no_such_reading(const std::string& name, const std::set<std::string>& names) {
+std::string no_such_reading(const std::string& name, const std::set<ReadingKey>& keys) {
+    std::vector<std::string> names;
+    for (const ReadingKey& key : keys)
+        names.push_back(name_of(key));
+    std::ranges::sort(names);
     const std::string nearest = nearest_name(name, names);
     return "there is no reading of this name" + (nearest.empty() ? "" : "; the nearest name is " + nearest);
 }
 
+bool is_in(const std::set<ReadingKey>& keys, const std::optional<ReadingKey>& key) { return key && keys.contains(*key); }
+
 /// A reading that the study names and that nothing has decides nothing, and must not look as if it had not changed. Of the usual ones a
 /// drive need not have all.
 void judge_deciding(StudyResult& result) {
-    const std::set<std::string> names = names_in(result);
-    if (result.study.readings == usual_readings() || names.empty()) // cells that were not played say so themselves
+    const std::set<ReadingKey> keys = keys_in(result);
+    if (result.study.readings == usual_readings() || keys.empty()) // cells that were not played say so themselves
         return;
     for (const std::string& name : result.study.readings) {
         const auto missing = [&](const std::string& why) {
             result.verdicts.push_back({VerdictKind::not_measured, "deciding reading " + name, why, result.context.command});
         };
-        if (!names.contains(name))
-            missing(no_such_reading(name, names));
-        else if (!result.changes.empty() && std::ranges::find(result.changes, name, &ReadingChange::reading) == result.changes.end())
+        const auto key = key_of(name);
+        if (!is_in(keys, key))
+            missing(no_such_reading(name, keys));
+        else if (!result.changes.empty() && std::ranges::find(result.changes, *key, &ReadingChange::reading) == result.changes.end())
             missing("no two cells were compared by it: it is a time, says how exact another is, or one lamp alone has it");
     }
 }
 
 void judge_values(StudyResult& result, const StudyLimit& limit) {
+    const auto key = key_of(limit.reading);
     for (const CellResult& cell : result.cells) {
         if (!limit.lamp.empty() && result.study.lamps[cell.cell.lamp].name != limit.lamp)
             continue;
-        const auto found = cell.readings.find(limit.reading);
+        const auto found = key ? cell.readings.find(*key) : cell.readings.end();
         const bool known = found != cell.readings.end();
         const Value value = known ? found->second.value
-                                  : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, names_in(result))
+                                  : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, keys_in(result))
                                                                             : "the cell was not played: " + cell.failed);
-        result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, value, known ? found->second.unit : "", limit.at_least,
+        result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, value, known ? unit_of(*key) : "", limit.at_least,
                                              limit.at_most, cell.command));
     }
 }
 
 void judge_changes(StudyResult& result, const StudyLimit& limit) {
+    const auto key = key_of(limit.reading);
     bool found = false;
     for (const Change& change : result.changes) {
-        if (change.reading != limit.reading)
+        if (change.reading != key)
             continue;
         found = true;
         const CellResult& cell = result.cells[change.tested];
-        result.verdicts.push_back(verdict_on(cell.cell.name + ": change of " + limit.reading, change.change(), change.unit,
+        result.verdicts.push_back(verdict_on(cell.cell.name + ": change of " + limit.reading, change.change(), change.unit(),
                                              limit.change_at_least, limit.change_at_most, cell.command));
     }
-    const std::set<std::string> names = names_in(result);
+    const std::set<ReadingKey> keys = keys_in(result);
     if (!found)
         result.verdicts.push_back(
             {VerdictKind::not_measured, "change of " + limit.reading,
-             names.empty() || names.contains(limit.reading) ? "no comparison has this reading" : no_such_reading(limit.reading, names),
+             keys.empty() || is_in(keys, key) ? "no comparison has this reading" : no_such_reading(limit.reading, keys),
              result.context.command});
 }
 

@@ -58,8 +58,7 @@ std::set<std::pair<ExtentPlane, double>> plotted_reaches(const StudyResult& resu
     std::set<std::pair<ExtentPlane, double>> keys;
     for (const CellResult& cell : result.cells)
         for (const ReachOverDrive& reach : cell.reaches) {
-            const std::string name = fmt::format("reach_{}lx_{}_own_m", reach.limit_lx, plane_name(reach.plane));
-            if (std::ranges::find(result.study.readings, name) != result.study.readings.end())
+            if (is_named(reach.key(), result.study.readings))
                 keys.emplace(reach.plane, reach.limit_lx);
         }
     return keys;
@@ -96,14 +95,14 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
 void add_glares(const StudyResult& result, const std::vector<std::size_t>& group, std::vector<StudyFigure>& figures) {
     for (const GlareOverDrive& first : result.cells[group.front()].glares) {
         plots::Figure figure;
-        figure.title = "Glare: " + short_text(eyes_in_words(first.subject), 50);
+        figure.title = "Glare: " + short_text(eyes_in_words(first.eye), 50);
         figure.subtitle = place_of(result, group);
         figure.width_px = 560.0;
         figure.height_px = 300.0;
         std::vector<double> xs, ys;
         for (const std::size_t cell : group)
             for (const GlareOverDrive& glare : result.cells[cell].glares) {
-                if (glare.subject != first.subject)
+                if (glare.eye != first.eye)
                     continue;
                 plots::Series line{short_text(lamp_of(result, cell), 24), {}, colour_of(result, cell), 1.6, "", glare.at_m.size() == 1};
                 for (std::size_t i = 0; i < glare.at_m.size(); ++i)
@@ -114,7 +113,7 @@ void add_glares(const StudyResult& result, const std::vector<std::size_t>& group
             }
         figure.x = plots::axis_around(first.over, "m", xs);
         figure.y = plots::axis_around("illuminance facing the lamps", "lx", ys, plots::Scale::logarithmic);
-        figures.push_back({fmt::format("glare-{}_{}", file_name_of(first.subject), group_name(result, group)),
+        figures.push_back({fmt::format("glare-{}_{}", file_name_of(eye_name(first.eye)), group_name(result, group)),
                            figure.title + ": " + figure.subtitle, plots::svg_of(figure), group});
     }
 }

@@ -19,8 +19,8 @@ Json or_null(const std::optional<double>& value) { return value ? Json(*value) :
 Json cell_json(const StudyResult& result, const CellResult& cell) {
     const StudyConditions& c = result.study.conditions;
     Json readings = Json::array();
-    for (const auto& [name, reading] : cell.readings) {
-        Json row{{"name", name}, {"value", value_json(reading.value)}, {"unit", reading.unit}};
+    for (const auto& [key, reading] : cell.readings) {
+        Json row{{"name", name_of(key)}, {"value", value_json(reading.value)}, {"unit", unit_of(key)}};
         if (!reading.value.measured())
             row["not_measured"] = reading.value.reason();
         readings.push_back(std::move(row));
@@ -47,8 +47,8 @@ Json change_json(const StudyResult& result, std::size_t index) {
     Json row{{"id", fmt::format("c{}", index)},
              {"new_cell", result.cells[change.tested].cell.name},
              {"old_cell", result.cells[change.against].cell.name},
-             {"reading", change.reading},
-             {"unit", change.unit},
+             {"reading", name_of(change.reading)},
+             {"unit", change.unit()},
              {"old_value", value_json(change.old_value)},
              {"new_value", value_json(change.new_value)},
              {"change", value_json(found)},

@@ -40,8 +40,8 @@ data change_part(const StudyResult& result, std::size_t index) {
     part.set("drive", clean_text(result.cells[change.tested].drive));
     part.set("condition", clean_text(result.cells[change.tested].cell.condition));
     part.set("reading", clean_text(reading_in_words(change.reading)));
-    part.set("name", clean_text(change.reading));
-    part.set("unit", clean_text(unit_in_words(change.unit)));
+    part.set("name", clean_text(name_of(change.reading)));
+    part.set("unit", clean_text(unit_in_words(change.unit())));
     part.set("old", cell_value(change.old_value));
     part.set("new", cell_value(change.new_value));
     part.set("old_key", sort_key(change.old_value.figure()));

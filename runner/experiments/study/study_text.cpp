@@ -88,7 +88,7 @@ std::vector<std::string> table_row(const StudyResult& result, const Change& chan
             escape(cell_text(change.new_value, "{:.2f}")),
             escape(cell_text(change.change(), "{:+.2f}")),
             change.uncertainty ? fmt::format("{:.2f}", change.unsure()) : "--",
-            escape(unit_in_words(change.unit)),
+            escape(unit_in_words(change.unit())),
             change_name(change.kind)};
 }
 
@@ -102,7 +102,7 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
 
 std::string delta_text(const Change& change) {
     const Value found = change.change();
-    return fmt::format("{} {}{}", with_bound(found, fmt::format("{:+.2f}", found.figure().value_or(0.0))), unit_in_words(change.unit),
+    return fmt::format("{} {}{}", with_bound(found, fmt::format("{:+.2f}", found.figure().value_or(0.0))), unit_in_words(change.unit()),
                        change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "");
 }
 
@@ -133,8 +133,8 @@ std::string study_text(const StudyResult& result) {
         text += "no deciding reading changed beyond what calculation, the tables' noise and 0.1 degrees of aim leave open\n";
     for (const std::size_t i : result.largest) {
         const Change& change = result.changes[i];
-        text += fmt::format("{}: {} -> {}, {} ±{:.2g}; {}\n", reading_in_words(change.reading), value_text(change.old_value, change.unit),
-                            value_text(change.new_value, change.unit), delta_text(change), change.uncertainty.value_or(0.0),
+        text += fmt::format("{}: {} -> {}, {} ±{:.2g}; {}\n", reading_in_words(change.reading), value_text(change.old_value, change.unit()),
+                            value_text(change.new_value, change.unit()), delta_text(change), change.uncertainty.value_or(0.0),
                             place_of(result, change));
     }
     return text;
@@ -154,8 +154,8 @@ std::string study_csv(const StudyResult& result) {
                                               csv_text(now.drive),
                                               csv_text(result.study.techniques[now.cell.technique]),
                                               csv_text(now.cell.condition),
-                                              csv_text(c.reading),
-                                              csv_text(c.unit),
+                                              csv_text(name_of(c.reading)),
+                                              csv_text(c.unit()),
                                               number(c.old_value.figure()),
                                               number(c.new_value.figure()),
                                               number(c.change().figure()),

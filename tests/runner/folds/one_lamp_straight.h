@@ -41,7 +41,7 @@ struct OneLampStraight {
 
 inline Reading named(const Readings& readings, const std::string& name) {
     for (const Reading& reading : readings)
-        if (reading.name == name)
+        if (reading.name() == name)
             return reading;
     throw std::runtime_error("no reading " + name);
 }

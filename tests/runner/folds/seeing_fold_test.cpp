@@ -1,5 +1,5 @@
 // Sensors, oncoming eyes and mirrors over a drive on a straight and level road, where every place is known by hand.
-#include "metrics/folds/limit_names.h"
+#include "metrics/folds/reading_names.h"
 #include "tests/runner/folds/one_lamp_straight.h"
 
 #include "metrics/glare/eye_light.h"
@@ -114,8 +114,8 @@ TEST(Seeing, SaysWhereThereIsNobody) {
     glare.adaptation_cdm2 = 0.01;
     const SeeingFold unplayed(straight.drive, straight.route);
     for (const Reading& reading : unplayed.readings()) {
-        EXPECT_FALSE(reading.value.measured()) << reading.name;
-        EXPECT_FALSE(reading.value.reason().empty()) << reading.name;
+        EXPECT_FALSE(reading.value.measured()) << reading.name();
+        EXPECT_FALSE(reading.value.reason().empty()) << reading.name();
     }
     const Readings played = straight.played().readings();
     EXPECT_TRUE(named(played, "glare_near_veiling_max_cdm2").value.measured());
@@ -129,17 +129,12 @@ TEST(Seeing, LimitsKnowItsReadings) {
     straight.drive.seeing.sensors = SensorParameters{{5.0}, {}, {{"edge", 100.0, Across::right_edge, 0.25}}};
     const Readings readings = SeeingFold(straight.drive, straight.route).readings();
     straight.drive.limits = {{"sensor_edge_reach_5lx_m", 10.0, std::nullopt}};
-    EXPECT_NO_THROW(check_limit_names(straight.drive, readings));
+    EXPECT_NO_THROW(check_names(straight.drive, readings));
     EXPECT_EQ(judge_limits(straight.drive, straight.played().readings()).at(0).kind, VerdictKind::pass);
     straight.drive.limits[0].at_least = 20.0;
     EXPECT_EQ(judge_limits(straight.drive, straight.played().readings()).at(0).kind, VerdictKind::fail);
     straight.drive.limits[0].reading = "sensor_kerb_reach_5lx_m";
-    EXPECT_THROW(check_limit_names(straight.drive, readings), InputError);
-}
-
-TEST(Seeing, SecondsOfADriveAreComparedAndMillisecondsOfAMachineNot) {
-    EXPECT_FALSE(is_unit_of_time("s"));
-    EXPECT_TRUE(is_unit_of_time("ms"));
+    EXPECT_THROW(check_names(straight.drive, readings), InputError);
 }
 
 } // namespace

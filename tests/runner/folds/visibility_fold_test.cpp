@@ -68,7 +68,7 @@ TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
     const double from_m = value(readings({}), "detection_t_own_m");
     std::vector<double> levels;
     for (const Reading& reading : readings({from_m - 0.5, from_m + 0.5}))
-        if (reading.name.starts_with("visibility_level"))
+        if (reading.key.quantity == Quantity::visibility_level)
             levels.push_back(reading.value.number().value());
     ASSERT_EQ(levels.size(), 2U);
     EXPECT_GT(levels[0], 20.0);

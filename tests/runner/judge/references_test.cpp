@@ -133,8 +133,8 @@ TEST_F(References, WhatOnlyOneSideHasIsRed) {
     other.report.played[0].readings.erase(other.report.played[0].readings.begin());
     EXPECT_THAT(texts(other.judged(store)), HasSubstr("not in this run, accepted 60 m"));
     other = run;
-    other.report.played[0].readings.push_back({"new_m", 1.0, "m", "", -1});
-    EXPECT_THAT(texts(other.judged(store)), HasSubstr("new_m: 1 m, nothing accepted"));
+    other.report.played[0].readings.push_back({key_of("sensor_new_reach_5lx_m").value(), 1.0});
+    EXPECT_THAT(texts(other.judged(store)), HasSubstr("sensor_new_reach_5lx_m: 1 m, nothing accepted"));
     other = run;
     other.report.played[0].frames.pop_back();
     EXPECT_THAT(texts(other.judged(store)), HasSubstr("10 driver: accepted, but not in this run"));

@@ -112,7 +112,7 @@ Draw without_lux(bool road) {
 }
 
 const Reading& named(const Readings& readings, const std::string& name) {
-    const auto found = std::ranges::find(readings, name, &Reading::name);
+    const auto found = std::ranges::find(readings, key_of(name), &Reading::key);
     if (found == readings.end())
         throw std::out_of_range(name);
     return *found;

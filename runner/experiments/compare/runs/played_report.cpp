@@ -14,10 +14,10 @@ void read_rows(const CheckedJson& report, PlayedResult& result) {
     for (const CheckedJson& row : report.at("rows").items()) {
         if (!row.at("frame").is_null() || row.at("drive").text() != result.drive || row.at("variant").text() != result.variant)
             continue;
-        Reading reading{row.at("name").text(), value_in(row.at("value")), row.at("unit").text(), row.at("where").text()};
+        Reading reading{key_with_unit(row), value_in(row.at("value")), row.at("where").text()};
         if (!reading.value.measured())
             reading.value = Value::not_measured(row.at("not_measured").text());
-        result.readings.emplace(reading.name, std::move(reading));
+        result.readings.emplace(reading.key, std::move(reading));
     }
 }
 
@@ -27,7 +27,7 @@ void read_repeats(const CheckedJson& played, PlayedResult& result) {
         return;
     for (const CheckedJson& spread : played.at("repeats").at("spread").items())
         if (const int count = spread.at("count").whole(); count > 1 && spread.at("frame").is_null())
-            result.by_repeats[spread.at("name").text()] = student_bound(count - 1, 0.05, 1) * std::sqrt(spread.at("variance").number());
+            result.by_repeats[key_in(spread.at("name"))] = student_bound(count - 1, 0.05, 1) * std::sqrt(spread.at("variance").number());
 }
 
 void read_reaches(const CheckedJson& played, PlayedResult& result) {
@@ -52,9 +52,10 @@ void read_glares(const CheckedJson& played, PlayedResult& result) {
     if (!played.has("seeing"))
         return;
     for (const CheckedJson& series : played.at("seeing").items()) {
-        GlareOverDrive glare{series.at("subject").text(), series.at("over").text(), {}, {}};
-        if (!glare.subject.starts_with("glare_"))
+        const auto eye = eye_of(series.at("subject").text());
+        if (!eye)
             continue;
+        GlareOverDrive glare{*eye, series.at("over").text(), {}, {}};
         for (const CheckedJson& at : series.at("at_m").items())
             glare.at_m.push_back(at.number());
         for (const CheckedJson& column : series.at("columns").items())
@@ -82,6 +83,14 @@ void read_accuracy(const CheckedJson& report, const CheckedJson& played, PlayedR
 }
 
 } // namespace
+
+ReadingKey ReachOverDrive::key() const {
+    return {.quantity = Quantity::reach,
+            .surface = plane == ExtentPlane::road ? ReadingSurface::road : ReadingSurface::target,
+            .lane = "own",
+            .threshold = {limit_lx, ThresholdUnit::lx},
+            .statistic = Statistic::median};
+}
 
 PlayedResult read_played(const CheckedJson& report, const CheckedJson& played, const std::string& folder) {
     PlayedResult result;

@@ -12,11 +12,13 @@ struct ReachOverDrive {
     ExtentPlane plane = ExtentPlane::road;
     double limit_lx = 0.0;
     std::vector<double> distance_m, reach_m;
+    ReadingKey key() const; ///< of its median
 };
 
 /// Illuminance in an oncoming eye, facing the lamps, or through mirrors, over the distance to it; NaN where it was not measured.
 struct GlareOverDrive {
-    std::string subject, over; ///< "glare_opposite", "distance to the observer"
+    ReadingKey eye;
+    std::string over; ///< "distance to the observer"
     std::vector<double> at_m, facing_lx;
 };
 

@@ -17,11 +17,6 @@
 namespace fernlicht {
 namespace {
 
-bool is_extent(const std::string& reading) {
-    return std::ranges::any_of(std::initializer_list<const char*>{"reach_", "unlit_before_", "width_", "area_"},
-                               [&](const char* stem) { return reading.starts_with(stem); });
-}
-
 /// Names of at most four, and how many more.
 std::string some_of(const std::vector<std::string>& names) {
     std::string text;
@@ -44,17 +39,16 @@ void compare_readings(DriveComparison& drive) {
     if (!measured.others.empty())
         drive.left_out.push_back("readings that are no extents: measured otherwise (" + measured.others + ")");
     std::vector<std::string> only_old, only_new;
-    for (const auto& [name, reading] : now.readings)
-        if (!before.readings.contains(name))
-            only_new.push_back(name);
-    for (const auto& [name, reading] : before.readings) {
-        if (says_how_exact(name) || is_unit_of_time(reading.unit) ||
-            (is_extent(name) ? !measured.extent.empty() : !measured.others.empty()))
+    for (const auto& [key, reading] : now.readings)
+        if (!before.readings.contains(key))
+            only_new.push_back(name_of(key));
+    for (const auto& [key, reading] : before.readings) {
+        if (says_how_exact(key) || is_time(key) || (is_extent(key) ? !measured.extent.empty() : !measured.others.empty()))
             continue;
-        if (now.readings.contains(name))
-            drive.changes.push_back(change_of_reading(name, now, before, drive.lamp_noise()));
+        if (now.readings.contains(key))
+            drive.changes.push_back(change_of_reading(key, now, before, drive.lamp_noise()));
         else
-            only_old.push_back(name);
+            only_old.push_back(name_of(key));
     }
     if (!only_old.empty())
         drive.left_out.push_back("readings of A alone: " + some_of(only_old));
@@ -69,8 +63,7 @@ void compare_times(DriveComparison& drive) {
             continue;
         const std::optional<Spread> a = spread_of(other->second), b = spread_of(now);
         TimeChange change;
-        change.reading = "time_" + name_part(pass) + "_ms";
-        change.unit = "ms";
+        change.reading = {.quantity = Quantity::pass_time, .subject = pass_subject(pass), .statistic = Statistic::median};
         change.old_samples = other->second.size();
         change.new_samples = now.size();
         if (a)
@@ -196,7 +189,7 @@ void rank(RunComparison& runs) {
             if (const ReadingChange& c = runs.drives[d].changes[i]; c.kind == ChangeKind::real && runs.drives[d].decides(c.reading))
                 order.emplace_back(d, i);
     std::ranges::stable_sort(order, std::greater{}, [&](const auto& at) { return runs.drives[at.first].changes[at.second].size(); });
-    std::set<std::string> shown;
+    std::set<ReadingKey> shown;
     for (const auto& at : order)
         if (runs.largest.size() < 3 && shown.insert(runs.drives[at.first].changes[at.second].reading).second)
             runs.largest.push_back(at);
@@ -236,16 +229,15 @@ bool FramePair::is_equal() const {
                                [](const LayerComparison& layer) { return layer.histogram.equal == layer.histogram.pixels(); });
 }
 
-bool DriveComparison::decides(const std::string& reading) const {
+bool DriveComparison::decides(const ReadingKey& reading) const {
     const auto is_limited = [&](const RunDrive& drive) {
         const YamlValue* limits = member_of(drive.resolved, "limits");
         return limits && std::ranges::any_of(limits->items, [&](const YamlValue& limit) {
                    const YamlValue* limited = member_of(limit, "reading");
-                   return limited && limited->text == reading;
+                   return limited && key_of(limited->text) == reading;
                });
     };
-    return !is_extent(reading) || std::ranges::find(usual_readings(), reading) != usual_readings().end() || is_limited(*before) ||
-           is_limited(*now);
+    return !is_extent(reading) || is_named(reading, usual_readings()) || is_limited(*before) || is_limited(*now);
 }
 
 double DriveComparison::lamp_noise() const {

@@ -41,12 +41,12 @@ struct DriveComparison {
     std::vector<YamlChange> settings;   ///< of the drives as they were played, lamp sets included
     std::vector<std::string> new_bytes; ///< files of one path in both runs whose content is another
     std::vector<LampFilesDifference> lamp_files;
-    std::vector<ReadingChange> changes; ///< all readings that both have, by name
+    std::vector<ReadingChange> changes; ///< all readings that both have
     std::vector<TimeChange> times;
     std::vector<FramePair> frames;
     std::vector<std::string> left_out; ///< what could not be compared and why, one sentence each
     std::vector<ComparedFigure> figures;
-    bool decides(const std::string& reading) const; ///< the study's usual ones, those that a limit names, and all that are no extents
+    bool decides(const ReadingKey& reading) const; ///< the study's usual ones, those that a limit names, and all that are no extents
 
     double lamp_noise() const; ///< the largest noise of the lamps' tables, relative; 0 where they are the same
 

@@ -51,10 +51,9 @@ plots::Polyline line_of(const std::vector<double>& x, const std::vector<double>&
 
 void add_reaches(DriveComparison& drive) {
     for (const ReachOverDrive& now : drive.now->reaches) {
-        const std::string name = fmt::format("reach_{:g}lx_{}_own_m", now.limit_lx, plane_name(now.plane));
         const auto old = std::ranges::find_if(drive.before->reaches,
                                               [&](const ReachOverDrive& r) { return r.plane == now.plane && r.limit_lx == now.limit_lx; });
-        if (old == drive.before->reaches.end() || std::ranges::find(usual_readings(), name) == usual_readings().end())
+        if (old == drive.before->reaches.end() || !is_named(now.key(), usual_readings()))
             continue;
         add_lines(
             drive, fmt::format("reach-{:g}lx-{}", now.limit_lx, plane_name(now.plane)),
@@ -66,9 +65,10 @@ void add_reaches(DriveComparison& drive) {
 
 void add_glares(DriveComparison& drive) {
     for (const GlareOverDrive& now : drive.now->glares) {
-        const auto old = std::ranges::find(drive.before->glares, now.subject, &GlareOverDrive::subject);
+        const auto old = std::ranges::find(drive.before->glares, now.eye, &GlareOverDrive::eye);
+        const std::string eye = eye_name(now.eye);
         if (old != drive.before->glares.end())
-            add_lines(drive, "glare-" + file_name_of(now.subject), "Illuminance facing the lamps, " + short_text(now.subject, 40),
+            add_lines(drive, "glare-" + file_name_of(eye), "Illuminance facing the lamps, " + short_text(eye, 40),
                       line_of(old->at_m, old->facing_lx), line_of(now.at_m, now.facing_lx), now.over, "illuminance", "lx",
                       plots::Scale::logarithmic);
     }

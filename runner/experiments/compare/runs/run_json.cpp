@@ -12,8 +12,8 @@ using Json = nlohmann::ordered_json;
 Json value_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json change_json(const ReadingChange& c) {
-    return {{"reading", c.reading},
-            {"unit", c.unit},
+    return {{"reading", name_of(c.reading)},
+            {"unit", c.unit()},
             {"old_value", value_json(c.old_value)},
             {"new_value", value_json(c.new_value)},
             {"change", value_json(c.change())},

@@ -51,8 +51,8 @@ data change_part(const DriveComparison& drive, const ReadingChange& change, cons
     part.set("lamps", clean_text(drive.now->variant == drive.before->variant ? drive.now->variant
                                                                              : drive.now->variant + " / " + drive.before->variant));
     part.set("reading", clean_text(reading_in_words(change.reading)));
-    part.set("name", clean_text(change.reading));
-    part.set("unit", clean_text(unit_in_words(change.unit)));
+    part.set("name", clean_text(name_of(change.reading)));
+    part.set("unit", clean_text(unit_in_words(change.unit())));
     part.set("old", page_value(change.old_value));
     part.set("new", page_value(change.new_value));
     part.set("old_key", sort_key(change.old_value.figure()));

@@ -29,8 +29,8 @@ std::vector<std::string> change_line(const std::string& id, const DriveCompariso
             csv_text(drive.now->variant),
             csv_text(drive.before->technique),
             csv_text(drive.now->technique),
-            csv_text(c.reading),
-            csv_text(c.unit),
+            csv_text(name_of(c.reading)),
+            csv_text(c.unit()),
             number(c.old_value.figure()),
             number(c.new_value.figure()),
             number(c.change().figure()),
@@ -49,7 +49,7 @@ std::vector<std::string> change_line(const std::string& id, const DriveCompariso
 std::string change_text(const ReadingChange& c) {
     const Value change = c.change();
     std::string text = fmt::format("{}: {} -> {} {}, {}", reading_in_words(c.reading), short_value(c.old_value), short_value(c.new_value),
-                                   unit_in_words(c.unit), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
+                                   unit_in_words(c.unit()), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
     if (c.relative())
         text += fmt::format(" ({:+.1f} %)", 100.0 * *c.relative());
     if (c.uncertainty)
@@ -104,7 +104,7 @@ void append_drive(std::string& text, const RunComparison& runs, const DriveCompa
     for (const std::string& sentence : drive.left_out)
         text += fmt::format("  left out       {}\n", clean_text(sentence));
     for (const TimeChange& time : drive.times)
-        text += time.kind == ChangeKind::unknown ? fmt::format("  {}: not known: {}\n", time.reading, time.why_not)
+        text += time.kind == ChangeKind::unknown ? fmt::format("  {}: not known: {}\n", name_of(time.reading), time.why_not)
                                                  : fmt::format("  {}; {}\n", change_text(time), change_name(time.kind));
     append_frames(text, drive);
     if (runs.strictness_name.empty())

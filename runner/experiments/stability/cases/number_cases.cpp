@@ -200,8 +200,8 @@ Found near_field(StabilityBench& bench) {
     for (const PlayedVariant& variant : played.report.played) {
         for (const Reading& reading : variant.readings) {
             const bool marked = reading.where.find("near-field") != std::string::npos;
-            near += reading.name.find("probe_near") != std::string::npos && !marked ? 1U : 0U;
-            far += reading.name.find("probe_far") != std::string::npos && marked ? 1U : 0U;
+            near += (reading.key.subject == "near") && !marked ? 1U : 0U;
+            far += (reading.key.subject == "far") && marked ? 1U : 0U;
         }
         worst.add(std::ranges::any_of(variant.notes, [](const std::string& note) { return note.find("near field") != std::string::npos; })
                       ? 0.0

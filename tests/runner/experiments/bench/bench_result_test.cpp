@@ -70,8 +70,8 @@ TEST(BenchText, TablesStandBesideTheThesis) {
                                 "8  clamped                      ~30            49.5   2.02  1.98..2.02  slower\n"));
     EXPECT_THAT(text, HasSubstr("technique  frames/s  ratio      spread  verdict\n"
                                 "light-map    1000.0   0.10  0.10..0.10  faster\n"));
-    EXPECT_THAT(
-        text, HasSubstr("full             20.00  34.00    50.00  74.00  40.00    -       1     20       4000     300000       3.0\n"));
+    EXPECT_THAT(text,
+                HasSubstr("full             20.00  34.00    50.00  74.00  40.00    -       1     20       4000     300000       3.0\n"));
     EXPECT_THAT(text, HasSubstr("load average 0.25 before, 1.50 after"));
 }
 

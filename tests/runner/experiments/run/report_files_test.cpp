@@ -25,7 +25,7 @@ Report hostile_report() {
     PlayedVariant& played = report.played[0];
     played.drive = played.variant = hostile;
     played.lamps[0] = {hostile, hostile};
-    played.readings[0].name = played.readings[0].where = hostile;
+    played.readings[0].where = hostile;
     played.readings[2].value = Value::not_measured(hostile);
     played.verdicts[1].name = played.verdicts[1].text = played.verdicts[1].rerun = hostile;
     played.left_out = played.notes = {hostile};
@@ -70,9 +70,9 @@ TEST(ReportJson, HoldsWhatWasMeasured) {
 TEST(ReportJson, NotMeasuredIsNullWithItsReason) {
     const json whole = json::parse(report_json(tests::sample_report(1)));
     const json& row = whole["rows"][2];
-    EXPECT_EQ(row["name"], "gpu_time_s");
+    EXPECT_EQ(row["name"], "glare_own_time_above_1lx_s");
     EXPECT_TRUE(row["value"].is_null());
-    EXPECT_EQ(row["not_measured"], "the driver's clock disagrees with the wall's");
+    EXPECT_EQ(row["not_measured"], "nobody came towards the car");
     EXPECT_TRUE(row["frame"].is_null());
     EXPECT_FALSE(whole["rows"][1].contains("not_measured"));
     EXPECT_EQ(whole["rows"][1]["frame"], 0);
@@ -139,7 +139,7 @@ TEST(ReportJson, LanesThatEndLeaveNulls) {
 
 TEST(ReportJson, HostileNamesStayText) {
     const json whole = json::parse(report_json(hostile_report()));
-    EXPECT_EQ(whole["rows"][0]["name"], "=<script>alert(\"x\")</script>'&\n\x01\ufffd{{title}}");
+    EXPECT_EQ(whole["rows"][0]["where"], "=<script>alert(\"x\")</script>'&\n\x01\ufffd{{title}}");
 }
 
 TEST(ReportCsv, MatchesByHand) {
@@ -147,17 +147,22 @@ TEST(ReportCsv, MatchesByHand) {
     report.played.emplace_back();
     report.played[0].drive = "S bend, 150 m";
     report.played[0].variant = "xenon";
-    report.played[0].extents = {
-        ExtentRow{.tick = 7, .time_s = 0.7, .distance_m = 0.0, .rendered = {}, .twin = {}, .sensitivity = {}, .grid_errors = {}}};
-    report.played[0].readings = {{"reach_5lx_road_own_m", 61.25, "m", "own lane, \"centre\"", 7},
-                                 {"@probe_lx", -0.5, "lx", "=1+1", -1},
-                                 {"gpu_s", Value::not_measured("no clock"), "s", ""},
-                                 {"reach_1lx_road_own_m", Value::at_least(200.0), "m", ""}};
-    EXPECT_EQ(report_csv(report), "drive,variant,name,value,unit,where,frame,time_s,not_measured,bound\r\n"
-                                  "\"S bend, 150 m\",xenon,reach_5lx_road_own_m,61.25,m,\"own lane, \"\"centre\"\"\",7,0.7,,\r\n"
-                                  "\"S bend, 150 m\",xenon,'@probe_lx,-0.5,lx,'=1+1,,,,\r\n"
-                                  "\"S bend, 150 m\",xenon,gpu_s,,s,,,,no clock,\r\n"
-                                  "\"S bend, 150 m\",xenon,reach_1lx_road_own_m,200,m,,,,,at_least\r\n");
+    report.played[0].technique = "photometric";
+    report.played[0].readings = {{key_of("reach_5lx_road_left_1_p05_m").value(), 61.25, "own lane, \"centre\"", 7},
+                                 {key_of("probe_-wall_lx").value(), -0.5, "=1+1"},
+                                 {key_of("glare_mirrors_at_15m_time_below_5_de_boer_s").value(), Value::not_measured("no clock")},
+                                 {key_of("area_1lx_target_all_grid_error_m2").value(), Value::at_least(200.0)}};
+    EXPECT_EQ(report_csv(report),
+              "drive,lamp_set,technique,frame,quantity,aspect,threshold,threshold_unit,surface,lane,place,distance_m,statistic,subject,"
+              "bound,value,"
+              "unit,reason,where,name\r\n"
+              "\"S bend, 150 m\",xenon,photometric,7,reach,value,5,lx,road,left 1,,,p05,,,61.25,m,,\"own lane, \"\"centre\"\"\","
+              "reach_5lx_road_left_1_p05_m\r\n"
+              "\"S bend, 150 m\",xenon,photometric,,probe_illuminance,value,,,,,,,median,'-wall,,-0.5,lx,,'=1+1,probe_-wall_lx\r\n"
+              "\"S bend, 150 m\",xenon,photometric,,glare_time,value,5,de_boer,,,mirrors,15,,,,,s,no clock,,"
+              "glare_mirrors_at_15m_time_below_5_de_boer_s\r\n"
+              "\"S bend, 150 m\",xenon,photometric,,area,grid_error,1,lx,target,all,,,median,,at_least,200,m2,,,"
+              "area_1lx_target_all_grid_error_m2\r\n");
 }
 
 TEST(ReportJunit, CountsAndEscapes) {

@@ -128,9 +128,9 @@ PlayedVariant played_with(const std::string& name, const MadeUpBeam& beam, int m
     parameters.ahead_m = 250.0; // beyond all reaches
     played.extent_summaries = summarise_extents(played, parameters);
     played.passes = {frame, shadow};
-    played.readings = {{"reach_5lx_road_own_m", extents_at(beam, 0).rendered[4].reach_centre_m, "m", "own lane, centre", -1},
-                       {"probe_wall_lx", beam.lux(25.0, 0.0, ExtentPlane::target), "lx", "wall, 25 m ahead", 0},
-                       {"gpu_time_s", Value::not_measured("the driver's clock disagrees with the wall's"), "s", ""}};
+    played.readings = {{key_of("reach_5lx_road_own_m").value(), extents_at(beam, 0).rendered[4].reach_centre_m, "own lane, centre"},
+                       {key_of("probe_wall_lx").value(), beam.lux(25.0, 0.0, ExtentPlane::target), "wall, 25 m ahead", 0},
+                       {key_of("glare_own_time_above_1lx_s").value(), Value::not_measured("nobody came towards the car")}};
     played.verdicts = {{VerdictKind::pass, "reach_1lx_road_own_m", "28.0 m, limit at least 25 m", ""}};
     played.left_out = {"Sun: it is night.", "Second lamp pair: none is mounted."};
     played.notes = {"Nearer than 3 m the lamps are not point sources; 2.1 % of the map is marked near-field."};

@@ -1,0 +1,47 @@
+#include "metrics/folds/reading_names.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+namespace {
+
+void check_subjects(const Drive& drive) {
+    const auto check = [&](SubjectKind kind, const std::string& key, const auto& named) {
+        for (const auto& each : named)
+            if (!is_clear_subject(kind, each.name))
+                throw InputError({drive.file, 0, 0, "measure." + key}, "found the name '" + printable(each.name) + "'",
+                                 "one that no reading's name would take for a part of its own, such as _min, _max, _twin or own");
+    };
+    const SeeingParameters& asked = drive.seeing;
+    check(SubjectKind::probe, "probes", drive.probes);
+    if (asked.sensors)
+        check(SubjectKind::sensor, "sensors.points", asked.sensors->points);
+    if (asked.glare)
+        check(SubjectKind::eye, "glare.oncoming", asked.glare->oncoming);
+    if (asked.glare && asked.glare->mirrors)
+        check(SubjectKind::mirror, "glare.mirrors.places", asked.glare->mirrors->mirrors);
+    if (asked.visibility)
+        check(SubjectKind::target, "visibility.targets", asked.visibility->targets);
+}
+
+bool can_be_read(const Drive& drive, const Readings& others, const ReadingKey& key) {
+    return is_extent(key) || is_time(key) ||
+           (key.quantity == Quantity::probe_illuminance &&
+            std::ranges::find(drive.probes, key.subject, &Probe::name) != drive.probes.end()) ||
+           std::ranges::find(others, key, &Reading::key) != others.end();
+}
+
+} // namespace
+
+void check_names(const Drive& drive, const Readings& others) {
+    check_subjects(drive);
+    for (const Limit& limit : drive.limits)
+        if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, *key))
+            throw InputError({drive.file, 0, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
+                             "a name as reach_5lx_road_own_m, width_3lx_target_all_at_50m_m, probe_NAME_lx of a probe of this drive or "
+                             "frame_time_median_ms");
+}
+
+} // namespace fernlicht

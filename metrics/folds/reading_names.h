@@ -1,0 +1,13 @@
+// Names that a drive gives to what is measured, and the readings that its limits may be set on.
+#pragma once
+
+#include "metrics/readings/readings.h"
+#include "scenarios/drives/drive.h"
+
+namespace fernlicht {
+
+/// Before anything is drawn: throws InputError for a probe, sensor, eye, mirror or target whose readings would have another's name, and
+/// for a limit on a reading that no run can have (docs/readings.md has the names). `others`: readings beside extents, times and probes.
+void check_names(const Drive& drive, const Readings& others = {});
+
+} // namespace fernlicht

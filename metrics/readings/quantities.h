@@ -1,0 +1,97 @@
+// What is read of a drive: one row for each quantity, and all that follows from it.
+#pragma once
+
+#include <span>
+
+namespace fernlicht {
+
+enum class Quantity {
+    reach,
+    unlit_before_reach,
+    width,
+    area,
+    probe_illuminance,
+    sensor_reach,
+    sensor_illuminance,
+    glare_facing,
+    glare_eye,
+    glare_veiling,
+    glare_increment,
+    glare_de_boer,
+    glare_time,
+    glare_length,
+    mirror_illuminance,
+    detection,
+    undetected,
+    visibility_level,
+    background_luminance,
+    mesopic_luminance,
+    gradient_per_m,
+    gradient_per_deg,
+    patch_dark,
+    patch_bright,
+    foreground_ratio,
+    kerb_illuminance,
+    board_illuminance,
+    board_luminance,
+    marking_luminance,
+    control_swivel,
+    control_inside,
+    control_reach,
+    control_glare,
+    control_others,
+    control_high_beam,
+    control_class,
+    pass_time
+};
+
+enum class Better { neither, higher, lower };
+
+/// What a quantity's subject is the name of. A drive gives these names, passes apart.
+enum class SubjectKind { none, probe, sensor, eye, mirror, target, pass };
+
+/// What calculation leaves open of a figure.
+enum class Exactness {
+    unknown,
+    double_precision,   ///< calculated at places and by definitions that leave no choice
+    grid_and_drawing,   ///< the grid's error on that line, and the distance between drawing and double precision
+    grid,               ///< the grid's error
+    grid_columns,       ///< a column of the grid at either end
+    drawing,            ///< the distance between drawing and double precision
+    between_moments,    ///< half a step of the drive at either end
+    look_step,          ///< a step between the places looked at
+    look_step_twice,    ///< one at either end
+    evenness_step_twice ///< a step of the grid of evenness at either end
+};
+
+/// How more light moves a figure.
+enum class WithLight {
+    unknown,
+    proportional,
+    twice,           ///< a ratio of two places: one may go up and the other down
+    like_de_boer,    ///< 2 less for ten times the light
+    over_thresholds, ///< as it changes from one threshold to the next
+    over_distance    ///< as the visibility level changes from one distance to the next
+};
+
+struct QuantityRow {
+    Quantity quantity;
+    const char* id; ///< "reach"
+    /// How its names are made, one form or several between spaces (reading_key.cpp):
+    /// "width_<lx>lx_(road|target)_<lane>_at_<m>m(median|_min)_m".
+    const char* forms;
+    const char* unit; ///< "m", "cd/m2", "%", "1"
+    SubjectKind subject;
+    Better better;
+    bool is_extent; ///< lit road, measured as `extent` asks
+    Exactness exactness;
+    WithLight with_light;
+    const char* words; ///< for people; reading_words.cpp fills the braces
+    const char *meaning, *equation, *source;
+};
+
+/// In the order of Quantity.
+std::span<const QuantityRow> quantities();
+const QuantityRow& row_of(Quantity quantity);
+
+} // namespace fernlicht
