@@ -32,6 +32,26 @@ TEST(ReportSchema, DescribesReports) {
     EXPECT_THAT(report_schema().check(json::parse(report_json({}))), IsEmpty());
 }
 
+TEST(ReportSchema, EveryNullOfASummaryHasItsReason) {
+    Report report = tests::sample_report(1);
+    ExtentSummary summary;
+    summary.key = {ExtentPlane::target, "own", 1.0};
+    summary.reach.add(150.0);
+    summary.reach.add(Value::at_least(200.0));
+    summary.twin_difference.add(Value::not_measured("both beyond 200 m"));
+    summary.grid_error.add(0.02);
+    report.played[0].extent_summaries = {summary};
+    const json written = json::parse(report_json(report));
+    EXPECT_THAT(report_schema().check(written), IsEmpty());
+    const json& entry = written["drives"][0]["summary"][0];
+    EXPECT_EQ(entry["reach_m"]["median"], json({{"at_least", 175.0}}));
+    EXPECT_EQ(entry["reach_m"]["not_measured"],
+              json({{"mean", "1 of 2 moments give a bound only"}, {"standard_deviation", "1 of 2 moments give a bound only"}}));
+    EXPECT_EQ(entry["not_measured"]["largest_twin_difference_m"], "both beyond 200 m in every moment");
+    EXPECT_EQ(entry["not_measured"]["metres_per_tenth_degree"], "not there in any moment");
+    EXPECT_FALSE(entry["not_measured"].contains("grid_error_m"));
+}
+
 TEST(ReportSchema, DescribesTheCarOfADriveWithAVehicle) {
     Report report = tests::sample_report(2);
     EXPECT_FALSE(json::parse(report_json(report))["drives"][0].contains("car")) << "drives without a vehicle";
