@@ -21,6 +21,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -236,11 +237,25 @@ Json extents_json(const PlayedVariant& played) {
 }
 
 /// Seven digits: far below what any of the lamp tables knows.
-Json seven_digits(const std::optional<double>& value, const std::string& what) {
-    return value ? Json(std::stod(fmt::format("{:.7g}", finite(*value, what.c_str())))) : Json(nullptr);
+double seven_digits(double value) { return std::stod(fmt::format("{:.7g}", value)); }
+
+Json seven_digits(double value, const std::string& what) { return seven_digits(finite(value, what.c_str())); }
+
+Json seven_digits(const Value& value) {
+    switch (value.kind()) {
+    case Value::Kind::at_least:
+        return value_json(Value::at_least(seven_digits(value.low())));
+    case Value::Kind::at_most:
+        return value_json(Value::at_most(seven_digits(value.high())));
+    case Value::Kind::number:
+        return seven_digits(value.low());
+    case Value::Kind::not_measured:
+        break;
+    }
+    return nullptr;
 }
 
-/// Columns with one entry per moment; null where it was not measured.
+/// Columns with one entry per moment; null where it was not measured, with the reasons that there are.
 Json seeing_json(const std::vector<SeeingSeries>& all) {
     Json out = Json::array();
     for (const SeeingSeries& series : all) {
@@ -249,9 +264,15 @@ Json seeing_json(const std::vector<SeeingSeries>& all) {
             at.push_back(rounded(at_m, series.over.c_str()));
         for (const SeeingSeries::Column& column : series.columns) {
             Json values = Json::array();
-            for (const std::optional<double>& value : column.values)
-                values.push_back(seven_digits(value, column.name));
+            std::set<std::string> reasons;
+            for (const Value& value : column.values) {
+                values.push_back(seven_digits(value));
+                if (!value.measured())
+                    reasons.insert(value.reason());
+            }
             columns.push_back({{"name", column.name}, {"what", column.label}, {"unit", column.unit}, {"values", std::move(values)}});
+            if (!reasons.empty())
+                columns.back()["not_measured"] = reasons;
         }
         out.push_back({{"subject", series.subject}, {"over", series.over}, {"frame", series.ticks}, {"at_m", at}, {"columns", columns}});
     }

@@ -85,14 +85,16 @@ TEST(ReportSchema, DescribesSeeingWhereADriveAsks) {
                                 {0, 1},
                                 {30.0, 20.0},
                                 {{"facing_lx", "illuminance facing the lamps", "lx", true, true, {0.5, 1.25}},
-                                 {"de_boer", "de Boer's rating", "", false, true, {std::nullopt, 4.0}},
+                                 {"de_boer", "de Boer's rating", "", false, true, {Value::not_measured("no light"), Value::at_least(4.0)}},
                                  {"theta_left_deg", "angle of left", "deg", false, false, {1.0, 2.0}}}}};
     const json written = json::parse(report_json(report));
     EXPECT_THAT(report_schema().check(written), IsEmpty());
     const json& seen = written["drives"][0]["seeing"][0];
     EXPECT_EQ(seen["subject"], "glare_eye");
     EXPECT_EQ(seen["at_m"], json({30.0, 20.0}));
-    EXPECT_EQ(seen["columns"][1]["values"], json::parse("[null, 4.0]"));
+    EXPECT_EQ(seen["columns"][1]["values"], json::parse(R"([null, {"at_least": 4.0}])"));
+    EXPECT_EQ(seen["columns"][1]["not_measured"], json({"no light"}));
+    EXPECT_FALSE(seen["columns"][0].contains("not_measured"));
     const std::string page = report_html(report, {});
     EXPECT_THAT(page, testing::AllOf(HasSubstr("Seeing and glare"), HasSubstr("Oncoming driver: illuminance facing the lamps"),
                                      HasSubstr("de Boer"), testing::Not(HasSubstr("angle of left"))));
