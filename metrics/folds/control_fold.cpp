@@ -217,7 +217,7 @@ std::vector<SeeingSeries> ControlFold::series() const {
     const auto column = [&](const std::string& name, const std::string& label, const std::string& unit, const auto& value) {
         SeeingSeries::Column added{name, label, unit, false, true, {}};
         for (const Row& row : rows_)
-            added.values.push_back(value(row));
+            added.values.push_back(Value::of(value(row), "not there in this moment"));
         series.columns.push_back(std::move(added));
     };
     for (const Row& row : rows_) {

@@ -95,7 +95,7 @@ SeeingSeries GlareFollowed::series(const ReadingKey& eye, const std::string& tit
     const auto column = [&](const char* name, const char* label, const char* unit, bool logarithmic, const Approach& figure) {
         SeeingSeries::Column values{name, label, unit, logarithmic, true, {}};
         for (const ApproachSample& sample : figure)
-            values.values.push_back(sample.value);
+            values.values.push_back(Value::of(sample.value, "not measured at this place"));
         series.columns.push_back(std::move(values));
     };
     column("facing_lx", "illuminance facing the lamps", "lx", true, facing);

@@ -109,7 +109,7 @@ std::vector<SeeingSeries> HomogeneityFold::series() const {
         series.at_m.push_back(row.along_m);
         along.values.push_back(row.gradients.along.per_m);
         across.values.push_back(row.gradients.across.per_m);
-        ratio.values.push_back(row.foreground.number());
+        ratio.values.push_back(row.foreground);
     }
     series.columns = {std::move(along), std::move(across), std::move(ratio)};
     return {series};

@@ -1,7 +1,8 @@
 // Figures of seeing and glare over the moments of a drive, as report.json stores and the page draws them.
 #pragma once
 
-#include <optional>
+#include "metrics/readings/value.h"
+
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct SeeingSeries {
         std::string unit;
         bool logarithmic = false; ///< as drawn
         bool drawn = true;
-        std::vector<std::optional<double>> values; ///< one per tick
+        std::vector<Value> values; ///< one per tick
     };
     std::vector<Column> columns;
 };

@@ -77,7 +77,7 @@ std::vector<SeeingSeries> SensorFold::series() const {
         SeeingSeries::Column lx{"facing_lx", "illuminance facing the lamps", "lx", true, true, {}};
         for (const ApproachSample& sample : followed_[i].approach) {
             series.at_m.push_back(sample.distance_m);
-            lx.values.push_back(sample.value);
+            lx.values.push_back(Value::of(sample.value, "not measured at this place"));
         }
         series.columns.push_back(std::move(lx));
         all.push_back(std::move(series));

@@ -152,7 +152,7 @@ void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const g
             const Value now =
                 place ? level(seen, *sight.target)
                       : Value::not_measured(ends ? "the route ends nearer than this in some moment" : "the road has no such lane there");
-            sight.at[d].series.push_back(now.number());
+            sight.at[d].series.push_back(now);
             if (const auto number = now.number())
                 sight.at[d].level.push_back(*number);
             else
@@ -263,7 +263,7 @@ std::vector<SeeingSeries> VisibilityFold::series() const {
             SeeingSeries::Column from{
                 "detection_m", fmt::format("detection distance, level {}", sight.target->level), "m", false, true, {}};
             for (const Detection& detection : sight.detections)
-                from.values.push_back(detection.from_m.number());
+                from.values.push_back(detection.from_m);
             series.columns.push_back(std::move(from));
             for (std::size_t d = 0; d < sight.at.size(); ++d)
                 series.columns.push_back({fmt::format("visibility_level_at_{}m", asked.distances_m[d]),

@@ -40,7 +40,7 @@ class VisibilityFold {
         struct AtDistance {
             std::vector<double> level;
             std::string no_level;
-            std::vector<std::optional<double>> series;
+            std::vector<Value> series;
         };
         std::vector<AtDistance> at;
     };

@@ -10,7 +10,9 @@ namespace {
 
 /// The spread between repeats on top of what calculation leaves open, where they differ.
 std::optional<double> with_repeats(const PlayedReadings& cell, const Reading& reading) {
-    const std::optional<double> calculated = left_open(cell, reading);
+    std::optional<double> calculated = left_open(cell, reading);
+    if (!calculated && reading.value.censored()) // as a bound it is exact
+        calculated = 0.0;
     const auto spread = cell.by_repeats.find(reading.key);
     return spread == cell.by_repeats.end() ? calculated : std::hypot(calculated.value_or(0.0), spread->second);
 }

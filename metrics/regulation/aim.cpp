@@ -3,6 +3,7 @@
 #include "metrics/beam/cut_off_elbow.h"
 #include "scenarios/values/pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -100,7 +101,7 @@ Aim by_cut_off(const CandelaTable& lamp, AimRule rule, const CutOffElbow& elbow)
             continue;
         }
         aim.residual = {aside.off_deg.value_or(0.0), *c.level.inflection_deg - line_b_deg};
-        aim.bound = {aside.bound_deg, c.level.uncertainty_deg() + 0.15 * c.level.table_step_deg + settled_deg};
+        aim.bound = {aside.off_deg ? aside.bound_deg : 0.0, c.level.uncertainty_deg() + 0.15 * c.level.table_step_deg + settled_deg};
         const double off = std::hypot(aim.residual.h_deg, aim.residual.v_deg);
         if (off < settled_deg)
             break;
@@ -128,16 +129,30 @@ Aim by_cut_off(const CandelaTable& lamp, AimRule rule, const CutOffElbow& elbow)
     return aim;
 }
 
-/// The first rule that finds what it aims by; without any, the text's own with its reason.
+/// The line at 0.2 D puts the shoulder of a rise of 37 degrees where its elbow meets V-V: a flatter one that was right it turns to the
+/// left, a steeper one to the right. Within both bounds the two are one aim.
+bool leaves_elbow(const Aim& by_line, const CutOffElbow& elbow) {
+    return elbow.at && std::abs(by_line.turned.h_deg + elbow.at->h_deg) > std::min(by_line.bound.h_deg, elbow.uncertainty.h_deg);
+}
+
+/// The first rule that finds what it aims by and agrees with the elbow; without any, the text's own with its reason.
 Aim automatic(const CandelaTable& lamp, const CutOffElbow& elbow) {
     const Aim first = by_cut_off(lamp, AimRule::cut_off, elbow);
     if (first.found || !usable(first.cut_off->level))
         return first;
-    for (const AimRule rule : {AimRule::cut_off_by_line, AimRule::elbow})
-        if (Aim aim = by_cut_off(lamp, rule, elbow); aim.found) {
-            aim.how += " (not by the kink: " + first.cut_off->kink_reason + ")";
-            return aim;
+    std::string passed_over = "not by the kink: " + first.cut_off->kink_reason;
+    for (const AimRule rule : {AimRule::cut_off_by_line, AimRule::elbow}) {
+        Aim aim = by_cut_off(lamp, rule, elbow);
+        if (!aim.found)
+            continue;
+        if (rule == AimRule::cut_off_by_line && leaves_elbow(aim, elbow)) {
+            passed_over += fmt::format("; nor by the line at 0.2 D: it would leave the elbow at {}",
+                                       angle(elbow.at->h_deg + aim.turned.h_deg, "R", "L"));
+            continue;
         }
+        aim.how += " (" + passed_over + ")";
+        return aim;
+    }
     return first;
 }
 

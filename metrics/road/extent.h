@@ -5,6 +5,7 @@
 #include "scenarios/drives/play/moment.h"
 
 #include <array>
+#include <optional>
 
 namespace fernlicht {
 
@@ -83,7 +84,8 @@ std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Mo
 struct GridError {
     double limit_lx;
     ExtentPlane plane;
-    double reach_m, area_m2;
+    std::optional<double> reach_m; ///< nullopt: cut off in either, which says nothing of the cell
+    double area_m2;
     bool operator==(const GridError&) const = default;
 };
 std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,

@@ -25,7 +25,8 @@ PickedGrid picked(const ExtentGrid& grid, const std::vector<double>& lx, std::si
 }
 
 struct ReachAndArea {
-    double reach_m = 0.0, area_m2 = 0.0;
+    std::optional<double> reach_m; ///< nullopt: lit where the grid, road or lane ends
+    double area_m2 = 0.0;
 };
 
 std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& limits_lx) {
@@ -34,8 +35,10 @@ std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vect
     const std::optional<double> centre_m = has_centre ? std::optional(0.0) : std::nullopt;
     const std::vector<LineSample> centre = road.along(std::vector(grid.ahead_m.size(), centre_m));
     std::vector<ReachAndArea> results;
-    for (const double limit : limits_lx)
-        results.push_back({lit_line(centre, limit).last_m, road.lit_area(limit).all_m2()});
+    for (const double limit : limits_lx) {
+        const LitLine reach = lit_line(centre, limit);
+        results.push_back({reach.lit_at_end ? std::nullopt : std::optional(reach.last_m), road.lit_area(limit).all_m2()});
+    }
     return results;
 }
 
@@ -55,9 +58,11 @@ std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<doub
     const PickedGrid coarse = picked(grid, lx, 2, rows, columns);
     const std::vector<ReachAndArea> by_fine = reach_and_area(odd ? grid : trimmed.grid, odd ? lx : trimmed.lx, limits_lx);
     const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, limits_lx);
-    for (std::size_t i = 0; i < limits_lx.size(); ++i)
-        errors.push_back({limits_lx[i], plane, std::abs(by_fine[i].reach_m - by_coarse[i].reach_m),
+    for (std::size_t i = 0; i < limits_lx.size(); ++i) {
+        const std::optional<double>&fine_m = by_fine[i].reach_m, &coarse_m = by_coarse[i].reach_m;
+        errors.push_back({limits_lx[i], plane, fine_m && coarse_m ? std::optional(std::abs(*fine_m - *coarse_m)) : std::nullopt,
                           std::abs(by_fine[i].area_m2 - by_coarse[i].area_m2)});
+    }
     return errors;
 }
 

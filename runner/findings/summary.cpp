@@ -10,6 +10,7 @@ namespace fernlicht {
 namespace {
 
 constexpr const char* cut_off = "cut off by the end of the road or lane";
+constexpr const char* reach_beyond = "the reach lies beyond the end of grid, road or lane";
 
 /// What all readings of one plane, lane and limit share.
 struct Subject {
@@ -89,17 +90,22 @@ class Folding {
                                                       : gap);
     }
 
-    void add_trust(const ExtentRow& row) {
-        const auto of_key = [&](const auto& entries, auto&& take) {
-            for (const auto& entry : entries)
-                if (entry.plane == summary_.key.plane && entry.limit_lx == summary_.key.limit_lx)
-                    take(entry);
+    /// `own`: the twin's extent of this moment.
+    void add_trust(const ExtentRow& row, const LaneExtent* own) {
+        const auto of_key = [&](const auto& entries) {
+            return std::ranges::find_if(
+                entries, [&](const auto& entry) { return entry.plane == summary_.key.plane && entry.limit_lx == summary_.key.limit_lx; });
         };
-        of_key(row.sensitivity, [&](const ReachSensitivity& sensitivity) {
-            summary_.per_tenth_degree.add(sensitivity.metres_per_tenth_degree);
-            summary_.per_tenth_flux.add(sensitivity.metres_per_tenth_flux);
-        });
-        of_key(row.grid_errors, [&](const GridError& error) { summary_.grid_error.add(error.reach_m); });
+        if (const auto found = of_key(row.sensitivity); found != row.sensitivity.end()) {
+            summary_.per_tenth_degree.add(found->metres_per_tenth_degree);
+            summary_.per_tenth_flux.add(found->metres_per_tenth_flux);
+        } else if (own) {
+            const Value none = Value::not_measured(own->reach_is_cut_off ? reach_beyond : "no reach on both sides of the change");
+            summary_.per_tenth_degree.add(none);
+            summary_.per_tenth_flux.add(none);
+        }
+        if (const auto found = of_key(row.grid_errors); found != row.grid_errors.end())
+            summary_.grid_error.add(Value::of(found->reach_m, reach_beyond));
     }
 
     const ExtentSummary& finish() const { return summary_; }
@@ -147,10 +153,15 @@ void add_extent(Readings& readings, const ExtentSummary& summary) {
 void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
     const auto add = [&](Quantity quantity, ReadingPlace place, double LaneGridError::*figure) {
         ManyMoments moments;
-        for (const ExtentRow& row : played.extents)
-            for (const LaneGridError& error : row.lane_grid_errors)
-                if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx && error.lane == subject.key.lane)
-                    moments.add(error.*figure);
+        for (const ExtentRow& row : played.extents) {
+            const auto found = std::ranges::find_if(row.lane_grid_errors, [&](const LaneGridError& error) {
+                return error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx && error.lane == subject.key.lane;
+            });
+            if (found != row.lane_grid_errors.end())
+                moments.add((*found).*figure);
+            else if (const LaneExtent* const twin = find_extent(row.twin, subject.key); twin && twin->reach_is_cut_off)
+                moments.add(Value::not_measured(reach_beyond));
+        }
         add_median(readings, subject.of(quantity, place, Aspect::grid_error), moments, subject.where + ", grid of half the samples");
     };
     if (subject.key.lane != "own")
@@ -198,7 +209,7 @@ std::vector<ExtentSummary> summarise_extents(const PlayedVariant& played, const 
             if (rendered && twin)
                 folding.compare(*rendered, *twin);
             if (key.lane == "own")
-                folding.add_trust(row);
+                folding.add_trust(row, twin);
         }
         summaries.push_back(folding.finish());
     }

@@ -55,6 +55,14 @@ class IesNumbers {
         }
     }
     std::size_t line_number() const { return lines_.number(); }
+    /// From the next number on; its first line is line_number().
+    std::string_view ahead() {
+        if (!more())
+            return {};
+        const char* const begin = line_.data() + begin_;
+        const std::string_view rest = lines_.rest();
+        return {begin, static_cast<std::size_t>((rest.empty() ? line_.data() + line_.size() : rest.data() + rest.size()) - begin)};
+    }
 
   private:
     std::string_view token(const char* name) {
@@ -129,6 +137,7 @@ struct Photometry {
     std::optional<double> lamp_flux_lm;
     MeasuredGrid grid;
     std::vector<std::size_t> lines; ///< of the intensities, plane by plane
+    std::string_view intensities;   ///< with all that follows
 };
 
 void check_range(const std::vector<double>& angles, double least, double most, const InputError::Where& where) {
@@ -186,6 +195,7 @@ Photometry read_photometry(IesNumbers& numbers, int edition, const std::filesyst
     p.grid.v_deg = numbers.numbers("vertical angle", nv);
     p.grid.h_line = next_line();
     p.grid.h_deg = numbers.numbers("horizontal angle", nh);
+    p.intensities = numbers.ahead();
     const std::vector<double> planes = numbers.numbers("candela value", nv * nh, &p.lines);
     p.grid.cd.resize(planes.size());
     for (std::size_t h = 0; h < nh; ++h)
@@ -253,6 +263,7 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
     });
     if (numbers.more()) {
         refuse_decimal_commas(rest, header.tilt_line, path);
+        refuse_decimal_commas(p.intensities, p.lines.front() - 1, path); // angles may have points all the same
         lamp.notes.push_back(fmt::format("Line {} goes on after the last candela value: not read.", numbers.line_number()));
     }
     for (double& cd : p.grid.cd)

@@ -1,6 +1,7 @@
 #include "scenarios/lamps/lamp_text.h"
 
 #include "scenarios/values/files.h"
+#include "scenarios/values/utf8.h"
 
 #include <algorithm>
 #include <charconv>
@@ -14,17 +15,6 @@ constexpr std::string_view blanks{" \t\v\f\0", 5};
 
 [[noreturn]] void refuse_comma(const InputError::Where& where, std::string_view text, const std::string& pointed) {
     throw InputError(where, "has decimal commas", fmt::format("points: write {} for {}", pointed, text));
-}
-
-/// Of text in UTF-16 every second byte is 0 as long as it is plain.
-bool is_utf16(const std::string& bytes) {
-    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
-        return true;
-    const std::size_t looked_at = std::min<std::size_t>(bytes.size(), 64) / 2 * 2;
-    std::size_t zeros[2] = {0, 0};
-    for (std::size_t i = 0; i < looked_at; ++i)
-        zeros[i % 2] += bytes[i] == '\0';
-    return looked_at >= 8 && std::min(zeros[0], zeros[1]) == 0 && std::max(zeros[0], zeros[1]) * 4 > looked_at;
 }
 
 } // namespace

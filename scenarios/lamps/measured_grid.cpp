@@ -92,7 +92,10 @@ void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, cons
     const auto negative = std::count_if(grid.cd.begin(), grid.cd.end(), [](double cd) { return cd < 0.0; });
     if (negative == 0)
         return;
-    notes.push_back(fmt::format("{} intensities are slightly negative, down to {} cd: taken as 0.", negative, *lowest));
+    const std::size_t line = line_of(static_cast<std::size_t>(lowest - grid.cd.begin()));
+    notes.push_back(fmt::format("{} slightly negative, down to {} cd{}: taken as 0.",
+                                negative == 1 ? "1 intensity is" : fmt::format("{} intensities are", negative), *lowest,
+                                line > 0 ? fmt::format(" in line {}", line) : ""));
     std::replace_if(
         grid.cd.begin(), grid.cd.end(), [](double cd) { return cd < 0.0; }, 0.0);
 }

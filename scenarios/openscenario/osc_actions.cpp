@@ -228,7 +228,7 @@ bool RunningAction::step_distance(World& world, const LongitudinalDistanceAction
     EntityState& car = state(world);
     const EntityState& other = world.entity(action.entity);
     const double gap = longitudinal_gap(world, car, other, action.freespace);
-    double wanted = action.distance_m ? std::abs(*action.distance_m) : std::abs(*action.time_gap_s * other.speed_mps);
+    double wanted = action.distance_m ? *action.distance_m : *action.time_gap_s * std::abs(other.speed_mps);
     if (action.ahead || (action.any_side && gap < 0.0))
         wanted = -wanted;
     const double error = gap - wanted;

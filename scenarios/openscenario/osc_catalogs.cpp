@@ -104,20 +104,35 @@ OscNode catalog_entry(const OscNode& reference) {
             std::string parameter = assignment.node().attribute("parameterRef").value();
             if (parameter.starts_with('$')) // as files of 1.0 write it
                 parameter.erase(0, 1);
-            values[parameter] = assignment.text("value");
+            std::string value = assignment.text("value");
+            assignment.count_bytes("value", value.size());
+            values[parameter] = std::move(value);
         }
     return found.with(std::make_shared<Scope>(Scope{std::move(values), reading.global}));
 }
 
 OpenEntry::OpenEntry(const OscNode& node) : reading_(node.reading()) {
+    constexpr std::size_t most_open = 64, most_inner = 10'000; // files of others have one within another
     std::vector<Reading::Entry>& open = reading_.open_entries;
-    const auto again = std::ranges::find(open, node.node(), &Reading::Entry::node);
-    if (again != open.end()) {
-        std::string chain;
-        for (auto at = again; at != open.end(); ++at)
-            chain += fmt::format("'{}' > ", printable(at->node.attribute("name").value()));
-        node.refuse("", fmt::format("leads back to itself: {}'{}'", chain, printable(node.name())), "positions that do not need it");
-    }
+    /// "'a' > 'b' > 'c'", the node last; of a long way the first and the last names.
+    const auto way = [&](auto from) {
+        std::string names;
+        const std::ptrdiff_t count = open.end() - from;
+        for (std::ptrdiff_t i = 0; i < count; ++i)
+            if (i < 4 || i + 2 >= count)
+                names += fmt::format("'{}' > ", printable(from[i].node.attribute("name").value()));
+            else if (i == 4)
+                names += "... > ";
+        return fmt::format("{}'{}'", names, printable(node.name()));
+    };
+    if (const auto again = std::ranges::find(open, node.node(), &Reading::Entry::node); again != open.end())
+        node.refuse("", "leads back to itself: " + way(again), "positions that do not need it");
+    if (open.size() == most_open)
+        node.refuse("", "lies on a way from one to the next: " + way(open.begin()), fmt::format("{} at most", most_open));
+    if (!open.empty() && ++reading_.inner_entries > most_inner)
+        node.refuse("",
+                    fmt::format("is the {}th route or trajectory that lies within others: {}", reading_.inner_entries, way(open.begin())),
+                    fmt::format("{} at most in all", most_inner));
     open.push_back({&node.xml(), node.node()});
 }
 

@@ -39,7 +39,10 @@ void OscNode::note(const std::string& what) const {
 
 std::string OscNode::resolved(const char* attribute, const char* written) const {
     try {
-        return resolve(written, lookup_in(*scope_));
+        std::string text = resolve(written, lookup_in(*scope_));
+        if (std::string_view(written).find('$') != std::string_view::npos)
+            count_bytes(attribute, text.size());
+        return text;
     } catch (const std::invalid_argument& error) {
         refuse(attribute, fmt::format("found '{}': {}", printable(written), error.what()));
     }
@@ -97,6 +100,29 @@ double OscNode::number_or(const char* attribute, double otherwise) const { retur
 
 std::optional<double> OscNode::number_if(const char* attribute) const {
     return has(attribute) ? std::optional(number(attribute)) : std::nullopt;
+}
+
+double OscNode::length(const char* attribute) const {
+    const double found = number(attribute);
+    if (!(std::abs(found) <= 1e9))
+        refuse(attribute, fmt::format("found {}", found), "a length within 1e9 m");
+    return found;
+}
+
+double OscNode::length_or_0(const char* attribute) const { return has(attribute) ? length(attribute) : 0.0; }
+
+double OscNode::angle_or_0(const char* attribute) const {
+    const double found = number_or(attribute, 0.0);
+    if (!(std::abs(found) <= 1e6))
+        refuse(attribute, fmt::format("found {}", found), "an angle within 1e6 rad");
+    return found;
+}
+
+std::optional<double> OscNode::not_below_0_if(const char* attribute, const char* expected) const {
+    const std::optional<double> found = number_if(attribute);
+    if (found && !(*found >= 0.0))
+        refuse(attribute, fmt::format("found {}", *found), expected);
+    return found;
 }
 
 int OscNode::whole(const char* attribute) const {
@@ -166,19 +192,29 @@ OscNode OscNode::only(const std::string& what) const {
 }
 
 std::map<std::string, std::string> OscNode::declared() const {
-    std::map<std::string, std::string> values;
+    const auto growing = std::make_shared<Scope>(Scope{{}, scope_});
     if (const auto list = find("ParameterDeclarations"))
         for (const OscNode& parameter : list->children("ParameterDeclaration")) {
             // A parameter may lean on those that stand before it.
-            const OscNode inner = parameter.with(std::make_shared<Scope>(Scope{values, scope_}));
+            const OscNode inner = parameter.with(growing);
             std::string name = parameter.node().attribute("name").value();
             if (name.starts_with('$')) // as files of 1.0 write it
                 name.erase(0, 1);
             if (name.empty())
                 parameter.refuse("name", "is missing", "the parameter's name");
-            values[name] = inner.text_or("value", "");
+            std::string value = inner.text_or("value", "");
+            inner.count_bytes("value", value.size());
+            growing->values[name] = std::move(value);
         }
-    return values;
+    return std::move(growing->values);
+}
+
+void OscNode::count_bytes(const char* attribute, std::size_t bytes) const {
+    constexpr std::size_t most = std::size_t{64} << 20; // files of others stay below 100 kB
+    reading_->parameter_bytes += bytes;
+    if (reading_->parameter_bytes > most)
+        refuse(attribute, fmt::format("gives a text of {} bytes, with which parameters fill more than {} MiB", bytes, most >> 20),
+               "shorter ones");
 }
 
 OscNode OscNode::with_declared() const {

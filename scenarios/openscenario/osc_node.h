@@ -37,6 +37,8 @@ struct Reading {
     std::vector<std::string> catalog_notes; ///< files that could not be read
     /// Entries that are being read, the outer ones first: one that asks for itself would never end.
     std::vector<Entry> open_entries;
+    std::size_t inner_entries = 0;     ///< read so far within others
+    std::size_t parameter_bytes = 0;   ///< of parameters' values, and of texts that they were put in
     std::vector<std::string> entities; ///< names that may be referred to
     std::shared_ptr<const Scope> global = std::make_shared<Scope>();
 };
@@ -71,6 +73,12 @@ class OscNode {
     double number(const char* attribute) const;
     double number_or(const char* attribute, double otherwise) const;
     std::optional<double> number_if(const char* attribute) const;
+    /// Lengths within 1e9 m and angles within 1e6 rad, as no scenario needs greater ones; 0 where missing, but for length(). Refuse others.
+    double length(const char* attribute) const;
+    double length_or_0(const char* attribute) const;
+    double angle_or_0(const char* attribute) const;
+    /// Refuses what is below 0; `expected` "a distance not below 0".
+    std::optional<double> not_below_0_if(const char* attribute, const char* expected) const;
     int whole(const char* attribute) const;
     bool flag_or(const char* attribute, bool otherwise) const;
     /// Index among `choices`; refuses others.
@@ -86,6 +94,8 @@ class OscNode {
     OscNode only(const std::string& what) const;
 
     std::map<std::string, std::string> declared() const; ///< of its ParameterDeclarations
+    /// Of a parameter's value, or of a text that parameters were put in. Refuses at `attribute` what is too much in all.
+    void count_bytes(const char* attribute, std::size_t bytes) const;
     pugi::xml_node node() const { return node_; }
     XmlFile& xml() const { return *file_; }
 

@@ -122,6 +122,16 @@ void write_file(const std::filesystem::path& path, const std::string& content) {
         fail(errno);
 }
 
+bool is_utf16(const std::string& bytes) {
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
+        return true;
+    const std::size_t looked_at = std::min<std::size_t>(bytes.size(), 64) / 2 * 2;
+    std::size_t zeros[2] = {0, 0};
+    for (std::size_t i = 0; i < looked_at; ++i)
+        zeros[i % 2] += bytes[i] == '\0';
+    return looked_at >= 8 && std::min(zeros[0], zeros[1]) == 0 && std::max(zeros[0], zeros[1]) * 4 > looked_at;
+}
+
 std::string to_utf8(const std::string& bytes) {
     std::string_view text = bytes;
     if (text.starts_with("\xef\xbb\xbf"))

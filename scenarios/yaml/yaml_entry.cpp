@@ -40,6 +40,15 @@ template <class T> std::optional<T> parsed(const YamlValue& value) {
     return result;
 }
 
+/// "64.4" for the value 64,4; "" where it is no number with a decimal comma.
+std::string with_point(YamlValue value) {
+    const std::size_t comma = value.text.find(',');
+    if (comma == std::string::npos || comma == 0 || comma + 1 == value.text.size())
+        return {};
+    value.text[comma] = '.';
+    return parsed<double>(value) ? value.text : std::string();
+}
+
 std::string child_path(const std::string& parent, std::string_view key) {
     return parent.empty() ? printable(std::string(key)) : fmt::format("{}.{}", parent, printable(std::string(key)));
 }
@@ -65,6 +74,8 @@ void YamlEntry::refuse(const std::string& expected) const { refuse("found " + de
 
 double YamlEntry::number(double least, double greatest) const {
     const std::optional<double> number = parsed<double>(*value_);
+    if (const std::string pointed = number ? "" : with_point(*value_); !pointed.empty())
+        refuse("has a decimal comma: write " + pointed, "");
     if (!number)
         refuse("a number (units belong to the key)");
     if (!std::isfinite(*number))

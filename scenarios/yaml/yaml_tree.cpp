@@ -1,6 +1,7 @@
 #include "scenarios/yaml/yaml_tree.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/utf8.h"
 
 #include <fmt/format.h>
 #include <map>
@@ -148,6 +149,9 @@ class TreeBuilder : public YAML::EventHandler {
 } // namespace
 
 YamlValue parse_yaml(const std::string& content, const std::filesystem::path& file) {
+    // As it is, or each byte made a character before it came here, the mark among them.
+    if (is_utf16(content) || content.starts_with("\u00ff\u00fe") || content.starts_with("\u00fe\u00ff"))
+        throw InputError({file, 0, 0, {}}, "is encoded in UTF-16: save it as UTF-8");
     if (const std::size_t at = content.find('\0'); at != std::string::npos)
         throw InputError({file, 0, 0, {}}, fmt::format("found a zero byte at byte {}", at), "YAML text");
     TreeBuilder builder(file);

@@ -3,6 +3,7 @@
 #include "renderer/camera.h"
 #include "runner/play/probe_fold.h"
 #include "scenarios/light/light.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,12 +49,16 @@ ContactSheet new_sheet(const Stage& stage, const Variant& variant, const Moment&
 }
 
 void add_tile(ContactSheet& sheet, Renderer& renderer) {
-    SheetTile tile{renderer.technique(), {}, {}, {}};
-    Frame frame = renderer.draw(sheet.moment, sheet.view, {.colour = true, .illuminance = true});
-    tile.colour = std::move(frame.colour);
-    tile.illuminance_lx = std::move(frame.illuminance_lx);
-    if (tile.row.illuminance)
-        tile.spot_lx = renderer.draw(sheet.moment, sheet.spot, {.illuminance = true}).illuminance_lx.at(1, 1);
+    SheetTile tile{renderer.technique(), {}, {}, {}, {}};
+    try {
+        Frame frame = renderer.draw(sheet.moment, sheet.view, {.colour = true, .illuminance = true});
+        if (tile.row.illuminance)
+            tile.spot_lx = renderer.draw(sheet.moment, sheet.spot, {.illuminance = true}).illuminance_lx.at(1, 1);
+        tile.colour = std::move(frame.colour);
+        tile.illuminance_lx = std::move(frame.illuminance_lx);
+    } catch (const InputError& error) {
+        tile.not_drawn = error.what();
+    }
     sheet.tiles.push_back(std::move(tile));
 }
 

@@ -14,6 +14,7 @@ struct SheetTile {
     Image<Rgb8> colour;
     Image<float> illuminance_lx;   ///< empty: the technique believes in none
     std::optional<double> spot_lx; ///< at the sheet's spot
+    std::string not_drawn;         ///< why the technique cannot draw the moment; "": it has
 };
 
 struct ContactSheet {
@@ -30,7 +31,8 @@ struct ContactSheet {
 /// Without tiles. The spot is 20 m ahead of the bumper. The drive has a perspective view.
 ContactSheet new_sheet(const Stage& stage, const Variant& variant, const Moment& moment);
 
-/// Draws the sheet's moment once more, by a renderer of its stage's scene. Throws DeviceError.
+/// Draws the sheet's moment once more, by a renderer of its stage's scene. A technique that cannot draw what is mounted leaves a tile
+/// without pictures. Throws DeviceError.
 void add_tile(ContactSheet& sheet, Renderer& renderer);
 
 /// The sheet of every technique, each with a renderer of its own that lives for its tiles only; one sheet a moment. `settings`: all but the

@@ -43,7 +43,7 @@ std::string lux_text(double lux) { return fmt::format("{:.{}f} lx", lux, lux < 9
 /// "12.3 lx, x 1.02"
 std::string spot_text(const ContactSheet& sheet, const SheetTile& tile) {
     if (!tile.spot_lx)
-        return "no lux image";
+        return tile.not_drawn.empty() ? "no lux image" : "not drawn";
     return lux_text(*tile.spot_lx) + (sheet.twin_lx > 0.0 ? fmt::format(", x {:.2f}", *tile.spot_lx / sheet.twin_lx) : "");
 }
 
@@ -53,10 +53,21 @@ void draw_caption(Canvas& canvas, const SheetGround& ground, std::size_t i, cons
     canvas.text(left, below + 30.0, words, {.size_px = 12.0, .colour = sheet_faint});
 }
 
+void draw_empty(Canvas& canvas, const SheetGround& ground, std::size_t i, const char* words) {
+    const double left = ground.left_of(i), top = ground.top_of(i);
+    canvas.rectangle(left, top, ground.tile_width, ground.tile_height, {.fill = css(empty)});
+    canvas.text(left + 0.5 * ground.tile_width, top + 0.5 * ground.tile_height, words,
+                {.size_px = 13.0, .colour = sheet_faint, .anchor = "middle"});
+}
+
 void draw_pictures(Canvas& canvas, const ContactSheet& sheet, const SheetGround& ground) {
     for (std::size_t i = 0; i < sheet.tiles.size(); ++i) {
-        canvas.picture(ground.left_of(i), ground.top_of(i), ground.tile_width, ground.tile_height, pixels_of(sheet.tiles[i].colour));
-        draw_caption(canvas, ground, i, sheet.tiles[i], kind_text(sheet.tiles[i].row));
+        const SheetTile& tile = sheet.tiles[i];
+        if (tile.not_drawn.empty())
+            canvas.picture(ground.left_of(i), ground.top_of(i), ground.tile_width, ground.tile_height, pixels_of(tile.colour));
+        else
+            draw_empty(canvas, ground, i, "not drawn");
+        draw_caption(canvas, ground, i, tile, tile.not_drawn.empty() ? kind_text(tile.row) : short_text(tile.not_drawn, 50));
     }
 }
 
@@ -72,9 +83,7 @@ void draw_lux(Canvas& canvas, const ContactSheet& sheet, const SheetGround& grou
         const SheetTile& tile = sheet.tiles[i];
         const double left = ground.left_of(i), top = ground.top_of(i);
         if (tile.illuminance_lx.empty()) {
-            canvas.rectangle(left, top, ground.tile_width, ground.tile_height, {.fill = css(empty)});
-            canvas.text(left + 0.5 * ground.tile_width, top + 0.5 * ground.tile_height, "not measured",
-                        {.size_px = 13.0, .colour = sheet_faint, .anchor = "middle"});
+            draw_empty(canvas, ground, i, "not measured");
         } else {
             canvas.picture(left, top, ground.tile_width, ground.tile_height, plots::heat_map(tile.illuminance_lx, lux_axis()));
             if (sheet.spot_px)

@@ -84,11 +84,16 @@ std::string turned_text(Direction turned) {
                        turned.v_deg < 0.0 ? "D" : "U");
 }
 
-/// "turned 0.30 L, 0.02 D, known to 0.05 and 0.01; 3 rounds left 0.001 and 0.000"
+/// Bounds are rounded up: none is printed as 0.
+std::string bound_text(double deg) { return fmt::format("{:.3f}", std::ceil(1000.0 * deg - 1e-9) / 1000.0); }
+
+/// "turned 0.30 L, 0.02 D, known to 0.049 and 0.010; 3 rounds left 0.001 and 0.000"; "known to 0.010 in V" where nothing aimed sideways.
 std::string aim_text(const Aim& aim) {
     std::string text = turned_text(aim.turned);
-    if (aim.bound != Direction{})
-        text += fmt::format(", known to {:.2f} and {:.2f}", aim.bound.h_deg, aim.bound.v_deg);
+    if (aim.bound.h_deg > 0.0)
+        text += fmt::format(", known to {} and {}", bound_text(aim.bound.h_deg), bound_text(aim.bound.v_deg));
+    else if (aim.bound.v_deg > 0.0)
+        text += fmt::format(", known to {} in V", bound_text(aim.bound.v_deg));
     if (aim.rounds > 1)
         text += fmt::format("; {} rounds left {:.3f} and {:.3f}", aim.rounds, std::abs(aim.residual.h_deg), std::abs(aim.residual.v_deg));
     return text;
@@ -321,14 +326,14 @@ std::string text_of(const CutOffFigures& c, const CutOffElbow& elbow, const std:
     for (const CutOffScan& scan : c.rise)
         add_entry(out, at(scan.at_deg).c_str(), scan_text(scan, "V"));
     add_entry(out, "kink",
-              c.kink_h_deg ? fmt::format("H {:.2f} +- {:.2f}, where the line through these meets the level part",
-                                         sign * *c.kink_h_deg + 0.0, c.kink_uncertainty_deg)
+              c.kink_h_deg ? fmt::format("H {:.3f} +- {}, where the line through these meets the level part", sign * *c.kink_h_deg + 0.0,
+                                         bound_text(c.kink_uncertainty_deg))
                            : "not_measured: " + c.kink_reason);
     add_entry(out, "rise", c.rise_angle_deg ? fmt::format("{:.1f} degrees", *c.rise_angle_deg) : "not_measured: " + c.kink_reason);
     add_entry(out, "elbow",
-              elbow.at ? fmt::format("H {:.2f} +- {:.2f}, V {:.2f} +- {:.2f}, by a fit over {} columns; from there {:.1f} degrees up{}",
-                                     sign * elbow.at->h_deg + 0.0, elbow.uncertainty.h_deg, elbow.at->v_deg, elbow.uncertainty.v_deg,
-                                     elbow.points.size(), elbow.rise_angle_deg,
+              elbow.at ? fmt::format("H {:.3f} +- {}, V {:.3f} +- {}, by a fit over {} columns; from there {:.1f} degrees up{}",
+                                     sign * elbow.at->h_deg + 0.0, bound_text(elbow.uncertainty.h_deg), elbow.at->v_deg,
+                                     bound_text(elbow.uncertainty.v_deg), elbow.points.size(), elbow.rise_angle_deg,
                                      elbow.rise_to_h_deg ? fmt::format(" to H {:.2f}", sign * *elbow.rise_to_h_deg) : "")
                        : "not_measured: " + elbow.reason);
     CutOffScan shoulder = c.shoulder;

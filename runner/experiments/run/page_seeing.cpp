@@ -20,10 +20,10 @@ const SeeingSeries* series_named(const PlayedVariant& played, const std::string&
 plots::Polyline line_of(const SeeingSeries& series, const SeeingSeries::Column& column) {
     plots::Polyline line;
     double largest = 0.0;
-    for (const std::optional<double>& value : column.values)
-        largest = std::max(largest, value.value_or(0.0));
+    for (const Value& value : column.values)
+        largest = std::max(largest, value.figure().value_or(0.0));
     for (std::size_t i = 0; i < series.at_m.size(); ++i) {
-        const std::optional<double>& value = column.values[i];
+        const std::optional<double> value = column.values[i].figure();
         const bool shown = value && (!column.logarithmic || *value >= least_share * largest);
         line.push_back({series.at_m[i], shown ? *value : std::numeric_limits<double>::quiet_NaN()});
     }

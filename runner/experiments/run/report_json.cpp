@@ -21,6 +21,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -59,18 +60,30 @@ Json spread_json(const std::optional<Spread>& spread) {
             {"standard_deviation", finite(spread->standard_deviation, "standard deviation")}};
 }
 
+/// Values by name, then the reasons of those that are null.
+Json with_reasons(Json entry, const std::vector<std::pair<const char*, Value>>& values) {
+    Json reasons;
+    for (const auto& [name, value] : values) {
+        entry[name] = value_json(value);
+        if (!value.measured())
+            reasons[name] = value.reason();
+    }
+    if (!reasons.is_null())
+        entry["not_measured"] = std::move(reasons);
+    return entry;
+}
+
 /// nullptr where no moment gave anything.
 Json spread_json(const ManyMoments& moments) {
     if (moments.count() == 0)
         return nullptr;
-    return {{"count", moments.count()},
-            {"median", value_json(moments.quantile(0.5))},
-            {"p05", value_json(moments.quantile(0.05))},
-            {"p95", value_json(moments.quantile(0.95))},
-            {"minimum", value_json(moments.quantile(0.0))},
-            {"maximum", value_json(moments.quantile(1.0))},
-            {"mean", value_json(moments.mean())},
-            {"standard_deviation", value_json(moments.standard_deviation())}};
+    return with_reasons(Json::object({{"count", moments.count()}}), {{"median", moments.quantile(0.5)},
+                                                                     {"p05", moments.quantile(0.05)},
+                                                                     {"p95", moments.quantile(0.95)},
+                                                                     {"minimum", moments.quantile(0.0)},
+                                                                     {"maximum", moments.quantile(1.0)},
+                                                                     {"mean", moments.mean()},
+                                                                     {"standard_deviation", moments.standard_deviation()}});
 }
 
 Json rows_json(const Report& report) {
@@ -106,12 +119,12 @@ Json summary_json(const PlayedVariant& played) {
         for (const auto& [at_m, moments] : summary.widths)
             entry["widths_m"].push_back({{"at_m", finite(at_m, "width's distance")}, {"width_m", spread_json(moments)}});
         entry["area_m2"] = spread_json(summary.area);
-        entry["largest_twin_difference_m"] = value_json(summary.twin_difference.quantile(1.0));
-        if (summary.key.lane == "own") {
-            entry["metres_per_tenth_degree"] = value_json(summary.per_tenth_degree.quantile(0.5));
-            entry["metres_per_tenth_flux"] = value_json(summary.per_tenth_flux.quantile(0.5));
-            entry["grid_error_m"] = value_json(summary.grid_error.quantile(0.5));
-        }
+        std::vector<std::pair<const char*, Value>> trust{{"largest_twin_difference_m", summary.twin_difference.quantile(1.0)}};
+        if (summary.key.lane == "own")
+            trust.insert(trust.end(), {{"metres_per_tenth_degree", summary.per_tenth_degree.quantile(0.5)},
+                                       {"metres_per_tenth_flux", summary.per_tenth_flux.quantile(0.5)},
+                                       {"grid_error_m", summary.grid_error.quantile(0.5)}});
+        entry = with_reasons(std::move(entry), trust);
         out.push_back(std::move(entry));
     }
     return out;
@@ -171,7 +184,7 @@ Json series_json(const PlayedVariant& played, ExtentsOfRow source, const ExtentK
 
 /// Sensitivities or grid errors of the own lane: one column per quantity of each (plane, limit).
 template <class Entry> Json columns_json(const PlayedVariant& played, std::vector<Entry> ExtentRow::*entries,
-                                         const std::vector<std::pair<const char*, double Entry::*>>& quantities) {
+                                         const std::vector<std::pair<const char*, std::optional<double> (*)(const Entry&)>>& quantities) {
     std::vector<std::pair<ExtentPlane, double>> keys;
     for (const ExtentRow& row : played.extents)
         for (const Entry& entry : row.*entries)
@@ -185,7 +198,8 @@ template <class Entry> Json columns_json(const PlayedVariant& played, std::vecto
             for (const ExtentRow& row : played.extents) {
                 const auto found = std::find_if((row.*entries).begin(), (row.*entries).end(),
                                                 [&](const Entry& entry) { return entry.plane == plane && entry.limit_lx == limit_lx; });
-                column.push_back(found == (row.*entries).end() ? Json(nullptr) : Json(rounded((*found).*quantity, name)));
+                const std::optional<double> value = found == (row.*entries).end() ? std::nullopt : quantity(*found);
+                column.push_back(value ? Json(rounded(*value, name)) : Json(nullptr));
             }
             columns[name] = std::move(column);
         }
@@ -212,20 +226,36 @@ Json extents_json(const PlayedVariant& played) {
         if (occurs(&ExtentRow::twin))
             out["twin"].push_back(series_json(played, &ExtentRow::twin, key));
     }
-    out["sensitivity"] = columns_json<ReachSensitivity>(played, &ExtentRow::sensitivity,
-                                                        {{"metres_per_tenth_degree", &ReachSensitivity::metres_per_tenth_degree},
-                                                         {"metres_per_tenth_flux", &ReachSensitivity::metres_per_tenth_flux}});
-    out["grid_error"] =
-        columns_json<GridError>(played, &ExtentRow::grid_errors, {{"reach_m", &GridError::reach_m}, {"area_m2", &GridError::area_m2}});
+    out["sensitivity"] = columns_json<ReachSensitivity>(
+        played, &ExtentRow::sensitivity,
+        {{"metres_per_tenth_degree", [](const ReachSensitivity& of) -> std::optional<double> { return of.metres_per_tenth_degree; }},
+         {"metres_per_tenth_flux", [](const ReachSensitivity& of) -> std::optional<double> { return of.metres_per_tenth_flux; }}});
+    out["grid_error"] = columns_json<GridError>(played, &ExtentRow::grid_errors,
+                                                {{"reach_m", [](const GridError& of) { return of.reach_m; }},
+                                                 {"area_m2", [](const GridError& of) -> std::optional<double> { return of.area_m2; }}});
     return out;
 }
 
 /// Seven digits: far below what any of the lamp tables knows.
-Json seven_digits(const std::optional<double>& value, const std::string& what) {
-    return value ? Json(std::stod(fmt::format("{:.7g}", finite(*value, what.c_str())))) : Json(nullptr);
+double seven_digits(double value) { return std::stod(fmt::format("{:.7g}", value)); }
+
+Json seven_digits(double value, const std::string& what) { return seven_digits(finite(value, what.c_str())); }
+
+Json seven_digits(const Value& value) {
+    switch (value.kind()) {
+    case Value::Kind::at_least:
+        return value_json(Value::at_least(seven_digits(value.low())));
+    case Value::Kind::at_most:
+        return value_json(Value::at_most(seven_digits(value.high())));
+    case Value::Kind::number:
+        return seven_digits(value.low());
+    case Value::Kind::not_measured:
+        break;
+    }
+    return nullptr;
 }
 
-/// Columns with one entry per moment; null where it was not measured.
+/// Columns with one entry per moment; null where it was not measured, with the reasons that there are.
 Json seeing_json(const std::vector<SeeingSeries>& all) {
     Json out = Json::array();
     for (const SeeingSeries& series : all) {
@@ -234,9 +264,15 @@ Json seeing_json(const std::vector<SeeingSeries>& all) {
             at.push_back(rounded(at_m, series.over.c_str()));
         for (const SeeingSeries::Column& column : series.columns) {
             Json values = Json::array();
-            for (const std::optional<double>& value : column.values)
-                values.push_back(seven_digits(value, column.name));
+            std::set<std::string> reasons;
+            for (const Value& value : column.values) {
+                values.push_back(seven_digits(value));
+                if (!value.measured())
+                    reasons.insert(value.reason());
+            }
             columns.push_back({{"name", column.name}, {"what", column.label}, {"unit", column.unit}, {"values", std::move(values)}});
+            if (!reasons.empty())
+                columns.back()["not_measured"] = reasons;
         }
         out.push_back({{"subject", series.subject}, {"over", series.over}, {"frame", series.ticks}, {"at_m", at}, {"columns", columns}});
     }

@@ -199,13 +199,28 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
             write_file(options.folder / file, plots::png_of_svg(svg));
             return StoredFrame{sheet.moment.tick, sheet.moment.time_s, "driver", file, ""};
         };
+        const auto left_out = [&](const std::string& what, const std::string& why) {
+            played[i].notes.push_back(fmt::format("the moment {} is left out: {}", what, why));
+        };
+        const auto add_sheet = [&](const std::string& what, const char* kind, const auto& svg_of) {
+            try {
+                if (const std::string svg = svg_of(); !svg.empty())
+                    played[i].more_sheets.push_back({what, stored(kind, svg)});
+            } catch (const InputError& error) { // more than a method can draw
+                left_out(what, error.what());
+            }
+        };
+        for (const SheetTile& tile : sheet.tiles)
+            if (!tile.not_drawn.empty())
+                left_out(fmt::format("in technique {}", tile.row.name), tile.not_drawn);
         played[i].contact_sheet = stored("contact-sheet", contact_sheet_svg(sheet));
-        if (const DisplaySheet shown = display_sheet(stage, variant, sheet.moment, device, plain); !shown.mappers.empty())
-            played[i].more_sheets.push_back({"by every tone mapper and eye", stored("display-sheet", display_sheet_svg(shown))});
+        add_sheet("by every tone mapper and eye", "display-sheet", [&]() -> std::string {
+            const DisplaySheet shown = display_sheet(stage, variant, sheet.moment, device, plain);
+            return shown.mappers.empty() ? "" : display_sheet_svg(shown);
+        });
         if (plain.technique == "photometric")
-            played[i].more_sheets.push_back(
-                {"in every shadow method",
-                 stored("shadow-sheet", shadow_sheet_svg(shadow_moment(stage, variant, sheet.moment, device, plain)))});
+            add_sheet("in every shadow method", "shadow-sheet",
+                      [&] { return shadow_sheet_svg(shadow_moment(stage, variant, sheet.moment, device, plain)); });
     }
 }
 

@@ -68,10 +68,15 @@ class Multiplexing {
         for (std::size_t i = 0; i < none; ++i)
             if (const auto found = by_name.find(message.signals[i].signal.multiplexed_by); found != by_name.end())
                 above_[i] = found->second;
-        depth_.assign(none, 0);
-        for (std::size_t i = 0; i < none; ++i)
-            for (std::size_t at = above_[i]; at != none; at = above_[at])
-                ++depth_[i];
+        depth_.assign(none, none);
+        std::vector<std::size_t> way;
+        for (std::size_t i = 0; i < none; ++i) {
+            std::size_t at = i;
+            for (; at != none && depth_[at] == none; at = above_[at])
+                way.push_back(at);
+            for (std::size_t depth = at == none ? 0 : depth_[at] + 1; !way.empty(); way.pop_back())
+                depth_[way.back()] = depth++;
+        }
     }
 
     /// Both climb to where they meet; the last step of each is what that multiplexor chooses between.
@@ -94,14 +99,24 @@ class Multiplexing {
         }
         if (a == above_.size())
             return true;
-        const CanSignal &x = message_.signals[from_a].signal, &y = message_.signals[from_b].signal;
-        return std::ranges::any_of(x.multiplexed_when, [&](const auto& p) {
-            return std::ranges::any_of(y.multiplexed_when, [&](const auto& q) { return p.first <= q.second && q.first <= p.second; });
-        });
+        return meet(message_.signals[from_a].signal.multiplexed_when, message_.signals[from_b].signal.multiplexed_when);
     }
     std::size_t steps() const { return steps_; }
 
   private:
+    /// Whether a value lies in a range of either; both ascend.
+    bool meet(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& x,
+              const std::vector<std::pair<std::uint64_t, std::uint64_t>>& y) {
+        for (auto p = x.begin(), q = y.begin(); p != x.end() && q != y.end(); ++steps_)
+            if (p->second < q->first)
+                ++p;
+            else if (q->second < p->first)
+                ++q;
+            else
+                return true;
+        return false;
+    }
+
     const DbcMessage& message_;
     std::vector<std::size_t> above_, depth_; ///< by signal; above_ of a root is their number
     std::size_t steps_ = 0;
@@ -139,6 +154,9 @@ void check_overlaps(DbcReading& reading, const DbcMessage& message) {
             holders[bit].push_back(i);
         }
     }
+    if (overlaps == 0 && enough())
+        reading.note(message.line, fmt::format("of the signals of {} only {} pairs were looked at for overlap, and none does",
+                                               printable(message.message.name), pairs));
     if (overlaps > 0)
         reading.note(line, first_pair + (overlaps > 1 ? fmt::format(", and {}{} more pairs of this message do", enough() ? "at least " : "",
                                                                     overlaps - 1)

@@ -76,8 +76,14 @@ DbcSignal* DbcReading::signal(std::uint32_t id, const std::string& name) {
     DbcMessage* in = message(id);
     if (in == nullptr)
         return nullptr;
-    const auto found = std::ranges::find_if(in->signals, [&](const DbcSignal& one) { return one.signal.name == name; });
-    return found == in->signals.end() ? nullptr : &*found;
+    Places& known = places[id];
+    if (known.signals != in->signals.size()) {
+        known = {in->signals.size(), {}};
+        for (std::size_t i = 0; i < in->signals.size(); ++i)
+            known.of.emplace(in->signals[i].signal.name, i);
+    }
+    const auto found = known.of.find(name);
+    return found == known.of.end() ? nullptr : &in->signals[found->second];
 }
 
 void DbcReading::note(std::size_t line, const std::string& text) { notes.push_back(fmt::format("line {}: {}", line, text)); }

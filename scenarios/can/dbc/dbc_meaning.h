@@ -20,7 +20,13 @@ struct DbcReading {
     std::vector<std::string> notes;
 
     DbcMessage* message(std::uint32_t id);
+    /// Signals may go from a message between two questions, but not change places or names.
     DbcSignal* signal(std::uint32_t id, const std::string& name);
+    struct Places {
+        std::size_t signals = 0; ///< of the message when this was made
+        std::unordered_map<std::string, std::size_t> of;
+    };
+    std::unordered_map<std::uint32_t, Places> places;         ///< of a message's signals, by identifier; filled by signal()
     std::set<std::pair<std::uint32_t, std::string>> left_out; ///< signals that were there, and "" for messages, by identifier
 
     void note(std::size_t line, const std::string& text);

@@ -3,20 +3,17 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
+#include <string_view>
+#include <unordered_map>
 
 namespace fernlicht {
 namespace {
 
-DbcSignal* signal_of(DbcMessage& message, const std::string& name) {
-    const auto found = std::ranges::find_if(message.signals, [&](const DbcSignal& one) { return one.signal.name == name; });
-    return found == message.signals.end() ? nullptr : &*found;
-}
-
 void apply_multiplexing_ranges(DbcReading& reading) {
     for (const DbcMultiplexing& said : reading.statements.multiplexing) {
         DbcMessage* message = reading.message(said.on.id);
-        DbcSignal* signal = message != nullptr ? signal_of(*message, said.on.name) : nullptr;
-        DbcSignal* by = message != nullptr ? signal_of(*message, said.multiplexor) : nullptr;
+        DbcSignal* signal = reading.signal(said.on.id, said.on.name);
+        DbcSignal* by = reading.signal(said.on.id, said.multiplexor);
         if (signal == nullptr || by == nullptr) {
             reading.note(said.on.line, fmt::format("SG_MUL_VAL_ of message {} names {}, which it has not", said.on.id,
                                                    printable(signal == nullptr ? said.on.name : said.multiplexor)));
@@ -57,28 +54,34 @@ void apply_simple_multiplexing(DbcReading& reading, DbcMessage& message) {
                                                              : "several multiplexors (M) and no SG_MUL_VAL_ says which it follows"));
         }
     }
-    for (bool more = !gone.empty(); more;) { // and whom these switch
-        more = false;
+    if (!gone.empty()) { // and whom these switch
+        std::unordered_multimap<std::string_view, std::string_view> switched;
         for (const DbcSignal& one : message.signals)
-            if (gone.contains(one.signal.multiplexed_by))
-                more |= gone.insert(one.signal.name).second;
+            switched.emplace(one.signal.multiplexed_by, one.signal.name);
+        for (std::vector<std::string_view> by(gone.begin(), gone.end()); !by.empty();) {
+            const auto [first, last] = switched.equal_range(by.back());
+            by.pop_back();
+            for (auto one = first; one != last; ++one)
+                if (gone.emplace(one->second).second)
+                    by.push_back(one->second);
+        }
     }
     for (const std::string& name : gone)
         reading.left_out.emplace(message.id, name);
     std::erase_if(message.signals, [&](const DbcSignal& one) { return gone.contains(one.signal.name); });
 }
 
-// Who switches whom must end somewhere.
-void check_multiplexing_ends(DbcReading& reading, DbcMessage& message) {
-    for (const DbcSignal& one : message.signals) {
-        std::size_t steps = 0;
-        for (const DbcSignal* by = &one; by != nullptr && !by->signal.multiplexed_by.empty();
-             by = signal_of(message, by->signal.multiplexed_by))
-            if (++steps > message.signals.size())
+// Who switches whom must end somewhere. Each way up is gone once: it ends where one before it has been.
+void check_multiplexing_ends(DbcReading& reading, const DbcMessage& message) {
+    std::unordered_map<const DbcSignal*, const DbcSignal*> seen_from; // by signal: where the way began that came past it
+    for (const DbcSignal& one : message.signals)
+        for (const DbcSignal* by = &one; by != nullptr && seen_from.try_emplace(by, &one).second;
+             by = reading.signal(message.id, by->signal.multiplexed_by))
+            if (const DbcSignal* next = reading.signal(message.id, by->signal.multiplexed_by);
+                next != nullptr && seen_from.contains(next) && seen_from[next] == &one)
                 reading.refuse(one.line,
-                               fmt::format("multiplexors that switch each other in a ring, {} among them", dbc_signal_name(message, one)),
+                               fmt::format("multiplexors that switch each other in a ring, {} among them", dbc_signal_name(message, *next)),
                                "a multiplexor that is always there");
-    }
 }
 
 } // namespace

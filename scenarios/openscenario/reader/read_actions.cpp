@@ -73,8 +73,8 @@ std::optional<PrivateAction> read_longitudinal(const OscNode& node) {
     if (kind == "LongitudinalDistanceAction") {
         LongitudinalDistanceAction out;
         out.entity = node.entity("entityRef");
-        out.distance_m = node.number_if("distance");
-        out.time_gap_s = node.number_if("timeGap");
+        out.distance_m = node.not_below_0_if("distance", "a distance not below 0");
+        out.time_gap_s = node.not_below_0_if("timeGap", "a time not below 0");
         if (out.distance_m.has_value() == out.time_gap_s.has_value())
             node.refuse("", "has not exactly one of distance and timeGap", "one of the two");
         out.freespace = node.flag_or("freespace", false);
@@ -95,7 +95,7 @@ std::optional<PrivateAction> read_longitudinal(const OscNode& node) {
 LaneChangeAction lane_change_of(const OscNode& node) {
     LaneChangeAction out;
     out.dynamics = dynamics_of(node.require("LaneChangeActionDynamics"));
-    out.target_offset_m = node.number_or("targetLaneOffset", 0.0);
+    out.target_offset_m = node.length_or_0("targetLaneOffset");
     const OscNode target = node.require("LaneChangeTarget");
     if (const auto absolute = target.find("AbsoluteTargetLane")) {
         out.target = absolute->whole("value");
@@ -111,13 +111,13 @@ LaneOffsetAction lane_offset_of(const OscNode& node) {
     out.continuous = node.flag_or("continuous", false);
     const OscNode dynamics = node.require("LaneOffsetActionDynamics");
     out.shape = shape_of(dynamics);
-    out.max_lateral_acceleration = dynamics.number_if("maxLateralAcc");
+    out.max_lateral_acceleration = dynamics.not_below_0_if("maxLateralAcc", "an acceleration not below 0");
     const OscNode target = node.require("LaneOffsetTarget");
     if (const auto absolute = target.find("AbsoluteTargetLaneOffset")) {
-        out.target = absolute->number("value");
+        out.target = absolute->length("value");
     } else {
         const OscNode relative = target.require("RelativeTargetLaneOffset");
-        out.target = RelativeOffset{relative.entity("entityRef"), relative.number("value")};
+        out.target = RelativeOffset{relative.entity("entityRef"), relative.length("value")};
     }
     return out;
 }
@@ -131,11 +131,11 @@ std::optional<PrivateAction> read_lateral(const OscNode& node) {
     if (kind == "LateralDistanceAction") {
         LateralDistanceAction out;
         out.entity = node.entity("entityRef");
-        out.distance_m = node.number_or("distance", 0.0);
+        out.distance_m = node.not_below_0_if("distance", "a distance not below 0").value_or(0.0);
         out.freespace = node.flag_or("freespace", false);
         out.continuous = node.flag_or("continuous", false);
         if (const auto limits = node.find("DynamicConstraints"))
-            out.max_speed_mps = limits->number_if("maxSpeed");
+            out.max_speed_mps = limits->not_below_0_if("maxSpeed", "a speed not below 0");
         return out;
     }
     node.unsupported(fmt::format("the action {}", printable(kind)));

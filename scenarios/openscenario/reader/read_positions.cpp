@@ -24,12 +24,12 @@ RoutePosition read_route_position(const OscNode& node) {
     const OscNode where = (inside ? *inside : node).only("a position on the route");
     position.orientation = orientation_of(node);
     if (where.element() == "FromLaneCoordinates") {
-        position.s_m = where.number("pathS");
+        position.s_m = where.length("pathS");
         position.lane = where.whole("laneId");
-        position.offset_m = where.number_or("laneOffset", 0.0);
+        position.offset_m = where.length_or_0("laneOffset");
     } else if (where.element() == "FromRoadCoordinates") {
-        position.s_m = where.number("pathS");
-        position.t_m = where.number("t");
+        position.s_m = where.length("pathS");
+        position.t_m = where.length("t");
     } else if (where.element() == "FromCurrentEntity") {
         position.current_entity = where.entity("entityRef");
     } else {
@@ -44,31 +44,27 @@ Position read_kind(const OscNode& node) {
         for (const char* axis : {"x", "y", "z"})
             if (const double at = node.number_or(axis, 0.0); !(std::abs(at) <= 1e9))
                 node.refuse(axis, fmt::format("found {}", at), "a place within 1e9 m of the origin");
-        return WorldPosition{node.number("x"),    node.number("y"),    node.number_if("z"),
-                             node.number_if("h"), node.number_if("p"), node.number_if("r")};
+        const auto angle = [&](const char* name) { return node.has(name) ? std::optional(node.angle_or_0(name)) : std::nullopt; };
+        return WorldPosition{node.number("x"), node.number("y"), node.number_if("z"), angle("h"), angle("p"), angle("r")};
     }
     if (kind == "LanePosition")
-        return LanePosition{node.text("roadId"), node.whole("laneId"), node.number("s"), node.number_or("offset", 0.0),
-                            orientation_of(node)};
+        return LanePosition{node.text("roadId"), node.whole("laneId"), node.length("s"), node.length_or_0("offset"), orientation_of(node)};
     if (kind == "RoadPosition")
-        return RoadPosition{node.text("roadId"), node.number("s"), node.number("t"), orientation_of(node)};
+        return RoadPosition{node.text("roadId"), node.length("s"), node.length("t"), orientation_of(node)};
     if (kind == "RelativeLanePosition")
-        return RelativeLanePosition{entity_of(node),
-                                    node.whole("dLane"),
-                                    node.has("dsLane") ? node.number("dsLane") : node.number("ds"),
-                                    node.number_or("offset", 0.0),
-                                    node.has("dsLane"),
-                                    orientation_of(node)};
+        return RelativeLanePosition{
+            entity_of(node),    node.whole("dLane"), node.length(node.has("dsLane") ? "dsLane" : "ds"), node.length_or_0("offset"),
+            node.has("dsLane"), orientation_of(node)};
     if (kind == "RelativeRoadPosition")
-        return RelativeRoadPosition{entity_of(node), node.number("ds"), node.number("dt"), orientation_of(node)};
+        return RelativeRoadPosition{entity_of(node), node.length("ds"), node.length("dt"), orientation_of(node)};
     if (kind == "RelativeObjectPosition" || kind == "RelativeWorldPosition")
         return RelativePosition{
-            entity_of(node),     node.number("dx"), node.number("dy"), node.number_or("dz", 0.0), kind == "RelativeWorldPosition",
+            entity_of(node),     node.length("dx"), node.length("dy"), node.length_or_0("dz"), kind == "RelativeWorldPosition",
             orientation_of(node)};
     if (kind == "RoutePosition")
         return read_route_position(node);
     if (kind == "TrajectoryPosition")
-        return TrajectoryPosition{read_trajectory(node.require("TrajectoryRef")), node.number("s"), node.number_or("t", 0.0),
+        return TrajectoryPosition{read_trajectory(node.require("TrajectoryRef")), node.length("s"), node.length_or_0("t"),
                                   orientation_of(node)};
     if (kind == "GeoPosition") {
         node.unsupported("geographic positions");
@@ -168,8 +164,8 @@ std::shared_ptr<const Trajectory> trajectory_of(const OscNode& node) {
 } // namespace
 
 Orientation read_orientation(const OscNode& node) {
-    return {node.has("type") && node.choice("type", {"absolute", "relative"}) == 1, node.number_or("h", 0.0), node.number_or("p", 0.0),
-            node.number_or("r", 0.0)};
+    return {node.has("type") && node.choice("type", {"absolute", "relative"}) == 1, node.angle_or_0("h"), node.angle_or_0("p"),
+            node.angle_or_0("r")};
 }
 
 Position read_position(const OscNode& node) {

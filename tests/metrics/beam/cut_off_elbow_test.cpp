@@ -85,6 +85,30 @@ TEST(Elbow, AShortRiseIsAimedByTheElbowAndByNothingElse) {
     EXPECT_NEAR(found(t, not_re_aimed) / found(aimed, {.aim = AimRule::as_is}), 1.0, 0.05);
 }
 
+// The line at 0.2 D is met 1.38 degrees right of the elbow of such a beam, 0.88 right of line A.
+TEST(Elbow, ABeamOf15DegreesThatIsRightAsFiledStaysThere) {
+    for (const double rise_deg : {2.0, 2.5, 3.0}) {
+        const CandelaTable t = planted::beam({.rise_deg = rise_deg, .step_deg = 0.05});
+        const Aim aim = aim_of(t, AimRule::automatic);
+        ASSERT_TRUE(aim.found) << aim.how;
+        EXPECT_NE(aim.rule, AimRule::cut_off_by_line);
+        EXPECT_NEAR(aim.turned.h_deg, 0.0, 0.05) << rise_deg << ": " << aim.how;
+        EXPECT_THAT(aim.how, testing::AnyOf(HasSubstr("kink set on V-V"), HasSubstr("nor by the line at 0.2 D: ")));
+    }
+    const CandelaTable t = planted::beam({.rise_deg = 2.0, .step_deg = 0.05});
+    EXPECT_THAT(aim_of(t, AimRule::automatic).how, HasSubstr("it would leave the elbow at 0.8"));
+    EXPECT_NEAR(aim_of(t, AimRule::cut_off_by_line).turned.h_deg, -0.88, 0.05); // who asks for it, gets it
+}
+
+TEST(Elbow, WhereNothingAimedSidewaysThereIsNoBound) {
+    const CandelaTable t = planted::beam({.rise_deg = 1.3, .step_deg = 0.05});
+    const Aim aim = aim_of(t, AimRule::cut_off);
+    ASSERT_FALSE(aim.found);
+    EXPECT_EQ(aim.turned.h_deg, 0.0);
+    EXPECT_EQ(aim.bound.h_deg, 0.0);
+    EXPECT_GT(aim.bound.v_deg, 0.0);
+}
+
 TEST(Elbow, AnyAngleIsTurnedAtOnceInBothTraffics) {
     for (const planted::CutOff& c : planted_shapes) {
         const CandelaTable right = planted::beam(c), left = mirrored(right);

@@ -238,9 +238,9 @@ TEST(GridError, IsSmallForSmoothLightAndShrinksWithTheCell) {
         return grid_error(grid, lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); }), ExtentPlane::road, {3.0}).at(0);
     };
     const GridError coarse = error_with(2.0), fine = error_with(0.5);
-    EXPECT_LT(coarse.reach_m, 4.0 * 4.0 / (8.0 * 12.0));
+    EXPECT_LT(coarse.reach_m.value(), 4.0 * 4.0 / (8.0 * 12.0));
     EXPECT_GT(coarse.area_m2, 0.0);
-    EXPECT_LT(fine.reach_m, 0.015);
+    EXPECT_LT(fine.reach_m.value(), 0.015);
     EXPECT_LT(fine.area_m2, 0.2 * coarse.area_m2);
     EXPECT_EQ(fine.limit_lx, 3.0);
 }
@@ -256,7 +256,7 @@ TEST(LaneGridErrors, AgreeWithTheGridsErrorAndShrinkWithTheCell) {
         EXPECT_EQ(errors.size(), measured.size());
         const GridError whole = grid_error(grid, lx, ExtentPlane::road, {3.0}).at(0);
         for (const LaneGridError& error : errors) {
-            EXPECT_NEAR(error.lane == "own" ? error.reach_m : whole.reach_m, whole.reach_m, 1e-12);
+            EXPECT_NEAR(error.lane == "own" ? error.reach_m : whole.reach_m.value(), whole.reach_m.value(), 1e-12);
             EXPECT_NEAR(error.lane == "all" ? error.area_m2 : whole.area_m2, whole.area_m2, 1e-9);
         }
         return errors;
@@ -276,9 +276,20 @@ TEST(GridError, EvenNumbersOfRowsCompareTheSameGround) {
     ASSERT_EQ(grid.ahead_m.size() % 2, 0U);
     const auto errors = grid_error(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::target, {5.0});
     ASSERT_EQ(errors.size(), 1U);
-    EXPECT_EQ(errors[0].reach_m, 0.0);
+    EXPECT_FALSE(errors[0].reach_m); // lit to the end of both
     EXPECT_NEAR(errors[0].area_m2, 0.0, 1e-9);
     EXPECT_EQ(errors[0].plane, ExtentPlane::target);
+}
+
+// Of two reaches that both end with the grid nothing tells how far apart they are.
+TEST(GridError, AReachThatGoesOnHasNone) {
+    const BareLamp lamp;
+    const auto error_with = [&](double ahead_m) {
+        const ExtentGrid grid = straight_grid({.ahead_m = ahead_m, .along_m = 0.5, .across_m = 0.25});
+        return grid_error(grid, lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); }), ExtentPlane::road, {3.0}).at(0);
+    };
+    EXPECT_TRUE(error_with(60.0).reach_m);
+    EXPECT_FALSE(error_with(8.0).reach_m);
 }
 
 } // namespace

@@ -111,6 +111,24 @@ TEST(Summary, WhatRestsOnALowerBoundIsOne) {
     EXPECT_EQ(find(readings, "reach_5lx_road_own_twin_difference_worst_m").value, Value(0.5)) << "both beyond: left out";
 }
 
+TEST(Summary, WhatTellsOfAReachThatGoesOnSaysSo) {
+    PlayedVariant beyond = played({reaching(200.0, "own", 5.0, true), reaching(200.0, "own", 5.0, true)});
+    for (ExtentRow& row : beyond.extents) {
+        row.sensitivity.clear();
+        row.grid_errors[0].reach_m.reset();
+    }
+    const std::string why = "the reach lies beyond the end of grid, road or lane in every moment";
+    const Readings none = summarise(beyond, looking_200_m());
+    for (const char* name : {"reach_5lx_road_own_per_tenth_degree_m", "reach_5lx_road_own_per_tenth_flux_m",
+                             "reach_5lx_road_own_grid_error_m", "reach_5lx_road_own_edge_grid_error_m"}) {
+        EXPECT_FALSE(find(none, name).value.measured()) << name;
+        EXPECT_EQ(find(none, name).value.reason(), why) << name;
+    }
+    PlayedVariant once = played({reaching(200.0, "own", 5.0, true), reaching(150.0)});
+    once.extents[0].grid_errors[0].reach_m.reset();
+    EXPECT_DOUBLE_EQ(value(summarise(once, looking_200_m()), "reach_5lx_road_own_grid_error_m"), 0.02) << "the other moment's";
+}
+
 // Near the road's end the grid shrinks: 12 m "at least" must not become the drive's smallest reach.
 TEST(Summary, TheRoadsEndIsNotAShortReach) {
     const Readings readings = summarise(played({reaching(60.0), reaching(12.0, "own", 5.0, true), reaching(62.0)}), looking_200_m());

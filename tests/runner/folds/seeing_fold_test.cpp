@@ -44,7 +44,7 @@ TEST(Seeing, ASensorSeesTheLawOfDistance) {
     EXPECT_THAT(named(readings, "sensor_edge_at_500m_lx").value.reason(), HasSubstr("the drive comes from 96.4 m away"));
     const auto series = fold.series();
     ASSERT_EQ(series.size(), 1U);
-    EXPECT_NEAR(series[0].columns.at(0).values.at(10).value(), 1000.0 / (86.4 * 86.4 + beside), 1e-9); // after 1 s
+    EXPECT_NEAR(series[0].columns.at(0).values.at(10).number().value(), 1000.0 / (86.4 * 86.4 + beside), 1e-9); // after 1 s
     EXPECT_LT(series[0].at_m.back(), 1.0) << "what lies behind the bumper does not count";
     EXPECT_EQ(series[0].ticks.size(), series[0].at_m.size());
 }
@@ -68,7 +68,7 @@ TEST(Seeing, AnOncomingEyeIsDazzledAsTheRulerSays) {
         veiling = std::max(veiling, lv);
         increment = std::max(increment, 65.0 * lv);
         de_boer = std::min(de_boer, de_boer_rating({source}, 1.0).number().value());
-        EXPECT_NEAR(series[0].columns.at(0).values.at(i).value(), 1000.0 / square, 1e-9 * 1000.0 / square);
+        EXPECT_NEAR(series[0].columns.at(0).values.at(i).number().value(), 1000.0 / square, 1e-9 * 1000.0 / square);
     }
     EXPECT_NEAR(value(readings, "glare_eye_veiling_max_cdm2"), veiling, 1e-9 * veiling);
     EXPECT_NEAR(value(readings, "glare_eye_threshold_increment_max_percent"), increment, 1e-9 * increment);

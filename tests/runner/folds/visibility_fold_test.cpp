@@ -79,6 +79,7 @@ TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
     EXPECT_EQ(value(readings({}), "detection_t_own_m"), 0.0) << "nowhere";
     target.level = 0.01;
     EXPECT_EQ(named(readings({}), "detection_t_own_m").value, Value::at_least(200.0));
+    EXPECT_EQ(straight.played().series().at(0).columns.at(0).values.front(), Value::at_least(200.0));
 }
 
 // 50 m ahead at the right edge, 1.75 m beside the lamp: of seven squares of 0.25 m the four below the eye's height, 1.2 m, stand against

@@ -1,6 +1,7 @@
 // DBC files statement by statement, what is odd about them, and what is refused.
 #include "tests/scenarios/can/dbc_trial.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <random>
@@ -241,6 +242,47 @@ TEST_F(Dbc, DeepAndWideMessagesAreReadInTheirTime) {
     for (int i = 0; i < 100'000; ++i)
         text += fmt::format(" SG_ S{} : 0|8@1+ (1,0) [0|0] \"\" X\n", i);
     EXPECT_EQ(all_notes(read(text)), "line 3: A.S1 overlaps S0, and at least 999999 more pairs of this message do\n");
+}
+
+/// A second each, and once minutes: the way up from each of many levels, and pairs of signals with many ranges each.
+TEST_F(Dbc, LongWaysUpAndManyRangesAreReadInTheirTime) {
+    constexpr int levels = 20'000;
+    std::string text = "BO_ 1 A: 8 X\n SG_ S0 M : 0|8@1+ (1,0) [0|0] \"\" X\n", switches;
+    for (int i = 1; i < levels; ++i) {
+        text += fmt::format(" SG_ S{} m1M : 8|8@1+ (1,0) [0|0] \"\" X\n", i);
+        switches += fmt::format("SG_MUL_VAL_ 1 S{} S{} 1-1;\nVAL_ 1 S{} 1 \"on\" ;\n", i, i - 1, i);
+    }
+    const auto since = std::chrono::steady_clock::now();
+    EXPECT_THAT(all_notes(read(text + switches)), testing::HasSubstr("line 4: A.S2 overlaps S1, and at least "));
+    text = "BO_ 1 A: 8 X\n SG_ M0 M : 0|8@1+ (1,0) [0|0] \"\" X\n";
+    switches.clear();
+    for (int i = 0; i < 300; ++i) {
+        text += fmt::format(" SG_ S{} m1 : 8|8@1+ (1,0) [0|0] \"\" X\n", i);
+        switches += fmt::format("SG_MUL_VAL_ 1 S{} M0 {}-{}", i, i, i);
+        for (int k = 1; k < 1000; ++k)
+            switches += fmt::format(", {}-{}", 300 * k + i, 300 * k + i);
+        switches += ";\n";
+    }
+    EXPECT_EQ(all_notes(read(text + switches)), "");
+    EXPECT_LT(std::chrono::steady_clock::now() - since, std::chrono::seconds(20)); // 1 s; far more on a busy machine
+}
+
+TEST_F(Dbc, RangesThatLieWithinOthersAreMet) {
+    const auto notes = [&](const std::string& s, const std::string& t) {
+        return all_notes(read("BO_ 1 A: 8 X\n SG_ M0 M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ S m1 : 8|8@1+ (1,0) [0|0] \"\" X\n"
+                              " SG_ T m2 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 S M0 " +
+                              s + ";\nSG_MUL_VAL_ 1 T M0 " + t + ";\n"));
+    };
+    EXPECT_EQ(notes("0-100, 3-4", "50-60"), "line 4: A.T overlaps S\n");
+    EXPECT_EQ(notes("3-4, 7-7, 0-1", "8-9, 2-2, 5-6"), "");
+    EXPECT_EQ(notes("3-4, 7-7, 0-1", "8-9, 2-2, 5-7"), "line 4: A.T overlaps S\n");
+}
+
+TEST_F(Dbc, RingsAreRefusedFromEverySignal) {
+    const std::string head = "BO_ 1 A: 8 X\n", end = " : 8|8@1+ (1,0) [0|0] \"\" X\n";
+    EXPECT_THAT(refusal(head + " SG_ P m1M" + end + " SG_ Q m1M" + end + " SG_ R m1M" + end +
+                        "SG_MUL_VAL_ 1 P Q 1-1;\nSG_MUL_VAL_ 1 Q R 1-1;\nSG_MUL_VAL_ 1 R Q 1-1;\n"),
+                testing::HasSubstr("in a ring, A.Q among them"));
 }
 
 TEST_F(Dbc, LimitsThatAreNoNumbersAreNone) {

@@ -1,5 +1,6 @@
 // The YAML tree and its typed reading: places, refusals, bounds.
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 #include "scenarios/yaml/yaml_entry.h"
 
 #include <fmt/format.h>
@@ -57,6 +58,14 @@ TEST(YamlTree, RefusesWithLine) {
     EXPECT_THAT(parse_refusal("a: *nowhere\n"), HasSubstr("some.yaml:1"));
     EXPECT_THAT(parse_refusal(std::string("a: \0 1", 6)), HasSubstr("zero byte"));
     EXPECT_THAT(parse_refusal("# nothing but a comment\n"), HasSubstr("no content"));
+    for (const auto& [low, high] : {std::pair{1, 0}, std::pair{0, 1}}) // either order of bytes, with a mark and without
+        for (const bool mark : {true, false}) {
+            std::string wide = mark ? (low != 0 ? "\xff\xfe" : "\xfe\xff") : "";
+            for (const char c : std::string("fernlicht: 1\nname: wide\n"))
+                wide += high != 0 ? std::string{'\0', c} : std::string{c, '\0'};
+            EXPECT_EQ(parse_refusal(wide), "/tmp/some.yaml: is encoded in UTF-16: save it as UTF-8");
+            EXPECT_EQ(parse_refusal(to_utf8(wide)), "/tmp/some.yaml: is encoded in UTF-16: save it as UTF-8");
+        }
 }
 
 TEST(YamlTree, IsBounded) {
@@ -99,9 +108,14 @@ TEST_F(YamlEntryTest, NumbersAreFiniteInRangeAndUnquoted) {
     EXPECT_EQ(entry("0.1").number(0.0, 1.0), 0.1);
     EXPECT_EQ(entry("-1e-3").number(-1.0, 1.0), -1e-3);
     EXPECT_EQ(entry("+2").number(0.0, 3.0), 2.0);
-    for (const char* bad :
-         {"'1'", "1 km", "0,5", "nan", ".nan", "inf", "-.inf", "1e999", "0x10", "1_000", "~", "[1]", "{a: 1}", "1.5.2", "+-1", "4"})
+    for (const char* bad : {"'1'", "1 km", "'0,5'", "0,5,5", "nan", ".nan", "inf", "-.inf", "1e999", "0x10", "1_000", "~", "[1]", "{a: 1}",
+                            "1.5.2", "+-1", "4"})
         EXPECT_THAT(refusal([&] { entry(bad).number(0.0, 3.0); }), HasSubstr("some.yaml:1:4: k: found ")) << bad;
+}
+
+TEST_F(YamlEntryTest, DecimalCommasAreCalledThat) {
+    EXPECT_EQ(refusal([&] { entry("64,4").number(0.0, 300.0); }), "/tmp/some.yaml:1:4: k: has a decimal comma: write 64.4");
+    EXPECT_EQ(refusal([&] { entry("-0,5e1").number_above(0.0, 300.0); }), "/tmp/some.yaml:1:4: k: has a decimal comma: write -0.5e1");
 }
 
 TEST_F(YamlEntryTest, WholesFlagsNamesAndChoices) {

@@ -274,7 +274,9 @@ TEST_F(IesFile, SlightlyNegativeIntensitiesAreNoise) {
     const std::string head = "IESNA91\nTILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1 1\n-1 1\n";
     const LampFile lamp = read("n.ies", head + "1000 -0.5\n5 6\n");
     EXPECT_EQ(lamp.table.at(1, 0), 0.0);
-    EXPECT_THAT(all_notes(lamp), HasSubstr("down to -0.5 cd"));
+    EXPECT_THAT(all_notes(lamp), HasSubstr("1 intensity is slightly negative, down to -0.5 cd in line 7: taken as 0."));
+    EXPECT_THAT(all_notes(read("two.ies", head + "1000 -0.5\n5 -0.7\n")),
+                HasSubstr("2 intensities are slightly negative, down to -0.7 cd in line 8: taken as 0."));
     EXPECT_THAT(refusal("m.ies", head + "1000 -5\n5 6\n"),
                 HasSubstr("m.ies:7: intensity at horizontal -1, vertical 1: is -5 cd, expected at least 0 cd"));
     // Planes one after the other, angles that descend: the line of the number itself.
@@ -291,6 +293,10 @@ TEST_F(IesFile, DecimalCommasAreCalledThat) {
     EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1,5 1,5\n-1,5 1,5\n5 6\n7 8\n"),
                 HasSubstr("c.ies:5:1: " + says + "-1.5 for -1,5"));
     EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1 1\n-1 1\n5,25 6\n7 8,5\n"), HasSubstr("c.ies:7:1: " + says + "5.25 for 5,25"));
+    // Points in the angles, commas in the intensities alone.
+    EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0.1 0.1 0\n1 1 0\n-1.5 1.5\n-1.5 1.5\n5,25 6,0\n7,0 8,5\n"),
+                HasSubstr("c.ies:7:1: " + says + "5.25 for 5,25"));
+    EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0.1 0.1 0\n1 1 0\n-1.5 1.5\n-1.5 1.5 5,25 6,0 7,0 8,5"), HasSubstr(says + "5.25 for 5,25"));
     EXPECT_THAT(complaint("1,-1,1,2,2,3,2,0,0,0\n1,1,0\n-1,1\n-1,1\n5,6\n7,x\n"), HasSubstr("c.ies:8:3: candela value: found 'x'"));
     EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1,1\n-1,1\n5,6\n7,x\n"), HasSubstr("found 'x'"));
     write("comma.tlt", "1\n2\n0,0 1,5\n1 1\n");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <functional>
 
 namespace fernlicht::osc {
 namespace {
@@ -177,6 +178,52 @@ TEST_F(Catalogs, AnEntryThatNeedsItselfIsRefusedWithTheWayBack) {
     EXPECT_NE(told("R", "c").find("leads back to itself: 't' > 't'"), std::string::npos) << told("R", "c");
 }
 
+/// Each route leads over `waypoints` places on the next.
+std::string routes_in_a_row(int count, int waypoints, const std::function<std::string(const std::string&)>& way_to,
+                            const std::string& last) {
+    std::string entries;
+    for (int i = 0; i < count; ++i) {
+        entries += fmt::format("<Route name=\"r{}\" closed=\"false\">", i) + last;
+        for (int k = 0; k < waypoints; ++k)
+            entries += i + 1 < count ? way_to(fmt::format("r{}", i + 1)) : last;
+        entries += "</Route>";
+    }
+    return entries;
+}
+
+TEST_F(Catalogs, WaysThatDoNotEndAreRefusedWithTheWay) {
+    const auto way_to = [](const std::string& name) { return way(on_route("R", name)); };
+    write_catalog("R.xosc", "R", routes_in_a_row(64, 1, way_to, way(on_lane(-1, 1.0))));
+    EXPECT_EQ(told("R", "r0"), "read");
+    write_catalog("R.xosc", "R", routes_in_a_row(20'000, 1, way_to, way(on_lane(-1, 1.0))));
+    EXPECT_NE(told("R", "r0").find("R.xosc:1: Route: lies on a way from one to the next: 'r0' > 'r1' > 'r2' > 'r3' > ... > 'r62' > 'r63' "
+                                   "> 'r64', expected 64 at most"),
+              std::string::npos)
+        << told("R", "r0");
+    write_catalog("R.xosc", "R", routes_in_a_row(10, 2, way_to, way(on_lane(-1, 1.0))));
+    EXPECT_EQ(told("R", "r0"), "read");
+    write_catalog("R.xosc", "R", routes_in_a_row(30, 2, way_to, way(on_lane(-1, 1.0)))); // 2^30 were they read
+    EXPECT_NE(told("R", "r0").find("R.xosc:1: Route: is the 10001th route or trajectory that lies within others: 'r0' > 'r1' > "),
+              std::string::npos)
+        << told("R", "r0");
+}
+
+TEST(Story, LongParametersAreRefusedBeforeTheyFillMemory) {
+    std::string declarations = R"(<ParameterDeclaration name="A0" parameterType="string" value=")" + std::string(60'000, 'x') + "\"/>";
+    for (int i = 1; i < 3000; ++i)
+        declarations += fmt::format("\n<ParameterDeclaration name=\"A{}\" parameterType=\"string\" value=\"$A0\"/>", i);
+    const StoryFile file(scenario_text(begin, stop_at(1.0), declarations));
+    EXPECT_NE(refusal_of(file.path()).find("value: gives a text of 60000 bytes, with which parameters fill more than 64 MiB"),
+              std::string::npos)
+        << refusal_of(file.path());
+    declarations.clear();
+    for (int i = 0; i < 10'000; ++i) // many that are short are read in their time
+        declarations += fmt::format("\n<ParameterDeclaration name=\"A{}\" parameterType=\"string\" value=\"$A{}\"/>", i, i - 1);
+    declarations.replace(declarations.find("$A-1"), 4, "1");
+    const StoryFile many(scenario_text(begin, stop_at(1.0), declarations));
+    EXPECT_EQ(refusal_of(many.path()), "read");
+}
+
 TEST(Story, ParametersThatDoubleAreRefusedBeforeTheyFillMemory) {
     std::string declarations = R"(<ParameterDeclaration name="A0" parameterType="string" value="0123456789"/>)";
     for (int i = 1; i < 60; ++i)
@@ -213,6 +260,40 @@ TEST(Story, RefusesWithFileAndLineWhatItCannotPlay) {
     refused(speed("1", over("distance", "-3")), "SpeedActionDynamics@value: found -3, expected a distance not below 0");
     refused(speed("1", over("rate", "-1")), "SpeedActionDynamics: the sign of the rate -1 in value is not supported");
     refused(teleport(R"(<WorldPosition x="1" y="1e300"/>)"), "WorldPosition@y: found 1e+300, expected a place within 1e9 m");
+    const auto gap = [](const std::string& attributes) {
+        return "<PrivateAction><LongitudinalAction><LongitudinalDistanceAction entityRef=\"Other\" freespace=\"false\" "
+               "continuous=\"true\" " +
+               attributes + "/></LongitudinalAction></PrivateAction>";
+    };
+    refused(gap(R"(distance="-5")"), "LongitudinalDistanceAction@distance: found -5, expected a distance not below 0");
+    refused(gap(R"(timeGap="-5")"), "LongitudinalDistanceAction@timeGap: found -5, expected a time not below 0");
+    const auto lateral = [](const std::string& action) {
+        return "<PrivateAction><LateralAction>" + action + "</LateralAction></PrivateAction>";
+    };
+    const auto offset = [&](const std::string& acceleration, const std::string& value) {
+        return lateral("<LaneOffsetAction continuous=\"false\"><LaneOffsetActionDynamics dynamicsShape=\"sinusoidal\" maxLateralAcc=\"" +
+                       acceleration + "\"/><LaneOffsetTarget><AbsoluteTargetLaneOffset value=\"" + value +
+                       "\"/></LaneOffsetTarget></LaneOffsetAction>");
+    };
+    refused(offset("-2", "1"), "LaneOffsetActionDynamics@maxLateralAcc: found -2, expected an acceleration not below 0");
+    refused(offset("2", "1e300"), "AbsoluteTargetLaneOffset@value: found 1e+300, expected a length within 1e9 m");
+    refused(lateral(R"(<LateralDistanceAction entityRef="Other" distance="-5"/>)"),
+            "LateralDistanceAction@distance: found -5, expected a distance not below 0");
+    refused(lateral(R"(<LateralDistanceAction entityRef="Other" distance="5"><DynamicConstraints maxSpeed="-1"/></LateralDistanceAction>)"),
+            "DynamicConstraints@maxSpeed: found -1, expected a speed not below 0");
+    refused(teleport(R"(<LanePosition roadId="1" laneId="-1" s="50" offset="1e300"/>)"),
+            "LanePosition@offset: found 1e+300, expected a length within 1e9 m");
+    refused(teleport(R"(<RoadPosition roadId="1" s="50" t="1e300"/>)"), "RoadPosition@t: found 1e+300, expected a length within 1e9 m");
+    refused(teleport(R"(<WorldPosition x="1" y="0" h="1e300"/>)"), "WorldPosition@h: found 1e+300, expected an angle within 1e6 rad");
+    refused(teleport(R"(<RoadPosition roadId="1" s="50" t="0"><Orientation h="INF"/></RoadPosition>)"),
+            "Orientation@h: found inf, expected an angle within 1e6 rad");
+    for (const char* kind : {"RelativeWorldPosition", "RelativeObjectPosition"})
+        refused(teleport(fmt::format(R"(<{} entityRef="Other" dx="1e300" dy="0"/>)", kind)),
+                fmt::format("{}@dx: found 1e+300, expected a length within 1e9 m", kind));
+    refused(teleport(R"(<RelativeRoadPosition entityRef="Other" ds="0" dt="-1e300"/>)"),
+            "RelativeRoadPosition@dt: found -1e+300, expected a length within 1e9 m");
+    refused(teleport(R"(<RelativeLanePosition entityRef="Other" dLane="0" ds="1e300"/>)"),
+            "RelativeLanePosition@ds: found 1e+300, expected a length within 1e9 m");
     refused(light("", R"(mode="on" luminousIntensity="-100")"), "LightState@luminousIntensity: found -100, expected candela not below 0");
     refused(light(R"(transitionTime="-1.2")", R"(mode="on")"), "LightStateAction@transitionTime: found -1.2, expected a time not below 0");
     refused(light("", R"(mode="flashing" flashingOnDuration="0")"), "LightState@flashingOnDuration: found 0, expected a time above 0");

@@ -61,7 +61,7 @@ void read_glares(const CheckedJson& played, PlayedResult& result) {
         for (const CheckedJson& column : series.at("columns").items())
             if (column.at("name").text() == "facing_lx")
                 for (const CheckedJson& value : column.at("values").items())
-                    glare.facing_lx.push_back(value.number_or_null().value_or(std::numeric_limits<double>::quiet_NaN()));
+                    glare.facing_lx.push_back(value_in(value).number().value_or(std::numeric_limits<double>::quiet_NaN()));
         if (!glare.at_m.empty() && glare.facing_lx.size() == glare.at_m.size())
             result.glares.push_back(std::move(glare));
     }

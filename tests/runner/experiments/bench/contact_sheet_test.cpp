@@ -30,7 +30,7 @@ ContactSheet sheet_of(std::span<const Technique> rows) {
     sheet.spot_ahead_m = 20.0;
     sheet.twin_lx = 4.0;
     for (const Technique& row : rows) {
-        SheetTile tile{row, Image<Rgb8>(4, 3, {10, 20, 30}), {}, {}};
+        SheetTile tile{row, Image<Rgb8>(4, 3, {10, 20, 30}), {}, {}, {}};
         if (row.illuminance) {
             tile.illuminance_lx = Image<float>(4, 3, 5.0F);
             tile.spot_lx = 5.0;
@@ -64,6 +64,16 @@ TEST(ContactSheet, NamesEveryTechniqueTwiceAndSaysWhereNothingIsMeasured) {
     for (const char* tick : {">0.1</text>", ">1</text>", ">10</text>", ">100</text>"})
         EXPECT_THAT(svg, HasSubstr(tick));
     EXPECT_EQ(svg, contact_sheet_svg(sheet_of(techniques())));
+}
+
+TEST(ContactSheet, ATechniqueThatCannotDrawTheMomentIsLeftOutWithItsReason) {
+    ContactSheet sheet = sheet_of(techniques().first(2));
+    const std::size_t drawn = count(contact_sheet_svg(sheet), "<image ");
+    sheet.tiles[0] = {techniques()[0], {}, {}, {}, "10 lamps are mounted"};
+    const std::string svg = contact_sheet_svg(sheet);
+    EXPECT_EQ(count(svg, "<image "), drawn - (techniques()[0].illuminance ? 2 : 1));
+    EXPECT_EQ(count(svg, ">10 lamps are mounted</text>"), 1U);
+    EXPECT_EQ(count(svg, ">not drawn</text>"), 2U);
 }
 
 TEST(ContactSheet, LaysTilesFiveAcross) {

@@ -32,6 +32,26 @@ TEST(ReportSchema, DescribesReports) {
     EXPECT_THAT(report_schema().check(json::parse(report_json({}))), IsEmpty());
 }
 
+TEST(ReportSchema, EveryNullOfASummaryHasItsReason) {
+    Report report = tests::sample_report(1);
+    ExtentSummary summary;
+    summary.key = {ExtentPlane::target, "own", 1.0};
+    summary.reach.add(150.0);
+    summary.reach.add(Value::at_least(200.0));
+    summary.twin_difference.add(Value::not_measured("both beyond 200 m"));
+    summary.grid_error.add(0.02);
+    report.played[0].extent_summaries = {summary};
+    const json written = json::parse(report_json(report));
+    EXPECT_THAT(report_schema().check(written), IsEmpty());
+    const json& entry = written["drives"][0]["summary"][0];
+    EXPECT_EQ(entry["reach_m"]["median"], json({{"at_least", 175.0}}));
+    EXPECT_EQ(entry["reach_m"]["not_measured"],
+              json({{"mean", "1 of 2 moments give a bound only"}, {"standard_deviation", "1 of 2 moments give a bound only"}}));
+    EXPECT_EQ(entry["not_measured"]["largest_twin_difference_m"], "both beyond 200 m in every moment");
+    EXPECT_EQ(entry["not_measured"]["metres_per_tenth_degree"], "not there in any moment");
+    EXPECT_FALSE(entry["not_measured"].contains("grid_error_m"));
+}
+
 TEST(ReportSchema, DescribesTheCarOfADriveWithAVehicle) {
     Report report = tests::sample_report(2);
     EXPECT_FALSE(json::parse(report_json(report))["drives"][0].contains("car")) << "drives without a vehicle";
@@ -65,14 +85,16 @@ TEST(ReportSchema, DescribesSeeingWhereADriveAsks) {
                                 {0, 1},
                                 {30.0, 20.0},
                                 {{"facing_lx", "illuminance facing the lamps", "lx", true, true, {0.5, 1.25}},
-                                 {"de_boer", "de Boer's rating", "", false, true, {std::nullopt, 4.0}},
+                                 {"de_boer", "de Boer's rating", "", false, true, {Value::not_measured("no light"), Value::at_least(4.0)}},
                                  {"theta_left_deg", "angle of left", "deg", false, false, {1.0, 2.0}}}}};
     const json written = json::parse(report_json(report));
     EXPECT_THAT(report_schema().check(written), IsEmpty());
     const json& seen = written["drives"][0]["seeing"][0];
     EXPECT_EQ(seen["subject"], "glare_eye");
     EXPECT_EQ(seen["at_m"], json({30.0, 20.0}));
-    EXPECT_EQ(seen["columns"][1]["values"], json::parse("[null, 4.0]"));
+    EXPECT_EQ(seen["columns"][1]["values"], json::parse(R"([null, {"at_least": 4.0}])"));
+    EXPECT_EQ(seen["columns"][1]["not_measured"], json({"no light"}));
+    EXPECT_FALSE(seen["columns"][0].contains("not_measured"));
     const std::string page = report_html(report, {});
     EXPECT_THAT(page, testing::AllOf(HasSubstr("Seeing and glare"), HasSubstr("Oncoming driver: illuminance facing the lamps"),
                                      HasSubstr("de Boer"), testing::Not(HasSubstr("angle of left"))));
