@@ -142,7 +142,8 @@ std::string glare_over_time(const ComparedDrive& drive) {
                 for (std::size_t i = 0; series.subject == "control" && column.name == "glare_at_50m_lx" && i < series.ticks.size(); ++i) {
                     const auto at = std::ranges::find(bus.frame, series.ticks[i]);
                     if (at != bus.frame.end())
-                        line.push_back({bus.time_s[static_cast<std::size_t>(at - bus.frame.begin())], column.values[i].value_or(no_value)});
+                        line.push_back(
+                            {bus.time_s[static_cast<std::size_t>(at - bus.frame.begin())], column.values[i].figure().value_or(no_value)});
                 }
         return line;
     });

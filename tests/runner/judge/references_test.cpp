@@ -264,7 +264,7 @@ TEST_F(References, TheNearestIsNamedWhereNoneWillDo) {
 TEST_F(References, TheSpreadOverRepeatsIsStored) {
     StoredRun repeated = run;
     PlayedVariant& played = repeated.report.played[0];
-    played.repeats = {12, {"play 2: reach_5lx_road_own_m"}, {{"reach_5lx_road_own_m", -1, 12, 60.01, 1e-4}}};
+    played.repeats = {12, {"play 2: reach_5lx_road_own_m"}, {{key_of("reach_5lx_road_own_m").value(), -1, 12, 60.01, 1e-4}}};
     write_report(repeated.report, repeated.folder);
     accept_run(repeated.folder, store);
     const AcceptedReference halogen = load_reference(store, list_references(store)[0]);
