@@ -16,7 +16,7 @@ std::optional<double> slope_over_limits(const PlayedReadings& played, const Read
     const double own_lx = key.threshold.value;
     std::map<double, double> by_lx;
     for (const auto& [other, found] : played.readings) {
-        key.threshold = other.threshold;
+        key.threshold.value = other.threshold.value;
         if (key == other && found.value.number() && other.threshold.value > 0.0)
             by_lx[other.threshold.value] = *found.value.number();
     }
@@ -36,8 +36,8 @@ std::optional<double> slope_over_ratings(const PlayedReadings& played, const Rea
     ReadingKey key = reading.key;
     std::map<double, double> by_rating;
     for (const auto& [other, found] : played.readings) {
-        key.threshold = other.threshold;
-        if (key == other && other.threshold.unit == ThresholdUnit::de_boer && found.value.number())
+        key.threshold.value = other.threshold.value;
+        if (key == other && found.value.number())
             by_rating[other.threshold.value] = *found.value.number();
     }
     std::optional<double> slope;

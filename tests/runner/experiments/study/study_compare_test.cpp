@@ -170,6 +170,10 @@ TEST(StudyCompare, WhatNoiseOfTheTablesWouldDoIsNoDifference) {
         put(cell, "area_10lx_road_all_m2", 20.0);
         put(cell, "area_10lx_road_all_grid_error_m2", 0.0);
         put(cell, "glare_a_facing_max_lx", tested ? 2.05 : 2.0);
+        put(cell, "glare_a_time_above_1lx_s", 1.0);
+        put(cell, "glare_a_time_above_3lx_s", 0.5);
+        put(cell, "glare_a_time_above_5percent_s", 9.0); // another ladder
+        put(cell, "glare_a_time_below_4_de_boer_s", 0.0);
         put(cell, "glare_a_de_boer_min", tested ? 5.03 : 5.0); // 3 % move W by 2 lg 1.03 = 0.0257, with 1.03 - 1 for ln: 0.0261
         put(cell, "control_swivel_max_standard_error_deg", 0.0);
         put(cell, "control_swivel_max_deg", tested ? 2.0 : 1.0);
@@ -181,6 +185,7 @@ TEST(StudyCompare, WhatNoiseOfTheTablesWouldDoIsNoDifference) {
     EXPECT_NEAR(change_in(result, "area_3lx_road_all_m2").by_noise.value(), 0.03 * 40.0 / std::log(3.0), 1e-12)
         << "to 1 lx the old lamp has 40 m2 and the new 39.4, to 10 lx 33.2 and 34.6 of a natural logarithm";
     EXPECT_EQ(change_in(result, "area_3lx_road_all_m2").kind, ChangeKind::real);  // 1.6 > 1.09
+    EXPECT_NEAR(change_in(result, "glare_a_time_above_3lx_s").by_noise.value(), 0.03 * 0.5 / std::log(3.0), 1e-12);
     EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::none); // 0.05 < 3 % of 2.05
     EXPECT_NEAR(change_in(result, "glare_a_de_boer_min").by_noise.value(), 0.02606, 1e-5);
     EXPECT_EQ(change_in(result, "glare_a_de_boer_min").kind, ChangeKind::real);
