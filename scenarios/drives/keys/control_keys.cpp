@@ -4,6 +4,8 @@
 #include "scenarios/control/signals.h"
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -83,7 +85,7 @@ BendParameters read_bend(const YamlEntry& given, const Variant& variant) {
             given.refuse("a dead band below 0", "an angle of 0 or more");
         bend.from_speed_mps = speed_or(of, "from_speed", bend.from_speed_mps);
         bend.outer_share = of.number_or("outer_share", bend.outer_share, 0.0, 1.0);
-        bend.actuator = read_actuator(of, bend.actuator);
+        read_group(actuator_fields(), of, &bend.actuator);
     }
     if (bend.lamps.empty())
         for (const std::string& name : names_of(variant))
@@ -308,7 +310,8 @@ ControlParameters read_laws(const YamlEntry& given, const Variant& variant, Lamp
         control.bend = read_bend(*bend, variant);
     if (const auto cornering = keys.find("cornering"))
         control.cornering = read_cornering(*cornering, variant);
-    control.levelling = read_levelling(keys, false);
+    if (const auto levelling = keys.find("levelling"))
+        control.levelling = read_levelling(*levelling, false);
     if (const auto load = keys.find("load"))
         read_load(*load, control.load);
     if (const auto modes = keys.find("modes"))
