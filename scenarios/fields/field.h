@@ -17,6 +17,7 @@
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <type_traits>
 
 namespace fernlicht {
@@ -131,6 +132,8 @@ template <class T> constexpr FieldKind kind_of() {
         return FieldKind::flag;
     else if constexpr (std::is_same_v<T, std::string>)
         return FieldKind::text;
+    else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+        return FieldKind::names;
     else if constexpr (std::is_same_v<T, std::vector<double>>)
         return FieldKind::numbers;
     else if constexpr (std::is_same_v<T, glm::dvec3>)
@@ -167,9 +170,13 @@ inline FieldRule below(double least, double bound, std::string_view expected) {
 inline FieldRule numbers(std::size_t fewest, std::size_t most, double least, double greatest) {
     return {least, greatest, fewest, most, {}};
 }
+inline FieldRule words(std::span<const std::string_view> in_order) { return words(std::vector(in_order.begin(), in_order.end())); }
+/// A list of names.
+inline FieldRule names(std::size_t fewest, std::size_t most) { return {0.0, 0.0, fewest, most, {}}; }
 inline FieldRule any() { return {}; } ///< flags and text
 /// `key`_deg or `key`_rad, so far to both sides.
 FieldRule degrees_within(std::string_view key, double limit_deg);
+FieldRule in_radians(std::string_view key, double limit_deg); ///< the same, written in radians
 /// `key`_deg_s or `key`_rad_s.
 FieldRule angular_speed(std::string_view key, double least_deg_s, double most_deg_s, double least_rad_s, double most_rad_s);
 /// `key`_kmh up to 540, or `key`_mps.

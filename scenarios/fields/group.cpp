@@ -81,6 +81,12 @@ FieldRule degrees_within(std::string_view key, double limit_deg) {
     return rule;
 }
 
+FieldRule in_radians(std::string_view key, double limit_deg) {
+    FieldRule rule = degrees_within(key, limit_deg);
+    rule.degrees_where_exact = false;
+    return rule;
+}
+
 FieldRule speed(std::string_view key) {
     return units({std::string(key) + "_kmh", from_kmh, 0.0, 540.0}, {std::string(key) + "_mps", as_given, 0.0, 150.0});
 }

@@ -32,6 +32,7 @@ enum class FieldKind {
     whole,    ///< int
     flag,     ///< bool
     text,     ///< std::string, not empty
+    names,    ///< std::vector<std::string>, of lamps
     choice,   ///< an enum, by words in the order of its enumerators
     numbers,  ///< std::vector<double>
     position, ///< [x, y, z]

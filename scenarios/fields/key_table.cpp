@@ -19,6 +19,8 @@ std::string allowed(const Field& field) {
         return "true, false";
     case FieldKind::text:
         return "text";
+    case FieldKind::names:
+        return fmt::format("{} to {} names", rule.fewest, rule.most);
     case FieldKind::choice:
         return fmt::format("{}", fmt::join(rule.words, ", "));
     case FieldKind::numbers:
@@ -72,7 +74,8 @@ void add_rows(std::string& text, const Group& group, const void* usual) {
 } // namespace
 
 std::string key_tables(const std::string& path, const Group& group, const void* usual) {
-    std::string text = fmt::format("## {}\n\n| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n", path.empty() ? "At the top" : path);
+    std::string text =
+        fmt::format("## {}\n\n| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n", path.empty() ? "At the top" : path);
     add_rows(text, group, usual);
     text += "\n";
     for (const Field& field : group.fields) {
@@ -81,7 +84,8 @@ std::string key_tables(const std::string& path, const Group& group, const void* 
         const bool is_list = field.kind != FieldKind::group;
         const void* inner = is_list || !usual ? nullptr : field.member->look(const_cast<void*>(usual));
         const std::string_view end = field.kind == FieldKind::named ? ".NAME" : field.kind == FieldKind::list ? "[]" : "";
-        text += key_tables(fmt::format("{}{}{}{}", path, path.empty() ? "" : ".", field.key, end), *field.group, inner ? inner : field.group->usual.get());
+        text += key_tables(fmt::format("{}{}{}{}", path, path.empty() ? "" : ".", field.key, end), *field.group,
+                           inner ? inner : field.group->usual.get());
     }
     return text;
 }

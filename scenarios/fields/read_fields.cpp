@@ -72,6 +72,10 @@ void read_value(const Field& field, const YamlEntry& entry, void* whole) {
     case FieldKind::text:
         as<std::string>(field.member->make(whole)) = entry.text();
         break;
+    case FieldKind::names:
+        for (const YamlEntry& name : entry.list(rule.fewest, rule.most))
+            as<std::vector<std::string>>(field.member->make(whole)).push_back(name.name());
+        break;
     case FieldKind::numbers:
         as<std::vector<double>>(field.member->make(whole)) = entry.numbers(rule.fewest, rule.most, rule.least, rule.greatest);
         break;

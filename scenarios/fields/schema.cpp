@@ -69,6 +69,8 @@ ordered_json of_value(const Field& field) {
         return {{"type", "boolean"}};
     case FieldKind::text:
         return {{"type", {"string", "number"}}, {"minLength", 1}};
+    case FieldKind::names:
+        return of_array(rule, {{"type", {"string", "number"}}, {"minLength", 1}});
     case FieldKind::choice:
         return {{"enum", rule.words}};
     case FieldKind::numbers:

@@ -30,6 +30,12 @@ std::string text_of(const Field& field, const void* value) {
     }
     case FieldKind::text:
         return quoted(*static_cast<const std::string*>(value));
+    case FieldKind::names: {
+        std::vector<std::string> names;
+        for (const std::string& name : *static_cast<const std::vector<std::string>*>(value))
+            names.push_back(quoted(name));
+        return fmt::format("[{}]", fmt::join(names, ", "));
+    }
     case FieldKind::numbers:
         return fmt::format("[{}]", fmt::join(*static_cast<const std::vector<double>*>(value), ", "));
     case FieldKind::position: {

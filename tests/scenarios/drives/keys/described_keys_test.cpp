@@ -1,5 +1,6 @@
 // Schema, reference and example of drive files say what the descriptions of their keys say. FERNLICHT_WRITE_KEYS=1 writes the first two
 // (ci/write-keys), and the test fails once more.
+#include "scenarios/drives/keys/control_fields.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/key_table.h"
@@ -39,12 +40,22 @@ void drop_unused_definitions(nlohmann::ordered_json& schema) {
             schema["definitions"].erase(name);
 }
 
+/// Described keys beside those of the same map that are not described yet.
+void put_properties(nlohmann::ordered_json& into, const Group& group) {
+    nlohmann::ordered_json& map = into.contains("anyOf") ? into["anyOf"][1] : into.contains("items") ? into["items"] : into;
+    map["properties"].update(nlohmann::ordered_json::parse(schema_of(group))["properties"]);
+}
+
 TEST(DescribedKeys, AreTheSchema) {
     const std::filesystem::path file = source / "scenarios/drive.schema.json";
     auto schema = nlohmann::ordered_json::parse(content(file));
     for (const Field& field : drive_fields().fields)
         schema["properties"][field.key] = nlohmann::ordered_json::parse(schema_of(field));
     schema["definitions"]["actuators"] = nlohmann::ordered_json::parse(schema_of(actuators_fields()));
+    nlohmann::ordered_json& control = schema["definitions"]["control"];
+    for_each_law([&](const std::string& path, const Group& group) {
+        put_properties(path.empty() ? control : control["anyOf"][1]["properties"][path.substr(0, path.find('['))], group);
+    });
     drop_unused_definitions(schema);
     expect_file(file, schema.dump(2) + "\n");
 }
@@ -56,6 +67,9 @@ TEST(DescribedKeys, AreTheReference) {
                        "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one.\n\n";
     text += key_tables("", drive_fields(), &usual);
     text += key_tables("actuators", actuators_fields(), actuators_fields().usual.get());
+    for_each_law([&](const std::string& path, const Group& group) {
+        text += key_tables(path.empty() ? "control" : "control." + path, group, group.usual.get());
+    });
     text.pop_back();
     expect_file(source / "docs/keys.md", text);
 }
@@ -75,6 +89,7 @@ TEST(DescribedKeys, AreInTheExample) {
     const std::string example = content(source / "scenarios/drive.example.yaml");
     expect_in(example, drive_fields());
     expect_in(example, actuators_fields());
+    for_each_law([&](const std::string&, const Group& group) { expect_in(example, group); });
 }
 
 void expect_ids_once(const std::string& path, const Group& group) {
@@ -87,7 +102,11 @@ void expect_ids_once(const std::string& path, const Group& group) {
     }
 }
 
-TEST(DescribedKeys, HaveIdsOfTheirOwn) { expect_ids_once("drive", drive_fields()); }
+TEST(DescribedKeys, HaveIdsOfTheirOwn) {
+    expect_ids_once("drive", drive_fields());
+    expect_ids_once("actuators", actuators_fields());
+    for_each_law([](const std::string& path, const Group& group) { expect_ids_once("control." + path, group); });
+}
 
 } // namespace
 } // namespace fernlicht
