@@ -168,7 +168,7 @@ StudyLimit read_limit(const YamlEntry& entry, const std::vector<StudyLamp>& lamp
 
 void read_measuring(const YamlMap& keys, Study& study) {
     if (const auto measure = keys.find("measure"))
-        study.measure = read_seeing(measure->map({"sensors", "glare", "visibility", "homogeneity", "places"}));
+        study.measure = read_seeing(*measure);
     study.readings = usual_readings();
     if (const auto readings = keys.find("readings")) {
         study.readings.clear();

@@ -54,7 +54,7 @@ std::string child_path(const std::string& parent, std::string_view key) {
 }
 
 /// The known key that was meant: the same without its unit, else the nearest by letters; "" if none.
-std::string meant_key(const std::string& key, std::initializer_list<std::string_view> known_keys) {
+std::string meant_key(const std::string& key, std::span<const std::string_view> known_keys) {
     for (const std::string_view known : known_keys)
         if (known.starts_with(key + '_'))
             return std::string(known);
@@ -161,6 +161,7 @@ std::vector<double> YamlEntry::numbers(std::size_t least, std::size_t most, doub
     return result;
 }
 
+YamlMap YamlEntry::map(std::span<const std::string_view> known_keys) const { return {*this, known_keys}; }
 YamlMap YamlEntry::map(std::initializer_list<std::string_view> known_keys) const { return {*this, known_keys}; }
 
 std::vector<std::pair<std::string, YamlEntry>> YamlEntry::named(std::size_t most) const {
@@ -180,7 +181,7 @@ std::vector<std::pair<std::string, YamlEntry>> YamlEntry::named(std::size_t most
     return entries;
 }
 
-YamlMap::YamlMap(YamlEntry entry, std::initializer_list<std::string_view> known_keys) : entry_(std::move(entry)) {
+YamlMap::YamlMap(YamlEntry entry, std::span<const std::string_view> known_keys) : entry_(std::move(entry)) {
     if (entry_.value().kind != YamlValue::Kind::map)
         entry_.refuse(fmt::format("a map with keys such as {}", fmt::join(known_keys, ", ")));
     for (const YamlMember& member : entry_.value().members) {

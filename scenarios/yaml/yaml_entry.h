@@ -50,6 +50,7 @@ class YamlEntry {
     std::vector<YamlEntry> list(std::size_t least, std::size_t most) const;
     std::vector<double> numbers(std::size_t least, std::size_t most, double lowest, double highest) const;
     /// A map with these keys and no others.
+    YamlMap map(std::span<const std::string_view> known_keys) const;
     YamlMap map(std::initializer_list<std::string_view> known_keys) const;
     /// A map whose keys are names that the user chooses.
     std::vector<std::pair<std::string, YamlEntry>> named(std::size_t most) const;
@@ -63,7 +64,9 @@ class YamlEntry {
 /// A map whose keys are all known.
 class YamlMap {
   public:
-    YamlMap(YamlEntry entry, std::initializer_list<std::string_view> known_keys);
+    YamlMap(YamlEntry entry, std::span<const std::string_view> known_keys);
+    YamlMap(YamlEntry entry, std::initializer_list<std::string_view> known_keys)
+        : YamlMap(std::move(entry), std::span(known_keys.begin(), known_keys.size())) {}
 
     const YamlEntry& entry() const { return entry_; }
     std::optional<YamlEntry> find(std::string_view key) const; ///< nullopt: not given

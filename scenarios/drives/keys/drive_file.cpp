@@ -11,8 +11,8 @@
 #include "scenarios/drives/keys/story_drive.h"
 #include "scenarios/drives/keys/storyboard_keys.h"
 #include "scenarios/drives/keys/traffic_keys.h"
-#include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/drives/play/drive_log.h"
+#include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -109,21 +109,22 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
         for (const std::string& note : car.model->model->notes)
             drive.notes.push_back(fmt::format("model {}: {}", car.model->model->name, note));
     }
-    drive.vehicle = read_vehicle(keys);
+    read_field(drive_fields(), "vehicle", keys, &drive);
     drive.variants = read_variants(keys, car, shelf);
     note_plugin_libraries(drive);
     read_can(keys, edits, drive);
     read_traffic(keys, shelf, drive);
     check_entities(keys, drive);
     drive.views = read_views(keys, drive.opened);
-    drive.capture = read_capture(keys);
+    read_field(drive_fields(), "capture", keys, &drive);
     drive.tone_mapper = read_tone_mapper(keys);
     drive.display = read_display(keys, drive.opened);
     if (const auto technique = keys.find("technique"))
         drive.technique = technique->name();
     read_scenery(keys, drive);
-    read_measure(keys, drive);
-    drive.limits = read_limits(keys);
+    drive.extent = ExtentParameters{};
+    read_field(drive_fields(), "measure", keys, &drive);
+    read_field(drive_fields(), "limits", keys, &drive);
     drive.shadows = read_shadows(keys);
     if (const auto beams = keys.find("beams"))
         drive.beams = read_beams(*beams);

@@ -1,6 +1,8 @@
 #include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/drives/keys/seeing_keys.h"
+#include "scenarios/drives/keys/vehicle_keys.h"
+#include "scenarios/fields/field.h"
 
 #include <fmt/format.h>
 
@@ -22,46 +24,75 @@ double speed_of_point(const YamlMap& point) {
     return speed_mps(given->first, given->second);
 }
 
-Limit read_limit(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"reading", "at_least", "at_most"});
-    Limit limit;
-    limit.reading = keys.require("reading").text();
-    if (const auto least = keys.find("at_least"))
-        limit.at_least = least->number(-1.0e12, 1.0e12);
-    if (const auto most = keys.find("at_most"))
-        limit.at_most = most->number(-1.0e12, 1.0e12);
+void check_limit(const YamlMap& keys, const Limit& limit) {
     if (!limit.at_least && !limit.at_most)
-        entry.refuse("a limit without a number", "at_least, at_most or both");
+        keys.entry().refuse("a limit without a number", "at_least, at_most or both");
     if (limit.at_least && limit.at_most && *limit.at_least > *limit.at_most)
-        entry.refuse(fmt::format("at_least {} above at_most {}", *limit.at_least, *limit.at_most), "a range that holds a value");
-    return limit;
+        keys.entry().refuse(fmt::format("at_least {} above at_most {}", *limit.at_least, *limit.at_most), "a range that holds a value");
 }
 
-ExtentParameters read_extent(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"limits_lx", "target_height_m", "ahead_m", "beside_m", "cell_m", "width_at_m"});
-    ExtentParameters extent;
-    if (const auto limits = keys.find("limits_lx"))
-        extent.limits_lx = limits->numbers(1, 16, 1.0e-6, 1.0e6);
-    extent.target_height_m = keys.number_or("target_height_m", extent.target_height_m, 0.0, 10.0);
-    extent.ahead_m = keys.number_or("ahead_m", extent.ahead_m, 1.0, 2000.0);
-    extent.beside_m = keys.number_or("beside_m", extent.beside_m, 0.5, 200.0);
-    extent.cell_m = keys.number_or("cell_m", extent.cell_m, 0.02, 10.0);
-    if (const auto widths = keys.find("width_at_m"))
-        extent.width_at_m = widths->numbers(0, 16, 0.0, 2000.0);
+const Fields<Limit>& limit_fields() {
+    static const Fields<Limit> fields =
+        Fields<Limit>{
+            field("reading", 1, &Limit::reading, any(), "its name, as in readings.csv").required(),
+            field("at_least", 2, &Limit::at_least, range(-1.0e12, 1.0e12), "in the reading's unit"),
+            field("at_most", 3, &Limit::at_most, range(-1.0e12, 1.0e12), "in the reading's unit"),
+        }
+            .checked(check_limit)
+            .in_schema(R"({"anyOf": [{"required": ["at_least"]}, {"required": ["at_most"]}]})");
+    return fields;
+}
+
+void check_extent(const YamlMap& keys, const ExtentParameters& extent) {
     const double cells = extent.ahead_m / extent.cell_m * (8.0 * extent.beside_m / extent.cell_m);
     if (cells > 4.0e6)
-        entry.refuse(fmt::format("a grid of {:.0f} points", cells), "at most 4000000 (larger cell_m, less ahead_m or beside_m)");
-    return extent;
+        keys.entry().refuse(fmt::format("a grid of {:.0f} points", cells), "at most 4000000 (larger cell_m, less ahead_m or beside_m)");
 }
 
-Probe read_probe(const std::string& name, const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"ahead_m", "left_m", "above_m"});
-    Probe probe;
-    probe.name = name;
-    probe.ahead_m = keys.require("ahead_m").number(-2000.0, 2000.0);
-    probe.left_m = keys.number_or("left_m", 0.0, -200.0, 200.0);
-    probe.above_m = keys.number_or("above_m", 0.0, 0.0, 50.0);
-    return probe;
+const Fields<ExtentParameters>& extent_fields() {
+    static const Fields<ExtentParameters> fields =
+        Fields<ExtentParameters>{
+            field("limits_lx", 1, &ExtentParameters::limits_lx, numbers(1, 16, 1.0e-6, 1.0e6), "what counts as illuminated"),
+            field("target_height_m", 2, &ExtentParameters::target_height_m, range(0.0, 10.0), "of the target that faces the car"),
+            field("ahead_m", 3, &ExtentParameters::ahead_m, range(1.0, 2000.0), "how far is looked"),
+            field("beside_m", 4, &ExtentParameters::beside_m, range(0.5, 200.0), "how far to each side"),
+            field("cell_m", 5, &ExtentParameters::cell_m, range(0.02, 10.0), "grid along the road; across it is a quarter of this"),
+            field("width_at_m", 6, &ExtentParameters::width_at_m, numbers(0, 16, 0.0, 2000.0),
+                  "from the front bumper, where the width is told"),
+        }
+            .block()
+            .checked(check_extent);
+    return fields;
+}
+
+const Fields<Probe>& probe_fields() {
+    static const Fields<Probe> fields{
+        field("ahead_m", 1, &Probe::ahead_m, range(-2000.0, 2000.0), "from the car's origin along the route").required(),
+        field("left_m", 2, &Probe::left_m, range(-200.0, 200.0), "of the route"),
+        field("above_m", 3, &Probe::above_m, range(0.0, 50.0), "above the surface"),
+    };
+    return fields;
+}
+
+const Fields<Drive>& measure_fields() {
+    static const Fields<Drive> fields =
+        Fields<Drive>{
+            field("extent", 1, &Drive::extent, extent_fields(), "illuminated road extent").or_flag().or_absent("false"),
+            named("probes", 2, &Drive::probes, 1000, probe_fields(), "lux at single points, from the car's origin along the route"),
+            inlined(3, &Drive::seeing, seeing_fields()),
+        }
+            .block();
+    return fields;
+}
+
+const Fields<Capture>& capture_fields() {
+    static const Fields<Capture> fields{
+        field("per_second", 1, &Capture::per_second, range(0.0, 1.0e6), "how many moments are stored"),
+        field("all", 2, &Capture::all, any(), "every moment is stored"),
+        field("exr", 3, &Capture::exr, any(), "with linear values"),
+        field("png", 4, &Capture::png, any(), "for eyes"),
+    };
+    return fields;
 }
 
 } // namespace
@@ -102,43 +133,16 @@ double read_step_s(const YamlMap& drive) {
     return given->first == "step_s" ? given->second.number_above(0.0, 3600.0) : 1.0 / given->second.number_above(0.0, 1.0e6);
 }
 
-Capture read_capture(const YamlMap& drive) {
-    Capture capture;
-    const auto given = drive.find("capture");
-    if (!given)
-        return capture;
-    const YamlMap keys = given->map({"per_second", "all", "exr", "png"});
-    capture.per_second = keys.number_or("per_second", capture.per_second, 0.0, 1.0e6);
-    capture.all = keys.flag_or("all", capture.all);
-    capture.exr = keys.flag_or("exr", capture.exr);
-    capture.png = keys.flag_or("png", capture.png);
-    return capture;
-}
-
-void read_measure(const YamlMap& keys, Drive& drive) {
-    drive.extent = ExtentParameters{};
-    const auto given = keys.find("measure");
-    if (!given)
-        return;
-    const YamlMap measure = given->map({"extent", "probes", "sensors", "glare", "visibility", "homogeneity", "places"});
-    if (const auto parameters = measure.find("extent")) {
-        if (!parameters->is_scalar())
-            drive.extent = read_extent(*parameters);
-        else if (!parameters->flag())
-            drive.extent.reset();
-    }
-    if (const auto named = measure.find("probes"))
-        for (const auto& [name, entry] : named->named(1000))
-            drive.probes.push_back(read_probe(name, entry));
-    drive.seeing = read_seeing(measure);
-}
-
-std::vector<Limit> read_limits(const YamlMap& drive) {
-    std::vector<Limit> limits;
-    if (const auto given = drive.find("limits"))
-        for (const YamlEntry& entry : given->list(0, 1000))
-            limits.push_back(read_limit(entry));
-    return limits;
+const Group& drive_fields() {
+    static const Fields<Drive> fields{
+        field("vehicle", 17, &Drive::vehicle, vehicle_fields(),
+              "a car on springs and tyres instead of one that follows its lane as on rails; docs/vehicle.md")
+            .or_word("single-track"),
+        field("capture", 28, &Drive::capture, capture_fields(), "which moments are stored; every moment is measured"),
+        section("measure", 36, measure_fields(), "what is measured"),
+        list("limits", 37, &Drive::limits, 0, 1000, limit_fields(), "beyond these the run fails"),
+    };
+    return fields;
 }
 
 } // namespace fernlicht

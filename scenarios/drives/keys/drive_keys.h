@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/drives/drive.h"
+#include "scenarios/fields/group.h"
 #include "scenarios/yaml/yaml_entry.h"
 
 namespace fernlicht {
@@ -15,10 +16,8 @@ double read_step_s(const YamlMap& drive);
 /// `view_set`, a file of views, and named `views` that come after it or take the place of its own; a map where neither has one; a
 /// driver's view and a map by default. `opened` gets the file.
 std::vector<View> read_views(const YamlMap& drive, FilesRead& opened);
-Capture read_capture(const YamlMap& drive);
-/// `measure`: extent (nullopt for `extent: false`), probes, sensors and glare.
-void read_measure(const YamlMap& keys, Drive& drive);
-std::vector<Limit> read_limits(const YamlMap& drive);
+/// The drive's own keys, as far as they are described (fields/field.h).
+const Group& drive_fields();
 
 /// Position from [x, y, z], each within 100 m of the car's origin.
 glm::dvec3 read_position(const YamlEntry& entry);

@@ -1,6 +1,9 @@
 #include "scenarios/drives/keys/seeing_keys.h"
 
-#include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/read_fields.h"
+#include "scenarios/fields/schema.h"
+#include "scenarios/fields/write_fields.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,122 +13,143 @@ namespace fernlicht {
 namespace {
 
 constexpr double longest_route_m = 1.0e6, farthest_seen_m = 2000.0;
+constexpr std::string_view across_words[] = {"own-centre", "oncoming-centre", "right-edge", "left-edge"};
 
-std::vector<double> numbers_or(const YamlMap& keys, std::string_view key, std::vector<double> otherwise, double least, double greatest) {
-    const auto given = keys.find(key);
-    return given ? given->numbers(0, 16, least, greatest) : std::move(otherwise);
+FieldRule across() { return words(across_words); }
+FieldRule illuminances() { return numbers(0, 16, 1.0e-6, 1.0e6); }
+FieldRule distances() { return numbers(0, 16, 0.0, farthest_seen_m); }
+
+const Fields<Sensor>& sensor_fields() {
+    static const Fields<Sensor> fields{
+        field("at_m", 1, &Sensor::at_m, range(0.0, longest_route_m), "along the route from its start").required(),
+        field("across", 2, &Sensor::across, across(), "where across the road: centres of lanes, edges of the driving lanes"),
+        field("above_m", 3, &Sensor::above_m, range(0.0, 50.0), "above the road; 0.25 by default"),
+    };
+    return fields;
 }
 
-Across read_across(const YamlEntry& entry) {
-    static constexpr Across places[] = {Across::own_centre, Across::oncoming_centre, Across::right_edge, Across::left_edge};
-    return places[entry.choice({"own-centre", "oncoming-centre", "right-edge", "left-edge"})];
-}
-
-Sensor read_sensor(const std::string& name, const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"at_m", "across", "above_m"});
-    Sensor sensor;
-    sensor.name = name;
-    sensor.at_m = keys.require("at_m").number(0.0, longest_route_m);
-    if (const auto across = keys.find("across"))
-        sensor.across = read_across(*across);
-    sensor.above_m = keys.number_or("above_m", sensor.above_m, 0.0, 50.0);
-    return sensor;
-}
-
-SensorParameters read_sensors(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"limits_lx", "distances_m", "points"});
-    SensorParameters sensors;
-    sensors.limits_lx = numbers_or(keys, "limits_lx", sensors.limits_lx, 1.0e-6, 1.0e6);
-    sensors.distances_m = numbers_or(keys, "distances_m", sensors.distances_m, 0.0, farthest_seen_m);
-    for (const auto& [name, point] : keys.require("points").named(100))
-        sensors.points.push_back(read_sensor(name, point));
-    return sensors;
-}
-
-GlareObserver read_observer(const std::string& name, const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"at_m", "eye_height_m", "look_ahead_m"});
-    GlareObserver observer;
-    observer.name = name;
-    observer.at_m = keys.require("at_m").number(0.0, longest_route_m);
-    observer.eye_height_m = keys.number_or("eye_height_m", observer.eye_height_m, 0.1, 10.0);
-    observer.look_ahead_m = keys.number_or("look_ahead_m", observer.look_ahead_m, 0.0, farthest_seen_m);
-    return observer;
-}
-
-MirrorParameters read_mirrors(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"gaps_m", "eye_m", "reflectance", "places"});
-    MirrorParameters mirrors;
-    if (const auto gaps = keys.find("gaps_m"))
-        mirrors.gaps_m = gaps->numbers(1, 16, 1.0, farthest_seen_m);
-    if (const auto eye = keys.find("eye_m"))
-        mirrors.eye_m = read_position(*eye);
-    mirrors.reflectance = keys.number_or("reflectance", mirrors.reflectance, 0.0, 1.0);
-    if (const auto places = keys.find("places")) {
-        mirrors.mirrors.clear();
-        for (const auto& [name, position] : places->named(16)) {
-            mirrors.mirrors.push_back({name, read_position(position)});
-            if (mirrors.mirrors.back().position_m == mirrors.eye_m)
-                position.refuse("a mirror in the driver's eye", "a place of its own");
+const Fields<SensorParameters>& sensors_fields() {
+    static const Fields<SensorParameters> fields =
+        Fields<SensorParameters>{
+            field("limits_lx", 1, &SensorParameters::limits_lx, illuminances(), "from how far away the sensor has so much"),
+            field("distances_m", 2, &SensorParameters::distances_m, distances(), "from the front bumper, where the illuminance is told"),
+            named("points", 3, &SensorParameters::points, 100, sensor_fields(), "").required(),
         }
-    }
-    return mirrors;
+            .block();
+    return fields;
 }
 
-GlareParameters read_glare(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"oncoming", "mirrors", "equation", "age_years", "pigmentation", "adaptation_cdm2", "distances_m",
-                                    "limits_lx", "limits_percent", "limits_de_boer"});
-    static constexpr VeilingEquation equations[] = {VeilingEquation::stiles_holladay, VeilingEquation::age_adjusted,
-                                                    VeilingEquation::cie_general};
-    GlareParameters glare;
-    if (const auto oncoming = keys.find("oncoming"))
-        for (const auto& [name, observer] : oncoming->named(100))
-            glare.oncoming.push_back(read_observer(name, observer));
-    if (const auto mirrors = keys.find("mirrors")) {
-        if (!mirrors->is_scalar())
-            glare.mirrors = read_mirrors(*mirrors);
-        else if (mirrors->flag())
-            glare.mirrors.emplace();
-    }
+const Fields<GlareObserver>& observer_fields() {
+    static const Fields<GlareObserver> fields{
+        field("at_m", 1, &GlareObserver::at_m, range(0.0, longest_route_m), "along the route from its start").required(),
+        field("eye_height_m", 2, &GlareObserver::eye_height_m, range(0.1, 10.0), "above the road"),
+        field("look_ahead_m", 3, &GlareObserver::look_ahead_m, range(0.0, farthest_seen_m),
+              "where on the lane the eye looks; 0: along its tangent"),
+    };
+    return fields;
+}
+
+const Fields<Mirror>& mirror_fields() {
+    static const Fields<Mirror> fields =
+        Fields<Mirror>{field("position_m", 1, &Mirror::position_m, range(-100.0, 100.0), "in the frame of its car")}.bare();
+    return fields;
+}
+
+void check_mirrors(const YamlMap& keys, const MirrorParameters& mirrors) {
+    for (std::size_t i = 0; i < mirrors.mirrors.size(); ++i)
+        if (mirrors.mirrors[i].position_m == mirrors.eye_m)
+            if (const auto places = keys.find("places"))
+                places->named(16)[i].second.refuse("a mirror in the driver's eye", "a place of its own");
+}
+
+const Fields<MirrorParameters>& mirrors_fields() {
+    static const Fields<MirrorParameters> fields =
+        Fields<MirrorParameters>{
+            field("gaps_m", 1, &MirrorParameters::gaps_m, numbers(1, 16, 1.0, farthest_seen_m),
+                  "from the front bumper to the rear axle of the car ahead"),
+            field("eye_m", 2, &MirrorParameters::eye_m, range(-100.0, 100.0), "its driver's, in its frame"),
+            field("reflectance", 3, &MirrorParameters::reflectance, range(0.0, 1.0), "of the mirrors"),
+            named("places", 4, &MirrorParameters::mirrors, 16, mirror_fields(), "of the mirrors in their car's frame"),
+        }
+            .block()
+            .checked(check_mirrors);
+    return fields;
+}
+
+void check_glare(const YamlMap& keys, const GlareParameters& glare) {
     if (glare.oncoming.empty() && !glare.mirrors)
-        entry.refuse("glare without eyes", "oncoming: {NAME: {at_m: ...}}, mirrors: true or both");
-    if (const auto equation = keys.find("equation"))
-        glare.equation = equations[equation->choice({"stiles-holladay", "age-adjusted", "cie-general"})];
-    glare.age_years = keys.number_or("age_years", glare.age_years, 16.0, 100.0);
-    glare.pigmentation = keys.number_or("pigmentation", glare.pigmentation, 0.0, 1.2);
-    glare.adaptation_cdm2 = keys.number_or("adaptation_cdm2", glare.adaptation_cdm2, 1.0e-4, 1.0e5);
-    glare.distances_m = numbers_or(keys, "distances_m", glare.distances_m, 0.0, farthest_seen_m);
-    glare.limits_lx = numbers_or(keys, "limits_lx", glare.limits_lx, 1.0e-6, 1.0e6);
-    glare.limits_percent = numbers_or(keys, "limits_percent", glare.limits_percent, 1.0e-6, 1.0e6);
-    glare.limits_de_boer = numbers_or(keys, "limits_de_boer", glare.limits_de_boer, 1.0, 9.0);
-    return glare;
+        keys.entry().refuse("glare without eyes", "oncoming: {NAME: {at_m: ...}}, mirrors: true or both");
+}
+
+const Fields<GlareParameters>& glare_fields() {
+    static const Fields<GlareParameters> fields =
+        Fields<GlareParameters>{
+            named("oncoming", 1, &GlareParameters::oncoming, 100, observer_fields(),
+                  "drivers who stand on the nearest oncoming lane and look along it"),
+            field("mirrors", 2, &GlareParameters::mirrors, mirrors_fields(), "of a car ahead in the own lane").or_flag(),
+            field("equation", 3, &GlareParameters::equation, words({"stiles-holladay", "age-adjusted", "cie-general"}),
+                  "of veiling luminance"),
+            field("age_years", 4, &GlareParameters::age_years, range(16.0, 100.0), "of the observer"),
+            field("pigmentation", 5, &GlareParameters::pigmentation, range(0.0, 1.2),
+                  "of the eye: 0 black, 0.5 brown, 1 blue-green, 1.2 very light"),
+            field("adaptation_cdm2", 6, &GlareParameters::adaptation_cdm2, range(1.0e-4, 1.0e5),
+                  "what the eye is adapted to, for threshold increment and de Boer's rating"),
+            field("distances_m", 7, &GlareParameters::distances_m, distances(), "from the front bumper"),
+            field("limits_lx", 8, &GlareParameters::limits_lx, illuminances(), "times and metres above these, facing the lamps"),
+            field("limits_percent", 9, &GlareParameters::limits_percent, numbers(0, 16, 1.0e-6, 1.0e6), "above these threshold increments"),
+            field("limits_de_boer", 10, &GlareParameters::limits_de_boer, numbers(0, 16, 1.0, 9.0), "below these ratings"),
+        }
+            .block()
+            .checked(check_glare)
+            .in_schema(R"({"anyOf": [{"required": ["oncoming"]}, {"required": ["mirrors"],
+        "properties": {"mirrors": {"anyOf": [{"const": true}, {"type": "object"}]}}}]})");
+    return fields;
+}
+
+void read_places_across(const YamlEntry& entry, VisibilityTarget& target) {
+    target.places.clear();
+    for (const YamlEntry& place : entry.list(1, 3))
+        target.places.push_back(static_cast<Across>(place.choice(across_words)));
+}
+
+std::string places_across(const VisibilityTarget& target) {
+    std::vector<std::string_view> places;
+    for (const Across place : target.places)
+        places.push_back(across_words[static_cast<std::size_t>(place)]);
+    return fmt::format("[{}]", fmt::join(places, ", "));
+}
+
+const Fields<VisibilityTarget>& target_fields() {
+    static const Fields<VisibilityTarget> fields{
+        field("size_m", 1, &VisibilityTarget::size_m, range(0.01, 5.0), "edge of a square"),
+        field("squares", 2, &VisibilityTarget::squares, range(1.0, 20.0), "one on the other"),
+        field("reflectance", 3, &VisibilityTarget::reflectance, range(0.0, 1.0), "diffuse").required(),
+        field("level", 4, &VisibilityTarget::level, range(0.01, 1.0e4), "visibility level at which it counts as detected").required(),
+        own("across", 5, read_places_across, places_across, R"({"type": "array", "minItems": 1, "maxItems": 3,
+            "items": {"enum": ["own-centre", "oncoming-centre", "right-edge", "left-edge"]}})",
+            "where across the road it stands"),
+    };
+    return fields;
 }
 
 VisibilityTarget read_target(const std::string& name, const YamlEntry& entry) {
     const auto usual = std::ranges::find(usual_targets(), name, &VisibilityTarget::name);
-    const YamlMap keys = entry.map({"size_m", "squares", "reflectance", "level", "across"});
+    const YamlMap keys = entry.map(keys_of(target_fields()));
     if (usual != usual_targets().end())
         entry.refuse("a map", "true, or a name of its own: '" + name + "' is one of the usual targets");
     VisibilityTarget target;
     target.name = name;
-    target.size_m = keys.number_or("size_m", target.size_m, 0.01, 5.0);
-    if (const auto squares = keys.find("squares"))
-        target.squares = squares->whole(1, 20);
-    target.reflectance = keys.require("reflectance").number(0.0, 1.0);
-    target.level = keys.require("level").number(0.01, 1.0e4);
-    if (const auto across = keys.find("across")) {
-        target.places.clear();
-        for (const YamlEntry& place : across->list(1, 3))
-            target.places.push_back(read_across(place));
-    }
+    read_group(target_fields(), keys, &target);
     return target;
 }
 
 /// A list of usual targets, or a map: `true` behind a usual one's name, a map behind a name of the drive's own.
-std::vector<VisibilityTarget> read_targets(const YamlEntry& entry) {
+void read_targets(const YamlEntry& entry, VisibilityParameters& visibility) {
     std::vector<std::string_view> names;
     for (const VisibilityTarget& usual : usual_targets())
         names.push_back(usual.name);
-    std::vector<VisibilityTarget> targets;
+    std::vector<VisibilityTarget>& targets = visibility.targets;
+    targets.clear();
     if (entry.is_list()) {
         for (const YamlEntry& usual : entry.list(1, names.size()))
             targets.push_back(usual_targets()[usual.choice(std::span<const std::string_view>(names))]);
@@ -145,54 +169,77 @@ std::vector<VisibilityTarget> read_targets(const YamlEntry& entry) {
         for (std::size_t k = 0; k < i; ++k)
             if (targets[k].name == targets[i].name)
                 entry.refuse("'" + targets[i].name + "' twice", "each target once");
-    return targets;
 }
 
-VisibilityParameters read_visibility(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"targets", "dark_cdm2", "age_years", "time_s", "k", "ahead_m", "step_m", "distances_m"});
-    VisibilityParameters visibility;
-    if (const auto targets = keys.find("targets"))
-        visibility.targets = read_targets(*targets);
-    visibility.dark_cdm2 = keys.number_or("dark_cdm2", visibility.dark_cdm2, 0.0, 1.0e3);
-    visibility.age_years = keys.number_or("age_years", visibility.age_years, 23.0, 75.0);
-    visibility.time_s = keys.number_or("time_s", visibility.time_s, 0.01, 1.0e3);
-    visibility.k = keys.number_or("k", visibility.k, 0.1, 100.0);
-    visibility.ahead_m = keys.number_or("ahead_m", visibility.ahead_m, 10.0, farthest_seen_m);
-    visibility.step_m = keys.number_or("step_m", visibility.step_m, 0.1, 5.0);
-    visibility.distances_m = numbers_or(keys, "distances_m", visibility.distances_m, 1.0, farthest_seen_m);
-    return visibility;
-}
-
-HomogeneityParameters read_homogeneity(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"least_lx", "ahead_m", "patch_factor"});
-    HomogeneityParameters homogeneity;
-    homogeneity.least_lx = keys.number_or("least_lx", homogeneity.least_lx, 1.0e-6, 1.0e6);
-    homogeneity.ahead_m = keys.number_or("ahead_m", homogeneity.ahead_m, 10.0, 500.0);
-    homogeneity.patch_factor = keys.number_or("patch_factor", homogeneity.patch_factor, 1.01, 1000.0);
-    return homogeneity;
-}
-
-/// `true` or a map with keys; `false` as if it were not there.
-template <class Parameters> std::optional<Parameters> read_or_default(const YamlEntry& entry, Parameters (*read)(const YamlEntry&)) {
-    if (!entry.is_scalar())
-        return read(entry);
-    return entry.flag() ? std::optional(Parameters{}) : std::nullopt;
-}
-
-PlaceParameters read_places(const YamlEntry& entry) {
-    PlaceParameters places;
-    std::optional<YamlEntry> what = entry;
-    if (!entry.is_list()) {
-        const YamlMap keys = entry.map({"what", "distances_m"});
-        what = keys.require("what");
-        if (const auto distances = keys.find("distances_m"))
-            places.distances_m = distances->numbers(1, 16, 1.0, farthest_seen_m);
+std::string targets_text(const VisibilityParameters& visibility) {
+    std::string text = visibility.targets.empty() ? "{card: false}" : "";
+    for (const VisibilityTarget& target : visibility.targets) {
+        const bool usual = std::ranges::find(usual_targets(), target) != usual_targets().end();
+        text += fmt::format("\n      \"{}\": {}", target.name, usual ? "true" : "{" + flow_text(target_fields(), &target) + "}");
     }
-    for (const YamlEntry& place : what->list(1, 3)) {
+    return text;
+}
+
+const Fields<VisibilityParameters>& visibility_fields() {
+    static const std::string targets_schema = fmt::format(
+        R"({{"anyOf": [{{"type": "array", "minItems": 1, "maxItems": 3, "items": {{"enum": ["card", "pedestrian-dark", "pedestrian-light"]}}}},
+            {{"type": "object", "minProperties": 1, "maxProperties": 16, "properties": {{"card": {{"type": "boolean"}},
+              "pedestrian-dark": {{"type": "boolean"}}, "pedestrian-light": {{"type": "boolean"}}}},
+              "additionalProperties": {}}}]}})",
+        schema_of(target_fields()));
+    static const Fields<VisibilityParameters> fields =
+        Fields<VisibilityParameters>{
+            own("targets", 1, read_targets, targets_text, targets_schema,
+                "the usual ones by name, or a map: true behind a usual one's name, a map behind a name of the drive's own"),
+            field("dark_cdm2", 2, &VisibilityParameters::dark_cdm2, range(0.0, 1.0e3),
+                  "luminance of what is not road behind a target, without daylight"),
+            field("age_years", 3, &VisibilityParameters::age_years, range(23.0, 75.0), "of who looks"),
+            field("time_s", 4, &VisibilityParameters::time_s, range(0.01, 1.0e3), "for which a target shows"),
+            field("k", 5, &VisibilityParameters::k, range(0.1, 100.0), "of Adrian's visibility model"),
+            field("ahead_m", 6, &VisibilityParameters::ahead_m, range(10.0, farthest_seen_m), "how far is looked, from the front bumper"),
+            field("step_m", 7, &VisibilityParameters::step_m, range(0.1, 5.0), "from one place to the next"),
+            field("distances_m", 8, &VisibilityParameters::distances_m, numbers(0, 16, 1.0, farthest_seen_m),
+                  "from the front bumper, at which level and background are told"),
+        }
+            .block();
+    return fields;
+}
+
+const Fields<HomogeneityParameters>& homogeneity_fields() {
+    static const Fields<HomogeneityParameters> fields{
+        field("least_lx", 1, &HomogeneityParameters::least_lx, range(1.0e-6, 1.0e6), "darker ground does not count"),
+        field("ahead_m", 2, &HomogeneityParameters::ahead_m, range(10.0, 500.0), "how far is looked, from the front bumper"),
+        field("patch_factor", 3, &HomogeneityParameters::patch_factor, range(1.01, 1000.0), "what counts as a patch"),
+    };
+    return fields;
+}
+
+constexpr std::string_view place_words[] = {"kerb", "boards", "markings"};
+
+void read_what(const YamlEntry& entry, PlaceParameters& places) {
+    for (const YamlEntry& place : entry.list(1, 3)) {
         bool* const all[] = {&places.kerb, &places.boards, &places.markings};
-        *all[place.choice({"kerb", "boards", "markings"})] = true;
+        *all[place.choice(place_words)] = true;
     }
-    return places;
+}
+
+std::string what_text(const PlaceParameters& places) {
+    std::vector<std::string_view> what;
+    for (const auto& [asked, i] : {std::pair(places.kerb, 0), std::pair(places.boards, 1), std::pair(places.markings, 2)})
+        if (asked)
+            what.push_back(place_words[i]);
+    return fmt::format("[{}]", fmt::join(what, ", "));
+}
+
+const Fields<PlaceParameters>& places_fields() {
+    static const Fields<PlaceParameters> fields{
+        own("what", 1, read_what, what_text,
+            R"({"type": "array", "items": {"enum": ["kerb", "boards", "markings"]}, "minItems": 1, "maxItems": 3})",
+            "kerb, boards, markings: some of them")
+            .required(),
+        field("distances_m", 2, &PlaceParameters::distances_m, numbers(1, 16, 1.0, farthest_seen_m), "from the front bumper"),
+    };
+    return fields;
 }
 
 } // namespace
@@ -205,19 +252,20 @@ const std::vector<VisibilityTarget>& usual_targets() {
     return targets;
 }
 
-SeeingParameters read_seeing(const YamlMap& measure) {
-    SeeingParameters seeing;
-    if (const auto sensors = measure.find("sensors"))
-        seeing.sensors = read_sensors(*sensors);
-    if (const auto glare = measure.find("glare"))
-        seeing.glare = read_glare(*glare);
-    if (const auto visibility = measure.find("visibility"))
-        seeing.visibility = read_or_default(*visibility, read_visibility);
-    if (const auto homogeneity = measure.find("homogeneity"))
-        seeing.homogeneity = read_or_default(*homogeneity, read_homogeneity);
-    if (const auto places = measure.find("places"))
-        seeing.places = read_places(*places);
-    return seeing;
+const Fields<SeeingParameters>& seeing_fields() {
+    static const Fields<SeeingParameters> fields =
+        Fields<SeeingParameters>{
+            field("sensors", 1, &SeeingParameters::sensors, sensors_fields(), "illuminance at fixed places that the car drives up to"),
+            field("glare", 2, &SeeingParameters::glare, glare_fields(), "what the lamps do to the eyes of others"),
+            field("visibility", 3, &SeeingParameters::visibility, visibility_fields(), "how far ahead targets on the road are detected")
+                .or_flag(),
+            field("homogeneity", 4, &SeeingParameters::homogeneity, homogeneity_fields(), "how evenly the own lane is lit").or_flag(),
+            field("places", 5, &SeeingParameters::places, places_fields(), "light on kerb, boards and markings").short_list_for("what"),
+        }
+            .block();
+    return fields;
 }
+
+SeeingParameters read_seeing(const YamlEntry& measure) { return read_fields(seeing_fields(), measure); }
 
 } // namespace fernlicht

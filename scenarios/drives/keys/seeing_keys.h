@@ -1,13 +1,15 @@
 // `measure`'s keys of seeing and glare: sensors, glare, visibility, homogeneity and places.
 #pragma once
 
-#include "scenarios/drives/drive.h"
-#include "scenarios/yaml/yaml_entry.h"
+#include "scenarios/drives/seeing_parameters.h"
 
 namespace fernlicht {
 
-SeeingParameters read_seeing(const YamlMap& measure);
-/// The lines below `measure:` that read_seeing reads back to the same; "" where nothing is asked for.
-std::string write_seeing(const SeeingParameters& seeing);
+template <class Struct> struct Fields;
+
+class YamlEntry;
+
+const Fields<SeeingParameters>& seeing_fields();
+SeeingParameters read_seeing(const YamlEntry& measure);
 
 } // namespace fernlicht

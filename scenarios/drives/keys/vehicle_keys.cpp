@@ -1,5 +1,9 @@
 #include "scenarios/drives/keys/vehicle_keys.h"
 
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/read_fields.h"
+#include "scenarios/fields/schema.h"
+#include "scenarios/fields/write_fields.h"
 #include "scenarios/vehicle/car_validity.h"
 
 #include <fmt/format.h>
@@ -9,19 +13,18 @@ namespace {
 
 constexpr std::size_t most_road_steps = 10'000;
 
-void read_axle(const YamlMap& keys, std::string_view name, AxleParameters& axle) {
-    const auto given = keys.find(name);
-    if (!given)
-        return;
-    const YamlMap of = given->map({"unsprung_mass_kg", "spring_n_per_m", "damper_ns_per_m", "tyre_spring_n_per_m",
-                                   "cornering_stiffness_n_per_rad", "slip_stiffness_n", "wheel_inertia_kgm2"});
-    axle.unsprung_mass_kg = of.number_or("unsprung_mass_kg", axle.unsprung_mass_kg, 1.0, 10'000.0);
-    axle.spring_n_per_m = of.number_or("spring_n_per_m", axle.spring_n_per_m, 1.0e3, 1.0e8);
-    axle.damper_ns_per_m = of.number_or("damper_ns_per_m", axle.damper_ns_per_m, 0.0, 1.0e7);
-    axle.tyre_spring_n_per_m = of.number_or("tyre_spring_n_per_m", axle.tyre_spring_n_per_m, 1.0e3, 1.0e9);
-    axle.cornering_stiffness_n_per_rad = of.number_or("cornering_stiffness_n_per_rad", axle.cornering_stiffness_n_per_rad, 1.0e3, 1.0e8);
-    axle.slip_stiffness_n = of.number_or("slip_stiffness_n", axle.slip_stiffness_n, 1.0e3, 1.0e8);
-    axle.wheel_inertia_kgm2 = of.number_or("wheel_inertia_kgm2", axle.wheel_inertia_kgm2, 0.01, 1000.0);
+const Fields<AxleParameters>& axle_fields() {
+    static const Fields<AxleParameters> fields{
+        field("unsprung_mass_kg", 1, &AxleParameters::unsprung_mass_kg, range(1.0, 10'000.0), "of both wheels together, as all of these"),
+        field("spring_n_per_m", 2, &AxleParameters::spring_n_per_m, range(1.0e3, 1.0e8), "at the wheel"),
+        field("damper_ns_per_m", 3, &AxleParameters::damper_ns_per_m, range(0.0, 1.0e7), "at the wheel"),
+        field("tyre_spring_n_per_m", 4, &AxleParameters::tyre_spring_n_per_m, range(1.0e3, 1.0e9), "vertical"),
+        field("cornering_stiffness_n_per_rad", 5, &AxleParameters::cornering_stiffness_n_per_rad, range(1.0e3, 1.0e8),
+              "side force by slip angle"),
+        field("slip_stiffness_n", 6, &AxleParameters::slip_stiffness_n, range(1.0e3, 1.0e8), "longitudinal force by slip"),
+        field("wheel_inertia_kgm2", 7, &AxleParameters::wheel_inertia_kgm2, range(0.01, 1000.0), "about the axle"),
+    };
+    return fields;
 }
 
 /// At the key that was given: the springs, else the mass.
@@ -37,110 +40,146 @@ void check_springs(const YamlMap& keys, const char* name, const VehicleParameter
                   fmt::format("at most {:g} m (0.8 Hz): stiffer springs or less mass_kg", greatest_deflection_m));
 }
 
-std::vector<RoadStep> read_road_steps(const YamlMap& keys) {
-    std::vector<RoadStep> steps;
-    if (const auto given = keys.find("road_steps"))
-        for (const YamlEntry& entry : given->list(0, most_road_steps)) {
-            const YamlMap step = entry.map({"at_m", "height_m"});
-            const double at_m = step.require("at_m").number(0.0, 1.0e6);
-            if (!steps.empty() && at_m <= steps.back().at_m)
-                entry.refuse(fmt::format("at_m {} after {}", at_m, steps.back().at_m), "places that ascend");
-            steps.push_back({at_m, step.require("height_m").number(-0.2, 0.2)});
-        }
-    return steps;
+constexpr std::string_view levelling_words[] = {"none", "static", "dynamic"};
+
+/// "none" stays with whoever may leave the levelling out.
+void read_levelling_control(const YamlEntry& entry, LevellingParameters& levelling) {
+    const std::size_t choice = entry.choice(levelling_words);
+    if (choice > 0)
+        levelling.control = static_cast<LevellingControl>(choice - 1);
 }
 
-std::optional<SwivelParameters> read_swivel(const YamlMap& keys) {
-    const auto given = keys.find("swivel");
-    SwivelParameters swivel;
-    if (!given || given->is_scalar())
-        return given && given->flag() ? std::optional(swivel) : std::nullopt;
-    const YamlMap of = given->map({"preview_s", "natural_frequency_hz", "damping", "rate_limit_deg_s", "rate_limit_rad_s", "least_deg",
-                                   "least_rad", "greatest_deg", "greatest_rad", "control_period_s", "dead_time_s"});
-    swivel.preview_s = of.number_or("preview_s", swivel.preview_s, 0.0, 10.0);
-    swivel.actuator = read_actuator(of, swivel.actuator);
-    return swivel;
-}
-
-} // namespace
-
-ActuatorParameters read_actuator(const YamlMap& keys, ActuatorParameters actuator) {
-    actuator.natural_frequency_hz = keys.number_or("natural_frequency_hz", actuator.natural_frequency_hz, 1.0e-3, 1.0e6);
-    actuator.damping = keys.number_or("damping", actuator.damping, 0.0, 1.0e6);
-    if (const auto rate = keys.one_of({"rate_limit_deg_s", "rate_limit_rad_s"}))
-        actuator.rate_limit_rad_s =
-            rate->first == "rate_limit_rad_s" ? rate->second.number(1.0e-6, 1.0e6) : radians(rate->second.number(1.0e-4, 1.0e7));
-    actuator.least_rad = keys.angle_rad("least", 90.0).value_or(actuator.least_rad);
-    actuator.greatest_rad = keys.angle_rad("greatest", 90.0).value_or(actuator.greatest_rad);
-    if (!(actuator.least_rad <= 0.0 && actuator.greatest_rad >= 0.0 && actuator.least_rad < actuator.greatest_rad))
-        keys.entry().refuse(fmt::format("limits of {:.4g} and {:.4g} degrees", degrees(actuator.least_rad), degrees(actuator.greatest_rad)),
-                            "least below greatest, and 0 not outside them");
-    actuator.control_period_s = keys.number_or("control_period_s", actuator.control_period_s, 1.0e-4, 100.0);
-    actuator.dead_time_s = keys.number_or("dead_time_s", actuator.dead_time_s, 0.0, 10.0);
-    return actuator;
-}
-
-std::optional<LevellingParameters> read_levelling(const YamlMap& keys, bool own_period) {
-    const auto given = keys.find("levelling");
-    if (!given)
-        return std::nullopt;
-    const auto control = [](const YamlEntry& entry, LevellingParameters& levelling) {
-        const std::size_t choice = entry.choice({"none", "static", "dynamic"});
-        levelling.control = choice == 1 ? LevellingControl::slow : LevellingControl::dynamic;
-        return choice != 0;
+const Fields<RoadStep>& road_step_fields() {
+    static const Fields<RoadStep> fields{
+        field("at_m", 1, &RoadStep::at_m, range(0.0, 1.0e6), "along the route").required(),
+        field("height_m", 2, &RoadStep::height_m, range(-0.2, 0.2), "the road goes on higher by this").required(),
     };
-    LevellingParameters levelling;
-    if (given->is_scalar())
-        return control(*given, levelling) ? std::optional(levelling) : std::nullopt;
-    const YamlMap of = given->map({"control", "natural_frequency_hz", "damping", "rate_limit_deg_s", "rate_limit_rad_s", "least_deg",
-                                   "least_rad", "greatest_deg", "greatest_rad", "control_period_s", "dead_time_s"});
-    if (const auto period = of.find("control_period_s"); period && !own_period)
-        period->refuse("a period of the levelling alone", "control.period_s, which holds for all laws");
-    levelling.actuator = read_actuator(of, levelling.actuator);
-    const auto word = of.find("control");
-    return !word || control(*word, levelling) ? std::optional(levelling) : std::nullopt;
+    return fields;
 }
 
-std::optional<VehicleParameters> read_vehicle(const YamlMap& drive) {
-    static constexpr Solver solvers[] = {Solver::automatic, Solver::dormand_prince, Solver::rosenbrock};
-    const auto given = drive.find("vehicle");
-    if (!given)
-        return std::nullopt;
-    VehicleParameters car;
-    if (given->is_scalar()) {
-        given->choice({"single-track"});
-        return car;
-    }
-    const YamlMap keys =
-        given->map({"model", "mass_kg", "front_load", "centre_of_gravity_height_m", "yaw_inertia_kgm2", "pitch_inertia_kgm2", "front",
-                    "rear", "relaxation_length_m", "friction", "wheel_radius_m", "brake_balance", "anti_pitch", "drag_area_m2",
-                    "rolling_resistance", "road_steps", "solver", "tolerance"});
-    if (const auto model = keys.find("model"))
-        model->choice({"single-track"});
-    car.mass_kg = keys.number_or("mass_kg", car.mass_kg, 50.0, 100'000.0);
-    car.front_load = keys.number_or("front_load", car.front_load, 0.05, 0.95);
-    car.centre_of_gravity_height_m = keys.number_or("centre_of_gravity_height_m", car.centre_of_gravity_height_m, 0.0, 5.0);
-    car.yaw_inertia_kgm2 = keys.number_or("yaw_inertia_kgm2", car.yaw_inertia_kgm2, 1.0, 1.0e7);
-    car.pitch_inertia_kgm2 = keys.number_or("pitch_inertia_kgm2", car.pitch_inertia_kgm2, 1.0, 1.0e7);
-    read_axle(keys, "front", car.front);
-    read_axle(keys, "rear", car.rear);
-    car.relaxation_length_m = keys.number_or("relaxation_length_m", car.relaxation_length_m, 0.01, 10.0);
-    car.friction = keys.number_or("friction", car.friction, 0.01, 2.0);
-    car.wheel_radius_m = keys.number_or("wheel_radius_m", car.wheel_radius_m, 0.05, 2.0);
-    car.brake_balance = keys.number_or("brake_balance", car.brake_balance, 0.0, 1.0);
-    car.anti_pitch = keys.number_or("anti_pitch", car.anti_pitch, 0.0, 1.0);
-    car.drag_area_m2 = keys.number_or("drag_area_m2", car.drag_area_m2, 0.0, 50.0);
-    car.rolling_resistance = keys.number_or("rolling_resistance", car.rolling_resistance, 0.0, 0.5);
-    car.road_steps = read_road_steps(keys);
-    if (const auto solver = keys.find("solver"))
-        car.solver = solvers[solver->choice({"auto", "dormand-prince", "rosenbrock"})];
-    car.tolerance = keys.number_or("tolerance", car.tolerance, 1.0e-12, 1.0e-2);
+void check_vehicle(const YamlMap& keys, const VehicleParameters& car) {
+    for (std::size_t i = 1; i < car.road_steps.size(); ++i)
+        if (car.road_steps[i].at_m <= car.road_steps[i - 1].at_m)
+            keys.require("road_steps")
+                .list(0, most_road_steps)[i]
+                .refuse(fmt::format("at_m {} after {}", car.road_steps[i].at_m, car.road_steps[i - 1].at_m), "places that ascend");
     const double unsprung_kg = car.front.unsprung_mass_kg + car.rear.unsprung_mass_kg;
     if (unsprung_kg > 0.5 * car.mass_kg)
         keys.entry().refuse(fmt::format("axles of {} kg under a car of {} kg", unsprung_kg, car.mass_kg), "at most half of mass_kg");
     check_springs(keys, "front", car, car.front, car.front_load);
     check_springs(keys, "rear", car, car.rear, 1.0 - car.front_load);
-    return car;
+}
+
+void check_actuator(const YamlMap& keys, const ActuatorParameters& actuator) {
+    if (!(actuator.least_rad <= 0.0 && actuator.greatest_rad >= 0.0 && actuator.least_rad < actuator.greatest_rad))
+        keys.entry().refuse(fmt::format("limits of {:.4g} and {:.4g} degrees", degrees(actuator.least_rad), degrees(actuator.greatest_rad)),
+                            "least below greatest, and 0 not outside them");
+}
+
+const Fields<SwivelParameters>& swivel_fields() {
+    static const Fields<SwivelParameters> fields{
+        field("preview_s", 1, &SwivelParameters::preview_s, range(0.0, 10.0), "to where the bend leads in this time"),
+        inlined(2, &SwivelParameters::actuator, actuator_fields()),
+    };
+    return fields;
+}
+
+} // namespace
+
+const Fields<ActuatorParameters>& actuator_fields() {
+    using Actuator = ActuatorParameters;
+    static const Fields<Actuator> fields =
+        Fields<Actuator>{
+            field("natural_frequency_hz", 1, &Actuator::natural_frequency_hz, range(1.0e-3, 1.0e6), "of its second order"),
+            field("damping", 2, &Actuator::damping, range(0.0, 1.0e6), "1: aperiodic"),
+            field("rate_limit", 3, &Actuator::rate_limit_rad_s, angular_speed("rate_limit", 1.0e-4, 1.0e7, 1.0e-6, 1.0e6),
+                  "how fast it turns"),
+            field("least", 4, &Actuator::least_rad, degrees_within("least", 90.0), "how far down or right"),
+            field("greatest", 5, &Actuator::greatest_rad, degrees_within("greatest", 90.0), "how far up or left"),
+            field("control_period_s", 6, &Actuator::control_period_s, range(1.0e-4, 100.0), "between two commands"),
+            field("dead_time_s", 7, &Actuator::dead_time_s, range(0.0, 10.0), "until a command takes effect"),
+        }
+            .checked(check_actuator);
+    return fields;
+}
+
+const Fields<LevellingParameters>& levelling_fields() {
+    using Levelling = LevellingParameters;
+    static const Fields<Levelling> fields{
+        own<Levelling>(
+            "control", 1, read_levelling_control,
+            [](const Levelling& of) { return std::string(levelling_words[1 + static_cast<std::size_t>(of.control)]); },
+            R"({"enum": ["none", "static", "dynamic"]})", "static: against the body's mean pitch over 10 s"),
+        inlined(2, &Levelling::actuator, actuator_fields()),
+    };
+    return fields;
+}
+
+std::optional<LevellingParameters> read_levelling(const YamlEntry& given, bool own_period) {
+    LevellingParameters levelling;
+    const auto asked = [&](const YamlEntry& word) {
+        read_levelling_control(word, levelling);
+        return word.value().text == "none" ? std::nullopt : std::optional(levelling);
+    };
+    if (given.is_scalar())
+        return asked(given);
+    const YamlMap of = given.map(keys_of(levelling_fields()));
+    if (const auto period = of.find("control_period_s"); period && !own_period)
+        period->refuse("a period of the levelling alone", "control.period_s, which holds for all laws");
+    read_group(levelling_fields(), of, &levelling);
+    const auto word = of.find("control");
+    return word ? asked(*word) : levelling;
+}
+
+std::string levelling_schema() {
+    return fmt::format(R"({{"anyOf": [{{"enum": ["none", "static", "dynamic"]}}, {}]}})", schema_of(levelling_fields()));
+}
+
+const Group& actuators_fields() {
+    static const std::string schema = levelling_schema();
+    static const Fields<Variant> fields =
+        Fields<Variant>{
+            own<Variant>(
+                "levelling", 1, [](const YamlEntry& entry, Variant& variant) { variant.levelling = read_levelling(entry); },
+                [](const Variant& variant) {
+                    return variant.levelling ? "{" + flow_text(levelling_fields(), &*variant.levelling) + "}" : "";
+                },
+                schema, "against the body's pitch"),
+            field("swivel", 2, &Variant::swivel, swivel_fields(), "bend lighting: all lamps turn").or_flag(),
+        }
+            .block();
+    return fields;
+}
+
+const Fields<VehicleParameters>& vehicle_fields() {
+    using Car = VehicleParameters;
+    static const Fields<Car> fields =
+        Fields<Car>{
+            own<Car>(
+                "model", 1, [](const YamlEntry& entry, Car&) { entry.choice({"single-track"}); },
+                [](const Car&) { return std::string("single-track"); }, R"({"enum": ["single-track"]})", "the only one"),
+            field("mass_kg", 2, &Car::mass_kg, range(50.0, 100'000.0), "with its driver"),
+            field("front_load", 3, &Car::front_load, range(0.05, 0.95), "part of the weight on the front axle"),
+            field("centre_of_gravity_height_m", 4, &Car::centre_of_gravity_height_m, range(0.0, 5.0), "above the road"),
+            field("yaw_inertia_kgm2", 5, &Car::yaw_inertia_kgm2, range(1.0, 1.0e7), "about the vertical"),
+            field("pitch_inertia_kgm2", 6, &Car::pitch_inertia_kgm2, range(1.0, 1.0e7), "of the sprung mass"),
+            field("front", 7, &Car::front, axle_fields(), "axle"),
+            field("rear", 8, &Car::rear, axle_fields(), "axle"),
+            field("relaxation_length_m", 9, &Car::relaxation_length_m, range(0.01, 10.0), "of the tyres, along and across"),
+            field("friction", 10, &Car::friction, range(0.01, 2.0), "tyre on road"),
+            field("wheel_radius_m", 11, &Car::wheel_radius_m, range(0.05, 2.0), "of the rolling tyre"),
+            field("brake_balance", 12, &Car::brake_balance, range(0.0, 1.0), "part of the braking that the front axle does"),
+            field("anti_pitch", 13, &Car::anti_pitch, range(0.0, 1.0), "part of the pitching moment that the suspension's links take"),
+            field("drag_area_m2", 14, &Car::drag_area_m2, range(0.0, 50.0), "cw times A"),
+            field("rolling_resistance", 15, &Car::rolling_resistance, range(0.0, 0.5), "part of the weight"),
+            list("road_steps", 16, &Car::road_steps, 0, most_road_steps, road_step_fields(),
+                 "edges across the road that the tyres feel; by distance"),
+            field("solver", 17, &Car::solver, words({"auto", "dormand-prince", "rosenbrock"}), "auto: by stiffness"),
+            field("tolerance", 18, &Car::tolerance, range(1.0e-12, 1.0e-2), "of the solver"),
+        }
+            .block()
+            .checked(check_vehicle);
+    return fields;
 }
 
 void read_actuators(const YamlMap& drive, const YamlMap* keys, Variant& variant) {
@@ -151,9 +190,7 @@ void read_actuators(const YamlMap& drive, const YamlMap* keys, Variant& variant)
         return;
     if (!drive.find("vehicle"))
         given->refuse("actuators in a drive without a vehicle", "vehicle: single-track, whose pitch and steering they follow");
-    const YamlMap of = given->map({"levelling", "swivel"});
-    variant.levelling = read_levelling(of);
-    variant.swivel = read_swivel(of);
+    read_group(actuators_fields(), *given, &variant);
 }
 
 } // namespace fernlicht

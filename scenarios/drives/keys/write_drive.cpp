@@ -4,10 +4,12 @@
 #include "scenarios/drives/keys/control_keys.h"
 #include "scenarios/drives/keys/daylight_keys.h"
 #include "scenarios/drives/keys/display_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/flow_list.h"
-#include "scenarios/drives/keys/seeing_keys.h"
 #include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/drives/keys/storyboard_keys.h"
+#include "scenarios/drives/keys/vehicle_keys.h"
+#include "scenarios/fields/write_fields.h"
 #include "scenarios/yaml/yaml_text.h"
 
 #include <cmath>
@@ -133,55 +135,6 @@ void write_change(Lines& out, const Drive& drive, const LampChange& change) {
         write_colour(out, 4, *change.colour);
 }
 
-void write_axle(Lines& out, std::string_view name, const AxleParameters& axle) {
-    out.add(1,
-            "{}: {{unsprung_mass_kg: {}, spring_n_per_m: {}, damper_ns_per_m: {}, tyre_spring_n_per_m: {}, "
-            "cornering_stiffness_n_per_rad: {}, slip_stiffness_n: {}, wheel_inertia_kgm2: {}}}",
-            name, axle.unsprung_mass_kg, axle.spring_n_per_m, axle.damper_ns_per_m, axle.tyre_spring_n_per_m,
-            axle.cornering_stiffness_n_per_rad, axle.slip_stiffness_n, axle.wheel_inertia_kgm2);
-}
-
-void write_vehicle(Lines& out, const VehicleParameters& car) {
-    out.add(0, "vehicle:");
-    out.add(1, "model: single-track");
-    out.add(1, "mass_kg: {}", car.mass_kg);
-    out.add(1, "front_load: {}", car.front_load);
-    out.add(1, "centre_of_gravity_height_m: {}", car.centre_of_gravity_height_m);
-    out.add(1, "yaw_inertia_kgm2: {}", car.yaw_inertia_kgm2);
-    out.add(1, "pitch_inertia_kgm2: {}", car.pitch_inertia_kgm2);
-    write_axle(out, "front", car.front);
-    write_axle(out, "rear", car.rear);
-    out.add(1, "relaxation_length_m: {}", car.relaxation_length_m);
-    out.add(1, "friction: {}", car.friction);
-    out.add(1, "wheel_radius_m: {}", car.wheel_radius_m);
-    out.add(1, "brake_balance: {}", car.brake_balance);
-    out.add(1, "anti_pitch: {}", car.anti_pitch);
-    out.add(1, "drag_area_m2: {}", car.drag_area_m2);
-    out.add(1, "rolling_resistance: {}", car.rolling_resistance);
-    out.add(1, "road_steps:{}", car.road_steps.empty() ? " []" : "");
-    for (const RoadStep& step : car.road_steps)
-        out.add(2, "- {{at_m: {}, height_m: {}}}", step.at_m, step.height_m);
-    out.add(1, "solver: {}", name(car.solver));
-    out.add(1, "tolerance: {}", car.tolerance);
-}
-
-std::string actuator_keys(const ActuatorParameters& actuator) {
-    return fmt::format("natural_frequency_hz: {}, damping: {}, rate_limit_rad_s: {}, {}, {}, control_period_s: {}, dead_time_s: {}",
-                       actuator.natural_frequency_hz, actuator.damping, actuator.rate_limit_rad_s, angle_entry("least", actuator.least_rad),
-                       angle_entry("greatest", actuator.greatest_rad), actuator.control_period_s, actuator.dead_time_s);
-}
-
-void write_actuators(Lines& out, const Variant& variant) {
-    if (!variant.levelling && !variant.swivel)
-        return;
-    out.add(2, "actuators:");
-    if (const auto& levelling = variant.levelling)
-        out.add(3, "levelling: {{control: {}, {}}}", levelling->control == LevellingControl::slow ? "static" : "dynamic",
-                actuator_keys(levelling->actuator));
-    if (const auto& swivel = variant.swivel)
-        out.add(3, "swivel: {{preview_s: {}, {}}}", swivel->preview_s, actuator_keys(swivel->actuator));
-}
-
 void write_variants(Lines& out, const Drive& drive) {
     out.add(0, "variants:");
     for (const Variant& variant : drive.variants) {
@@ -192,7 +145,8 @@ void write_variants(Lines& out, const Drive& drive) {
         out.add(2, "changes:{}", variant.changes.empty() ? " []" : "");
         for (const LampChange& change : variant.changes)
             write_change(out, drive, change);
-        write_actuators(out, variant);
+        if (variant.levelling || variant.swivel)
+            out.add_all("    actuators:\n" + block_text(actuators_fields(), &variant, 3));
         out.add_all(write_control(drive, variant));
     }
 }
@@ -321,32 +275,6 @@ void write_sky(Lines& out, const Drive& drive) {
     out.add_all(weather.empty() && drive.storyboard && drive.storyboard->own_weather ? "weather: {wetness: 0}\n" : weather);
 }
 
-void write_measure(Lines& out, const Drive& drive) {
-    out.add(0, "measure:");
-    if (const auto& extent = drive.extent) {
-        out.add(1, "extent:");
-        out.add(2, "limits_lx: {}", flow_list(extent->limits_lx));
-        out.add(2, "target_height_m: {}", extent->target_height_m);
-        out.add(2, "ahead_m: {}", extent->ahead_m);
-        out.add(2, "beside_m: {}", extent->beside_m);
-        out.add(2, "cell_m: {}", extent->cell_m);
-        out.add(2, "width_at_m: {}", flow_list(extent->width_at_m));
-    } else {
-        out.add(1, "extent: false");
-    }
-    if (!drive.probes.empty())
-        out.add(1, "probes:");
-    for (const Probe& probe : drive.probes)
-        out.add(2, "{}: {{ahead_m: {}, left_m: {}, above_m: {}}}", quoted(probe.name), probe.ahead_m, probe.left_m, probe.above_m);
-}
-
-void write_limits(Lines& out, const Drive& drive) {
-    out.add(0, "limits:{}", drive.limits.empty() ? " []" : "");
-    for (const Limit& limit : drive.limits)
-        out.add(1, "- {{reading: {}{}{}}}", quoted(limit.reading), limit.at_least ? fmt::format(", at_least: {}", *limit.at_least) : "",
-                limit.at_most ? fmt::format(", at_most: {}", *limit.at_most) : "");
-}
-
 } // namespace
 
 std::string write_drive(const Drive& drive) {
@@ -363,21 +291,18 @@ std::string write_drive(const Drive& drive) {
                                                          angle_entry("yaw", drive.own_car->yaw_rad), drive.own_car->scale)
                                            : "";
     out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}{}}}", drive.bumper_m, drive.wheelbase_m, body);
-    if (drive.vehicle)
-        write_vehicle(out, *drive.vehicle);
+    out.add_all(lines_of(drive_fields(), "vehicle", &drive, 0));
     write_variants(out, drive);
     out.add_all(write_can(drive));
     write_traffic(out, drive);
     write_views(out, drive);
     write_scenery(out, drive);
-    out.add(0, "capture: {{per_second: {}, all: {}, exr: {}, png: {}}}", drive.capture.per_second, drive.capture.all, drive.capture.exr,
-            drive.capture.png);
+    out.add_all(lines_of(drive_fields(), "capture", &drive, 0));
     out.add_all(write_tone_mapper(drive.tone_mapper));
     out.add_all(write_display(drive.display));
     out.add(0, "technique: {}", quoted(drive.technique));
-    write_measure(out, drive);
-    out.add_all(write_seeing(drive.seeing));
-    write_limits(out, drive);
+    out.add_all(lines_of(drive_fields(), "measure", &drive, 0));
+    out.add_all(lines_of(drive_fields(), "limits", &drive, 0));
     out.add_all(write_shadows(drive.shadows));
     if (drive.beams && *drive.beams != eight_bit_texels)
         out.add(0, "beams: {{width: {}, height: {}, bits: {}}}", drive.beams->width, drive.beams->height, drive.beams->bits);

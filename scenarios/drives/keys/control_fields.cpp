@@ -1,0 +1,184 @@
+#include "scenarios/drives/keys/control_fields.h"
+
+#include "scenarios/drives/keys/lamp_sets.h"
+#include "scenarios/drives/keys/vehicle_keys.h"
+#include "scenarios/yaml/yaml_text.h"
+
+namespace fernlicht {
+namespace {
+
+constexpr double shortest_period_s = 1.0e-4;
+
+void read_library(const YamlEntry& entry, PluginParameters& plugin) {
+    plugin.library = entry.path();
+    check_file(plugin.library, entry);
+}
+
+void check_stuck_swivel(const YamlMap& keys, const StuckSwivelParameters& stuck) {
+    if (!(stuck.off_rad > 0.0))
+        keys.entry().refuse("an angle off that is not above 0", "off_deg above 0");
+}
+
+const Fields<StuckSwivelParameters>& stuck_swivel_fields() {
+    using Stuck = StuckSwivelParameters;
+    static const Fields<Stuck> fields =
+        Fields<Stuck>{
+            field("off", 1, &Stuck::off_rad, in_radians("off", 45.0), "from what it is asked for"),
+            field("after_s", 2, &Stuck::after_s, range(0.0, 100.0), "for so long"),
+            field("pitch", 3, &Stuck::pitch_rad, in_radians("pitch", 10.0), "how low its lamp goes"),
+            field("level", 4, &Stuck::level, range(0.0, 1.0), "how dim, where nothing levels it"),
+        }
+            .checked(check_stuck_swivel);
+    return fields;
+}
+
+double from_kg(double kg) { return 9.81 * kg; }
+double from_n(double n) { return n; }
+FieldRule load_of(const std::string& axle) { return units({axle + "_kg", from_kg, -2000.0, 5000.0}, {axle + "_n", from_n, -2.0e4, 5.0e4}); }
+
+const Fields<AxleLoad>& load_fields() {
+    static const Fields<AxleLoad> fields{
+        field("front", 1, &AxleLoad::front_n, load_of("front"), "on that axle since the lamps were aimed"),
+        field("rear", 2, &AxleLoad::rear_n, load_of("rear"), "on that axle since the lamps were aimed"),
+    };
+    return fields;
+}
+
+} // namespace
+
+const Fields<ActuatorParameters>& law_actuator_fields() {
+    static const Fields<ActuatorParameters> fields = [] {
+        Fields<ActuatorParameters> of = actuator_fields();
+        std::erase_if(of.fields, [](const Field& field) { return field.key == "control_period_s"; });
+        for (Field& field : of.fields)
+            field.rule.degrees_where_exact = false;
+        return of;
+    }();
+    return fields;
+}
+
+const Fields<BendParameters>& bend_fields() {
+    using Bend = BendParameters;
+    static const Fields<Bend> fields{
+        field("law", 1, &Bend::law, words(bend_laws), "what says where the bend leads"),
+        field("lamps", 2, &Bend::lamps, names(1, most_control_lamps), "all but those whose names have 'corner' by default"),
+        field("preview_s", 3, &Bend::preview_s, range(0.0, 10.0), "the lamps look to where the car will be then"),
+        field("gain", 4, &Bend::gain, range(0.0, 10.0), "on the angle"),
+        field("filter_s", 5, &Bend::filter_s, range(0.0, 100.0), "time constant; 0: none"),
+        field("dead_band", 6, &Bend::dead_band_rad, in_radians("dead_band", 45.0), "left out of the angle on both sides of 0"),
+        field("from_speed", 7, &Bend::from_speed_mps, speed("from_speed"), "slower: straight ahead; all of the angle from twice as fast"),
+        field("outer_share", 8, &Bend::outer_share, range(0.0, 1.0), "of the angle, for the lamp outside of the bend"),
+        inlined(9, &Bend::actuator, law_actuator_fields()),
+    };
+    return fields;
+}
+
+const Fields<CorneringParameters>& cornering_fields() {
+    using Cornering = CorneringParameters;
+    static const Fields<Cornering> fields{
+        field("left", 1, &Cornering::left, names(1, most_control_lamps), "lamps of that side").written_off_default(),
+        field("right", 2, &Cornering::right, names(1, most_control_lamps), "lamps of that side").written_off_default(),
+        field("until", 3, &Cornering::until_speed_mps, speed("until"), "faster: off"),
+        field("again_below", 4, &Cornering::again_below_mps, speed("again_below"), "slower: on again"),
+        field("on", 5, &Cornering::on_rad, in_radians("on", 60.0), "of the front wheels"),
+        field("off", 6, &Cornering::off_rad, in_radians("off", 60.0), "of the front wheels"),
+        field("fade_s", 7, &Cornering::fade_s, range(0.0, 100.0), "from off to on"),
+    };
+    return fields;
+}
+
+const Fields<BeamModeSettings>& mode_fields() {
+    static const Fields<BeamModeSettings> fields{
+        field("level", 1, &BeamModeSettings::level, range(0.0, 1.0), "of the class's lamps"),
+        field("pitch", 2, &BeamModeSettings::pitch_rad, in_radians("pitch", 10.0), "added to the aim"),
+    };
+    return fields;
+}
+
+const Fields<ModeParameters>& threshold_fields() {
+    using Modes = ModeParameters;
+    static const Fields<Modes> fields =
+        Fields<Modes>{
+            field("v_below", 1, &Modes::v_below_mps, speed("v_below"), "town"),
+            field("v_lit_below", 2, &Modes::v_lit_below_mps, speed("v_lit_below"), "town, where the road is lit"),
+            field("v_lit_lx", 3, &Modes::v_lit_lx, range(0.0, 2.0e5), "what counts as lit"),
+            field("e_above", 4, &Modes::e_above_mps, speed("e_above"), "motorway"),
+            field("e_motorway_above", 5, &Modes::e_motorway_above_mps, speed("e_motorway_above"), "motorway, where the map says so"),
+            field("w_wetness", 6, &Modes::w_wetness, range(1.0e-6, 1.0), "wet road from here on"),
+            field("w_wipers_s", 7, &Modes::w_wipers_s, range(0.0, 1.0e6), "wet road after wiping so long"),
+            field("hysteresis", 8, &Modes::hysteresis_mps, speed("hysteresis"), "to leave a class"),
+            field("delay_s", 9, &Modes::delay_s, range(0.0, 1000.0), "a class is asked for so long before it comes"),
+        }
+            .block();
+    return fields;
+}
+
+const Fields<HighBeamParameters>& high_beam_fields() {
+    using High = HighBeamParameters;
+    static const Fields<High> fields{
+        field("lamps", 1, &High::lamps, names(1, most_control_lamps), "those whose names have 'high' by default"),
+        field("on_above", 2, &High::on_above_mps, speed("on_above"), "faster: on"),
+        field("off_below", 3, &High::off_below_mps, speed("off_below"), "slower: off"),
+        field("dark_below_lx", 4, &High::dark_below_lx, range(0.0, 2.0e5), "darker: on"),
+        field("lit_above_lx", 5, &High::lit_above_lx, range(0.0, 2.0e5), "lighter: off"),
+        field("oncoming_m", 6, &High::oncoming_m, range(0.0, 5000.0), "others nearer than this have it dipped, or its windows dark"),
+        field("preceding_m", 7, &High::preceding_m, range(0.0, 5000.0), "the same of those ahead"),
+        field("on_delay_s", 8, &High::on_delay_s, range(0.0, 100.0), "until it comes on"),
+        field("dip_delay_s", 9, &High::dip_delay_s, range(0.0, 100.0), "until it is dipped"),
+        field("fade_s", 10, &High::fade_s, range(0.0, 100.0), "from off to on"),
+    };
+    return fields;
+}
+
+const Fields<GlareFreeParameters>& glare_free_fields() {
+    using GlareFree = GlareFreeParameters;
+    static const Fields<GlareFree> fields =
+        Fields<GlareFree>{
+            field("margin", 1, &GlareFree::margin_rad, in_radians("margin", 20.0), "to each side of others"),
+            field("mask_delay_s", 2, &GlareFree::mask_delay_s, range(0.0, 100.0), "until a window goes dark"),
+            field("relight_delay_s", 3, &GlareFree::relight_delay_s, range(0.0, 100.0), "until it is lit again"),
+        }
+            .block();
+    return fields;
+}
+
+const Fields<PluginParameters>& plugin_fields() {
+    using Plugin = PluginParameters;
+    static const Fields<Plugin> fields{
+        own<Plugin>(
+            "library", 1, read_library, [](const Plugin& of) { return quoted(of.library.string()); },
+            R"({"type": "string", "minLength": 1})", "relative to the drive file")
+            .required(),
+        field("parameters", 2, &Plugin::parameters, any(), "handed over as it is").written_off_default(),
+        field("lamps", 3, &Plugin::lamps, names(1, most_control_lamps), "that it may move; all by default"),
+        field("period_s", 4, &Plugin::period_s, range(shortest_period_s, 100.0),
+              "a whole number of control periods, or the next one after"),
+        field("budget_s", 5, &Plugin::budget_s, range(1.0e-6, 100.0), "of a call; longer ones are counted"),
+        field("give_up_s", 6, &Plugin::give_up_s, range(0.01, 3600.0), "a call that takes so long ends the run"),
+    };
+    return fields;
+}
+
+const Fields<ControlParameters>& law_fields() {
+    using Control = ControlParameters;
+    static const Fields<Control> fields{
+        field("period_s", 1, &Control::period_s, range(shortest_period_s, 10.0), "of the laws"),
+        field("load", 2, &Control::load, load_fields(), "weight added").written_off_default(),
+        field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0), "of lamps whose levelling has lost its signal"),
+        field("stuck_swivel", 4, &Control::stuck_swivel, stuck_swivel_fields(), "when a swivel is found stuck, and what then")
+            .or_absent("none"),
+    };
+    return fields;
+}
+
+void for_each_law(const std::function<void(const std::string&, const Group&)>& visit) {
+    visit("", law_fields());
+    visit("bend", bend_fields());
+    visit("cornering", cornering_fields());
+    visit("modes", threshold_fields());
+    visit("high_beam", high_beam_fields());
+    visit("glare_free", glare_free_fields());
+    visit("plugins[]", plugin_fields());
+}
+
+} // namespace fernlicht

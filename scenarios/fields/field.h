@@ -1,0 +1,256 @@
+// Describes the struct of a file, one line a key:
+//
+//   const Fields<Windscreen>& windscreen_fields() {
+//       static const Fields<Windscreen> fields{
+//           field("transmittance", 1, &Windscreen::transmittance, range(0.01, 1.0), "of light; UN R43 asks for 0.7 at least"),
+//           field("haze", 2, &Windscreen::haze, range(0.0, 0.3), "share turned by more than 2.5 degrees"),
+//       };
+//       return fields;
+//   }
+//
+// What a member's type does not say (a default word, a key that only some methods use) is chained to the field. The templates here
+// become plain values at once (group.h), and only files that describe structs include them.
+#pragma once
+
+#include "scenarios/fields/group.h"
+
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <type_traits>
+
+namespace fernlicht {
+
+template <class Struct> struct Fields;
+
+template <class Struct> struct FieldOf : Field {
+    FieldOf required() && { return is_required = true, std::move(*this); }
+    FieldOf written_off_default() && { return is_written_off_default = true, std::move(*this); }
+    FieldOf or_flag() && { return may_be_flag = true, std::move(*this); }
+    FieldOf or_word(std::string_view word) && { return default_word = {word}, std::move(*this); }
+    FieldOf or_absent(std::string_view word) && { return absent_word = word, std::move(*this); }
+    FieldOf short_for(std::string_view key_of_group) && { return short_key = key_of_group, std::move(*this); }
+    FieldOf short_list_for(std::string_view key_of_group) && { return short_key = key_of_group, short_is_list = true, std::move(*this); }
+    FieldOf heard_if(bool (*asks)(const void*)) && { return heard = asks, std::move(*this); }
+};
+
+/// The description of a struct.
+template <class Struct> struct Fields : Group {
+    Fields(std::initializer_list<FieldOf<Struct>> list) {
+        fields.assign(list.begin(), list.end());
+        usual = std::make_shared<const Struct>();
+    }
+    Fields block() && { return is_block = true, std::move(*this); }
+    Fields bare() && { return is_bare = true, std::move(*this); }
+    /// Refuses what no single key shows, after all of them were read.
+    Fields checked(void (*look_at)(const YamlMap&, const Struct&)) && {
+        check = [look_at](const YamlMap& keys, const void* whole) { look_at(keys, *static_cast<const Struct*>(whole)); };
+        return std::move(*this);
+    }
+    Fields in_schema(std::string_view json) && { return schema_beside = json, std::move(*this); }
+};
+
+namespace field_parts {
+
+template <class T> inline constexpr bool is_optional = false;
+template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
+template <class T> inline constexpr bool is_vector = false;
+template <class T> inline constexpr bool is_vector<std::vector<T>> = true;
+
+template <class Struct, class M> class MemberOf : public Member {
+  public:
+    explicit MemberOf(M Struct::*at) : at_(at) {}
+    void* look(void* whole) const override {
+        if constexpr (is_optional<M>)
+            return of(whole) ? &*of(whole) : nullptr;
+        else
+            return &of(whole);
+    }
+    void* make(void* whole) const override {
+        if constexpr (is_optional<M>)
+            return &of(whole).emplace();
+        else
+            return &of(whole);
+    }
+    void clear(void* whole) const override {
+        if constexpr (is_optional<M>)
+            of(whole).reset();
+        else if constexpr (is_vector<M>)
+            of(whole).clear();
+    }
+    std::size_t size(void* whole) const override {
+        if constexpr (is_vector<M>)
+            return of(whole).size();
+        return 0;
+    }
+    void* element(void* whole, std::size_t i) const override {
+        if constexpr (is_vector<M>)
+            return &of(whole)[i];
+        return nullptr;
+    }
+    void* append(void* whole) const override {
+        if constexpr (is_vector<M>)
+            return &of(whole).emplace_back();
+        return nullptr;
+    }
+    std::string* name_of(void* element) const override {
+        if constexpr (is_vector<M>)
+            if constexpr (requires(typename M::value_type & e) {
+                              { e.name } -> std::same_as<std::string&>;
+                          })
+                return &static_cast<typename M::value_type*>(element)->name;
+        return nullptr;
+    }
+
+  private:
+    M& of(void* whole) const { return static_cast<Struct*>(whole)->*at_; }
+    M Struct::*at_;
+};
+
+/// The struct itself: keys that stand one level deeper than their members.
+class Itself : public Member {
+  public:
+    void* look(void* whole) const override { return whole; }
+    void* make(void* whole) const override { return whole; }
+    void clear(void*) const override {}
+    std::size_t size(void*) const override { return 0; }
+    void* element(void*, std::size_t) const override { return nullptr; }
+    void* append(void*) const override { return nullptr; }
+    std::string* name_of(void*) const override { return nullptr; }
+};
+
+template <class T> struct Plain { using type = T; };
+template <class T> struct Plain<std::optional<T>> { using type = T; };
+
+template <class T> constexpr FieldKind kind_of() {
+    if constexpr (std::is_same_v<T, double>)
+        return FieldKind::number;
+    else if constexpr (std::is_same_v<T, int>)
+        return FieldKind::whole;
+    else if constexpr (std::is_same_v<T, bool>)
+        return FieldKind::flag;
+    else if constexpr (std::is_same_v<T, std::string>)
+        return FieldKind::text;
+    else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+        return FieldKind::names;
+    else if constexpr (std::is_same_v<T, std::vector<double>>)
+        return FieldKind::numbers;
+    else if constexpr (std::is_same_v<T, glm::dvec3>)
+        return FieldKind::position;
+    else {
+        static_assert(std::is_enum_v<T> && sizeof(T) == sizeof(int),
+                      "a struct needs a description: field(key, id, member, fields, meaning)");
+        return FieldKind::choice;
+    }
+}
+
+template <class Struct, class M>
+FieldOf<Struct> made(std::string_view key, int id, M Struct::*member, FieldKind kind, std::string_view meaning) {
+    FieldOf<Struct> field;
+    field.key = key;
+    field.id = id;
+    field.kind = kind;
+    field.member = std::make_shared<MemberOf<Struct, M>>(member);
+    field.meaning = meaning;
+    return field;
+}
+
+} // namespace field_parts
+
+/// Both ends included.
+inline FieldRule range(double least, double greatest) { return {least, greatest, 0, 0, {}}; }
+inline FieldRule words(std::vector<std::string_view> in_order) { return {0.0, 0.0, 0, 0, std::move(in_order)}; }
+/// From `least` to below `bound`; else `expected` is said.
+inline FieldRule below(double least, double bound, std::string_view expected) {
+    FieldRule rule = range(least, bound);
+    rule.refused_as = expected;
+    return rule;
+}
+inline FieldRule numbers(std::size_t fewest, std::size_t most, double least, double greatest) {
+    return {least, greatest, fewest, most, {}};
+}
+inline FieldRule words(std::span<const std::string_view> in_order) { return words(std::vector(in_order.begin(), in_order.end())); }
+/// A list of names.
+inline FieldRule names(std::size_t fewest, std::size_t most) { return {0.0, 0.0, fewest, most, {}}; }
+inline FieldRule any() { return {}; } ///< flags and text
+/// `key`_deg or `key`_rad, so far to both sides.
+FieldRule degrees_within(std::string_view key, double limit_deg);
+FieldRule in_radians(std::string_view key, double limit_deg); ///< the same, written in radians
+/// `key`_deg_s or `key`_rad_s.
+FieldRule angular_speed(std::string_view key, double least_deg_s, double most_deg_s, double least_rad_s, double most_rad_s);
+/// `key`_kmh up to 540, or `key`_mps.
+FieldRule speed(std::string_view key);
+FieldRule units(FieldUnit first, FieldUnit own);
+
+template <class Struct, class M>
+FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, FieldRule rule, std::string_view meaning) {
+    constexpr FieldKind kind = field_parts::kind_of<typename field_parts::Plain<M>::type>();
+    FieldOf<Struct> made = field_parts::made(key, id, member, kind, meaning);
+    made.rule = std::move(rule);
+    return made;
+}
+
+/// A struct within the struct.
+template <class Struct, class M, class Inner>
+FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, const Fields<Inner>& fields, std::string_view meaning) {
+    static_assert(std::is_same_v<typename field_parts::Plain<M>::type, Inner>);
+    FieldOf<Struct> made = field_parts::made(key, id, member, FieldKind::group, meaning);
+    made.group = &fields;
+    return made;
+}
+
+/// Some members of the struct, below a key of their own.
+template <class Struct> FieldOf<Struct> section(std::string_view key, int id, const Fields<Struct>& fields, std::string_view meaning) {
+    FieldOf<Struct> made;
+    made.key = key;
+    made.id = id;
+    made.kind = FieldKind::group;
+    made.member = std::make_shared<field_parts::Itself>();
+    made.group = &fields;
+    made.meaning = meaning;
+    return made;
+}
+
+/// A struct within, whose keys stand among those of the struct that has it.
+template <class Struct, class Inner> FieldOf<Struct> inlined(int id, Inner Struct::*member, const Fields<Inner>& fields) {
+    FieldOf<Struct> made = field_parts::made("", id, member, FieldKind::inlined, "");
+    made.group = &fields;
+    return made;
+}
+
+/// Structs by names that the user chooses; `name` is their member for it.
+template <class Struct, class Inner> FieldOf<Struct> named(std::string_view key, int id, std::vector<Inner> Struct::*member,
+                                                           std::size_t most, const Fields<Inner>& fields, std::string_view meaning) {
+    FieldOf<Struct> made = field_parts::made(key, id, member, FieldKind::named, meaning);
+    made.group = &fields;
+    made.rule.fewest = 1;
+    made.rule.most = most;
+    return made;
+}
+
+template <class Struct, class Inner> FieldOf<Struct> list(std::string_view key, int id, std::vector<Inner> Struct::*member,
+                                                          std::size_t fewest, std::size_t most, const Fields<Inner>& fields,
+                                                          std::string_view meaning) {
+    FieldOf<Struct> made = field_parts::made(key, id, member, FieldKind::list, meaning);
+    made.group = &fields;
+    made.rule.fewest = fewest;
+    made.rule.most = most;
+    return made;
+}
+
+/// What no kind above fits: read and written by functions, described to editors by JSON.
+template <class Struct> FieldOf<Struct> own(std::string_view key, int id, void (*read)(const YamlEntry&, Struct&),
+                                            std::string (*text)(const Struct&), std::string_view schema, std::string_view meaning) {
+    FieldOf<Struct> made;
+    made.key = key;
+    made.id = id;
+    made.kind = FieldKind::own;
+    made.meaning = meaning;
+    made.read = [read](const YamlEntry& entry, void* whole) { read(entry, *static_cast<Struct*>(whole)); };
+    made.text = [text](const void* whole) { return text(*static_cast<const Struct*>(whole)); };
+    made.schema = schema;
+    return made;
+}
+
+} // namespace fernlicht

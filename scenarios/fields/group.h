@@ -1,0 +1,104 @@
+// What a struct of a file is: one description of its keys, from which it is read, written, checked by editors and documented.
+// Descriptions are made with field.h; this header has no templates and is all that the visitors need.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fernlicht {
+
+class YamlEntry;
+class YamlMap;
+struct Group;
+
+/// Where in its struct a field's value lies. Optional values may be absent, lists have elements.
+class Member {
+  public:
+    virtual ~Member() = default;
+    virtual void* look(void* whole) const = 0; ///< nullptr: absent
+    virtual void* make(void* whole) const = 0; ///< the value; a new one, at its defaults, where it is optional
+    virtual void clear(void* whole) const = 0; ///< absent, or a list without elements
+    virtual std::size_t size(void* whole) const = 0;
+    virtual void* element(void* whole, std::size_t i) const = 0;
+    virtual void* append(void* whole) const = 0;
+    virtual std::string* name_of(void* element) const = 0; ///< of lists that are written as a map of names
+};
+
+enum class FieldKind {
+    number,   ///< double
+    whole,    ///< int
+    flag,     ///< bool
+    text,     ///< std::string, not empty
+    names,    ///< std::vector<std::string>, of lamps
+    choice,   ///< an enum, by words in the order of its enumerators
+    numbers,  ///< std::vector<double>
+    position, ///< [x, y, z]
+    group,    ///< a struct with a description of its own
+    inlined,  ///< the same, its keys among those of the struct that has it
+    named,    ///< structs by names that the user chooses
+    list,     ///< structs one after the other
+    own       ///< read and written by functions of its own
+};
+
+/// One of the units that a number may be given in, and how that becomes the struct's.
+struct FieldUnit {
+    std::string key;
+    double (*stored)(double);
+    double least, greatest;
+};
+
+/// What a value may be.
+struct FieldRule {
+    double least = 0.0, greatest = 0.0;
+    std::size_t fewest = 0, most = 0; ///< elements of lists and maps
+    std::vector<std::string_view> words;
+    std::string_view refused_as = {};  ///< what is said to be expected where `greatest` itself is not allowed
+    std::vector<FieldUnit> units = {}; ///< two keys for one number; the second is the struct's own unit
+    bool degrees_where_exact = false;  ///< written in the first unit where that brings the number back
+};
+
+struct Field {
+    std::string key; ///< of numbers with units: without one
+    int id = 0;      ///< names the field for good, among those of its struct: keys may be renamed, ids are never used twice
+    FieldKind kind = FieldKind::number;
+    std::shared_ptr<const Member> member;
+    FieldRule rule;
+    std::string_view meaning;
+    const Group* group = nullptr;
+
+    bool is_required = false;
+    bool is_written_off_default = false;        ///< only where the value is not the default
+    bool may_be_flag = false;                   ///< true: there, with defaults; false: absent
+    std::vector<std::string_view> default_word; ///< a word that stands for the defaults
+    std::string_view absent_word = {};          ///< what is written where it is absent; "": nothing
+    std::string_view short_key = {};            ///< the field of the group that a scalar in its place gives,
+    bool short_is_list = false;                 ///< or that a list in its place gives
+    bool (*heard)(const void* whole) = nullptr; ///< nullptr: always; else a key that is given unheard is refused
+
+    // kind own
+    std::function<void(const YamlEntry&, void* whole)> read = {};
+    std::function<std::string(const void* whole)> text = {}; ///< on one line, or lines that each begin with their end; "": not written
+    std::string_view schema = {};                            ///< JSON
+};
+
+/// A struct's fields, in the order in which they are written.
+struct Group {
+    std::vector<Field> fields;
+    std::shared_ptr<const void> usual; ///< a struct at its defaults
+    bool is_block = false;             ///< written one key a line
+    bool is_bare = false;              ///< of one field, whose value stands for the whole
+    std::function<void(const YamlMap&, const void* whole)> check = {};
+    std::string_view schema_beside = {}; ///< JSON: what is required of the keys together
+};
+
+const Field& field_named(const Group& group, std::string_view key);
+/// Keys by which a field may be given, with those of inlined groups.
+std::vector<std::string_view> keys_of(const Field& field);
+std::vector<std::string_view> keys_of(const Group& group);
+/// The unit that ends a key's name, as one writes it: "m", "cd/m\u00b2"; "" for numbers without.
+std::string_view unit_of(std::string_view key);
+
+} // namespace fernlicht

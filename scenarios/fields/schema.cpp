@@ -1,0 +1,140 @@
+#include "scenarios/fields/schema.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json of_group(const Group& group);
+
+/// 3 rather than 3.0.
+ordered_json of_bound(double bound) {
+    if (bound == std::round(bound) && std::abs(bound) < 1.0e9)
+        return static_cast<std::int64_t>(bound);
+    return bound;
+}
+
+ordered_json of_range(const char* type, double least, double greatest) {
+    return {{"type", type}, {"minimum", of_bound(least)}, {"maximum", of_bound(greatest)}};
+}
+
+ordered_json of_number(const FieldRule& rule) {
+    ordered_json json = of_range("number", rule.least, rule.greatest);
+    if (!rule.refused_as.empty())
+        json["exclusiveMaximum"] = of_bound(rule.greatest), json.erase("maximum");
+    return json;
+}
+
+ordered_json of_array(const FieldRule& rule, const ordered_json& items) {
+    ordered_json json{{"type", "array"}, {"items", items}};
+    if (rule.fewest > 0)
+        json["minItems"] = rule.fewest;
+    json["maxItems"] = rule.most;
+    return json;
+}
+
+ordered_json of_value(const Field& field);
+
+ordered_json of_element(const Group& group) { return group.is_bare ? of_value(group.fields.front()) : of_group(group); }
+
+/// A struct, and the scalars that may stand in its place.
+ordered_json of_inner(const Field& field) {
+    const ordered_json map = of_group(*field.group);
+    ordered_json scalar;
+    if (field.may_be_flag)
+        scalar["type"] = "boolean";
+    else if (!field.default_word.empty())
+        scalar["enum"] = field.default_word;
+    else if (!field.short_key.empty())
+        scalar = of_value(field_named(*field.group, field.short_key));
+    else if (!field.absent_word.empty())
+        scalar["enum"] = {field.absent_word};
+    else
+        return map;
+    return {{"anyOf", {scalar, map}}};
+}
+
+ordered_json of_value(const Field& field) {
+    const FieldRule& rule = field.rule;
+    switch (field.kind) {
+    case FieldKind::number:
+        return of_number(rule);
+    case FieldKind::whole:
+        return of_range("integer", rule.least, rule.greatest);
+    case FieldKind::flag:
+        return {{"type", "boolean"}};
+    case FieldKind::text:
+        return {{"type", {"string", "number"}}, {"minLength", 1}};
+    case FieldKind::names:
+        return of_array(rule, {{"type", {"string", "number"}}, {"minLength", 1}});
+    case FieldKind::choice:
+        return {{"enum", rule.words}};
+    case FieldKind::numbers:
+        return of_array(rule, of_range("number", rule.least, rule.greatest));
+    case FieldKind::position: {
+        FieldRule three = rule;
+        three.fewest = three.most = 3;
+        return of_array(three, of_range("number", rule.least, rule.greatest));
+    }
+    case FieldKind::named:
+        return {{"type", "object"},
+                {"minProperties", rule.fewest},
+                {"maxProperties", rule.most},
+                {"propertyNames", {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$"}}},
+                {"additionalProperties", of_element(*field.group)}};
+    case FieldKind::list:
+        return of_array(rule, of_element(*field.group));
+    case FieldKind::own:
+        return ordered_json::parse(field.schema);
+    case FieldKind::group:
+    case FieldKind::inlined:
+        return of_inner(field);
+    }
+    return {};
+}
+
+void add_properties(const Group& group, ordered_json& object) {
+    for (const Field& field : group.fields) {
+        if (field.kind == FieldKind::inlined) {
+            add_properties(*field.group, object);
+            continue;
+        }
+        const std::vector<FieldUnit>& units = field.rule.units;
+        ordered_json value = units.empty() ? of_value(field) : ordered_json{};
+        for (std::size_t i = 0; i < std::max<std::size_t>(1, units.size()); ++i) {
+            if (!units.empty())
+                value = of_range("number", units[i].least, units[i].greatest);
+            if (!field.meaning.empty())
+                value["description"] = field.meaning;
+            object["properties"][units.empty() ? field.key : units[i].key] = value;
+        }
+        if (field.is_required)
+            object["required"].push_back(field.key);
+        if (!units.empty())
+            object["allOf"].push_back({{"not", {{"required", {units[0].key, units[1].key}}}}});
+    }
+    if (!group.schema_beside.empty())
+        object.update(ordered_json::parse(group.schema_beside));
+}
+
+ordered_json of_group(const Group& group) {
+    ordered_json object{{"type", "object"}, {"additionalProperties", false}, {"properties", ordered_json::object()}};
+    add_properties(group, object);
+    return object;
+}
+
+} // namespace
+
+std::string schema_of(const Group& group) { return of_group(group).dump(2); }
+std::string schema_of(const Field& field) {
+    ordered_json json = of_value(field);
+    if (!field.meaning.empty())
+        json["description"] = field.meaning;
+    return json.dump(2);
+}
+
+} // namespace fernlicht
