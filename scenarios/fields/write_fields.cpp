@@ -29,11 +29,11 @@ std::string text_of(const Field& field, const void* value) {
         return std::string(field.rule.words[static_cast<std::size_t>(chosen)]);
     }
     case FieldKind::text:
-        return quoted(*static_cast<const std::string*>(value));
+        return fernlicht::quoted(*static_cast<const std::string*>(value));
     case FieldKind::names: {
         std::vector<std::string> names;
         for (const std::string& name : *static_cast<const std::vector<std::string>*>(value))
-            names.push_back(quoted(name));
+            names.push_back(fernlicht::quoted(name));
         return fmt::format("[{}]", fmt::join(names, ", "));
     }
     case FieldKind::numbers:
@@ -72,7 +72,7 @@ std::string lines_of_list(const Field& field, const void* whole, std::size_t dep
     for (std::size_t i = 0; i < size(field, whole); ++i) {
         void* const one = element(field, whole, i);
         const std::string start =
-            field.kind == FieldKind::list ? indent + "  -" : fmt::format("{}  {}:", indent, quoted(*field.member->name_of(one)));
+            field.kind == FieldKind::list ? indent + "  -" : fmt::format("{}  {}:", indent, fernlicht::quoted(*field.member->name_of(one)));
         lines += field.group->is_block ? start + "\n" + block_text(*field.group, one, depth + 2)
                                        : fmt::format("{} {}\n", start, element_text(*field.group, one));
     }

@@ -8,6 +8,7 @@ namespace fernlicht {
 
 inline constexpr std::size_t most_control_lamps = 64;
 inline constexpr std::string_view bend_laws[] = {"steering", "yaw-rate", "route"};
+inline constexpr std::string_view mode_classes[] = {"c", "v", "e", "w"};
 
 const Fields<ControlParameters>& law_fields();           ///< those that neither lamps nor files decide
 const Fields<ActuatorParameters>& law_actuator_fields(); ///< the laws' period holds for their actuators

@@ -15,7 +15,6 @@ namespace fernlicht {
 namespace {
 
 constexpr std::size_t most_failures = 1000, most_inputs = 100, most_input_values = 100'000, most_plugins = 16, most_windows = 256;
-constexpr std::string_view mode_classes[] = {"c", "v", "e", "w"};
 
 std::vector<std::string> names_of(const Variant& variant) {
     std::vector<std::string> names;

@@ -9,8 +9,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::string_view mode_classes[] = {"c", "v", "e", "w"};
-
 /// Names of lamps and signals need no escapes (YamlEntry::name).
 std::string list(const std::vector<std::string>& names) {
     std::string text;

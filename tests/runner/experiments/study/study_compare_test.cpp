@@ -184,7 +184,7 @@ TEST(StudyCompare, WhatNoiseOfTheTablesWouldDoIsNoDifference) {
     EXPECT_EQ(change_in(result, "area_1lx_road_all_m2").kind, ChangeKind::none); // 1.0 < 1.09
     EXPECT_NEAR(change_in(result, "area_3lx_road_all_m2").by_noise.value(), 0.03 * 40.0 / std::log(3.0), 1e-12)
         << "to 1 lx the old lamp has 40 m2 and the new 39.4, to 10 lx 33.2 and 34.6 of a natural logarithm";
-    EXPECT_EQ(change_in(result, "area_3lx_road_all_m2").kind, ChangeKind::real);  // 1.6 > 1.09
+    EXPECT_EQ(change_in(result, "area_3lx_road_all_m2").kind, ChangeKind::real); // 1.6 > 1.09
     EXPECT_NEAR(change_in(result, "glare_a_time_above_3lx_s").by_noise.value(), 0.03 * 0.5 / std::log(3.0), 1e-12);
     EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::none); // 0.05 < 3 % of 2.05
     EXPECT_NEAR(change_in(result, "glare_a_de_boer_min").by_noise.value(), 0.02606, 1e-5);
