@@ -43,6 +43,7 @@ TEST(ShadowFigures, MarkdownHasTheFormOfTheTables) {
     ShadowRow row;
     row.method = ShadowMethod::map;
     row.ground_m2 = {2000.0, 70.0, 4.9e-12, 101.4};
+    row.wrong_by_moment = {row.ground_m2.wrong_share()};
     row.view_px = {1000.0, 30.0, 3.6e-9, 0.0};
     row.edges[0] = {18, 2, 1, 4.9e-13, 1.0};
     row.edges[1].rms_cm = 2.0;
