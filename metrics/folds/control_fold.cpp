@@ -19,7 +19,7 @@ namespace {
 
 constexpr double bend_per_m = 1.0 / 1500.0; ///< gentler is no bend
 constexpr double look_m = 50.0;             ///< ahead of the bumper: light inside the bend, eyes of an oncoming driver
-constexpr double target_m = 0.25, eye_m = 1.1;
+constexpr double target_m = 0.25, eye_height_m = 1.1;
 constexpr double reach_lx = 5.0, farthest_m = 200.0, line_step_m = 1.0;
 
 /// Of the route about a place, over 10 m; left bends positive.
@@ -36,7 +36,7 @@ double curvature_per_m(const Route& route, double at_m) {
 std::optional<double> others_lx(const Moment& moment) {
     std::optional<double> most;
     for (const Body& body : moment.bodies) {
-        const glm::dvec3 eye = to_parent(body.pose, {1.5, 0.0, eye_m}), in_car = to_local(moment.ego, eye);
+        const glm::dvec3 eye = to_parent(body.pose, {1.5, 0.0, eye_height_m}), in_car = to_local(moment.ego, eye);
         if (!body.visible || body.own || in_car.x < 5.0 || glm::dot(body.pose.forward(), moment.ego.forward()) > 0.0)
             continue;
         most = std::max(most.value_or(0.0), facing_lx(seen_lamps(moment, eye)));
@@ -93,7 +93,7 @@ ControlFold::Light ControlFold::light(const Moment& moment, double curvature) co
         if (lane.name == "own")
             light.inside_lx = lit_lx(moment, route_.pose(there_m, curvature > 0.0 ? lane.left_m : lane.right_m), target_m);
     if (const std::optional<double> oncoming_m = offset_across_m(section, Across::oncoming_centre))
-        light.glare_lx = lit_lx(moment, route_.pose(there_m, *oncoming_m), eye_m);
+        light.glare_lx = lit_lx(moment, route_.pose(there_m, *oncoming_m), eye_height_m);
     return light;
 }
 
