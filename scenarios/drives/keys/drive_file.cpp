@@ -7,7 +7,6 @@
 #include "scenarios/drives/keys/drive_edits.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/scenery_keys.h"
-#include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/drives/keys/story_drive.h"
 #include "scenarios/drives/keys/storyboard_keys.h"
 #include "scenarios/drives/keys/traffic_keys.h"
@@ -125,7 +124,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     drive.extent = ExtentParameters{};
     read_field(drive_fields(), "measure", keys, &drive);
     read_field(drive_fields(), "limits", keys, &drive);
-    drive.shadows = read_shadows(keys);
+    read_field(drive_fields(), "shadows", keys, &drive);
     if (const auto beams = keys.find("beams"))
         drive.beams = read_beams(*beams);
     if (const auto textures = keys.find("textures"))

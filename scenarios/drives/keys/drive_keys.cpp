@@ -1,6 +1,7 @@
 #include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/drives/keys/seeing_keys.h"
+#include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/field.h"
 
@@ -134,6 +135,7 @@ double read_step_s(const YamlMap& drive) {
 }
 
 const Group& drive_fields() {
+    static const std::string shadows = shadows_schema();
     static const Fields<Drive> fields{
         field("vehicle", 17, &Drive::vehicle, vehicle_fields(),
               "a car on springs and tyres instead of one that follows its lane as on rails; docs/vehicle.md")
@@ -141,6 +143,10 @@ const Group& drive_fields() {
         field("capture", 28, &Drive::capture, capture_fields(), "which moments are stored; every moment is measured"),
         section("measure", 36, measure_fields(), "what is measured"),
         list("limits", 37, &Drive::limits, 0, 1000, limit_fields(), "beyond these the run fails"),
+        own<Drive>(
+            "shadows", 38, [](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); },
+            [](const Drive& drive) { return shadows_text(drive.shadows); }, shadows,
+            "how they are drawn (docs/shadows.md): on or off, the method alone, or it and what it uses"),
     };
     return fields;
 }

@@ -11,11 +11,14 @@
 
 namespace fernlicht {
 
-/// `shadows`: true, false, a method's name, or a map with `method` and what that method uses; other keys are refused.
-ShadowSettings read_shadows(const YamlMap& drive);
-/// YAML that is read back to the same.
-/// What `read_shadows` reads; keys that the method does not use are left out.
-std::string write_shadows(const ShadowSettings& shadows);
+template <class Struct> struct Fields;
+
+/// The keys of the map; those that the method does not use are refused.
+const Fields<ShadowSettings>& shadow_fields();
+/// `shadows`: true, false, a method's name, or a map with `method` and what that method uses.
+void read_shadows(const YamlEntry& given, ShadowSettings& shadows);
+std::string shadows_text(const ShadowSettings& shadows); ///< read back to the same
+std::string shadows_schema();
 
 /// The keys beside `method` that the method uses, and their values as drives have them: "map_texels", "[1024, 512]".
 std::vector<std::pair<std::string_view, std::string>> used_shadow_keys(const ShadowSettings& shadows);

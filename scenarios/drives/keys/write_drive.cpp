@@ -6,7 +6,6 @@
 #include "scenarios/drives/keys/display_keys.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/flow_list.h"
-#include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/drives/keys/storyboard_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/write_fields.h"
@@ -303,7 +302,7 @@ std::string write_drive(const Drive& drive) {
     out.add(0, "technique: {}", quoted(drive.technique));
     out.add_all(lines_of(drive_fields(), "measure", &drive, 0));
     out.add_all(lines_of(drive_fields(), "limits", &drive, 0));
-    out.add_all(write_shadows(drive.shadows));
+    out.add_all(lines_of(drive_fields(), "shadows", &drive, 0));
     if (drive.beams && *drive.beams != eight_bit_texels)
         out.add(0, "beams: {{width: {}, height: {}, bits: {}}}", drive.beams->width, drive.beams->height, drive.beams->bits);
     else

@@ -2,6 +2,7 @@
 // (ci/write-keys), and the test fails once more.
 #include "scenarios/drives/keys/control_fields.h"
 #include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/key_table.h"
 #include "scenarios/fields/schema.h"
@@ -66,6 +67,7 @@ TEST(DescribedKeys, AreTheReference) {
     std::string text = "# Keys of a drive file\n\nWritten by `ci/write-keys` from the descriptions of the keys. "
                        "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one.\n\n";
     text += key_tables("", drive_fields(), &usual);
+    text += key_tables("shadows", shadow_fields(), shadow_fields().usual.get());
     text += key_tables("actuators", actuators_fields(), actuators_fields().usual.get());
     for_each_law([&](const std::string& path, const Group& group) {
         text += key_tables(path.empty() ? "control" : "control." + path, group, group.usual.get());
@@ -88,6 +90,7 @@ void expect_in(const std::string& example, const Group& group) {
 TEST(DescribedKeys, AreInTheExample) {
     const std::string example = content(source / "scenarios/drive.example.yaml");
     expect_in(example, drive_fields());
+    expect_in(example, shadow_fields());
     expect_in(example, actuators_fields());
     for_each_law([&](const std::string&, const Group& group) { expect_in(example, group); });
 }
