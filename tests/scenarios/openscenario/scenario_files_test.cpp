@@ -104,7 +104,7 @@ TEST(ScenarioFiles, ArePlayedToTheirEndOrRefusedWithFileAndLine) {
                 counts.files, counts.scenarios, counts.files_missing, counts.broken, counts.rates_below_0, counts.read, counts.played);
     const int valid = counts.scenarios - counts.files_missing - counts.broken;
     EXPECT_GE(counts.played, 0.8 * valid);
-    EXPECT_GE(counts.played, 248); // as many as when this was written; one more has a lateral distance of -2 m, which the standard does not know
+    EXPECT_GE(counts.played, 248); // as many as when this was written; one has a lateral distance below 0, which no standard knows
 }
 
 } // namespace
