@@ -39,7 +39,7 @@ Table errors_table(const DriveAccuracy& drive) {
                  {"beyond 1 / 5 / 20 %", "% of its area", "road"},
                  {"95 %", "%", "view"},
                  {"95 %", "%", "target"},
-                 {"95 %", "%", "cd/m²"},
+                 {"95 %", "%", "luminance"},
                  {"road", "1 / 5 lx, m", "worst error of reach"},
                  {"target", "1 / 5 lx, m", "worst error of reach"},
                  {"time", "ms", "a frame"},
