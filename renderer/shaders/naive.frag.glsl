@@ -39,57 +39,67 @@ float toned(float l) {
     return tone.x == 1.0 ? tone_rational(l, tone.z, tone.y) : tone_logarithmic(l, tone.z, tone.y);
 }
 
-void main() {
-    vec3 n = normalize(v_normal);
-    vec3 p = v_position_m;
-    PRECISE float illuminance = 0.0;
-    PRECISE float target = 0.0;
-    PRECISE vec3 light = vec3(0.0);
+vec3 n = normalize(v_normal);
+vec3 p = v_position_m;
+PRECISE float illuminance = 0.0;
+PRECISE float target = 0.0;
+PRECISE vec3 light = vec3(0.0);
 #if WANT_SEEN
-    Material material = materials[v_material];
-    vec3 albedo = material.albedo.rgb;
-    float rl = material.albedo.w;
-#if TEXTURED
+Material material = materials[v_material];
+vec3 albedo = material.albedo.rgb;
+float rl = material.albedo.w;
+vec3 to_eye = eye_direction == vec3(0.0) ? eye_m - p : eye_direction;
+#endif
+
+#if LAMP_COUNT > 0
+void add_lamp(Lamp lamp, sampler2D beam, sampler2D map) {
+    vec3 to_lamp = lamp.position_m.xyz - p;
+    float cosine = incidence(n, to_lamp);
+    vec3 w = lamp_space(-to_lamp, lamp.right.xyz, lamp.up.xyz, lamp.forward.xyz);
+    float e_perp = cosine > 0.0 ? facing_illuminance(intensity_towards(lamp, beam, w), to_lamp) : 0.0;
+#if SHADOWS
+    if (e_perp > 0.0 && lamp.count.w > 0.0)
+        e_perp *= visibility(lamp, map, w, p, n);
+#endif
+    float e = e_perp * cosine;
+    illuminance += e;
+#if WANT_SEEN
+    light += lamp.colour.rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e));
+#if RETRO
+    if (rl > 0.0)
+        light += lamp.colour.rgb * material.tint.rgb * retro_luminance(rl, e_perp, cosine, observation_angle(to_lamp, to_eye), material.retro.x, material.retro.y);
+#endif
+#endif
+#if WANT_TARGET
+    vec3 raised = p + vec3(0.0, 0.0, target_height_m);
+    vec3 raised_to_lamp = lamp.position_m.xyz - raised;
+    vec3 raised_w = lamp_space(-raised_to_lamp, lamp.right.xyz, lamp.up.xyz, lamp.forward.xyz);
+    float e_target = facing_illuminance(intensity_towards(lamp, beam, raised_w), raised_to_lamp);
+#if SHADOWS
+    if (e_target > 0.0 && lamp.count.w > 0.0)
+        e_target *= visibility(lamp, map, raised_w, raised, normalize(raised_to_lamp));
+#endif
+    target += e_target;
+#endif
+}
+#if SHADOWS
+#define ADD_LAMP(i, beam, map) add_lamp(lamps[i], beams[i], shadow_maps[i]);
+#else
+#define ADD_LAMP(i, beam, map) add_lamp(lamps[i], beams[i], beams[i]);
+#endif
+#endif
+
+void main() {
+#if TEXTURED && WANT_SEEN
     vec4 texel = texture(surface_textures, vec3(v_uv, material.emission.w));
     if (material.retro.z > 0.0) {
         albedo = combined_reflectance(int(material.retro.z) - 1, material.albedo.rgb, texel, material.blend.rgb);
         rl = textured_rl(material.albedo.w, material.albedo.rgb, albedo);
     }
 #endif
-    vec3 to_eye = eye_direction == vec3(0.0) ? eye_m - p : eye_direction;
-#endif
 
 #if LAMP_COUNT > 0
-    for (int i = 0; i < LAMP_COUNT; ++i) {
-        vec3 to_lamp = lamps[i].position_m.xyz - p;
-        float cosine = incidence(n, to_lamp);
-        vec3 w = lamp_space(-to_lamp, lamps[i].right.xyz, lamps[i].up.xyz, lamps[i].forward.xyz);
-        float e_perp = cosine > 0.0 ? facing_illuminance(intensity_towards(lamps[i], beams[i], w), to_lamp) : 0.0;
-#if SHADOWS
-        if (e_perp > 0.0 && lamps[i].count.w > 0.0)
-            e_perp *= visibility(lamps[i], shadow_maps[i], w, p, n);
-#endif
-        float e = e_perp * cosine;
-        illuminance += e;
-#if WANT_SEEN
-        light += lamps[i].colour.rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e));
-#if RETRO
-        if (rl > 0.0)
-            light += lamps[i].colour.rgb * material.tint.rgb * retro_luminance(rl, e_perp, cosine, observation_angle(to_lamp, to_eye), material.retro.x, material.retro.y);
-#endif
-#endif
-#if WANT_TARGET
-        vec3 raised = p + vec3(0.0, 0.0, target_height_m);
-        vec3 raised_to_lamp = lamps[i].position_m.xyz - raised;
-        vec3 raised_w = lamp_space(-raised_to_lamp, lamps[i].right.xyz, lamps[i].up.xyz, lamps[i].forward.xyz);
-        float e_target = facing_illuminance(intensity_towards(lamps[i], beams[i], raised_w), raised_to_lamp);
-#if SHADOWS
-        if (e_target > 0.0 && lamps[i].count.w > 0.0)
-            e_target *= visibility(lamps[i], shadow_maps[i], raised_w, raised, normalize(raised_to_lamp));
-#endif
-        target += e_target;
-#endif
-    }
+    EACH_LAMP(ADD_LAMP)
 #endif
 
 #if SKY

@@ -204,34 +204,13 @@ vec3 wet_sky_light(vec3 albedo, vec3 n, float e_sky) {
     }
 
 #if LAMP_COUNT > 0 && FOG && WANT_SEEN
-#define AIRLIGHT(i, beam) \
+#define AIRLIGHT(i, beam, map) \
     light += COLOUR(i).rgb * scattered_on_the_way(EYE(i).xyz, v_w[i], COLOUR(i).w, beam, beam_grid[i], beam_count[i], beam_per_count[i], beam_steep[i]);
 
 void add_airlight() {
     if (v_fog.z <= 0.0)
         return;
-    AIRLIGHT(0, beam_0)
-#if LAMP_COUNT > 1
-    AIRLIGHT(1, beam_1)
-#endif
-#if LAMP_COUNT > 2
-    AIRLIGHT(2, beam_2)
-#endif
-#if LAMP_COUNT > 3
-    AIRLIGHT(3, beam_3)
-#endif
-#if LAMP_COUNT > 4
-    AIRLIGHT(4, beam_4)
-#endif
-#if LAMP_COUNT > 5
-    AIRLIGHT(5, beam_5)
-#endif
-#if LAMP_COUNT > 6
-    AIRLIGHT(6, beam_6)
-#endif
-#if LAMP_COUNT > 7
-    AIRLIGHT(7, beam_7)
-#endif
+    EACH_LAMP(AIRLIGHT)
 }
 #endif
 
@@ -256,28 +235,7 @@ void main() {
 
 #if LAMP_COUNT > 0
     float inverse_n = inversesqrt(dot(v_n[0], v_n[0]));
-    LIGHT(0, beam_0, shadow_0)
-#if LAMP_COUNT > 1
-    LIGHT(1, beam_1, shadow_1)
-#endif
-#if LAMP_COUNT > 2
-    LIGHT(2, beam_2, shadow_2)
-#endif
-#if LAMP_COUNT > 3
-    LIGHT(3, beam_3, shadow_3)
-#endif
-#if LAMP_COUNT > 4
-    LIGHT(4, beam_4, shadow_4)
-#endif
-#if LAMP_COUNT > 5
-    LIGHT(5, beam_5, shadow_5)
-#endif
-#if LAMP_COUNT > 6
-    LIGHT(6, beam_6, shadow_6)
-#endif
-#if LAMP_COUNT > 7
-    LIGHT(7, beam_7, shadow_7)
-#endif
+    EACH_LAMP(LIGHT)
 #endif
 
 #if TRAFFIC

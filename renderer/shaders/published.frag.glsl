@@ -49,7 +49,7 @@ float fall_off(float d, float inverse_q) {
 #endif
 }
 
-#define LIGHT_BY(i) \
+#define LIGHT_BY(i, beam, map) \
     { \
         float inverse_q = 1.0 / v_place[i].w; \
         float e_m = textureLod(beams[i], v_place[i].xy * inverse_q, 0.0).r; \
@@ -80,28 +80,7 @@ float mapped_lux(vec3 car_m) {
 void main() {
     float lux = 0.0;
 #if BY_FRAGMENT
-    LIGHT_BY(0)
-#if LAMP_COUNT > 1
-    LIGHT_BY(1)
-#endif
-#if LAMP_COUNT > 2
-    LIGHT_BY(2)
-#endif
-#if LAMP_COUNT > 3
-    LIGHT_BY(3)
-#endif
-#if LAMP_COUNT > 4
-    LIGHT_BY(4)
-#endif
-#if LAMP_COUNT > 5
-    LIGHT_BY(5)
-#endif
-#if LAMP_COUNT > 6
-    LIGHT_BY(6)
-#endif
-#if LAMP_COUNT > 7
-    LIGHT_BY(7)
-#endif
+    EACH_LAMP(LIGHT_BY)
 #elif BY_VERTEX
     lux = v_lux;
 #elif BY_MAP

@@ -100,34 +100,13 @@ void main() {
     for (int i = 0; i < LAMP_COUNT; ++i)
         lux += lamps[i].position_m.w * spots_lux(i, lamps[i].position_m.xyz - p, turned(normal));
 #else
-#define SAMPLE(i) \
+#define SAMPLE(i, beam, map) \
     { \
         vec4 place = place_of(i, p); \
         float e_m = textureLod(beams[i], place.xy / place.w, 0.0).r; \
         lux += place.w > 0.0 ? e_m * lamps[i].position_m.w / (1.0 + place.z * place.z) : 0.0; \
     }
-    SAMPLE(0)
-#if LAMP_COUNT > 1
-    SAMPLE(1)
-#endif
-#if LAMP_COUNT > 2
-    SAMPLE(2)
-#endif
-#if LAMP_COUNT > 3
-    SAMPLE(3)
-#endif
-#if LAMP_COUNT > 4
-    SAMPLE(4)
-#endif
-#if LAMP_COUNT > 5
-    SAMPLE(5)
-#endif
-#if LAMP_COUNT > 6
-    SAMPLE(6)
-#endif
-#if LAMP_COUNT > 7
-    SAMPLE(7)
-#endif
+    EACH_LAMP(SAMPLE)
 #endif
     v_lux = lux;
     v_light = toned(lux + sun_lx);

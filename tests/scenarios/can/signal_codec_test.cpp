@@ -205,7 +205,7 @@ TEST_F(Codec, RandomRawValuesComeBackFromEveryPlace) {
         CanSignal signal;
         signal.length = static_cast<std::uint16_t>(1 + random() % 64);
         signal.big_endian = random() % 2 == 0;
-        const std::size_t first = random() % (512 - signal.length + 1);
+        const std::size_t first = random() % (513U - signal.length);
         signal.start_bit = static_cast<std::uint16_t>(signal.big_endian ? first / 8 * 8 + 7 - first % 8 : first);
         Bytes bytes(64);
         for (auto& byte : bytes)
