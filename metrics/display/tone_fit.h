@@ -1,5 +1,6 @@
 // What a drive's own luminances decide about its tone mapper: white, s, the histogram's curve. Fitted once for a drive, so that all its
 // pictures, and those of the lamps compared in it, share one exposure.
+// White that follows what the eye is adapted to.
 #pragma once
 
 #include "scenarios/display/tone_mapper.h"
@@ -42,5 +43,20 @@ double fitted_s(double luminance_cdm2, double l_max_cdm2, double share);
 /// `least_slope` of the mean slope, so that the curve has an inverse everywhere. `range` = black / white of the display, 0 < range < 1: the
 /// darkest luminance is shown so. Where all luminances fit into the display's range the result is linear.
 ToneMapper histogram_mapper(const LuminanceHistogram& histogram, double l_max_cdm2, double range, double least_slope = 0.05);
+
+/// d ln A / dt = (ln L - ln A) / tau, solved exactly for a picture whose log-mean luminance L stands for a step: the result does not depend
+/// on how a stretch of time is cut. tau is that of brighter light where L > A, of darker where L < A.
+class AdaptedLuminance {
+  public:
+    /// brighter_s, darker_s > 0.
+    AdaptedLuminance(double brighter_s, double darker_s) : brighter_s_(brighter_s), darker_s_(darker_s) {}
+
+    /// The first picture is what the eye is adapted to already. A picture without light (0 cd/m2) changes nothing.
+    void see(double log_mean_cdm2, double step_s);
+    double cdm2() const { return adapted_cdm2_; } ///< 0 before the first light
+
+  private:
+    double brighter_s_, darker_s_, adapted_cdm2_ = 0.0;
+};
 
 } // namespace fernlicht

@@ -1,7 +1,7 @@
-#include "runner/commands/compare_command.h"
+#include "runner/commands/commands.h"
 
 #include "metrics/images/flip.h"
-#include "metrics/strictness/strictness_file.h"
+#include "metrics/strictness/strictness_classes.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/compare/comparison_writers.h"
 #include "runner/experiments/compare/lamps/compare_lamps.h"

@@ -1,8 +1,8 @@
-#include "runner/commands/doctor_command.h"
+#include "runner/commands/commands.h"
 
+#include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
-#include "renderer/timer_check.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/live/can_socket.h"

@@ -1,4 +1,5 @@
 // `fernlicht lamp FILE`: what a lamp file holds, as text, JSON or picture; scaled, mirrored, summed and converted.
+// `fernlicht lamp FILE --regulation ID` and `--cut-off`.
 #pragma once
 
 #include "metrics/beam/cut_off.h"
@@ -50,5 +51,17 @@ void write_lamp_picture(const plots::Figure& figure, const LampRequest& request)
 int lamp_command(const LampRequest& request);
 
 void add_lamp_command(CLI::App& app, std::function<int()>& chosen);
+
+/// Prints the check; 0 when every row passes, else 1. Throws InputError.
+int lamp_regulation(const LampRequest& request);
+
+/// Prints the cut-off's figures; 0. Throws InputError.
+int lamp_cut_off(const LampRequest& request);
+
+/// Throws InputError where flags of these two are given without either.
+void refuse_regulation_options(const LampRequest& request);
+
+/// The flags of both.
+void add_regulation_options(CLI::App& command, LampRequest& request);
 
 } // namespace fernlicht

@@ -1,6 +1,6 @@
-#include "runner/commands/readings_command.h"
+#include "runner/commands/commands.h"
 
-#include "metrics/readings/readings_list.h"
+#include "metrics/readings/reading_words.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

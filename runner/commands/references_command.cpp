@@ -1,4 +1,4 @@
-#include "runner/commands/references_command.h"
+#include "runner/commands/commands.h"
 
 #include "runner/commands/accept_command.h"
 #include "runner/files/durable_files.h"

@@ -1,4 +1,4 @@
-#include "runner/commands/signals_command.h"
+#include "runner/commands/commands.h"
 
 #include "scenarios/control/signals.h"
 #include "scenarios/drives/keys/bus_keys.h"

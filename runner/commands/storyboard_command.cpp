@@ -1,4 +1,4 @@
-#include "runner/commands/storyboard_command.h"
+#include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
 #include "scenarios/openscenario/play_story.h"

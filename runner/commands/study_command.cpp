@@ -1,4 +1,4 @@
-#include "runner/commands/study_command.h"
+#include "runner/commands/commands.h"
 
 #include "renderer/device.h"
 #include "runner/commands/judging_flags.h"

@@ -1,4 +1,4 @@
-#include "runner/commands/techniques_command.h"
+#include "runner/commands/commands.h"
 
 #include "runner/findings/technique_list.h"
 

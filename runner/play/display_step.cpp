@@ -1,8 +1,6 @@
 #include "runner/play/display_step.h"
 
 #include "metrics/display/display_colour.h"
-#include "metrics/display/tone_fit.h"
-#include "runner/files/icc_profile.h"
 #include "runner/files/picture_file.h"
 #include "runner/play/shown_picture.h"
 

@@ -1,10 +1,5 @@
 #include "runner/commands/can/can_command.h"
 
-#include "runner/commands/can/convert_command.h"
-#include "runner/commands/can/cut_command.h"
-#include "runner/commands/can/decode_command.h"
-#include "runner/commands/can/merge_command.h"
-#include "runner/commands/can/record_command.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>

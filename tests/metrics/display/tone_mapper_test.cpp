@@ -1,5 +1,5 @@
 #include "metrics/display/tone_fit.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Values that are numbers, bounds or not measured, and what they make of each other.
-#include "metrics/readings/many_moments.h"
+#include "metrics/readings/value.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // Against the printed examples of J. Meeus, Astronomical Algorithms (2nd edition), and of I. Reda and A. Andreas, Solar Position Algorithm
 // (NREL/TP-560-34302).
-#include "scenarios/sky/calendar.h"
-#include "scenarios/sky/horizon.h"
+#include "scenarios/sky/ephemeris.h"
 #include "scenarios/values/pose.h"
 
 #include <gtest/gtest.h>
