@@ -1,18 +1,4 @@
-// `fernlicht accuracy`: error against run time.
-// fernlicht aliasing: how much of what a picture shows is not there, by how it is drawn.
-// `fernlicht bench`: times the techniques against one another.
-// `fernlicht compare A B`: what differs between two pictures.
-// `fernlicht doctor`: what this machine can draw with.
-// `fernlicht live`: a drive against the clock, on a CAN bus.
-// `fernlicht readings`: lists what is read of a drive.
-// `fernlicht reference`: one moment by rays, each pixel with its standard error.
-// `fernlicht references list|show|diff|remove`: what was accepted, and how it differs.
-// fernlicht shadows: how wrong each shadow method is, and what it costs.
-// `fernlicht signals`: lists what lamp control reads and writes.
-// `fernlicht stability`: extreme and degenerate inputs as a table of cases, each measured and judged.
-// `fernlicht storyboard`: plays OpenSCENARIO files without drawing.
-// `fernlicht study`: lamps x drives x techniques x conditions, compared.
-// `fernlicht techniques`: lists the ways to light a scene.
+// The commands of `fernlicht`, a source file each.
 #pragma once
 
 #include <functional>
@@ -25,42 +11,30 @@ class App;
 
 namespace fernlicht {
 
-/// `command` is the whole command line as typed, for the result.
-void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
+/// Adds a command with its flags. When it is chosen, `chosen` becomes what does it and gives the exit code. `command` is the whole command
+/// line as typed, for the results.
+using AddCommand = void(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
 
-/// Adds the command; when it is chosen, `chosen` becomes what does it. `command` is the command line, for the results.
-void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
-
-/// `command` is the whole command line as typed, for the result.
-void add_bench_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
-
-/// Adds the subcommand; chosen, it sets `chosen`, which gives 1 when a class of strictness was asked for and not kept.
-void add_compare_command(CLI::App& app, std::function<int()>& chosen);
-
-void add_doctor_command(CLI::App& app, std::function<int()>& chosen);
-
-void add_live_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
-
-void add_readings_command(CLI::App& app, std::function<int()>& chosen);
-
-/// `command` is the whole command line as typed, for the result.
-void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
-
-void add_references_command(CLI::App& app, std::function<int()>& chosen);
-
-/// Adds the command; when it is chosen, `chosen` becomes what does it. `command` is the command line, for the results.
-void add_shadows_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
-
-void add_signals_command(CLI::App& app, std::function<int()>& chosen);
-
-/// Adds the subcommand; chosen, it sets `chosen`, which gives 1 when a case fails.
-void add_stability_command(CLI::App& app, std::function<int()>& chosen);
-
-void add_storyboard_command(CLI::App& app, std::function<int()>& chosen);
-
-/// `command` is the whole command line as typed, for the report.
-void add_study_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
-
-void add_techniques_command(CLI::App& app, std::function<int()>& chosen);
+AddCommand add_run_command;        // plays drives and writes a report
+AddCommand add_live_command;       // a drive against the clock, on a CAN bus
+AddCommand add_study_command;      // lamps x drives x techniques x conditions, compared
+AddCommand add_bench_command;      // times the techniques against one another
+AddCommand add_compare_command;    // what differs between two pictures, lamps or runs; 1 when a class of strictness is not kept
+AddCommand add_accuracy_command;   // error against run time
+AddCommand add_aliasing_command;   // how much of what a picture shows is not there, by how it is drawn
+AddCommand add_shadows_command;    // how wrong each shadow method is, and what it costs
+AddCommand add_reference_command;  // one moment by rays, each pixel with its standard error
+AddCommand add_techniques_command; // lists the ways to light a scene
+AddCommand add_readings_command;   // lists what is read of a drive
+AddCommand add_signals_command;    // lists what lamp control reads and writes
+AddCommand add_can_command;        // small tools for logs and frames of a CAN bus (runner/commands/can)
+AddCommand add_lamp_command;       // what a lamp file holds; scaled, mirrored, summed, converted, held against a regulation
+AddCommand add_model_command;      // what a model file holds, as text, JSON or picture
+AddCommand add_import_command;     // old databases once into a format that is read everywhere
+AddCommand add_storyboard_command; // plays OpenSCENARIO files without drawing
+AddCommand add_doctor_command;     // what this machine can draw with
+AddCommand add_stability_command;  // extreme and degenerate inputs as a table of cases; 1 when one fails
+AddCommand add_accept_command;     // takes a run's results as what later runs are compared with
+AddCommand add_references_command; // lists, shows, compares and removes what was accepted
 
 } // namespace fernlicht

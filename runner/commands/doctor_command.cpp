@@ -83,7 +83,7 @@ int doctor() {
 
 } // namespace
 
-void add_doctor_command(CLI::App& app, std::function<int()>& chosen) {
+void add_doctor_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     CLI::App* command = app.add_subcommand("doctor", "report which backends work on this machine; exit with 3 if none does");
     command->callback([&chosen] { chosen = doctor; });
 }

@@ -2,6 +2,7 @@
 
 #include "renderer/device.h"
 #include "renderer/renderer.h"
+#include "runner/commands/commands.h"
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/lamps/lamp_model.h"
@@ -133,7 +134,7 @@ int model_command(const ModelRequest& request) {
     return 0;
 }
 
-void add_model_command(CLI::App& app, std::function<int()>& chosen) {
+void add_model_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<ModelRequest>();
     CLI::App* command = app.add_subcommand("model", "describe a model; render it at night in our lamps");
     command->add_option("FILE", request->file, "glTF: .gltf or .glb");

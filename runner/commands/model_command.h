@@ -6,12 +6,7 @@
 #include "scenarios/models/model.h"
 #include "scenarios/values/scene.h"
 
-#include <functional>
 #include <optional>
-
-namespace CLI {
-class App;
-}
 
 namespace fernlicht {
 
@@ -37,8 +32,6 @@ std::string model_json(const Model& model, double scale);
 
 /// All that the request asks for; text or JSON goes to standard output. Returns 0. Throws InputError, DeviceError.
 int model_command(const ModelRequest& request);
-
-void add_model_command(CLI::App& app, std::function<int()>& chosen);
 
 /// Asphalt (albedo 0.07) and the model on it, turned and as far ahead as the request says; the frame is that of the car with the lamps,
 /// which stand at x = 3.6 m.

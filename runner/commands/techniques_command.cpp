@@ -8,7 +8,7 @@
 
 namespace fernlicht {
 
-void add_techniques_command(CLI::App& app, std::function<int()>& chosen) {
+void add_techniques_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     struct Form {
         bool json = false, markdown = false;
     };
