@@ -31,13 +31,9 @@ struct ProjectedBeam {
     int bits = 32;                    ///< of a texel: 8, 16 or 32
     std::vector<float> lx;            ///< empty with less than 32 bits
     std::vector<std::uint16_t> steps; ///< lx = step / largest_step(bits) * scale_lx; empty when float
-
-    // Against what the texture was made from, in shares of the largest illuminance met there, sampled on and between the texels of the
-    // window.
-    double resolution_error_of_peak = 0.0;   ///< worst of the bilinear texture in float
-    double quantisation_error_of_peak = 0.0; ///< worst of what rounding to steps changes; 0 when float
-    double worst_error_of_peak = 0.0;        ///< worst of the texture as it is
-    double beyond_window_of_peak = 0.0;      ///< most intense light outside the window, which the projection loses
+    /// Against what the texture was made from, in shares of the largest illuminance met there, sampled on and between the texels of the
+    /// window.
+    double worst_error_of_peak = 0.0;
 
     std::size_t bytes() const { return (lx.size() + steps.size()) * static_cast<std::size_t>(bits / 8); }
 };
@@ -59,7 +55,7 @@ glm::dmat4 texture_from_lamp(const TangentWindow& window);
 /// pass q > 0.
 glm::dmat4 texture_from_lamp_as_printed(const TangentWindow& window);
 
-/// A texture of any illuminance over a window, with its errors except beyond_window_of_peak; for beams that are not one table.
+/// A texture of any illuminance over a window, with its error; for beams that are not one table.
 /// `illuminance_lx` gets the tangents x / z and y / z, is called from several threads, and its result is >= 0.
 ProjectedBeam sampled_beam(const TangentWindow& window, const BeamTexels& texels,
                            const std::function<double(double, double)>& illuminance_lx);

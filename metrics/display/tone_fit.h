@@ -17,21 +17,19 @@ class LuminanceHistogram {
     static constexpr int bins_a_decade = 40, first_decade = -6, last_decade = 9;
 
     LuminanceHistogram();
-    /// `sources`: pixels of what shines by itself (faces of lamps); empty for none. Same size, else std::invalid_argument.
-    void add(const Image<float>& luminance_cdm2, const Image<std::uint8_t>& sources = {});
-    void add(double luminance_cdm2, bool source);
+    void add(const Image<float>& luminance_cdm2);
+    void add(double luminance_cdm2);
 
     std::uint64_t pixels() const { return pixels_; }
-    double most_cdm2() const { return most_; }                     ///< 0: nothing shines
-    double most_on_surfaces_cdm2() const { return most_surface_; } ///< of what is no source
-    double log_mean_cdm2() const;                                  ///< geometric mean of what is above 1e-6 cd/m2; 0: nothing is
+    double most_cdm2() const { return most_; } ///< 0: nothing shines
+    double log_mean_cdm2() const;              ///< geometric mean of what is above 1e-6 cd/m2; 0: nothing is
     const std::vector<std::uint64_t>& counts() const { return counts_; }
     static double bin_cdm2(std::size_t bin); ///< lower edge
 
   private:
     std::vector<std::uint64_t> counts_;
     std::uint64_t pixels_ = 0, counted_ = 0;
-    double most_ = 0.0, most_surface_ = 0.0, ln_sum_ = 0.0;
+    double most_ = 0.0, ln_sum_ = 0.0;
 };
 
 /// The s >= 1 that shows `luminance_cdm2` with this share (0 < share < 1): s = d (L_max - L) / (L (1 - d)), from L' = s L / (s L - L +

@@ -58,10 +58,6 @@ Value difference(const Value& a, const Value& b, std::string_view unit) {
                                                                    up ? "beyond" : "below", *a.figure(), *b.figure(), unit));
 }
 
-bool ranks_before(const Value& a, const Value& b) {
-    return std::pair(a.figure().value_or(-endless), a.kind()) < std::pair(b.figure().value_or(-endless), b.kind());
-}
-
 const char* bound_sign(const Value& value) {
     return value.kind() == Value::Kind::at_least ? ">" : value.kind() == Value::Kind::at_most ? "<" : "";
 }

@@ -52,9 +52,6 @@ class Value {
 /// nothing bounds the difference: "both beyond 200 m".
 Value difference(const Value& a, const Value& b, std::string_view unit);
 
-/// By rank: figures ascending; of equal ones "at most" before the number before "at least". What is not measured ranks before all.
-bool ranks_before(const Value& a, const Value& b);
-
 const char* bound_sign(const Value& value); ///< ">", "<" or ""
 /// The figure's text with what bounds it: "> 200" for a value of at least 200.
 std::string with_bound(const Value& value, const std::string& figure);

@@ -27,7 +27,7 @@ void DisplayStep::see(const Frame& frame) {
         return;
     LuminanceHistogram histogram;
     for (const glm::vec3& light : frame.light.pixels())
-        histogram.add(glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722)), false);
+        histogram.add(glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722)));
     adapted_->see(histogram.log_mean_cdm2(), drive_.step_s);
     if (first_cdm2_ == 0.0)
         first_cdm2_ = adapted_->cdm2();

@@ -62,7 +62,6 @@ class World {
 
     const std::filesystem::path& file() const { return storyboard_->file; }
     const RoadNetwork& network() const { return *network_; }
-    const RoadFinder& finder() const { return finder_; }
     std::vector<EntityState>& entities() { return entities_; }
     const std::vector<EntityState>& entities() const { return entities_; }
     EntityState& entity(const std::string& name);

@@ -95,8 +95,6 @@ double phase_angle_rad(const CelestialPlace& sun, const CelestialPlace& moon) {
     return std::atan2(sun.distance_km * sine, moon.distance_km - sun.distance_km * cosine);
 }
 
-double illuminated_fraction(double phase_angle_rad) { return 0.5 * (1.0 + std::cos(phase_angle_rad)); }
-
 int days_in_month(int year, int month) {
     const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
     return month == 2 ? (leap ? 29 : 28) : (month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31);

@@ -29,8 +29,6 @@ CelestialPlace moon_place(double centuries_tt);
 
 /// Sun - moon - Earth, 0 at full moon, pi at new moon (Meeus 48.2 and 48.3).
 double phase_angle_rad(const CelestialPlace& sun, const CelestialPlace& moon);
-/// Of the moon's disc, 0..1 (48.1).
-double illuminated_fraction(double phase_angle_rad);
 
 /// A moment by date and universal time.
 struct CalendarTime {

@@ -223,7 +223,6 @@ void SectionProfile::append_stations(std::vector<double>& stations) const {
 }
 
 double SectionProfile::rightmost_t(double s_m) const { return edges_.empty() ? 0.0 : span(*edges_.front().left, s_m).right_t_m; }
-double SectionProfile::leftmost_t(double s_m) const { return edges_.empty() ? 0.0 : span(*edges_.back().right, s_m).left_t_m; }
 
 namespace {
 

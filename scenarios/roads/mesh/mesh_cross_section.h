@@ -52,7 +52,6 @@ class SectionProfile {
     /// Every s at which the strips change in number or kind, or a width or height has a knot. Unsorted.
     void append_stations(std::vector<double>& stations) const;
     double rightmost_t(double s_m) const;
-    double leftmost_t(double s_m) const;
 
   private:
     struct Edge { ///< between two lanes, or outside the last: from right to left, one more than there are lanes with width

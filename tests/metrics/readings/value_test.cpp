@@ -38,14 +38,6 @@ TEST(Value, ABoundKeepsALimitOrLeavesItOpen) {
     EXPECT_EQ(holds(none, 1.0, {}), std::nullopt);
 }
 
-TEST(Value, RanksByItsFigure) {
-    EXPECT_TRUE(ranks_before(199.0, Value::at_least(200.0)));
-    EXPECT_TRUE(ranks_before(200.0, Value::at_least(200.0)));
-    EXPECT_TRUE(ranks_before(Value::at_most(10.0), 10.0));
-    EXPECT_FALSE(ranks_before(Value::at_least(200.0), Value::at_least(200.0)));
-    EXPECT_TRUE(ranks_before(none, -1e9));
-}
-
 TEST(Value, IsNeverNanOrInfinite) {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(Value{bad}, std::invalid_argument);
