@@ -1,6 +1,4 @@
 // Is a change of a reading real? The one rule that studies and comparisons of runs judge by; docs/studies.md explains it.
-// What calculation leaves open of a reading: how far the figure may be off for a lamp that is known exactly. docs/studies.md has the table.
-// How much more light moves a reading, and so how far noise of the lamps' tables does.
 #pragma once
 
 #include "metrics/readings/readings.h"
@@ -60,17 +58,5 @@ ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect);
 /// Both sides must have this reading. `lamp_noise` is the standard deviation of the difference of two intensities of the lamps'
 /// tables that is no difference of the lamps, relative; 0 where both sides' tables are taken as they are.
 ReadingChange change_of_reading(const ReadingKey& key, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise = 0.0);
-
-/// To either side, in the reading's unit; nullopt when nothing tells.
-std::optional<double> left_open(const PlayedReadings& played, const Reading& reading);
-
-/// How far noise of the tables is followed: three standard deviations of one intensity. Light on the road is interpolated from several
-/// intensities of two lamps, whose noise averages; what deviates evenly within +-a never goes beyond 1.73 of them.
-inline constexpr double noise_deviations = 3.0;
-
-/// What 100 % more light would move a reading by, going on as it begins: its derivative after the logarithm of the light. Illuminance and
-/// luminance go with the light; reach has its sensitivity to flux; other extents take the steeper slope to the same extent at the next
-/// limits, for twice the light reaches twice the limit. nullopt when nothing tells.
-std::optional<double> moved_by_light(const PlayedReadings& played, const Reading& reading);
 
 } // namespace fernlicht

@@ -2,16 +2,14 @@
 
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/lamp_regulation.h"
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
-#include "runner/experiments/regulation/cut_off_figure.h"
-#include "runner/experiments/regulation/regulation_report.h"
 #include "runner/files/json_text.h"
 #include "runner/write/plots/isocandela.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/values/errors.h"
-#include "scenarios/values/pose.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -261,136 +259,6 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
     add_regulation_options(*command, *request);
     command->footer("Changes are applied in this order: scale, mirror, add, subtract.");
     command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
-}
-
-namespace {
-
-std::optional<AimRule> aim_rule(const std::string& word) {
-    if (word.empty())
-        return std::nullopt;
-    static const std::vector<std::pair<std::string, AimRule>> rules{
-        {"auto", AimRule::automatic}, {"as-is", AimRule::as_is}, {"cut-off", AimRule::cut_off}, {"cut-off-line", AimRule::cut_off_by_line},
-        {"elbow", AimRule::elbow},    {"vol", AimRule::vol},     {"vor", AimRule::vor},         {"maximum", AimRule::maximum}};
-    for (const auto& [name, rule] : rules)
-        if (name == word)
-            return rule;
-    throw InputError({{}, 0, 0, "--aim"}, "found '" + printable(word) + "'",
-                     "auto, as-is, cut-off, cut-off-line, elbow, vol, vor or maximum");
-}
-
-void refuse_other_work(const LampRequest& request, const char* option) {
-    const auto refuse = [&](bool given, const char* other) {
-        if (given)
-            throw InputError({{}, 0, 0, other}, fmt::format("found {} together with {}", other, option), "one of them");
-    };
-    refuse(!request.convert.empty(), "--convert");
-    refuse(request.spots.has_value(), "--spots");
-    refuse(!request.against.empty(), "--against");
-}
-
-/// The lamp, and the other side where --add names it.
-std::vector<LampFile> lamps_of(const LampRequest& request, const Regulation& r) {
-    if (!r.pairs || request.add.empty())
-        return {lamp_of(request)};
-    if (request.add.size() > 1)
-        throw InputError({{}, 0, 0, "--add"}, fmt::format("found {} files", request.add.size()),
-                         "one, the lamp of the other side: " + r.id + " judges half the sum of both");
-    LampRequest one = request, other = request;
-    one.add.clear();
-    other.add.clear();
-    other.file = request.add.front();
-    other.model.clear();
-    return {lamp_of(one), lamp_of(other)};
-}
-
-} // namespace
-
-int lamp_regulation(const LampRequest& request) {
-    if (request.regulation == "list") {
-        fmt::print("{}", request.json ? regulation_list_json() : regulation_list_text());
-        return 0;
-    }
-    refuse_other_work(request, "--regulation");
-    if (!request.picture.empty())
-        throw InputError({{}, 0, 0, "--picture"}, "found together with --regulation", "--cut-off, which draws what the aim goes by");
-    if (request.cut_off)
-        throw InputError({{}, 0, 0, "--cut-off"}, "found together with --regulation", "one of them");
-    const Regulation& r = regulation(request.regulation);
-    const std::vector<LampFile> lamps = lamps_of(request, r);
-    std::vector<CandelaTable> tables;
-    std::vector<std::string> names;
-    for (const LampFile& lamp : lamps) {
-        tables.push_back(lamp.table);
-        names.push_back(lamp.name);
-    }
-    CheckOptions options;
-    options.aim = aim_rule(request.aim);
-    options.left_hand_traffic = request.left_hand_traffic;
-    options.re_aim = !request.no_re_aim;
-    std::optional<LampFile> aim_by;
-    if (!request.aim_by.empty()) {
-        aim_by = read_lamp(request.aim_by, request.reading);
-        options.aim_by = &aim_by->table;
-    }
-    const RegulationCheck check = check_regulation(r, tables, options);
-    fmt::print("{}", request.json ? json_of(r, check, names) : text_of(r, check, names));
-    return check.verdict == RowVerdict::pass ? 0 : 1;
-}
-
-int lamp_cut_off(const LampRequest& request) {
-    refuse_other_work(request, "--cut-off");
-    if (!(request.detector_mm >= 0.0 && request.detector_mm <= 200.0))
-        throw InputError({{}, 0, 0, "--detector"}, fmt::format("found {}", request.detector_mm), "0 to 200 mm at 25 m");
-    const LampFile lamp = lamp_of(request);
-    const CutOffOptions options{request.sharpness, degrees(std::atan(request.detector_mm / 25000.0))};
-    const CandelaTable table = request.left_hand_traffic ? mirrored(lamp.table) : lamp.table;
-    const CutOffFigures cut_off = measure_cut_off({&table, {}}, options);
-    const CutOffElbow elbow = fit_elbow({&table, {}});
-    if (!request.picture.empty())
-        write_lamp_picture(cut_off_figure(lamp, cut_off, elbow, request.left_hand_traffic), request);
-    fmt::print("{}", request.json ? json_of(cut_off, elbow, lamp.name, options, request.left_hand_traffic)
-                                  : text_of(cut_off, elbow, lamp.name, options, request.left_hand_traffic));
-    return 0;
-}
-
-void refuse_regulation_options(const LampRequest& request) {
-    const char* option = !request.aim.empty()        ? "--aim"
-                         : !request.aim_by.empty()   ? "--aim-by"
-                         : request.no_re_aim         ? "--no-re-aim"
-                         : request.left_hand_traffic ? "--left-hand-traffic"
-                                                     : nullptr;
-    if (option)
-        throw InputError({{}, 0, 0, option}, "found without --regulation or --cut-off", "one of them");
-}
-
-void add_regulation_options(CLI::App& command, LampRequest& request) {
-    const char* group = "Regulations (our copies of their tables; not an approval)";
-    command
-        .add_option("--regulation", request.regulation,
-                    "check the lamp against a table, with the margin of each row; `list` names all tables")
-        ->option_text("ID|list")
-        ->group(group);
-    command.add_flag("--cut-off", request.cut_off, "measure the cut-off: position, sharpness, linearity, kink")->group(group);
-    command.add_flag("--left-hand-traffic", request.left_hand_traffic, "use the mirrored table")->group(group);
-    command
-        .add_option("--aim", request.aim,
-                    "how to aim, instead of the regulation's way: auto, as-is, cut-off, cut-off-line, elbow, vol, vor, maximum")
-        ->group(group);
-    command.add_option("--aim-by", request.aim_by, "low-beam file whose aim this beam takes over")->group(group);
-    command.add_flag("--no-re-aim", request.no_re_aim, "do not re-aim a failing lamp within the edition's allowance")->group(group);
-    command.add_option("--detector", request.detector_mm, "with --cut-off: detector diameter in mm at 25 m; 0: a point")
-        ->capture_default_str()
-        ->group(group);
-    command
-        .add_option_function<std::string>(
-            "--sharpness",
-            [&request](const std::string& word) {
-                if (word != "maximum" && word != "at-inflection")
-                    throw InputError({{}, 0, 0, "--sharpness"}, "found '" + printable(word) + "'", "maximum or at-inflection");
-                request.sharpness = word == "maximum" ? SharpnessRule::maximum : SharpnessRule::at_inflection;
-            },
-            "with --cut-off: which G represents a scan, maximum or at-inflection")
-        ->group(group);
 }
 
 } // namespace fernlicht

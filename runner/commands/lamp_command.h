@@ -1,5 +1,4 @@
 // `fernlicht lamp FILE`: what a lamp file holds, as text, JSON or picture; scaled, mirrored, summed and converted.
-// `fernlicht lamp FILE --regulation ID` and `--cut-off`.
 #pragma once
 
 #include "metrics/beam/cut_off.h"
@@ -48,17 +47,5 @@ void write_lamp_picture(const plots::Figure& figure, const LampRequest& request)
 /// All that the request asks for; text or JSON goes to standard output. Returns 0, or 1 when a regulation's row fails. Throws InputError,
 /// DeviceError.
 int lamp_command(const LampRequest& request);
-
-/// Prints the check; 0 when every row passes, else 1. Throws InputError.
-int lamp_regulation(const LampRequest& request);
-
-/// Prints the cut-off's figures; 0. Throws InputError.
-int lamp_cut_off(const LampRequest& request);
-
-/// Throws InputError where flags of these two are given without either.
-void refuse_regulation_options(const LampRequest& request);
-
-/// The flags of both.
-void add_regulation_options(CLI::App& command, LampRequest& request);
 
 } // namespace fernlicht

@@ -1,10 +1,7 @@
 // `fernlicht model FILE`: what a model holds, and how it looks in our lamps at night.
-// A model on a level road at night, before a car of ours.
 #pragma once
 
-#include "scenarios/drives/play/frame.h"
 #include "scenarios/models/model.h"
-#include "scenarios/values/scene.h"
 
 #include <optional>
 
@@ -32,15 +29,5 @@ std::string model_json(const Model& model, double scale);
 
 /// All that the request asks for; text or JSON goes to standard output. Returns 0. Throws InputError, DeviceError.
 int model_command(const ModelRequest& request);
-
-/// Asphalt (albedo 0.07) and the model on it, turned and as far ahead as the request says; the frame is that of the car with the lamps,
-/// which stand at x = 3.6 m.
-Scene model_scene(const Model& model, const ModelRequest& request);
-
-/// Two lamps of the request, 1.2 m apart and 0.65 m above the road; no sky.
-Moment lit_moment(const ModelRequest& request);
-
-/// From the driver's eye, as wide as the model and its surroundings need.
-View towards(const Model& model, const ModelRequest& request);
 
 } // namespace fernlicht

@@ -1,5 +1,4 @@
 // Conditions and triggers over time: edges, delays, rules.
-// Conditions by entity, at one moment.
 #pragma once
 
 #include "scenarios/openscenario/osc_world.h"
@@ -50,8 +49,5 @@ class JudgedTrigger {
 bool holds(double a, double b, Rule rule); ///< equal within 1e-6
 /// Seconds since 1970 of an ISO 8601 date and time, its offset from UTC taken; nullopt for other text.
 std::optional<double> seconds_of(const std::string& date_time);
-
-/// Of the entity with this index, which is present. Conditions about others that are not present are false.
-bool entity_condition(const EntityCondition& condition, std::size_t entity, const World& world);
 
 } // namespace fernlicht::osc

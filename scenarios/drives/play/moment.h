@@ -1,5 +1,4 @@
 // One instant of a drive: where the car is, what its lamps do, how light the sky is.
-// Other road users at an instant.
 #pragma once
 
 #include "scenarios/drives/drive.h"
@@ -39,8 +38,5 @@ struct Moment {
     Daylight daylight;
     Weather weather;
 };
-
-/// Fills the moment's bodies, and adds the lamps of those that are there and lit, from the drive's traffic at the moment's time.
-void add_traffic(const Drive& drive, Moment& moment);
 
 } // namespace fernlicht
