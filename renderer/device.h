@@ -1,4 +1,5 @@
 // A machine that can draw: an offscreen OpenGL 4.5 context and what it says of itself.
+// How the pictures of surfaces are looked up.
 #pragma once
 
 #include <memory>
@@ -6,7 +7,6 @@
 #include <vector>
 
 namespace fernlicht {
-
 namespace gl {
 class Context;
 }
@@ -49,5 +49,11 @@ struct BackendAttempt {
 /// Tries every backend there is, each in a process of its own, so that a driver that crashes is told of like one that fails.
 /// Call it before any device is opened.
 std::vector<BackendAttempt> try_all_backends();
+
+/// mipmapped: linear within the nearest mipmap level. none: the nearest texel of the finest. trilinear: linear between two levels, too.
+enum class SurfaceFilter { mipmapped, none, trilinear };
+
+/// For all renderers that are made on this device from now on. Without it: mipmapped.
+void use_surface_filter(Device& device, SurfaceFilter filter);
 
 } // namespace fernlicht

@@ -1,11 +1,15 @@
 #include "renderer/projected_beam.h"
 
+#include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
+#include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <oneapi/tbb/parallel_for.h>
 #include <stdexcept>
 
@@ -29,23 +33,6 @@ bool is_lit(const CandelaTable& table, std::size_t v, std::size_t h) {
     return !gap && (table.at(v, h) > 0.0 || table.at(v, h + 1) > 0.0 || table.at(v + 1, h) > 0.0 || table.at(v + 1, h + 1) > 0.0);
 }
 
-bool inside(const TangentWindow& window, double h_deg, double v_deg) {
-    if (std::abs(h_deg) >= 90.0)
-        return false;
-    const double x = tangent(h_deg), y = height_tangent(h_deg, v_deg);
-    constexpr double rounding = 1e-12; // the window's own corners come by the same tangents
-    return x >= window.left - rounding && x <= window.right + rounding && y >= window.bottom - rounding && y <= window.top + rounding;
-}
-
-double most_outside_cd(const CandelaTable& table, const TangentWindow& window) {
-    double most = 0.0;
-    for (std::size_t v = 0; v < table.v_deg.size(); ++v)
-        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
-            if (table.at(v, h) > most && !inside(window, table.h_deg[h], table.v_deg[v]))
-                most = intensity_cd(table, table.h_deg[h], table.v_deg[v]);
-    return most;
-}
-
 double texel_lx(const ProjectedBeam& beam, std::size_t index) {
     return beam.steps.empty() ? static_cast<double>(beam.lx[index])
                               : beam.steps[index] / static_cast<double>(largest_step(beam.bits)) * beam.scale_lx;
@@ -59,36 +46,34 @@ void quantise(ProjectedBeam& beam) {
                                 : std::uint16_t{0});
 }
 
-struct WorstErrors {
-    double resolution_lx = 0.0, quantisation_lx = 0.0, total_lx = 0.0, largest_lx = 0.0;
+struct WorstError {
+    double error_lx = 0.0, largest_lx = 0.0;
 };
 
-WorstErrors worse_of(const WorstErrors& a, const WorstErrors& b) {
-    return {std::max(a.resolution_lx, b.resolution_lx), std::max(a.quantisation_lx, b.quantisation_lx), std::max(a.total_lx, b.total_lx),
-            std::max(a.largest_lx, b.largest_lx)};
+WorstError worse_of(const WorstError& a, const WorstError& b) {
+    return {std::max(a.error_lx, b.error_lx), std::max(a.largest_lx, b.largest_lx)};
 }
 
 /// Over the window in quarters of a texel; large textures in halves, and with rows left out.
-WorstErrors errors_of(const ProjectedBeam& fine, const ProjectedBeam& given, const std::function<double(double, double)>& illuminance_lx) {
-    const auto width = static_cast<std::size_t>(fine.width), height = static_cast<std::size_t>(fine.height);
+double worst_error_of_peak(const ProjectedBeam& beam, const std::function<double(double, double)>& illuminance_lx) {
+    const TangentWindow& window = beam.window;
+    const auto width = static_cast<std::size_t>(beam.width), height = static_cast<std::size_t>(beam.height);
     const std::size_t parts = width * height * 16 <= most_error_samples ? 4 : 2;
     const std::size_t row_step = 1 + width * height * parts * parts / (most_error_samples + 1);
-    std::vector<WorstErrors> of_row((height * parts + row_step - 1) / row_step);
+    std::vector<WorstError> of_row((height * parts + row_step - 1) / row_step);
     oneapi::tbb::parallel_for(std::size_t{0}, of_row.size(), [&](std::size_t row) {
         const double t = static_cast<double>(row * row_step) / static_cast<double>(height * parts);
-        const double y = fine.window.bottom + (fine.window.top - fine.window.bottom) * t;
+        const double y = window.bottom + (window.top - window.bottom) * t;
         for (std::size_t column = 0; column < width * parts; ++column) {
             const double s = static_cast<double>(column) / static_cast<double>(width * parts);
-            const double truth = illuminance_lx(fine.window.left + (fine.window.right - fine.window.left) * s, y);
-            const double by_fine = projected_lx(fine, s, t), by_given = projected_lx(given, s, t);
-            of_row[row] =
-                worse_of(of_row[row], {std::abs(by_fine - truth), std::abs(by_given - by_fine), std::abs(by_given - truth), truth});
+            const double truth = illuminance_lx(window.left + (window.right - window.left) * s, y);
+            of_row[row] = worse_of(of_row[row], {std::abs(projected_lx(beam, s, t) - truth), truth});
         }
     });
-    WorstErrors worst;
-    for (const WorstErrors& row : of_row)
+    WorstError worst;
+    for (const WorstError& row : of_row)
         worst = worse_of(worst, row);
-    return worst;
+    return worst.largest_lx > 0.0 ? worst.error_lx / worst.largest_lx : 0.0;
 }
 
 /// P of an infinite frustum in OpenGL's convention, -1..1; its last row is q in terms of x, y, z and 1.
@@ -151,19 +136,13 @@ ProjectedBeam sampled_beam(const TangentWindow& window, const BeamTexels& texels
         }
     });
     beam.scale_lx = static_cast<double>(*std::ranges::max_element(beam.lx));
-    ProjectedBeam given = beam;
     if (texels.bits < 32) {
-        given.bits = texels.bits;
-        quantise(given);
-        given.lx.clear();
+        beam.bits = texels.bits;
+        quantise(beam);
+        beam.lx.clear();
     }
-    const WorstErrors worst = errors_of(beam, given, illuminance_lx);
-    if (worst.largest_lx > 0.0) {
-        given.resolution_error_of_peak = worst.resolution_lx / worst.largest_lx;
-        given.quantisation_error_of_peak = worst.quantisation_lx / worst.largest_lx;
-        given.worst_error_of_peak = worst.total_lx / worst.largest_lx;
-    }
-    return given;
+    beam.worst_error_of_peak = worst_error_of_peak(beam, illuminance_lx);
+    return beam;
 }
 
 ProjectedBeam make_projected_beam(const CandelaTable& table, const BeamTexels& texels) {
@@ -171,10 +150,7 @@ ProjectedBeam make_projected_beam(const CandelaTable& table, const BeamTexels& t
         const glm::dvec2 angles = photometry::goniometer_angles({x, y, 1.0});
         return intensity_cd(table, degrees(angles.x), degrees(angles.y)) / cd_per_lx;
     };
-    ProjectedBeam beam = sampled_beam(lit_window(table), texels, illuminance_lx);
-    if (const double peak_cd = peak_of(table).cd; peak_cd > 0.0)
-        beam.beyond_window_of_peak = most_outside_cd(table, beam.window) / peak_cd;
-    return beam;
+    return sampled_beam(lit_window(table), texels, illuminance_lx);
 }
 
 double projected_lx(const ProjectedBeam& beam, double s, double t) {
@@ -191,5 +167,93 @@ double projected_lx(const ProjectedBeam& beam, double s, double t) {
 glm::dmat4 texture_from_lamp(const TangentWindow& window) { return biased(window, {0.0, 0.0, 1.0, 0.0}); }
 
 glm::dmat4 texture_from_lamp_as_printed(const TangentWindow& window) { return biased(window, {0.0, 0.0, 1.0, 1.0}); }
+
+namespace {
+
+constexpr double exact_at_m = 25.0;
+constexpr int window_steps = 32; // along each edge of a lamp's window
+
+bool is_on(const LitLamp& lamp) { return lamp.intensity_factor > 0.0; }
+
+glm::dvec3 unit_or_refuse(const glm::dvec3& sum, const char* axes) {
+    if (glm::length(sum) < 1e-6)
+        throw InputError({{}, 0, 0, "lamps"}, std::string("found lamps whose ") + axes + " cancel",
+                         "lamps that can be merged into one beam");
+    return glm::normalize(sum);
+}
+
+/// In the frame of `pose` the point 25 m from it that lies in `direction` from `lamp`. Lamps stand nearer than 25 m to their middle.
+glm::dvec3 point_at_distance(const Pose& pose, const Pose& lamp, const glm::dvec3& direction) {
+    const glm::dvec3 from = to_local(pose, lamp.position_m);
+    const glm::dvec3 along = glm::normalize(direction * pose.axes);
+    const double half = glm::dot(from, along);
+    const double root = half * half + exact_at_m * exact_at_m - glm::dot(from, from);
+    return from + along * (std::sqrt(std::max(root, 0.0)) - half);
+}
+
+/// `window` widened to the tangents of what the lamp's own window sees at 25 m.
+void widen(TangentWindow& window, const Pose& pose, const LitLamp& lamp) {
+    const TangentWindow own = lit_window(lamp.file->table);
+    for (int i = 0; i <= window_steps; ++i)
+        for (int k = 0; k <= window_steps; ++k) {
+            const double x = own.left + (own.right - own.left) * i / window_steps;
+            const double y = own.bottom + (own.top - own.bottom) * k / window_steps;
+            const glm::dvec3 p = point_at_distance(pose, lamp.pose, lamp.pose.forward() - lamp.pose.left() * x + lamp.pose.up() * y);
+            if (p.x <= 0.0)
+                continue;
+            window.left = std::min(window.left, -p.y / p.x);
+            window.right = std::max(window.right, -p.y / p.x);
+            window.bottom = std::min(window.bottom, p.z / p.x);
+            window.top = std::max(window.top, p.z / p.x);
+        }
+}
+
+TangentWindow window_of(std::span<const LitLamp> lamps, const Pose& pose) {
+    const TangentWindow widest;
+    TangentWindow window{widest.right, widest.left, widest.top, widest.bottom}; // nothing yet
+    for (const LitLamp& lamp : lamps)
+        if (is_on(lamp) && peak_of(lamp.file->table).cd > 0.0)
+            widen(window, pose, lamp);
+    window = {std::max(window.left, widest.left), std::min(window.right, widest.right), std::max(window.bottom, widest.bottom),
+              std::min(window.top, widest.top)};
+    return window.left < window.right && window.bottom < window.top ? window : widest;
+}
+
+} // namespace
+
+Pose merged_pose(std::span<const LitLamp> lamps) {
+    glm::dvec3 position(0.0), forward(0.0), up(0.0);
+    int count = 0;
+    for (const LitLamp& lamp : lamps) {
+        if (!is_on(lamp))
+            continue;
+        ++count;
+        position += (lamp.pose.position_m - position) / static_cast<double>(count);
+        forward += lamp.pose.forward();
+        up += lamp.pose.up();
+    }
+    if (count == 0)
+        return {};
+    Pose pose;
+    pose.position_m = position;
+    pose.axes[0] = unit_or_refuse(forward, "axes");
+    pose.axes[1] = unit_or_refuse(glm::cross(up, pose.axes[0]), "upward axes");
+    pose.axes[2] = glm::cross(pose.axes[0], pose.axes[1]);
+    return pose;
+}
+
+ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, const BeamTexels& texels) {
+    const Pose pose = merged_pose(lamps);
+    Moment moment;
+    for (const LitLamp& lamp : lamps)
+        if (is_on(lamp)) {
+            moment.lamps.push_back(lamp); // relative to the merged pose, where no map's millions of metres cost digits
+            moment.lamps.back().pose = {to_local(pose, lamp.pose.position_m), glm::transpose(pose.axes) * lamp.pose.axes};
+        }
+    const TangentWindow window = window_of(moment.lamps, {});
+    return sampled_beam(window, texels, [&](double x, double y) {
+        return target_illuminance_lx(moment, exact_at_m * glm::normalize(glm::dvec3(1.0, -x, y)));
+    });
+}
 
 } // namespace fernlicht

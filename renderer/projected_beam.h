@@ -1,14 +1,18 @@
 // A beam as a texture that is projected into the scene from the lamp, as the founding thesis lit its roads: illuminance in lux on a
 // grid in the lamp's tangent plane, and the matrices that put a point on it. It is the approximation, not the reference: how far it
 // lies from the candela table is part of it.
+// All lamps of a car in one projected texture, as the founding thesis proposes for less work in each pixel: one projection and one
+// distance in place of one for each lamp.
 #pragma once
 
+#include "scenarios/drives/play/moment.h"
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/candela_table.h"
 
 #include <cstdint>
 #include <functional>
 #include <glm/mat4x4.hpp>
+#include <span>
 
 namespace fernlicht {
 
@@ -27,13 +31,9 @@ struct ProjectedBeam {
     int bits = 32;                    ///< of a texel: 8, 16 or 32
     std::vector<float> lx;            ///< empty with less than 32 bits
     std::vector<std::uint16_t> steps; ///< lx = step / largest_step(bits) * scale_lx; empty when float
-
-    // Against what the texture was made from, in shares of the largest illuminance met there, sampled on and between the texels of the
-    // window.
-    double resolution_error_of_peak = 0.0;   ///< worst of the bilinear texture in float
-    double quantisation_error_of_peak = 0.0; ///< worst of what rounding to steps changes; 0 when float
-    double worst_error_of_peak = 0.0;        ///< worst of the texture as it is
-    double beyond_window_of_peak = 0.0;      ///< most intense light outside the window, which the projection loses
+    /// Against what the texture was made from, in shares of the largest illuminance met there, sampled on and between the texels of the
+    /// window.
+    double worst_error_of_peak = 0.0;
 
     std::size_t bytes() const { return (lx.size() + steps.size()) * static_cast<std::size_t>(bits / 8); }
 };
@@ -55,9 +55,19 @@ glm::dmat4 texture_from_lamp(const TangentWindow& window);
 /// pass q > 0.
 glm::dmat4 texture_from_lamp_as_printed(const TangentWindow& window);
 
-/// A texture of any illuminance over a window, with its errors except beyond_window_of_peak; for beams that are not one table.
+/// A texture of any illuminance over a window, with its error; for beams that are not one table.
 /// `illuminance_lx` gets the tangents x / z and y / z, is called from several threads, and its result is >= 0.
 ProjectedBeam sampled_beam(const TangentWindow& window, const BeamTexels& texels,
                            const std::function<double(double, double)>& illuminance_lx);
+
+/// Where the one lamp stands that stands for all that are on: midway between them (the mean of their positions), x forward along the mean
+/// of their axes, upright as they are on average; in the frame of their poses. Not moved by lamps that are off. No lamp on: the origin.
+/// Throws InputError where the axes cancel.
+Pose merged_pose(std::span<const LitLamp> lamps);
+
+/// The texture to project from merged_pose(): for each direction from there the sum of all lamps' facing illuminance at its point 25 m
+/// away. With E = texel * 625 / d^2, d from the merged pose, it is exact at 25 m; nearer, the beams lie closer together than
+/// in truth, farther away wider apart. Depends on where the lamps stand to each other, not on where the car is.
+ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, const BeamTexels& texels);
 
 } // namespace fernlicht

@@ -1,10 +1,12 @@
 // Draws scenes at night: (Moment, View) -> Frame. All GL state lives here.
+// The device has no room for a shadow method's maps: other methods may still be drawn.
 #pragma once
 
 #include "renderer/device.h"
 #include "renderer/technique.h"
 #include "scenarios/drives/play/frame.h"
 #include "scenarios/drives/shadow_settings.h"
+#include "scenarios/values/errors.h"
 #include "scenarios/values/scene.h"
 
 #include <optional>
@@ -106,5 +108,11 @@ struct ReadBackCheck {
     ReadBack faster() const { return overlapped_s < 0.95 * plain_s ? ReadBack::overlapped : ReadBack::plain; }
 };
 ReadBackCheck check_read_back(Device& device);
+
+/// Says what was asked for and which keys of `shadows` make it smaller. The device goes on drawing.
+class ShadowMemoryError : public DeviceError {
+  public:
+    using DeviceError::DeviceError;
+};
 
 } // namespace fernlicht

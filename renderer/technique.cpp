@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* ours = "fernlicht";
 
-// Where a row of the thesis leaves a choice open, the constants are in published_light.h.
+// Where a row of the thesis leaves a choice open, the constants are in light_map.h.
 constexpr const char* thesis_table = "Knebel 2004, Table 6.1";
 constexpr const char* thesis_text = "Knebel 2004, other ways it describes";
 constexpr const char* no_shadows = "incidence angle, shadows, the lamps' colour";

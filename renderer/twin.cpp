@@ -2,8 +2,6 @@
 
 #include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
-#include "scenarios/light/retro_tint.h"
-#include "scenarios/light/wet_light.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>

@@ -1,25 +1,5 @@
 // fernlicht: night drives played headless, headlamps measured. Options end here; below are plain values.
-#include "runner/commands/accept_command.h"
-#include "runner/commands/accuracy_command.h"
-#include "runner/commands/aliasing_command.h"
-#include "runner/commands/bench_command.h"
-#include "runner/commands/can/can_command.h"
-#include "runner/commands/compare_command.h"
-#include "runner/commands/doctor_command.h"
-#include "runner/commands/import_command.h"
-#include "runner/commands/lamp_command.h"
-#include "runner/commands/live_command.h"
-#include "runner/commands/model_command.h"
-#include "runner/commands/readings_command.h"
-#include "runner/commands/reference_command.h"
-#include "runner/commands/references_command.h"
-#include "runner/commands/run_command.h"
-#include "runner/commands/shadows_command.h"
-#include "runner/commands/signals_command.h"
-#include "runner/commands/stability_command.h"
-#include "runner/commands/storyboard_command.h"
-#include "runner/commands/study_command.h"
-#include "runner/commands/techniques_command.h"
+#include "runner/commands/commands.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -29,6 +9,15 @@
 namespace {
 
 enum ExitCode { within_limits = 0, limits_exceeded = 1, users_input = 2, device = 3, ours = 4 };
+
+/// As --help lists them.
+fernlicht::AddCommand* const commands[] = {
+    fernlicht::add_run_command,        fernlicht::add_live_command,       fernlicht::add_study_command,     fernlicht::add_bench_command,
+    fernlicht::add_compare_command,    fernlicht::add_accuracy_command,   fernlicht::add_aliasing_command,  fernlicht::add_shadows_command,
+    fernlicht::add_reference_command,  fernlicht::add_techniques_command, fernlicht::add_readings_command,  fernlicht::add_signals_command,
+    fernlicht::add_can_command,        fernlicht::add_lamp_command,       fernlicht::add_model_command,     fernlicht::add_import_command,
+    fernlicht::add_storyboard_command, fernlicht::add_doctor_command,     fernlicht::add_stability_command, fernlicht::add_accept_command,
+    fernlicht::add_references_command};
 
 int complain(ExitCode code, const std::exception& error) {
     fmt::print(stderr, "fernlicht: {}\n", error.what());
@@ -53,27 +42,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", FERNLICHT_VERSION);
     app.require_subcommand(1);
     std::function<int()> chosen;
-    fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_live_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_study_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_compare_command(app, chosen);
-    fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_aliasing_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_shadows_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_techniques_command(app, chosen);
-    fernlicht::add_readings_command(app, chosen);
-    fernlicht::add_signals_command(app, chosen);
-    fernlicht::add_can_command(app, chosen);
-    fernlicht::add_lamp_command(app, chosen);
-    fernlicht::add_model_command(app, chosen);
-    fernlicht::add_import_command(app, chosen);
-    fernlicht::add_storyboard_command(app, chosen);
-    fernlicht::add_doctor_command(app, chosen);
-    fernlicht::add_stability_command(app, chosen);
-    fernlicht::add_accept_command(app, chosen);
-    fernlicht::add_references_command(app, chosen);
+    for (fernlicht::AddCommand* add : commands)
+        add(app, {argv, argv + argc}, chosen);
     try {
         if (argc > 1)
             refuse_unknown_command(app, argv[1]);

@@ -1,7 +1,5 @@
 #include "metrics/aliasing/band_limit.h"
 
-#include "metrics/aliasing/mirrored.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // What a display of w x h pixels can show of a picture drawn k times as fine, and what it cannot.
+// Beyond a picture's border it goes on as in a mirror that stands on the border.
 #pragma once
 
 #include "scenarios/values/image.h"
@@ -15,5 +16,12 @@ struct BandSplit {
 /// below 0.2 % from 0.56 on. Beyond its edges the picture is mirrored. Threads do not change a bit.
 /// Throws std::invalid_argument unless `reference` is k times 1 x 1 or more, k even and at least 4, and its values are finite.
 BandSplit split_bands(const Image<float>& reference, int k);
+
+/// The pixel 0 .. count - 1 that is seen at place i: -1 is 0 again, count is count - 1. count > 0.
+inline int mirrored(int i, int count) {
+    const int period = 2 * count;
+    const int within = ((i % period) + period) % period;
+    return within < count ? within : period - 1 - within;
+}
 
 } // namespace fernlicht

@@ -1,6 +1,6 @@
 #include "metrics/aliasing/block_fit.h"
 
-#include "metrics/aliasing/mirrored.h"
+#include "metrics/aliasing/band_limit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,10 @@
 // A lamp's table as a field of log intensity that can be asked between its samples, with the error of asking there.
+// Where a low beam ends upwards: the steepest fall of each column of its table.
 #pragma once
 
-#include "scenarios/lamps/angle_system.h"
+#include "scenarios/lamps/candela_table.h"
+
+#include <optional>
 
 namespace fernlicht {
 
@@ -48,5 +51,23 @@ std::pair<double, double> before_shift(double h_deg, double v_deg, const BeamShi
 
 /// The step to which the table's intensities are rounded, a power of ten in cd; 0 when they are not.
 double rounding_of(const CandelaTable& table);
+
+/// V of the cut-off by column of a table's H axis; nullopt where a column has none: outside |H| <= 20 degrees, or where within |V| <= 4
+/// degrees no fall is as steep as 1.5 natural logs a degree with at least 2 % of the peak below it.
+class CutOffLine {
+  public:
+    CutOffLine(const BeamField& beam, double peak_cd);
+
+    bool exists() const { return columns_ >= 10; }
+    /// At the nearest column.
+    std::optional<double> at(double h_deg) const;
+    /// V below which a tenth of the columns have their cut-off: its level part, whatever single columns do. NaN when none has one.
+    double lowest_deg() const;
+
+  private:
+    std::vector<double> h_deg_;
+    std::vector<std::optional<double>> v_deg_;
+    std::size_t columns_ = 0;
+};
 
 } // namespace fernlicht

@@ -1,7 +1,7 @@
 // Connected directions in which one beam is brighter or dimmer than another by more than noise explains.
 #pragma once
 
-#include "scenarios/lamps/angle_system.h"
+#include "scenarios/lamps/candela_table.h"
 
 #include <cstddef>
 #include <utility>

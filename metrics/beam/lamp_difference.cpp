@@ -1,6 +1,6 @@
 #include "metrics/beam/lamp_difference.h"
 
-#include "metrics/beam/cut_off_line.h"
+#include "metrics/beam/beam_field.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,25 @@
 // A lamp as a photometer on a goniometer sees it: aimed, averaged over the receiver's opening, one lamp or half the sum of two.
+// What a photometer on a goniometer looks at: a direction, and the opening that it averages over.
 #pragma once
 
-#include "metrics/beam/receiver.h"
 #include "scenarios/lamps/candela_table.h"
 
 #include <optional>
 #include <vector>
 
 namespace fernlicht {
+
+/// Of the goniometer: H right positive, V up positive.
+struct Direction {
+    double h_deg = 0.0, v_deg = 0.0;
+    bool operator==(const Direction&) const = default;
+};
+
+/// What a photometer averages over. Its size is an angle: 65 mm at 25 m are 0.149 degrees.
+struct Receiver {
+    enum class Shape { square, disc } shape = Shape::square;
+    double size_deg = 0.0; ///< side or diameter; 0: a point
+};
 
 /// Mean intensity in cd over the receiver turned to a direction; nullopt where the table has no data there. Parts of the opening without
 /// data are left out of the mean. The square stands level, the size is an angle seen from the lamp: in H it grows by 1 / cos V (at most

@@ -1,7 +1,5 @@
 #include "metrics/display/display_colour.h"
 
-#include "scenarios/display/tone_curve.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>

@@ -1,13 +1,32 @@
 // How the pictures of a drive are seen on the display that they were made for.
+// How large, and how finely, a picture is seen by who looks at a display.
 #pragma once
-
-#include "metrics/display/seen_size.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace fernlicht {
+
+/// What the eye resolves by day: Landolt's rings of a visual acuity of 1.
+inline constexpr double resolved_by_day_arcmin = 1.0;
+
+/// A pixel in the middle of a perspective picture with square pixels, as the scene has it and as the beholder sees it.
+struct SeenSize {
+    double scene_pixel_arcmin = 0.0;   ///< 2 atan(tan(fov / 2) / height)
+    double display_pixel_arcmin = 0.0; ///< 2 atan(pitch / (2 distance))
+    double life_size_m = 0.0;          ///< the distance at which both are equal: height pitch / (2 tan(fov / 2))
+
+    /// Angle on the display over angle in the scene: 1 seen as large as it is, below smaller.
+    double magnification() const { return display_pixel_arcmin / scene_pixel_arcmin; }
+};
+
+/// 0 < fov < pi; height, pitch, distance > 0.
+SeenSize seen_size(double vertical_fov_rad, int height_px, double pixel_pitch_mm, double viewing_distance_m);
+
+/// Half a period of the finest grating that an eye resolves when it is adapted to this luminance, in minutes of arc: 30 / acuity in cycles
+/// a degree (acuity_cycles_per_deg). cd/m2 > 0; 9.98 at 1e-3 cd/m2 and below, where its fit ends.
+double resolved_arcmin(double adaptation_cdm2);
 
 struct SeenView {
     std::string view;

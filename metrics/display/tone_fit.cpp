@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace fernlicht {
 namespace {
@@ -27,13 +26,11 @@ LuminanceHistogram::LuminanceHistogram() : counts_(histogram_bins, 0) {}
 
 double LuminanceHistogram::bin_cdm2(std::size_t bin) { return std::exp(ln_10 * first_decade + bin_ln * static_cast<double>(bin)); }
 
-void LuminanceHistogram::add(double luminance_cdm2, bool source) {
+void LuminanceHistogram::add(double luminance_cdm2) {
     ++pixels_;
     if (!std::isfinite(luminance_cdm2))
         return;
     most_ = std::max(most_, luminance_cdm2);
-    if (!source)
-        most_surface_ = std::max(most_surface_, luminance_cdm2);
     if (luminance_cdm2 < bin_cdm2(0))
         return;
     const double at = (std::log(luminance_cdm2) - ln_10 * first_decade) / bin_ln;
@@ -42,11 +39,9 @@ void LuminanceHistogram::add(double luminance_cdm2, bool source) {
     ln_sum_ += std::log(luminance_cdm2);
 }
 
-void LuminanceHistogram::add(const Image<float>& luminance_cdm2, const Image<std::uint8_t>& sources) {
-    if (!sources.empty() && (sources.width() != luminance_cdm2.width() || sources.height() != luminance_cdm2.height()))
-        throw std::invalid_argument("LuminanceHistogram: a mask of another size than the picture");
-    for (std::size_t i = 0; i < luminance_cdm2.size(); ++i)
-        add(static_cast<double>(luminance_cdm2.pixels()[i]), !sources.empty() && sources.pixels()[i] != 0);
+void LuminanceHistogram::add(const Image<float>& luminance_cdm2) {
+    for (const float value : luminance_cdm2.pixels())
+        add(static_cast<double>(value));
 }
 
 double LuminanceHistogram::log_mean_cdm2() const { return counted_ == 0 ? 0.0 : std::exp(ln_sum_ / static_cast<double>(counted_)); }
@@ -108,6 +103,17 @@ ToneMapper histogram_mapper(const LuminanceHistogram& histogram, double l_max_cd
     }
     mapper.curve.back().ln_luminance = ln_last;
     return mapper;
+}
+
+void AdaptedLuminance::see(double log_mean_cdm2, double step_s) {
+    if (!(log_mean_cdm2 > 0.0) || !std::isfinite(log_mean_cdm2))
+        return;
+    if (adapted_cdm2_ == 0.0) {
+        adapted_cdm2_ = log_mean_cdm2;
+        return;
+    }
+    const double tau_s = log_mean_cdm2 > adapted_cdm2_ ? brighter_s_ : darker_s_, apart = std::log(log_mean_cdm2 / adapted_cdm2_);
+    adapted_cdm2_ *= std::exp(-apart * std::expm1(-step_s / tau_s));
 }
 
 } // namespace fernlicht

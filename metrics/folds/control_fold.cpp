@@ -1,6 +1,6 @@
 #include "metrics/folds/control_fold.h"
 
-#include "metrics/folds/road_places.h"
+#include "metrics/folds/place_fold.h"
 #include "metrics/glare/eye_light.h"
 #include "metrics/road/lit_line.h"
 #include "metrics/statistics/statistics.h"

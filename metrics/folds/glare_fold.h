@@ -1,5 +1,7 @@
 // What the lamps do to the eyes of others over a drive: an oncoming driver who stands still, and a driver ahead through the mirrors. From
 // the lamps' tables in double. A crest of the road between lamp and eye hides the lamp; nothing else does.
+// Glare through the mirrors of a car ahead in the own lane, at fixed gaps: what this car's driver has from a follower with the same lamps.
+// Glare from other road users in the own driver's eyes, folded over the drive.
 #pragma once
 
 #include "metrics/folds/seeing_series.h"
@@ -52,6 +54,43 @@ class OncomingFold {
     const Route& route_;
     std::vector<Eye> eyes_;
     std::vector<std::string> lamps_;
+};
+
+class MirrorFold {
+  public:
+    /// The drive must ask for glare in mirrors. Drive and route must outlive the fold.
+    MirrorFold(const Drive& drive, const Route& route);
+    void add(const Moment& moment);
+    /// Per gap of 15 m: mirror_NAME_at_15m_lx and _max_lx, median and largest illuminance on the mirror facing the lamps; and of the eye,
+    /// through all mirrors together, glare_mirrors_15m_... as of an oncoming driver.
+    Readings readings() const;
+    /// Over the distance along the route.
+    std::vector<SeeingSeries> series() const;
+
+  private:
+    struct Gap {
+        std::vector<std::vector<double>> mirror_lx; ///< by mirror
+        GlareFollowed eye;
+    };
+    const Drive& drive_;
+    const Route& route_;
+    std::vector<Gap> gaps_;
+    std::vector<std::string> sources_; ///< "left_in_inside": each lamp in each mirror
+};
+
+class TrafficFold {
+  public:
+    /// The drive must ask for glare and have traffic. It must outlive the fold.
+    explicit TrafficFold(const Drive& drive);
+    void add(const Moment& moment);
+    /// glare_own_...: of the driver's eye, where the first view that is no map has it, looking along the car; as of an oncoming driver.
+    Readings readings() const;
+
+  private:
+    const Drive& drive_;
+    glm::dvec3 eye_m_{1.3, 0.35, 1.2}; ///< in the car's frame
+    std::vector<BodyBox> boxes_;
+    GlareFollowed eye_;
 };
 
 } // namespace fernlicht

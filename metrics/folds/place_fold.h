@@ -1,10 +1,12 @@
 // Light on the kerb, on boards at standard places and on edge markings, by distance ahead, over a drive; from the lamps' tables in double.
 // Boards and markings have the materials that pictures have (scenarios/roads/mesh/mesh_materials.cpp): sheeting of class RA2, white paint
 // of 150 mcd/(m2 lx), and their fall-off with the angle of observation.
+// Where across a road's section sensors and observers stand.
 #pragma once
 
 #include "metrics/folds/seeing_series.h"
 #include "metrics/readings/readings.h"
+#include "scenarios/drives/drive.h"
 #include "scenarios/drives/play/moment.h"
 #include "scenarios/values/scene.h"
 
@@ -33,5 +35,11 @@ class PlaceFold {
     glm::dvec3 eye_m_{0.0};
     std::vector<Figure> figures_;
 };
+
+/// Offset from the own lane's centre, left positive. nullopt: there is no such lane here. Edges are those of all driving lanes.
+std::optional<double> offset_across_m(const CrossSection& section, Across across);
+
+/// "right edge of the lanes".
+std::string place_name(Across across);
 
 } // namespace fernlicht

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "metrics/folds/control_fold.h"
+#include "metrics/folds/glare_fold.h"
 #include "metrics/folds/homogeneity_fold.h"
-#include "metrics/folds/mirror_fold.h"
 #include "metrics/folds/place_fold.h"
 #include "metrics/folds/sensor_fold.h"
-#include "metrics/folds/traffic_fold.h"
 #include "metrics/folds/visibility_fold.h"
 #include "metrics/readings/readings.h"
 

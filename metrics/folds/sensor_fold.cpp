@@ -1,6 +1,6 @@
 #include "metrics/folds/sensor_fold.h"
 
-#include "metrics/folds/road_places.h"
+#include "metrics/folds/place_fold.h"
 #include "metrics/glare/eye_light.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "metrics/folds/visibility_fold.h"
 
-#include "metrics/folds/road_places.h"
-#include "metrics/readings/many_moments.h"
+#include "metrics/folds/place_fold.h"
+#include "metrics/readings/value.h"
 #include "metrics/road/lit_line.h"
 #include "metrics/seeing/mesopic.h"
 #include "metrics/statistics/statistics.h"

@@ -5,7 +5,6 @@
 #include "metrics/folds/seeing_series.h"
 #include "metrics/readings/readings.h"
 #include "metrics/road/lane_ahead.h"
-#include "metrics/seeing/lit_surface.h"
 #include "metrics/seeing/visibility.h"
 
 namespace fernlicht {

@@ -157,10 +157,6 @@ template <class Pixel> Image<float> worst_of_exposures(const Image<Pixel>& teste
 
 } // namespace
 
-double pixels_per_degree_of_screen(double distance_m, double width_m, int width_px) {
-    return distance_m * width_px / width_m * radians(1.0);
-}
-
 double pixels_per_degree_of_view(double vertical_fov_rad, int height_px) {
     return 0.5 * height_px / std::tan(0.5 * vertical_fov_rad) * radians(1.0);
 }

@@ -18,8 +18,6 @@ inline bool has_flip_at(double pixels_per_degree) {
     return pixels_per_degree >= least_pixels_per_degree && pixels_per_degree <= most_pixels_per_degree;
 }
 
-/// At the middle of a screen: distance * pixels / width, per degree. All above 0.
-double pixels_per_degree_of_screen(double distance_m, double width_m, int width_px);
 /// On the axis of a perspective view: a picture seen from where it was drawn for. Field of view above 0 and below 180 degrees.
 double pixels_per_degree_of_view(double vertical_fov_rad, int height_px);
 

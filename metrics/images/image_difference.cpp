@@ -1,10 +1,16 @@
 #include "metrics/images/image_difference.h"
 
+#include "metrics/statistics/statistics.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <vector>
 
 namespace fernlicht {
 namespace {
@@ -64,6 +70,220 @@ ImageDifference compare_images(const Image<float>& tested, const Image<float>& r
     result.identical = result.maximum == 0.0;
     result.percent_over = 100.0 * static_cast<double>(over) / pixels;
     return result;
+}
+
+namespace {
+
+std::array<int, 3> levels(const Rgb8& p) { return {p.r, p.g, p.b}; }
+
+template <class Value> Image<float> made_of(const Image<Rgb8>& picture, const Value& value) {
+    Image<float> out(picture.width(), picture.height());
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out.pixels()[i] = value(picture.pixels()[i]);
+    return out;
+}
+
+} // namespace
+
+DisplayDifference compare_displays(const Image<Rgb8>& tested, const Image<Rgb8>& reference) {
+    if (tested.width() != reference.width() || tested.height() != reference.height())
+        throw std::invalid_argument(fmt::format("pictures of {}x{} and {}x{} cannot be compared", tested.width(), tested.height(),
+                                                reference.width(), reference.height()));
+    if (tested.empty())
+        throw std::invalid_argument("empty pictures cannot be compared");
+    DisplayDifference result;
+    std::array<long long, 3> sums{};
+    long long squares = 0, different = 0; // whole numbers: exact up to 4e13 pixels
+    for (int y = 0; y < tested.height(); ++y)
+        for (int x = 0; x < tested.width(); ++x) {
+            const auto a = levels(tested.at(x, y)), b = levels(reference.at(x, y));
+            bool differs = false;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const int difference = a[c] - b[c];
+                sums[c] += difference;
+                squares += difference * difference;
+                differs = differs || difference != 0;
+                if (std::abs(difference) > result.maximum) {
+                    result.maximum = std::abs(difference);
+                    result.maximum_x = x;
+                    result.maximum_y = y;
+                }
+            }
+            different += differs ? 1 : 0;
+        }
+    const auto pixels = static_cast<double>(tested.size());
+    result.rmse = std::sqrt(static_cast<double>(squares) / (3.0 * pixels));
+    result.psnr_db = squares == 0 ? std::numeric_limits<double>::infinity() : 20.0 * std::log10(255.0 / result.rmse);
+    result.percent_different = 100.0 * static_cast<double>(different) / pixels;
+    for (std::size_t c = 0; c < 3; ++c)
+        result.mean_signed[c] = static_cast<double>(sums[c]) / pixels;
+    return result;
+}
+
+Image<float> luma_of(const Image<Rgb8>& picture) {
+    return made_of(picture, [](const Rgb8& p) {
+        return 0.2126F * static_cast<float>(p.r) + 0.7152F * static_cast<float>(p.g) + 0.0722F * static_cast<float>(p.b);
+    });
+}
+
+Image<float> channel_of(const Image<Rgb8>& picture, int channel) {
+    return made_of(picture, [channel](const Rgb8& p) { return static_cast<float>(levels(p)[static_cast<std::size_t>(channel)]); });
+}
+
+namespace {
+
+void check(const NoisyPicture& a, const NoisyPicture& b) {
+    for (const Image<float>* const image : {a.mean, a.variance, b.mean, b.variance, a.mixed, b.mixed}) {
+        if (!image)
+            continue;
+        if (image->empty() || image->width() != a.mean->width() || image->height() != a.mean->height())
+            throw std::invalid_argument("compare_noisy: pictures are empty or of different sizes");
+        if (!std::ranges::all_of(image->pixels(), [](float value) { return std::isfinite(value); }))
+            throw std::invalid_argument("compare_noisy: a value is not finite");
+    }
+    for (const Image<float>* const image : {a.variance, b.variance})
+        if (std::ranges::any_of(image->pixels(), [](float value) { return value < 0.0F; }))
+            throw std::invalid_argument("compare_noisy: a variance is below 0");
+}
+
+bool same(const Image<float>& a, const Image<float>& b) { return std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0; }
+
+bool is_mixed(const NoisyPicture& picture, int x, int y) { return picture.mixed && picture.mixed->at(x, y) != 0.0F; }
+
+/// The pixel's variance, at least the mean of those around it.
+double raised(const Image<float>& variance, int x, int y) {
+    double sum = 0.0;
+    int count = 0;
+    for (int j = std::max(0, y - 1); j <= std::min(variance.height() - 1, y + 1); ++j)
+        for (int i = std::max(0, x - 1); i <= std::min(variance.width() - 1, x + 1); ++i, ++count)
+            sum += static_cast<double>(variance.at(i, j));
+    return std::max(static_cast<double>(variance.at(x, y)), sum / count);
+}
+
+/// What is known of a block, or of all of them.
+struct Sums {
+    double difference = 0.0, variance = 0.0;
+    double estimated = 0.0, squares = 0.0; ///< of the variances as they were estimated
+    std::size_t pixels = 0;
+
+    double z() const { return variance > 0.0 ? difference / std::sqrt(variance) : 0.0; }
+    int freedom(int of_a_pixel) const {
+        return squares > 0.0 ? std::max(of_a_pixel, static_cast<int>(of_a_pixel * estimated * estimated / squares)) : of_a_pixel;
+    }
+    void add(const Sums& other) {
+        difference += other.difference;
+        variance += other.variance;
+        pixels += other.pixels;
+    }
+};
+
+class NoisyComparison {
+  public:
+    NoisyComparison(const NoisyPicture& a, const NoisyPicture& b, double absolute, double relative)
+        : a_(a), b_(b), absolute_(absolute), relative_(relative) {}
+
+    NoisyDifference run(double false_alarm) {
+        std::vector<Sums> blocks;
+        std::vector<std::pair<int, int>> places;
+        for (int y = 0; y < a_.mean->height(); y += noise_block_px)
+            for (int x = 0; x < a_.mean->width(); x += noise_block_px)
+                if (const Sums block = sums_of(x, y); block.pixels > 0) {
+                    blocks.push_back(block);
+                    places.emplace_back(x, y);
+                }
+        out_.blocks = blocks.size();
+        out_.sum_ratio = sum_b_ == 0.0 ? 1.0 : sum_a_ / sum_b_;
+        if (!blocks.empty())
+            judge(blocks, places, false_alarm);
+        return out_;
+    }
+
+  private:
+    Sums sums_of(int x0, int y0) {
+        Sums block;
+        for (int y = y0; y < std::min(y0 + noise_block_px, a_.mean->height()); ++y)
+            for (int x = x0; x < std::min(x0 + noise_block_px, a_.mean->width()); ++x)
+                add_pixel(block, x, y);
+        return block;
+    }
+
+    void add_pixel(Sums& block, int x, int y) {
+        const double mean_a = a_.mean->at(x, y), mean_b = b_.mean->at(x, y), difference = mean_a - mean_b;
+        const double variance = raised(*a_.variance, x, y) + raised(*b_.variance, x, y);
+        if (!(variance > 0.0)) {
+            out_.exact_over += std::abs(difference) > absolute_ + relative_ * std::abs(mean_b) ? 1U : 0U;
+            return;
+        }
+        if (is_mixed(a_, x, y) || is_mixed(b_, x, y)) {
+            ++out_.left_out;
+            return;
+        }
+        ++out_.compared;
+        ++block.pixels;
+        sum_a_ += mean_a;
+        sum_b_ += mean_b;
+        block.difference += difference;
+        block.variance += variance;
+        for (const Image<float>* const image : {a_.variance, b_.variance}) {
+            const double estimated = image->at(x, y);
+            block.estimated += estimated;
+            block.squares += estimated * estimated;
+        }
+    }
+
+    void judge(const std::vector<Sums>& blocks, const std::vector<std::pair<int, int>>& places, double false_alarm) {
+        const int of_a_pixel = std::min(a_.freedom, b_.freedom);
+        std::map<int, double> bounds; // many blocks have as many degrees of freedom as others
+        Sums all;
+        double worst = -1.0;
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
+            all.add(blocks[i]);
+            const auto [at, is_new] = bounds.try_emplace(blocks[i].freedom(of_a_pixel), 0.0);
+            if (is_new)
+                at->second = student_bound(at->first, 0.5 * false_alarm, blocks.size());
+            const double z = std::abs(blocks[i].z());
+            out_.blocks_over += z > at->second ? 1U : 0U;
+            if (z / at->second > worst) {
+                worst = z / at->second;
+                out_.worst_z = z;
+                out_.worst_bound = at->second;
+                out_.worst_x = places[i].first;
+                out_.worst_y = places[i].second;
+            }
+        }
+        out_.sum_z = all.z();
+        out_.sum_bound = normal_bound(0.5 * false_alarm, 1);
+    }
+
+    const NoisyPicture &a_, &b_;
+    double absolute_, relative_, sum_a_ = 0.0, sum_b_ = 0.0;
+    NoisyDifference out_;
+};
+
+} // namespace
+
+NoisyDifference compare_noisy(const NoisyPicture& a, const NoisyPicture& b, double threshold_absolute, double threshold_relative,
+                              double false_alarm) {
+    check(a, b);
+    NoisyDifference out = NoisyComparison(a, b, threshold_absolute, threshold_relative).run(false_alarm);
+    out.identical = same(*a.mean, *b.mean) && same(*a.variance, *b.variance);
+    return out;
+}
+
+Image<float> decades_of(const Image<float>& picture, double peak) {
+    if (!(peak > 0.0 && std::isfinite(peak)))
+        throw std::invalid_argument("decades of a picture need a peak above 0");
+    const double darkest = peak * std::pow(10.0, -decades_below_peak);
+    Image<float> out(picture.width(), picture.height());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const auto value = static_cast<double>(picture.pixels()[i]);
+        out.pixels()[i] = value > darkest ? static_cast<float>(std::log10(value / peak) + decades_below_peak) : 0.0F;
+    }
+    return out;
+}
+
+double peak_of(const Image<float>& picture) {
+    return picture.empty() ? 0.0 : std::max(0.0, static_cast<double>(*std::ranges::max_element(picture.pixels())));
 }
 
 } // namespace fernlicht

@@ -1,7 +1,15 @@
 // How two linear pictures differ.
+// How two display pictures (8-bit sRGB) differ, in their own levels 0..255 over all three channels.
+// How two pictures differ whose pixels are means with estimated variances: rays against rays.
+// Light as an eye and a log scale take it: in decades, for metrics that compare structure.
 #pragma once
 
+#include "scenarios/drives/play/frame.h"
 #include "scenarios/values/image.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace fernlicht {
 
@@ -18,5 +26,75 @@ struct ImageDifference {
 /// Throws std::invalid_argument for different sizes, empty pictures, NaN or infinity in either (with the first such pixel).
 ImageDifference compare_images(const Image<float>& tested, const Image<float>& reference, double threshold_absolute,
                                double threshold_relative);
+
+struct DisplayDifference {
+    int maximum = 0;                     ///< largest |a - b| of a channel
+    int maximum_x = 0, maximum_y = 0;    ///< the first such pixel by rows
+    double rmse = 0.0;                   ///< root of the mean square over pixels and channels
+    double psnr_db = 0.0;                ///< 20 log10(255 / rmse): the peak is 255. +infinity where nothing differs
+    double percent_different = 0.0;      ///< of the pixels, in any channel
+    std::array<double, 3> mean_signed{}; ///< tested - reference, of R, G and B
+};
+/// Throws std::invalid_argument for different sizes or empty pictures.
+DisplayDifference compare_displays(const Image<Rgb8>& tested, const Image<Rgb8>& reference);
+
+/// 0.2126 R + 0.7152 G + 0.0722 B of the encoded values, 0..255: BT.709's luma, what SSIM is taken of.
+Image<float> luma_of(const Image<Rgb8>& picture);
+/// 0: R, 1: G, 2: B; 0..255.
+Image<float> channel_of(const Image<Rgb8>& picture, int channel);
+
+struct NoisyPicture {
+    const Image<float>* mean;
+    const Image<float>* variance; ///< of the mean, in its unit squared, as estimated from samples
+    const Image<float>* mixed;    ///< not 0: several surfaces or a shadow's edge in the pixel; nullptr where nobody knows
+    int freedom;                  ///< degrees of freedom of each pixel's variance; at least 1
+};
+
+/// Edge of the squares of pixels that are tested as one; the last column and row of squares may be cut.
+constexpr int noise_block_px = 4;
+
+struct NoisyDifference {
+    bool identical = false;      ///< means and variances, to the bit
+    std::size_t compared = 0;    ///< pixels that are tested: with noise, mixed in neither picture
+    std::size_t left_out = 0;    ///< pixels with noise that are mixed in either picture
+    std::size_t blocks = 0;      ///< with at least one pixel that is tested
+    std::size_t blocks_over = 0; ///< beyond their bound
+    double worst_z = 0.0;     ///< of the block that is farthest beyond its bound, or nearest to it: |sum (a - b)| / sqrt(sum of variances)
+    double worst_bound = 0.0; ///< what chance reaches there
+    int worst_x = 0, worst_y = 0; ///< its first pixel
+    double sum_z = 0.0;           ///< the same for all tested pixels, signed: sees light that is missing everywhere a little
+    double sum_bound = 0.0;       ///< what |sum_z| may reach by chance
+    double sum_ratio = 1.0;       ///< sum of a over sum of b, tested pixels; 1 where b is black
+    std::size_t exact_over = 0;   ///< pixels without noise that differ by more than the threshold
+
+    bool differs() const { return !identical && (blocks_over > 0 || sum_z > sum_bound || -sum_z > sum_bound || exact_over > 0); }
+    /// Whether more pixels are tested than left out. Where not, that nothing differs says little.
+    bool enough() const { return identical || compared >= left_out; }
+};
+
+/// Two tests at half of `false_alarm` each, all blocks and their sum.
+/// - Where few samples meet an edge of light, most sets of them hit one side alone: the mean is off by many of its estimated errors. So a
+///   pixel's variance is taken to be at least the mean of those of the 3 x 3 around it: edges of light cross several pixels, of which some
+///   sample both sides. It is never lowered. Pixels known to be mixed are left out and counted: small things are missed by all samples
+///   alike.
+/// - Pixels are added up over blocks, whose means are nearer to the normal distribution than one pixel's, by which also a small difference
+///   over a zone is seen. Bound: Student's t, two-sided, at false_alarm / 2 / blocks (Bonferroni), with Welch and Satterthwaite's degrees
+///   of freedom of the block, f (sum v)^2 / sum v^2 over both pictures' estimated variances: f where one pixel decides, more where many do.
+/// - Sum: normal.
+/// Pixels without variance all around must agree within threshold_absolute + threshold_relative * |b|. Throws std::invalid_argument for
+/// different sizes, empty pictures, values that are not finite, variances below 0.
+NoisyDifference compare_noisy(const NoisyPicture& a, const NoisyPicture& b, double threshold_absolute, double threshold_relative,
+                              double false_alarm);
+
+/// How far below the reference's largest value structure is looked at: four decades are headlamps on the road (100 lx) down to moonlight
+/// (0.01 lx).
+inline constexpr double decades_below_peak = 4.0;
+
+/// log10(value / peak) + decades_below_peak, 0 for everything darker than that (also for 0 and below), so 0..4 for a picture with this
+/// peak. The range to hand to ssim() is decades_below_peak. Throws std::invalid_argument for a peak that is not above 0.
+Image<float> decades_of(const Image<float>& picture, double peak);
+
+/// The largest value; 0 for a picture without light.
+double peak_of(const Image<float>& picture);
 
 } // namespace fernlicht

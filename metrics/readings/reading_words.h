@@ -1,7 +1,11 @@
 // Readings as people say them.
+// The table of quantities for people.
+// Units as people write them.
 #pragma once
 
 #include "metrics/readings/reading_key.h"
+
+#include <string>
 
 namespace fernlicht {
 
@@ -10,5 +14,15 @@ std::string reading_in_words(const ReadingKey& key);
 
 /// Whose eyes a glare reading is of: "mirrors of a car 15 m ahead", "eyes of oncoming driver opposite".
 std::string eyes_in_words(const ReadingKey& key);
+
+/// A paragraph for each quantity: its names, unit, which way is better, what it is.
+std::string readings_text();
+/// The table of docs/readings.md, with equation and source.
+std::string readings_markdown();
+
+/// "m2": "m²"; "cd/m2": "cd/m²". Other units stay as they are.
+inline std::string unit_in_words(const std::string& unit) {
+    return unit == "m2" || unit.ends_with("/m2") ? unit.substr(0, unit.size() - 1) + "²" : unit;
+}
 
 } // namespace fernlicht

@@ -1,12 +1,166 @@
 #include "metrics/readings/significance.h"
 
-#include "metrics/readings/left_open.h"
-#include "metrics/readings/moved_by_light.h"
-
 #include <algorithm>
+#include <iterator>
 
 namespace fernlicht {
 namespace {
+
+/// Calculated from the lamps' tables in double precision, on places and by definitions that leave no choice.
+constexpr double double_precision = 1e-6;
+/// The own lane's grid of evenness (docs/seeing.md): patches begin and end at its points.
+constexpr double evenness_step_m = 0.5;
+
+std::optional<double> positive(double step) { return step > 0.0 ? std::optional(step) : std::nullopt; }
+
+/// The grid's error on that line and the distance between drawing and double precision.
+std::optional<double> of_grid_and_drawing(const PlayedReadings& played, const ReadingKey& key) {
+    const auto centre = value_of(played, about_lane(Quantity::reach, key, Aspect::grid_error)),
+               twin = value_of(played, about_lane(Quantity::reach, key, Aspect::twin_difference));
+    ReadingKey line = about_lane(key.quantity, key, Aspect::grid_error);
+    line.place = key.place == ReadingPlace::none ? ReadingPlace::none : ReadingPlace::edges;
+    auto grid = value_of(played, line);
+    grid = grid ? grid : centre;
+    return grid && twin ? std::optional(*grid + *twin) : std::nullopt;
+}
+
+std::optional<double> of_drawing(const PlayedReadings& played, const Reading& reading) {
+    ReadingKey key = reading.key;
+    key.aspect = Aspect::twin;
+    const auto twin = reading.key.aspect == Aspect::value && key.statistic == Statistic::median ? value_of(played, key) : std::nullopt;
+    return twin ? std::optional(std::abs(*twin - *reading.value.figure())) : std::nullopt;
+}
+
+/// To either side, in the reading's unit; nullopt when nothing tells.
+std::optional<double> left_open(const PlayedReadings& played, const Reading& reading) {
+    if (!reading.value.measured())
+        return std::nullopt;
+    if (ReadingKey key = reading.key; key.aspect == Aspect::value) {
+        key.aspect = Aspect::standard_error;
+        if (const auto stated = value_of(played, key))
+            return stated;
+    }
+    switch (row_of(reading.key.quantity).exactness) {
+    case Exactness::double_precision:
+        return double_precision * std::abs(*reading.value.figure());
+    case Exactness::grid_and_drawing:
+        return of_grid_and_drawing(played, reading.key);
+    case Exactness::grid:
+        return value_of(played, about_lane(reading.key.quantity, reading.key, Aspect::grid_error));
+    case Exactness::grid_columns:
+        return 2.0 * played.grid_cell_m / 4.0; // across a column is a quarter of a row
+    case Exactness::drawing:
+        return of_drawing(played, reading);
+    case Exactness::between_moments:
+        return positive(reading.key.quantity == Quantity::glare_time ? played.step_s : played.step_m);
+    case Exactness::look_step:
+        return positive(played.look_step_m);
+    case Exactness::look_step_twice:
+        return positive(2.0 * played.look_step_m);
+    case Exactness::evenness_step_twice:
+        return 2.0 * evenness_step_m;
+    case Exactness::unknown:
+        break;
+    }
+    return std::nullopt;
+}
+
+/// How far noise of the tables is followed: three standard deviations of one intensity. Light on the road is interpolated from several
+/// intensities of two lamps, whose noise averages; what deviates evenly within +-a never goes beyond 1.73 of them.
+constexpr double noise_deviations = 3.0;
+
+constexpr double rating_by_light = 2.0 / 2.302585092994046; // de Boer: W = 5 - 2 lg (E ...), after ln E
+
+/// The steeper of the slopes to the thresholds next to this one, over the logarithm of the light.
+std::optional<double> slope_over_limits(const PlayedReadings& played, const Reading& reading) {
+    ReadingKey key = reading.key;
+    const double own_lx = key.threshold.value;
+    std::map<double, double> by_lx;
+    for (const auto& [other, found] : played.readings) {
+        key.threshold.value = other.threshold.value;
+        if (key == other && found.value.number() && other.threshold.value > 0.0)
+            by_lx[other.threshold.value] = *found.value.number();
+    }
+    std::optional<double> slope;
+    const auto own = by_lx.find(own_lx);
+    if (own == by_lx.end())
+        return slope;
+    if (own != by_lx.begin())
+        slope = std::abs(std::prev(own)->second - own->second) / std::log(own_lx / std::prev(own)->first);
+    if (const auto above = std::next(own); above != by_lx.end())
+        slope = std::max(slope.value_or(0.0), std::abs(above->second - own->second) / std::log(above->first / own_lx));
+    return slope;
+}
+
+/// Times and lengths below a rating, over the ratings that have them: the steepest slope, by how the rating goes with the light.
+std::optional<double> slope_over_ratings(const PlayedReadings& played, const Reading& reading) {
+    ReadingKey key = reading.key;
+    std::map<double, double> by_rating;
+    for (const auto& [other, found] : played.readings) {
+        key.threshold.value = other.threshold.value;
+        if (key == other && found.value.number())
+            by_rating[other.threshold.value] = *found.value.number();
+    }
+    std::optional<double> slope;
+    for (auto above = by_rating.begin(); above != by_rating.end(); ++above)
+        if (above != by_rating.begin()) {
+            const auto below = std::prev(above);
+            slope = std::max(slope.value_or(0.0), std::abs(above->second - below->second) / (above->first - below->first));
+        }
+    return slope ? std::optional(*slope * rating_by_light) : std::nullopt;
+}
+
+/// Detection: the level of a target goes with the light at most, so the distance moves no further than the steepest fall of the level over
+/// the distance lets it.
+std::optional<double> slope_over_distance(const PlayedReadings& played, const Reading& reading) {
+    const ReadingKey& key = reading.key;
+    std::map<double, double> levels;
+    for (const auto& [other, found] : played.readings)
+        if (other.quantity == Quantity::visibility_level && other.subject == key.subject && other.lane == key.lane &&
+            other.place == key.place && other.aspect == Aspect::value && found.value.number().value_or(0.0) > 0.0)
+            levels[*other.distance_m] = *found.value.number();
+    std::optional<double> slope;
+    for (auto far = levels.begin(); far != levels.end(); ++far)
+        if (far != levels.begin()) {
+            const auto near = std::prev(far);
+            const double fall = std::abs(std::log(far->second / near->second));
+            if (fall > 0.0)
+                slope = std::max(slope.value_or(0.0), (far->first - near->first) / fall);
+        }
+    return slope;
+}
+
+/// What 100 % more light would move a reading by, going on as it begins: its derivative after the logarithm of the light. Illuminance and
+/// luminance go with the light; reach has its sensitivity to flux; other extents take the steeper slope to the same extent at the next
+/// limits, for twice the light reaches twice the limit. nullopt when nothing tells.
+std::optional<double> moved_by_light(const PlayedReadings& played, const Reading& reading) {
+    if (!reading.value.number())
+        return std::nullopt;
+    const double size = std::abs(*reading.value.number());
+    switch (row_of(reading.key.quantity).with_light) {
+    case WithLight::proportional:
+        return size;
+    case WithLight::twice:
+        return 2.0 * size;
+    case WithLight::like_de_boer:
+        return rating_by_light;
+    case WithLight::over_distance:
+        return slope_over_distance(played, reading);
+    case WithLight::over_thresholds:
+        break;
+    case WithLight::unknown:
+        return std::nullopt;
+    }
+    if (reading.key.threshold.unit == ThresholdUnit::percent)
+        return std::nullopt;
+    if (reading.key.threshold.unit == ThresholdUnit::de_boer)
+        return slope_over_ratings(played, reading);
+    const auto slope = slope_over_limits(played, reading);
+    const auto tenth = reading.key.quantity == Quantity::reach
+                           ? value_of(played, about_lane(Quantity::reach, reading.key, Aspect::per_tenth_flux))
+                           : std::nullopt;
+    return tenth ? std::optional(std::max(slope.value_or(0.0), std::abs(*tenth) / 0.1)) : slope;
+}
 
 /// The spread between repeats on top of what calculation leaves open, where they differ.
 std::optional<double> with_repeats(const PlayedReadings& cell, const Reading& reading) {

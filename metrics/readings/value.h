@@ -1,10 +1,13 @@
 // What a measurement knows of a figure: the figure itself, a bound beyond which nothing was looked at, or why nothing is known.
+// One figure of many moments, some of which give a bound only.
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fernlicht {
 
@@ -49,9 +52,6 @@ class Value {
 /// nothing bounds the difference: "both beyond 200 m".
 Value difference(const Value& a, const Value& b, std::string_view unit);
 
-/// By rank: figures ascending; of equal ones "at most" before the number before "at least". What is not measured ranks before all.
-bool ranks_before(const Value& a, const Value& b);
-
 const char* bound_sign(const Value& value); ///< ">", "<" or ""
 /// The figure's text with what bounds it: "> 200" for a value of at least 200.
 std::string with_bound(const Value& value, const std::string& figure);
@@ -59,5 +59,33 @@ const char* bound_name(const Value& value); ///< "at_least", "at_most" or ""
 
 /// Whether the value holds a limit. nullopt: its bound, or that it is not measured, leaves it open.
 std::optional<bool> holds(const Value& value, const std::optional<double>& at_least, const std::optional<double>& at_most);
+
+/// Quantiles of type 7 (Hyndman and Fan 1996) of what the moments gave. A moment that gave a bound may be anything beyond it: a quantile
+/// that this can move is a bound itself, all others are numbers.
+class ManyMoments {
+  public:
+    /// `why_none`: the reason when no moment adds anything.
+    explicit ManyMoments(std::string why_none) : why_none_(std::move(why_none)) {}
+    ManyMoments() : ManyMoments("not there in any moment") {}
+
+    /// One that is not measured says nothing of rank: it is left out, and its reason told.
+    void add(const Value& value);
+
+    std::size_t count() const { return low_.size(); }
+    std::size_t left_out() const { return left_out_; }
+    /// `share` from 0 to 1. Not measured, with the reason, where no moment added anything or nothing bounds it.
+    Value quantile(double share) const;
+    Value mean() const;               ///< not measured where a moment gave a bound
+    Value standard_deviation() const; ///< of the moments (n - 1; 0 of one); as mean()
+    /// "500 moments, 12 left out: cut off by the end of the road or lane", with the first reason of those.
+    std::string account() const;
+
+  private:
+    std::string why_none() const;
+
+    std::string why_none_, why_left_out_;
+    std::vector<double> low_, high_; ///< what each moment may be, at least and at most
+    std::size_t left_out_ = 0, at_least_ = 0, at_most_ = 0;
+};
 
 } // namespace fernlicht

@@ -2,7 +2,7 @@
 // Directions are those of the goniometer: H right positive, V up positive, degrees, for right-hand traffic.
 #pragma once
 
-#include "metrics/beam/receiver.h"
+#include "metrics/beam/received_beam.h"
 
 #include <limits>
 #include <string>

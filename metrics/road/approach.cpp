@@ -1,6 +1,5 @@
 #include "metrics/road/approach.h"
 
-#include "metrics/road/crossing.h"
 #include "metrics/road/lit_line.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // A figure followed while a car comes nearer to a place: what it is at a distance, how far away it passes a limit, for how long.
-// Between moments it runs as in crossing.h: straight in its logarithm, straight where one of the two is 0.
+// Between moments it runs as in lit_line.h: straight in its logarithm, straight where one of the two is 0.
 #pragma once
 
 #include "metrics/readings/value.h"

@@ -2,7 +2,11 @@
 
 #include "metrics/road/lit_road.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
@@ -121,6 +125,158 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
     for (LaneExtent& extent : extents)
         extent.plane = plane;
     return extents;
+}
+
+namespace {
+
+/// Whole steps in a length, one more where rounding took it away.
+int steps_in(double length_m, double step_m) { return static_cast<int>(std::floor(length_m / step_m * (1.0 + 1e-12))); }
+
+void check(const ExtentParameters& parameters) {
+    constexpr double most_points = 4e7;
+    const double rows = parameters.ahead_m / parameters.cell_m + 1.0;
+    const double columns = 8.0 * parameters.beside_m / parameters.cell_m + 1.0;
+    if (!(std::isfinite(parameters.cell_m) && parameters.cell_m > 0.0 && parameters.ahead_m > 0.0 && parameters.beside_m > 0.0 &&
+          rows * columns <= most_points))
+        throw std::invalid_argument(fmt::format("a grid of {} m cells over {} m ahead and {} m to each side cannot be made",
+                                                parameters.cell_m, parameters.ahead_m, parameters.beside_m));
+}
+
+/// Every cell_m / 4 where lanes may be paved, and a cell beside them; every cell_m farther out, where only light on grass is looked at.
+std::vector<double> columns_of(const ExtentGrid& grid, const ExtentParameters& parameters) {
+    double left_m = 0.0, right_m = 0.0;
+    for (const CrossSection& section : grid.sections) {
+        left_m = std::max(left_m, section.paved_left_m + parameters.cell_m);
+        right_m = std::min(right_m, section.paved_right_m - parameters.cell_m);
+    }
+    const double across_m = parameters.cell_m / 4.0;
+    const int beside = steps_in(parameters.beside_m, across_m);
+    std::vector<double> offsets_m;
+    for (int i = -beside; i <= beside; ++i) {
+        const double offset_m = i * across_m;
+        const bool fine = offset_m >= right_m && offset_m <= left_m;
+        if (fine || i % 4 == 0 || std::abs(i) == beside)
+            offsets_m.push_back(offset_m);
+    }
+    return offsets_m;
+}
+
+} // namespace
+
+ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bumper_m, const ExtentParameters& parameters) {
+    check(parameters);
+    ExtentGrid grid;
+    grid.target_height_m = parameters.target_height_m;
+    const double bumper_at_m = moment.distance_m + bumper_m;
+    const double ahead_m = std::min(parameters.ahead_m, route.length_m() - bumper_at_m);
+    for (int i = 0; ahead_m >= 0.0 && i <= steps_in(ahead_m, parameters.cell_m); ++i)
+        grid.ahead_m.push_back(i * parameters.cell_m);
+    for (const double row_m : grid.ahead_m)
+        grid.sections.push_back(route.cross_section(bumper_at_m + row_m));
+    grid.offset_m = columns_of(grid, parameters);
+    const std::size_t columns = grid.offset_m.size();
+    grid.surface.resize(grid.ahead_m.size() * columns);
+    oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
+        route.poses(bumper_at_m + grid.ahead_m[row], grid.offset_m, {&grid.surface[row * columns], columns});
+    });
+    grid.cell_m2 = cell_areas_m2(grid);
+    return grid;
+}
+
+std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
+                                            const std::vector<double>& limits_lx, const std::vector<LaneExtent>& measured) {
+    std::vector<LaneGridError> errors;
+    const std::size_t columns = grid.offset_m.size();
+    if (grid.ahead_m.size() < 3 || columns < 3)
+        return errors;
+    ExtentGrid coarse;
+    coarse.target_height_m = grid.target_height_m;
+    std::vector<double> coarse_lx;
+    for (std::size_t column = 0; column < columns; column += 2)
+        coarse.offset_m.push_back(grid.offset_m[column]);
+    for (std::size_t row = 0; row < grid.ahead_m.size(); row += 2) {
+        coarse.ahead_m.push_back(grid.ahead_m[row]);
+        coarse.sections.push_back(grid.sections[row]);
+        for (std::size_t column = 0; column < columns; column += 2) {
+            coarse.surface.push_back(grid.surface[row * columns + column]);
+            coarse_lx.push_back(lx[row * columns + column]);
+        }
+    }
+    const std::vector<LaneExtent> other = measure_extent(coarse, coarse_lx, plane, limits_lx, {});
+    for (const LaneExtent& fine : measured) {
+        const auto found = std::ranges::find_if(
+            other, [&](const LaneExtent& extent) { return extent.lane == fine.lane && extent.limit_lx == fine.limit_lx; });
+        if (found == other.end() || fine.reach_is_cut_off || found->reach_is_cut_off)
+            continue;
+        errors.push_back({fine.limit_lx, plane, fine.lane, std::abs(fine.reach_centre_m - found->reach_centre_m),
+                          std::max(std::abs(fine.reach_left_edge_m - found->reach_left_edge_m),
+                                   std::abs(fine.reach_right_edge_m - found->reach_right_edge_m)),
+                          std::abs(fine.unlit_before_reach_m - found->unlit_before_reach_m), std::abs(fine.area_m2 - found->area_m2)});
+    }
+    return errors;
+}
+
+namespace {
+
+struct PickedGrid {
+    ExtentGrid grid;
+    std::vector<double> lx;
+};
+
+/// Every `step`th of the first `rows` and `columns`: all that reach_and_area asks for.
+PickedGrid picked(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t step, std::size_t rows, std::size_t columns) {
+    PickedGrid result;
+    for (std::size_t column = 0; column < columns; column += step)
+        result.grid.offset_m.push_back(grid.offset_m[column]);
+    for (std::size_t row = 0; row < rows; row += step) {
+        result.grid.ahead_m.push_back(grid.ahead_m[row]);
+        for (std::size_t column = 0; column < columns; column += step)
+            result.lx.push_back(lx[row * grid.offset_m.size() + column]);
+    }
+    result.grid.cell_m2 = cell_areas_m2(grid, step, rows, columns);
+    return result;
+}
+
+struct ReachAndArea {
+    std::optional<double> reach_m; ///< nullopt: lit where the grid, road or lane ends
+    double area_m2 = 0.0;
+};
+
+std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& limits_lx) {
+    const LitRoad road(grid, lx);
+    const bool has_centre = grid.offset_m.front() <= 0.0 && grid.offset_m.back() >= 0.0;
+    const std::optional<double> centre_m = has_centre ? std::optional(0.0) : std::nullopt;
+    const std::vector<LineSample> centre = road.along(std::vector(grid.ahead_m.size(), centre_m));
+    std::vector<ReachAndArea> results;
+    for (const double limit : limits_lx) {
+        const LitLine reach = lit_line(centre, limit);
+        results.push_back({reach.lit_at_end ? std::nullopt : std::optional(reach.last_m), road.lit_area(limit).all_m2()});
+    }
+    return results;
+}
+
+} // namespace
+
+std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
+                                  const std::vector<double>& limits_lx) {
+    check_measurable(grid, lx, limits_lx);
+    std::vector<GridError> errors;
+    if (grid.ahead_m.size() < 3 || grid.offset_m.size() < 3)
+        return errors;
+    // An odd number of both, so that the coarse grid covers what the fine one covers and only the cell differs.
+    const std::size_t rows = grid.ahead_m.size() - (grid.ahead_m.size() % 2 == 0 ? 1 : 0);
+    const std::size_t columns = grid.offset_m.size() - (grid.offset_m.size() % 2 == 0 ? 1 : 0);
+    const bool odd = rows == grid.ahead_m.size() && columns == grid.offset_m.size();
+    const PickedGrid trimmed = odd ? PickedGrid{} : picked(grid, lx, 1, rows, columns);
+    const PickedGrid coarse = picked(grid, lx, 2, rows, columns);
+    const std::vector<ReachAndArea> by_fine = reach_and_area(odd ? grid : trimmed.grid, odd ? lx : trimmed.lx, limits_lx);
+    const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, limits_lx);
+    for (std::size_t i = 0; i < limits_lx.size(); ++i) {
+        const std::optional<double>&fine_m = by_fine[i].reach_m, &coarse_m = by_coarse[i].reach_m;
+        errors.push_back({limits_lx[i], plane, fine_m && coarse_m ? std::optional(std::abs(*fine_m - *coarse_m)) : std::nullopt,
+                          std::abs(by_fine[i].area_m2 - by_coarse[i].area_m2)});
+    }
+    return errors;
 }
 
 } // namespace fernlicht

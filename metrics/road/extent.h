@@ -1,4 +1,5 @@
 // Illuminated road extent: how far and how wide the lamps light each lane. The product's first number.
+// How exact the extents of each lane are on a grid: what every second row and column would make of them.
 #pragma once
 
 #include "metrics/readings/readings.h"
@@ -16,7 +17,7 @@ struct ExtentGrid {
     std::vector<Pose> surface;          ///< row-major [ahead][offset]: point on the road and its normal (z axis)
     std::vector<CrossSection> sections; ///< one per `ahead_m`
     double target_height_m = 0.0;
-    /// Road surface of each cell's two triangles (lit_area.h), row-major; empty: not known yet, taken from `surface` by each measurement.
+    /// Road surface of each cell's two triangles (lit_road.h), row-major; empty: not known yet, taken from `surface` by each measurement.
     std::vector<std::array<double, 2>> cell_m2;
 };
 
@@ -64,7 +65,7 @@ std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& mo
 std::vector<double> deciding_twin_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane, const std::vector<double>& limits_lx);
 
 /// Extents at every limit of every lane that lies wholly within the width that was looked at, then of "all". `lx` row-major like
-/// `grid.surface`, from any source. Between samples illuminance runs as in crossing.h. Empty for a grid of less than two rows or
+/// `grid.surface`, from any source. Between samples illuminance runs as in lit_line.h. Empty for a grid of less than two rows or
 /// columns. Throws std::invalid_argument for a wrong number of values, NaN or infinity among them, or a limit not above 0.
 std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
                                        const std::vector<double>& limits_lx, const std::vector<double>& width_at_m);
@@ -90,5 +91,19 @@ struct GridError {
 };
 std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
                                   const std::vector<double>& limits_lx);
+
+/// |difference| of one lane's extents between the grid and every second row and column of it, metres. Where the error goes as the square of
+/// the cell, the grid's own is a third of this.
+struct LaneGridError {
+    double limit_lx = 0.0;
+    ExtentPlane plane = ExtentPlane::road;
+    std::string lane;                                                 ///< as LaneExtent::lane
+    double reach_m = 0.0, edge_m = 0.0, unlit_m = 0.0, area_m2 = 0.0; ///< `edge_m` is the larger of both edges'
+};
+
+/// `measured` is what measure_extent finds in `lx` on `grid`. A lane that the coarser grid loses (its edge lies beyond the last column),
+/// and a reach that is cut off on either, have no entry. Empty for a grid of less than three rows or columns.
+std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
+                                            const std::vector<double>& limits_lx, const std::vector<LaneExtent>& measured);
 
 } // namespace fernlicht

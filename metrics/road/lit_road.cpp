@@ -1,10 +1,10 @@
 #include "metrics/road/lit_road.h"
 
-#include "metrics/road/crossing.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -107,6 +107,177 @@ std::vector<double> LitRoad::across(double ahead_m) const {
         values[column] = share == 0.0 ? near : between_samples(near, row(before + 1)[column], share);
     }
     return values;
+}
+
+namespace {
+
+struct Corner {
+    double ahead_m = 0.0, offset_m = 0.0, lx = 0.0;
+};
+
+/// A convex part of a triangle: three corners, and one more for each of at most three cuts.
+struct Polygon {
+    std::array<Corner, 8> corners;
+    std::size_t count = 0;
+    void add(const Corner& corner) { corners[count++] = corner; }
+};
+
+double signed_area(const Polygon& polygon) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const Corner& a = polygon.corners[i];
+        const Corner& b = polygon.corners[(i + 1) % polygon.count];
+        twice += a.ahead_m * b.offset_m - b.ahead_m * a.offset_m;
+    }
+    return 0.5 * twice;
+}
+
+/// Sutherland and Hodgman: keeps the corners that `inside` keeps and cuts the sides that leave it at `share(a, b)` of their length.
+template <class Inside, class Share> Polygon clipped(const Polygon& polygon, Inside inside, Share share) {
+    Polygon result;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const Corner& a = polygon.corners[i];
+        const Corner& b = polygon.corners[(i + 1) % polygon.count];
+        if (inside(a))
+            result.add(a);
+        if (inside(a) != inside(b)) {
+            const double f = share(a, b);
+            result.add({a.ahead_m + (b.ahead_m - a.ahead_m) * f, a.offset_m + (b.offset_m - a.offset_m) * f, a.lx + (b.lx - a.lx) * f});
+        }
+    }
+    return result;
+}
+
+Polygon lit_part(const Polygon& polygon, double limit_lx) {
+    return clipped(
+        polygon, [limit_lx](const Corner& c) { return c.lx >= limit_lx; },
+        [limit_lx](const Corner& a, const Corner& b) { return crossing_share(a.lx, b.lx, limit_lx); });
+}
+
+/// What lies on the side of a straight lane edge where `sign * (offset - edge)` is not negative.
+Polygon beside(const Polygon& polygon, double from_ahead_m, double from_offset_m, double slope, double sign) {
+    const auto side = [=](const Corner& c) { return sign * (c.offset_m - (from_offset_m + slope * (c.ahead_m - from_ahead_m))); };
+    return clipped(
+        polygon, [side](const Corner& c) { return side(c) >= 0.0; },
+        [side](const Corner& a, const Corner& b) { return side(a) / (side(a) - side(b)); });
+}
+
+/// One cell with its four corners: near and far row, right and left column.
+struct Cell {
+    Corner near_right, near_left, far_right, far_left;
+
+    std::array<Polygon, 2> triangles() const {
+        return {Polygon{{near_right, far_right, far_left}, 3}, Polygon{{near_right, far_left, near_left}, 3}};
+    }
+};
+
+Cell cell_of(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t row, std::size_t column) {
+    const auto corner = [&](std::size_t r, std::size_t c) {
+        return Corner{grid.ahead_m[r], grid.offset_m[c], lx[r * grid.offset_m.size() + c]};
+    };
+    return {corner(row, column), corner(row, column + 1), corner(row + 1, column), corner(row + 1, column + 1)};
+}
+
+double triangle_area_m2(const Pose& a, const Pose& b, const Pose& c) {
+    return 0.5 * glm::length(glm::cross(b.position_m - a.position_m, c.position_m - a.position_m));
+}
+
+/// Area of the part that `cut` leaves of the lit part of each of the cell's triangles.
+template <class Cut> double lit_part_m2(const Cell& cell, const CellArea& areas_m2, double limit_lx, Cut cut) {
+    const std::array<Polygon, 2> triangles = cell.triangles();
+    double lit_m2 = 0.0;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        lit_m2 += areas_m2[i] * (signed_area(cut(lit_part(triangles[i], limit_lx))) / signed_area(triangles[i]));
+    return lit_m2;
+}
+
+} // namespace
+
+std::vector<CellArea> cell_areas_m2(const ExtentGrid& grid, std::size_t step, std::size_t rows, std::size_t columns) {
+    std::vector<CellArea> areas_m2;
+    const std::size_t stride = grid.offset_m.size();
+    areas_m2.reserve(rows * columns / step / step);
+    for (std::size_t row = 0; row + step < rows; row += step)
+        for (std::size_t column = 0; column + step < columns; column += step) {
+            const Pose* near = &grid.surface[row * stride + column];
+            const Pose* far = near + step * stride;
+            areas_m2.push_back({triangle_area_m2(near[0], far[0], far[step]), triangle_area_m2(near[0], far[step], near[step])});
+        }
+    return areas_m2;
+}
+
+LitArea::LitArea(const ExtentGrid& grid, const std::vector<CellArea>& cell_m2, const std::vector<double>& lx,
+                 const std::vector<double>& brightest_lx, double limit_lx)
+    : grid_(&grid), cell_m2_(&cell_m2), lx_(&lx), brightest_lx_(&brightest_lx), limit_lx_(limit_lx), lit_m2_(cell_m2.size()) {
+    const std::size_t cells = columns() - 1;
+    for (std::size_t row = 0; row + 1 < grid.ahead_m.size(); ++row) {
+        if (strip_is_dark(row))
+            continue;
+        const double* near = &lx[row * columns()];
+        const double* far = near + columns();
+        int lit_right = (near[0] >= limit_lx ? 1 : 0) + (far[0] >= limit_lx ? 1 : 0);
+        for (std::size_t column = 0; column < cells; ++column) {
+            const int lit_left = (near[column + 1] >= limit_lx ? 1 : 0) + (far[column + 1] >= limit_lx ? 1 : 0);
+            const int lit_corners = lit_right + lit_left;
+            lit_right = lit_left;
+            const CellArea& areas_m2 = cell_m2[row * cells + column];
+            if (lit_corners == 4)
+                lit_m2_[row * cells + column] = areas_m2[0] + areas_m2[1];
+            else if (lit_corners > 0)
+                lit_m2_[row * cells + column] =
+                    lit_part_m2(cell_of(grid, lx, row, column), areas_m2, limit_lx, [](const Polygon& part) { return part; });
+        }
+    }
+}
+
+double LitArea::all_m2() const {
+    const std::size_t cells = columns() - 1;
+    double lit_m2 = 0.0;
+    for (std::size_t row = 0; row + 1 < grid_->ahead_m.size(); ++row)
+        for (std::size_t column = 0; !strip_is_dark(row) && column < cells; ++column)
+            lit_m2 += lit_m2_[row * cells + column];
+    return lit_m2;
+}
+
+double LitArea::in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const {
+    const std::size_t cell = row * (columns() - 1) + column;
+    const double* nearer = &(*lx_)[row * columns() + column];
+    const double* farther = nearer + columns();
+    if (nearer[0] < limit_lx_ && nearer[1] < limit_lx_ && farther[0] < limit_lx_ && farther[1] < limit_lx_)
+        return 0.0;
+    const double ahead_m = grid_->ahead_m[row];
+    const double length_m = grid_->ahead_m[row + 1] - ahead_m;
+    return lit_part_m2(cell_of(*grid_, *lx_, row, column), (*cell_m2_)[cell], limit_lx_, [&](const Polygon& part) {
+        const Polygon right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
+        return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
+    });
+}
+
+/// Between two rows: cells wholly inside the lane count as they are, those that an edge cuts are clipped.
+double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far) const {
+    const std::vector<double>& offsets = grid_->offset_m;
+    const auto column_at = [&offsets](double offset_m) {
+        const auto above = std::ranges::upper_bound(offsets, offset_m);
+        return std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - offsets.begin() - 1, 0)), offsets.size() - 2);
+    };
+    const std::size_t first = column_at(std::min(near.right_m, far.right_m));
+    const std::size_t last = column_at(std::max(near.left_m, far.left_m));
+    const double inner_right_m = std::max(near.right_m, far.right_m);
+    const double inner_left_m = std::min(near.left_m, far.left_m);
+    double lit_m2 = 0.0;
+    for (std::size_t column = first; column <= last; ++column) {
+        const bool inside = offsets[column] >= inner_right_m && offsets[column + 1] <= inner_left_m;
+        lit_m2 += inside ? lit_m2_[row * (columns() - 1) + column] : in_cut_cell_m2(row, column, near, far);
+    }
+    return lit_m2;
+}
+
+double LitArea::lane_m2(const LaneSpans& lane) const {
+    double lit_m2 = 0.0;
+    for (std::size_t row = 0; row + 1 < grid_->ahead_m.size(); ++row)
+        if (lane[row] && lane[row + 1] && !strip_is_dark(row))
+            lit_m2 += in_strip_m2(row, *lane[row], *lane[row + 1]);
+    return lit_m2;
 }
 
 } // namespace fernlicht

@@ -7,9 +7,12 @@
 // in cd/m2, alpha in arc minutes, times in s, ages in years. The branches do not meet exactly. Upwards, dL jumps by -1.3 to -2.0 % at Lb =
 // 0.6 and by -0.2 to +0.6 % at 0.00418 (targets of 60 to 1 arc minutes), by -1.4 % at an age of 64, and the factor of negative contrast not
 // at all at 0.1: tests/metrics/seeing/visibility_test.cpp holds them.
+// Luminance of a surface in the light of a moment's lamps, by the same equations as every picture (scenarios/photometry.glsl), in double.
 #pragma once
 
 #include "metrics/readings/value.h"
+#include "scenarios/drives/play/moment.h"
+#include "scenarios/values/scene.h"
 
 namespace fernlicht {
 
@@ -34,5 +37,18 @@ inline Value visibility_level(double target_cdm2, double background_cdm2, double
 
 /// Angle under which a length is seen across the line of sight.
 double arc_minutes_of(double length_m, double distance_m);
+
+struct SurfaceLuminance {
+    double photopic_cdm2 = 0.0;
+    double scotopic_cdm2 = 0.0; ///< lamps alone, by their ratios S/P; of daylight nothing is known
+};
+
+/// Diffuse and retroreflected light of the material's own colour, without textures, whose mean it is. Luminance as of a grey of the same Y:
+/// lamps' colours change it by what colour and surface have in common, which rendered pictures know. Sky included.
+SurfaceLuminance surface_luminance(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal, const Material& material,
+                                   const glm::dvec3& eye_m);
+
+/// Y of a linear sRGB reflectance.
+double reflectance_of(const glm::vec3& linear_srgb);
 
 } // namespace fernlicht

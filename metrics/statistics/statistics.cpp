@@ -1,9 +1,11 @@
 #include "metrics/statistics/statistics.h"
 
-#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -71,6 +73,85 @@ std::optional<MedianInterval> median_interval(std::vector<double> samples, doubl
         log_chance += std::log(static_cast<double>(n - k) / static_cast<double>(k + 1));
     }
     return interval;
+}
+
+std::optional<PairedRatio> paired_ratio(const std::vector<double>& times, const std::vector<double>& reference) {
+    const auto is_time = [](double time) { return std::isfinite(time) && time > 0.0; };
+    if (times.size() != reference.size())
+        throw std::invalid_argument("paired_ratio: a time has no partner");
+    if (!std::ranges::all_of(times, is_time) || !std::ranges::all_of(reference, is_time))
+        throw std::invalid_argument("paired_ratio: a time is not finite and above 0");
+    std::vector<double> logarithms;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        logarithms.push_back(std::log(times[i] / reference[i]));
+    const std::optional<Spread> spread = spread_of(std::move(logarithms));
+    if (!spread)
+        return std::nullopt;
+    PairedRatio ratio{spread->count, std::exp(spread->median), std::exp(spread->p05), std::exp(spread->p95)};
+    if (ratio.rounds >= fewest_rounds && spread->p05 > 0.0)
+        ratio.difference = Difference::slower;
+    if (ratio.rounds >= fewest_rounds && spread->p95 < 0.0)
+        ratio.difference = Difference::faster;
+    return ratio;
+}
+
+std::uint64_t below(std::uint64_t n, std::mt19937_64& generator) {
+    if (n == 0)
+        throw std::invalid_argument("below: there is no number below 0");
+    // 2^64 mod n numbers are refused: what is left is a multiple of n, so that no remainder comes more often than another.
+    const std::uint64_t refused = (std::uint64_t{0} - n) % n;
+    std::uint64_t drawn = generator();
+    while (drawn < refused)
+        drawn = generator();
+    return drawn % n;
+}
+
+std::vector<std::size_t> random_order(std::size_t n, std::mt19937_64& generator) {
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = n; i > 1; --i)
+        std::swap(order[i - 1], order[below(i, generator)]);
+    return order;
+}
+
+namespace {
+
+void check(const SampleSpread& spread) {
+    if (spread.count < 1 || !std::isfinite(spread.variance) || spread.variance < 0.0)
+        throw std::invalid_argument("spread_test: a count below 1, or a variance that is negative or not finite");
+}
+
+/// Of one tail of one test.
+double tail(double false_alarm, std::size_t comparisons) {
+    if (!(false_alarm > 0.0 && false_alarm < 1.0) || comparisons < 1)
+        throw std::invalid_argument("spread_test: no comparisons, or a false alarm's probability outside 0..1");
+    return 0.5 * false_alarm / static_cast<double>(comparisons);
+}
+
+} // namespace
+
+std::optional<SpreadTest> spread_test(const SampleSpread& a, const SampleSpread& b, double false_alarm, std::size_t comparisons) {
+    check(a);
+    check(b);
+    static_cast<void>(tail(false_alarm, comparisons)); // refuses what is none, with and without a spread
+    SpreadTest test;
+    test.freedom = a.count + b.count - 2;
+    const double squares = (a.count - 1) * a.variance + (b.count - 1) * b.variance;
+    if (test.freedom == 0 || !(squares > 0.0))
+        return std::nullopt;
+    test.standard_error = std::sqrt(squares / test.freedom * (1.0 / a.count + 1.0 / b.count));
+    test.bound = student_bound(test.freedom, false_alarm, comparisons);
+    return test;
+}
+
+double student_bound(int freedom, double false_alarm, std::size_t comparisons) {
+    if (freedom < 1)
+        throw std::invalid_argument("student_bound: no degrees of freedom");
+    return boost::math::quantile(boost::math::complement(boost::math::students_t(freedom), tail(false_alarm, comparisons)));
+}
+
+double normal_bound(double false_alarm, std::size_t comparisons) {
+    return boost::math::quantile(boost::math::complement(boost::math::normal(), tail(false_alarm, comparisons)));
 }
 
 } // namespace fernlicht

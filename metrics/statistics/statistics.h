@@ -1,8 +1,14 @@
 // Spread of repeated measurements.
+// Is one way slower than another? Times taken in pairs, one pair a round, so that what slows a whole round down cancels.
+// Chance that is the same on every machine. std::mt19937_64 is specified to the bit; std::shuffle and the standard's distributions are not.
+// Whether two means differ by more than their samples' own spread explains.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <random>
 #include <vector>
 
 namespace fernlicht {
@@ -26,5 +32,54 @@ struct MedianInterval {
 /// with the largest k for which 1 - 2 P(fewer than k of n coins show heads) is at least `confidence` (0..1; the sign test turned round).
 /// Samples must be independent. nullopt for too few of them: 0.95 needs six. Throws std::invalid_argument for NaN or infinity.
 std::optional<MedianInterval> median_interval(std::vector<double> samples, double confidence = 0.95);
+
+enum class Difference { faster, slower, not_distinguishable };
+
+struct PairedRatio {
+    std::size_t rounds = 0;
+    double median = 0.0, p05 = 0.0, p95 = 0.0; ///< of time / reference within a round; above 1: slower
+    Difference difference = Difference::not_distinguishable;
+};
+
+/// Fewer rounds tell nothing: five ratios on one side of 1 come by chance in one case of 16, six in one of 32.
+inline constexpr std::size_t fewest_rounds = 6;
+
+/// Spread of the ratios over the rounds, and what they say. A difference is real only when it is larger than the spread: when 1 lies
+/// outside p05 .. p95. Quantiles as those of spread_of, but of the ratios' logarithms, so that exchanging both ways inverts ratio and
+/// spread and turns the verdict round. nullopt for no rounds. Throws std::invalid_argument when a time has no partner or is not finite and
+/// above 0.
+std::optional<PairedRatio> paired_ratio(const std::vector<double>& times, const std::vector<double>& reference);
+
+/// Evenly one of 0 .. n - 1. Throws std::invalid_argument for n = 0.
+std::uint64_t below(std::uint64_t n, std::mt19937_64& generator);
+
+/// 0 .. n - 1 in an order drawn evenly from all (Fisher and Yates 1938, in the form of Durstenfeld 1964, from the end).
+std::vector<std::size_t> random_order(std::size_t n, std::mt19937_64& generator);
+
+struct SampleSpread {
+    int count = 1;         ///< samples, at least one
+    double variance = 0.0; ///< theirs, with n - 1; 0 for one sample
+};
+
+struct SpreadTest {
+    double standard_error = 0.0; ///< of the difference of the two means
+    int freedom = 0;             ///< degrees of freedom of the variance
+    double bound = 0.0;          ///< times standard_error: what chance reaches with `false_alarm` at most
+};
+
+/// Student's test of two means with a pooled variance: s^2 = (sum of (n_i - 1) s_i^2) / (sum of (n_i - 1)), standard error
+/// s sqrt(1/n_1 + 1/n_2), bound the two-sided quantile of Student's t at false_alarm / comparisons (Bonferroni: all `comparisons` tests
+/// together give a false alarm with a probability of `false_alarm` at most, however they hang together). With many samples t is the normal
+/// z. Exact for normally distributed samples of one variance.
+/// nullopt where nothing varies: no variance in either, or one sample on both sides. Throws std::invalid_argument for counts below 1,
+/// a variance below 0 or not finite, comparisons below 1 and false_alarm outside 0..1.
+std::optional<SpreadTest> spread_test(const SampleSpread& a, const SampleSpread& b, double false_alarm, std::size_t comparisons);
+
+/// Two-sided quantile of Student's t with `freedom` degrees of freedom, at least 1. Otherwise as normal_bound.
+double student_bound(int freedom, double false_alarm, std::size_t comparisons);
+
+/// Two-sided quantile of the normal distribution at false_alarm / comparisons: |z| beyond it in one of `comparisons` values happens with a
+/// probability of `false_alarm` at most. Errors as spread_test.
+double normal_bound(double false_alarm, std::size_t comparisons);
 
 } // namespace fernlicht

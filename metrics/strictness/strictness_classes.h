@@ -1,4 +1,5 @@
 // The classes of strictness that have a name, from the strictest on.
+// Classes of strictness by name, or from a file of the user's.
 #pragma once
 
 #include "metrics/strictness/strictness.h"
@@ -17,5 +18,9 @@ struct StrictnessClass {
 
 /// identical, same-driver, same-light, same-picture.
 const std::vector<StrictnessClass>& strictness_classes();
+
+/// The class of this name; else the YAML file of this name (docs/comparing.md has its keys), whose masks are read too. Throws InputError:
+/// neither a class nor a file; unknown keys, numbers out of range, with file and line; masks that cannot be read.
+StrictnessClass read_strictness(const std::string& name_or_file);
 
 } // namespace fernlicht

@@ -1,6 +1,6 @@
 #include "renderer/gl/air_lamps.h"
 
-#include "renderer/gl/device/shader_text.h"
+#include "renderer/gl/device/program.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/photometry.h"
 

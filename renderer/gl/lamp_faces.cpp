@@ -1,6 +1,5 @@
 #include "renderer/gl/lamp_faces.h"
 
-#include "renderer/gl/device/shader_text.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
 

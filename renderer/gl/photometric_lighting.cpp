@@ -1,5 +1,5 @@
 #include "renderer/gl/photometric_lighting.h"
-#include "renderer/gl/device/shader_text.h"
+#include "renderer/gl/device/program.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,8 +1,10 @@
 #include "renderer/renderer.h"
-
-#include "renderer/gl/device/fragment_count.h"
+#include "renderer/gl/device/pass_clock.h"
+#include "renderer/gl/naive_lighting.h"
+#include "renderer/gl/photometric_lighting.h"
+#include "renderer/gl/published_lighting.h"
 #include "renderer/gl/scene/lighting.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/photometry.h"
 
 #include <chrono>
@@ -156,3 +158,16 @@ Renderer::ShadowMapsUsed Renderer::shadow_maps_used() const { return state_->sha
 int Renderer::compiled_programs() const { return state_->context.compiled_programs - state_->programs_before; }
 
 } // namespace fernlicht
+
+namespace fernlicht::gl {
+
+std::unique_ptr<Lighting> make_lighting(Context& context, const Scene& scene, const RendererSettings& settings) {
+    const Technique& technique = technique_named(settings.technique);
+    if (technique.kind != TechniqueKind::ours)
+        return std::make_unique<PublishedLighting>(context, scene, settings);
+    if (technique.name == "photometric-naive")
+        return std::make_unique<NaiveLighting>(context, scene, settings);
+    return std::make_unique<PhotometricLighting>(context, scene, settings, technique.name != "photometric-unpruned");
+}
+
+} // namespace fernlicht::gl

@@ -1,6 +1,6 @@
 #include "renderer/gl/traffic_lights.h"
 
-#include "renderer/gl/device/shader_text.h"
+#include "renderer/gl/device/program.h"
 #include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
 

@@ -1,7 +1,6 @@
 #include "renderer/gl/traffic_shadows.h"
 
-#include "renderer/gl/device/shader_text.h"
-#include "renderer/gl/shadows/shadow_texture.h"
+#include "renderer/gl/shadows/shadow_maps.h"
 
 #include <algorithm>
 #include <cmath>

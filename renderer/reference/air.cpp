@@ -1,6 +1,6 @@
 #include "renderer/reference/air.h"
 
-#include "renderer/reference/retro_lobe.h"
+#include "renderer/reference/surface_response.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/photometry.h"
 

@@ -1,9 +1,9 @@
 #include "renderer/reference/air.h"
-#include "renderer/reference/lanes.h"
-#include "renderer/reference/wet_lobe.h"
+#include "renderer/reference/pixel_estimate.h"
+#include "renderer/reference/scattering.h"
 
 #include "scenarios/light/fog_light.h"
-#include "scenarios/light/wet_light.h"
+#include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>

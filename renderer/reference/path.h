@@ -1,12 +1,21 @@
 // Light that comes over other surfaces, and from the sky that is not hidden: path tracing, unbiased.
 //
 // From a surface a path goes on in a direction drawn from the Lambert lobe (density cos / pi) or from the retroreflecting one
-// (retro_lobe.h), each with the probability of its share of the reflectance, or ends: the path's weight stays at most about 1, and no bound
-// on its length is needed. At each surface that it meets, every lamp is asked directly (next-event estimation); lamps are points or discs
-// that no path meets by itself. The sky, L = E_h / pi from every direction above the horizon, and surfaces' own light count where a path
-// meets them, and are never asked directly; sun and moon are asked as lamps are. So each way that light can take is counted once. A surface
-// met from behind, on the side that is not lit, is black. A wet surface sends paths on below its film and off it (wet_lobe.h); fog turns
-// them (air.h).
+// (surface_response.h), each with the probability of its share of the reflectance, or ends: the path's weight stays at most about 1, and no
+// bound on its length is needed. At each surface that it meets, every lamp is asked directly (next-event estimation); lamps are points or
+// discs that no path meets by itself. The sky, L = E_h / pi from every direction above the horizon, and surfaces' own light count where a
+// path meets them, and are never asked directly; sun and moon are asked as lamps are. So each way that light can take is counted once. A
+// surface met from behind, on the side that is not lit, is black. A wet surface sends paths on below its film and off it (scattering.h);
+// fog turns them (air.h).
+//
+// Whitted's ray tracing (T. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980): at each surface one feeler to
+// each lamp, and where it is smooth one ray on by mirroring and one by refraction.
+//
+// Fog on each way from surface to surface is that of direct light (air.h). Bias: light that has left a rough surface lights no other; the
+// sky's share on a surface is (1 + n_z) / 2, hidden by nothing; feelers end at glass as at any surface, and lamps light nothing by way of
+// mirrors; after ReferenceSettings::most_smooth smooth surfaces there is no light. No noise but that of the pixel's footprint and of lamps
+// with an area. Where nothing is smooth it is the same picture as direct light. Shares of mirroring and refraction are Fresnel's, not the
+// constants of 1980.
 #pragma once
 
 #include "renderer/reference/shot.h"
@@ -33,5 +42,8 @@ void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>
 
 /// By paths: the whole of it, over any number of surfaces.
 glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays);
+
+/// Adds to a packet lit by light_packet what its mirrors and glass show.
+void add_whitted_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, PacketLight& light);
 
 } // namespace fernlicht::reference

@@ -1,7 +1,7 @@
 #include "renderer/reference/photon_emission.h"
 
-#include "renderer/reference/retro_lobe.h"
 #include "renderer/reference/sampling.h"
+#include "renderer/reference/surface_response.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "renderer/reference/photon_map.h"
 
 #include "renderer/reference/photon_emission.h"
-#include "renderer/reference/replicates.h"
+#include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/scattering.h"
 
 #include <algorithm>

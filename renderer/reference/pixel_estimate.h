@@ -1,11 +1,37 @@
 // One pixel: what its samples saw, how many of them it needs, and what they say.
+// Angles of a packet at a time: a function that is called a dozen times for every ray, in a form that compilers turn into SIMD.
+// Sixteen independent means and what they say: mean, standard error, and how many more samples an error asks for.
+// A square of pixels, drawn by one thread. What it gives depends on the shot and its place alone.
 #pragma once
 
-#include "renderer/reference/lanes.h"
-#include "renderer/reference/replicates.h"
+#include "renderer/reference/embree_scene.h"
 #include "renderer/reference/shot.h"
 
+#include <array>
+
 namespace fernlicht::reference {
+
+using Lanes = std::array<double, packet_size>;
+
+/// atan2(y, x) in every lane, radians, within 6e-16; (0, 0) gives 0. Cephes' rational function (Moshier 1989) on octants. The four basic
+/// operations alone: the same bits with any width of SIMD. Lanes that hold no number give no number.
+void angles(const Lanes& y, const Lanes& x, Lanes& angle_rad);
+
+inline constexpr std::size_t replicate_count = packet_size;
+
+struct MeanAndError {
+    double mean = 0.0, standard_error = 0.0;
+};
+
+/// Of independent, equally distributed means of `each` samples, given as their sums. The error is such that (mean - truth) / error has
+/// variance 1 where the means are normal: s / sqrt(n) times sqrt((n - 1) / (n - 3)), the spread of Student's t with n - 1 degrees of
+/// freedom.
+MeanAndError mean_of(const std::array<double, replicate_count>& sums, int each);
+
+/// How the error of stratified samples falls: error^2 goes with the number of samples to the power -power. 1: as for independent samples
+/// (many dimensions); 1.5: an edge in two dimensions; 2: smooth in two dimensions (nets reach 3, which is not counted on).
+/// The least power of two times `now` that brings `error` below 3/4 of `target`, at most `most`. now >= 1.
+int samples_for(double error, double target, double power, int now, int most);
 
 /// Illuminance, target, luminance.
 using Results = std::array<Lanes, 3>;
@@ -65,5 +91,11 @@ struct PixelEstimate {
 
 /// `at_edge`: a neighbour saw something else, so that some of it may reach into this pixel and be missed by few samples.
 PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& pilot, bool at_edge);
+
+inline constexpr int tile_px = 16;
+
+/// Draws the tile whose first pixel is (x0, y0) into `image`. Returns the rays cast; none for a tile that was left because a stop was asked
+/// for, whose pixels are as if never drawn.
+std::uint64_t draw_tile(const Shot& shot, int x0, int y0, ReferenceImage& image);
 
 } // namespace fernlicht::reference

@@ -1,6 +1,6 @@
 #include "renderer/reference/radiosity.h"
 
-#include "renderer/reference/replicates.h"
+#include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/scattering.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/errors.h"

@@ -2,8 +2,8 @@
 
 #include "renderer/posed_scene.h"
 
+#include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/solved_light.h"
-#include "renderer/reference/tile.h"
 
 #include <algorithm>
 #include <atomic>

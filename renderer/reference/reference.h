@@ -34,7 +34,7 @@ class EmbreeScene;
 enum class Integrator {
     direct,
     path,
-    whitted,   ///< whitted.h: direct, and what mirrors and glass show
+    whitted,   ///< path.h: direct, and what mirrors and glass show
     radiosity, ///< radiosity.h
     photon_map ///< photon_map.h
 };

@@ -1,9 +1,9 @@
 // Light that was solved for a whole moment before its pictures are drawn, and how pictures take it up.
 //
 // A solution holds 16 replicates: independent estimates of the same light, each from a sixteenth of the rays or photons. Lane i of a packet
-// is replicate i of a pixel (tile.h) and reads replicate i of the solution, so that a pixel's standard error knows the noise of the
-// solution as well as that of its own samples. What all replicates have in common, it does not know: the width of patches and of photons'
-// discs.
+// is replicate i of a pixel (pixel_estimate.h) and reads replicate i of the solution, so that a pixel's standard error knows the noise of
+// the solution as well as that of its own samples. What all replicates have in common, it does not know: the width of patches and of
+// photons' discs.
 #pragma once
 
 #include "renderer/reference/shot.h"

@@ -1,19 +1,7 @@
 // The published techniques: what they compute per fragment. Pictures are lit, not reflectances: colours are sRGB-encoded and multiplied by
 // a share of white as they are.
+#include "outputs.glsl"
 #include "published_features.glsl"
-
-#if WANT_COLOUR
-layout(location = OUT_COLOUR) out vec4 out_colour;
-#endif
-#if WANT_ILLUMINANCE
-layout(location = OUT_ILLUMINANCE) out float out_illuminance_lx;
-#endif
-#if WANT_DEPTH
-layout(location = OUT_DEPTH) out float out_depth_m;
-#endif
-#if WANT_IDS
-layout(location = OUT_IDS) out uint out_id;
-#endif
 
 #if TEXTURED && WANT_COLOUR
 layout(binding = 15) uniform sampler2DArray surface_textures;

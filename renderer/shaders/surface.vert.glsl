@@ -4,12 +4,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uint material;
 layout(location = 3) in vec4 mesh_offset_m; // mesh origin relative to the car; w: mesh index + 1
 layout(location = 4) in vec2 uv;
-#ifdef MOVING
-layout(location = 5) in vec4 body_turn; // quaternion; 0 0 0 1 for what stands in the world, to the bit
-vec3 turned(vec3 v) { return v + 2.0 * cross(body_turn.xyz, cross(body_turn.xyz, v) + body_turn.w * v); }
-#else
-vec3 turned(vec3 v) { return v; }
-#endif
+#include "turned.glsl"
 
 struct Material {
     vec4 albedo;   // w: retro_rl

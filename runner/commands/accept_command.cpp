@@ -1,5 +1,6 @@
 #include "runner/commands/accept_command.h"
 
+#include "runner/commands/commands.h"
 #include "runner/files/checked_json.h"
 #include "runner/files/output_folder.h"
 #include "runner/files/value_json.h"
@@ -181,7 +182,7 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
     return accepted;
 }
 
-void add_accept_command(CLI::App& app, std::function<int()>& chosen) {
+void add_accept_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<AcceptFlags>();
     CLI::App* command = app.add_subcommand("accept", "take a run's results as references for later runs; judges nothing");
     command->add_option("RUN", flags->run, "folder of a complete run or study, or of a `fernlicht reference` picture")->required();

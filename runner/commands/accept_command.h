@@ -4,15 +4,7 @@
 #include "runner/judge/reference_store.h"
 #include "runner/judge/run_results.h"
 
-#include <functional>
-
-namespace CLI {
-class App;
-}
-
 namespace fernlicht {
-
-void add_accept_command(CLI::App& app, std::function<int()>& chosen);
 
 /// A run's results as they would be accepted, one for each lamp set of each drive: readings (times left out) with their spread over the
 /// run's repeats, and captured EXR frames. Of a study's folder: of all its cells. Of a folder of `fernlicht reference`: its one picture

@@ -1,4 +1,4 @@
-#include "runner/commands/aliasing_command.h"
+#include "runner/commands/commands.h"
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"

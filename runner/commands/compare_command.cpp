@@ -1,7 +1,7 @@
-#include "runner/commands/compare_command.h"
+#include "runner/commands/commands.h"
 
 #include "metrics/images/flip.h"
-#include "metrics/strictness/strictness_file.h"
+#include "metrics/strictness/strictness_classes.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/compare/comparison_writers.h"
 #include "runner/experiments/compare/lamps/compare_lamps.h"
@@ -139,7 +139,7 @@ int compare(const CompareFlags& flags) {
 
 } // namespace
 
-void add_compare_command(CLI::App& app, std::function<int()>& chosen) {
+void add_compare_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<CompareFlags>();
     CLI::App* sub = app.add_subcommand(
         "compare", "show how two pictures, runs or lamps differ, in numbers and pictures, and whether they are close enough");

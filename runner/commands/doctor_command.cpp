@@ -1,8 +1,8 @@
-#include "runner/commands/doctor_command.h"
+#include "runner/commands/commands.h"
 
+#include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
-#include "renderer/timer_check.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/live/can_socket.h"
@@ -83,7 +83,7 @@ int doctor() {
 
 } // namespace
 
-void add_doctor_command(CLI::App& app, std::function<int()>& chosen) {
+void add_doctor_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     CLI::App* command = app.add_subcommand("doctor", "report which backends work on this machine; exit with 3 if none does");
     command->callback([&chosen] { chosen = doctor; });
 }

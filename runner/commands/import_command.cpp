@@ -1,5 +1,6 @@
 #include "runner/commands/import_command.h"
 
+#include "runner/commands/commands.h"
 #include "runner/commands/model_command.h"
 #include "scenarios/values/errors.h"
 
@@ -105,7 +106,7 @@ int import_command(const ImportRequest& request) {
     return 0;
 }
 
-void add_import_command(CLI::App& app, std::function<int()>& chosen) {
+void add_import_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<ImportRequest>();
     const auto forward = std::make_shared<std::string>("y");
     CLI::App* command = app.add_subcommand("import", "convert an OpenFlight database (.flt) to glTF (.glb)");

@@ -2,12 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
-
-namespace CLI {
-class App;
-}
 
 namespace fernlicht {
 
@@ -22,7 +17,5 @@ struct ImportRequest {
 /// start costs nothing else and a crash on a broken file is a sentence. Reads the result back and prints what it holds. Returns 0. Throws
 /// InputError for what cannot be read, DeviceError where fernlicht-import is not there.
 int import_command(const ImportRequest& request);
-
-void add_import_command(CLI::App& app, std::function<int()>& chosen);
 
 } // namespace fernlicht

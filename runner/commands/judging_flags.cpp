@@ -21,6 +21,19 @@ std::string today_of(const JudgingFlags& flags) {
 
 } // namespace
 
+TickRange tick_range(const std::string& frames) {
+    TickRange range;
+    if (frames.empty())
+        return range;
+    constexpr const char* expected = "FIRST:LAST with FIRST 0 or more and FIRST <= LAST, e.g. 0:59";
+    const auto [first, last] = two_numbers("--frames", frames, ':', true, expected);
+    range.first = first < 0 ? 0 : first;
+    range.last = last < 0 ? range.last : last;
+    if (range.first > range.last)
+        refuse_flag("--frames", frames, expected);
+    return range;
+}
+
 void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
     command.add_option("--references", flags.references, "folder of accepted results to judge against");
     command.add_flag("--across-devices", flags.across_devices,

@@ -1,4 +1,4 @@
-// The flags that say by what results are judged, the same for `run` and `study`.
+// The flags that are the same for `run` and `study`: which moments are played, and by what results are judged.
 #pragma once
 
 #include "runner/experiments/run/run_drives.h"
@@ -8,6 +8,9 @@ class App;
 }
 
 namespace fernlicht {
+
+/// "FIRST:LAST", "FIRST:" or ":LAST" of --frames; all for "". Throws InputError naming the flag.
+TickRange tick_range(const std::string& frames);
 
 /// As typed.
 struct JudgingFlags {

@@ -1,5 +1,6 @@
 #include "runner/commands/lamp_command.h"
 
+#include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/lamp_regulation.h"
 #include "runner/experiments/compare/lamps/lamp_against.h"
@@ -227,7 +228,7 @@ int lamp_command(const LampRequest& request) {
     return 0;
 }
 
-void add_lamp_command(CLI::App& app, std::function<int()>& chosen) {
+void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<LampRequest>();
     CLI::App* command = app.add_subcommand("lamp", "describe a lamp file; scale, mirror, add, convert or plot it");
     command->add_option("FILE", request->file, "IES LM-63, EULUMDAT, beam matrix (CSV) or beam texture (image)");

@@ -5,7 +5,6 @@
 #include "runner/write/plots/svg.h"
 #include "scenarios/lamps/lamp_file.h"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,7 +47,5 @@ void write_lamp_picture(const plots::Figure& figure, const LampRequest& request)
 /// All that the request asks for; text or JSON goes to standard output. Returns 0, or 1 when a regulation's row fails. Throws InputError,
 /// DeviceError.
 int lamp_command(const LampRequest& request);
-
-void add_lamp_command(CLI::App& app, std::function<int()>& chosen);
 
 } // namespace fernlicht

@@ -3,12 +3,7 @@
 
 #include "scenarios/models/model.h"
 
-#include <functional>
 #include <optional>
-
-namespace CLI {
-class App;
-}
 
 namespace fernlicht {
 
@@ -34,7 +29,5 @@ std::string model_json(const Model& model, double scale);
 
 /// All that the request asks for; text or JSON goes to standard output. Returns 0. Throws InputError, DeviceError.
 int model_command(const ModelRequest& request);
-
-void add_model_command(CLI::App& app, std::function<int()>& chosen);
 
 } // namespace fernlicht

@@ -1,6 +1,6 @@
-#include "runner/commands/readings_command.h"
+#include "runner/commands/commands.h"
 
-#include "metrics/readings/readings_list.h"
+#include "metrics/readings/reading_words.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 
 namespace fernlicht {
 
-void add_readings_command(CLI::App& app, std::function<int()>& chosen) {
+void add_readings_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto markdown = std::make_shared<bool>(false);
     CLI::App* command = app.add_subcommand("readings", "list what is read of a drive: names, units, which way is better, definitions");
     command->add_flag("--markdown", *markdown, "prints the table of docs/readings.md");

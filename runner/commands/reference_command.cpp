@@ -1,4 +1,4 @@
-#include "runner/commands/reference_command.h"
+#include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/accuracy/lamp_discs.h"

@@ -1,4 +1,4 @@
-#include "runner/commands/references_command.h"
+#include "runner/commands/commands.h"
 
 #include "runner/commands/accept_command.h"
 #include "runner/files/durable_files.h"
@@ -250,7 +250,7 @@ int remove(const ReferencesFlags& flags) {
 
 } // namespace
 
-void add_references_command(CLI::App& app, std::function<int()>& chosen) {
+void add_references_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ReferencesFlags>();
     CLI::App* command = app.add_subcommand("references", "list, show, compare and remove accepted results (not: `reference DRIVE`)");
     command->require_subcommand(0, 1);

@@ -1,4 +1,4 @@
-#include "runner/commands/run_command.h"
+#include "runner/commands/commands.h"
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
@@ -117,19 +117,6 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
 }
 
 } // namespace
-
-TickRange tick_range(const std::string& frames) {
-    TickRange range;
-    if (frames.empty())
-        return range;
-    constexpr const char* expected = "FIRST:LAST with FIRST 0 or more and FIRST <= LAST, e.g. 0:59";
-    const auto [first, last] = two_numbers("--frames", frames, ':', true, expected);
-    range.first = first < 0 ? 0 : first;
-    range.last = last < 0 ? range.last : last;
-    if (range.first > range.last)
-        refuse_flag("--frames", frames, expected);
-    return range;
-}
 
 void add_run_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<RunFlags>();

@@ -1,4 +1,4 @@
-#include "runner/commands/signals_command.h"
+#include "runner/commands/commands.h"
 
 #include "scenarios/control/signals.h"
 #include "scenarios/drives/keys/bus_keys.h"
@@ -37,7 +37,7 @@ void print_json() {
 
 } // namespace
 
-void add_signals_command(CLI::App& app, std::function<int()>& chosen) {
+void add_signals_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto json = std::make_shared<bool>(false);
     CLI::App* command =
         app.add_subcommand("signals", "list the signals of lamp control: name, unit, range, who writes them, and whether a CAN bus may");

@@ -1,4 +1,4 @@
-#include "runner/commands/stability_command.h"
+#include "runner/commands/commands.h"
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
@@ -101,7 +101,7 @@ int try_cases(const StabilityFlags& flags) {
 
 } // namespace
 
-void add_stability_command(CLI::App& app, std::function<int()>& chosen) {
+void add_stability_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StabilityFlags>();
     CLI::App* sub = app.add_subcommand("stability", "check extreme and degenerate inputs against bounds; exit with 1 if one fails");
     CLI::Option* only = sub->add_option("--only", flags->only, "comma-separated names of cases, * and ? allowed: 'lamp/*,table/zero'")

@@ -1,4 +1,4 @@
-#include "runner/commands/storyboard_command.h"
+#include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
 #include "scenarios/openscenario/play_story.h"
@@ -116,7 +116,7 @@ int run(const StoryboardFlags& flags) {
 
 } // namespace
 
-void add_storyboard_command(CLI::App& app, std::function<int()>& chosen) {
+void add_storyboard_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StoryboardFlags>();
     CLI::App* sub = app.add_subcommand("storyboard", "play an OpenSCENARIO XML file without rendering, and report where everything goes");
     sub->add_option("FILE", flags->file, "scenario, or parameter variation file (plays all its cases)")->required();

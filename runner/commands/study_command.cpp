@@ -1,8 +1,7 @@
-#include "runner/commands/study_command.h"
+#include "runner/commands/commands.h"
 
 #include "renderer/device.h"
 #include "runner/commands/judging_flags.h"
-#include "runner/commands/run_command.h"
 #include "runner/experiments/study/study_run.h"
 #include "runner/experiments/study/study_writers.h"
 #include "runner/files/output_folder.h"

@@ -1,4 +1,4 @@
-#include "runner/commands/techniques_command.h"
+#include "runner/commands/commands.h"
 
 #include "runner/findings/technique_list.h"
 
@@ -8,7 +8,7 @@
 
 namespace fernlicht {
 
-void add_techniques_command(CLI::App& app, std::function<int()>& chosen) {
+void add_techniques_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     struct Form {
         bool json = false, markdown = false;
     };

@@ -1,6 +1,8 @@
 // Pictures on disk: EXR with linear, named channels and their units; PNG for eyes. The runner's one door to OpenImageIO.
+// A display's profile as other programs read it.
 #pragma once
 
+#include "scenarios/display/display_profile.h"
 #include "scenarios/drives/play/frame.h"
 
 #include <filesystem>
@@ -44,5 +46,9 @@ Image<Rgb8> read_png(const std::filesystem::path& path);
 
 /// All channels of an EXR file. Throws InputError: missing, no EXR, cut short, more than 2^28 values.
 std::vector<PictureChannel> read_exr(const std::filesystem::path& path);
+
+/// An ICC profile, version 4, of matrix and curves: the display's primaries, white, transfer curve (of pq up to its own peak) and peak
+/// luminance. Black is not part of such profiles. Same profile, same bytes. Throws std::runtime_error where Little CMS cannot make one.
+std::string icc_profile(const DisplayProfile& display);
 
 } // namespace fernlicht

@@ -3,10 +3,8 @@
 
 #include "metrics/folds/seeing_series.h"
 #include "metrics/images/pixel_errors.h"
-#include "metrics/readings/many_moments.h"
+#include "metrics/readings/value.h"
 #include "metrics/road/extent.h"
-#include "metrics/road/lane_grid_error.h"
-#include "metrics/statistics/paired_ratio.h"
 #include "metrics/statistics/statistics.h"
 #include "renderer/renderer.h"
 #include "runner/findings/findings.h"

@@ -1,8 +1,7 @@
 #include "runner/judge/reference_difference.h"
 
 #include "metrics/images/image_difference.h"
-#include "metrics/images/noisy_difference.h"
-#include "metrics/statistics/spread_test.h"
+#include "metrics/statistics/statistics.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
 

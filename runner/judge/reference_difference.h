@@ -32,12 +32,12 @@ struct ResultDifference {
 };
 
 /// One entry for each reading that either side has. A reading that varies over the repeats of either side is judged by Student's test
-/// (metrics/statistics/spread_test.h) on top of the tolerance, all others by the tolerance alone.
+/// (metrics/statistics/statistics.h) on top of the tolerance, all others by the tolerance alone.
 std::vector<ResultDifference> compare_readings(const std::vector<AcceptedReading>& tested, const std::vector<AcceptedReading>& accepted,
                                                const ReferenceTolerance& tolerance);
 
 /// One entry for each channel of light of each frame that either side has: by the tolerance, or, where both sides know each pixel's
-/// variance, by that (metrics/images/noisy_difference.h). A frame that cannot be read differs.
+/// variance, by that (metrics/images/image_difference.h). A frame that cannot be read differs.
 std::vector<ResultDifference> compare_frames(const std::vector<ReferenceFrame>& tested, const std::vector<ReferenceFrame>& accepted,
                                              const ReferenceTolerance& tolerance);
 

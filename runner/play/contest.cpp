@@ -1,6 +1,6 @@
 #include "runner/play/contest.h"
 
-#include "metrics/statistics/random_order.h"
+#include "metrics/statistics/statistics.h"
 #include "runner/play/machine_load.h"
 
 #include <chrono>

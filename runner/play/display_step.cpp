@@ -1,8 +1,6 @@
 #include "runner/play/display_step.h"
 
 #include "metrics/display/display_colour.h"
-#include "metrics/display/tone_fit.h"
-#include "runner/files/icc_profile.h"
 #include "runner/files/picture_file.h"
 #include "runner/play/shown_picture.h"
 
@@ -29,7 +27,7 @@ void DisplayStep::see(const Frame& frame) {
         return;
     LuminanceHistogram histogram;
     for (const glm::vec3& light : frame.light.pixels())
-        histogram.add(glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722)), false);
+        histogram.add(glm::dot(glm::dvec3(light), glm::dvec3(0.2126, 0.7152, 0.0722)));
     adapted_->see(histogram.log_mean_cdm2(), drive_.step_s);
     if (first_cdm2_ == 0.0)
         first_cdm2_ = adapted_->cdm2();

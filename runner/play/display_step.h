@@ -1,8 +1,8 @@
 // What a drive's stored pictures are shown by, as the play loop meets them.
 #pragma once
 
-#include "metrics/display/exposure.h"
 #include "metrics/display/seen_display.h"
+#include "metrics/display/tone_fit.h"
 #include "runner/findings/report.h"
 #include "scenarios/drives/play/frame.h"
 

@@ -2,7 +2,6 @@
 
 #include "renderer/technique.h"
 #include "runner/play/shown_picture.h"
-#include "scenarios/display/tone_curve.h"
 #include "scenarios/drives/drive.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // What a drive's shadows are drawn by and its pictures shown by, for report.json and its page.
 #pragma once
 
-#include "scenarios/display/display_settings.h"
+#include "scenarios/display/display_profile.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/shadow_settings.h"
 

@@ -1,4 +1,5 @@
 // Road extent of each moment, twice over: from a rendered lux map and from the double-precision twin.
+// Illuminance at named points ahead of the car, from the drawn lux image and from the twin.
 #pragma once
 
 #include "runner/play/play.h"
@@ -32,5 +33,29 @@ class ExtentFold {
 
 /// The smallest map view of this moment that covers the grid, at most 0.25 m a pixel where 1024 pixels a side allow.
 View map_over(const ExtentGrid& grid, const Moment& moment);
+
+/// A map of 3 x 3 pixels of a centimetre each, the point in the middle one.
+View map_around(const glm::dvec3& point_m, const Moment& moment);
+
+class ProbeFold {
+  public:
+    ProbeFold(const Drive& drive, const Route& route) : drive_(drive), route_(route), found_(drive.probes.size()) {}
+
+    void add(const Moment& moment, const Draw& draw);
+    /// For each probe NAME: probe_NAME_lx (drawn) and probe_NAME_twin_lx, medians over the drive; probe_NAME_min_lx and _max_lx (drawn).
+    /// Not drawn: probes above the surface, and all by a technique without illuminance. Probes beside the pavement have no twin.
+    Readings finish() const;
+
+  private:
+    struct Series {
+        std::vector<double> drawn, twin;
+        bool beside_road = false; ///< beyond the pavement at some moment: what is drawn there is the verge, which the twin does not know
+        bool not_drawn = false;   ///< the technique computes no illuminance
+        bool near_field = false;  ///< nearer to a lamp than its photometric distance at some moment
+    };
+    const Drive& drive_;
+    const Route& route_;
+    std::vector<Series> found_;
+};
 
 } // namespace fernlicht

@@ -1,7 +1,7 @@
 #include "runner/play/fit_tone_mapper.h"
 
 #include "metrics/display/tone_fit.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/errors.h"
 

@@ -5,7 +5,6 @@
 #include "runner/play/extent_fold.h"
 #include "runner/play/frame_times.h"
 #include "runner/play/lux_map.h"
-#include "runner/play/probe_fold.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/drives/play/motion.h"

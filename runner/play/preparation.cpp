@@ -1,8 +1,8 @@
 #include "runner/play/preparation.h"
 
-#include "renderer/timer_check.h"
+#include "renderer/gpu_timer.h"
 #include "runner/play/display_step.h"
-#include "runner/play/map_of.h"
+#include "runner/play/lux_map.h"
 #include "scenarios/drives/play/advance.h"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 // From a picture's coloured light to the codes of a display, stage by stage: windscreen, eye, tone mapper, display. What is not asked for
 // is not computed.
+// What a display's profile makes of pictures that nobody would want, and is no mistake of the file.
 #pragma once
 
-#include "scenarios/display/display_settings.h"
+#include "scenarios/display/display_profile.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/values/image.h"
 
@@ -30,5 +31,9 @@ bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& ma
 /// where they are shown after drawing without a profile, whose own rule is part of its hash. Pictures with different lines have no common
 /// scale.
 std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper);
+
+/// One sentence each: a peak below 3 times the black, the least contrast that ISO 9241-3 and ANSI/HFES 100-1988 recommend for text; PQ in 8
+/// bits, where ITU-R BT.2100 has 10 or 12.
+std::vector<std::string> display_warnings(const DisplayProfile& profile);
 
 } // namespace fernlicht

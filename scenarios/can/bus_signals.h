@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenarios/can/bus_mapping.h"
-#include "scenarios/can/bus_units.h"
+#include "scenarios/can/bus_sources.h"
 #include "scenarios/can/can_frame.h"
 
 #include <limits>

@@ -1,6 +1,5 @@
 #include "scenarios/can/candump_log.h"
 
-#include "scenarios/can/candump_colours.h"
 #include "scenarios/can/candump_stream.h"
 
 #include <algorithm>

@@ -1,10 +1,12 @@
 // Logs of candump (can-utils): as `candump -L` writes them for machines, and as it prints them on a screen.
+// Colours of candump -c: what switches them on, in its order, and off.
 #pragma once
 
 #include "scenarios/can/can_frame.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -59,5 +61,9 @@ void append_candump_line(std::string& out, const CanFrame& frame, const CandumpS
 /// candump adds to frames (DROPCOUNT, explanations of error frames) are skipped.
 /// Throws InputError with file and line of the first that is no frame.
 std::vector<CanFrame> read_candump(const std::filesystem::path& path, FilesRead& opened);
+
+inline constexpr std::array<std::string_view, 6> candump_colours = {"\33[1m\33[34m", "\33[1m\33[31m", "\33[1m\33[32m",
+                                                                    "\33[1m",        "\33[1m\33[35m", "\33[1m\33[36m"};
+inline constexpr std::string_view candump_colour_off = "\33[0m";
 
 } // namespace fernlicht

@@ -1,4 +1,3 @@
-#include "scenarios/can/candump_colours.h"
 #include "scenarios/can/candump_cursor.h"
 #include "scenarios/can/candump_log.h"
 

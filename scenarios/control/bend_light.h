@@ -1,11 +1,36 @@
 // Bend light: where the lamps look, by steering angle, by yaw rate and speed, or by the lane ahead.
+// Static cornering light: lamps that shine beside the car while it turns slowly.
+// A first-order filter and a limit on the rate of change, stepped exactly: their results at a time do not depend on how it is cut into
+// steps while the input holds.
 #pragma once
 
 #include "scenarios/control/control_parameters.h"
-#include "scenarios/control/first_order.h"
 #include "scenarios/control/signals.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace fernlicht {
+
+/// y' = (input - y) / time_constant_s; starts at the first input. A time constant of 0 follows at once.
+struct FirstOrder {
+    double time_constant_s = 0.0;
+    double value = 0.0;
+    bool started = false;
+
+    double step(double input, double dt_s) {
+        const double share = started && time_constant_s > 0.0 ? -std::expm1(-dt_s / time_constant_s) : 1.0;
+        value += share * (input - value);
+        started = true;
+        return value;
+    }
+};
+
+/// Moves towards `target` by at most `per_s` a second. `per_s` infinite: at once.
+inline double moved_towards(double value, double target, double per_s, double dt_s) {
+    const double most = per_s * dt_s;
+    return std::isfinite(most) ? value + std::clamp(target - value, -most, most) : target;
+}
 
 /// What the laws know of the car.
 struct ControlledCar {
@@ -35,5 +60,22 @@ class BendLight {
 
 /// The lamp's own angle: the lamp outside of the bend takes `outer_share`. `left_m`: where the lamp sits.
 double bend_of_lamp_rad(const BendParameters& parameters, double bend_rad, double left_m);
+
+class CorneringLight {
+  public:
+    explicit CorneringLight(const CorneringParameters& parameters) : parameters_(parameters) {}
+
+    struct Levels {
+        double left = 0.0, right = 0.0;
+    };
+    /// On by steering beyond `on_rad` until it is below `off_rad`, or by the indicator; never from `until_speed_mps` on until slower than
+    /// `again_below_mps`. Fades in `fade_s`. A signal that is lost turns them off.
+    Levels step(const SignalTable& table, double dt_s);
+
+  private:
+    CorneringParameters parameters_;
+    bool slow_ = true, left_ = false, right_ = false;
+    Levels levels_;
+};
 
 } // namespace fernlicht

@@ -115,7 +115,7 @@ struct ControlFailure {
     bool operator==(const ControlFailure&) const = default;
 };
 
-/// What lamp control does about a swivel that is stuck (stuck_swivel.h): the others look straight ahead, and the lamp, where it is stuck
+/// What lamp control does about a swivel that is stuck (control_loop.h): the others look straight ahead, and the lamp, where it is stuck
 /// more than `off_rad` aside, is levelled down to `pitch_rad`, or without levelling dimmed to `level`.
 struct StuckSwivelParameters {
     double off_rad = 0.0349, after_s = 0.5;  ///< 2 degrees from what it is asked for, for so long

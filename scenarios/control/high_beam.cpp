@@ -1,6 +1,6 @@
 #include "scenarios/control/high_beam.h"
 
-#include "scenarios/control/first_order.h"
+#include "scenarios/control/bend_light.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>

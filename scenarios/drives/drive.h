@@ -1,14 +1,14 @@
 // A drive: everything that decides what a run shows, resolved to plain values. Read from YAML; written back beside the results.
 #pragma once
 
-#include "scenarios/display/display_settings.h"
+#include "scenarios/display/display_profile.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/seeing_parameters.h"
 #include "scenarios/drives/shadow_settings.h"
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/models/placed_model.h"
-#include "scenarios/openscenario/reader/storyboard_source.h"
+#include "scenarios/openscenario/reader/read_storyboard.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/sky/daylight.h"
 #include "scenarios/sky/street_lamps.h"

@@ -1,6 +1,6 @@
 #include "scenarios/fields/write_fields.h"
 
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <cstring>
 #include <fmt/format.h>

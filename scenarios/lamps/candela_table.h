@@ -1,6 +1,8 @@
 // Luminous intensity over the UN goniometer's angles: the one form in which every lamp file ends.
+// Systems of angles other than the UN goniometer's, and a table as its file lists it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -61,5 +63,26 @@ InterpolationError interpolation_error(const CandelaTable& table);
 
 /// The smallest distance between neighbours on an axis that rises; infinite where there is one place alone.
 double finest_step(const std::vector<double>& axis);
+
+struct TwoAngles {
+    double h_deg = 0.0, v_deg = 0.0;
+};
+
+/// Another system's two angles, its polar axis elsewhere. Each function is the inverse of the other where both are defined.
+struct AngleSystem {
+    std::string name;                                   ///< for notes: "type B"
+    std::function<TwoAngles(double, double)> to_native; ///< from UN H, V to the system's own two angles
+    std::function<TwoAngles(double, double)> to_un;
+    bool turns_about_beam = false; ///< the first angle does: its steps say nothing of how far directions lie apart
+};
+
+/// What was measured, before it was brought onto H and V.
+struct MeasuredTable {
+    CandelaTable table; ///< over the system's two angles
+    AngleSystem system;
+};
+
+MeasuredTable scaled(MeasuredTable measured, double factor); ///< factor >= 0
+MeasuredTable mirrored(MeasuredTable measured);              ///< H and -H exchanged
 
 } // namespace fernlicht

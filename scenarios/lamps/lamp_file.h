@@ -1,7 +1,7 @@
 // A lamp as it stands in a file: candela table, what the file says of it, and what was read.
 #pragma once
 
-#include "scenarios/lamps/angle_system.h"
+#include "scenarios/lamps/candela_table.h"
 #include "scenarios/values/files.h"
 
 #include <optional>

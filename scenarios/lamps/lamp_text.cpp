@@ -1,7 +1,6 @@
 #include "scenarios/lamps/lamp_text.h"
 
 #include "scenarios/values/files.h"
-#include "scenarios/values/utf8.h"
 
 #include <algorithm>
 #include <charconv>

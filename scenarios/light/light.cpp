@@ -1,9 +1,14 @@
 #include "scenarios/light/light.h"
 
+#include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/photometry.h"
 
+#include <algorithm>
+#include <glm/geometric.hpp>
+
 namespace fernlicht {
+
 double intensity_towards_cd(const LitLamp& lamp, const glm::dvec3& point_m) {
     if (lamp.intensity_factor == 0.0)
         return 0.0;
@@ -39,6 +44,42 @@ double target_illuminance_lx(const Moment& moment, const glm::dvec3& point_m) {
             e += photometry::facing_illuminance(cd, lamp.pose.position_m - point_m) *
                  air_transmittance(moment.weather, glm::length(lamp.pose.position_m - point_m));
     return e;
+}
+
+glm::dvec3 retro_tint(const Material& material) {
+    static const glm::dvec3 illuminant_a = colour_of_temperature(2856.0).linear_srgb;
+    if (!is_tinted(material))
+        return glm::dvec3(1.0);
+    const glm::dvec3 rgb(material.retro_rgb);
+    return rgb / glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), illuminant_a * rgb);
+}
+
+namespace {
+
+glm::dvec3 diffuse(const glm::dvec3& albedo, double facet_in, double facet_out, double e_lx) {
+    glm::dvec3 light;
+    for (int i = 0; i < 3; ++i)
+        light[i] = photometry::diffuse_luminance(photometry::wet_albedo(albedo[i], facet_in, facet_out), e_lx);
+    return light;
+}
+
+double facet(double cosine) { return photometry::facet_cosine(std::max(cosine, 0.0), wet_roughness); }
+
+} // namespace
+
+glm::dvec3 wet_light(const glm::dvec3& albedo, const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye,
+                     double e_perp_lx) {
+    if (e_perp_lx <= 0.0)
+        return glm::dvec3(0.0);
+    const double in = std::max(glm::dot(normal, to_light), 0.0);
+    return diffuse(albedo, facet(in), facet(glm::dot(normal, to_eye)), e_perp_lx * in) +
+           e_perp_lx * photometry::wet_mirrored(normal, to_light, to_eye, wet_roughness);
+}
+
+glm::dvec3 wet_sky_light(const glm::dvec3& albedo, const glm::dvec3& normal, const glm::dvec3& to_eye, double e_lx, double sky_cdm2) {
+    const double out = facet(glm::dot(normal, to_eye));
+    constexpr double from_all_sides = 0.5; // cosine at which water mirrors about as much as of diffuse light
+    return diffuse(albedo, from_all_sides, out, e_lx) + sky_cdm2 * photometry::water_reflectance(out);
 }
 
 } // namespace fernlicht

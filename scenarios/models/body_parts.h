@@ -1,8 +1,8 @@
 // Parts that the bodies of road users have in common.
 #pragma once
 
-#include "scenarios/models/body_shapes.h"
 #include "scenarios/models/road_user_bodies.h"
+#include "scenarios/models/triangle_soup.h"
 
 namespace fernlicht {
 

@@ -1,9 +1,12 @@
 // A glTF file taken apart: its JSON and the bytes that its buffers hold.
+// The tree of a glTF file's nodes, walked once with every node's place.
 #pragma once
 
 #include "scenarios/models/gltf_entry.h"
 #include "scenarios/values/files.h"
 
+#include <functional>
+#include <glm/mat4x4.hpp>
 #include <nlohmann/json.hpp>
 
 namespace fernlicht {
@@ -26,5 +29,9 @@ GltfFile open_gltf(const std::filesystem::path& path);
 
 /// A glTF 1.0 document in the words of 2.0: names become indices, the "diffuse" of materials a base colour. `notes` gets what is lost.
 nlohmann::json upgraded_gltf1(const nlohmann::json& old, const std::filesystem::path& file, std::vector<std::string>& notes);
+
+/// Calls visit(node, world from node) for each node of the file's scene (of all nodes without a parent where it has no scene), parents
+/// first, in the file's axes. Throws InputError for cycles, nodes with two parents, and transforms that are not finite.
+void walk_nodes(const GltfEntry& root, const std::function<void(const GltfEntry& node, const glm::dmat4& world)>& visit);
 
 } // namespace fernlicht

@@ -1,7 +1,7 @@
 #include "scenarios/models/model.h"
 
+#include "scenarios/models/gltf_file.h"
 #include "scenarios/models/gltf_materials.h"
-#include "scenarios/models/gltf_nodes.h"
 #include "scenarios/models/triangle_soup.h"
 #include "scenarios/values/errors.h"
 

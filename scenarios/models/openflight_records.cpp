@@ -11,7 +11,7 @@ namespace {
 // Codes and places in the header as the OpenFlight Scene Description Database Specification has them; numbers are big-endian.
 constexpr std::size_t header = 1, push = 10, pop = 11, push_subface = 19, pop_subface = 20, push_extension = 21, pop_extension = 22,
                       push_attribute = 122, pop_attribute = 123;
-constexpr std::size_t revision_at = 12, unit_at = 62, least_header = 128;
+constexpr std::size_t revision_at = 12, least_header = 128;
 constexpr int deepest = 1000;
 
 std::size_t number(const std::string& bytes, std::size_t at, std::size_t size) {
@@ -49,21 +49,6 @@ void check_openflight(const std::filesystem::path& path, const std::string& byte
     }
     if (depth != 0)
         fail(fmt::format("{} levels still open at the file's end", depth), "a whole file");
-}
-
-double openflight_unit_m(const std::string& bytes) {
-    switch (number(bytes, unit_at, 1)) {
-    case 1:
-        return 1000.0;
-    case 4:
-        return 0.3048;
-    case 5:
-        return 0.0254;
-    case 8:
-        return 1852.0;
-    default:
-        return 1.0;
-    }
 }
 
 } // namespace fernlicht

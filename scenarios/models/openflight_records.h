@@ -10,7 +10,4 @@ namespace fernlicht {
 /// other than 1400 to 1700 (14.0 to 17.0), records that end beyond the file, levels that are opened and never closed or deeper than 1000.
 void check_openflight(const std::filesystem::path& path, const std::string& bytes);
 
-/// Metres in the header's unit of coordinates: metres, kilometres, feet, inches or nautical miles.
-double openflight_unit_m(const std::string& bytes);
-
 } // namespace fernlicht

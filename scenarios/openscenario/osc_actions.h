@@ -2,9 +2,8 @@
 #pragma once
 
 #include "scenarios/openscenario/osc_path.h"
-#include "scenarios/openscenario/osc_transition.h"
 #include "scenarios/openscenario/osc_world.h"
-#include "scenarios/openscenario/played_story.h"
+#include "scenarios/openscenario/play_story.h"
 
 namespace fernlicht::osc {
 

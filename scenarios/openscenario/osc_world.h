@@ -1,4 +1,5 @@
 // The storyboard's world at one moment: where every entity is, on road and lane, and how positions of the file become places.
+// Distances between entities and places: straight, along the road, across it; from reference points or between boxes.
 #pragma once
 
 #include "scenarios/openscenario/storyboard.h"
@@ -61,7 +62,6 @@ class World {
 
     const std::filesystem::path& file() const { return storyboard_->file; }
     const RoadNetwork& network() const { return *network_; }
-    const RoadFinder& finder() const { return finder_; }
     std::vector<EntityState>& entities() { return entities_; }
     const std::vector<EntityState>& entities() const { return entities_; }
     EntityState& entity(const std::string& name);
@@ -94,5 +94,17 @@ class World {
 int nearest_lane(const Road& road, double s_m, double t_m);
 /// Heading of travel of a lane, relative to the reference line: 0 or pi.
 double lane_direction_rad(const Road& road, int lane, double s_m);
+
+/// By the measure; nullopt where no road leads from one to the other. Longitudinal and lateral ones have a sign: ahead and left of the
+/// first are positive; straight ones have none.
+std::optional<double> distance(const World& world, const EntityState& from, const EntityState& to, const Measure& measure);
+std::optional<double> distance(const World& world, const EntityState& from, const Spot& to, const Measure& measure);
+
+/// Along the road, where none leads there along the first one's axis; ahead positive.
+double longitudinal_gap(const World& world, const EntityState& from, const EntityState& to, bool freespace);
+/// How far an entity still has to go to a place: along the road, else straight; below 0 beyond it.
+double way_to(const World& world, const EntityState& from, const Spot& to);
+/// The boxes overlap, seen from above.
+bool touching(const EntityState& a, const EntityState& b);
 
 } // namespace fernlicht::osc

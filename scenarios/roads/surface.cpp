@@ -1,6 +1,6 @@
 #include "scenarios/roads/surface.h"
 
-#include "scenarios/roads/cubics.h"
+#include "scenarios/roads/road_network.h"
 
 #include <algorithm>
 #include <cmath>

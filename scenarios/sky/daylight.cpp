@@ -1,6 +1,6 @@
 #include "scenarios/sky/daylight.h"
 
-#include "scenarios/sky/calendar.h"
+#include "scenarios/sky/ephemeris.h"
 #include "scenarios/values/pose.h"
 
 #include <cmath>

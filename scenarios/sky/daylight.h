@@ -1,7 +1,7 @@
 // The light of the sky at a moment: sun, moon and what comes diffusely from all sides.
 #pragma once
 
-#include "scenarios/sky/horizon.h"
+#include "scenarios/sky/ephemeris.h"
 #include "scenarios/sky/sky_light.h"
 
 #include <optional>

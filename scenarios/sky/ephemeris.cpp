@@ -95,6 +95,61 @@ double phase_angle_rad(const CelestialPlace& sun, const CelestialPlace& moon) {
     return std::atan2(sun.distance_km * sine, moon.distance_km - sun.distance_km * cosine);
 }
 
-double illuminated_fraction(double phase_angle_rad) { return 0.5 * (1.0 + std::cos(phase_angle_rad)); }
+int days_in_month(int year, int month) {
+    const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+    return month == 2 ? (leap ? 29 : 28) : (month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31);
+}
+
+double julian_day(const CalendarTime& time) {
+    const int y = time.month > 2 ? time.year : time.year - 1, m = time.month > 2 ? time.month : time.month + 12;
+    const double century = std::floor(y / 100.0), leap = 2.0 - century + std::floor(century / 4.0);
+    return std::floor(365.25 * (y + 4716)) + std::floor(30.6001 * (m + 1)) + time.day + leap - 1524.5 + time.hours_ut / 24.0;
+}
+
+double delta_t_s(double julian_day_ut) {
+    const double year = 2000.0 + (julian_day_ut - 2451544.5) / 365.2425, t = year - 2000.0;
+    if (year >= 1986.0 && year < 2005.0)
+        return 63.86 + t * (0.3345 + t * (-0.060374 + t * (0.0017275 + t * (0.000651814 + t * 0.00002373599))));
+    if (year >= 2005.0 && year < 2050.0)
+        return 62.92 + t * (0.32217 + t * 0.005589);
+    const double u = (year - 1820.0) / 100.0;
+    return -20.0 + 32.0 * u * u;
+}
+
+double julian_centuries(double julian_day_tt) { return (julian_day_tt - 2451545.0) / 36525.0; }
+
+double sidereal_time_rad(double julian_day_ut, double nutation_rad, double obliquity_rad) {
+    const double days = julian_day_ut - 2451545.0, t = days / 36525.0;
+    const double mean_deg = 280.46061837 + 360.98564736629 * days + t * t * (0.000387933 - t / 38710000.0);
+    const double angle = radians(std::fmod(mean_deg, 360.0)) + nutation_rad * std::cos(obliquity_rad);
+    return angle - 2.0 * pi * std::floor(angle / (2.0 * pi));
+}
+
+double refraction_rad(double altitude_rad, double pressure_hpa, double temperature_c) {
+    const double h = degrees(altitude_rad);
+    if (h < -5.0)
+        return 0.0;
+    const double arc_minutes = 1.02 / std::tan(radians(h + 10.3 / (h + 5.11)));
+    return radians(std::fmax(arc_minutes, 0.0) / 60.0) * (pressure_hpa / 1010.0) * (283.0 / (273.0 + temperature_c));
+}
+
+HorizontalPlace horizontal_place(const CelestialPlace& body, double sidereal_rad, const GeographicPlace& from) {
+    const double hour_angle = sidereal_rad + from.longitude_rad - body.right_ascension_rad;
+    const double cd = std::cos(body.declination_rad), sd = std::sin(body.declination_rad);
+    const double cp = std::cos(from.latitude_rad), sp = std::sin(from.latitude_rad);
+    const double east = -cd * std::sin(hour_angle), north = sd * cp - cd * sp * std::cos(hour_angle);
+    const double up = sp * sd + cp * cd * std::cos(hour_angle) - 6378.14 / body.distance_km;
+    HorizontalPlace place;
+    const double azimuth = std::atan2(east, north);
+    place.azimuth_rad = azimuth < 0.0 ? azimuth + 2.0 * pi : azimuth;
+    place.altitude_rad = std::atan2(up, std::hypot(east, north));
+    place.apparent_rad = place.altitude_rad + refraction_rad(place.altitude_rad);
+    return place;
+}
+
+glm::dvec3 horizon_direction(double azimuth_rad, double elevation_rad) {
+    const double level = std::cos(elevation_rad);
+    return {std::sin(azimuth_rad) * level, std::cos(azimuth_rad) * level, std::sin(elevation_rad)};
+}
 
 } // namespace fernlicht

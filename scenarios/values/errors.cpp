@@ -1,6 +1,6 @@
 #include "scenarios/values/errors.h"
 
-#include "scenarios/values/utf8.h"
+#include "scenarios/values/files.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,6 @@
 #include "scenarios/values/files.h"
 
 #include "scenarios/values/errors.h"
-#include "scenarios/values/utf8.h"
 
 #include <cerrno>
 #include <cstdint>

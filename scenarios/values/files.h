@@ -1,4 +1,5 @@
 // Reading the user's files: whole, bounded, and with a record of what was read.
+// What is UTF-8, what is UTF-16, and what is neither.
 #pragma once
 
 #include <cstddef>
@@ -31,5 +32,12 @@ void write_file(const std::filesystem::path& path, const std::string& content);
 
 /// UTF-8 as it is (without byte order mark); anything else is taken as Windows-1252 and converted.
 std::string to_utf8(const std::string& bytes);
+
+/// Length of the UTF-8 sequence at `p`, of which `left` bytes may be read, at least 1; 0 when the bytes are none (overlong forms and
+/// surrogates included).
+std::size_t utf8_length(const unsigned char* p, std::size_t left);
+
+/// By its byte order mark, or because every second byte of plain text is 0.
+bool is_utf16(const std::string& bytes);
 
 } // namespace fernlicht

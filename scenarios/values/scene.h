@@ -51,7 +51,7 @@ struct Material {
     /// out.
     float mirror = 0.0F;
     float glass_index = 0.0F; ///< refractive index against air, >= 1, of a closed body without albedo; 0: opaque. By rays alone, too
-    /// Colour that the retroreflected part has in white light, linear sRGB, each >= 0, not all 0; its size says nothing (retro_tint.h).
+    /// Colour that the retroreflected part has in white light, linear sRGB, each >= 0, not all 0; its size says nothing (light.h).
     glm::vec3 retro_rgb{1.0F};
 
     bool operator==(const Material&) const = default;

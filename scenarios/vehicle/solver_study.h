@@ -1,4 +1,5 @@
 // Error against run time of the solvers that move car and lamps. Takes seconds: for commands that report, not for a run.
+// The closed form that solvers of second-order systems are held against.
 #pragma once
 
 #include "scenarios/vehicle/ode.h"
@@ -33,5 +34,9 @@ struct SolverStudy {
 /// Problems: lamp actuators of 5 Hz and of 50 kHz that answer a step (closed form); a car at 20 m/s over an edge of 2 cm; a car that brakes
 /// to rest from 10 m/s.
 std::vector<SolverRow> study_solvers(const SolverStudy& study = {});
+
+/// x(t) of x'' = w^2 (1 - x) - 2 z w x' from rest at 0, w in rad/s, z >= 0; 0 before t = 0. From the roots of s^2 + 2 z w s + w^2, in any
+/// textbook of control; to some roundings of 1 except within 1e-4 of z = 1, where the roots cancel (z = 1 itself has its own form).
+double step_response(double w, double z, double t_s);
 
 } // namespace fernlicht

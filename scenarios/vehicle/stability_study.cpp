@@ -2,7 +2,7 @@
 
 #include "scenarios/vehicle/actuator.h"
 #include "scenarios/vehicle/car_run.h"
-#include "scenarios/vehicle/step_response.h"
+#include "scenarios/vehicle/solver_study.h"
 
 #include <algorithm>
 #include <cmath>

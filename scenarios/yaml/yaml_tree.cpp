@@ -1,8 +1,10 @@
 #include "scenarios/yaml/yaml_tree.h"
 
 #include "scenarios/values/errors.h"
-#include "scenarios/values/utf8.h"
+#include "scenarios/values/files.h"
+#include "scenarios/values/pose.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -173,6 +175,24 @@ YamlValue parse_yaml(const std::string& content, const std::filesystem::path& fi
                           {}},
                          "is not YAML: " + printable(error.msg, 200));
     }
+}
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+        else
+            out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+    return out + '"';
+}
+
+std::string angle_entry(std::string_view key, double angle_rad) {
+    const double middle = degrees(angle_rad);
+    for (const double candidate : {middle, std::nextafter(middle, -HUGE_VAL), std::nextafter(middle, HUGE_VAL)})
+        if (radians(candidate) == angle_rad)
+            return fmt::format("{}_deg: {}", key, candidate);
+    return fmt::format("{}_rad: {}", key, angle_rad);
 }
 
 } // namespace fernlicht

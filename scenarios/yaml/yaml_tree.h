@@ -1,9 +1,11 @@
 // A YAML document as plain values that know where they stand in the file. The only place that knows the YAML library.
+// Pieces of the YAML that resolved drives are written in.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fernlicht {
@@ -31,5 +33,11 @@ struct YamlMember {
 /// one document, a key that is given twice or is not plain text, nesting deeper than 32, and more than 100 000 values
 /// (aliases counted as what they stand for, so that a small file cannot grow into a large tree).
 YamlValue parse_yaml(const std::string& content, const std::filesystem::path& file);
+
+/// Text in double quotes, as YAML and JSON both read it.
+std::string quoted(const std::string& text);
+
+/// `key`_deg where some number of degrees gives exactly these radians, else `key`_rad.
+std::string angle_entry(std::string_view key, double angle_rad);
 
 } // namespace fernlicht

@@ -1,7 +1,7 @@
 // Metrics of pictures, 1024 x 768. `--benchmark_enable_random_interleaving=true --benchmark_repetitions=5` takes them in turns.
 #include "metrics/images/ciede2000.h"
-#include "metrics/images/display_difference.h"
 #include "metrics/images/flip.h"
+#include "metrics/images/image_difference.h"
 #include "metrics/images/ssim.h"
 #include "tests/metrics/images/direct_flip.h"
 #include "tests/metrics/images/made_pictures.h"

@@ -1,8 +1,6 @@
 // What is computed for every moment of a run, and over a bench's samples.
 #include "metrics/images/image_difference.h"
 #include "metrics/road/extent.h"
-#include "metrics/statistics/paired_ratio.h"
-#include "metrics/statistics/random_order.h"
 #include "metrics/statistics/statistics.h"
 #include "tests/benchmarks/country_road.h"
 

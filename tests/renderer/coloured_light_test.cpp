@@ -3,7 +3,7 @@
 
 #include "renderer/renderer.h"
 #include "scenarios/display/display_profile.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 
 #include <algorithm>
 #include <cmath>

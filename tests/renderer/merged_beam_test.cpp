@@ -1,4 +1,4 @@
-#include "renderer/merged_beam.h"
+#include "renderer/projected_beam.h"
 
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/light/light.h"

@@ -1,9 +1,9 @@
 // The own car's body hides what lies behind it and takes no light from the road; a red reflector is seen red, as bright as its R_A says.
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
-#include "scenarios/drives/play/own_car.h"
+#include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/lamps/lamp_model.h"
-#include "scenarios/light/retro_tint.h"
+#include "scenarios/light/light.h"
 #include "scenarios/models/road_user_bodies.h"
 
 #include <algorithm>

@@ -1,9 +1,7 @@
 // The published techniques against their own formulas in double, pixel by pixel: what they compute is wrong as light, but right as
 // published.
 #include "renderer/light_map.h"
-#include "renderer/merged_beam.h"
 #include "renderer/projected_beam.h"
-#include "renderer/published_light.h"
 #include "renderer/twin.h"
 #include "scenarios/lamps/spots/spot_fit.h"
 #include "tests/renderer/published_scene.h"

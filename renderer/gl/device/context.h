@@ -1,7 +1,7 @@
 // An OpenGL 4.5 core context without a window, and the functions it gives.
 #pragma once
 
-#include "renderer/surface_filter.h"
+#include "renderer/device.h"
 
 #include <glad/gl.h>
 

@@ -1,8 +1,12 @@
 // Shader programs from the embedded files, one per set of features.
+// What a feature's shader is told: numbers as text, vectors of four, and which outputs are wanted.
 #pragma once
 
 #include "renderer/gl/device/context.h"
+#include "scenarios/drives/play/frame.h"
 
+#include <fmt/format.h>
+#include <glm/vec4.hpp>
 #include <string>
 #include <vector>
 
@@ -28,5 +32,19 @@ class Program {
     Context* context_;
     GLuint program_ = 0;
 };
+
+/// WANTED of the shaders: one bit an output.
+inline int wanted_bits(const Wanted& w) {
+    return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) |
+           (w.ids ? 32 : 0) | (w.light ? 64 : 0);
+}
+
+/// A constant of the source; it reads back as the same float.
+inline std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
+
+/// What floats on the GPU may be above a bound in double, as a factor.
+inline constexpr double rounding = 1.001;
+
+inline glm::vec4 four(const glm::dvec3& v, double w = 0.0) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 } // namespace fernlicht::gl

@@ -1,5 +1,7 @@
 // Depth maps whose projections differ from frame to frame: each is looked up by a matrix of its own, so that it can be drawn from another
 // place than the lamp's, warped, or kept from an earlier frame.
+// One depth map for all lamps, from midway between those that shine.
+// The method `soft-map`: penumbrae of lamps that are discs facing along their axes, as the mean over maps from places on the disc.
 #pragma once
 
 #include "renderer/gl/scene/draw_list.h"
@@ -58,6 +60,39 @@ class ProjectedMaps : public Shadows {
     std::map<std::string, Kept> kept_; ///< by the lamps' names
     std::vector<LitLamp> lamps_;
     std::vector<glm::mat4> from_lamps_;
+};
+
+/// Every lamp's shadows fall as from midway, which is a parallax: behind a caster at z_c, at z, an edge lies (z / z_c - 1) times the lamp's
+/// distance from midway beside where it belongs.
+class OneMap : public ProjectedMaps {
+  public:
+    using ProjectedMaps::ProjectedMaps;
+
+    std::vector<Program::Define> defines(const std::vector<const Beam*>& beams) const override;
+
+  protected:
+    void choose_casters(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) override;
+};
+
+/// Midway between the lamps that shine, along the mean of their axes; the first lamp where none does.
+LitLamp midway(const std::vector<LitLamp>& lamps);
+
+/// Tangents seen from `from` that hold all that the lamps' windows hold from so far on.
+ShadowWindow window_over(const LitLamp& from, const std::vector<LitLamp>& lamps, const std::vector<ShadowWindow>& windows, double from_m);
+
+/// `count` places on a disc, each standing for the same area: a sunflower's seeds (Vogel 1979), r = radius sqrt((k + 1/2) / count) at k
+/// times the golden angle. The same for every lamp and frame.
+std::vector<glm::dvec2> places_on_disc(double radius_m, int count);
+
+/// The share of `lamp_places` places that a surface sees, which converges to the share of the disc; the light itself keeps coming from the
+/// disc's centre.
+class SoftMaps : public ProjectedMaps {
+  public:
+    SoftMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings)
+        : ProjectedMaps(context, scene, settings, places_on_disc(settings.lamp_radius_m, settings.lamp_places)) {}
+
+  protected:
+    void choose_casters(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) override;
 };
 
 } // namespace fernlicht::gl

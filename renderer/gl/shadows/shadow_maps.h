@@ -1,9 +1,13 @@
 // Depth as each lamp sees it, of what can cast a shadow (shadow_casters.h). Receivers are looked up from a point raised above their
 // surface by what a texel spans there (docs/decisions/0005), so that nothing shades itself.
+// The depth textures of shadow maps.
 #pragma once
 
+#include "renderer/gl/device/objects.h"
 #include "renderer/gl/scene/draw_list.h"
 #include "renderer/gl/shadows/shadows.h"
+
+#include <string>
 
 namespace fernlicht::gl {
 
@@ -29,5 +33,14 @@ class ShadowMaps : public Shadows {
     glm::dvec3 drawn_ego_m_{0.0};
     std::uint64_t drawn_placed_ = 0;
 };
+
+struct ShadowTextureAsked {
+    int width = 0, height = 0; ///< texels
+    int layers = 0;            ///< maps in an array of textures; 0: one map, a plain texture
+    std::string owner;         ///< "each lamp by 'map'"
+    std::string smaller;       ///< what takes less: "a smaller map_texels"
+};
+/// Depths that are compared while they are looked up. Throws ShadowMemoryError where the driver has no room for them.
+Texture make_shadow_texture(Context& context, const ShadowTextureAsked& asked);
 
 } // namespace fernlicht::gl

@@ -38,7 +38,6 @@ class ShadowMask : public Shadows {
     /// All of set() that a method needs which chooses its casters itself.
     void set_lamps(const std::vector<LitLamp>& lamps, const glm::dvec3& ego_m);
     const glm::dvec3& ego_m() const { return ego_m_; }
-    const std::vector<LitLamp>& lit_lamps() const { return lamps_; }
 
   private:
     struct Canvas {

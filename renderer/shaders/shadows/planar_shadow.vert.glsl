@@ -1,12 +1,7 @@
 // Casters flattened onto a plane by a lamp's light, in a view. Only what lies between plane and lamp is left.
 layout(location = 0) in vec3 position_m;
 layout(location = 3) in vec4 mesh_offset_m;
-#ifdef MOVING
-layout(location = 5) in vec4 body_turn;
-vec3 turned(vec3 v) { return v + 2.0 * cross(body_turn.xyz, cross(body_turn.xyz, v) + body_turn.w * v); }
-#else
-vec3 turned(vec3 v) { return v; }
-#endif
+#include "turned.glsl"
 
 uniform mat4 clip_from_ego; // lowered by a target's height
 uniform vec4 plane;         // unit normal; -normal . place: heights above it are dot(plane, (p, 1))

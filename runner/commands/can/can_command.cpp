@@ -1,10 +1,6 @@
 #include "runner/commands/can/can_command.h"
 
-#include "runner/commands/can/convert_command.h"
-#include "runner/commands/can/cut_command.h"
-#include "runner/commands/can/decode_command.h"
-#include "runner/commands/can/merge_command.h"
-#include "runner/commands/can/record_command.h"
+#include "runner/commands/commands.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -15,7 +11,7 @@
 
 namespace fernlicht {
 
-void add_can_command(CLI::App& app, std::function<int()>& chosen) {
+void add_can_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     CLI::App* can = app.add_subcommand("can", "tools for candump logs of a CAN bus");
     can->require_subcommand(0, 1);
     add_can_merge(*can, chosen);

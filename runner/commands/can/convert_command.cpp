@@ -1,10 +1,10 @@
-#include "runner/commands/can/convert_command.h"
+#include "runner/commands/can/can_command.h"
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/log_flags.h"
 #include "runner/play/interruption.h"
-#include "scenarios/can/error_words.h"
+#include "scenarios/can/can_frame.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,8 +1,7 @@
-#include "runner/commands/can/decode_command.h"
+#include "runner/commands/can/can_command.h"
 
 #include "runner/commands/can/databases.h"
 #include "runner/commands/can/decoded_text.h"
-#include "runner/commands/can/frame_json.h"
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/log_flags.h"
 #include "runner/play/interruption.h"

@@ -1,4 +1,4 @@
-#include "runner/commands/can/merge_command.h"
+#include "runner/commands/can/can_command.h"
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"

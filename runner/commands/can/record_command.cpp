@@ -1,4 +1,4 @@
-#include "runner/commands/can/record_command.h"
+#include "runner/commands/can/can_command.h"
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/log_flags.h"

@@ -1,11 +1,11 @@
 // What `fernlicht aliasing` found: how much of what pictures show is not there, by how they are drawn. The writers only format it.
 #pragma once
 
-#include "metrics/aliasing/named_edges.h"
+#include "metrics/aliasing/jaggedness.h"
 #include "metrics/aliasing/optical_flow.h"
 #include "metrics/aliasing/spatial_aliasing.h"
 #include "metrics/aliasing/temporal_aliasing.h"
-#include "renderer/surface_filter.h"
+#include "renderer/device.h"
 #include "runner/findings/document.h"
 #include "runner/findings/findings.h"
 #include "scenarios/drives/play/frame.h"

@@ -1,7 +1,7 @@
 // What is measured over time along paths by optical flow: with a reference, or without.
 #pragma once
 
-#include "metrics/aliasing/flow_paths.h"
+#include "metrics/aliasing/optical_flow.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
 
 namespace fernlicht {

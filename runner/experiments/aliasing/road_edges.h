@@ -1,7 +1,7 @@
 // Which pixels of a view show road and which its marks, drawn without any light.
 #pragma once
 
-#include "metrics/aliasing/named_edges.h"
+#include "metrics/aliasing/jaggedness.h"
 #include "renderer/renderer.h"
 
 namespace fernlicht {

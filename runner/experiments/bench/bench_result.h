@@ -1,7 +1,6 @@
 // What a bench found: raw samples of each technique and what they were taken on. The writers only format it.
 #pragma once
 
-#include "metrics/statistics/paired_ratio.h"
 #include "metrics/statistics/statistics.h"
 #include "renderer/renderer.h"
 #include "renderer/technique.h"

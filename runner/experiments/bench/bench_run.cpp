@@ -3,7 +3,6 @@
 #include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
-#include "renderer/timer_check.h"
 #include "runner/experiments/bench/contact_sheet.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"

@@ -1,7 +1,7 @@
 // What is known about how two pictures differ: numbers, a verdict where one was asked for, and the maps to be drawn. Plain values.
 #pragma once
 
-#include "metrics/strictness/error_histogram.h"
+#include "metrics/strictness/strictness.h"
 #include "metrics/strictness/strictness_classes.h"
 #include "runner/experiments/compare/picture_pair.h"
 
@@ -49,7 +49,7 @@ struct PictureComparison {
 std::string why_no_flip_at(double pixels_per_degree);
 
 /// Display pictures: levels, PSNR with peak 255, SSIM and MS-SSIM of luma (range 255), CIEDE2000, FLIP. Linear: in the unit, PSNR with the
-/// reference's largest value as peak, SSIM and MS-SSIM over four decades of light (light_decades.h), and, of luminance, FLIP for high
+/// reference's largest value as peak, SSIM and MS-SSIM over four decades of light (image_difference.h), and, of luminance, FLIP for high
 /// dynamic range. What a picture cannot have (MS-SSIM of a small one, PSNR of two alike) is not measured, with the reason. Throws
 /// InputError where a mask does not fit. Linear pictures that nobody looks at (maps) have 0 pixels per degree and no FLIP; where FLIP is
 /// not taken at the pixels per degree of others, it is not measured.

@@ -16,7 +16,7 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/bus_play.h"
 #include "scenarios/drives/play/bus_report.h"
-#include "scenarios/drives/play/signals_csv.h"
+#include "scenarios/drives/play/drive_log.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "runner/findings/context_json.h"
 #include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/files.h"
 

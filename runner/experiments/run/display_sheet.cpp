@@ -3,7 +3,6 @@
 #include "metrics/display/tone_fit.h"
 #include "runner/files/clean_text.h"
 #include "runner/play/shown_picture.h"
-#include "scenarios/display/tone_curve.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "runner/files/clean_text.h"
 #include "runner/play/drawn_by.h"
 #include "runner/play/shown_picture.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 
 #include <fmt/format.h>
 

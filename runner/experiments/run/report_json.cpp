@@ -13,7 +13,7 @@
 #include "runner/play/live/live_figures.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/shown_picture.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/keys/shadow_keys.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "runner/experiments/shadows/moment_sheet.h"
 
-#include "renderer/shadow_memory.h"
+#include "renderer/renderer.h"
 #include "runner/experiments/shadows/scene_study.h"
 #include "runner/experiments/shadows/shown_picture.h"
 #include "runner/play/shadows/shadow_truth.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "metrics/shadows/shadow_edges.h"
-#include "metrics/shadows/shadow_spots.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/findings/document.h"

@@ -1,5 +1,4 @@
 #include "metrics/readings/reading_words.h"
-#include "metrics/readings/unit_words.h"
 #include "runner/experiments/run/report_writers.h"
 #include "runner/experiments/study/lamp_verdict.h"
 #include "runner/experiments/study/study_words.h"

@@ -1,7 +1,6 @@
 #include "runner/play/shadows/choose_shadows.h"
 
 #include "metrics/images/pixel_errors.h"
-#include "renderer/shadow_memory.h"
 #include "runner/findings/shadow_figures.h"
 #include "runner/play/shadows/shadow_truth.h"
 #include "scenarios/drives/play/advance.h"

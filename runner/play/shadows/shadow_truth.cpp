@@ -1,24 +1,10 @@
 #include "runner/play/shadows/shadow_truth.h"
 
-#include "scenarios/values/errors.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace fernlicht {
 namespace {
-
-View small_view(const View& view) {
-    const double ratio = static_cast<double>(view.height_px) / view.width_px;
-    return at_size(view, shadow_error_width_px, std::max(1, static_cast<int>(std::lround(shadow_error_width_px * ratio))));
-}
-
-ShadowArea error_over_moments(ShadowTruth& truth, Renderer& renderer, std::size_t moments) {
-    ShadowArea sum;
-    for (std::size_t m = 0; m < moments; ++m)
-        sum += shadow_area(truth.images(renderer, m));
-    return sum;
-}
 
 /// Where less light is drawn than there is (faint lamps of others are left out), a share of the one is no share of the other.
 bool like_light(float drawn_lx, float true_lx) {
@@ -87,35 +73,6 @@ ShadowImages ShadowTruth::images(Renderer& renderer, std::size_t moment) {
         images.counts.pixels()[i] = static_cast<std::uint8_t>(counts ? 1 : 0);
     }
     return images;
-}
-
-ShadowArea shadow_error(Device& device, const Scene& scene, const std::vector<Moment>& moments, const View& view,
-                        const RendererSettings& settings) {
-    const Reference rays(scene);
-    Renderer unshadowed(device, scene, without_shadows(settings));
-    ShadowTruth truth(rays, unshadowed, moments, small_view(view));
-    Renderer renderer(device, scene, settings);
-    return error_over_moments(truth, renderer, moments.size());
-}
-
-std::vector<std::optional<ShadowArea>> shadow_errors(Device& device, const Scene& scene, const std::vector<Moment>& moments,
-                                                     const View& view, const RendererSettings& light,
-                                                     const std::vector<ShadowSettings>& settings) {
-    const Reference rays(scene);
-    Renderer unshadowed(device, scene, without_shadows(light));
-    ShadowTruth truth(rays, unshadowed, moments, small_view(view));
-    std::vector<std::optional<ShadowArea>> errors;
-    for (const ShadowSettings& shadows : settings) {
-        RendererSettings all = light;
-        all.shadows = shadows;
-        try {
-            Renderer renderer(device, scene, all);
-            errors.emplace_back(error_over_moments(truth, renderer, moments.size()));
-        } catch (const InputError&) {
-            errors.emplace_back();
-        }
-    }
-    return errors;
 }
 
 } // namespace fernlicht

@@ -49,19 +49,7 @@ RendererSettings without_shadows(RendererSettings settings);
 /// The view at another size.
 View at_size(View view, int width_px, int height_px);
 
-/// Columns of the picture on which shadow_error() decides; rows as the view's ratio has it.
+/// Columns of the picture on which errors of shadows are counted; rows as the view's ratio has it.
 inline constexpr int shadow_error_width_px = 160;
-
-/// How wrong the shadows of these moments are in a view, as drawn with `settings`: areas in pixels of the view drawn 160 wide, summed over
-/// the moments, so that wrong_share() is the share of what is lit without shadows that is wrongly lit or wrongly dark. Truth: a ray from
-/// the pixel's centre to each lamp, a point. Depends on nothing but its arguments. Throws DeviceError; InputError where the method
-/// refuses the scene.
-ShadowArea shadow_error(Device& device, const Scene& scene, const std::vector<Moment>& moments, const View& view,
-                        const RendererSettings& settings);
-
-/// The same of several ways to draw, which share the rays. `settings` differ in their shadows alone; nullopt: the method refuses.
-std::vector<std::optional<ShadowArea>> shadow_errors(Device& device, const Scene& scene, const std::vector<Moment>& moments,
-                                                     const View& view, const RendererSettings& light,
-                                                     const std::vector<ShadowSettings>& settings);
 
 } // namespace fernlicht

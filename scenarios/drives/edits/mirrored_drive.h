@@ -1,6 +1,9 @@
 // Left-hand traffic from a drive made for right-hand traffic, or the other way round.
+// Lamp control for the other side's traffic.
 #pragma once
 
+#include "scenarios/can/bus_mapping.h"
+#include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/drive.h"
 
 #include <optional>
@@ -22,5 +25,10 @@ inline void change_sign(std::optional<double>& value) {
 
 /// "high-left" of "high-right"; within longer words they stay ("bright").
 std::string other_side(const std::string& name);
+
+/// Left and right exchanged: lamps' names, stops of the swivel, windows, signals that point to a side. Plug-ins are left as they are.
+ControlParameters mirrored(ControlParameters control);
+/// What a bus says of left and right is taken for the other side; lamps' names likewise.
+BusMapping mirrored(BusMapping mapping);
 
 } // namespace fernlicht

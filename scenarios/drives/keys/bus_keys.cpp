@@ -6,7 +6,7 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/drives/play/bus_play.h"
 #include "scenarios/values/errors.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,7 +2,7 @@
 
 #include "scenarios/drives/keys/lamp_sets.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 namespace fernlicht {
 namespace {

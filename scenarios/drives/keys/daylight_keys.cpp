@@ -1,8 +1,8 @@
 #include "scenarios/drives/keys/daylight_keys.h"
 
 #include "scenarios/drives/keys/lamp_keys.h"
-#include "scenarios/sky/calendar.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/sky/ephemeris.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <array>
 #include <charconv>

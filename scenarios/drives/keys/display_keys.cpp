@@ -1,8 +1,8 @@
 #include "scenarios/drives/keys/display_keys.h"
 
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/values/errors.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
 #include <cmath>

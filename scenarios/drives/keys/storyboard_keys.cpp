@@ -1,5 +1,5 @@
 #include "scenarios/drives/keys/storyboard_keys.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include "scenarios/values/errors.h"
 

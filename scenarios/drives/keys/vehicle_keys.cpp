@@ -4,7 +4,7 @@
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/fields/write_fields.h"
-#include "scenarios/vehicle/car_validity.h"
+#include "scenarios/vehicle/car_run.h"
 
 #include <fmt/format.h>
 

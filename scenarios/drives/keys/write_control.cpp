@@ -1,7 +1,7 @@
 #include "scenarios/drives/keys/control_fields.h"
 #include "scenarios/drives/keys/control_keys.h"
 #include "scenarios/fields/write_fields.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -9,7 +9,7 @@
 #include "scenarios/drives/keys/storyboard_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/write_fields.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <cmath>
 #include <fmt/format.h>

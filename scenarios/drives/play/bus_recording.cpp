@@ -1,7 +1,10 @@
 #include "scenarios/drives/play/bus_recording.h"
 
+#include "scenarios/can/candump_log.h"
 #include "scenarios/control/control_parameters.h"
+#include "scenarios/drives/play/bus_play.h"
 #include "scenarios/drives/play/control_play.h"
+#include "scenarios/drives/play/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +79,17 @@ std::vector<CanFrame> recorded_inputs(const Drive& drive, const Route& route, co
     add(std::llround(1.0e9 * drive.duration_s) - 1);
     notes = outputs.notes();
     return frames;
+}
+
+std::string sent_log(const Drive& drive, const Variant& variant) {
+    std::string text;
+    if (!variant.motion)
+        return text;
+    for (CanFrame frame : variant.motion->sent) {
+        frame.time_ns += drive.bus ? drive.bus->start_ns : 0;
+        text += candump_line(frame) + '\n';
+    }
+    return text;
 }
 
 } // namespace fernlicht

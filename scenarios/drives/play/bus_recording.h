@@ -1,7 +1,10 @@
 // What a bus would carry if a drive's own script were the car: the recording that a drive with `can` is played by.
+// What a run's lamp controller sent, as candump would have logged it.
 #pragma once
 
 #include "scenarios/drives/drive.h"
+
+#include <string>
 
 namespace fernlicht {
 
@@ -14,5 +17,9 @@ struct CanFrame;
 /// the range of a signal.
 std::vector<CanFrame> recorded_inputs(const Drive& drive, const Route& route, const Variant& variant, FilesRead& opened,
                                       std::vector<std::string>& notes);
+
+/// Lines of `candump -L`, stamped as the recording is that the drive was played by (0 s without one), so that both can be merged. "" for a
+/// variant that sent nothing.
+std::string sent_log(const Drive& drive, const Variant& variant);
 
 } // namespace fernlicht

@@ -1,9 +1,13 @@
 // A drive as it was played, one row for each tick and everything that moves or shines; read back, it plays again without what led to it.
+// The signal table over a drive as a CSV file: one row per moment.
 #pragma once
 
+#include "scenarios/control/control_run.h"
+#include "scenarios/drives/drive.h"
 #include "scenarios/drives/play/moment.h"
 
 #include <map>
+#include <string>
 
 namespace fernlicht {
 
@@ -34,5 +38,9 @@ DriveLog read_drive_log(const std::filesystem::path& path, FilesRead& opened);
 /// Puts the log's poses, speeds and lamps in the place of the moment's. Throws InputError where the log has not this tick or other lamps
 /// and road users than the moment.
 void replay(const DriveLog& log, const std::string& variant, Moment& moment);
+
+/// Columns: frame, then each signal by name; a signal that is lost is empty, a distance to nothing "inf". Behind them, of each input from a
+/// bus, NAME.state (fresh, stale, missing, out_of_range, contradictory) and NAME.age_s. Of the ticks first..last.
+std::string signals_csv(const Drive& drive, const ControlRun& run, int first, int last);
 
 } // namespace fernlicht

@@ -3,7 +3,6 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/bus_motion.h"
 #include "scenarios/values/errors.h"
-#include "scenarios/vehicle/car_validity.h"
 
 #include <algorithm>
 #include <cmath>

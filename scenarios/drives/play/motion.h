@@ -21,7 +21,7 @@ struct Motion {
 /// Gives each variant its motion and the drive notes on how the car's was solved and how far the car strayed from its plan. Nothing for a
 /// drive without a vehicle. Lamp control comes after it (simulate_control, control_play.h). A drive whose car comes to the route's end too
 /// soon is cut, with a note. Throws InputError when the equations cannot be solved as the drive asks, and when the car does what its model
-/// does not describe (car_validity.h).
+/// does not describe (car_run.h).
 void simulate(Drive& drive, const Route& route);
 
 /// Adds the actuators' angles at that time to a lamp's aim, and takes the level that lamp control gives it.

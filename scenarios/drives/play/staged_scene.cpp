@@ -3,14 +3,17 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/control_play.h"
 #include "scenarios/drives/play/motion.h"
-#include "scenarios/drives/play/own_car.h"
 #include "scenarios/drives/play/place_street_lamps.h"
 #include "scenarios/drives/play/place_traffic.h"
 #include "scenarios/drives/play/told_story.h"
+#include "scenarios/models/model_textures.h"
 #include "scenarios/models/placed_model.h"
-#include "scenarios/roads/mesh/far_ground.h"
+#include "scenarios/roads/mesh/mesh_terrain.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/traffic/road_user_mesh.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace fernlicht {
 
@@ -30,6 +33,57 @@ Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route)
     add_road_users(scene, drive.traffic, drive.opened);
     add_own_car(scene, drive);
     return scene;
+}
+
+namespace {
+
+constexpr double below_windows = 5.0 / 6.0; // of the eye's height: bonnets, doors and dashboards reach so far up
+
+const View* eye_of(const Drive& drive) {
+    const auto view = std::ranges::find(drive.views, Projection::perspective, &View::projection);
+    return view == drive.views.end() ? nullptr : &*view;
+}
+
+/// Keeps of a mesh in the car's frame what stands before an eye at `eye_m` and below the windows.
+void keep_before(Mesh& mesh, const glm::dvec3& eye_m) {
+    std::vector<std::uint32_t> indices;
+    for (Batch& batch : mesh.batches) {
+        const auto first = static_cast<std::uint32_t>(indices.size());
+        for (std::uint32_t k = batch.first; k + 2 < batch.first + batch.count; k += 3) {
+            double highest_m = -std::numeric_limits<double>::infinity(), sum_x_m = 0.0;
+            for (std::uint32_t i = 0; i < 3; ++i) {
+                const glm::dvec3 at = mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[k + i]].position_m);
+                highest_m = std::max(highest_m, at.z);
+                sum_x_m += at.x;
+            }
+            if (highest_m < below_windows * eye_m.z && sum_x_m > 3.0 * eye_m.x)
+                indices.insert(indices.end(), {mesh.indices[k], mesh.indices[k + 1], mesh.indices[k + 2]});
+        }
+        batch.first = first;
+        batch.count = static_cast<std::uint32_t>(indices.size()) - first;
+    }
+    mesh.indices = std::move(indices);
+    std::erase_if(mesh.batches, [](const Batch& batch) { return batch.count == 0; });
+}
+
+} // namespace
+
+void add_own_car(Scene& scene, const Drive& drive) {
+    const View* driver = eye_of(drive);
+    if (!drive.own_car || driver == nullptr)
+        return;
+    const std::size_t before = scene.meshes.size();
+    add_model(scene, *drive.own_car->model, {{}, axes_from_angles(drive.own_car->yaw_rad, 0.0, 0.0)}, drive.own_car->scale,
+              SurfaceKind::vehicle);
+    for (std::size_t i = before; i < scene.meshes.size(); ++i) {
+        Mesh& mesh = scene.meshes[i];
+        keep_before(mesh, driver->position_m);
+        mesh.name = "own car";
+        mesh.body = static_cast<int>(drive.traffic.size());
+        mesh.casts = false;
+    }
+    std::erase_if(scene.meshes, [](const Mesh& mesh) { return mesh.batches.empty() && mesh.name == "own car"; });
+    unify_texture_sizes(scene);
 }
 
 } // namespace fernlicht

@@ -1,7 +1,6 @@
 // The nonlinear part of fitting spot lights: given spots, nearby ones that leave less over.
 #pragma once
 
-#include "scenarios/lamps/spots/spot_directions.h"
 #include "scenarios/lamps/spots/spot_fit.h"
 
 #include <span>

@@ -1,8 +1,6 @@
-#include "scenarios/openscenario/reader/read_actions.h"
+#include "scenarios/openscenario/reader/read_parts.h"
 
 #include "scenarios/openscenario/osc_catalogs.h"
-#include "scenarios/openscenario/reader/read_environment.h"
-#include "scenarios/openscenario/reader/read_positions.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenarios/openscenario/reader/read_positions.h"
+#include "scenarios/openscenario/reader/read_parts.h"
 
 #include "scenarios/openscenario/osc_catalogs.h"
 #include "scenarios/values/errors.h"

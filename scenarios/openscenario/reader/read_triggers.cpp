@@ -1,6 +1,5 @@
-#include "scenarios/openscenario/reader/read_triggers.h"
+#include "scenarios/openscenario/reader/read_parts.h"
 
-#include "scenarios/openscenario/reader/read_positions.h"
 #include "scenarios/values/errors.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,9 @@
 // Ground beside the roads, for light to fall on.
+// Ground beyond the terrain beside the roads, so that by day no sky is seen below the horizon.
 #pragma once
 
 #include "scenarios/roads/mesh/mesh_footprint.h"
+#include "scenarios/values/scene.h"
 
 namespace fernlicht {
 
@@ -11,5 +13,9 @@ namespace fernlicht {
 /// more than 4 m lower (bridges) it is left out.
 void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, const Footprints& footprints,
                     const RoadMeshOptions& options);
+
+/// Adds level tiles of terrain's reflectance below all that the scene has, half a metre under its lowest point and 2.5 km farther than it
+/// reaches. They are seen and lit, stand in no light's way and in no map. Nothing for an empty scene.
+void add_far_ground(Scene& scene);
 
 } // namespace fernlicht

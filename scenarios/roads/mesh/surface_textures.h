@@ -1,4 +1,6 @@
 // Pictures for the surfaces of a road scene, drawn by formula.
+// Noise on a square that repeats: for textures without seams. Whole-number hashes and the four basic operations only, so that the
+// same seed gives the same bits on every machine.
 #pragma once
 
 #include "scenarios/values/scene.h"
@@ -23,5 +25,22 @@ glm::dvec3 mean_reflectance(const SurfaceTexture& texture, TextureMode mode, con
 /// Gives the materials of build_scene (road_materials()) their textures: asphalt; concrete and objects; verge and terrain; both kinds of
 /// paint. Albedo and retro_rl become such that their means over a repetition are what they were.
 void add_road_textures(Scene& scene, std::uint64_t seed);
+
+class TilingNoise {
+  public:
+    /// `stream` tells apart what is drawn with one seed.
+    TilingNoise(std::uint64_t seed, std::uint64_t stream);
+
+    /// Uniform in [0, 1), independent for each pair of whole numbers.
+    double uniform(int x, int y) const;
+    /// Gradient noise (Perlin 1985) of `cells` x `cells` cells over the square u, v in [0, 1); smooth, repeats beyond it. Its mean is near
+    /// 0, it lies within -1 .. 1, and it has little at wavelengths much longer than a cell. `cells` >= 1.
+    double gradient(double u, double v, int cells) const;
+    /// gradient() at `cells`, 2 `cells`, 4 `cells` ..., each octave `gain` as strong as the one before.
+    double octaves(double u, double v, int cells, int count, double gain) const;
+
+  private:
+    std::uint64_t key_;
+};
 
 } // namespace fernlicht

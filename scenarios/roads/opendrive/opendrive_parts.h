@@ -1,8 +1,22 @@
 // The parts of an OpenDRIVE file, each read by its own function into the plain values of a road network.
+// An OpenDRIVE file as XML.
 #pragma once
 
-#include "scenarios/roads/opendrive/opendrive_xml.h"
 #include "scenarios/roads/road_network.h"
+#include "scenarios/values/xml_file.h"
+
+namespace fernlicht {
+
+class OpenDriveXml : public XmlFile {
+  public:
+    /// Throws InputError (xml_file.h), and where the root is not OpenDRIVE.
+    OpenDriveXml(const std::filesystem::path& path, FilesRead& opened);
+};
+
+/// Words for messages: "road '12'".
+std::string named(std::string_view element, const std::string& id);
+
+} // namespace fernlicht
 
 namespace fernlicht::opendrive {
 

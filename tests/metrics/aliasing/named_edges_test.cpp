@@ -1,4 +1,4 @@
-#include "metrics/aliasing/named_edges.h"
+#include "metrics/aliasing/jaggedness.h"
 #include "tests/metrics/aliasing/analytic_pictures.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "metrics/aliasing/flow_paths.h"
+#include "metrics/aliasing/optical_flow.h"
 #include "tests/metrics/aliasing/analytic_pictures.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include "metrics/display/display_colour.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/values/files.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "metrics/display/exposure.h"
+#include "metrics/display/tone_fit.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

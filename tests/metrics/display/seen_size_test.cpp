@@ -1,5 +1,5 @@
 #include "metrics/display/display_colour.h"
-#include "metrics/display/seen_size.h"
+#include "metrics/display/seen_display.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include "metrics/display/tone_fit.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -15,11 +15,11 @@ LuminanceHistogram night() {
     std::mt19937 random(7);
     std::lognormal_distribution<double> dark(std::log(0.05), 1.2), road(std::log(2.0), 0.8), source(std::log(3000.0), 0.5);
     for (int i = 0; i < 70000; ++i)
-        histogram.add(dark(random), false);
+        histogram.add(dark(random));
     for (int i = 0; i < 28000; ++i)
-        histogram.add(road(random), false);
+        histogram.add(road(random));
     for (int i = 0; i < 100; ++i)
-        histogram.add(source(random), true);
+        histogram.add(source(random));
     return histogram;
 }
 
@@ -119,14 +119,10 @@ TEST(ToneFit, HistogramOfFourPixels) {
     LuminanceHistogram histogram;
     Image<float> picture(2, 2);
     picture.pixels() = {0.0F, 1.0F, 100.0F, 5000.0F};
-    Image<std::uint8_t> sources(2, 2);
-    sources.at(1, 1) = 1;
-    histogram.add(picture, sources);
+    histogram.add(picture);
     EXPECT_EQ(histogram.pixels(), 4U);
     EXPECT_EQ(histogram.most_cdm2(), 5000.0);
-    EXPECT_EQ(histogram.most_on_surfaces_cdm2(), 100.0);
     EXPECT_NEAR(histogram.log_mean_cdm2(), std::cbrt(500000.0), 1.0e-9);
-    EXPECT_THROW(histogram.add(picture, Image<std::uint8_t>(1, 2)), std::invalid_argument);
 }
 
 TEST(ToneFit, HistogramCurveRaisesNoContrastAndSpendsTheWholeDisplay) {
@@ -145,7 +141,7 @@ TEST(ToneFit, HistogramCurveRaisesNoContrastAndSpendsTheWholeDisplay) {
 TEST(ToneFit, WhatFitsTheDisplayIsShownAsItIs) {
     LuminanceHistogram histogram;
     for (int i = 0; i < 1000; ++i)
-        histogram.add(1.0 + 0.009 * i, false);
+        histogram.add(1.0 + 0.009 * i);
     EXPECT_EQ(histogram_mapper(histogram, 10.0, 1.0e-3).kind, ToneMapperKind::linear);
     EXPECT_EQ(histogram_mapper(LuminanceHistogram(), 10.0, 1.0e-3).kind, ToneMapperKind::linear);
 }

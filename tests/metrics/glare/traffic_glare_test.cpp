@@ -1,5 +1,5 @@
 // Lamps of others in the own driver's eyes, by hand.
-#include "metrics/glare/traffic_glare.h"
+#include "metrics/glare/eye_light.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

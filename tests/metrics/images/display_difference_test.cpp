@@ -1,4 +1,4 @@
-#include "metrics/images/display_difference.h"
+#include "metrics/images/image_difference.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "metrics/images/light_decades.h"
+#include "metrics/images/image_difference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "metrics/images/ssim.h"
 
-#include "metrics/images/display_difference.h"
+#include "metrics/images/image_difference.h"
 #include "tests/metrics/images/made_pictures.h"
 
 #include <cmath>

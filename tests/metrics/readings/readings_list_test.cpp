@@ -1,5 +1,5 @@
 // docs/readings.md has the table that the program prints.
-#include "metrics/readings/readings_list.h"
+#include "metrics/readings/reading_words.h"
 
 #include <fstream>
 #include <gmock/gmock.h>

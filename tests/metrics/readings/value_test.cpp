@@ -1,5 +1,5 @@
 // Values that are numbers, bounds or not measured, and what they make of each other.
-#include "metrics/readings/many_moments.h"
+#include "metrics/readings/value.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -36,14 +36,6 @@ TEST(Value, ABoundKeepsALimitOrLeavesItOpen) {
     EXPECT_EQ(holds(Value::at_most(30.0), 20.0, {}), std::nullopt);
     EXPECT_EQ(holds(61.0, 61.0, 61.0), true);
     EXPECT_EQ(holds(none, 1.0, {}), std::nullopt);
-}
-
-TEST(Value, RanksByItsFigure) {
-    EXPECT_TRUE(ranks_before(199.0, Value::at_least(200.0)));
-    EXPECT_TRUE(ranks_before(200.0, Value::at_least(200.0)));
-    EXPECT_TRUE(ranks_before(Value::at_most(10.0), 10.0));
-    EXPECT_FALSE(ranks_before(Value::at_least(200.0), Value::at_least(200.0)));
-    EXPECT_TRUE(ranks_before(none, -1e9));
 }
 
 TEST(Value, IsNeverNanOrInfinite) {

@@ -1,7 +1,6 @@
 #include "metrics/road/deciding_lx.h"
 
 #include "metrics/road/extent.h"
-#include "metrics/road/lane_grid_error.h"
 #include "scenarios/drives/play/advance.h"
 #include "tests/metrics/straight_grid.h"
 

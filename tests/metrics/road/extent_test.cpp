@@ -1,6 +1,5 @@
 #include "metrics/road/extent.h"
 
-#include "metrics/road/lane_grid_error.h"
 #include "tests/metrics/straight_grid.h"
 
 #include <cmath>

@@ -1,7 +1,5 @@
 #include "metrics/road/lit_line.h"
 
-#include "metrics/road/crossing.h"
-
 #include <cmath>
 #include <gtest/gtest.h>
 

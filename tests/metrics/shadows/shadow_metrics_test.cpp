@@ -1,6 +1,5 @@
 // Errors of shadows against values worked out by hand.
 #include "metrics/shadows/shadow_edges.h"
-#include "metrics/shadows/shadow_spots.h"
 
 #include <cmath>
 #include <gmock/gmock.h>

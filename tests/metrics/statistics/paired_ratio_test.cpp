@@ -1,4 +1,4 @@
-#include "metrics/statistics/paired_ratio.h"
+#include "metrics/statistics/statistics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "metrics/statistics/random_order.h"
+#include "metrics/statistics/statistics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

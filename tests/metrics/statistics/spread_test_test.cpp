@@ -1,4 +1,4 @@
-#include "metrics/statistics/spread_test.h"
+#include "metrics/statistics/statistics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

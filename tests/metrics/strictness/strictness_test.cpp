@@ -1,6 +1,5 @@
 #include "metrics/strictness/strictness.h"
 
-#include "metrics/strictness/error_histogram.h"
 #include "metrics/strictness/strictness_classes.h"
 
 #include <cmath>

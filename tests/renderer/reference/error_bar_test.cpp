@@ -1,8 +1,7 @@
 // Error bars are as wide as the errors: a bar too wide is as wrong as one too narrow.
 #include "tests/renderer/reference/rooms.h"
 
-#include "renderer/reference/lanes.h"
-#include "renderer/reference/replicates.h"
+#include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/sampling.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // Light that bounces, against closed forms: energy is conserved, each way that light takes is counted once.
 #include "tests/renderer/reference/rooms.h"
 
-#include "renderer/reference/retro_lobe.h"
 #include "renderer/reference/sampling.h"
 #include "renderer/reference/surface_response.h"
 

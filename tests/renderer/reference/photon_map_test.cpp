@@ -3,7 +3,7 @@
 
 #include "renderer/reference/photon_emission.h"
 #include "renderer/reference/photon_map.h"
-#include "renderer/reference/replicates.h"
+#include "renderer/reference/pixel_estimate.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Fog, water, sun and moon in the integrators: energy, closed forms, agreement with direct light, refusals.
 #include "tests/renderer/reference/rooms.h"
 
-#include "renderer/reference/wet_lobe.h"
+#include "renderer/reference/scattering.h"
 #include "scenarios/light/fog_light.h"
-#include "scenarios/light/wet_light.h"
+#include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The profile as Little CMS reads it back: the same colours as ours.
-#include "runner/files/icc_profile.h"
+#include "runner/files/picture_file.h"
 
 #include "scenarios/values/files.h"
 

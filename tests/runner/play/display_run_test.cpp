@@ -2,10 +2,9 @@
 // nothing.
 #include "metrics/display/display_colour.h"
 #include "metrics/display/night_vision.h"
-#include "runner/files/icc_profile.h"
 #include "runner/files/picture_file.h"
 #include "runner/play/shown_picture.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 

@@ -1,6 +1,6 @@
 // Error frames in words: data after include/uapi/linux/can/error.h, words as candump -e prints them.
+#include "scenarios/can/can_frame.h"
 #include "scenarios/can/candump_log.h"
-#include "scenarios/can/error_words.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // The laws beside the bend light, each step by step: thresholds, hysteresis, delays, what a lost signal does.
-#include "scenarios/control/beam_modes.h"
+#include "scenarios/control/bend_light.h"
 #include "scenarios/control/control_stability.h"
-#include "scenarios/control/cornering_light.h"
 #include "scenarios/control/high_beam.h"
+#include "scenarios/control/lamp_controller.h"
 #include "scenarios/control/masked_beam.h"
 
 #include <cmath>

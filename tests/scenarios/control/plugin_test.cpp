@@ -1,6 +1,6 @@
 // Control laws in shared libraries: the two examples as they are built, and small ones built here that misbehave.
 #include "scenarios/control/control_run.h"
-#include "scenarios/control/guarded_call.h"
+#include "scenarios/control/plugin.h"
 #include "scenarios/values/errors.h"
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // The colour of retroreflected light keeps the photometric figures that it was measured with.
-#include "scenarios/light/retro_tint.h"
+#include "scenarios/light/light.h"
 
 #include "scenarios/lamps/mounted_lamp.h"
 

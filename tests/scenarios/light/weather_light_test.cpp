@@ -1,6 +1,6 @@
 // Light in fog and on a wet road against closed forms, integrals worked out another way, and what physics allows.
 #include "scenarios/light/fog_light.h"
-#include "scenarios/light/wet_light.h"
+#include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/scene.h"
 

@@ -1,6 +1,6 @@
 #include "scenarios/models/road_user_bodies.h"
 
-#include "scenarios/models/body_shapes.h"
+#include "scenarios/models/triangle_soup.h"
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "scenarios/traffic/track.h"
+#include "scenarios/traffic/road_user.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/runs/compare_runs.h"
 
-#include "metrics/strictness/strictness_file.h"
+#include "metrics/strictness/strictness_classes.h"
 #include "runner/experiments/compare/runs/run_writers.h"
 #include "runner/files/output_folder.h"
 

@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/runs/played_report.h"
 
-#include "metrics/statistics/spread_test.h"
+#include "metrics/statistics/statistics.h"
 #include "runner/files/value_json.h"
 #include "runner/judge/verdict_json.h"
 

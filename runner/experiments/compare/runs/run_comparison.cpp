@@ -1,7 +1,6 @@
 #include "runner/experiments/compare/runs/run_comparison.h"
 
 #include "metrics/images/flip.h"
-#include "metrics/statistics/paired_ratio.h"
 #include "metrics/statistics/statistics.h"
 #include "runner/experiments/compare/runs/run_pairs.h"
 #include "runner/files/picture_file.h"

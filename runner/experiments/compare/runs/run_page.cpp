@@ -1,5 +1,4 @@
 #include "metrics/readings/reading_words.h"
-#include "metrics/readings/unit_words.h"
 #include "report_files.h"
 #include "runner/experiments/compare/runs/run_writers.h"
 #include "runner/experiments/compare/strictness_failures.h"

@@ -2,7 +2,6 @@
 #include "metrics/images/ciede2000.h"
 #include "metrics/images/flip.h"
 #include "metrics/images/image_difference.h"
-#include "metrics/images/light_decades.h"
 #include "metrics/images/ssim.h"
 #include "runner/experiments/stability/stability_case.h"
 

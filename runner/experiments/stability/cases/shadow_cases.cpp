@@ -1,6 +1,6 @@
 // Shadow maps against rays: surfaces that shade themselves, and light that leaks.
 #include "runner/experiments/stability/trial.h"
-#include "runner/play/map_of.h"
+#include "runner/play/lux_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Tone mappers at the ends of their domain, in pictures and in drive files.
 #include "runner/experiments/stability/trial.h"
 #include "runner/experiments/stability/trial_files.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Sun, moon, fog and water where they are hardest: at the horizon, at the poles, thin as nothing and thick as a wall.
 #include "runner/experiments/stability/trial.h"
 #include "scenarios/light/fog_light.h"
-#include "scenarios/light/wet_light.h"
+#include "scenarios/light/light.h"
 #include "scenarios/sky/daylight.h"
 #include "scenarios/sky/weather.h"
 

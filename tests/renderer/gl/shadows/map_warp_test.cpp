@@ -1,5 +1,5 @@
 // Warps of a lamp's map in double precision: what is seen, and the homographies against the constructions that they stand for.
-#include "renderer/gl/shadows/map_warp.h"
+#include "renderer/gl/shadows/warped_maps.h"
 
 #include <algorithm>
 #include <cmath>

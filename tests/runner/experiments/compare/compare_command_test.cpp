@@ -1,4 +1,4 @@
-#include "metrics/strictness/strictness_file.h"
+#include "metrics/strictness/strictness_classes.h"
 #include "runner/experiments/compare/picture_pair.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"

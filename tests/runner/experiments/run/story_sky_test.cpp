@@ -1,7 +1,6 @@
 // What a storyboard's environments do to the sky and the air of a drive: from the beginning, from each change on, by date, time and place.
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/told_story.h"
-#include "scenarios/drives/story/sky_site.h"
 #include "scenarios/drives/story/story_environment.h"
 #include "tests/runner/program.h"
 #include "tests/scenarios/openscenario/story_text.h"

@@ -1,7 +1,6 @@
 // Shadows as drawn against rays, in the scenes that are hard on them.
 #include "runner/experiments/shadows/stress_scenes.h"
 #include "runner/play/shadows/shadow_truth.h"
-#include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
 
 #include <gmock/gmock.h>
@@ -13,25 +12,6 @@ const std::vector<ShadowScene>& scenes() {
     static const std::vector<ShadowScene> all =
         stress_scenes(std::make_shared<const LampFile>(read_lamp(library_file("lamps/xenon-low.ies"))));
     return all;
-}
-
-TEST(ShadowTruth, WithoutShadowsAllOfThemAreWronglyLitAndMapsAreNearer) {
-    Device device = open_device("auto");
-    for (const ShadowScene& scene : scenes()) {
-        if (scene.name == "post-79")
-            continue; // its shadow lies between the rays of so small a view
-        SCOPED_TRACE(scene.name);
-        ShadowSettings none, map;
-        none.method = ShadowMethod::none;
-        const auto errors = shadow_errors(device, *scene.scene, scene.moments, scene.view, scene.light, {none, map});
-        ASSERT_EQ(errors.size(), 2U);
-        EXPECT_GT(errors[0]->shadowed, 1.0); // a scene without shadows would try nothing
-        EXPECT_GT(errors[0]->counted, 500.0);
-        EXPECT_NEAR(errors[0]->wrongly_lit, errors[0]->shadowed, 1e-3 * errors[0]->shadowed);
-        EXPECT_LT(errors[0]->wrongly_dark_share(), 1e-6);
-        EXPECT_LT(errors[1]->wrong(), 0.8 * errors[0]->wrong()); // maps miss much of kerb and fence
-        EXPECT_EQ(shadow_error(device, *scene.scene, scene.moments, scene.view, scene.light), *errors[1]); // the same again
-    }
 }
 
 TEST(ShadowTruth, DiscsHaveHalfShadowsThatPointsLack) {

@@ -2,8 +2,8 @@
 #include "scenarios/drives/keys/lamp_mounts.h"
 
 #include "scenarios/drives/play/advance.h"
-#include "scenarios/drives/play/own_car.h"
 #include "scenarios/drives/play/place_traffic.h"
+#include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/models/glb_writer.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/traffic/road_user_mesh.h"

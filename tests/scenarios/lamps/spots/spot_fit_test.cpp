@@ -1,7 +1,6 @@
 #include "scenarios/lamps/spots/spot_fit.h"
 
 #include "scenarios/lamps/lamp_model.h"
-#include "scenarios/lamps/spots/spot_directions.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "scenarios/roads/mesh/far_ground.h"
+#include "scenarios/roads/mesh/mesh_terrain.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What stands beside a road: where, how high, and which way it looks.
-#include "scenarios/roads/mesh/mesh_solids.h"
+#include "scenarios/roads/mesh/mesh_objects.h"
 #include "tests/scenarios/roads/mesh_checks.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 #include "scenarios/roads/mesh/mesh_materials.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/roads/mesh/surface_textures.h"
-#include "scenarios/roads/mesh/tiling_noise.h"
 
 #include <gtest/gtest.h>
 

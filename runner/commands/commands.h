@@ -1,0 +1,40 @@
+// The commands of `fernlicht`, a source file each.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace fernlicht {
+
+/// Adds a command with its flags. When it is chosen, `chosen` becomes what does it and gives the exit code. `command` is the whole command
+/// line as typed, for the results.
+using AddCommand = void(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);
+
+AddCommand add_run_command;        // plays drives and writes a report
+AddCommand add_live_command;       // a drive against the clock, on a CAN bus
+AddCommand add_study_command;      // lamps x drives x techniques x conditions, compared
+AddCommand add_bench_command;      // times the techniques against one another
+AddCommand add_compare_command;    // what differs between two pictures, lamps or runs; 1 when a class of strictness is not kept
+AddCommand add_accuracy_command;   // error against run time
+AddCommand add_aliasing_command;   // how much of what a picture shows is not there, by how it is drawn
+AddCommand add_shadows_command;    // how wrong each shadow method is, and what it costs
+AddCommand add_reference_command;  // one moment by rays, each pixel with its standard error
+AddCommand add_techniques_command; // lists the ways to light a scene
+AddCommand add_readings_command;   // lists what is read of a drive
+AddCommand add_signals_command;    // lists what lamp control reads and writes
+AddCommand add_can_command;        // small tools for logs and frames of a CAN bus (runner/commands/can)
+AddCommand add_lamp_command;       // what a lamp file holds; scaled, mirrored, summed, converted, held against a regulation
+AddCommand add_model_command;      // what a model file holds, as text, JSON or picture
+AddCommand add_import_command;     // old databases once into a format that is read everywhere
+AddCommand add_storyboard_command; // plays OpenSCENARIO files without drawing
+AddCommand add_doctor_command;     // what this machine can draw with
+AddCommand add_stability_command;  // extreme and degenerate inputs as a table of cases; 1 when one fails
+AddCommand add_accept_command;     // takes a run's results as what later runs are compared with
+AddCommand add_references_command; // lists, shows, compares and removes what was accepted
+
+} // namespace fernlicht

@@ -1,0 +1,67 @@
+#include "scenarios/roads/road_network.h"
+
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+const LaneSection& empty_section() {
+    static const LaneSection empty{};
+    return empty;
+}
+
+/// t of the outer edge of a lane whose inner edge lies at `inner_t`. A width below zero counts as zero.
+double outer_edge(const Lane& lane, double inner_t, double offset, double ds) {
+    const double side = lane.id > 0 ? 1.0 : -1.0;
+    if (!lane.widths.empty())
+        return inner_t + side * std::max(0.0, value_at(lane.widths, ds));
+    if (lane.borders.empty())
+        return inner_t;
+    const double border = offset + value_at(lane.borders, ds);
+    return side * std::max(side * inner_t, side * border); // a border inside its inner neighbour leaves no width
+}
+
+} // namespace
+
+bool travels_with_s(const Road& road, const Lane& lane) {
+    const bool usual = (lane.id < 0) != road.left_hand_traffic;
+    return usual != lane.reversed;
+}
+
+const LaneSection& section_at(const Road& road, double s_m) {
+    if (road.sections.empty())
+        return empty_section();
+    const auto after = std::upper_bound(road.sections.begin(), road.sections.end(), s_m,
+                                        [](double s, const LaneSection& section) { return s < section.s_m; });
+    return after == road.sections.begin() ? *after : *(after - 1);
+}
+
+LaneEdges lane_edges(const Road& road, const LaneSection& section, int lane_id, double s_m) {
+    const auto& lanes = section.lanes;
+    const double offset = value_at(road.lane_offset, s_m), ds = s_m - section.s_m;
+    double inner = offset, outer = offset;
+    if (lane_id == 0)
+        return {offset, offset};
+    // Lanes run from the leftmost to the rightmost: left ones are met from the end of their part, right ones from its beginning.
+    if (lane_id > 0) {
+        auto lane = std::find_if(lanes.rbegin(), lanes.rend(), [](const Lane& l) { return l.id > 0; });
+        for (; lane != lanes.rend() && lane->id <= lane_id; ++lane) {
+            inner = outer;
+            outer = outer_edge(*lane, inner, offset, ds);
+            if (lane->id == lane_id)
+                return {inner, outer};
+        }
+    } else {
+        auto lane = std::find_if(lanes.begin(), lanes.end(), [](const Lane& l) { return l.id < 0; });
+        for (; lane != lanes.end() && lane->id >= lane_id; ++lane) {
+            inner = outer;
+            outer = outer_edge(*lane, inner, offset, ds);
+            if (lane->id == lane_id)
+                return {inner, outer};
+        }
+    }
+    throw std::out_of_range(fmt::format("road '{}' has no lane {} at s = {}", road.id, lane_id, s_m));
+}
+
+} // namespace fernlicht
