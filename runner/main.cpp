@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
     fernlicht::add_live_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_study_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_compare_command(app, chosen);
+    fernlicht::add_compare_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_aliasing_command(app, {argv, argv + argc}, chosen);
     fernlicht::add_shadows_command(app, {argv, argv + argc}, chosen);

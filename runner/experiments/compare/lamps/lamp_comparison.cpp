@@ -59,15 +59,15 @@ void add_facts(LampPairComparison& lamps) {
 void check(LampPairComparison& lamps, const std::string& id) {
     lamps.regulation = &regulation(id);
     for (ComparedLamp* lamp : {&lamps.before, &lamps.now})
-        lamp->check = check_regulation(*lamps.regulation, {lamp->file.table});
+        lamp->check = check_regulation(lamps.regulation, {lamp->file.table});
     for (const RowResult& row : lamps.before.check->rows)
-        lamps.rows.push_back({row.id, &row, nullptr});
+        lamps.rows.push_back({row.id, row, {}});
     for (const RowResult& row : lamps.now.check->rows) {
         const auto found = std::ranges::find(lamps.rows, row.id, &ComparedRow::id);
         if (found == lamps.rows.end())
-            lamps.rows.push_back({row.id, nullptr, &row});
+            lamps.rows.push_back({row.id, {}, row});
         else
-            found->now = &row;
+            found->now = row;
     }
 }
 
@@ -75,17 +75,17 @@ void check(LampPairComparison& lamps, const std::string& id) {
 
 bool LampPairComparison::passed() const { return !now.check || now.check->verdict == RowVerdict::pass; }
 
-std::unique_ptr<LampPairComparison> compare_lamp_files(const std::filesystem::path& before, const std::filesystem::path& now,
-                                                       const LampCompareOptions& options) {
-    auto lamps = std::make_unique<LampPairComparison>();
+LampPairComparison compare_lamp_files(const std::filesystem::path& before, const std::filesystem::path& now,
+                                      const LampCompareOptions& options) {
+    LampPairComparison lamps;
     if (!options.regulation.empty())
         regulation(options.regulation); // its name first: reading and comparing take longer
-    lamps->before = read_compared(before);
-    lamps->now = read_compared(now);
-    lamps->difference = difference_of(lamps->now.file, lamps->before.file, options.noise_relative);
-    add_facts(*lamps);
+    lamps.before = read_compared(before);
+    lamps.now = read_compared(now);
+    lamps.difference = difference_of(lamps.now.file, lamps.before.file, options.noise_relative);
+    add_facts(lamps);
     if (!options.regulation.empty())
-        check(*lamps, options.regulation);
+        check(lamps, options.regulation);
     return lamps;
 }
 
