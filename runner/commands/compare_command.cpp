@@ -77,7 +77,7 @@ class Results {
 };
 
 /// Without time and machine: equal inputs give equal bytes.
-RunContext context_of(const std::vector<std::string>& command) {
+RunContext command_context(const std::vector<std::string>& command) {
     RunContext context;
     context.versions = library_versions();
     context.command = shell_quoted(command);
@@ -91,7 +91,7 @@ std::optional<StrictnessClass> strictness_of(const CompareFlags& flags) {
 int compare_two_pictures(const CompareFlags& flags, const std::vector<std::string>& command) {
     const std::optional<StrictnessClass> strictness = strictness_of(flags);
     PicturesFound found;
-    found.context = context_of(command);
+    found.context = command_context(command);
     found.pair = read_picture_pair(flags.reference, flags.tested);
     const double density = pixels_per_degree(flags, found.pair.height);
     Results results(flags);
@@ -124,7 +124,7 @@ int compare_two_runs(const CompareFlags& flags, const std::vector<std::string>& 
     RunFolder before = read_run_folder(flags.reference), now = read_run_folder(flags.tested);
     Results results(flags);
     RunComparison runs = compare_runs(std::move(before), std::move(now), options);
-    runs.context = context_of(command);
+    runs.context = command_context(command);
     if (results.are_kept())
         draw_runs(runs, options, pictured, results.folder());
     results.finish(runs, {{"compare.json", runs_json(runs)}, {"compare.csv", runs_csv(runs)}, {"frames.csv", frames_csv(runs)}});
@@ -134,7 +134,7 @@ int compare_two_runs(const CompareFlags& flags, const std::vector<std::string>& 
 int compare_two_lamps(const CompareFlags& flags, const std::vector<std::string>& command) {
     const double noise = flags.noise.empty() ? 0.0 : share_of("--noise", flags.noise);
     LampPairComparison lamps = compare_lamp_files(flags.reference, flags.tested, {noise, flags.regulation});
-    lamps.context = context_of(command);
+    lamps.context = command_context(command);
     Results results(flags);
     if (results.are_kept())
         lamps.figures = lamp_figures(lamps);

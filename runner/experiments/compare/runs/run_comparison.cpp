@@ -214,7 +214,7 @@ void note_what_was_not_judged(RunComparison& runs) {
 } // namespace
 
 PicturePair frame_pictures(const FramePair& frame, const RunComparison& runs) {
-    return read_common_channels(runs.before.folder / frame.file(frame.old_frame), runs.now.folder / frame.file(frame.new_frame));
+    return read_picture_pair(runs.before.folder / frame.file(frame.old_frame), runs.now.folder / frame.file(frame.new_frame), true);
 }
 
 double frame_density(const FramePair& frame, const RunCompareOptions& options) {
@@ -237,7 +237,7 @@ bool DriveComparison::decides(const ReadingKey& reading) const {
                    return limited && key_of(limited->text) == reading;
                });
     };
-    return !is_extent(reading) || is_named(reading, usual_readings()) || is_limited(*before) || is_limited(*now);
+    return !is_extent(reading) || is_named(reading, usual_readings()) || is_limited(before) || is_limited(now);
 }
 
 double DriveComparison::lamp_noise() const {
@@ -248,10 +248,10 @@ double DriveComparison::lamp_noise() const {
 }
 
 std::string DriveComparison::old_label() const {
-    return "A: " + before->variant + (before->technique != now->technique ? ", " + before->technique : "");
+    return "A: " + before.variant + (before.technique != now.technique ? ", " + before.technique : "");
 }
 std::string DriveComparison::new_label() const {
-    return "B: " + now->variant + (before->technique != now->technique ? ", " + now->technique : "");
+    return "B: " + now.variant + (before.technique != now.technique ? ", " + now.technique : "");
 }
 
 bool RunComparison::passed() const {
