@@ -52,7 +52,7 @@ void add_facts(LampPairComparison& lamps) {
 void check(LampPairComparison& lamps, const std::string& id) {
     lamps.regulation = &regulation(id);
     for (ComparedLamp* lamp : {&lamps.before, &lamps.now})
-        lamp->check = check_regulation(lamps.regulation, {lamp->file.table});
+        lamp->check = check_regulation(*lamps.regulation, {lamp->file.table});
     for (const RowResult& row : lamps.before.check->rows)
         lamps.rows.push_back({row.id, row, {}});
     for (const RowResult& row : lamps.now.check->rows) {
