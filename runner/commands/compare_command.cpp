@@ -3,10 +3,13 @@
 #include "metrics/images/flip.h"
 #include "metrics/strictness/strictness_classes.h"
 #include "runner/commands/flag_values.h"
-#include "runner/experiments/compare/comparison_writers.h"
-#include "runner/experiments/compare/lamps/compare_lamps.h"
-#include "runner/experiments/compare/runs/compare_runs.h"
+#include "runner/experiments/compare/lamps/lamp_comparison.h"
+#include "runner/experiments/compare/picture_comparison.h"
+#include "runner/experiments/compare/runs/run_comparison.h"
 #include "runner/files/output_folder.h"
+#include "runner/findings/library_versions.h"
+#include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
 
@@ -44,28 +47,59 @@ double pixels_per_degree(const CompareFlags& flags, int height_px) {
     return in_range("--view-fov", pixels_per_degree_of_view(radians(*flags.view_fov_deg), height_px));
 }
 
-int compare_two_pictures(const CompareFlags& flags) {
-    std::optional<StrictnessClass> strictness;
-    if (!flags.strictness.empty())
-        strictness = read_strictness(flags.strictness);
-    const PicturePair pair = read_picture_pair(flags.reference, flags.tested);
-    const double density = pixels_per_degree(flags, pair.height);
-    std::optional<OutputFolder> folder;
-    if (!flags.out.empty())
-        folder.emplace(flags.out);
-    const PictureComparison comparison = compare_pictures(pair, density, strictness ? &*strictness : nullptr);
-    std::vector<std::string> pictures;
-    if (folder) {
-        pictures = write_comparison_pictures(comparison, pair, folder->path());
-        write_file(folder->path() / "compare.json", comparison_json(comparison, pair, pictures));
+/// The folder of --out, where there is one, and what goes into it.
+class Results {
+  public:
+    explicit Results(const CompareFlags& flags) : flags_(flags) {
+        if (!flags.out.empty())
+            folder_.emplace(flags.out);
     }
-    fmt::print("{}", flags.json ? comparison_json(comparison, pair, pictures) : comparison_text(comparison, pair));
-    if (folder) {
-        folder->finish();
-        if (!flags.json)
-            fmt::print("\npictures and compare.json: {}\n", folder->path().string());
+    bool are_kept() const { return folder_.has_value(); }
+    const std::filesystem::path& folder() const { return folder_->path(); }
+
+    /// The page, the other files, all of them complete; then what is printed. `files`: by name, compare.json first.
+    template <class Found> void finish(const Found& found, const std::vector<std::pair<std::string, std::string>>& files) {
+        const Document told = document(found);
+        if (folder_) {
+            for (const auto& [name, content] : files)
+                write_file(folder() / name, content);
+            write_document(told, found, folder(), "report");
+            folder_->finish();
+        }
+        fmt::print("{}", flags_.json ? files.front().second : document_text(told));
+        if (folder_ && !flags_.json)
+            fmt::print("\n{}\n", (folder() / "report.html").string());
     }
-    return comparison.passed() ? 0 : 1;
+
+  private:
+    const CompareFlags& flags_;
+    std::optional<OutputFolder> folder_;
+};
+
+/// Without time and machine: equal inputs give equal bytes.
+RunContext command_context(const std::vector<std::string>& command) {
+    RunContext context;
+    context.versions = library_versions();
+    context.command = shell_quoted(command);
+    return context;
+}
+
+std::optional<StrictnessClass> strictness_of(const CompareFlags& flags) {
+    return flags.strictness.empty() ? std::nullopt : std::optional(read_strictness(flags.strictness));
+}
+
+int compare_two_pictures(const CompareFlags& flags, const std::vector<std::string>& command) {
+    const std::optional<StrictnessClass> strictness = strictness_of(flags);
+    PicturesFound found;
+    found.context = command_context(command);
+    found.pair = read_picture_pair(flags.reference, flags.tested);
+    const double density = pixels_per_degree(flags, found.pair.height);
+    Results results(flags);
+    found.comparison = compare_pictures(found.pair, density, strictness ? &*strictness : nullptr);
+    if (results.are_kept())
+        found.pictures = write_comparison_pictures(found.comparison, found.pair, results.folder());
+    results.finish(found, {{"compare.json", pictures_json(found)}});
+    return found.comparison.passed() ? 0 : 1;
 }
 
 std::size_t pictured_moments(const std::string& text) {
@@ -78,19 +112,34 @@ std::size_t pictured_moments(const std::string& text) {
     return moments;
 }
 
-int compare_runs_of(const CompareFlags& flags) {
+int compare_two_runs(const CompareFlags& flags, const std::vector<std::string>& command) {
     if (flags.view_fov_deg)
         throw InputError({{}, 0, 0, "--view-fov"}, "found beside two runs", "none: the drives say what their views see");
-    CompareRunsRequest request;
-    request.before = flags.reference;
-    request.now = flags.tested;
-    request.out = flags.out;
-    request.strictness = flags.strictness;
+    RunCompareOptions options;
     if (flags.pixels_per_degree)
-        request.pixels_per_degree = pixels_per_degree(flags, 0);
-    request.pictured = pictured_moments(flags.pictures);
-    request.json = flags.json;
-    return compare_two_runs(request);
+        options.pixels_per_degree = pixels_per_degree(flags, 0);
+    const std::size_t pictured = pictured_moments(flags.pictures);
+    const std::optional<StrictnessClass> strictness = strictness_of(flags);
+    options.strictness = strictness ? &*strictness : nullptr;
+    RunFolder before = read_run_folder(flags.reference), now = read_run_folder(flags.tested);
+    Results results(flags);
+    RunComparison runs = compare_runs(std::move(before), std::move(now), options);
+    runs.context = command_context(command);
+    if (results.are_kept())
+        draw_runs(runs, options, pictured, results.folder());
+    results.finish(runs, {{"compare.json", runs_json(runs)}, {"compare.csv", runs_csv(runs)}, {"frames.csv", frames_csv(runs)}});
+    return runs.passed() ? 0 : 1;
+}
+
+int compare_two_lamps(const CompareFlags& flags, const std::vector<std::string>& command) {
+    const double noise = flags.noise.empty() ? 0.0 : share_of("--noise", flags.noise);
+    LampPairComparison lamps = compare_lamp_files(flags.reference, flags.tested, {noise, flags.regulation});
+    lamps.context = command_context(command);
+    Results results(flags);
+    if (results.are_kept())
+        lamps.figures = lamp_figures(lamps);
+    results.finish(lamps, {{"compare.json", lamps_json(lamps)}, {"compare.csv", lamps_csv(lamps)}});
+    return lamps.passed() ? 0 : 1;
 }
 
 /// What a path is, by what lies there. Beam textures are pictures, too: --lamps says that they are meant as lamps.
@@ -122,7 +171,7 @@ void refuse_foreign_flags(const CompareFlags& flags, ComparedKind kind) {
     refuse(flags.view_fov_deg.has_value(), "--view-fov", "two pictures");
 }
 
-int compare(const CompareFlags& flags) {
+int compare(const CompareFlags& flags, const std::vector<std::string>& command) {
     const ComparedKind first = kind_of(flags.reference, flags.lamps), second = kind_of(flags.tested, flags.lamps);
     if (first != second)
         throw InputError({flags.tested, 0, 0, {}}, fmt::format("is {}", name_of(second)),
@@ -130,16 +179,15 @@ int compare(const CompareFlags& flags) {
                                                                                 : name_of(first)));
     refuse_foreign_flags(flags, first);
     if (first == ComparedKind::runs)
-        return compare_runs_of(flags);
+        return compare_two_runs(flags, command);
     if (first == ComparedKind::pictures)
-        return compare_two_pictures(flags);
-    return compare_two_lamps({flags.reference, flags.tested, flags.out, flags.regulation,
-                              flags.noise.empty() ? 0.0 : share_of("--noise", flags.noise), flags.json});
+        return compare_two_pictures(flags, command);
+    return compare_two_lamps(flags, command);
 }
 
 } // namespace
 
-void add_compare_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+void add_compare_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<CompareFlags>();
     CLI::App* sub = app.add_subcommand(
         "compare", "show how two pictures, runs or lamps differ, in numbers and pictures, and whether they are close enough");
@@ -151,15 +199,14 @@ void add_compare_command(CLI::App& app, const std::vector<std::string>&, std::fu
                     "identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md); exit with 1 if B fails it");
     CLI::Option* density = sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree, for FLIP (default: 67.02)");
     sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view in degrees, instead of --ppd")->excludes(density);
-    sub->add_option("--out", flags->out,
-                    "new or empty folder for difference pictures and compare.json, and for report.html of two runs or lamps");
+    sub->add_option("--out", flags->out, "new or empty folder for report.html, compare.json and pictures");
     sub->add_option("--pictures", flags->pictures, "two runs: moments to show of each drive and view, or all")->capture_default_str();
     sub->add_option("--regulation", flags->regulation, "two lamps: margin of both in each row; exit with 1 if B does not pass")
         ->option_text("ID");
     sub->add_option("--noise", flags->noise, "two lamps: standard deviation of an intensity, e.g. 1%");
     sub->add_flag("--lamps", flags->lamps, "read pictures as beam textures");
     sub->add_flag("--json", flags->json, "print JSON");
-    sub->callback([flags, &chosen] { chosen = [flags] { return compare(*flags); }; });
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return compare(*flags, command); }; });
 }
 
 } // namespace fernlicht

@@ -160,7 +160,11 @@ int tell_apart(const LampFile& lamp, const LampRequest& request) {
     if (!request.picture.empty()) {
         write_lamp_picture(difference_figure(lamp, other, difference), request);
     }
-    fmt::print("{}", request.json ? json_text(difference_json(difference)) : difference_text(lamp, other, difference));
+    if (request.json)
+        fmt::print("{}", json_text(difference_json(difference)));
+    else
+        for (const auto& [what, text] : difference_lines(lamp, other, difference))
+            fmt::print("{:<14} {}\n", what, text);
     return 0;
 }
 

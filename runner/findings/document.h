@@ -39,17 +39,29 @@ struct Drawing {
 };
 
 struct Plot {
-    std::string name; ///< of its files, without extension: "methods-kerb"
+    std::string name; ///< of its files, without extension: "methods-kerb"; with a folder before it, "figures/reach", taken as it is
     std::variant<WorkPrecision, Drawing> figure;
     std::vector<std::string> captions; ///< one sentence each, without full stop
     double scale = 1.0;                ///< pixels of its PNG for one of the SVG
 };
 
-using DocumentPart = std::variant<std::string, Table, Plot>; ///< a string is a paragraph
+struct Picture {
+    std::string file; ///< PNG, below the document's folder or absolute
+    std::string caption;
+};
+
+/// Pictures on disk that belong beside each other.
+struct PictureStrip {
+    std::string title;
+    std::vector<Picture> pictures;
+};
+
+using DocumentPart = std::variant<std::string, Table, Plot, PictureStrip>; ///< a string is a paragraph
 
 struct Section {
     std::string title; ///< "" for what stands before the first heading
     std::vector<DocumentPart> blocks;
+    bool on_page_alone = false; ///< too long for a terminal
 };
 
 struct Document {

@@ -1,4 +1,4 @@
-// Figures of the accuracy's tables and plots as text.
+// Figures of tables and plots as text.
 #pragma once
 
 #include "metrics/statistics/work_precision.h"
@@ -24,5 +24,9 @@ std::string interval_name(const Interval& time);
 std::string counted(std::size_t count, const std::string& what);
 /// "front", "beaten by 3" (numbers from 1), "perhaps by 3" where that is not sure, "".
 std::string standing_text(const Standing& standing);
+
+/// Numbers for people: fixed decimals with U+2212 as minus sign; a difference always carries its sign.
+std::string figure(double value, int decimals);
+std::string signed_figure(double value, int decimals);
 
 } // namespace fernlicht

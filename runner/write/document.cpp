@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <system_error>
 
 namespace fernlicht {
 namespace {
@@ -58,17 +59,21 @@ std::string plot_svg(const Plot& plot) {
     return std::get<Drawing>(plot.figure).svg;
 }
 
+std::string place_of(const Plot& plot) { return plot.name.find('/') == std::string::npos ? file_name_of(plot.name) : plot.name; }
+
 std::string document_text(const Document& document) {
     std::string text;
     for (const Section& section : document.sections) {
+        if (section.on_page_alone)
+            continue;
         text += section.title.empty() ? "" : "\n" + clean_text(section.title) + "\n";
         for (const DocumentPart& block : section.blocks)
             if (const auto* paragraph = std::get_if<std::string>(&block))
                 text += clean_text(*paragraph) + "\n";
             else if (const auto* table = std::get_if<Table>(&block))
                 text += table->aside ? "" : text_of(*table);
-            else
-                for (const std::string& caption : std::get<Plot>(block).captions)
+            else if (const auto* plot = std::get_if<Plot>(&block))
+                for (const std::string& caption : plot->captions)
                     text += "  " + clean_text(caption) + "\n";
     }
     return text;
@@ -94,11 +99,13 @@ void write_document(const Document& document, const Findings& findings, const st
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
             if (const auto* plot = std::get_if<Plot>(&block)) {
-                const std::string svg = plot_svg(*plot), name = file_name_of(plot->name);
-                write_file(folder / (name + ".svg"), svg);
-                write_file(folder / (name + ".png"), plots::png_of_svg(svg, plot->scale));
+                const std::string svg = plot_svg(*plot), place = (folder / place_of(*plot)).string();
+                std::error_code ignored; // a folder that cannot be made shows in the first file below it
+                std::filesystem::create_directories(std::filesystem::path(place).parent_path(), ignored);
+                write_file(place + ".svg", svg);
+                write_file(place + ".png", plots::png_of_svg(svg, plot->scale));
             }
-    write_file(folder / (stem + ".html"), document_html(document, findings));
+    write_file(folder / (stem + ".html"), document_html(document, findings, folder));
 }
 
 } // namespace fernlicht

@@ -9,8 +9,10 @@
 namespace fernlicht {
 
 std::string plot_svg(const Plot& plot);
-/// One self-contained page, without scripts; plots stand in it as SVG.
-std::string document_html(const Document& document, const Findings& findings);
+/// Where its files lie below the document's folder, without extension.
+std::string place_of(const Plot& plot);
+/// One self-contained page, without scripts; plots stand in it as SVG, and as many pictures as it can bear, read below `folder`.
+std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder = {});
 /// For a terminal: paragraphs, tables in columns, captions of plots. Lines end with a newline.
 std::string document_text(const Document& document);
 /// A table in Markdown's pipes.

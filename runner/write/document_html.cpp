@@ -2,6 +2,8 @@
 #include "runner/files/clean_text.h"
 #include "runner/write/document.h"
 #include "runner/write/page_base.h"
+#include "runner/write/plots/png.h"
+#include "scenarios/values/files.h"
 
 #include <fmt/format.h>
 #include <stdexcept>
@@ -11,6 +13,8 @@ namespace {
 
 using kainjow::mustache::data;
 using List = data::type;
+
+constexpr std::size_t embedded_bytes = std::size_t{48} << 20; // of a page's pictures as they lie on disk
 
 std::string capitalised(std::string text) {
     if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
@@ -82,26 +86,51 @@ data plot_part(const Plot& plot) {
     return part;
 }
 
-data block_part(const DocumentPart& block) {
+/// Pictures below `folder` are links, too; those that do not fit into the page any more are links alone.
+data part_of(const PictureStrip& strip, const std::filesystem::path& folder, std::size_t& bytes_left) {
+    data part, pictures{List::list};
+    for (const Picture& picture : strip.pictures) {
+        FilesRead ignored;
+        const std::string bytes = read_file(folder / picture.file, ignored);
+        data row;
+        row.set("is_embedded", bytes.size() <= bytes_left);
+        if (bytes.size() <= bytes_left) {
+            bytes_left -= bytes.size();
+            row.set("bytes", plots::base64(bytes));
+        }
+        row.set("caption", clean_text(picture.caption));
+        row.set("is_link", std::filesystem::path(picture.file).is_relative());
+        row.set("link", relative_link(picture.file));
+        pictures.push_back(row);
+    }
+    part.set("title", clean_text(strip.title));
+    part.set("pictures", pictures);
+    return part;
+}
+
+data block_part(const DocumentPart& block, const std::filesystem::path& folder, std::size_t& bytes_left) {
     const auto* paragraph = std::get_if<std::string>(&block);
     const auto* table = std::get_if<Table>(&block);
     const auto* plot = std::get_if<Plot>(&block);
-    data part = table ? table_part(*table) : plot ? plot_part(*plot) : data();
+    const auto* strip = std::get_if<PictureStrip>(&block);
+    data part = table ? table_part(*table) : plot ? plot_part(*plot) : strip ? part_of(*strip, folder, bytes_left) : data();
     part.set("is_paragraph", paragraph != nullptr);
     part.set("is_table", table != nullptr);
     part.set("is_plot", plot != nullptr);
+    part.set("is_strip", strip != nullptr);
     part.set("text", paragraph ? clean_text(*paragraph) : "");
     return part;
 }
 
 } // namespace
 
-std::string document_html(const Document& document, const Findings& findings) {
+std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder) {
+    std::size_t bytes_left = embedded_bytes;
     data page, sections{List::list}, missing{List::list};
     for (const Section& section : document.sections) {
         data part, blocks{List::list};
         for (const DocumentPart& block : section.blocks)
-            blocks.push_back(block_part(block));
+            blocks.push_back(block_part(block, folder, bytes_left));
         part.set("has_title", !section.title.empty());
         part.set("title", short_text(section.title, 160));
         part.set("blocks", blocks);
@@ -110,7 +139,8 @@ std::string document_html(const Document& document, const Findings& findings) {
     for (const std::string& what : findings.missing)
         missing.push_back(clean_text(what));
     page.set("style", std::string(report_file("report.css")));
-    page.set("title", document.title);
+    page.set("title", clean_text(document.title));
+    page.set("has_started", !findings.context.started_utc.empty());
     page.set("started", clean_text(findings.context.started_utc));
     page.set("is_interrupted", !findings.interrupted.empty());
     page.set("interrupted", clean_text(findings.interrupted));

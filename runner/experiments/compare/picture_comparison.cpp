@@ -88,18 +88,13 @@ Image<float> largest_difference(const std::vector<Image<float>>& tested, const s
     return out;
 }
 
-const ComparedValue* find(const LayerComparison& layer, const std::string& name) {
-    const auto found = std::ranges::find(layer.values, name, &ComparedValue::name);
-    return found == layer.values.end() ? nullptr : &*found;
-}
-
 WholeFigures whole_figures(const LayerComparison& layer) {
     WholeFigures whole;
-    if (const ComparedValue* flip = find(layer, "flip_mean")) {
+    if (const ComparedValue* flip = find_in(layer, "flip_mean")) {
         whole.mean_flip = flip->value;
         whole.no_flip = flip->why_not;
     }
-    if (const ComparedValue* ssim = find(layer, "ssim")) {
+    if (const ComparedValue* ssim = find_in(layer, "ssim")) {
         whole.ssim = ssim->value;
         whole.no_ssim = ssim->why_not;
     }
@@ -200,6 +195,16 @@ LayerComparison compare_linear(const LinearPair& pair, double pixels_per_degree,
 }
 
 } // namespace
+
+const ComparedValue* find_in(const LayerComparison& layer, const std::string& name) {
+    const auto found = std::ranges::find(layer.values, name, &ComparedValue::name);
+    return found == layer.values.end() ? nullptr : &*found;
+}
+
+std::optional<double> value_in(const LayerComparison& layer, const std::string& name) {
+    const ComparedValue* found = find_in(layer, name);
+    return found ? found->value : std::nullopt;
+}
 
 bool PictureComparison::passed() const {
     return std::ranges::all_of(layers, [](const LayerComparison& layer) { return !layer.strictness || layer.strictness->passed; });

@@ -4,7 +4,10 @@
 #include "metrics/strictness/strictness.h"
 #include "metrics/strictness/strictness_classes.h"
 #include "runner/experiments/compare/picture_pair.h"
+#include "runner/findings/document.h"
+#include "runner/findings/findings.h"
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,7 +20,10 @@ struct ComparedFigure {
     std::string name;  ///< of its files below figures/, without extension
     std::string title; ///< for people
     std::string svg;
+    std::string place() const { return "figures/" + name; }
+    Plot plot() const { return {place(), Drawing{svg}, {}, 2.0}; }
 };
+nlohmann::ordered_json figures_json(const std::vector<ComparedFigure>& figures);
 
 struct ComparedValue {
     std::string name;                              ///< snake_case: rmse, psnr_db, flip_mean
@@ -38,12 +44,32 @@ struct LayerComparison {
     Image<float> colours = {};    ///< CIEDE2000; display pictures alone
 };
 
+/// The layer's figure of this name; nullptr: it has none.
+const ComparedValue* find_in(const LayerComparison& layer, const std::string& name);
+/// Its value; nullopt where it was not measured.
+std::optional<double> value_in(const LayerComparison& layer, const std::string& name);
+
 struct PictureComparison {
     double pixels_per_degree = 0.0;
     std::string strictness_name; ///< "" for none
     std::vector<LayerComparison> layers;
     bool passed() const; ///< true where no strictness was asked for
 };
+
+/// Two pictures, how they differ, and the names of the pictures that were drawn of it.
+struct PicturesFound : Findings {
+    PicturePair pair;
+    PictureComparison comparison;
+    std::vector<std::string> pictures;
+};
+
+Document document(const PicturesFound& found);
+std::string pictures_json(const PicturesFound& found); ///< compare.schema.json describes it
+/// The part of it that the frames of runs have too.
+nlohmann::ordered_json layers_json(const PictureComparison& comparison);
+
+/// A sentence a demand of the strictness that was not kept: channel, demand, found, limit, margin, and the pixel that is farthest off.
+std::vector<std::string> strictness_failures(const PictureComparison& comparison);
 
 /// Why FLIP is not measured at these pixels per degree, as "0.73 pixels per degree, and FLIP is taken at 1 to 1000"; "" where it is.
 std::string why_no_flip_at(double pixels_per_degree);
@@ -54,5 +80,10 @@ std::string why_no_flip_at(double pixels_per_degree);
 /// InputError where a mask does not fit. Linear pictures that nobody looks at (maps) have 0 pixels per degree and no FLIP; where FLIP is
 /// not taken at the pixels per degree of others, it is not measured.
 PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness);
+
+/// PNG files that show the difference, and SVG files of what is made of lines, in `folder`, which exists; their names. Throws DeviceError
+/// where they cannot be written.
+std::vector<std::string> write_comparison_pictures(const PictureComparison& comparison, const PicturePair& pair,
+                                                   const std::filesystem::path& folder);
 
 } // namespace fernlicht

@@ -90,7 +90,9 @@ void read_linear(PicturePair& pair, bool common_alone) {
             pair.alone.push_back(channel.name);
 }
 
-PicturePair read_pair(const std::filesystem::path& reference, const std::filesystem::path& tested, bool common_alone) {
+} // namespace
+
+PicturePair read_picture_pair(const std::filesystem::path& reference, const std::filesystem::path& tested, bool common_alone) {
     PicturePair pair;
     pair.reference = reference;
     pair.tested = tested;
@@ -110,16 +112,6 @@ PicturePair read_pair(const std::filesystem::path& reference, const std::filesys
     pair.height = pair.reference_display.height();
     check_sizes(pair, pair.tested_display.width(), pair.tested_display.height());
     return pair;
-}
-
-} // namespace
-
-PicturePair read_picture_pair(const std::filesystem::path& reference, const std::filesystem::path& tested) {
-    return read_pair(reference, tested, false);
-}
-
-PicturePair read_common_channels(const std::filesystem::path& reference, const std::filesystem::path& tested) {
-    return read_pair(reference, tested, true);
 }
 
 bool is_picture(const std::filesystem::path& path) { return format_of(path) != Format::other; }

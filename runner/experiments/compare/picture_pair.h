@@ -29,11 +29,8 @@ struct PicturePair {
 };
 
 /// Told apart by their first bytes. Throws InputError naming the file: missing, neither PNG nor EXR, cut short, one of each, other sizes,
-/// other channels, values that are not finite.
-PicturePair read_picture_pair(const std::filesystem::path& reference, const std::filesystem::path& tested);
-
-/// The same, but channels that one EXR alone has are left out and named.
-PicturePair read_common_channels(const std::filesystem::path& reference, const std::filesystem::path& tested);
+/// other channels, values that are not finite. With `common_alone`, channels that one EXR alone has are left out and named instead.
+PicturePair read_picture_pair(const std::filesystem::path& reference, const std::filesystem::path& tested, bool common_alone = false);
 
 /// Whether a file begins like a PNG or an EXR. Throws InputError where it cannot be read.
 bool is_picture(const std::filesystem::path& path);

@@ -1,4 +1,5 @@
 // A small experiment that nothing else knows: what it found, one function that tells it, and every output there is.
+#include "runner/files/picture_file.h"
 #include "runner/write/document.h"
 #include "tests/runner/program.h"
 
@@ -8,6 +9,7 @@
 namespace fernlicht {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -88,6 +90,16 @@ TEST_F(ToyExperiment, LeavesAPageAndItsPlots) {
     write_document(document(result), result, folder.path(), "coins");
     for (const char* name : {"coins.html", "toss_error.svg", "toss_error.png"})
         EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
+}
+
+TEST(DocumentPictures, StandInThePageAndLinkToFilesBelowIt) {
+    const TemporaryFolder folder;
+    write_png(Image<Rgb8>(2, 2), folder / "a.png");
+    const Document document{"Seen", {{"Beside", {PictureStrip{"One moment", {{"a.png", "old"}, {folder / "a.png", "new"}}}}, true}}};
+    EXPECT_THAT(document_html(document, {}, folder.path()),
+                AllOf(HasSubstr("<h3>One moment</h3>"), HasSubstr("<img alt=\"old\" src=\"data:image/png;base64,iVBOR"),
+                      HasSubstr("<a href=\"./a.png\">old</a>"), HasSubstr("<figcaption>new</figcaption>")));
+    EXPECT_EQ(document_text(document), "") << "on the page alone";
 }
 
 } // namespace

@@ -1,12 +1,12 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
 
-#include "runner/experiments/compare/name_beside.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
@@ -58,6 +58,16 @@ Image<float> ratio(const plots::Figure& figure, const CandelaTable& tested, cons
 
 } // namespace
 
+std::string name_beside(const LampFile& lamp, const LampFile& other) {
+    if (lamp.opened.empty())
+        return lamp.name;
+    const std::filesystem::path file = lamp.opened.front().path;
+    const bool is_alike = !other.opened.empty() && other.opened.front().path.filename() == file.filename();
+    const std::string name = is_alike ? file.string() : file.filename().string();
+    const bool says_more = !lamp.name.empty() && lamp.name != file.filename().string() && lamp.name != file.stem().string();
+    return says_more ? name + " (" + lamp.name + ")" : name;
+}
+
 plots::Axis ratio_axis(const Image<float>& values) {
     std::vector<double> sizes;
     for (const float value : values.pixels())
@@ -89,19 +99,21 @@ LampDifference difference_of(const LampFile& tested, const LampFile& against, do
     return compare_lamps(tested, against, {.noise_relative = noise_relative});
 }
 
-std::string difference_text(const LampFile& tested, const LampFile& against, const LampDifference& difference) {
-    std::string text = fmt::format("lamp           {}\nagainst        {}\n", printable(name_beside(tested, against), 400),
-                                   printable(name_beside(against, tested), 400));
+std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile& tested, const LampFile& against,
+                                                                  const LampDifference& difference) {
+    std::vector<std::pair<std::string, std::string>> lines{{"lamp", printable(name_beside(tested, against), 400)},
+                                                           {"against", printable(name_beside(against, tested), 400)}};
     constexpr std::size_t most_told = 8; // lamps of two makes differ in dozens of zones
     const std::vector<std::string> sentences = sentences_of(difference);
     for (std::size_t i = 0; i < std::min(most_told, sentences.size()); ++i)
-        text += fmt::format("difference     {}\n", sentences[i]);
+        lines.emplace_back("difference", sentences[i]);
     if (sentences.size() > most_told)
-        text += fmt::format("               and {} more; --json has them all\n", sentences.size() - most_told);
-    text += fmt::format("noise          {:.3g} % where there is more than a tenth of the peak; claimed is what lies beyond {:.2f} of it\n",
-                        100.0 * difference.noise_relative, difference.z_limit);
-    text += fmt::format("compared       {} directions with at least {:.3g} cd\n", difference.directions, difference.floor_cd);
-    return text;
+        lines.emplace_back("", fmt::format("and {} more; --json has them all", sentences.size() - most_told));
+    lines.emplace_back("noise",
+                       fmt::format("{:.3g} % where there is more than a tenth of the peak; claimed is what lies beyond {:.2f} of it",
+                                   100.0 * difference.noise_relative, difference.z_limit));
+    lines.emplace_back("compared", fmt::format("{} directions with at least {:.3g} cd", difference.directions, difference.floor_cd));
+    return lines;
 }
 
 Json difference_json(const LampDifference& difference) {

@@ -1,18 +1,24 @@
-// Two lamps told apart: as text, as JSON, as a picture.
+// Two lamps told apart: in words, as JSON, as a picture.
 #pragma once
 
 #include "metrics/beam/lamp_difference.h"
 #include "runner/write/plots/svg.h"
 #include "scenarios/lamps/lamp_file.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace fernlicht {
+
+/// What a lamp is called beside another one: its file, and in brackets its own name where that says something else: "halogen-low.ies
+/// (halogen low beam (model))". Files of one name with their folders. A lamp that was read from no file has its own name alone.
+std::string name_beside(const LampFile& lamp, const LampFile& other);
 
 /// Throws InputError naming the lamp that has no light.
 LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative);
 
-std::string difference_text(const LampFile& tested, const LampFile& against, const LampDifference& difference);
+/// What is told of it: "lamp", "against", "difference", "noise", "compared", and what each is.
+std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile& tested, const LampFile& against,
+                                                                  const LampDifference& difference);
 /// Figures with units in their names; null where nothing is claimed.
 nlohmann::ordered_json difference_json(const LampDifference& difference);
 

@@ -21,22 +21,15 @@ ComparedLamp read_compared(const std::filesystem::path& path) {
     return lamp;
 }
 
-void add(LampPairComparison& lamps, const char* name, const char* words, const char* unit, double before, double now) {
-    lamps.facts.push_back({name, unit, words, before, now, std::nullopt});
+void add(LampPairComparison& lamps, const char* name, const char* words, const char* unit, const std::optional<double>& before,
+         const std::optional<double>& now, const std::string& why_before = {}, const std::string& why_now = {}) {
+    lamps.facts.push_back({name, unit, words, before, now, std::nullopt, before && now ? "" : before ? why_now : why_before});
 }
 
 void add_place(LampPairComparison& lamps, const char* name, const char* words, const CutOffScan& before, const CutOffScan& now) {
-    LampFact fact{name, "deg", words, before.inflection_deg, now.inflection_deg, std::nullopt};
-    if (fact.before && fact.now)
-        fact.uncertainty = std::hypot(before.uncertainty_deg(), now.uncertainty_deg());
-    else
-        fact.why_not = fact.before ? now.reason : before.reason;
-    lamps.facts.push_back(std::move(fact));
-}
-
-void add_optional(LampPairComparison& lamps, const char* name, const char* words, const char* unit, const std::optional<double>& before,
-                  const std::optional<double>& now, const std::string& why_before, const std::string& why_now) {
-    lamps.facts.push_back({name, unit, words, before, now, std::nullopt, before && now ? "" : before ? why_now : why_before});
+    add(lamps, name, words, "deg", before.inflection_deg, now.inflection_deg, before.reason, now.reason);
+    if (before.inflection_deg && now.inflection_deg)
+        lamps.facts.back().uncertainty = std::hypot(before.uncertainty_deg(), now.uncertainty_deg());
 }
 
 void add_facts(LampPairComparison& lamps) {
@@ -48,11 +41,11 @@ void add_facts(LampPairComparison& lamps) {
     add(lamps, "flux_lm", "flux within the table", "lm", a.flux_lm, b.flux_lm);
     const CutOffFigures &c = lamps.before.cut_off, &d = lamps.now.cut_off;
     add_place(lamps, "cut_off_v_deg", "cut-off at 2.5 degrees left, V", c.level, d.level);
-    add_optional(lamps, "cut_off_sharpness_g", "its sharpness G", "", c.level.sharpness, d.level.sharpness, c.level.reason, d.level.reason);
-    add_optional(lamps, "cut_off_linearity_deg", "its linearity", "deg", c.linearity_deg, d.linearity_deg,
-                 "the level part was not found at three places", "the level part was not found at three places");
-    add_optional(lamps, "kink_h_deg", "kink, H", "deg", c.kink_h_deg, d.kink_h_deg, c.kink_reason, d.kink_reason);
-    add_optional(lamps, "rise_angle_deg", "angle of the rise", "deg", c.rise_angle_deg, d.rise_angle_deg, c.kink_reason, d.kink_reason);
+    add(lamps, "cut_off_sharpness_g", "its sharpness G", "", c.level.sharpness, d.level.sharpness, c.level.reason, d.level.reason);
+    add(lamps, "cut_off_linearity_deg", "its linearity", "deg", c.linearity_deg, d.linearity_deg,
+        "the level part was not found at three places", "the level part was not found at three places");
+    add(lamps, "kink_h_deg", "kink, H", "deg", c.kink_h_deg, d.kink_h_deg, c.kink_reason, d.kink_reason);
+    add(lamps, "rise_angle_deg", "angle of the rise", "deg", c.rise_angle_deg, d.rise_angle_deg, c.kink_reason, d.kink_reason);
     add_place(lamps, "shoulder_h_deg", "shoulder of the rise, H", c.shoulder, d.shoulder);
 }
 
@@ -61,13 +54,13 @@ void check(LampPairComparison& lamps, const std::string& id) {
     for (ComparedLamp* lamp : {&lamps.before, &lamps.now})
         lamp->check = check_regulation(*lamps.regulation, {lamp->file.table});
     for (const RowResult& row : lamps.before.check->rows)
-        lamps.rows.push_back({row.id, &row, nullptr});
+        lamps.rows.push_back({row.id, row, {}});
     for (const RowResult& row : lamps.now.check->rows) {
         const auto found = std::ranges::find(lamps.rows, row.id, &ComparedRow::id);
         if (found == lamps.rows.end())
-            lamps.rows.push_back({row.id, nullptr, &row});
+            lamps.rows.push_back({row.id, {}, row});
         else
-            found->now = &row;
+            found->now = row;
     }
 }
 
@@ -75,17 +68,17 @@ void check(LampPairComparison& lamps, const std::string& id) {
 
 bool LampPairComparison::passed() const { return !now.check || now.check->verdict == RowVerdict::pass; }
 
-std::unique_ptr<LampPairComparison> compare_lamp_files(const std::filesystem::path& before, const std::filesystem::path& now,
-                                                       const LampCompareOptions& options) {
-    auto lamps = std::make_unique<LampPairComparison>();
+LampPairComparison compare_lamp_files(const std::filesystem::path& before, const std::filesystem::path& now,
+                                      const LampCompareOptions& options) {
+    LampPairComparison lamps;
     if (!options.regulation.empty())
         regulation(options.regulation); // its name first: reading and comparing take longer
-    lamps->before = read_compared(before);
-    lamps->now = read_compared(now);
-    lamps->difference = difference_of(lamps->now.file, lamps->before.file, options.noise_relative);
-    add_facts(*lamps);
+    lamps.before = read_compared(before);
+    lamps.now = read_compared(now);
+    lamps.difference = difference_of(lamps.now.file, lamps.before.file, options.noise_relative);
+    add_facts(lamps);
     if (!options.regulation.empty())
-        check(*lamps, options.regulation);
+        check(lamps, options.regulation);
     return lamps;
 }
 

@@ -7,8 +7,6 @@
 #include "runner/experiments/compare/lamps/lamp_description.h"
 #include "runner/experiments/compare/picture_comparison.h"
 
-#include <memory>
-
 namespace fernlicht {
 
 struct ComparedLamp {
@@ -28,20 +26,20 @@ struct LampFact {
     std::string why_not = {};          ///< where one has none
 };
 
-/// A row of the regulation; `before` and `now` point into the lamps' checks.
+/// A row of the regulation; nullopt: this lamp's check has no such row.
 struct ComparedRow {
     std::string id;
-    const RowResult* before = nullptr; ///< nullptr: this lamp's check has no such row
-    const RowResult* now = nullptr;
+    std::optional<RowResult> before, now;
+    const RowResult& any() const { return now ? *now : *before; }
 };
 
-struct LampPairComparison {
+struct LampPairComparison : Findings {
     ComparedLamp before, now;
     LampDifference difference;
     std::vector<LampFact> facts;
     const Regulation* regulation = nullptr;
     std::vector<ComparedRow> rows;
-    std::vector<ComparedFigure> figures;
+    std::vector<ComparedFigure> figures; ///< where they are to be drawn
 
     bool passed() const; ///< false where a regulation was asked for and B does not pass it
 };
@@ -51,19 +49,17 @@ struct LampCompareOptions {
     std::string regulation;      ///< id; "" for none
 };
 
-/// Throws InputError: files that are no lamps or have no light, a regulation that is not known. The result points into itself.
-std::unique_ptr<LampPairComparison> compare_lamp_files(const std::filesystem::path& before, const std::filesystem::path& now,
-                                                       const LampCompareOptions& options);
+/// Throws InputError: files that are no lamps or have no light, a regulation that is not known.
+LampPairComparison compare_lamp_files(const std::filesystem::path& before, const std::filesystem::path& now,
+                                      const LampCompareOptions& options);
 
 /// Isocandela diagrams beside each other and in one, difference in cd, ratio, cut-off lines.
 std::vector<ComparedFigure> lamp_figures(const LampPairComparison& lamps);
 
-std::string lamps_text(const LampPairComparison& lamps);
+Document document(const LampPairComparison& lamps);
 /// compare.schema.json describes it.
 std::string lamps_json(const LampPairComparison& lamps);
 /// RFC 4180: a line a figure and a row of the regulation.
 std::string lamps_csv(const LampPairComparison& lamps);
-/// One self-contained page.
-std::string lamps_html(const LampPairComparison& lamps);
 
 } // namespace fernlicht

@@ -1,10 +1,9 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
-#include "runner/experiments/compare/name_beside.h"
 #include "runner/files/clean_text.h"
-#include "runner/write/picture_sheet.h"
 #include "runner/write/plots/canvas.h"
 #include "runner/write/plots/isocandela.h"
+#include "runner/write/plots/picture_sheet.h"
 #include "runner/write/plots/svg.h"
 
 #include <algorithm>

@@ -25,7 +25,7 @@ std::string some_of(const std::vector<std::string>& names) {
 }
 
 void compare_readings(DriveComparison& drive) {
-    const RunDrive &before = *drive.before, &now = *drive.now;
+    const RunDrive &before = drive.before, &now = drive.now;
     if (before.time_s != now.time_s) {
         drive.left_out.push_back(fmt::format("all readings: A played {} moments and B {}, not the same ones, and readings are those of the "
                                              "moments played",
@@ -56,9 +56,9 @@ void compare_readings(DriveComparison& drive) {
 }
 
 void compare_times(DriveComparison& drive) {
-    for (const auto& [pass, now] : drive.now->pass_s) {
-        const auto other = drive.before->pass_s.find(pass);
-        if (other == drive.before->pass_s.end())
+    for (const auto& [pass, now] : drive.now.pass_s) {
+        const auto other = drive.before.pass_s.find(pass);
+        if (other == drive.before.pass_s.end())
             continue;
         const std::optional<Spread> a = spread_of(other->second), b = spread_of(now);
         TimeChange change;
@@ -109,7 +109,7 @@ bool other_display(const RunDrive& before, const RunDrive& now, const FramePair&
 
 /// Frames that both have, and in words which were left out.
 void pair_frames(DriveComparison& drive) {
-    const RunDrive &before = *drive.before, &now = *drive.now;
+    const RunDrive &before = drive.before, &now = drive.now;
     std::set<std::string> told;
     std::size_t alone = now.frames.size(), old_alone = 0;
     bool png_alone = false, exr_alone = false, other_tones = false;
@@ -133,7 +133,7 @@ void pair_frames(DriveComparison& drive) {
             pair.old_frame = old_frame;
             pair.new_frame = *found;
             pair.is_display = is_display;
-            pair.view = view;
+            pair.view = *view;
             const bool old_has = !pair.file(old_frame).empty(), new_has = !pair.file(*found).empty();
             if (old_has != new_has)
                 (is_display ? png_alone : exr_alone) = true;
@@ -168,8 +168,8 @@ void compare_frames(DriveComparison& drive, const RunComparison& runs, const Run
     for (FramePair& frame : drive.frames) {
         const PicturePair pair = frame_pictures(frame, runs);
         const double density = frame_density(frame, options);
-        if (frame.view->projection != Projection::map && !has_flip_at(density))
-            no_flip[frame.view->name] = why_no_flip_at(density);
+        if (frame.view.projection != Projection::map && !has_flip_at(density))
+            no_flip[frame.view.name] = why_no_flip_at(density);
         frame.comparison = compare_pictures(pair, density, options.strictness);
         drop_maps(frame.comparison);
         alone.insert(pair.alone.begin(), pair.alone.end());
@@ -213,14 +213,14 @@ void note_what_was_not_judged(RunComparison& runs) {
 } // namespace
 
 PicturePair frame_pictures(const FramePair& frame, const RunComparison& runs) {
-    return read_common_channels(runs.before.folder / frame.file(frame.old_frame), runs.now.folder / frame.file(frame.new_frame));
+    return read_picture_pair(runs.before.folder / frame.file(frame.old_frame), runs.now.folder / frame.file(frame.new_frame), true);
 }
 
 double frame_density(const FramePair& frame, const RunCompareOptions& options) {
-    if (frame.view->projection == Projection::map)
+    if (frame.view.projection == Projection::map)
         return 0.0; // nobody looks at a map with a driver's eyes
     return options.pixels_per_degree ? *options.pixels_per_degree
-                                     : pixels_per_degree_of_view(frame.view->vertical_fov_rad, frame.view->height_px);
+                                     : pixels_per_degree_of_view(frame.view.vertical_fov_rad, frame.view.height_px);
 }
 
 bool FramePair::is_equal() const {
@@ -236,7 +236,7 @@ bool DriveComparison::decides(const ReadingKey& reading) const {
                    return limited && key_of(limited->text) == reading;
                });
     };
-    return !is_extent(reading) || is_named(reading, usual_readings()) || is_limited(*before) || is_limited(*now);
+    return !is_extent(reading) || is_named(reading, usual_readings()) || is_limited(before) || is_limited(now);
 }
 
 double DriveComparison::lamp_noise() const {
@@ -247,10 +247,10 @@ double DriveComparison::lamp_noise() const {
 }
 
 std::string DriveComparison::old_label() const {
-    return "A: " + before->variant + (before->technique != now->technique ? ", " + before->technique : "");
+    return "A: " + before.variant + (before.technique != now.technique ? ", " + before.technique : "");
 }
 std::string DriveComparison::new_label() const {
-    return "B: " + now->variant + (before->technique != now->technique ? ", " + now->technique : "");
+    return "B: " + now.variant + (before.technique != now.technique ? ", " + now.technique : "");
 }
 
 bool RunComparison::passed() const {
@@ -267,25 +267,25 @@ std::size_t RunComparison::count(ChangeKind kind) const {
     return found;
 }
 
-std::unique_ptr<RunComparison> compare_runs(RunFolder before, RunFolder now, const RunCompareOptions& options) {
-    auto runs = std::make_unique<RunComparison>();
-    runs->before = std::move(before);
-    runs->now = std::move(now);
-    runs->strictness_name = options.strictness ? options.strictness->name : "";
-    pair_drives(*runs);
-    if (runs->drives.empty())
-        throw InputError({runs->now.folder, 0, 0, {}},
-                         runs->left_out.empty() ? "has no drive" : "cannot be compared: " + runs->left_out.front(),
-                         "a run of drives that " + runs->before.folder.string() + " has too");
-    for (DriveComparison& drive : runs->drives) {
+RunComparison compare_runs(RunFolder before, RunFolder now, const RunCompareOptions& options) {
+    RunComparison runs;
+    runs.before = std::move(before);
+    runs.now = std::move(now);
+    runs.strictness_name = options.strictness ? options.strictness->name : "";
+    pair_drives(runs);
+    if (runs.drives.empty())
+        throw InputError({runs.now.folder, 0, 0, {}},
+                         runs.left_out.empty() ? "has no drive" : "cannot be compared: " + runs.left_out.front(),
+                         "a run of drives that " + runs.before.folder.string() + " has too");
+    for (DriveComparison& drive : runs.drives) {
         compare_lamp_files(drive);
         compare_readings(drive);
         compare_times(drive);
         pair_frames(drive);
-        compare_frames(drive, *runs, options);
+        compare_frames(drive, runs, options);
     }
-    rank(*runs);
-    note_what_was_not_judged(*runs);
+    rank(runs);
+    note_what_was_not_judged(runs);
     return runs;
 }
 

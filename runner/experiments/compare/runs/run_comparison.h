@@ -19,7 +19,7 @@ struct TimeChange : ReadingChange {
 struct FramePair {
     StoredFrame old_frame, new_frame;
     bool is_display = false;        ///< the PNGs; else the EXRs
-    const View* view = nullptr;     ///< of the new run
+    View view;                      ///< of the new run
     PictureComparison comparison;   ///< without its maps
     std::string folder;             ///< of its pictures, below the comparison's; "" when none were drawn
     std::vector<std::string> files; ///< in that folder
@@ -35,8 +35,7 @@ struct LampFilesDifference {
 };
 
 struct DriveComparison {
-    const RunDrive* before = nullptr;
-    const RunDrive* now = nullptr;
+    RunDrive before, now;
     std::string name;                   ///< good for a file: "first-light-1_xenon-against-halogen"
     std::vector<YamlChange> settings;   ///< of the drives as they were played, lamp sets included
     std::vector<std::string> new_bytes; ///< files of one path in both runs whose content is another
@@ -54,7 +53,7 @@ struct DriveComparison {
     std::string new_label() const;
 };
 
-struct RunComparison {
+struct RunComparison : Findings {
     RunFolder before, now;
     std::vector<DriveComparison> drives;
     std::vector<std::string> left_out;                        ///< drives that one run alone has, one sentence each
@@ -72,7 +71,21 @@ struct RunCompareOptions {
 };
 
 /// Pairs drives by name, lamp set and technique, then by lamp set, then the one left on either side. Throws InputError where nothing can be
-/// compared, with the reason. The pointers in the result point into it: it is not copied.
-std::unique_ptr<RunComparison> compare_runs(RunFolder before, RunFolder now, const RunCompareOptions& options);
+/// compared, with the reason.
+RunComparison compare_runs(RunFolder before, RunFolder now, const RunCompareOptions& options);
+
+/// Draws below `folder`, in frames/, pictures of `pictured` moments of each drive and view that differ: spread evenly, and the one that
+/// differs most. Fills in what was drawn, and every drive's figures.
+void draw_runs(RunComparison& runs, const RunCompareOptions& options, std::size_t pictured, const std::filesystem::path& folder);
+
+Document document(const RunComparison& runs);
+/// compare.schema.json describes it.
+std::string runs_json(const RunComparison& runs);
+/// RFC 4180: a line a reading and a time; a line a figure of a stored frame's channel.
+std::string runs_csv(const RunComparison& runs);
+std::string frames_csv(const RunComparison& runs);
+
+/// "c0-12": a reading's row in the page, in compare.json and in compare.csv.
+std::string row_id(std::size_t drive, std::size_t change);
 
 } // namespace fernlicht

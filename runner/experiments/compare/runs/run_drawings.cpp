@@ -1,11 +1,8 @@
-#include "runner/experiments/compare/comparison_writers.h"
 #include "runner/experiments/compare/runs/lux_ratio.h"
 #include "runner/experiments/compare/runs/run_pairs.h"
-#include "runner/experiments/compare/runs/run_writers.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/extent_keys.h"
-#include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
 #include "scenarios/studies/study.h"
 
@@ -32,7 +29,7 @@ void add_lines(DriveComparison& drive, const std::string& name, const std::strin
         return;
     plots::Figure figure;
     figure.title = title;
-    figure.subtitle = short_text(drive.now->title, 80);
+    figure.subtitle = short_text(drive.now.title, 80);
     figure.width_px = 560.0;
     figure.height_px = 300.0;
     figure.series = {{short_text(drive.old_label(), 40), old_line, plots::series_colour(0), 2.2, "", old_line.size() == 1},
@@ -50,10 +47,10 @@ plots::Polyline line_of(const std::vector<double>& x, const std::vector<double>&
 }
 
 void add_reaches(DriveComparison& drive) {
-    for (const ReachOverDrive& now : drive.now->reaches) {
-        const auto old = std::ranges::find_if(drive.before->reaches,
+    for (const ReachOverDrive& now : drive.now.reaches) {
+        const auto old = std::ranges::find_if(drive.before.reaches,
                                               [&](const ReachOverDrive& r) { return r.plane == now.plane && r.limit_lx == now.limit_lx; });
-        if (old == drive.before->reaches.end() || !is_named(now.key(), usual_readings()))
+        if (old == drive.before.reaches.end() || !is_named(now.key(), usual_readings()))
             continue;
         add_lines(
             drive, fmt::format("reach-{:g}lx-{}", now.limit_lx, plane_name(now.plane)),
@@ -64,10 +61,10 @@ void add_reaches(DriveComparison& drive) {
 }
 
 void add_glares(DriveComparison& drive) {
-    for (const GlareOverDrive& now : drive.now->glares) {
-        const auto old = std::ranges::find(drive.before->glares, now.eye, &GlareOverDrive::eye);
+    for (const GlareOverDrive& now : drive.now.glares) {
+        const auto old = std::ranges::find(drive.before.glares, now.eye, &GlareOverDrive::eye);
         const std::string eye = eye_name(now.eye);
-        if (old != drive.before->glares.end())
+        if (old != drive.before.glares.end())
             add_lines(drive, "glare-" + file_name_of(eye), "Illuminance facing the lamps, " + short_text(eye, 40),
                       line_of(old->at_m, old->facing_lx), line_of(now.at_m, now.facing_lx), now.over, "illuminance", "lx",
                       plots::Scale::logarithmic);
@@ -75,13 +72,13 @@ void add_glares(DriveComparison& drive) {
 }
 
 void add_maps(DriveComparison& drive, const RunComparison& runs, const FramePair& frame) {
-    const auto before = stored_lux_map(runs.before.folder / frame.old_frame.exr, frame.old_frame, *frame.view);
-    const auto now = stored_lux_map(runs.now.folder / frame.new_frame.exr, frame.new_frame, *frame.view);
+    const auto before = stored_lux_map(runs.before.folder / frame.old_frame.exr, frame.old_frame, frame.view);
+    const auto now = stored_lux_map(runs.now.folder / frame.new_frame.exr, frame.new_frame, frame.view);
     if (!before || !now)
         return;
     const std::string name = fmt::format("{}_{}-{:06}", drive.name, file_name_of(frame.new_frame.view), frame.new_frame.tick);
     const std::string old_label = short_text(drive.old_label(), 40), new_label = short_text(drive.new_label(), 40);
-    const std::string place = short_text(drive.now->title, 60);
+    const std::string place = short_text(drive.now.title, 60);
     const std::string lines = "Isolux lines from above: " + place, ratio = new_label + " over " + old_label + ": " + place;
     drive.figures.push_back({"lux-lines_" + name, lines, lux_lines_svg(*now, *before, lines, new_label, old_label)});
     drive.figures.push_back({"lux-ratio_" + name, ratio, lux_ratio_svg(*now, *before, ratio)});
@@ -129,7 +126,7 @@ void draw_frames(DriveComparison& drive, const RunComparison& runs, const RunCom
         std::error_code ignored; // a folder that cannot be made shows in the first file below it
         fs::create_directories(folder / frame.folder, ignored);
         frame.files = write_comparison_pictures(comparison, pair, folder / frame.folder);
-        if (!frame.is_display && frame.view->projection == Projection::map)
+        if (!frame.is_display && frame.view.projection == Projection::map)
             add_maps(drive, runs, frame);
     }
 }
@@ -141,12 +138,6 @@ void draw_runs(RunComparison& runs, const RunCompareOptions& options, std::size_
         add_reaches(drive);
         add_glares(drive);
         draw_frames(drive, runs, options, pictured, folder);
-        std::error_code ignored;
-        fs::create_directories(folder / "figures", ignored);
-        for (const ComparedFigure& figure : drive.figures) {
-            write_file(folder / "figures" / (figure.name + ".svg"), figure.svg);
-            write_file(folder / "figures" / (figure.name + ".png"), plots::png_of_svg(figure.svg, 2.0));
-        }
     }
 }
 

@@ -1,8 +1,12 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
-#include "runner/experiments/compare/layers_json.h"
-#include "runner/experiments/compare/runs/run_writers.h"
+#include "runner/experiments/compare/runs/run_comparison.h"
+#include "runner/files/clean_text.h"
 #include "runner/files/json_text.h"
 #include "runner/files/value_json.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
@@ -34,8 +38,8 @@ Json frame_json(const FramePair& frame) {
             {"time_s", frame.new_frame.time_s},
             {"old_file", frame.file(frame.old_frame)},
             {"new_file", frame.file(frame.new_frame)},
-            {"width_px", frame.view->width_px},
-            {"height_px", frame.view->height_px},
+            {"width_px", frame.view.width_px},
+            {"height_px", frame.view.height_px},
             {"pixels_per_degree", frame.comparison.pixels_per_degree > 0.0 ? Json(frame.comparison.pixels_per_degree) : Json(nullptr)},
             {"equal", frame.is_equal()},
             {"layers", layers_json(frame.comparison)},
@@ -43,7 +47,7 @@ Json frame_json(const FramePair& frame) {
 }
 
 Json drive_json(const DriveComparison& drive, std::size_t index) {
-    Json settings = Json::array(), changes = Json::array(), times = Json::array(), frames = Json::array(), figures = Json::array();
+    Json settings = Json::array(), changes = Json::array(), times = Json::array(), frames = Json::array();
     for (const YamlChange& setting : drive.settings)
         settings.push_back({{"key", setting.key}, {"old", setting.old_value}, {"new", setting.new_value}});
     for (std::size_t i = 0; i < drive.changes.size(); ++i) {
@@ -65,14 +69,11 @@ Json drive_json(const DriveComparison& drive, std::size_t index) {
                          {"difference", difference_json(files.difference)}});
     for (const FramePair& frame : drive.frames)
         frames.push_back(frame_json(frame));
-    for (const ComparedFigure& figure : drive.figures)
-        figures.push_back(
-            {{"svg", "figures/" + figure.name + ".svg"}, {"png", "figures/" + figure.name + ".png"}, {"title", figure.title}});
-    return {{"drive", drive.now->drive},
-            {"old_variant", drive.before->variant},
-            {"new_variant", drive.now->variant},
-            {"old_technique", drive.before->technique},
-            {"new_technique", drive.now->technique},
+    return {{"drive", drive.now.drive},
+            {"old_variant", drive.before.variant},
+            {"new_variant", drive.now.variant},
+            {"old_technique", drive.before.technique},
+            {"new_technique", drive.now.technique},
             {"settings", settings},
             {"files_of_other_content", drive.new_bytes},
             {"left_out", drive.left_out},
@@ -80,7 +81,7 @@ Json drive_json(const DriveComparison& drive, std::size_t index) {
             {"changes", changes},
             {"times", times},
             {"frames", frames},
-            {"figures", figures}};
+            {"figures", figures_json(drive.figures)}};
 }
 
 Json run_json(const RunFolder& run) {
@@ -93,7 +94,37 @@ Json run_json(const RunFolder& run) {
             {"cpu", run.cpu}};
 }
 
+std::string number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); }
+
+void append_line(std::string& csv, const std::vector<std::string>& fields) { csv += fmt::format("{}\r\n", fmt::join(fields, ",")); }
+
+std::vector<std::string> change_line(const std::string& id, const DriveComparison& drive, const ReadingChange& c, bool decides) {
+    return {id,
+            csv_text(drive.now.drive),
+            csv_text(drive.before.variant),
+            csv_text(drive.now.variant),
+            csv_text(drive.before.technique),
+            csv_text(drive.now.technique),
+            csv_text(name_of(c.reading)),
+            csv_text(c.unit()),
+            number(c.old_value.figure()),
+            number(c.new_value.figure()),
+            number(c.change().figure()),
+            number(c.relative()),
+            number(c.uncertainty),
+            number(c.by_aim),
+            number(c.by_noise),
+            change_name(c.kind),
+            decides ? "yes" : "no",
+            csv_text(c.why_not),
+            bound_name(c.old_value),
+            bound_name(c.new_value),
+            bound_name(c.change())};
+}
+
 } // namespace
+
+std::string row_id(std::size_t drive, std::size_t change) { return fmt::format("c{}-{}", drive, change); }
 
 std::string runs_json(const RunComparison& runs) {
     Json drives = Json::array(), largest = Json::array();
@@ -114,6 +145,36 @@ std::string runs_json(const RunComparison& runs) {
                       {"left_out", runs.left_out},
                       {"drives", drives},
                       {"runs", Json::array({run_json(runs.before), run_json(runs.now)})}});
+}
+
+std::string runs_csv(const RunComparison& runs) {
+    std::string csv =
+        "id,drive,old_variant,new_variant,old_technique,new_technique,reading,unit,old_value,new_value,change,relative_change,"
+        "uncertainty,by_tenth_degree,by_noise,kind,decides,why_not,old_bound,new_bound,change_bound\r\n";
+    for (std::size_t d = 0; d < runs.drives.size(); ++d) {
+        const DriveComparison& drive = runs.drives[d];
+        for (std::size_t i = 0; i < drive.changes.size(); ++i)
+            append_line(csv, change_line(row_id(d, i), drive, drive.changes[i], drive.decides(drive.changes[i].reading)));
+    }
+    for (const DriveComparison& drive : runs.drives) // last: they differ from run to run
+        for (const TimeChange& time : drive.times)
+            append_line(csv, change_line("", drive, time, false));
+    return csv;
+}
+
+std::string frames_csv(const RunComparison& runs) {
+    std::string csv = "drive,old_variant,new_variant,view,frame,time_s,file,channel,figure,unit,value,x,y,not_measured\r\n";
+    for (const DriveComparison& drive : runs.drives)
+        for (const FramePair& frame : drive.frames)
+            for (const LayerComparison& layer : frame.comparison.layers)
+                for (const ComparedValue& v : layer.values)
+                    append_line(csv,
+                                {csv_text(drive.now.drive), csv_text(drive.before.variant), csv_text(drive.now.variant),
+                                 csv_text(frame.new_frame.view), std::to_string(frame.new_frame.tick),
+                                 fmt::format("{}", frame.new_frame.time_s), csv_text(frame.file(frame.new_frame)), csv_text(layer.name),
+                                 csv_text(v.name), csv_text(v.unit), number(v.value), v.place ? std::to_string(v.place->first) : "",
+                                 v.place ? std::to_string(v.place->second) : "", csv_text(v.value ? "" : v.why_not)});
+    return csv;
 }
 
 } // namespace fernlicht

@@ -40,7 +40,7 @@ LampFile read_as_played(const RunDrive& drive, const YamlValue& lamp) {
 } // namespace
 
 void compare_lamp_files(DriveComparison& drive) {
-    const YamlValue *before = lamps_of(*drive.before), *now = lamps_of(*drive.now);
+    const YamlValue *before = lamps_of(drive.before), *now = lamps_of(drive.now);
     if (!before || !now)
         return;
     for (const YamlMember& lamp : now->members) {
@@ -48,7 +48,7 @@ void compare_lamp_files(DriveComparison& drive) {
         if (!other)
             continue;
         const std::string file = text_in(lamp.value, "file"), old_file = text_in(*other, "file");
-        if (file.empty() || old_file.empty() || hash_of(*drive.now, file) == hash_of(*drive.before, old_file))
+        if (file.empty() || old_file.empty() || hash_of(drive.now, file) == hash_of(drive.before, old_file))
             continue;
         const auto same =
             std::ranges::find_if(drive.lamp_files, [&](const LampFilesDifference& d) { return d.now == file && d.before == old_file; });
@@ -57,7 +57,7 @@ void compare_lamp_files(DriveComparison& drive) {
             continue;
         }
         try {
-            const LampFile tested = read_as_played(*drive.now, lamp.value), against = read_as_played(*drive.before, *other);
+            const LampFile tested = read_as_played(drive.now, lamp.value), against = read_as_played(drive.before, *other);
             drive.lamp_files.push_back({lamp.key, old_file, file, difference_of(tested, against, 0.0)});
             plots::Figure figure = difference_figure(tested, against, drive.lamp_files.back().difference);
             drive.figures.push_back({fmt::format("lamps_{}_{}", drive.name, drive.lamp_files.size()), figure.title, plots::svg_of(figure)});

@@ -94,8 +94,8 @@ class Pairing {
             return;
         }
         DriveComparison drive;
-        drive.before = &before;
-        drive.now = &now;
+        drive.before = before;
+        drive.now = now;
         drive.name = file_name_of(before.drive) + "_" + file_name_of(now.variant);
         if (before.variant != now.variant)
             drive.name += "-against-" + file_name_of(before.variant);

@@ -1,6 +1,6 @@
-#include "runner/experiments/compare/comparison_writers.h"
-#include "runner/write/picture_sheet.h"
+#include "runner/experiments/compare/picture_comparison.h"
 #include "runner/write/plots/canvas.h"
+#include "runner/write/plots/picture_sheet.h"
 #include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
 #include "scenarios/values/errors.h"

@@ -1,4 +1,4 @@
-#include "runner/write/picture_sheet.h"
+#include "runner/write/plots/picture_sheet.h"
 
 #include "runner/write/plots/png.h"
 

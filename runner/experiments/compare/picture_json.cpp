@@ -1,6 +1,8 @@
-#include "runner/experiments/compare/comparison_writers.h"
-#include "runner/experiments/compare/layers_json.h"
+#include "runner/experiments/compare/picture_comparison.h"
 #include "runner/files/json_text.h"
+
+#include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -57,7 +59,15 @@ nlohmann::ordered_json layers_json(const PictureComparison& comparison) {
     return layers;
 }
 
-std::string comparison_json(const PictureComparison& comparison, const PicturePair& pair, const std::vector<std::string>& pictures) {
+nlohmann::ordered_json figures_json(const std::vector<ComparedFigure>& figures) {
+    Json list = Json::array();
+    for (const ComparedFigure& figure : figures)
+        list.push_back({{"svg", figure.place() + ".svg"}, {"png", figure.place() + ".png"}, {"title", figure.title}});
+    return list;
+}
+
+std::string pictures_json(const PicturesFound& found) {
+    const auto& [comparison, pair] = std::tie(found.comparison, found.pair);
     return json_text({{"schema", "fernlicht comparison"},
                       {"schema_version", 1},
                       {"kind", "pictures"},
@@ -70,7 +80,7 @@ std::string comparison_json(const PictureComparison& comparison, const PicturePa
                       {"strictness", comparison.strictness_name.empty() ? Json(nullptr) : Json(comparison.strictness_name)},
                       {"passed", comparison.strictness_name.empty() ? Json(nullptr) : Json(comparison.passed())},
                       {"layers", layers_json(comparison)},
-                      {"pictures", pictures}});
+                      {"pictures", found.pictures}});
 }
 
 } // namespace fernlicht

@@ -3,34 +3,29 @@
 #include "runner/experiments/regulation/regulation_report.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/json_text.h"
-#include "runner/write/aligned_table.h"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string five_digits(const std::optional<double>& value) { return value ? fmt::format("{:.5g}", *value + 0.0) : "not measured"; }
-
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-std::optional<double> found_in(const RowResult* row) {
+std::optional<double> found_in(const std::optional<RowResult>& row) {
     return row && row->verdict != RowVerdict::not_measured ? std::optional(row->found) : std::nullopt;
 }
 
-std::optional<double> margin_in(const RowResult* row) {
+std::optional<double> margin_in(const std::optional<RowResult>& row) {
     return row && row->verdict != RowVerdict::not_measured ? std::optional(row->margin) : std::nullopt;
 }
 
-std::string verdict_in(const RowResult* row) {
+std::string verdict_in(const std::optional<RowResult>& row) {
     return !row ? "" : row->verdict == RowVerdict::pass ? "pass" : row->verdict == RowVerdict::fail ? "fail" : "not_measured";
 }
-
-std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:+.1f} %", 100.0 * *share) : "-"; }
 
 Json lamp_json(const ComparedLamp& lamp) {
     return {{"file", lamp.path.string()},
@@ -45,7 +40,7 @@ Json regulation_json(const LampPairComparison& lamps) {
     Json rows = Json::array();
     for (const ComparedRow& row : lamps.rows)
         rows.push_back({{"id", row.id},
-                        {"unit", (row.now ? row.now : row.before)->unit},
+                        {"unit", row.any().unit},
                         {"old_found", or_null(found_in(row.before))},
                         {"new_found", or_null(found_in(row.now))},
                         {"old_margin", or_null(margin_in(row.before))},
@@ -61,32 +56,8 @@ Json regulation_json(const LampPairComparison& lamps) {
 
 } // namespace
 
-std::string lamps_text(const LampPairComparison& lamps) {
-    std::string text = difference_text(lamps.now.file, lamps.before.file, lamps.difference) + '\n';
-    std::vector<std::vector<std::string>> rows;
-    for (const LampFact& fact : lamps.facts) {
-        const bool known = fact.before && fact.now;
-        rows.push_back({fact.words, five_digits(fact.before), five_digits(fact.now),
-                        known ? fmt::format("{:+.5g}", *fact.now - *fact.before + 0.0) : "",
-                        fact.uncertainty ? fmt::format("±{:.2g}", *fact.uncertainty) : "", fact.unit, fact.why_not});
-    }
-    text += aligned_table("<>>>><<", {"figure", "A", "B", "B - A", "", "", ""}, rows);
-    if (!lamps.regulation)
-        return text;
-    rows.clear();
-    for (const ComparedRow& row : lamps.rows)
-        rows.push_back({row.id, five_digits(found_in(row.before)), five_digits(found_in(row.now)), row.now ? row.now->unit : "",
-                        percent(margin_in(row.before)), percent(margin_in(row.now)), verdict_in(row.before), verdict_in(row.now)});
-    text += fmt::format("\n{}, per our table of {}\n", lamps.regulation->id, lamps.regulation->edition);
-    text += aligned_table("<>><>><<", {"row", "A", "B", "", "margin A", "margin B", "A", "B"}, rows);
-    const auto verdict = [](const ComparedLamp& lamp) {
-        return lamp.check->verdict == RowVerdict::pass ? "pass" : lamp.check->verdict == RowVerdict::fail ? "fail" : "not measured";
-    };
-    return text + fmt::format("verdict  A {}, B {}; no approval\n", verdict(lamps.before), verdict(lamps.now));
-}
-
 std::string lamps_json(const LampPairComparison& lamps) {
-    Json facts = Json::array(), figures = Json::array();
+    Json facts = Json::array();
     for (const LampFact& fact : lamps.facts) {
         const bool known = fact.before && fact.now;
         facts.push_back({{"name", fact.name},
@@ -97,9 +68,6 @@ std::string lamps_json(const LampPairComparison& lamps) {
                          {"uncertainty", or_null(fact.uncertainty)},
                          {"not_measured", known ? Json(nullptr) : Json(fact.why_not)}});
     }
-    for (const ComparedFigure& figure : lamps.figures)
-        figures.push_back(
-            {{"svg", "figures/" + figure.name + ".svg"}, {"png", "figures/" + figure.name + ".png"}, {"title", figure.title}});
     return json_text({{"schema", "fernlicht comparison"},
                       {"schema_version", 1},
                       {"kind", "lamps"},
@@ -111,7 +79,7 @@ std::string lamps_json(const LampPairComparison& lamps) {
                       {"difference", difference_json(lamps.difference)},
                       {"facts", facts},
                       {"regulation", regulation_json(lamps)},
-                      {"figures", figures}});
+                      {"figures", figures_json(lamps.figures)}});
 }
 
 std::string lamps_csv(const LampPairComparison& lamps) {
@@ -123,9 +91,9 @@ std::string lamps_csv(const LampPairComparison& lamps) {
                 fact.before && fact.now ? fmt::format("{}", *fact.now - *fact.before) : "", exact(fact.uncertainty), "", "", "", ""});
     for (const ComparedRow& row : lamps.rows) {
         const auto before = found_in(row.before), now = found_in(row.now);
-        append({csv_text(lamps.regulation->id), csv_text(row.id), csv_text((row.now ? row.now : row.before)->unit), exact(before),
-                exact(now), before && now ? fmt::format("{}", *now - *before) : "", "", exact(margin_in(row.before)),
-                exact(margin_in(row.now)), verdict_in(row.before), verdict_in(row.now)});
+        append({csv_text(lamps.regulation->id), csv_text(row.id), csv_text(row.any().unit), exact(before), exact(now),
+                before && now ? fmt::format("{}", *now - *before) : "", "", exact(margin_in(row.before)), exact(margin_in(row.now)),
+                verdict_in(row.before), verdict_in(row.now)});
     }
     return csv;
 }

@@ -1,0 +1,337 @@
+#include "metrics/readings/reading_words.h"
+#include "runner/experiments/compare/runs/run_comparison.h"
+#include "runner/files/clean_text.h"
+#include "runner/findings/figures.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr std::size_t most_settings = 40;
+
+/// With as many digits as tell it apart: readings reach from thousandths of a lux to thousands of square metres.
+std::string page_number(double value) {
+    const double size = std::abs(value);
+    if (size > 0.0 && size < 1e-3) { // "4.3e-7"
+        std::string text = fmt::format("{:.1e}", value);
+        const std::size_t e = text.find('e');
+        return text.substr(0, e + 1) + std::to_string(std::stoi(text.substr(e + 1)));
+    }
+    return figure(value, size >= 1000.0 || size == 0.0 ? 0 : std::clamp(3 - static_cast<int>(std::ceil(std::log10(size))), 1, 6));
+}
+
+Cell number_cell(const std::optional<double>& value, const char* otherwise = "") {
+    return value ? Cell(page_number(*value), *value) : Cell(otherwise);
+}
+
+Cell value_cell(const Value& value) {
+    return value.measured() ? Cell(with_bound(value, page_number(*value.figure())), *value.figure()) : Cell("not measured");
+}
+
+Cell change_cell(const Value& change) {
+    if (!change.measured())
+        return "";
+    const double size = *change.figure();
+    return {with_bound(change, (size > 0.0 ? "+" : "") + page_number(size)), size};
+}
+
+std::string drive_words(const DriveComparison& drive) {
+    const std::string &now = drive.now.variant, &before = drive.before.variant;
+    return drive.now.drive + ", " + (now == before ? now : now + " / " + before);
+}
+
+Table changes_table(const std::string& name, const std::string& caption) {
+    return {name,
+            caption,
+            {{.head = "reading", .words = true},
+             {"old"},
+             {"new"},
+             {"change"},
+             {"%"},
+             {"± calc."},
+             {"± noise"},
+             {"± aim"},
+             {.head = "unit", .words = true},
+             {.head = "is", .words = true},
+             {.head = "row", .words = true},
+             {.head = "drive", .words = true}},
+            {}};
+}
+
+std::vector<Cell> change_cells(const DriveComparison& drive, const ReadingChange& change, const std::string& id) {
+    const double percent = 100.0 * change.relative().value_or(0.0);
+    return {reading_in_words(change.reading),
+            value_cell(change.old_value),
+            value_cell(change.new_value),
+            change_cell(change.change()),
+            change.relative() ? Cell(signed_figure(percent, 1), percent) : Cell(""),
+            number_cell(change.uncertainty),
+            number_cell(change.by_noise),
+            number_cell(change.by_aim),
+            unit_in_words(change.unit()),
+            change_name(change.kind) + (change.why_not.empty() ? "" : ": " + change.why_not),
+            id,
+            drive_words(drive)};
+}
+
+/// "reach at 1 lx on the road, own lane: 29.35 -> 33.27 m, +3.923 (+13.4 %), ±0.095".
+std::string change_text(const ReadingChange& c) {
+    const auto short_value = [](const Value& value) {
+        return value.measured() ? with_bound(value, fmt::format("{:.4g}", *value.figure())) : "not measured";
+    };
+    const Value change = c.change();
+    std::string text = fmt::format("{}: {} -> {} {}, {}", reading_in_words(c.reading), short_value(c.old_value), short_value(c.new_value),
+                                   unit_in_words(c.unit()), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
+    if (c.relative())
+        text += fmt::format(" ({:+.1f} %)", 100.0 * *c.relative());
+    if (c.uncertainty)
+        text += fmt::format(", ±{:.2g}", *c.uncertainty);
+    return text;
+}
+
+/// What the comparison comes to, in one sentence.
+std::string runs_sentence(const RunComparison& runs) {
+    std::size_t all = 0;
+    for (const DriveComparison& drive : runs.drives)
+        all += drive.changes.size();
+    return all == 0 ? "No reading could be compared."
+                    : fmt::format(
+                          "Of {} readings that both runs have, {} changed for real, {} by no more than 0.1 degrees of aim would do, {} by "
+                          "no more than calculation and noise leave open; of {} it is not known.",
+                          all, runs.count(ChangeKind::real), runs.count(ChangeKind::within_aim), runs.count(ChangeKind::none),
+                          runs.count(ChangeKind::unknown));
+}
+
+Section first_section(const RunComparison& runs) {
+    Section section{
+        "", {"old A  " + runs.before.folder.string(), "new B  " + runs.now.folder.string(), "differences are B - A", runs_sentence(runs)}};
+    for (const std::string& sentence : runs.left_out)
+        section.blocks.emplace_back("left out: " + sentence);
+    if (runs.strictness_name.empty())
+        return section;
+    for (const std::string& why : runs.not_judged)
+        section.blocks.emplace_back("not held to the strictness: " + why);
+    section.blocks.emplace_back(fmt::format("strictness {}: {}", runs.strictness_name, runs.passed() ? "pass" : "FAIL"));
+    return section;
+}
+
+Section largest_section(const RunComparison& runs) {
+    Section section{"The largest changes", {}};
+    for (const auto& [d, i] : runs.largest)
+        section.blocks.emplace_back(
+            fmt::format("{}; {}, row {}", change_text(runs.drives[d].changes[i]), drive_words(runs.drives[d]), row_id(d, i)));
+    section.blocks.emplace_back(
+        runs.largest.empty()
+            ? "No deciding reading changed beyond what calculation, noise of the lamps' tables and 0.1° of aim leave open."
+            : "Of each deciding reading its largest real change, then the largest of these; size is the change over the larger of both "
+              "values. Real is what exceeds what calculation and the noise of the lamps' tables leave open, and what 0.1° of aim would "
+              "do.");
+    return section;
+}
+
+Section readings_section(const RunComparison& runs) {
+    Table deciding = changes_table("readings", "The readings that decide"), others = changes_table("others", "");
+    for (std::size_t d = 0; d < runs.drives.size(); ++d)
+        for (std::size_t i = 0; i < runs.drives[d].changes.size(); ++i) {
+            const ReadingChange& change = runs.drives[d].changes[i];
+            (runs.drives[d].decides(change.reading) ? deciding : others).rows.push_back(change_cells(runs.drives[d], change, row_id(d, i)));
+        }
+    others.caption = fmt::format("All other readings ({}): other lanes, edges, limits, percentiles", others.rows.size());
+    others.aside = true;
+    return {"Readings",
+            {"± calc. is what calculation (and where a run has them, repeats) leaves open of the change, ± noise what three standard "
+             "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is a row of compare.json "
+             "and compare.csv.",
+             deciding, others},
+            true};
+}
+
+/// By channel the frame that differs most.
+Table worst_frames_table(const DriveComparison& drive) {
+    struct Channel {
+        std::string name;
+        std::size_t frames = 0, equal = 0;
+        const LayerComparison* worst = nullptr;
+        double worst_s = 0.0;
+    };
+    std::vector<Channel> channels;
+    for (const FramePair& frame : drive.frames)
+        for (const LayerComparison& layer : frame.comparison.layers) {
+            const std::string name = frame.view.name + ", " + layer.name;
+            auto channel = std::ranges::find(channels, name, &Channel::name);
+            if (channel == channels.end())
+                channel = channels.insert(channels.end(), Channel{name});
+            ++channel->frames;
+            channel->equal += layer.histogram.equal == layer.histogram.pixels() ? 1U : 0U;
+            if (!channel->worst || value_in(layer, "rmse").value_or(0.0) > value_in(*channel->worst, "rmse").value_or(0.0)) {
+                channel->worst = &layer;
+                channel->worst_s = frame.new_frame.time_s;
+            }
+        }
+    Table table{"pictures-" + drive.name,
+                "Stored frames, and of each channel the one that differs most",
+                {{.head = "pictures", .words = true},
+                 {"frames"},
+                 {"equal"},
+                 {"RMSE"},
+                 {"largest"},
+                 {.head = "unit", .words = true},
+                 {"SSIM"},
+                 {"most at", "s"}},
+                {}};
+    for (const Channel& channel : channels) {
+        const auto cell = [&](const char* name) {
+            const std::optional<double> value = value_in(*channel.worst, name);
+            return value ? Cell(fmt::format("{:.4g}", *value), *value) : Cell("not measured");
+        };
+        table.rows.push_back({channel.name,
+                              std::to_string(channel.frames),
+                              std::to_string(channel.equal),
+                              cell("rmse"),
+                              cell("max_error"),
+                              unit_in_words(channel.worst->unit),
+                              cell("ssim"),
+                              {fmt::format("{:.2f}", channel.worst_s), channel.worst_s}});
+    }
+    return table;
+}
+
+/// What differs between the two that were played, and whether the frames are alike enough.
+Section drive_section(const RunComparison& runs, const DriveComparison& drive) {
+    Section section{drive.now.drive + ": " + drive.new_label() + " against " + drive.old_label(), {}};
+    std::vector<DocumentPart>& blocks = section.blocks;
+    if (drive.settings.empty()) {
+        blocks.emplace_back("Both were played with the same settings.");
+    } else {
+        Table settings{"settings-" + drive.name,
+                       "What the drives set otherwise",
+                       {{.head = "key", .words = true}, {.head = "A", .words = true}, {.head = "B", .words = true}},
+                       {}};
+        const auto shown = [](const std::string& value) { return value.empty() ? "not set" : short_text(value, 160); };
+        for (std::size_t i = 0; i < std::min(most_settings, drive.settings.size()); ++i)
+            settings.rows.push_back(
+                {short_text(drive.settings[i].key, 80), shown(drive.settings[i].old_value), shown(drive.settings[i].new_value)});
+        blocks.emplace_back(std::move(settings));
+        if (drive.settings.size() > most_settings)
+            blocks.emplace_back(fmt::format("and {} more in compare.json", drive.settings.size() - most_settings));
+    }
+    for (const LampFilesDifference& lamps : drive.lamp_files) {
+        const std::vector<std::string> sentences = sentences_of(lamps.difference);
+        for (std::size_t i = 0; i < std::min<std::size_t>(5, sentences.size()); ++i)
+            blocks.emplace_back(fmt::format("lamp {}: {}", lamps.lamps, sentences[i]));
+        if (sentences.size() > 5)
+            blocks.emplace_back(fmt::format("and {} more, all in compare.json", sentences.size() - 5));
+    }
+    for (const std::string& file : drive.new_bytes)
+        blocks.emplace_back("other content: " + file);
+    for (const std::string& sentence : drive.left_out)
+        blocks.emplace_back("left out: " + sentence);
+    for (const TimeChange& time : drive.times)
+        blocks.emplace_back(time.kind == ChangeKind::unknown ? fmt::format("{}: not known: {}", name_of(time.reading), time.why_not)
+                                                             : fmt::format("{}; {}", change_text(time), change_name(time.kind)));
+    if (!drive.frames.empty())
+        blocks.emplace_back(worst_frames_table(drive));
+    if (!drive.frames.empty() && std::ranges::all_of(drive.frames, &FramePair::is_equal))
+        blocks.emplace_back("No pixel of any stored frame differs.");
+    for (const FramePair& frame : drive.frames)
+        if (!runs.strictness_name.empty() && !frame.comparison.passed()) {
+            blocks.emplace_back(
+                fmt::format("FAIL {}: {} does not keep {}", frame.new_frame.view, frame.file(frame.new_frame), runs.strictness_name));
+            for (const std::string& failure : strictness_failures(frame.comparison))
+                blocks.emplace_back("    " + failure);
+        }
+    return section;
+}
+
+/// A stored moment: both pictures, and what differs.
+PictureStrip moment_strip(const DriveComparison& drive, const RunComparison& runs, const FramePair& frame) {
+    PictureStrip strip{fmt::format("{}, {}, after {:.2f} s", drive.now.title, frame.new_frame.view, frame.new_frame.time_s),
+                       {{std::filesystem::absolute(runs.before.folder / frame.old_frame.png).string(), drive.old_label()},
+                        {std::filesystem::absolute(runs.now.folder / frame.new_frame.png).string(), drive.new_label()}}};
+    for (const auto& [file, caption] :
+         {std::pair("illuminance-difference.png", "Illuminance, B − A"), std::pair("illuminance-isolux.png", "Isolux lines of both"),
+          std::pair("flip.png", "FLIP: what one sees who flips between both")})
+        for (const FramePair& other : drive.frames)
+            if (other.folder == frame.folder && std::ranges::count(other.files, file) > 0)
+                strip.pictures.push_back({frame.folder + "/" + file, caption});
+    return strip;
+}
+
+Table frames_table(const DriveComparison& drive) {
+    Table table{"frames-" + drive.name,
+                "Error figures of each frame and channel",
+                {{.head = "view", .words = true},
+                 {"at", "s"},
+                 {.head = "channel", .words = true},
+                 {.head = "unit", .words = true},
+                 {"largest"},
+                 {"RMSE"},
+                 {"PSNR", "dB"},
+                 {"pixels", "%"},
+                 {"SSIM"},
+                 {"FLIP"}},
+                {},
+                true};
+    for (const FramePair& frame : drive.frames)
+        for (const LayerComparison& layer : frame.comparison.layers) {
+            std::vector<Cell>& cells = table.rows.emplace_back(
+                std::vector<Cell>{frame.new_frame.view, Cell(figure(frame.new_frame.time_s, 2), frame.new_frame.time_s), layer.name,
+                                  unit_in_words(layer.unit)});
+            for (const char* name : {"max_error", "rmse", "psnr_db", "percent_different", "ssim"})
+                cells.push_back(number_cell(value_in(layer, name)));
+            cells.push_back(number_cell(value_in(layer, "flip_mean"), find_in(layer, "flip_mean") ? "not measured" : ""));
+        }
+    return table;
+}
+
+/// What takes a page to show.
+Section pictures_section(const RunComparison& runs, const DriveComparison& drive) {
+    Section section{drive.now.title + ", drawn", {}, true};
+    const auto add_plots = [&](bool of_light) { // lamps and what goes over the way stand before the moments, light from above after them
+        for (const ComparedFigure& drawn : drive.figures)
+            if (drawn.name.starts_with("lux") == of_light)
+                section.blocks.emplace_back(drawn.plot());
+    };
+    add_plots(false);
+    for (const FramePair& frame : drive.frames)
+        if (!frame.folder.empty() && frame.is_display)
+            section.blocks.emplace_back(moment_strip(drive, runs, frame));
+    add_plots(true);
+    if (!drive.times.empty()) {
+        Table times = changes_table("times-" + drive.name,
+                                    "Times of passes: medians; ± calc. is half the range from the 5th to the 95th percentile of both runs' "
+                                    "frames. The runs are two sittings, and what else the machine did counts, too: fernlicht bench times "
+                                    "in turns");
+        for (const TimeChange& time : drive.times)
+            times.rows.push_back(change_cells(drive, time, ""));
+        section.blocks.emplace_back(std::move(times));
+    }
+    if (!drive.frames.empty()) {
+        section.blocks.emplace_back(frames_table(drive));
+        section.blocks.emplace_back("frames.csv has all figures; the pictures of the moments drawn lie in frames/" + drive.name + ".");
+    }
+    return section;
+}
+
+} // namespace
+
+Document document(const RunComparison& runs) {
+    Document document{short_text(runs.now.folder.filename().string() + " against " + runs.before.folder.filename().string(), 160),
+                      {first_section(runs), largest_section(runs), readings_section(runs)}};
+    for (const DriveComparison& drive : runs.drives)
+        for (Section section : {drive_section(runs, drive), pictures_section(runs, drive)})
+            document.sections.push_back(std::move(section));
+    Table folders{"runs", "", {{.head = "", .words = true}, {.head = "folder", .words = true}, {.head = "played", .words = true}}, {}};
+    folders.columns.insert(folders.columns.end(), {{.head = "with", .words = true}, {.head = "command", .words = true}});
+    for (const auto& [label, run] : {std::pair("A, old", &runs.before), std::pair("B, new", &runs.now)})
+        folders.rows.push_back({label, run->folder.string(), run->started_utc,
+                                run->version + ", " + run->backend + ", " + run->gl_renderer + ", " + run->cpu, run->command});
+    document.sections.push_back({"The runs", {folders}, true});
+    return document;
+}
+
+} // namespace fernlicht
