@@ -42,26 +42,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", FERNLICHT_VERSION);
     app.require_subcommand(1);
     std::function<int()> chosen;
-    fernlicht::add_run_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_live_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_study_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_bench_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_accuracy_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_aliasing_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_shadows_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_reference_command(app, {argv, argv + argc}, chosen);
-    fernlicht::add_techniques_command(app, chosen);
-    fernlicht::add_readings_command(app, chosen);
-    fernlicht::add_signals_command(app, chosen);
-    fernlicht::add_can_command(app, chosen);
-    fernlicht::add_lamp_command(app, chosen);
-    fernlicht::add_model_command(app, chosen);
-    fernlicht::add_import_command(app, chosen);
-    fernlicht::add_storyboard_command(app, chosen);
-    fernlicht::add_doctor_command(app, chosen);
-    fernlicht::add_stability_command(app, chosen);
-    fernlicht::add_accept_command(app, chosen);
-    fernlicht::add_references_command(app, chosen);
+    for (fernlicht::AddCommand* add : commands)
+        add(app, {argv, argv + argc}, chosen);
     try {
         if (argc > 1)
             refuse_unknown_command(app, argv[1]);
