@@ -3,6 +3,7 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/live/live_run.h"
+#include "runner/experiments/run/report_writers.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/drives/keys/bus_keys.h"
@@ -21,7 +22,7 @@ constexpr int interrupted_code = 130; ///< as a shell has it for what SIGINT end
 /// The flags as typed.
 struct LiveFlags {
     std::filesystem::path drive;
-    std::string interface, log, start, variant, record, resolution, backend = "auto", out;
+    std::string interface, log, start, variant, record, resolution, backend = "auto", out, tables;
     double duration_s = 0.0, listen_s = 0.5;
     int receive_buffer = 0;
     bool no_wait = false, no_draw = false, lossless = false;
@@ -90,6 +91,7 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
     options.draw = !flags.no_draw && !flags.no_wait;
     options.backend = flags.backend;
     options.command = command;
+    options.write = [&options, tables = table_format(flags.tables)](const Report& report) { write_report(report, options.folder, tables); };
     Drive drive = drive_of(flags);
     options.folder = flags.out.empty() ? default_output_folder(drive.name, utc_now()) : std::filesystem::path(flags.out);
     const Report report = run_and_name(std::move(drive), options);
@@ -126,6 +128,7 @@ void add_live_command(CLI::App& app, const std::vector<std::string>& command, st
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
     sub->add_option("--out", flags->out, "new or empty folder for the report");
+    add_tables_flag(*sub, flags->tables);
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return live(*flags, command); }; });
 }
 

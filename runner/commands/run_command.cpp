@@ -22,7 +22,7 @@ namespace {
 struct RunFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> lamps;
-    std::string road, technique, resolution, frames, capture, backend = "auto", out;
+    std::string road, technique, resolution, frames, capture, backend = "auto", out, tables;
     JudgingFlags judging;
     std::vector<std::string> road_folders;
     std::string replay, ego, can_start, can_channel;
@@ -100,6 +100,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     options.contact_sheet = flags.contact_sheet;
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
+    options.tables = table_format(flags.tables);
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;
@@ -159,6 +160,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--capture", flags->capture, "all: store every moment");
     add_judging_flags(*sub, flags->judging);
     sub->add_option("--out", flags->out, "new or empty folder for the report");
+    add_tables_flag(*sub, flags->tables);
     sub->add_flag("--profile", flags->profile, "time each pass (slows rendering)");
     sub->add_flag("--contact-sheet", flags->contact_sheet, "add a sheet of one moment in every technique, tone mapper and shadow method");
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments with the reference");

@@ -13,17 +13,25 @@ namespace fernlicht {
 /// Words, or a figure as it is read: rounded, without its unit.
 struct Cell {
     std::string text;
-    std::optional<double> value = {}; ///< what the figure was rounded from
+    std::optional<double> value = {};       ///< what the figure was rounded from
+    std::optional<std::size_t> series = {}; ///< names what the series of this number shows in plots: stands beside its colour
 
     Cell(std::string words) : text(std::move(words)) {}
     Cell(const char* words) : text(words) {}
     Cell(std::string rounded, double of) : text(std::move(rounded)), value(of) {}
+    static Cell of_series(std::string words, std::size_t number) {
+        Cell cell(std::move(words));
+        cell.series = number;
+        return cell;
+    }
 };
 
 struct Column {
-    std::string head, unit = {}; ///< "%", "cm, r.m.s. / worst"
-    std::string group = {};      ///< a heading over this column and its neighbours of the same group
-    bool words = false;          ///< read from the left; figures stand to the right
+    std::string head, unit = {};            ///< "%", "cm, r.m.s. / worst"
+    std::string group = {};                 ///< a heading over this column and its neighbours of the same group
+    bool words = false;                     ///< read from the left; figures stand to the right
+    bool code = false;                      ///< words as they are typed: names of readings, commands
+    std::optional<std::size_t> series = {}; ///< as a cell's
 };
 
 struct Table {
@@ -43,13 +51,21 @@ struct Plot {
     std::variant<WorkPrecision, Drawing> figure;
     std::vector<std::string> captions; ///< one sentence each, without full stop
     double scale = 1.0;                ///< pixels of its PNG for one of the SVG
+    bool beside = false;               ///< small enough that two stand beside each other
 };
 
-using DocumentPart = std::variant<std::string, Table, Plot>; ///< a string is a paragraph
+/// Sentences one below the other, without full stops.
+struct Listing {
+    std::vector<std::string> items;
+};
+
+/// A string is a paragraph; in it and in a listing, what stands between backticks is meant as it is typed.
+using DocumentPart = std::variant<std::string, Table, Plot, Listing>;
 
 struct Section {
     std::string title; ///< "" for what stands before the first heading
     std::vector<DocumentPart> blocks;
+    int level = 2; ///< of its heading; 3 and more: a part of the section before
 };
 
 struct Document {

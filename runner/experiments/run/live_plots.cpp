@@ -1,4 +1,4 @@
-#include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/run/run_plots.h"
 #include "runner/play/live/live_figures.h"
 
 #include <algorithm>

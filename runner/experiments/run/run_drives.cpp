@@ -385,6 +385,7 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     Report report;
     report.context = make_context(device.info(), options.command, drives.front().seed);
     const Interruption listening;
+    std::exception_ptr failure;
     try {
         for (Stage& stage : stages)
             if (report.complete)
@@ -395,18 +396,15 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     } catch (const std::exception& error) {
         report.complete = false;
         report.interrupted = error.what();
-        note_parts(stages, options.ticks, report);
-        note_buses(stages, report);
-        note_shadows(drives, report);
-        note_displays(drives, report);
-        write_report(report, options.folder);
-        throw;
+        failure = std::current_exception();
     }
     note_parts(stages, options.ticks, report);
     note_buses(stages, report);
     note_shadows(drives, report);
     note_displays(drives, report);
-    write_report(report, options.folder);
+    write_report(report, options.folder, options.tables);
+    if (failure)
+        std::rethrow_exception(failure);
     if (report.complete)
         folder.finish();
     return report;

@@ -1,30 +1,27 @@
-#include "runner/experiments/run/signals_json.h"
+#include "runner/experiments/run/run_json.h"
 
 #include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr const char* state_names[] = {"fresh", "stale", "missing", "out_of_range", "contradictory"};
 
 /// Seven digits, as other columns have; times six places, as candump has.
-nlohmann::ordered_json shortened(const std::optional<double>& value) {
-    return value ? nlohmann::ordered_json(std::stod(fmt::format("{:.7g}", *value))) : nlohmann::ordered_json(nullptr);
-}
-nlohmann::ordered_json microseconds(const std::optional<double>& value) {
-    return value ? nlohmann::ordered_json(std::stod(fmt::format("{:.6f}", *value))) : nlohmann::ordered_json(nullptr);
-}
+Json shortened(const std::optional<double>& value) { return value ? Json(seven_digits(*value)) : Json(nullptr); }
+Json microseconds(const std::optional<double>& value) { return value ? Json(std::stod(fmt::format("{:.6f}", *value))) : Json(nullptr); }
 
-nlohmann::ordered_json counts_by_state(const std::array<std::uint64_t, 5>& counts) {
-    nlohmann::ordered_json json;
+Json counts_by_state(const std::array<std::uint64_t, 5>& counts) {
+    Json json;
     for (std::size_t state = 0; state < counts.size(); ++state)
         json[state_names[state]] = counts[state];
     return json;
 }
 
-nlohmann::ordered_json input_json(const BusSignalReport& signal) {
-    nlohmann::ordered_json policies = nlohmann::ordered_json::object(), states = nlohmann::ordered_json::array(),
-                           value = nlohmann::ordered_json::array(), received = nlohmann::ordered_json::array();
+Json input_json(const BusSignalReport& signal) {
+    Json policies = Json::object(), states = Json::array(), value = Json::array(), received = Json::array();
     for (std::size_t state = 0; state < signal.policies.size(); ++state)
         if (!signal.policies[state].empty())
             policies[state_names[state]] = signal.policies[state];
@@ -36,7 +33,7 @@ nlohmann::ordered_json input_json(const BusSignalReport& signal) {
         received.push_back(shortened(one));
     return {{"name", signal.name},
             {"source", signal.source},
-            {"also", signal.also.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(signal.also)},
+            {"also", signal.also.empty() ? Json(nullptr) : Json(signal.also)},
             {"tolerance", shortened(signal.tolerance)},
             {"unit", signal.unit},
             {"frames", signal.frames},
@@ -56,7 +53,7 @@ nlohmann::ordered_json input_json(const BusSignalReport& signal) {
 } // namespace
 
 nlohmann::ordered_json signals_json(const BusReport& bus) {
-    nlohmann::ordered_json inputs = nlohmann::ordered_json::array(), all = nlohmann::ordered_json::array();
+    Json inputs = Json::array(), all = Json::array();
     for (const BusSignalReport& signal : bus.signals)
         inputs.push_back(input_json(signal));
     for (const SignalStamp& signal : bus.all)
@@ -64,7 +61,7 @@ nlohmann::ordered_json signals_json(const BusReport& bus) {
                        {"unit", signal.unit},
                        {"last_change_s", microseconds(signal.changed_s)},
                        {"age_s", microseconds(signal.age_s)}});
-    return {{"log", bus.log.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(bus.log)},
+    return {{"log", bus.log.empty() ? Json(nullptr) : Json(bus.log)},
             {"start_s", microseconds(bus.start_s)},
             {"frames", bus.frames},
             {"frames_read", bus.read},

@@ -1,11 +1,10 @@
-#include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/run/run_plots.h"
 
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/write/plots/svg.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
@@ -97,7 +96,7 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
                     const std::function<std::optional<double>(const CarRow&)>& value) {
     plots::Figure figure;
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.6, "", false};
+        plots::Series series{short_text(drive.variants[i]->variant, 24), {}, plots::lamp_colour(i), 1.6, "", false};
         for (const CarRow& row : drive.variants[i]->car)
             if (const std::optional<double> found = value(row))
                 series.points.push_back({row.time_s, *found});
@@ -127,10 +126,14 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
 
 } // namespace
 
-plots::Colour colour_of(std::size_t variant) {
-    unsigned rgb = 0;
-    std::from_chars(variant_colour(variant) + 1, variant_colour(variant) + 7, rgb, 16);
-    return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255), static_cast<std::uint8_t>(rgb & 255)};
+void add_plot(Section& section, const std::string& name, std::string svg) {
+    if (!svg.empty())
+        section.blocks.emplace_back(Plot{name, Drawing{std::move(svg)}, {}, 1.0, true});
+}
+
+void add_plots(Section& section, const std::string& name, const std::vector<std::string>& svgs) {
+    for (std::size_t i = 0; i < svgs.size(); ++i)
+        add_plot(section, fmt::format("{}-{}", name, i + 1), svgs[i]);
 }
 
 std::vector<double> plotted_limits_lx(const ComparedDrive& drive) {
@@ -162,14 +165,14 @@ std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limi
                         twin = reach_line(played, &ExtentRow::twin, key, distance);
         measured = measured || has_value(rendered) || has_value(twin);
         plots::Band band = aim_band(played, key, has_value(rendered) ? rendered : twin);
-        band.colour = colour_of(i);
+        band.colour = plots::lamp_colour(i);
         band.opacity = 0.16;
         figure.bands.push_back(std::move(band));
         const bool lone = played.extents.size() == 1;
         if (has_value(rendered))
-            figure.series.push_back({name, std::move(rendered), colour_of(i), 2.2, "", lone});
+            figure.series.push_back({name, std::move(rendered), plots::lamp_colour(i), 2.2, "", lone});
         if (has_value(twin))
-            figure.series.push_back({name + ", twin", std::move(twin), darker(colour_of(i)), 1.1, "2 4", lone});
+            figure.series.push_back({name + ", twin", std::move(twin), darker(plots::lamp_colour(i)), 1.1, "2 4", lone});
     }
     if (!measured)
         return {};
@@ -213,13 +216,13 @@ std::string timing_svg(const ComparedDrive& drive) {
         for (const PassTime& pass : drive.variants[i]->passes) {
             if (pass.name != "frame" || pass.seconds.empty())
                 continue;
-            plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.3, "", pass.seconds.size() == 1};
+            plots::Series series{short_text(drive.variants[i]->variant, 24), {}, plots::lamp_colour(i), 1.3, "", pass.seconds.size() == 1};
             for (std::size_t k = 0; k < pass.seconds.size(); ++k)
                 series.points.push_back({static_cast<double>(k + 1), 1e3 * pass.seconds[k]});
             figure.series.push_back(std::move(series));
             plots::Mark median;
             median.value = 1e3 * spread_of(pass.seconds)->median;
-            median.colour = colour_of(i);
+            median.colour = plots::lamp_colour(i);
             figure.marks.push_back(median);
         }
     if (figure.series.empty())
@@ -249,9 +252,10 @@ std::string error_svg(const ComparedDrive& drive) {
         const double x = 1e3 * time->median, claimed = 100.0 * std::max(road.error.p95, road.floor.p95);
         floor = std::max(floor, 100.0 * road.floor.p95);
         const double low = std::min(claimed, 100.0 * std::max(least, road.floor.p95)), high = std::max(claimed, 100.0 * most);
-        figure.series.push_back({"", {{1e3 * time->minimum, claimed}, {1e3 * time->maximum, claimed}}, colour_of(i), 1.2, "", false});
-        figure.series.push_back({"", {{x, low}, {x, high}}, colour_of(i), 1.2, "", false});
-        figure.series.push_back({short_text(played.variant, 24), {{x, claimed}}, colour_of(i), 1.2, "", true});
+        figure.series.push_back(
+            {"", {{1e3 * time->minimum, claimed}, {1e3 * time->maximum, claimed}}, plots::lamp_colour(i), 1.2, "", false});
+        figure.series.push_back({"", {{x, low}, {x, high}}, plots::lamp_colour(i), 1.2, "", false});
+        figure.series.push_back({short_text(played.variant, 24), {{x, claimed}}, plots::lamp_colour(i), 1.2, "", true});
         times.insert(times.end(), {1e3 * time->minimum, 1e3 * time->maximum});
         errors.insert(errors.end(), {low, high});
     }

@@ -1,6 +1,6 @@
-#include "runner/experiments/run/report_writers.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/write/report_texts.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/run/run_plots.h"
 #include "runner/files/clean_text.h"
 #include "runner/write/plots/svg.h"
 
@@ -45,7 +45,7 @@ std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, s
                 y.push_back(point.y);
             }
         figure.series.push_back(
-            {short_text(drive.variants[i]->variant, 24), std::move(line), colour_of(i), 2.0, "", series->at_m.size() == 1});
+            {short_text(drive.variants[i]->variant, 24), std::move(line), plots::lamp_colour(i), 2.0, "", series->at_m.size() == 1});
     }
     if (y.empty())
         return {};

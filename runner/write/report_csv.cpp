@@ -1,5 +1,5 @@
-#include "runner/experiments/run/report_writers.h"
 #include "runner/files/clean_text.h"
+#include "runner/write/report_texts.h"
 
 #include <cmath>
 #include <fmt/format.h>
