@@ -34,6 +34,10 @@ struct Column {
     std::optional<std::size_t> series = {}; ///< as a cell's
 };
 
+/// Of a line: "lamp<|all drawing: share [%]|command`". After what is read from the left stands a <, after what is typed a backtick, before
+/// a colon the group, in brackets the unit.
+std::vector<Column> columns_of(const std::string& line);
+
 struct Table {
     std::string name, caption; ///< `name` tells tables of one document apart: "errors"
     std::vector<Column> columns;

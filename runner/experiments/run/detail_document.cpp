@@ -25,7 +25,7 @@ Cell reading_cell(const PlayedVariant& played, const Reading& wanted) {
 }
 
 void add_readings(const ComparedDrive& drive, Sections& sections) {
-    Table table{drive.name + "-readings", "", {{.head = "reading", .words = true, .code = true}}, {}};
+    Table table{drive.name + "-readings", "", columns_of("reading`"), {}};
     Readings distinct;
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
         table.columns.push_back({.head = short_text(drive.variants[i]->variant, 30), .series = i});
@@ -67,8 +67,7 @@ std::vector<std::string> merged(const ComparedDrive& drive, std::vector<std::str
 }
 
 Table lamps_table(const ComparedDrive& drive) {
-    Table table{
-        drive.name + "-lamps", "", {{.head = "lamp set", .words = true}, {.head = "lamps", .words = true}, {"moments played"}, {"of"}}, {}};
+    Table table{drive.name + "-lamps", "", columns_of("lamp set<|lamps<|moments played|of"), {}};
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
         const PlayedVariant& played = *drive.variants[i];
         std::string files;
@@ -81,7 +80,7 @@ Table lamps_table(const ComparedDrive& drive) {
 
 /// "shadow maps: nothing stands in a beam" in two.
 Table left_out_table(const ComparedDrive& drive) {
-    Table table{drive.name + "-left-out", "", {{.head = "what", .words = true}, {.head = "why", .words = true}}, {}};
+    Table table{drive.name + "-left-out", "", columns_of("what<|why<"), {}};
     for (const std::string& sentence : merged(drive, &PlayedVariant::left_out)) {
         const std::size_t colon = sentence.rfind(": ");
         table.rows.push_back({sentence.substr(0, colon), colon == std::string::npos ? "" : sentence.substr(colon + 2)});
@@ -109,18 +108,11 @@ std::string savings_words(const Savings& savings) {
 
 void add_savings_of(const ComparedDrive& drive, Sections& sections) {
     Listing sentences;
-    Table table{drive.name + "-savings",
-                "",
-                {{.head = "lamp", .words = true},
-                 {.head = "drawn", .words = true},
-                 {"median", "ms"},
-                 {"passes"},
-                 {"pieces"},
-                 {"textures read", "at most"},
-                 {"features compiled in"},
-                 {"triangles"},
-                 {"fragments shaded"}},
-                {}};
+    Table table{
+        drive.name + "-savings",
+        "",
+        columns_of("lamp<|drawn<|median [ms]|passes|pieces|textures read [at most]|features compiled in|triangles|fragments shaded"),
+        {}};
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
         const Savings& savings = drive.variants[i]->savings;
         if (savings.not_measured.empty() && !savings.ratio())

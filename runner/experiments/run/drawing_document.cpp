@@ -32,12 +32,7 @@ Table tried_table(const ComparedDrive& drive, const ShadowChoice& choice) {
                             "without shadows in a view that is wrongly lit or wrongly dark; the drive asks for at most {} %, and a method "
                             "is out with the first picture that is beyond",
                             figure(100.0 * choice.bound, 2)),
-                {{.head = "method", .words = true},
-                 {"wrong at worst", "%"},
-                 {"after", "s"},
-                 {.head = "view", .words = true},
-                 {.head = "lamp", .words = true},
-                 {"pictures"}},
+                columns_of("method<|wrong at worst [%]|after [s]|view<|lamp<|pictures"),
                 {}};
     for (const TriedShadows& tried : choice.tried) {
         std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{std::string(name(tried.method))});
@@ -100,19 +95,12 @@ void add_shown_by(const DrawnBy& drawn, Sections& sections) {
 }
 
 void add_seen(const ComparedDrive& drive, const SeenDisplay& first, Sections& sections) {
-    Table table{drive.name + "-seen",
-                "",
-                {{.head = "lamp", .words = true},
-                 {.head = "view", .words = true},
-                 {"pixel in the scene", "arcmin"},
-                 {"pixel on the display", "arcmin"},
-                 {"magnification"},
-                 {"life-size from", "m"},
-                 {.head = "finer than the eye", .unit = "by day", .words = true},
-                 {"mean on the display", "cd/m²"},
-                 {"the eye resolves there", "arcmin"},
-                 {.head = "finer than the eye", .unit = "there", .words = true}},
-                {}};
+    Table table{
+        drive.name + "-seen",
+        "",
+        columns_of("lamp<|view<|pixel in the scene [arcmin]|pixel on the display [arcmin]|magnification|life-size from [m]|finer than the "
+                   "eye [by day]<|mean on the display [cd/m²]|the eye resolves there [arcmin]|finer than the eye [there]<"),
+        {}};
     const auto finer = [](bool is) { return is ? "yes" : "no"; };
     const auto number = [](double value, int decimals) { return Cell(figure(value, decimals), value); };
     for (std::size_t i = 0; i < drive.variants.size(); ++i)

@@ -62,19 +62,13 @@ void add_errors(const ComparedDrive& drive, Sections& sections) {
     Listing sentences;
     Table errors{drive.name + "-errors",
                  "",
-                 {{.head = "lamp", .words = true},
-                  {.head = "where", .words = true},
-                  {"median", "%"},
-                  {"95 % of the pixels", "%"},
-                  {"99 %", "%"},
-                  {"floor of the 95 %", "%"},
-                  {"mean, signed", "%"}},
+                 columns_of("lamp<|where<|median [%]|95 % of the pixels [%]|99 % [%]|floor of the 95 % [%]|mean, signed [%]"),
                  {}};
     Table reaches{
         drive.name + "-reach-errors",
         "Error of reach on the own lane’s centre in these moments, against rays through the same places: median / worst, m; above "
         "0: drawn too far",
-        {{.head = "lamp", .words = true}, {.head = "on", .words = true}},
+        columns_of("lamp<|on<"),
         {}};
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
         const PlayedVariant& played = *drive.variants[i];

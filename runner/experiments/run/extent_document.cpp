@@ -133,12 +133,38 @@ Table extent_table(const ComparedDrive& drive, const Axes& axes, ExtentPlane pla
     return table;
 }
 
+/// "halogen: 61.2 m at 5 lx; xenon: ...", of the own lane on the road at 1 and 5 lx.
+Listing reaches_at_a_glance(const ComparedDrive& drive) {
+    Listing reaches;
+    for (const double limit_lx : {1.0, 5.0}) {
+        Value first;
+        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+            const auto& all = drive.variants[i]->extent_summaries;
+            const auto found = std::ranges::find(all, ExtentKey{ExtentPlane::road, "own", limit_lx}, &ExtentSummary::key);
+            if (found == all.end() || found->reach.count() == 0)
+                continue;
+            const Value reach = found->reach.quantile(0.5), by_aim = found->per_tenth_degree.quantile(0.5);
+            const Value change = i == 0 ? Value() : difference(reach, first, "");
+            first = i == 0 ? reach : first;
+            std::string& words = reaches.items.emplace_back(
+                fmt::format("{}: reach at {:g} lx {} m", lamp_cell(drive, i).text, limit_lx, value_cell(reach, 1).text));
+            if (change.measured())
+                words += fmt::format(" ({} m)", with_bound(change, signed_figure(*change.figure(), 1)));
+            if (by_aim.measured())
+                words += fmt::format(", {} m per 0.1° of aim", value_cell(by_aim, 1).text);
+        }
+    }
+    return reaches;
+}
+
 } // namespace
 
 void add_extents(const ComparedDrive& drive, Sections& sections) {
     const Axes axes = axes_of(drive);
     if (axes.places.empty())
         return;
+    if (Listing reaches = reaches_at_a_glance(drive); !reaches.items.empty())
+        sections.push_back({"At a glance", {"Own lane, on the road’s surface, median over the drive.", std::move(reaches)}, 3});
     Section& section = sections.emplace_back(Section{"Reach and width", {}, 3});
     section.blocks.emplace_back(fmt::format("Medians over the drive, from the rendered lux image. Reach runs from the bumper along the "
                                             "lane’s centre to the farthest place with at least that illuminance{}.",

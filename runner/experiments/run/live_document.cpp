@@ -27,7 +27,7 @@ std::string live_summary(const LiveFigures& live) {
 }
 
 Table punctuality_table(const LiveFigures& live) {
-    Table table{"punctuality", "How punctual it was", {{.head = "what", .words = true}, {"p50", "ms"}, {"p99", "ms"}, {"max", "ms"}}, {}};
+    Table table{"punctuality", "How punctual it was", columns_of("what<|p50 [ms]|p99 [ms]|max [ms]"), {}};
     for (const auto& [what, samples] :
          {std::pair("a tick’s begin after its time", &live.late_s), std::pair("a tick’s work", &live.work_s)}) {
         std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{what});
@@ -40,7 +40,7 @@ Table punctuality_table(const LiveFigures& live) {
 }
 
 Table losses_table(const LiveFigures& live) {
-    Table table{"losses", "What was lost", {{.head = "what", .words = true}, {"count"}, {.head = "of", .words = true}}, {}};
+    Table table{"losses", "What was lost", columns_of("what<|count|of<"), {}};
     const auto add = [&](const char* what, std::uint64_t count, const std::string& of) {
         table.rows.push_back({what, fmt::format("{}", count), of});
     };

@@ -239,44 +239,9 @@ std::string subtitle_of(const Report& report) {
     return (text.empty() ? "Played " : text + ", played ") + clean_text(report.context.started_utc);
 }
 
-/// Reach in the own lane on the road at 1 and 5 lx, for the top of the page; its table says the same.
-data headline_reaches(const ComparedDrive& drive) {
-    data cards{List::list};
-    for (const double limit_lx : {1.0, 5.0}) {
-        Value first;
-        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-            const auto& all = drive.variants[i]->extent_summaries;
-            const auto found = std::ranges::find(all, ExtentKey{ExtentPlane::road, "own", limit_lx}, &ExtentSummary::key);
-            const Value reach = found == all.end() ? Value() : found->reach.quantile(0.5);
-            if (i == 0)
-                first = reach;
-            if (found == all.end() || found->reach.count() == 0)
-                continue;
-            const auto shown = [](const Value& value, auto text) {
-                return value.measured() ? with_bound(value, text(*value.figure(), 1)) : "\u2013";
-            };
-            const Value by_aim = found->per_tenth_degree.quantile(0.5);
-            data card;
-            card.set("lamp", short_text(drive.variants[i]->variant, 30));
-            card.set("colour", lamp_colour(i));
-            card.set("limit", fmt::format("{:g}", limit_lx));
-            card.set("reach", shown(reach, figure));
-            card.set("compares", i > 0);
-            card.set("difference", shown(difference(reach, first, ""), signed_figure));
-            card.set("aim", shown(by_aim, figure));
-            card.set("has_aim", by_aim.measured());
-            cards.push_back(card);
-        }
-    }
-    return cards;
-}
-
 data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes, bool several) {
     data part;
-    const data headline = headline_reaches(drive);
-    part.set("title", several ? short_text(drive.name, 200) : headline.is_non_empty_list() ? "At a glance" : "The drive");
-    part.set("has_headline", headline.is_non_empty_list());
-    part.set("headline", headline);
+    part.set("title", several ? short_text(drive.name, 200) : "The drive");
     part.set("pictures", moments_part(drive, folder, budget_bytes));
     part.set("columns", fmt::format("{}", drive.variants.size()));
     Sections extents, others;

@@ -33,29 +33,15 @@ const char* verdict_word(const Report& report) {
                                                   : "Within limits";
 }
 
-Table verdict_table(const char* name, const char* caption, const char* found) {
-    return {name,
-            caption,
-            {{.head = "reading", .words = true, .code = true},
-             {.head = "drive, lamp", .words = true},
-             {.head = found, .words = true},
-             {.head = "repeat with", .words = true, .code = true}},
-            {}};
+Table verdict_table(const char* name, const char* caption, const std::string& found) {
+    return {name, caption, columns_of("reading`|drive, lamp<|" + found + "<|repeat with`"), {}};
 }
 
 Cell milliseconds(double seconds) { return {figure(1e3 * seconds, 2), 1e3 * seconds}; }
 
 Table passes_table(const ComparedDrive& drive) {
-    Table table{drive.name + "-times",
-                "",
-                {{.head = "lamp", .words = true},
-                 {.head = "pass", .words = true},
-                 {"median", "ms"},
-                 {"5 % … 95 %", "ms"},
-                 {"least … most", "ms"},
-                 {"samples"},
-                 {"warm-up dropped"}},
-                {}};
+    Table table{
+        drive.name + "-times", "", columns_of("lamp<|pass<|median [ms]|5 % … 95 % [ms]|least … most [ms]|samples|warm-up dropped"), {}};
     for (std::size_t i = 0; i < drive.variants.size(); ++i)
         for (const PassTime& pass : drive.variants[i]->passes)
             if (const std::optional<Spread> spread = spread_of(pass.seconds)) {
@@ -72,14 +58,8 @@ Table passes_table(const ComparedDrive& drive) {
 Table throughput_table(const ComparedDrive& drive) {
     Table table{drive.name + "-throughput",
                 "The whole run: drawn, read back, measured, stored",
-                {{.head = "lamp", .words = true},
-                 {"moments"},
-                 {"moments", "1/s"},
-                 {"rate", "1/s", "all drawing alone"},
-                 {"share", "%", "all drawing alone"},
-                 {"rate", "1/s", "driver’s view alone"},
-                 {"share", "%", "driver’s view alone"},
-                 {"peak memory", "MiB"}},
+                columns_of("lamp<|moments|moments [1/s]|all drawing alone: rate [1/s]|all drawing alone: share [%]|driver’s view alone: "
+                           "rate [1/s]|driver’s view alone: share [%]|peak memory [MiB]"),
                 {}};
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
         const Throughput& t = drive.variants[i]->throughput;

@@ -146,18 +146,11 @@ std::string glare_over_time(const ComparedDrive& drive) {
 }
 
 Table signals_table(const ComparedDrive& drive) {
-    Table table{drive.name + "-signals",
-                "",
-                {{.head = "signal", .words = true},
-                 {.head = "source", .words = true},
-                 {"frames"},
-                 {"age at most", "s"},
-                 {"stale after", "s"},
-                 {"last change", "s"},
-                 {.head = "state, of the ticks", .words = true},
-                 {.head = "policies", .words = true},
-                 {"acted", "ticks"}},
-                {}};
+    Table table{
+        drive.name + "-signals",
+        "",
+        columns_of("signal<|source<|frames|age at most [s]|stale after [s]|last change [s]|state, of the ticks<|policies<|acted [ticks]"),
+        {}};
     const auto seconds = [](const std::optional<double>& s, const char* none) { return s ? Cell(fmt::format("{:.3f}", *s), *s) : none; };
     for (const BusSignalReport& signal : bus_of(drive).signals) {
         std::uint64_t all = 0, acted = 0;
