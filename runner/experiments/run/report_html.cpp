@@ -6,6 +6,7 @@
 #include "runner/write/page_base.h"
 #include "runner/write/plots/lux_map.h"
 #include "runner/write/plots/png.h"
+#include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -285,6 +286,16 @@ std::string report_html(const Report& report, const std::filesystem::path& folde
     page.set("live", sections_part(report.live ? Sections{live_section(*report.live)} : Sections()));
     page.set("context", context_part(report.context));
     return page_of("report.html.mustache", page);
+}
+
+void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables) {
+    // The figures first, the large page last: a disk that fills up takes the page before it takes the numbers.
+    write_file(folder / "readings.csv", report_csv(report));
+    write_file(folder / "times.csv", times_csv(report));
+    write_file(folder / "junit.xml", report_junit(report));
+    write_file(folder / "report.json", report_json(report));
+    write_tables(document(report), folder, tables);
+    write_file(folder / "report.html", report_html(report, folder));
 }
 
 } // namespace fernlicht

@@ -16,7 +16,7 @@
 #include "scenarios/display/tone_curve.h"
 #include "scenarios/drives/keys/shadow_keys.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -40,6 +40,8 @@ void refuse_no_numbers(const Json& json, const std::string& place) {
 }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json pairs(const std::vector<std::pair<std::string, std::string>>& texts) {
     Json out = Json::object();
@@ -82,34 +84,25 @@ Json contact_sheet_json(const StoredFrame& sheet) {
 }
 
 Json more_sheets_json(const std::vector<StoredSheet>& sheets) {
-    Json out = Json::array();
-    for (const StoredSheet& sheet : sheets)
-        out.push_back({{"what", sheet.what}, {"frame", sheet.picture.tick}, {"time_s", sheet.picture.time_s}, {"png", sheet.picture.png}});
-    return out;
+    return list_of(sheets, [](const StoredSheet& sheet) {
+        return Json{{"what", sheet.what}, {"frame", sheet.picture.tick}, {"time_s", sheet.picture.time_s}, {"png", sheet.picture.png}};
+    });
 }
 
 Json shadow_choice_json(const ShadowChoice& choice) {
-    Json tried = Json::array();
-    for (const TriedShadows& one : choice.tried) {
-        Json row{{"method", name(one.method)}};
-        if (one.error) {
-            row["error"] = *one.error;
-            row["worst_s"] = one.worst_s;
-            row["worst_variant"] = one.worst_set;
-            row["worst_view"] = one.worst_view;
-            row["pictures"] = one.pictures;
-        } else {
-            row["refused"] = one.refused;
-        }
-        tried.push_back(std::move(row));
-    }
+    const auto tried = [](const TriedShadows& one) {
+        if (!one.error)
+            return Json{{"method", name(one.method)}, {"refused", one.refused}};
+        return Json{{"method", name(one.method)},     {"error", *one.error},          {"worst_s", one.worst_s},
+                    {"worst_variant", one.worst_set}, {"worst_view", one.worst_view}, {"pictures", one.pictures}};
+    };
     return {{"chosen", name(choice.chosen)},
             {"why", choice.why},
             {"error_bound", choice.bound},
             {"moments", choice.ticks},
             {"moments_shadowed", choice.ticks_shadowed},
             {"moments_compared", choice.compared},
-            {"tried", tried}};
+            {"tried", list_of(choice.tried, tried)}};
 }
 
 Json drawn_shadows_json(const DrawnBy& drawn) {
@@ -119,15 +112,13 @@ Json drawn_shadows_json(const DrawnBy& drawn) {
     return {{"method", name(drawn.shadows.method)},
             {"things_cast", drawn.shadows.things_cast},
             {"settings", settings},
-            {"not_used", drawn.shadows_instead.empty() ? Json(nullptr) : Json(drawn.shadows_instead)}};
+            {"not_used", text_or_null(drawn.shadows_instead)}};
 }
 
 Json shown_by_json(const DrawnBy& drawn) {
     const DisplayProfile display = display_of(drawn);
     const bool has_s = drawn.tone_mapper.kind == ToneMapperKind::rational || drawn.tone_mapper.kind == ToneMapperKind::logarithmic;
-    Json shown = Json::array();
-    for (const double seen : {0.1, 1.0, 10.0})
-        shown.push_back({{"seen_cdm2", seen}, {"shown_cdm2", seven_digits(shown_cdm2(drawn, seen))}});
+    const auto shown = [&](double seen) { return Json{{"seen_cdm2", seen}, {"shown_cdm2", seven_digits(shown_cdm2(drawn, seen))}}; };
     return {{"text", shown_by(drawn.display, drawn.tone_mapper)},
             {"tone_mapper", name(drawn.tone_mapper.kind)},
             {"s", has_s ? Json(drawn.tone_mapper.s) : Json(nullptr)},
@@ -137,7 +128,7 @@ Json shown_by_json(const DrawnBy& drawn) {
             {"peak_cdm2", seven_digits(display.peak_cdm2())},
             {"black_cdm2", display.black_cdm2},
             {"stages", display_stages(drawn)},
-            {"luminances", shown}};
+            {"luminances", list_of(std::array{0.1, 1.0, 10.0}, shown)}};
 }
 
 Json seen_display_json(const SeenDisplay& seen) {
@@ -213,17 +204,13 @@ Json accuracy_times_json(const Report& report) {
 Json timing_json(const Report& report) {
     Json out = Json::array();
     for (const PlayedVariant& played : report.played)
-        for (const PassTime& pass : played.passes) {
-            Json samples = Json::array();
-            for (const double seconds : pass.seconds)
-                samples.push_back(seconds);
+        for (const PassTime& pass : played.passes)
             out.push_back({{"drive", played.drive},
                            {"variant", played.variant},
                            {"pass", pass.name},
                            {"warm_up_dropped", played.warm_up_dropped},
                            {"spread_s", spread_json(spread_of(pass.seconds))},
-                           {"samples_s", samples}});
-        }
+                           {"samples_s", pass.seconds}});
     return out;
 }
 
@@ -280,15 +267,13 @@ Json savings_json(const Report& report) {
 } // namespace
 
 nlohmann::ordered_json played_json(const PlayedVariant& played) {
-    Json frames = Json::array(), speed = Json::array();
-    for (const StoredFrame& frame : played.frames)
-        frames.push_back({{"frame", frame.tick},
-                          {"time_s", frame.time_s},
-                          {"view", frame.view},
-                          {"png", frame.png.empty() ? Json(nullptr) : Json(frame.png)},
-                          {"exr", frame.exr.empty() ? Json(nullptr) : Json(frame.exr)}});
-    for (const auto& [time_s, mps] : played.speed_mps)
-        speed.push_back({time_s, mps});
+    const auto frame_json = [](const StoredFrame& frame) {
+        return Json{{"frame", frame.tick},
+                    {"time_s", frame.time_s},
+                    {"view", frame.view},
+                    {"png", text_or_null(frame.png)},
+                    {"exr", text_or_null(frame.exr)}};
+    };
     Json json{{"drive", played.drive},
               {"variant", played.variant},
               {"technique", played.technique},
@@ -301,9 +286,9 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
               {"left_out", played.left_out},
               {"notes", played.notes},
               {"summary", summary_json(played)},
-              {"frames", frames},
+              {"frames", list_of(played.frames, frame_json)},
               {"contact_sheet", contact_sheet_json(played.contact_sheet)},
-              {"speed_mps", speed},
+              {"speed_mps", played.speed_mps},
               {"accuracy", accuracy_json(played.error)},
               {"extents", extents_json(played)}};
     if (played.drawn_by) {
@@ -326,9 +311,6 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
 }
 
 std::string report_json(const Report& report) {
-    Json drives = Json::array();
-    for (const PlayedVariant& played : report.played)
-        drives.push_back(played_json(played));
     Json whole{{"schema", "fernlicht report"},
                {"schema_version", 1},
                {"verdict", verdict_name(overall(report))},
@@ -338,7 +320,7 @@ std::string report_json(const Report& report) {
                {"complete", report.complete},
                {"interrupted", report.complete ? Json(nullptr) : Json(report.interrupted)},
                {"rows", rows_json(report)},
-               {"drives", drives},
+               {"drives", list_of(report.played, played_json)},
                {"context", context_json(report.context)},
                {"timing", timing_json(report)},
                {"throughput", throughput_json(report)},

@@ -7,6 +7,14 @@
 
 namespace fernlicht {
 
+/// What `of` makes of each.
+template <class Range, class Of> nlohmann::ordered_json list_of(const Range& range, const Of& of) {
+    nlohmann::ordered_json out = nlohmann::ordered_json::array();
+    for (const auto& one : range)
+        out.push_back(of(one));
+    return out;
+}
+
 /// Far below what any of the lamp tables knows.
 double seven_digits(double value);
 

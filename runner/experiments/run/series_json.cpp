@@ -1,4 +1,5 @@
 #include "runner/experiments/run/run_json.h"
+
 #include "runner/files/value_json.h"
 #include "runner/findings/extent_keys.h"
 
@@ -134,6 +135,46 @@ Json seven_digits(const Value& value) {
     return nullptr;
 }
 
+constexpr const char* state_names[] = {"fresh", "stale", "missing", "out_of_range", "contradictory"};
+
+/// Seven digits, as other columns have; times six places, as candump has.
+Json shortened(const std::optional<double>& value) { return value ? Json(seven_digits(*value)) : Json(nullptr); }
+Json microseconds(const std::optional<double>& value) { return value ? Json(std::stod(fmt::format("{:.6f}", *value))) : Json(nullptr); }
+
+Json counts_by_state(const std::array<std::uint64_t, 5>& counts) {
+    Json json;
+    for (std::size_t state = 0; state < counts.size(); ++state)
+        json[state_names[state]] = counts[state];
+    return json;
+}
+
+Json input_json(const BusSignalReport& signal) {
+    Json policies = Json::object();
+    for (std::size_t state = 0; state < signal.policies.size(); ++state)
+        if (!signal.policies[state].empty())
+            policies[state_names[state]] = signal.policies[state];
+    const auto state_json = [](const auto& state) {
+        return Json{{"from_s", microseconds(state.first)}, {"state", state_names[state.second]}};
+    };
+    return {{"name", signal.name},
+            {"source", signal.source},
+            {"also", signal.also.empty() ? Json(nullptr) : Json(signal.also)},
+            {"tolerance", shortened(signal.tolerance)},
+            {"unit", signal.unit},
+            {"frames", signal.frames},
+            {"changes", signal.changes},
+            {"age_max_s", microseconds(signal.frames > 0 ? std::optional(signal.oldest_s) : std::nullopt)},
+            {"stale_after_s", microseconds(signal.stale_after_s)},
+            {"last_change_s", microseconds(signal.changed_s)},
+            {"ticks", counts_by_state(signal.ticks)},
+            {"policy_acted", counts_by_state(signal.acted)},
+            {"unchecked", signal.unchecked},
+            {"policies", std::move(policies)},
+            {"states", list_of(signal.states, state_json)},
+            {"value", list_of(signal.value, shortened)},
+            {"received", list_of(signal.received, shortened)}};
+}
+
 } // namespace
 
 double seven_digits(double value) { return std::stod(fmt::format("{:.7g}", value)); }
@@ -202,6 +243,23 @@ Json seeing_json(const std::vector<SeeingSeries>& all) {
         out.push_back({{"subject", series.subject}, {"over", series.over}, {"frame", series.ticks}, {"at_m", at}, {"columns", columns}});
     }
     return out;
+}
+
+nlohmann::ordered_json signals_json(const BusReport& bus) {
+    const auto stamp_json = [](const SignalStamp& signal) {
+        return Json{{"name", signal.name},
+                    {"unit", signal.unit},
+                    {"last_change_s", microseconds(signal.changed_s)},
+                    {"age_s", microseconds(signal.age_s)}};
+    };
+    return {{"log", bus.log.empty() ? Json(nullptr) : Json(bus.log)},
+            {"start_s", microseconds(bus.start_s)},
+            {"frames", bus.frames},
+            {"frames_read", bus.read},
+            {"frames_sent", bus.sent},
+            {"frame", bus.frame},
+            {"inputs", list_of(bus.signals, input_json)},
+            {"all", list_of(bus.all, stamp_json)}};
 }
 
 } // namespace fernlicht
