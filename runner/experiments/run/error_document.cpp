@@ -58,7 +58,7 @@ std::string compared_words(const PlayedVariant& played) {
 
 } // namespace
 
-void add_errors(const ComparedDrive& drive, Sections& sections) {
+void add_accuracy(const ComparedDrive& drive, Sections& sections) {
     Listing sentences;
     Table errors{drive.name + "-errors",
                  "",

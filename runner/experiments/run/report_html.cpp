@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -247,7 +248,7 @@ data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder,
     part.set("columns", fmt::format("{}", drive.variants.size()));
     Sections extents, others;
     add_extents(drive, extents);
-    for (const auto add : {add_course, add_errors, add_details, add_drawing})
+    for (const auto add : {add_course, add_accuracy, add_details, add_drawing})
         add(drive, others);
     part.set("extents", sections_part(extents));
     part.set("others", sections_part(others));
@@ -294,7 +295,8 @@ void write_report(const Report& report, const std::filesystem::path& folder, Tab
     write_file(folder / "times.csv", times_csv(report));
     write_file(folder / "junit.xml", report_junit(report));
     write_file(folder / "report.json", report_json(report));
-    write_tables(document(report), folder, tables);
+    if (tables != TableFormat::none)
+        write_tables(document(report), folder, tables);
     write_file(folder / "report.html", report_html(report, folder));
 }
 

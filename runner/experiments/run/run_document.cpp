@@ -190,7 +190,7 @@ Document document(const Report& report) {
         document.sections.push_back(live_section(*report.live));
     for (const ComparedDrive& drive : compared_drives(report)) {
         document.sections.push_back({drive.name, {}});
-        for (const auto add : {add_extents, add_course, add_errors, add_details, add_drawing})
+        for (const auto add : {add_extents, add_course, add_accuracy, add_details, add_drawing})
             add(drive, document.sections);
     }
     return document;

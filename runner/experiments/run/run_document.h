@@ -27,7 +27,7 @@ void add_extents(const ComparedDrive& drive, Sections& sections);
 /// Plots over the drive, signals, and what it cost.
 void add_course(const ComparedDrive& drive, Sections& sections);
 /// How far each lamp set's lux images lie from the reference, and what that cost.
-void add_errors(const ComparedDrive& drive, Sections& sections);
+void add_accuracy(const ComparedDrive& drive, Sections& sections);
 /// Readings beside each other per lamp set; lamps with their files; what was noted and left out, and what that saved.
 void add_details(const ComparedDrive& drive, Sections& sections);
 /// How shadows and pictures are drawn, and how pictures are seen on a display.

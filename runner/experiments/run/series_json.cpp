@@ -121,7 +121,7 @@ template <class Entry> Json columns_json(const PlayedVariant& played, std::vecto
     return out;
 }
 
-Json seven_digits(const Value& value) {
+Json short_value_json(const Value& value) {
     switch (value.kind()) {
     case Value::Kind::at_least:
         return value_json(Value::at_least(seven_digits(value.low())));
@@ -232,7 +232,7 @@ Json seeing_json(const std::vector<SeeingSeries>& all) {
             Json values = Json::array();
             std::set<std::string> reasons;
             for (const Value& value : column.values) {
-                values.push_back(seven_digits(value));
+                values.push_back(short_value_json(value));
                 if (!value.measured())
                     reasons.insert(value.reason());
             }
