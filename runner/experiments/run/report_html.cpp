@@ -63,10 +63,9 @@ std::vector<std::string> views_of(const ComparedDrive& drive) {
 }
 
 const StoredFrame* find_frame(const PlayedVariant& played, int tick, const std::string& view) {
-    for (const StoredFrame& frame : played.frames)
-        if (frame.tick == tick && frame.view == view)
-            return &frame;
-    return nullptr;
+    const auto found =
+        std::ranges::find_if(played.frames, [&](const StoredFrame& frame) { return frame.tick == tick && frame.view == view; });
+    return found == played.frames.end() ? nullptr : &*found;
 }
 
 data picture(const StoredFrame* frame, const std::filesystem::path& folder, std::size_t& budget_bytes) {
@@ -77,7 +76,6 @@ data picture(const StoredFrame* frame, const std::filesystem::path& folder, std:
         return part;
     }
     part.set("link", relative_link(frame->png.empty() ? frame->exr : frame->png));
-    part.set("link_name", clean_text(frame->png.empty() ? frame->exr : frame->png));
     if (frame->png.empty()) {
         missing("stored as EXR only");
         return part;
@@ -145,15 +143,14 @@ data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& fol
             kind->second.push_back(part);
         }
     }
-    data sheets{List::list};
-    for (std::size_t k = 0; k < kinds.size(); ++k) {
+    data out{List::list};
+    for (const auto& [what, sheets] : kinds) {
         data kind;
-        kind.set("what", kinds[k].first);
-
-        kind.set("sheets", kinds[k].second);
-        sheets.push_back(kind);
+        kind.set("what", what);
+        kind.set("sheets", sheets);
+        out.push_back(kind);
     }
-    return sheets;
+    return out;
 }
 
 /// Links to the stored pictures of moments that the page does not show.

@@ -37,13 +37,6 @@ bool by_distance(const ComparedDrive& drive) {
     return farthest_m > 1.0;
 }
 
-std::vector<double> all_of(const plots::Polyline& points, double plots::Point::*coordinate) {
-    std::vector<double> values;
-    for (const plots::Point& point : points)
-        values.push_back(point.*coordinate);
-    return values;
-}
-
 plots::Polyline reach_line(const PlayedVariant& played, std::vector<LaneExtent> ExtentRow::*source, const ExtentKey& key, bool distance) {
     plots::Polyline line;
     for (const ExtentRow& row : played.extents) {
@@ -75,11 +68,11 @@ bool has_value(const plots::Polyline& line) {
 void set_axes(plots::Figure& figure, const std::string& x_label, const std::string& x_unit, const std::string& y_label,
               const std::string& y_unit) {
     std::vector<double> x, y;
-    for (const plots::Series& series : figure.series) {
-        const std::vector<double> xs = all_of(series.points, &plots::Point::x), ys = all_of(series.points, &plots::Point::y);
-        x.insert(x.end(), xs.begin(), xs.end());
-        y.insert(y.end(), ys.begin(), ys.end());
-    }
+    for (const plots::Series& series : figure.series)
+        for (const plots::Point& point : series.points) {
+            x.push_back(point.x);
+            y.push_back(point.y);
+        }
     for (const plots::Band& band : figure.bands)
         y.insert(y.end(), band.high.begin(), band.high.end());
     figure.x = plots::axis_around(x_label, x_unit, x);
@@ -127,11 +120,6 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
 /// Light from far away and light that is none look alike on a page: nothing below this share of the largest value is drawn.
 constexpr double least_share = 1e-4;
 
-const SeeingSeries* series_named(const PlayedVariant& played, const std::string& subject) {
-    const auto found = std::ranges::find(played.seeing, subject, &SeeingSeries::subject);
-    return found == played.seeing.end() ? nullptr : &*found;
-}
-
 plots::Polyline line_of(const SeeingSeries& series, const SeeingSeries::Column& column) {
     plots::Polyline line;
     double largest = 0.0;
@@ -140,7 +128,7 @@ plots::Polyline line_of(const SeeingSeries& series, const SeeingSeries::Column& 
     for (std::size_t i = 0; i < series.at_m.size(); ++i) {
         const std::optional<double> value = column.values[i].figure();
         const bool shown = value && (!column.logarithmic || *value >= least_share * largest);
-        line.push_back({series.at_m[i], shown ? *value : std::numeric_limits<double>::quiet_NaN()});
+        line.push_back({series.at_m[i], shown ? *value : not_a_number});
     }
     return line;
 }
@@ -150,8 +138,8 @@ std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, s
     plots::Figure figure;
     std::vector<double> x, y;
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const SeeingSeries* const series = series_named(*drive.variants[i], subject.subject);
-        if (!series || column >= series->columns.size())
+        const auto series = std::ranges::find(drive.variants[i]->seeing, subject.subject, &SeeingSeries::subject);
+        if (series == drive.variants[i]->seeing.end() || column >= series->columns.size())
             continue;
         plots::Polyline line = line_of(*series, series->columns[column]);
         for (const plots::Point& point : line)
@@ -173,12 +161,10 @@ std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, s
     return plots::svg_of(figure);
 }
 
-bool is_of_control(const SeeingSeries& series) { return series.subject == "control"; }
-
 std::vector<std::string> figures_of(const ComparedDrive& drive, bool control) {
     std::vector<std::string> figures;
     for (const SeeingSeries& subject : drive.variants.front()->seeing)
-        for (std::size_t column = 0; is_of_control(subject) == control && column < subject.columns.size(); ++column)
+        for (std::size_t column = 0; (subject.subject == "control") == control && column < subject.columns.size(); ++column)
             if (subject.columns[column].drawn)
                 if (std::string svg = figure_of(drive, subject, column); !svg.empty())
                     figures.push_back(std::move(svg));

@@ -50,10 +50,6 @@ void add_state_bands(plots::Figure& figure, const BusSignalReport& signal, doubl
     }
 }
 
-bool any_number(const std::vector<std::optional<double>>& values) {
-    return std::ranges::any_of(values, [](const auto& value) { return value.has_value(); });
-}
-
 std::vector<double> numbers(const std::vector<std::optional<double>>& values) {
     std::vector<double> all;
     for (const std::optional<double>& value : values)
@@ -77,13 +73,13 @@ std::string signal_svg(const BusReport& bus, const BusSignalReport& signal) {
     figure.width_px = 640.0;
     figure.height_px = 260.0;
     figure.x = time_axis(bus);
-    figure.y = plots::axis_around("value", signal.unit, numbers(any_number(signal.value) ? signal.value : signal.received),
+    figure.y = plots::axis_around("value", signal.unit, numbers(numbers(signal.value).empty() ? signal.received : signal.value),
                                   plots::Scale::linear, true);
     add_state_bands(figure, signal, bus.end_s);
     const bool lone = bus.time_s.size() == 1, differs = signal.value != signal.received;
-    if (differs && any_number(signal.received))
+    if (differs && !numbers(signal.received).empty())
         figure.series.push_back({"as received", inside(figure.y, bus_line(bus, signal.received)), {150, 150, 150}, 1.2, "3 3", lone});
-    if (any_number(signal.value))
+    if (!numbers(signal.value).empty())
         figure.series.push_back({differs ? "as used" : "", bus_line(bus, signal.value), {30, 90, 150}, 2.0, "", lone});
     return plots::svg_of(figure);
 }
