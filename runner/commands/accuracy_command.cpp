@@ -22,7 +22,7 @@ namespace {
 struct AccuracyFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> techniques, resolutions, shadow_maps, beams;
-    std::string variant, target_error = "0.5%", backend = "auto", out;
+    std::string variant, target_error = "0.5%", backend = "auto", out, tables;
     std::vector<std::string> diagrams{"techniques"};
     SweepRequest sweep;
     bool quiet = false;
@@ -68,7 +68,7 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
     request.write = [&](const AccuracyResult& result) {
         write_file(request.folder / "accuracy.json", accuracy_json(result));
         write_file(request.folder / "accuracy.csv", accuracy_csv(result));
-        write_document(document(result), result, request.folder, "accuracy");
+        write_document(document(result), result, request.folder, "accuracy", table_format(flags.tables));
     };
     const AccuracyResult result = run_accuracy(request);
     fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "accuracy.html").string());
@@ -121,6 +121,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
         ->capture_default_str();
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_tables_flag(*sub, flags->tables);
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return accuracy(*flags, command); }; });
 }

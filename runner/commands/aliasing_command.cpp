@@ -22,7 +22,7 @@ namespace {
 struct AliasingFlags {
     std::filesystem::path drive;
     std::optional<double> moment_s;
-    std::string variant, frames, resolution, backend = "auto", out, picture = "luminance";
+    std::string variant, frames, resolution, backend = "auto", out, tables, picture = "luminance";
     std::vector<std::string> techniques, beams, filters{"mipmapped", "none", "trilinear"};
     std::vector<int> samples{1, 4};
     int supersample = 4;
@@ -121,10 +121,10 @@ AliasingResult run(const AliasingFlags& flags, const std::vector<std::string>& c
         folder = flags.out.empty() ? default_output_folder(name + "-aliasing", utc_now()) : std::filesystem::path(flags.out);
         return folder;
     };
-    const auto write = [&folder](const AliasingResult& result) {
+    const auto write = [&](const AliasingResult& result) {
         write_file(folder / "aliasing.json", aliasing_json(result));
         write_file(folder / "aliasing.csv", aliasing_csv(result));
-        write_document(document(result), result, folder, "aliasing");
+        write_document(document(result), result, folder, "aliasing", table_format(flags.tables));
     };
     if (!flags.sequence.empty()) {
         SequenceRequest request = sequence_request_of(flags);
@@ -189,6 +189,7 @@ void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the view (default: the drive's)");
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_tables_flag(*sub, flags->tables);
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     for (const char* of_drives : {"--moment", "--variant", "--techniques", "--beams", "--samples", "--filter", "--supersample", "--picture",
                                   "--level", "--resolution", "--backend", "--flow"})

@@ -21,7 +21,7 @@ constexpr const char* default_drive = "scenarios/library/drives/bench.yaml";
 /// The flags as typed.
 struct BenchFlags {
     std::filesystem::path drive = default_drive;
-    std::string variant, resolution, backend = "auto", out;
+    std::string variant, resolution, backend = "auto", out, tables;
     std::vector<std::string> techniques;
     std::optional<int> frames;
     int rounds = 21;
@@ -52,7 +52,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     request.write = [&](const BenchResult& result) {
         write_file(request.folder / "bench.json", bench_json(result));
         write_file(request.folder / "bench.csv", bench_csv(result));
-        write_document(document(result), result, request.folder, "bench");
+        write_document(document(result), result, request.folder, "bench", table_format(flags.tables));
     };
     const BenchResult result = run_bench(request);
     fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "bench.html").string());
@@ -78,6 +78,7 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT (default: the drive's)");
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_tables_flag(*sub, flags->tables);
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return bench(*flags, command); }; });
 }

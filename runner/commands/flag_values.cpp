@@ -3,11 +3,22 @@
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 
 namespace fernlicht {
+
+void add_tables_flag(CLI::App& command, std::string& tables) {
+    command.add_option("--tables", tables, "csv or tex: write each table of the page also as a file in tables/");
+}
+
+TableFormat table_format(const std::string& text) {
+    if (!text.empty() && text != "csv" && text != "tex")
+        refuse_flag("--tables", text, "csv or tex");
+    return text.empty() ? TableFormat::none : text == "csv" ? TableFormat::csv : TableFormat::tex;
+}
 
 void refuse_flag(const char* flag, const std::string& found, const char* expected) {
     throw InputError({{}, 0, 0, flag}, "found '" + printable(found) + "'", expected);

@@ -1,12 +1,17 @@
 // Values of command-line flags that are more than a word.
 #pragma once
 
+#include "runner/write/document.h"
 #include "scenarios/lamps/beam_texels.h"
 
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace fernlicht {
 
@@ -28,5 +33,10 @@ double share_of(const char* flag, const std::string& text);
 
 /// "float" (nullopt), "eight-bit" or "512x128x8". Throws InputError naming --beams.
 std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& texts);
+
+/// --tables, the same for all commands that write a document.
+void add_tables_flag(CLI::App& command, std::string& tables);
+/// "csv", "tex" or "". Throws InputError naming --tables.
+TableFormat table_format(const std::string& text);
 
 } // namespace fernlicht

@@ -3,6 +3,7 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/live/live_run.h"
+#include "runner/experiments/run/report_writers.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/drives/keys/bus_keys.h"
@@ -20,10 +21,10 @@ constexpr int interrupted_code = 130; ///< as a shell has it for what SIGINT end
 
 /// The flags as typed.
 struct LiveFlags {
+    LiveOptions options;
     std::filesystem::path drive;
-    std::string interface, log, start, variant, record, resolution, backend = "auto", out;
-    double duration_s = 0.0, listen_s = 0.5;
-    int receive_buffer = 0;
+    std::string start, resolution, out, tables;
+    double duration_s = 0.0;
     bool no_wait = false, no_draw = false, lossless = false;
 };
 
@@ -31,7 +32,7 @@ Drive drive_of(const LiveFlags& flags) {
     DriveEdits edits;
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
-    edits.can_log = std::filesystem::path(flags.log); // the recording that a drive names itself is not played
+    edits.can_log = flags.options.log; // the recording that a drive names itself is not played
     if (!flags.start.empty()) {
         edits.can_start_ns = stamp_from_text(flags.start);
         if (!edits.can_start_ns)
@@ -49,15 +50,15 @@ bool lost(const LiveFigures& live) {
 }
 
 void check_bus_flags(const LiveFlags& flags) {
-    if (flags.interface.empty() == flags.log.empty())
+    if (flags.options.interface.empty() == flags.options.log.empty())
         throw InputError({{}, 0, 0, "--can"},
-                         flags.log.empty() ? "found neither an interface nor a recording" : "found an interface and a recording",
+                         flags.options.log.empty() ? "found neither an interface nor a recording" : "found an interface and a recording",
                          "--can IFACE or --can-log FILE, one of both");
-    if (flags.log == "none")
-        refuse_flag("--can-log", flags.log, "a recording; `fernlicht run --can-log none` plays a drive by its script");
-    if (flags.no_wait && flags.log.empty())
+    if (flags.options.log == "none")
+        refuse_flag("--can-log", flags.options.log.string(), "a recording; `fernlicht run --can-log none` plays a drive by its script");
+    if (flags.no_wait && flags.options.log.empty())
         throw InputError({{}, 0, 0, "--no-wait"}, "found it beside --can", "--can-log FILE: a bus cannot be hurried");
-    if (!flags.start.empty() && flags.log.empty())
+    if (!flags.start.empty() && flags.options.log.empty())
         refuse_flag("--can-start", flags.start, "--can-log FILE: the drive's 0 s on a bus is now");
 }
 
@@ -79,17 +80,11 @@ Report run_and_name(Drive drive, const LiveOptions& options) {
 
 int live(const LiveFlags& flags, const std::vector<std::string>& command) {
     check_bus_flags(flags);
-    LiveOptions options;
-    options.interface = flags.interface;
-    options.log = flags.log;
+    LiveOptions options = flags.options;
     options.wait = !flags.no_wait;
-    options.variant = flags.variant;
-    options.listen_s = flags.listen_s;
-    options.receive_buffer_bytes = flags.receive_buffer;
-    options.record = flags.record;
     options.draw = !flags.no_draw && !flags.no_wait;
-    options.backend = flags.backend;
     options.command = command;
+    options.write = [&options, tables = table_format(flags.tables)](const Report& report) { write_report(report, options.folder, tables); };
     Drive drive = drive_of(flags);
     options.folder = flags.out.empty() ? default_output_folder(drive.name, utc_now()) : std::filesystem::path(flags.out);
     const Report report = run_and_name(std::move(drive), options);
@@ -110,22 +105,24 @@ void add_live_command(CLI::App& app, const std::vector<std::string>& command, st
     const auto flags = std::make_shared<LiveFlags>();
     CLI::App* sub = app.add_subcommand("live", "play a drive in real time, with inputs from a CAN bus and outputs onto it");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML) with the key `can`")->required();
-    sub->add_option("--can", flags->interface, "CAN interface of the kernel, e.g. can0 or vcan0");
-    sub->add_option("--can-log", flags->log, "candump log, played at its own pace instead of listening on an interface");
+    sub->add_option("--can", flags->options.interface, "CAN interface of the kernel, e.g. can0 or vcan0");
+    sub->add_option("--can-log", flags->options.log, "candump log, played at its own pace instead of listening on an interface");
     sub->add_option("--can-start", flags->start, "timestamp of the recording that is the drive's 0 s");
     sub->add_option("--duration", flags->duration_s, "seconds to drive, instead of the drive's own")->check(CLI::Range(0.01, 1.0e6));
-    sub->add_option("--variant", flags->variant, "lamp set to drive with, where there are several");
-    sub->add_option("--listen", flags->listen_s, "seconds to listen to the bus before 0 s")->check(CLI::Range(0.0, 3600.0));
-    sub->add_option("--record", flags->record, "candump log to write the used frames to (default: one in the report's folder)");
-    sub->add_option("--receive-buffer", flags->receive_buffer, "socket receive buffer in bytes (default: 4 MiB where permitted)")
+    sub->add_option("--variant", flags->options.variant, "lamp set to drive with, where there are several");
+    sub->add_option("--listen", flags->options.listen_s, "seconds to listen to the bus before 0 s")->check(CLI::Range(0.0, 3600.0));
+    sub->add_option("--record", flags->options.record, "candump log to write the used frames to (default: one in the report's folder)");
+    sub->add_option("--receive-buffer", flags->options.receive_buffer_bytes,
+                    "socket receive buffer in bytes (default: 4 MiB where permitted)")
         ->check(CLI::Range(1, 1 << 30));
     sub->add_flag("--no-draw", flags->no_draw, "render no pictures; needs no GL");
     sub->add_flag("--no-wait", flags->no_wait, "with --can-log: as fast as possible, without pictures");
     sub->add_flag("--lossless", flags->lossless,
                   "exit with 1 if a frame was dropped, not sent or not recorded, or the interface went down");
-    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--backend", flags->options.backend, backend_names);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
     sub->add_option("--out", flags->out, "new or empty folder for the report");
+    add_tables_flag(*sub, flags->tables);
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return live(*flags, command); }; });
 }
 

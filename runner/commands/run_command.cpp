@@ -22,13 +22,13 @@ namespace {
 struct RunFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> lamps;
-    std::string road, technique, resolution, frames, capture, backend = "auto", out;
+    RunOptions options;
+    std::string road, technique, resolution, frames, capture, out, tables;
     JudgingFlags judging;
     std::vector<std::string> road_folders;
     std::string replay, ego, can_start, can_channel;
     std::optional<std::string> can_log, shadows;
-    bool lenient = false;
-    bool quiet = false, profile = false, contact_sheet = false, no_accuracy = false;
+    bool lenient = false, no_accuracy = false;
 };
 
 DriveEdits edits_of(const RunFlags& flags) {
@@ -92,14 +92,11 @@ void print_verdicts(const Report& report) {
 }
 
 int run(const RunFlags& flags, const std::vector<std::string>& command) {
-    RunOptions options;
-    options.backend = flags.backend;
+    RunOptions options = flags.options;
     options.ticks = tick_range(flags.frames);
-    options.quiet = flags.quiet;
-    options.profile = flags.profile;
-    options.contact_sheet = flags.contact_sheet;
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
+    options.tables = table_format(flags.tables);
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;
@@ -140,16 +137,18 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option_function<std::string>(
         "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
         "shadow method; `fernlicht techniques` lists them");
-    sub->add_option("--backend", flags->backend, backend_names);
+    sub->add_option("--backend", flags->options.backend, backend_names);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
     sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments only, counted from 0");
     sub->add_option("--capture", flags->capture, "all: store every moment");
     add_judging_flags(*sub, flags->judging);
     sub->add_option("--out", flags->out, "new or empty folder for the report");
-    sub->add_flag("--profile", flags->profile, "time each pass (slows rendering)");
-    sub->add_flag("--contact-sheet", flags->contact_sheet, "add a sheet of one moment in every technique, tone mapper and shadow method");
+    add_tables_flag(*sub, flags->tables);
+    sub->add_flag("--profile", flags->options.profile, "time each pass (slows rendering)");
+    sub->add_flag("--contact-sheet", flags->options.contact_sheet,
+                  "add a sheet of one moment in every technique, tone mapper and shadow method");
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments with the reference");
-    sub->add_flag("--quiet", flags->quiet, "show no progress");
+    sub->add_flag("--quiet", flags->options.quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });
 }
 

@@ -3,6 +3,7 @@
 #include "runner/findings/figures.h"
 
 #include <fmt/format.h>
+#include <sstream>
 
 namespace fernlicht {
 namespace {
@@ -54,6 +55,28 @@ std::string front_words(const WorkPrecision& diagram) {
 }
 
 } // namespace
+
+std::vector<Column> columns_of(const std::string& line) {
+    std::vector<Column> columns;
+    std::istringstream items(line);
+    for (std::string item; std::getline(items, item, '|');) {
+        Column& column = columns.emplace_back();
+        column.code = item.ends_with('`');
+        column.words = column.code || item.ends_with('<');
+        if (column.words)
+            item.pop_back();
+        if (const std::size_t at = item.find(" ["); at != std::string::npos) {
+            column.unit = item.substr(at + 2, item.size() - at - 3);
+            item.erase(at);
+        }
+        if (const std::size_t at = item.find(": "); at != std::string::npos) {
+            column.group = item.substr(0, at);
+            item.erase(0, at + 2);
+        }
+        column.head = item;
+    }
+    return columns;
+}
 
 Section work_precision_section(const WorkPrecision& diagram) {
     Plot plot{diagram.name, diagram, diagram.notes, 1.5};

@@ -13,18 +13,30 @@ namespace fernlicht {
 /// Words, or a figure as it is read: rounded, without its unit.
 struct Cell {
     std::string text;
-    std::optional<double> value = {}; ///< what the figure was rounded from
+    std::optional<double> value = {};       ///< what the figure was rounded from
+    std::optional<std::size_t> series = {}; ///< names what the series of this number shows in plots: stands beside its colour
 
     Cell(std::string words) : text(std::move(words)) {}
     Cell(const char* words) : text(words) {}
     Cell(std::string rounded, double of) : text(std::move(rounded)), value(of) {}
+    static Cell of_series(std::string words, std::size_t number) {
+        Cell cell(std::move(words));
+        cell.series = number;
+        return cell;
+    }
 };
 
 struct Column {
-    std::string head, unit = {}; ///< "%", "cm, r.m.s. / worst"
-    std::string group = {};      ///< a heading over this column and its neighbours of the same group
-    bool words = false;          ///< read from the left; figures stand to the right
+    std::string head, unit = {};            ///< "%", "cm, r.m.s. / worst"
+    std::string group = {};                 ///< a heading over this column and its neighbours of the same group
+    bool words = false;                     ///< read from the left; figures stand to the right
+    bool code = false;                      ///< words as they are typed: names of readings, commands
+    std::optional<std::size_t> series = {}; ///< as a cell's
 };
+
+/// Of a line: "lamp<|all drawing: share [%]|command`". After what is read from the left stands a <, after what is typed a backtick, before
+/// a colon the group, in brackets the unit.
+std::vector<Column> columns_of(const std::string& line);
 
 struct Table {
     std::string name, caption; ///< `name` tells tables of one document apart: "errors"
@@ -43,25 +55,21 @@ struct Plot {
     std::variant<WorkPrecision, Drawing> figure;
     std::vector<std::string> captions; ///< one sentence each, without full stop
     double scale = 1.0;                ///< pixels of its PNG for one of the SVG
+    bool beside = false;               ///< small enough that two stand beside each other
 };
 
-struct Picture {
-    std::string file; ///< PNG, below the document's folder or absolute
-    std::string caption;
+/// Sentences one below the other, without full stops.
+struct Listing {
+    std::vector<std::string> items;
 };
 
-/// Pictures on disk that belong beside each other.
-struct PictureStrip {
-    std::string title;
-    std::vector<Picture> pictures;
-};
-
-using DocumentPart = std::variant<std::string, Table, Plot, PictureStrip>; ///< a string is a paragraph
+/// A string is a paragraph; in it and in a listing, what stands between backticks is meant as it is typed.
+using DocumentPart = std::variant<std::string, Table, Plot, Listing>;
 
 struct Section {
     std::string title; ///< "" for what stands before the first heading
     std::vector<DocumentPart> blocks;
-    bool on_page_alone = false; ///< too long for a terminal
+    int level = 2; ///< of its heading; 3 and more: a part of the section before
 };
 
 struct Document {

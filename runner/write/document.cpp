@@ -14,11 +14,6 @@
 namespace fernlicht {
 namespace {
 
-std::string head_of(const Column& column) {
-    const std::string head = column.group.empty() ? column.head : column.group + " " + column.head;
-    return column.unit.empty() ? head : head + ", " + column.unit;
-}
-
 /// Within a table of Markdown.
 std::string markdown_cell(const std::string& text) {
     std::string out;
@@ -41,7 +36,9 @@ std::string text_of(const Table& table) {
         alignment += column.words ? '<' : '>';
     for (const std::vector<Cell>& row : table.rows) {
         if (row.size() < table.columns.size()) { // words in place of figures stand below the table
-            after += fmt::format("{}: {}\n", row.front().text, row.back().text);
+            for (std::size_t i = 0; i + 1 < row.size(); ++i)
+                after += (i == 0 ? "" : ", ") + row[i].text;
+            after += ": " + row.back().text + "\n";
             continue;
         }
         std::vector<std::string>& line = lines.emplace_back();
@@ -52,6 +49,11 @@ std::string text_of(const Table& table) {
 }
 
 } // namespace
+
+std::string head_of(const Column& column) {
+    const std::string head = column.group.empty() ? column.head : column.group + " " + column.head;
+    return column.unit.empty() ? head : head + ", " + column.unit;
+}
 
 std::string plot_svg(const Plot& plot) {
     if (const auto* diagram = std::get_if<WorkPrecision>(&plot.figure))
@@ -72,8 +74,11 @@ std::string document_text(const Document& document) {
                 text += clean_text(*paragraph) + "\n";
             else if (const auto* table = std::get_if<Table>(&block))
                 text += table->aside ? "" : text_of(*table);
-            else if (const auto* plot = std::get_if<Plot>(&block))
-                for (const std::string& caption : plot->captions)
+            else if (const auto* listing = std::get_if<Listing>(&block))
+                for (const std::string& item : listing->items)
+                    text += "- " + clean_text(item) + "\n";
+            else
+                for (const std::string& caption : std::get<Plot>(block).captions)
                     text += "  " + clean_text(caption) + "\n";
     }
     return text;
@@ -95,7 +100,8 @@ std::string table_markdown(const Table& table) {
     return out;
 }
 
-void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem) {
+void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem,
+                    TableFormat tables) {
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
             if (const auto* plot = std::get_if<Plot>(&block)) {
@@ -105,7 +111,8 @@ void write_document(const Document& document, const Findings& findings, const st
                 write_file(place + ".svg", svg);
                 write_file(place + ".png", plots::png_of_svg(svg, plot->scale));
             }
-    write_file(folder / (stem + ".html"), document_html(document, findings, folder));
+    write_tables(document, folder, tables);
+    write_file(folder / (stem + ".html"), document_html(document, findings));
 }
 
 } // namespace fernlicht

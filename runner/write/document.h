@@ -8,6 +8,8 @@
 
 namespace fernlicht {
 
+/// "of all share, %"
+std::string head_of(const Column& column);
 std::string plot_svg(const Plot& plot);
 /// Where its files lie below the document's folder, without extension.
 std::string place_of(const Plot& plot);
@@ -17,8 +19,18 @@ std::string document_html(const Document& document, const Findings& findings, co
 std::string document_text(const Document& document);
 /// A table in Markdown's pipes.
 std::string table_markdown(const Table& table);
+/// As LaTeX's `tabular` with the rules of booktabs, for \input; the caption is a comment above it.
+std::string table_latex(const Table& table);
+/// RFC 4180 with one line of heads. Figures are those that are shown, with a plain minus sign.
+std::string table_csv(const Table& table);
 
-/// STEM.html, and each plot as SVG and PNG, each as a whole or not at all. Figures for programs are the caller's, and come first.
-void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem);
+enum class TableFormat { none, csv, tex };
+/// Each table as tables/NAME.csv or .tex, those that a page folds away too.
+void write_tables(const Document& document, const std::filesystem::path& folder, TableFormat format);
+
+/// STEM.html, tables as asked for, and each plot as SVG and PNG, each as a whole or not at all. Figures for programs are the caller's, and
+/// come first.
+void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem,
+                    TableFormat tables = TableFormat::none);
 
 } // namespace fernlicht

@@ -1,12 +1,9 @@
-#include "report_files.h"
 #include "runner/files/clean_text.h"
 #include "runner/write/document.h"
 #include "runner/write/page_base.h"
-#include "runner/write/plots/png.h"
-#include "scenarios/values/files.h"
+#include "runner/write/plots/colour.h"
 
 #include <fmt/format.h>
-#include <stdexcept>
 
 namespace fernlicht {
 namespace {
@@ -38,20 +35,26 @@ data groups_of(const Table& table) {
     return groups;
 }
 
-data row_of(const std::vector<Cell>& row, const Table& table) {
-    data part, cells{List::list};
-    part.set("name", clean_text(row.front().text));
-    for (std::size_t i = 1; i < row.size(); ++i) {
-        data cell;
-        const bool last_of_few = i + 1 == row.size() && row.size() < table.columns.size();
-        cell.set("text", clean_text(row[i].text));
-        cell.set("class", last_of_few || table.columns[i].words ? std::string("text") : std::string("n"));
-        cell.set("spans", last_of_few);
-        cell.set("columns", fmt::format("{}", table.columns.size() - i));
-        cells.push_back(cell);
-    }
-    part.set("cells", cells);
-    return part;
+void mark(data& part, const std::optional<std::size_t>& series) {
+    part.set("has_colour", series.has_value());
+    part.set("colour", plots::css(plots::lamp_colour(series.value_or(0))));
+}
+
+/// The first cell of a row names it; long words wrap, figures do not.
+data cell_part(const std::vector<Cell>& row, std::size_t i, const Table& table) {
+    constexpr std::size_t longest_on_a_line = 30;
+    const bool last_of_few = i > 0 && i + 1 == row.size() && row.size() < table.columns.size();
+    const Column& column = table.columns[i];
+    const bool wraps = column.code || (!row[i].value && row[i].text.size() > longest_on_a_line);
+    data cell;
+    cell.set("text", clean_text(row[i].text));
+    cell.set("name", i == 0);
+    cell.set("code", column.code && !last_of_few && !row[i].text.empty());
+    cell.set("class", std::string(last_of_few || (wraps && i > 0) ? "text" : wraps ? "reading" : column.words || i == 0 ? "words" : "n"));
+    cell.set("spans", last_of_few);
+    cell.set("columns", fmt::format("{}", table.columns.size() - i));
+    mark(cell, row[i].series);
+    return cell;
 }
 
 data table_part(const Table& table) {
@@ -59,16 +62,24 @@ data table_part(const Table& table) {
     bool has_groups = false;
     for (const Column& column : table.columns) {
         data head;
-        head.set("text", capitalised(clean_text(column.head)));
+        head.set("text", column.series ? clean_text(column.head) : capitalised(clean_text(column.head)));
         head.set("unit", clean_text(column.unit));
         head.set("has_unit", !column.unit.empty());
         head.set("words", column.words);
+        mark(head, column.series);
         heads.push_back(head);
         has_groups = has_groups || !column.group.empty();
     }
-    for (const std::vector<Cell>& row : table.rows)
-        rows.push_back(row_of(row, table));
+    for (const std::vector<Cell>& row : table.rows) {
+        data cells{List::list};
+        for (std::size_t i = 0; i < row.size(); ++i)
+            cells.push_back(cell_part(row, i, table));
+        data line;
+        line.set("cells", cells);
+        rows.push_back(line);
+    }
     part.set("caption", clean_text(table.caption));
+    part.set("has_caption", !table.caption.empty());
     part.set("aside", table.aside);
     part.set("has_groups", has_groups);
     part.set("groups", groups_of(table));
@@ -83,75 +94,71 @@ data plot_part(const Plot& plot) {
         captions.push_back(capitalised(clean_text(caption)));
     part.set("svg", plot_svg(plot));
     part.set("captions", captions);
+    part.set("beside", plot.beside);
     return part;
 }
 
-/// Pictures below `folder` are links, too; those that do not fit into the page any more are links alone.
-data part_of(const PictureStrip& strip, const std::filesystem::path& folder, std::size_t& bytes_left) {
-    data part, pictures{List::list};
-    for (const Picture& picture : strip.pictures) {
-        FilesRead ignored;
-        const std::string bytes = read_file(folder / picture.file, ignored);
-        data row;
-        row.set("is_embedded", bytes.size() <= bytes_left);
-        if (bytes.size() <= bytes_left) {
-            bytes_left -= bytes.size();
-            row.set("bytes", plots::base64(bytes));
-        }
-        row.set("caption", clean_text(picture.caption));
-        row.set("is_link", std::filesystem::path(picture.file).is_relative());
-        row.set("link", relative_link(picture.file));
-        pictures.push_back(row);
+/// As markup, with what stands between backticks as code.
+std::string sentence_html(const std::string& text) {
+    const std::string safe = xml_text(text);
+    std::string out;
+    for (std::size_t at = 0; at < safe.size();) {
+        const std::size_t open = safe.find('`', at), close = open == std::string::npos ? open : safe.find('`', open + 1);
+        if (close == std::string::npos)
+            return out + safe.substr(at);
+        out += safe.substr(at, open - at) + "<code>" + safe.substr(open + 1, close - open - 1) + "</code>";
+        at = close + 1;
     }
-    part.set("title", clean_text(strip.title));
-    part.set("pictures", pictures);
-    return part;
+    return out;
 }
 
-data block_part(const DocumentPart& block, const std::filesystem::path& folder, std::size_t& bytes_left) {
+data block_part(const DocumentPart& block) {
     const auto* paragraph = std::get_if<std::string>(&block);
     const auto* table = std::get_if<Table>(&block);
     const auto* plot = std::get_if<Plot>(&block);
-    const auto* strip = std::get_if<PictureStrip>(&block);
-    data part = table ? table_part(*table) : plot ? plot_part(*plot) : strip ? part_of(*strip, folder, bytes_left) : data();
+    const auto* listing = std::get_if<Listing>(&block);
+    data part = table ? table_part(*table) : plot ? plot_part(*plot) : data(), items{List::list};
+    if (listing)
+        for (const std::string& item : listing->items)
+            items.push_back(sentence_html(item));
     part.set("is_paragraph", paragraph != nullptr);
     part.set("is_table", table != nullptr);
     part.set("is_plot", plot != nullptr);
-    part.set("is_strip", strip != nullptr);
-    part.set("text", paragraph ? clean_text(*paragraph) : "");
+    part.set("is_listing", listing != nullptr);
+    part.set("html", paragraph ? sentence_html(*paragraph) : "");
+    part.set("items", items);
     return part;
 }
 
 } // namespace
 
-std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder) {
-    std::size_t bytes_left = embedded_bytes;
-    data page, sections{List::list}, missing{List::list};
-    for (const Section& section : document.sections) {
+data sections_part(const std::vector<Section>& all) {
+    data page, sections{List::list};
+    for (const Section& section : all) {
         data part, blocks{List::list};
         for (const DocumentPart& block : section.blocks)
             blocks.push_back(block_part(block, folder, bytes_left));
         part.set("has_title", !section.title.empty());
         part.set("title", short_text(section.title, 160));
+        part.set("level", fmt::format("{}", section.level));
         part.set("blocks", blocks);
         sections.push_back(part);
     }
+    page.set("sections", sections);
+    return page;
+}
+
+std::string document_html(const Document& document, const Findings& findings) {
+    data page = sections_part(document.sections), missing{List::list};
     for (const std::string& what : findings.missing)
         missing.push_back(clean_text(what));
-    page.set("style", std::string(report_file("report.css")));
-    page.set("title", clean_text(document.title));
-    page.set("has_started", !findings.context.started_utc.empty());
+    page.set("title", document.title);
     page.set("started", clean_text(findings.context.started_utc));
     page.set("is_interrupted", !findings.interrupted.empty());
     page.set("interrupted", clean_text(findings.interrupted));
     page.set("missing", missing);
-    page.set("sections", sections);
     page.set("context", context_part(findings.context));
-    kainjow::mustache::mustache page_template{std::string(report_file("document.html.mustache"))};
-    std::string html = page_template.render(page);
-    if (!page_template.is_valid())
-        throw std::logic_error("document.html.mustache: " + page_template.error_message());
-    return html;
+    return page_of("document.html.mustache", page);
 }
 
 } // namespace fernlicht

@@ -1,18 +1,14 @@
 #include "runner/write/page_base.h"
 
+#include "report_files.h"
 #include "runner/files/clean_text.h"
 
-#include <array>
 #include <fmt/format.h>
+#include <stdexcept>
 
 namespace fernlicht {
 
 using kainjow::mustache::data;
-
-const char* variant_colour(std::size_t index) {
-    constexpr std::array<const char*, 6> colours{"#c24e00", "#0068a8", "#00795a", "#a8407f", "#8a6a00", "#4a4a4a"};
-    return colours[index % colours.size()];
-}
 
 data context_part(const RunContext& context) {
     data part;
@@ -47,6 +43,16 @@ data context_part(const RunContext& context) {
     part.set("has_inputs", !context.inputs.empty());
     part.set("inputs", inputs);
     return part;
+}
+
+std::string page_of(const char* template_name, data page) {
+    page.set("style", std::string(report_file("report.css")));
+    page.set("document_sections", std::string(report_file("document_sections.mustache")));
+    kainjow::mustache::mustache page_template{std::string(report_file(template_name))};
+    std::string html = page_template.render(page);
+    if (!page_template.is_valid())
+        throw std::logic_error(std::string(template_name) + ": " + page_template.error_message());
+    return html;
 }
 
 } // namespace fernlicht

@@ -31,19 +31,9 @@ std::string reach_words(const ConfigurationResult& found, ExtentPlane plane) {
 Table errors_table(const DriveAccuracy& drive) {
     Table table{"errors-" + drive.drive,
                 "Errors where there is light: illuminance on the road, in the whole view and on targets above the road, and luminance",
-                {{.head = "drawn by", .words = true},
-                 {"median", "%", "road"},
-                 {"95 %", "%", "road"},
-                 {"99 %", "%", "road"},
-                 {"worst pixel", "%", "road"},
-                 {"beyond 1 / 5 / 20 %", "% of its area", "road"},
-                 {"95 %", "%", "view"},
-                 {"95 %", "%", "target"},
-                 {"95 %", "%", "luminance"},
-                 {"road", "1 / 5 lx, m", "worst error of reach"},
-                 {"target", "1 / 5 lx, m", "worst error of reach"},
-                 {"time", "ms", "a frame"},
-                 {"textures", "MiB", "a frame"}},
+                columns_of("drawn by<|road: median [%]|road: 95 % [%]|road: 99 % [%]|road: worst pixel [%]|road: beyond 1 / 5 / 20 % [% of "
+                           "its area]|view: 95 % [%]|target: 95 % [%]|luminance: 95 % [%]|worst error of reach: road [1 / 5 lx, m]|worst "
+                           "error of reach: target [1 / 5 lx, m]|a frame: time [ms]|a frame: textures [MiB]"),
                 {}};
     for (const ConfigurationResult& found : drive.configurations) {
         std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{name_of(found.configuration)});
@@ -91,12 +81,7 @@ Table simplifications_table(const DriveAccuracy& drive) {
         "simplifications-" + drive.drive,
         "What each simplification of the published techniques costs by itself: the right equation with one thing changed, in double "
         "precision on the road's triangles",
-        {{.head = "changed", .words = true},
-         {"median", "%"},
-         {"95 %", "%"},
-         {"99 %", "%"},
-         {"mean, signed", "%"},
-         {"beyond 1 / 5 / 20 %", "% of the area"}},
+        columns_of("changed<|median [%]|95 % [%]|99 % [%]|mean, signed [%]|beyond 1 / 5 / 20 % [% of the area]"),
         {}};
     for (const Simplification& price : drive.simplifications)
         if (price.errors && price.errors->pixels > 0) {

@@ -30,15 +30,7 @@ Table space_table(const AliasingResult& result) {
                             "what 32 pixels around have alike",
                             result.displayed ? "the picture as displayed" : "the scene's luminance",
                             result.level_lx > 0.0 ? fmt::format("{}", result.level_lx) : "a level in"),
-                {{.head = "drawn by", .words = true},
-                 {"rank"},
-                 {"seen"},
-                 {"aliasing", "%"},
-                 {"folded back", "%"},
-                 {"rest", "%"},
-                 {"lost", "%"},
-                 {"stairs, cut-off", "px"},
-                 {"stairs, marks", "px"}},
+                columns_of("drawn by<|rank|seen|aliasing [%]|folded back [%]|rest [%]|lost [%]|stairs, cut-off [px]|stairs, marks [px]"),
                 {}};
     for (const std::size_t i : shown_order(result)) {
         const AliasingRow& row = result.rows[i];
@@ -64,7 +56,7 @@ Table time_table(const AliasingResult& result) {
         "flicker",
         "Over time, along the paths of points of the scene. Flicker seen: in multiples of the contrast that an eye just sees; crawl is "
         "below 4 Hz, flicker from there up",
-        {{.head = "drawn by", .words = true}, {"flicker seen"}, {"flicker", "%"}, {"of it standing on the screen", "%"}, {"crawl", "%"}},
+        columns_of("drawn by<|flicker seen|flicker [%]|of it standing on the screen [%]|crawl [%]"),
         {}};
     for (const std::size_t i : shown_order(result))
         if (const AliasingRow& row = result.rows[i]; row.temporal)
@@ -84,13 +76,8 @@ Table flow_table(const AliasingResult& result) {
                     "its paths, of aliasing against the reference, or of brightness as drawn; by known motion: aliasing of the same "
                     "points",
                     result.flows.front().error.known_motion_px, result.flows.front().error.points),
-        {{.head = "by", .words = true},
-         {"off, median", "px"},
-         {"off, mean", "px"},
-         {"off by more than half a pixel", "%"},
-         {"left out", "%"},
-         {"flicker", "%"},
-         {"flicker by known motion", "%"}},
+        columns_of(
+            "by<|off, median [px]|off, mean [px]|off by more than half a pixel [%]|left out [%]|flicker [%]|flicker by known motion [%]"),
         {}};
     const auto flicker = [](const std::optional<TemporalAliasing>& found) {
         return found ? three_digits(found->flicker_percent) : Cell("not measured");

@@ -51,18 +51,7 @@ Table cost_table(const std::vector<BenchRow>& rows) {
     };
     Table table{"costs",
                 "What a frame costs, in ms",
-                {{.head = "technique", .words = true},
-                 {"median"},
-                 {"p95"},
-                 {"latency"},
-                 {"p95"},
-                 {"CPU"},
-                 {"GPU"},
-                 {"passes"},
-                 {"draws"},
-                 {"triangles"},
-                 {"fragments"},
-                 {"textures", "MiB"}},
+                columns_of("technique<|median|p95|latency|p95|CPU|GPU|passes|draws|triangles|fragments|textures [MiB]"),
                 {}};
     for (const BenchRow& row : rows)
         table.rows.push_back({std::string(row.benched->row.name), ms(row.frame.median), ms(row.frame.p95), ms(row.latency.median),

@@ -1,5 +1,4 @@
 #include "runner/experiments/live/live_run.h"
-#include "runner/experiments/run/report_writers.h"
 
 #include "renderer/sanity.h"
 #include "runner/files/durable_files.h"
@@ -259,7 +258,7 @@ Report LiveSession::play() {
         report.complete = false;
         report.interrupted = error.what();
     }
-    write_report(report, options_.folder);
+    options_.write(report);
     if (failure_)
         std::rethrow_exception(failure_);
     if (report.complete)

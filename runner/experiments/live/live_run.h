@@ -4,6 +4,8 @@
 #include "runner/findings/report.h"
 #include "runner/play/live/live_figures.h"
 
+#include <functional>
+
 namespace fernlicht {
 
 struct LiveOptions {
@@ -16,12 +18,13 @@ struct LiveOptions {
     std::filesystem::path record; ///< where the frames used are recorded; "": in the report's folder
     bool draw = true;
     std::string backend = "auto";
-    std::filesystem::path folder; ///< of the report
+    std::filesystem::path folder;             ///< of the report
+    std::function<void(const Report&)> write; ///< the report into the folder, also of what was stopped
     std::vector<std::string> command;
 };
 
-/// Plays `drive` and writes the report, also when interrupted (SIGINT, SIGTERM; `complete` says so) or stopped by an error, which is thrown
-/// on. Throws InputError for a drive without `can` and what its mapping lacks, DeviceError for what bus and device lack.
+/// Plays `drive` and has the report written, also when interrupted (SIGINT, SIGTERM; `complete` says so) or stopped by an error, which is
+/// thrown on. Throws InputError for a drive without `can` and what its mapping lacks, DeviceError for what bus and device lack.
 Report run_live(Drive drive, const LiveOptions& options);
 
 } // namespace fernlicht

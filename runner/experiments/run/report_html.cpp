@@ -1,13 +1,19 @@
 #include "report_files.h"
-#include "runner/experiments/run/page_parts.h"
-#include "runner/experiments/run/page_plots.h"
-#include "runner/experiments/run/page_signals.h"
 #include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_document.h"
 #include "runner/files/clean_text.h"
+#include "runner/findings/extent_keys.h"
+#include "runner/write/page_base.h"
+#include "runner/write/plots/lux_map.h"
+#include "runner/write/plots/png.h"
+#include "runner/write/report_texts.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <stdexcept>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -17,6 +23,195 @@ using List = data::type;
 
 /// Of pictures as they lie on disk; base64 makes a third more of it. Larger pages open slowly.
 constexpr std::size_t embedded_bytes = std::size_t{48} << 20;
+constexpr std::size_t largest_picture_bytes = std::size_t{16} << 20;
+
+std::string lamp_colour(std::size_t variant) { return plots::css(plots::lamp_colour(variant)); }
+
+struct PicturedMoment {
+    int tick = 0;
+    double time_s = 0.0;
+    std::optional<double> distance_m;
+};
+
+/// Every moment that has a picture or a map in any lamp set, in order.
+std::vector<PicturedMoment> pictured(const ComparedDrive& drive) {
+    std::map<int, PicturedMoment> moments;
+    for (const PlayedVariant* const played : drive.variants) {
+        for (const StoredFrame& frame : played->frames)
+            moments[frame.tick] = {frame.tick, frame.time_s, {}};
+        for (const LuxMap& map : played->maps)
+            moments[map.tick] = {map.tick, map.time_s, {}};
+    }
+    for (const PlayedVariant* const played : drive.variants)
+        for (const ExtentRow& row : played->extents)
+            if (const auto found = moments.find(row.tick); found != moments.end())
+                found->second.distance_m = row.distance_m;
+    std::vector<PicturedMoment> out;
+    for (const auto& [tick, moment] : moments)
+        out.push_back(moment);
+    return out;
+}
+
+std::vector<std::string> views_of(const ComparedDrive& drive) {
+    std::vector<std::string> views;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const StoredFrame& frame : played->frames)
+            // A map view has no picture of its own: it is shown as the lux map.
+            if ((!frame.png.empty() || played->maps.empty()) && std::find(views.begin(), views.end(), frame.view) == views.end())
+                views.push_back(frame.view);
+    return views;
+}
+
+const StoredFrame* find_frame(const PlayedVariant& played, int tick, const std::string& view) {
+    const auto found =
+        std::ranges::find_if(played.frames, [&](const StoredFrame& frame) { return frame.tick == tick && frame.view == view; });
+    return found == played.frames.end() ? nullptr : &*found;
+}
+
+data picture(const StoredFrame* frame, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    data part;
+    const auto missing = [&](const std::string& why) { part.set("missing", clean_text(why)); };
+    if (!frame || (frame->png.empty() && frame->exr.empty())) {
+        missing("not stored at this moment");
+        return part;
+    }
+    part.set("link", relative_link(frame->png.empty() ? frame->exr : frame->png));
+    if (frame->png.empty()) {
+        missing("stored as EXR only");
+        return part;
+    }
+    try {
+        FilesRead opened;
+        const std::string bytes = read_file(folder / frame->png, opened, std::min(largest_picture_bytes, budget_bytes));
+        budget_bytes -= std::min(budget_bytes, bytes.size());
+        part.set("embedded", plots::base64(bytes));
+    } catch (const InputError&) {
+        // Too large for what is left of the page, or gone: the link stands either way.
+        missing("not in this page");
+    }
+    return part;
+}
+
+data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const std::vector<std::string>& views,
+              const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    data rows{List::list};
+    for (const std::string& view : views) {
+        data row, cells{List::list};
+        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+            data cell = picture(find_frame(*drive.variants[i], moment.tick, view), folder, budget_bytes);
+            cell.set("lamp", short_text(drive.variants[i]->variant, 40));
+            cell.set("colour", lamp_colour(i));
+            cell.set("view", short_text(view, 40));
+            cell.set("time", figure(moment.time_s, 2));
+            cells.push_back(cell);
+        }
+        row.set("view", short_text(view, 40));
+        row.set("pictures", cells);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
+    data maps{List::list};
+    for (const PlayedVariant* const played : drive.variants)
+        for (const LuxMap& map : played->maps)
+            if (map.tick == moment.tick)
+                if (std::string svg = plots::lux_map_svg(map, played->variant); !svg.empty())
+                    maps.push_back(std::move(svg));
+    return maps;
+}
+
+/// By what differs in them, then by lamp set.
+data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    std::vector<std::pair<std::string, data>> kinds;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const PlayedVariant& played = *drive.variants[i];
+        std::vector<StoredSheet> all{{"in every technique", played.contact_sheet}};
+        all.insert(all.end(), played.more_sheets.begin(), played.more_sheets.end());
+        for (const StoredSheet& sheet : all) {
+            if (sheet.picture.png.empty())
+                continue;
+            data part = picture(&sheet.picture, folder, budget_bytes);
+            part.set("lamp", short_text(played.variant, 40));
+            part.set("colour", lamp_colour(i));
+            part.set("time", figure(sheet.picture.time_s, 2));
+            part.set("what", sheet.what);
+            auto kind = std::ranges::find(kinds, sheet.what, &std::pair<std::string, data>::first);
+            if (kind == kinds.end())
+                kind = kinds.insert(kinds.end(), {sheet.what, data{List::list}});
+            kind->second.push_back(part);
+        }
+    }
+    data out{List::list};
+    for (const auto& [what, sheets] : kinds) {
+        data kind;
+        kind.set("what", what);
+        kind.set("sheets", sheets);
+        out.push_back(kind);
+    }
+    return out;
+}
+
+/// Links to the stored pictures of moments that the page does not show.
+data links_of(const ComparedDrive& drive, const std::set<int>& shown) {
+    data links{List::list};
+    for (const PlayedVariant* const played : drive.variants)
+        for (const StoredFrame& frame : played->frames)
+            if (!shown.contains(frame.tick) && !frame.png.empty()) {
+                data link;
+                link.set("link", relative_link(frame.png));
+                link.set("text",
+                         fmt::format("{} s, {}, {}", figure(frame.time_s, 2), short_text(played->variant, 40), short_text(frame.view, 40)));
+                links.push_back(link);
+            }
+    return links;
+}
+
+/// Those with lux maps, where there are any: of the others maps were not kept.
+std::vector<PicturedMoment> shown_moments(const ComparedDrive& drive, const std::vector<PicturedMoment>& all) {
+    std::set<int> mapped;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const LuxMap& map : played->maps)
+            mapped.insert(map.tick);
+    std::vector<PicturedMoment> candidates, out;
+    for (const PicturedMoment& moment : all)
+        if (mapped.empty() || mapped.contains(moment.tick))
+            candidates.push_back(moment);
+    for (const std::size_t index : spread_over(candidates.size(), most_pictured_moments))
+        out.push_back(candidates[index]);
+    return out;
+}
+
+/// Moments with pictures: views and maps side by side per lamp set. Takes the bytes that it embeds from `budget_bytes`; pictures that no
+/// longer fit are linked.
+data moments_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    const std::vector<PicturedMoment> all = pictured(drive);
+    const std::vector<std::string> views = views_of(drive);
+    data moments{List::list};
+    std::set<int> shown;
+    for (const PicturedMoment& moment : shown_moments(drive, all)) {
+        shown.insert(moment.tick);
+        data part;
+        part.set("tick", fmt::format("{}", moment.tick));
+        part.set("time", figure(moment.time_s, 2));
+        part.set("has_distance", moment.distance_m.has_value());
+        part.set("distance", moment.distance_m ? figure(*moment.distance_m, 1) : "");
+        part.set("maps", maps_at(drive, moment));
+        part.set("views", views_at(drive, moment, views, folder, budget_bytes));
+        moments.push_back(part);
+    }
+    data part;
+    const data sheets = contact_sheets(drive, folder, budget_bytes);
+    part.set("has_sheets", sheets.is_non_empty_list());
+    part.set("kinds", sheets);
+    part.set("has_moments", !all.empty());
+    part.set("moments", moments);
+    part.set("last_moment", fmt::format("{}", shown.empty() ? 0 : shown.size() - 1));
+    part.set("has_links", shown.size() < all.size());
+    part.set("links", links_of(drive, shown));
+    return part;
+}
 
 /// What people call the drive; its name where it has no title.
 const std::string& shown_name(const ComparedDrive& drive) {
@@ -31,54 +226,6 @@ std::string title_of(const std::vector<ComparedDrive>& drives) {
     return title.empty() ? "Nothing was played" : short_text(title, 160);
 }
 
-data plots_part(const ComparedDrive& drive) {
-    data part, reaches{List::list};
-    bool has_reaches = false;
-    const auto add = [&](data& list, const std::string& svg) {
-        if (!svg.empty())
-            list.push_back(svg);
-        return !svg.empty();
-    };
-    const std::vector<double> limits_lx = plotted_limits_lx(drive);
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
-        for (const double limit_lx : limits_lx)
-            has_reaches = add(reaches, reach_svg(drive, plane, limit_lx)) || has_reaches;
-    data speeds{List::list}, timings{List::list};
-    part.set("has_reaches", has_reaches);
-    part.set("reaches", reaches);
-    add(speeds, speed_svg(drive));
-    for (const std::string& svg : car_svgs(drive))
-        add(speeds, svg);
-    part.set("speeds", speeds);
-    data seen{List::list};
-    bool has_seen = false;
-    for (const std::string& svg : seeing_svgs(drive))
-        has_seen = add(seen, svg) || has_seen;
-    data controlled{List::list};
-    bool has_controlled = false;
-    for (const std::string& svg : control_svgs(drive))
-        has_controlled = add(controlled, svg) || has_controlled;
-    part.set("has_controlled", has_controlled);
-    part.set("controlled", controlled);
-    data signals{List::list};
-    const std::vector<std::string> of_signals = signal_svgs(drive);
-    for (const std::string& svg : of_signals)
-        add(signals, svg);
-    part.set("has_signals", !of_signals.empty());
-    part.set("has_signal_light", of_signals.size() > drive.variants.front()->bus.signals.size());
-    part.set("signals", signals);
-    part.set("signal_table", signal_table(drive));
-    part.set("signal_sentence", signal_sentence(drive));
-    part.set("has_seen", has_seen);
-    part.set("seen", seen);
-    const data passes = timing_table(drive);
-    part.set("has_timing", add(timings, timing_svg(drive)) || passes.is_non_empty_list()); // short runs have tables alone
-    part.set("timings", timings);
-    part.set("passes", passes);
-    part.set("throughput", throughput_table(drive));
-    return part;
-}
-
 /// "halogen against xenon, played 2024-11-21T19:30:00Z"
 std::string subtitle_of(const Report& report) {
     std::vector<std::string> names;
@@ -91,19 +238,33 @@ std::string subtitle_of(const Report& report) {
     return (text.empty() ? "Played " : text + ", played ") + clean_text(report.context.started_utc);
 }
 
-data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes, std::size_t number) {
+data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes, bool several) {
     data part;
-    part.set("number", fmt::format("{}", number));
-    part.set("name", short_text(drive.name, 200));
-    const data headline = headline_reaches(drive);
-    part.set("has_headline", !headline.is_empty_list());
-    part.set("headline", headline);
-    part.set("extents", extent_tables(drive));
+    part.set("title", several ? short_text(drive.name, 200) : "The drive");
     part.set("pictures", moments_part(drive, folder, budget_bytes));
-    part.set("plots", plots_part(drive));
     part.set("columns", fmt::format("{}", drive.variants.size()));
-    part.set("details", details_part(drive));
-    part.set("error", error_part(drive));
+    Sections extents, others;
+    add_extents(drive, extents);
+    for (const auto add : {add_course, add_accuracy, add_details, add_drawing})
+        add(drive, others);
+    part.set("extents", sections_part(extents));
+    part.set("others", sections_part(others));
+    return part;
+}
+
+data verdict_part(const Report& report) {
+    Section section = verdict_section(report);
+    const VerdictKind verdict = overall(report);
+    const bool none = count_verdicts(report).all() == 0 && report.complete;
+    data part;
+    part.set("word", std::exchange(section.title, ""));
+    part.set("class", none ? "none" : verdict_name(verdict));
+    part.set("mark", none                            ? "\u2013"
+                     : verdict == VerdictKind::fail  ? "\u2717"
+                     : verdict == VerdictKind::flaky ? "\u2260"
+                     : verdict == VerdictKind::pass  ? "\u2713"
+                                                     : "?");
+    part.set("reasons", sections_part({section}));
     return part;
 }
 
@@ -113,24 +274,27 @@ std::string report_html(const Report& report, const std::filesystem::path& folde
     const std::vector<ComparedDrive> drives = compared_drives(report);
     std::size_t budget_bytes = embedded_bytes;
     data page, parts{List::list};
-    for (std::size_t i = 0; i < drives.size(); ++i)
-        parts.push_back(drive_part(drives[i], folder, budget_bytes, i + 1));
+    for (const ComparedDrive& drive : drives)
+        parts.push_back(drive_part(drive, folder, budget_bytes, drives.size() > 1));
     page.set("title", title_of(drives));
     page.set("subtitle", subtitle_of(report));
-    page.set("several", drives.size() > 1);
-    page.set("style", std::string(report_file("report.css")));
     page.set("script", std::string(report_file("report.js")));
-    page.set("extent_table", std::string(report_file("extent_table.mustache")));
     page.set("verdict", verdict_part(report));
     page.set("drives", parts);
-    if (report.live)
-        page.set("live", live_part(*report.live));
+    page.set("live", sections_part(report.live ? Sections{live_section(*report.live)} : Sections()));
     page.set("context", context_part(report.context));
-    kainjow::mustache::mustache page_template{std::string(report_file("report.html.mustache"))};
-    std::string html = page_template.render(page);
-    if (!page_template.is_valid())
-        throw std::logic_error("report.html.mustache: " + page_template.error_message());
-    return html;
+    return page_of("report.html.mustache", page);
+}
+
+void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables) {
+    // The figures first, the large page last: a disk that fills up takes the page before it takes the numbers.
+    write_file(folder / "readings.csv", report_csv(report));
+    write_file(folder / "times.csv", times_csv(report));
+    write_file(folder / "junit.xml", report_junit(report));
+    write_file(folder / "report.json", report_json(report));
+    if (tables != TableFormat::none)
+        write_tables(document(report), folder, tables);
+    write_file(folder / "report.html", report_html(report, folder));
 }
 
 } // namespace fernlicht

@@ -2,7 +2,7 @@
 #include "runner/experiments/accuracy/errors_json.h"
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/experiments/run/report_writers.h"
-#include "runner/experiments/run/signals_json.h"
+#include "runner/experiments/run/run_json.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/json_text.h"
 #include "runner/files/value_json.h"
@@ -16,12 +16,9 @@
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/keys/shadow_keys.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
-#include <set>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -29,14 +26,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double finite(double value, const char* what) {
-    if (!std::isfinite(value))
-        throw std::logic_error(fmt::format("report: {} is {}; a measurement that cannot be made is not_measured", what, value));
-    return value;
+/// Whoever measured what is no number owed a not_measured.
+void refuse_no_numbers(const Json& json, const std::string& place) {
+    if (json.is_number_float() && !std::isfinite(json.get<double>()))
+        throw std::logic_error(
+            fmt::format("report: {} is {}; a measurement that cannot be made is not_measured", place, json.get<double>()));
+    if (json.is_object())
+        for (const auto& [key, value] : json.items())
+            refuse_no_numbers(value, place + "/" + key);
+    else if (json.is_array())
+        for (const Json& value : json)
+            refuse_no_numbers(value, place);
 }
 
-/// Extents per moment are stored to a tenth of a millimetre: far below the grid's own error, a third of the bytes.
-double rounded(double value, const char* what) { return std::round(finite(value, what) * 1e4) / 1e4 + 0.0; }
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json pairs(const std::vector<std::pair<std::string, std::string>>& texts) {
     Json out = Json::object();
@@ -45,45 +50,13 @@ Json pairs(const std::vector<std::pair<std::string, std::string>>& texts) {
     return out;
 }
 
-Json optional_number(const std::optional<double>& value, const char* what) { return value ? Json(finite(*value, what)) : Json(nullptr); }
-
 Json spread_json(const std::optional<Spread>& spread) {
     if (!spread)
         return nullptr;
-    return {{"count", spread->count},
-            {"median", finite(spread->median, "median")},
-            {"p05", finite(spread->p05, "p05")},
-            {"p95", finite(spread->p95, "p95")},
-            {"minimum", finite(spread->minimum, "minimum")},
-            {"maximum", finite(spread->maximum, "maximum")},
-            {"mean", finite(spread->mean, "mean")},
-            {"standard_deviation", finite(spread->standard_deviation, "standard deviation")}};
-}
-
-/// Values by name, then the reasons of those that are null.
-Json with_reasons(Json entry, const std::vector<std::pair<const char*, Value>>& values) {
-    Json reasons;
-    for (const auto& [name, value] : values) {
-        entry[name] = value_json(value);
-        if (!value.measured())
-            reasons[name] = value.reason();
-    }
-    if (!reasons.is_null())
-        entry["not_measured"] = std::move(reasons);
-    return entry;
-}
-
-/// nullptr where no moment gave anything.
-Json spread_json(const ManyMoments& moments) {
-    if (moments.count() == 0)
-        return nullptr;
-    return with_reasons(Json::object({{"count", moments.count()}}), {{"median", moments.quantile(0.5)},
-                                                                     {"p05", moments.quantile(0.05)},
-                                                                     {"p95", moments.quantile(0.95)},
-                                                                     {"minimum", moments.quantile(0.0)},
-                                                                     {"maximum", moments.quantile(1.0)},
-                                                                     {"mean", moments.mean()},
-                                                                     {"standard_deviation", moments.standard_deviation()}});
+    return {{"count", spread->count},     {"median", spread->median},
+            {"p05", spread->p05},         {"p95", spread->p95},
+            {"minimum", spread->minimum}, {"maximum", spread->maximum},
+            {"mean", spread->mean},       {"standard_deviation", spread->standard_deviation}};
 }
 
 Json rows_json(const Report& report) {
@@ -104,219 +77,32 @@ Json rows_json(const Report& report) {
     return rows;
 }
 
-Json key_json(const ExtentKey& key) {
-    return {{"plane", plane_name(key.plane)}, {"lane", key.lane}, {"limit_lx", finite(key.limit_lx, "limit")}};
-}
-
-Json summary_json(const PlayedVariant& played) {
-    Json out = Json::array();
-    for (const ExtentSummary& summary : played.extent_summaries) {
-        Json entry = key_json(summary.key);
-        entry["moments"] = summary.reach.count();
-        entry["moments_cut_off"] = summary.cut_off;
-        entry["reach_m"] = spread_json(summary.reach);
-        entry["widths_m"] = Json::array();
-        for (const auto& [at_m, moments] : summary.widths)
-            entry["widths_m"].push_back({{"at_m", finite(at_m, "width's distance")}, {"width_m", spread_json(moments)}});
-        entry["area_m2"] = spread_json(summary.area);
-        std::vector<std::pair<const char*, Value>> trust{{"largest_twin_difference_m", summary.twin_difference.quantile(1.0)}};
-        if (summary.key.lane == "own")
-            trust.insert(trust.end(), {{"metres_per_tenth_degree", summary.per_tenth_degree.quantile(0.5)},
-                                       {"metres_per_tenth_flux", summary.per_tenth_flux.quantile(0.5)},
-                                       {"grid_error_m", summary.grid_error.quantile(0.5)}});
-        entry = with_reasons(std::move(entry), trust);
-        out.push_back(std::move(entry));
-    }
-    return out;
-}
-
-using ExtentsOfRow = std::vector<LaneExtent> ExtentRow::*;
-
-/// One column per quantity, one entry per moment; null where the lane is not there.
-Json series_json(const PlayedVariant& played, ExtentsOfRow source, const ExtentKey& key) {
-    Json reach = Json::array(), left_edge = Json::array(), right_edge = Json::array(), unlit = Json::array(), cut_off = Json::array(),
-         area = Json::array();
-    std::map<double, std::array<Json, 3>> widths; // left, right, width by distance ahead
-    std::size_t moment = 0;
-    bool same_direction = true;
-    for (const ExtentRow& row : played.extents) {
-        const LaneExtent* const extent = find_extent(row.*source, key);
-        const auto metres = [&](double value, const char* what) { return extent ? Json(rounded(value, what)) : Json(nullptr); };
-        static const LaneExtent nothing;
-        const LaneExtent& shown = extent ? *extent : nothing;
-        same_direction = extent ? extent->same_direction : same_direction;
-        reach.push_back(metres(shown.reach_centre_m, "reach"));
-        left_edge.push_back(metres(shown.reach_left_edge_m, "reach at the left edge"));
-        right_edge.push_back(metres(shown.reach_right_edge_m, "reach at the right edge"));
-        unlit.push_back(metres(shown.unlit_before_reach_m, "unlit length"));
-        cut_off.push_back(extent ? Json(extent->reach_is_cut_off) : Json(nullptr));
-        area.push_back(metres(shown.area_m2, "area"));
-        for (const LaneExtent::Width& width : shown.widths) {
-            auto& columns = widths[finite(width.at_m, "width's distance")];
-            const std::array<double, 3> values{width.left_m, width.right_m, width.width_m};
-            for (std::size_t i = 0; i < columns.size(); ++i) {
-                if (columns[i].is_null())
-                    columns[i] = Json::array();
-                while (columns[i].size() < moment)
-                    columns[i].push_back(nullptr);
-                columns[i].push_back(rounded(values[i], "width"));
-            }
-        }
-        ++moment;
-    }
-    Json out = key_json(key);
-    out["same_direction"] = same_direction;
-    out["reach_centre_m"] = reach;
-    out["reach_left_edge_m"] = left_edge;
-    out["reach_right_edge_m"] = right_edge;
-    out["unlit_before_reach_m"] = unlit;
-    out["reach_is_cut_off"] = cut_off;
-    out["area_m2"] = area;
-    out["widths"] = Json::array();
-    for (auto& [at_m, columns] : widths) {
-        for (Json& column : columns)
-            while (column.size() < moment)
-                column.push_back(nullptr);
-        out["widths"].push_back({{"at_m", at_m}, {"left_m", columns[0]}, {"right_m", columns[1]}, {"width_m", columns[2]}});
-    }
-    return out;
-}
-
-/// Sensitivities or grid errors of the own lane: one column per quantity of each (plane, limit).
-template <class Entry> Json columns_json(const PlayedVariant& played, std::vector<Entry> ExtentRow::*entries,
-                                         const std::vector<std::pair<const char*, std::optional<double> (*)(const Entry&)>>& quantities) {
-    std::vector<std::pair<ExtentPlane, double>> keys;
-    for (const ExtentRow& row : played.extents)
-        for (const Entry& entry : row.*entries)
-            if (std::find(keys.begin(), keys.end(), std::pair(entry.plane, entry.limit_lx)) == keys.end())
-                keys.emplace_back(entry.plane, entry.limit_lx);
-    Json out = Json::array();
-    for (const auto& [plane, limit_lx] : keys) {
-        Json columns{{"plane", plane_name(plane)}, {"limit_lx", finite(limit_lx, "limit")}};
-        for (const auto& [name, quantity] : quantities) {
-            Json column = Json::array();
-            for (const ExtentRow& row : played.extents) {
-                const auto found = std::find_if((row.*entries).begin(), (row.*entries).end(),
-                                                [&](const Entry& entry) { return entry.plane == plane && entry.limit_lx == limit_lx; });
-                const std::optional<double> value = found == (row.*entries).end() ? std::nullopt : quantity(*found);
-                column.push_back(value ? Json(rounded(*value, name)) : Json(nullptr));
-            }
-            columns[name] = std::move(column);
-        }
-        out.push_back(std::move(columns));
-    }
-    return out;
-}
-
-Json extents_json(const PlayedVariant& played) {
-    Json frames = Json::array(), time = Json::array(), distance = Json::array();
-    for (const ExtentRow& row : played.extents) {
-        frames.push_back(row.tick);
-        time.push_back(rounded(row.time_s, "time"));
-        distance.push_back(rounded(row.distance_m, "distance"));
-    }
-    Json out{{"frame", frames}, {"time_s", time}, {"distance_m", distance}, {"rendered", Json::array()}, {"twin", Json::array()}};
-    for (const ExtentKey& key : extent_keys(played)) {
-        const auto occurs = [&](ExtentsOfRow source) {
-            return std::any_of(played.extents.begin(), played.extents.end(),
-                               [&](const ExtentRow& row) { return find_extent(row.*source, key) != nullptr; });
-        };
-        if (occurs(&ExtentRow::rendered))
-            out["rendered"].push_back(series_json(played, &ExtentRow::rendered, key));
-        if (occurs(&ExtentRow::twin))
-            out["twin"].push_back(series_json(played, &ExtentRow::twin, key));
-    }
-    out["sensitivity"] = columns_json<ReachSensitivity>(
-        played, &ExtentRow::sensitivity,
-        {{"metres_per_tenth_degree", [](const ReachSensitivity& of) -> std::optional<double> { return of.metres_per_tenth_degree; }},
-         {"metres_per_tenth_flux", [](const ReachSensitivity& of) -> std::optional<double> { return of.metres_per_tenth_flux; }}});
-    out["grid_error"] = columns_json<GridError>(played, &ExtentRow::grid_errors,
-                                                {{"reach_m", [](const GridError& of) { return of.reach_m; }},
-                                                 {"area_m2", [](const GridError& of) -> std::optional<double> { return of.area_m2; }}});
-    return out;
-}
-
-/// Seven digits: far below what any of the lamp tables knows.
-double seven_digits(double value) { return std::stod(fmt::format("{:.7g}", value)); }
-
-Json seven_digits(double value, const std::string& what) { return seven_digits(finite(value, what.c_str())); }
-
-Json seven_digits(const Value& value) {
-    switch (value.kind()) {
-    case Value::Kind::at_least:
-        return value_json(Value::at_least(seven_digits(value.low())));
-    case Value::Kind::at_most:
-        return value_json(Value::at_most(seven_digits(value.high())));
-    case Value::Kind::number:
-        return seven_digits(value.low());
-    case Value::Kind::not_measured:
-        break;
-    }
-    return nullptr;
-}
-
-/// Columns with one entry per moment; null where it was not measured, with the reasons that there are.
-Json seeing_json(const std::vector<SeeingSeries>& all) {
-    Json out = Json::array();
-    for (const SeeingSeries& series : all) {
-        Json at = Json::array(), columns = Json::array();
-        for (const double at_m : series.at_m)
-            at.push_back(rounded(at_m, series.over.c_str()));
-        for (const SeeingSeries::Column& column : series.columns) {
-            Json values = Json::array();
-            std::set<std::string> reasons;
-            for (const Value& value : column.values) {
-                values.push_back(seven_digits(value));
-                if (!value.measured())
-                    reasons.insert(value.reason());
-            }
-            columns.push_back({{"name", column.name}, {"what", column.label}, {"unit", column.unit}, {"values", std::move(values)}});
-            if (!reasons.empty())
-                columns.back()["not_measured"] = reasons;
-        }
-        out.push_back({{"subject", series.subject}, {"over", series.over}, {"frame", series.ticks}, {"at_m", at}, {"columns", columns}});
-    }
-    return out;
-}
-
 Json contact_sheet_json(const StoredFrame& sheet) {
     if (sheet.png.empty())
         return nullptr;
-    return {{"frame", sheet.tick}, {"time_s", finite(sheet.time_s, "time")}, {"png", sheet.png}};
+    return {{"frame", sheet.tick}, {"time_s", sheet.time_s}, {"png", sheet.png}};
 }
 
 Json more_sheets_json(const std::vector<StoredSheet>& sheets) {
-    Json out = Json::array();
-    for (const StoredSheet& sheet : sheets)
-        out.push_back({{"what", sheet.what},
-                       {"frame", sheet.picture.tick},
-                       {"time_s", finite(sheet.picture.time_s, "time")},
-                       {"png", sheet.picture.png}});
-    return out;
+    return list_of(sheets, [](const StoredSheet& sheet) {
+        return Json{{"what", sheet.what}, {"frame", sheet.picture.tick}, {"time_s", sheet.picture.time_s}, {"png", sheet.picture.png}};
+    });
 }
 
 Json shadow_choice_json(const ShadowChoice& choice) {
-    Json tried = Json::array();
-    for (const TriedShadows& one : choice.tried) {
-        Json row{{"method", name(one.method)}};
-        if (one.error) {
-            row["error"] = finite(*one.error, "shadow error");
-            row["worst_s"] = finite(one.worst_s, "time");
-            row["worst_variant"] = one.worst_set;
-            row["worst_view"] = one.worst_view;
-            row["pictures"] = one.pictures;
-        } else {
-            row["refused"] = one.refused;
-        }
-        tried.push_back(std::move(row));
-    }
+    const auto tried = [](const TriedShadows& one) {
+        if (!one.error)
+            return Json{{"method", name(one.method)}, {"refused", one.refused}};
+        return Json{{"method", name(one.method)},     {"error", *one.error},          {"worst_s", one.worst_s},
+                    {"worst_variant", one.worst_set}, {"worst_view", one.worst_view}, {"pictures", one.pictures}};
+    };
     return {{"chosen", name(choice.chosen)},
             {"why", choice.why},
             {"error_bound", choice.bound},
             {"moments", choice.ticks},
             {"moments_shadowed", choice.ticks_shadowed},
             {"moments_compared", choice.compared},
-            {"tried", tried}};
+            {"tried", list_of(choice.tried, tried)}};
 }
 
 Json drawn_shadows_json(const DrawnBy& drawn) {
@@ -326,25 +112,23 @@ Json drawn_shadows_json(const DrawnBy& drawn) {
     return {{"method", name(drawn.shadows.method)},
             {"things_cast", drawn.shadows.things_cast},
             {"settings", settings},
-            {"not_used", drawn.shadows_instead.empty() ? Json(nullptr) : Json(drawn.shadows_instead)}};
+            {"not_used", text_or_null(drawn.shadows_instead)}};
 }
 
 Json shown_by_json(const DrawnBy& drawn) {
     const DisplayProfile display = display_of(drawn);
     const bool has_s = drawn.tone_mapper.kind == ToneMapperKind::rational || drawn.tone_mapper.kind == ToneMapperKind::logarithmic;
-    Json shown = Json::array();
-    for (const double seen : {0.1, 1.0, 10.0})
-        shown.push_back({{"seen_cdm2", seen}, {"shown_cdm2", seven_digits(shown_cdm2(drawn, seen), "luminance of the display")}});
+    const auto shown = [&](double seen) { return Json{{"seen_cdm2", seen}, {"shown_cdm2", seven_digits(shown_cdm2(drawn, seen))}}; };
     return {{"text", shown_by(drawn.display, drawn.tone_mapper)},
             {"tone_mapper", name(drawn.tone_mapper.kind)},
-            {"s", has_s ? Json(finite(drawn.tone_mapper.s, "s")) : Json(nullptr)},
-            {"white_cdm2", finite(drawn.tone_mapper.l_max_cdm2, "white")},
+            {"s", has_s ? Json(drawn.tone_mapper.s) : Json(nullptr)},
+            {"white_cdm2", drawn.tone_mapper.l_max_cdm2},
             {"display", display.name},
             {"gamut", display.gamut == GamutRule::clip ? "clip" : "keep-luminance"},
-            {"peak_cdm2", seven_digits(display.peak_cdm2(), "peak")},
-            {"black_cdm2", finite(display.black_cdm2, "black")},
+            {"peak_cdm2", seven_digits(display.peak_cdm2())},
+            {"black_cdm2", display.black_cdm2},
             {"stages", display_stages(drawn)},
-            {"luminances", shown}};
+            {"luminances", list_of(std::array{0.1, 1.0, 10.0}, shown)}};
 }
 
 Json seen_display_json(const SeenDisplay& seen) {
@@ -352,22 +136,22 @@ Json seen_display_json(const SeenDisplay& seen) {
     for (const SeenView& view : seen.views) {
         const std::optional<double> resolved = view.resolved();
         Json row{{"view", view.view},
-                 {"scene_pixel_arcmin", finite(view.size.scene_pixel_arcmin, "angle of a pixel")},
-                 {"display_pixel_arcmin", finite(view.size.display_pixel_arcmin, "angle of a pixel")},
-                 {"magnification", finite(view.size.magnification(), "magnification")},
-                 {"life_size_m", finite(view.size.life_size_m, "viewing distance")},
+                 {"scene_pixel_arcmin", view.size.scene_pixel_arcmin},
+                 {"display_pixel_arcmin", view.size.display_pixel_arcmin},
+                 {"magnification", view.size.magnification()},
+                 {"life_size_m", view.size.life_size_m},
                  {"finer_than_eye_by_day", view.finer_by_day()},
                  {"pictures", view.pictures},
-                 {"mean_cdm2", optional_number(view.mean_cdm2, "luminance of the display")},
-                 {"resolved_arcmin", optional_number(resolved, "what the eye resolves")},
+                 {"mean_cdm2", or_null(view.mean_cdm2)},
+                 {"resolved_arcmin", or_null(resolved)},
                  {"finer_than_eye", resolved ? Json(view.size.display_pixel_arcmin <= *resolved) : Json(nullptr)}};
         if (!view.mean_cdm2)
             row["not_measured"] = "no picture of this view was shown by the profile";
         views.push_back(std::move(row));
     }
     return {{"profile", seen.profile},
-            {"viewing_distance_m", finite(seen.viewing_distance_m, "viewing distance")},
-            {"pixel_pitch_mm", finite(seen.pixel_pitch_mm, "pixel pitch")},
+            {"viewing_distance_m", seen.viewing_distance_m},
+            {"pixel_pitch_mm", seen.pixel_pitch_mm},
             {"views", views}};
 }
 
@@ -386,7 +170,7 @@ Json accuracy_json(const DriveError& error) {
                 {"luminance", errors_json(error.luminance, error.no_luminance, error.ticks)},
                 {"reach", reach_json(error.reach)}};
     if (error.lamp_radius_m > 0.0)
-        out["lamp_radius_m"] = finite(error.lamp_radius_m, "radius of lamps");
+        out["lamp_radius_m"] = error.lamp_radius_m;
     return out;
 }
 
@@ -394,13 +178,13 @@ Json accuracy_json(const DriveError& error) {
 Json car_json(const std::vector<CarRow>& rows) {
     Json columns;
     for (const CarRow& row : rows) {
-        columns["time_s"].push_back(finite(row.time_s, "time"));
-        columns["pitch_deg"].push_back(finite(row.pitch_deg, "pitch"));
-        columns["rear_lift_mm"].push_back(finite(row.rear_lift_mm, "lift"));
+        columns["time_s"].push_back(row.time_s);
+        columns["pitch_deg"].push_back(row.pitch_deg);
+        columns["rear_lift_mm"].push_back(row.rear_lift_mm);
         if (row.levelling_deg)
-            columns["levelling_deg"].push_back(finite(*row.levelling_deg, "levelling"));
+            columns["levelling_deg"].push_back(*row.levelling_deg);
         if (row.swivel_deg)
-            columns["swivel_deg"].push_back(finite(*row.swivel_deg, "swivel"));
+            columns["swivel_deg"].push_back(*row.swivel_deg);
     }
     return columns;
 }
@@ -412,25 +196,21 @@ Json accuracy_times_json(const Report& report) {
         if (played.error.measured())
             out.push_back({{"drive", played.drive},
                            {"variant", played.variant},
-                           {"frame_s", optional_number(played.throughput.view_s, "time a frame")},
-                           {"comparing_s", finite(played.error.seconds, "time of comparing")}});
+                           {"frame_s", or_null(played.throughput.view_s)},
+                           {"comparing_s", played.error.seconds}});
     return out;
 }
 
 Json timing_json(const Report& report) {
     Json out = Json::array();
     for (const PlayedVariant& played : report.played)
-        for (const PassTime& pass : played.passes) {
-            Json samples = Json::array();
-            for (const double seconds : pass.seconds)
-                samples.push_back(finite(seconds, "a time"));
+        for (const PassTime& pass : played.passes)
             out.push_back({{"drive", played.drive},
                            {"variant", played.variant},
                            {"pass", pass.name},
                            {"warm_up_dropped", played.warm_up_dropped},
                            {"spread_s", spread_json(spread_of(pass.seconds))},
-                           {"samples_s", samples}});
-        }
+                           {"samples_s", pass.seconds}});
     return out;
 }
 
@@ -443,13 +223,13 @@ Json throughput_json(const Report& report) {
         out.push_back({{"drive", played.drive},
                        {"variant", played.variant},
                        {"moments", t.moments},
-                       {"wall_s", finite(t.wall_s, "wall time")},
-                       {"moments_per_s", optional_number(t.moments_per_s(), "moments per second")},
-                       {"driver_view_alone_per_s", optional_number(per_s(t.view_s), "driver's views per second")},
-                       {"all_drawing_alone_per_s", optional_number(per_s(t.drawing_s), "drawn moments per second")},
-                       {"share_of_driver_view_alone", optional_number(t.share_of(t.view_s), "share of the driver's view")},
-                       {"share_of_all_drawing_alone", optional_number(t.share_of(t.drawing_s), "share of all drawing")},
-                       {"peak_memory_mib", finite(t.peak_memory_mib, "peak memory")}});
+                       {"wall_s", t.wall_s},
+                       {"moments_per_s", or_null(t.moments_per_s())},
+                       {"driver_view_alone_per_s", or_null(per_s(t.view_s))},
+                       {"all_drawing_alone_per_s", or_null(per_s(t.drawing_s))},
+                       {"share_of_driver_view_alone", or_null(t.share_of(t.view_s))},
+                       {"share_of_all_drawing_alone", or_null(t.share_of(t.drawing_s))},
+                       {"peak_memory_mib", t.peak_memory_mib}});
     }
     return out;
 }
@@ -487,15 +267,13 @@ Json savings_json(const Report& report) {
 } // namespace
 
 nlohmann::ordered_json played_json(const PlayedVariant& played) {
-    Json frames = Json::array(), speed = Json::array();
-    for (const StoredFrame& frame : played.frames)
-        frames.push_back({{"frame", frame.tick},
-                          {"time_s", finite(frame.time_s, "time")},
-                          {"view", frame.view},
-                          {"png", frame.png.empty() ? Json(nullptr) : Json(frame.png)},
-                          {"exr", frame.exr.empty() ? Json(nullptr) : Json(frame.exr)}});
-    for (const auto& [time_s, mps] : played.speed_mps)
-        speed.push_back({finite(time_s, "time"), finite(mps, "speed")});
+    const auto frame_json = [](const StoredFrame& frame) {
+        return Json{{"frame", frame.tick},
+                    {"time_s", frame.time_s},
+                    {"view", frame.view},
+                    {"png", text_or_null(frame.png)},
+                    {"exr", text_or_null(frame.exr)}};
+    };
     Json json{{"drive", played.drive},
               {"variant", played.variant},
               {"technique", played.technique},
@@ -508,9 +286,9 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
               {"left_out", played.left_out},
               {"notes", played.notes},
               {"summary", summary_json(played)},
-              {"frames", frames},
+              {"frames", list_of(played.frames, frame_json)},
               {"contact_sheet", contact_sheet_json(played.contact_sheet)},
-              {"speed_mps", speed},
+              {"speed_mps", played.speed_mps},
               {"accuracy", accuracy_json(played.error)},
               {"extents", extents_json(played)}};
     if (played.drawn_by) {
@@ -533,9 +311,6 @@ nlohmann::ordered_json played_json(const PlayedVariant& played) {
 }
 
 std::string report_json(const Report& report) {
-    Json drives = Json::array();
-    for (const PlayedVariant& played : report.played)
-        drives.push_back(played_json(played));
     Json whole{{"schema", "fernlicht report"},
                {"schema_version", 1},
                {"verdict", verdict_name(overall(report))},
@@ -545,7 +320,7 @@ std::string report_json(const Report& report) {
                {"complete", report.complete},
                {"interrupted", report.complete ? Json(nullptr) : Json(report.interrupted)},
                {"rows", rows_json(report)},
-               {"drives", drives},
+               {"drives", list_of(report.played, played_json)},
                {"context", context_json(report.context)},
                {"timing", timing_json(report)},
                {"throughput", throughput_json(report)},
@@ -553,6 +328,7 @@ std::string report_json(const Report& report) {
                {"savings", savings_json(report)}};
     if (report.live)
         whole["live"] = live_json(*report.live);
+    refuse_no_numbers(whole, "");
     return json_text(whole);
 }
 

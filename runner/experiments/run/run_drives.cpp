@@ -317,36 +317,25 @@ void repeat(const std::deque<Stage>& stages, Device& device, const RendererSetti
     }
 }
 
-/// So that nobody takes what is read of a part for the whole drive.
-void note_parts(const std::deque<Stage>& stages, const TickRange& ticks, Report& report) {
+/// So that nobody takes a part for the whole drive, a technique's own shadows, or none, for those that were asked for, what a display hides
+/// for what lamps do not light, and what policies made up for what a car said.
+void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& drives, const TickRange& ticks, Report& report) {
     for (const Stage& stage : stages)
         if (const int asked = ticks_to_play(stage.drive, ticks), all = tick_count(stage.drive); asked < all)
             report.warnings.push_back(fmt::format("{}: {} of {} moments were to be played (--frames), and readings are of these alone",
                                                   stage.drive.name, asked, all));
-}
-
-/// So that nobody takes a technique's own shadows, or none, for those of the method that was asked for.
-void note_shadows(const std::vector<Drive>& drives, Report& report) {
+    for (const Stage& stage : stages)
+        std::ranges::copy(bus_warnings(stage.drive), std::back_inserter(report.warnings));
     for (const Drive& drive : drives) {
         const std::string instead = shadows_instead(drive);
         if (!instead.empty() && drive.shadows.method != ShadowMethod::map) // which nobody needs to ask for
             report.warnings.push_back(fmt::format("{}: shadows by '{}' were asked for, and technique {} does not use it: {}", drive.name,
                                                   name(drive.shadows.method), drive.technique, instead));
     }
-}
-
-/// So that nobody takes what a display hides for what lamps do not light.
-void note_displays(const std::vector<Drive>& drives, Report& report) {
     for (const Drive& drive : drives)
         if (drive.display.profile)
             for (const std::string& warning : display_warnings(*drive.display.profile))
                 report.warnings.push_back(fmt::format("{}: {}", drive.name, warning));
-}
-
-/// So that nobody takes what policies made up for what a car said.
-void note_buses(const std::deque<Stage>& stages, Report& report) {
-    for (const Stage& stage : stages)
-        std::ranges::copy(bus_warnings(stage.drive), std::back_inserter(report.warnings));
 }
 
 /// Verdicts that need all of the run.
@@ -384,6 +373,7 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     Report report;
     report.context = make_context(device.info(), options.command, drives.front().seed);
     const Interruption listening;
+    std::exception_ptr failure;
     try {
         for (Stage& stage : stages)
             if (report.complete)
@@ -394,18 +384,12 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     } catch (const std::exception& error) {
         report.complete = false;
         report.interrupted = error.what();
-        note_parts(stages, options.ticks, report);
-        note_buses(stages, report);
-        note_shadows(drives, report);
-        note_displays(drives, report);
-        write_report(report, options.folder);
-        throw;
+        failure = std::current_exception();
     }
-    note_parts(stages, options.ticks, report);
-    note_buses(stages, report);
-    note_shadows(drives, report);
-    note_displays(drives, report);
-    write_report(report, options.folder);
+    add_warnings(stages, drives, options.ticks, report);
+    write_report(report, options.folder, options.tables);
+    if (failure)
+        std::rethrow_exception(failure);
     if (report.complete)
         folder.finish();
     return report;

@@ -3,6 +3,7 @@
 
 #include "runner/judge/known_failures.h"
 #include "runner/play/play.h"
+#include "runner/write/document.h"
 
 namespace fernlicht {
 
@@ -16,9 +17,10 @@ struct RunOptions {
     bool across_devices = false;      ///< where this class of device has none, by those of others
     int repeats = 1;                  ///< plays of each lamp set; all must agree
     std::optional<KnownFailures> known;
-    std::string today;          ///< 2026-12-31: by which known failures expire
-    bool accuracy = true;       ///< hold a few moments of each lamp set against the reference
-    bool contact_sheet = false; ///< add one moment of each lamp set, drawn in every technique
+    std::string today;                      ///< 2026-12-31: by which known failures expire
+    bool accuracy = true;                   ///< hold a few moments of each lamp set against the reference
+    bool contact_sheet = false;             ///< add one moment of each lamp set, drawn in every technique
+    TableFormat tables = TableFormat::none; ///< of the page, as files, too
     std::vector<std::string> command;
 };
 

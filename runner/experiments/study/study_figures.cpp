@@ -1,13 +1,13 @@
 #include "metrics/readings/reading_words.h"
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/runs/lux_ratio.h"
-#include "runner/experiments/run/page_plots.h"
 #include "runner/experiments/study/study_maps.h"
 #include "runner/experiments/study/study_words.h"
 #include "runner/experiments/study/study_writers.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/write/plots/lux_map.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -126,7 +126,7 @@ void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, 
         if (maps.back())
             figures.push_back({fmt::format("lux_{}", result.cells[cell].cell.name),
                                fmt::format("{}: {}", lamp_of(result, cell), place_of(result, group)),
-                               lux_map_svg(*maps.back(), lamp_of(result, cell) + ", " + place_of(result, group)),
+                               plots::lux_map_svg(*maps.back(), lamp_of(result, cell) + ", " + place_of(result, group)),
                                {cell}});
     }
     for (const StudyComparison& pair : result.study.comparisons)

@@ -1,11 +1,11 @@
 #include "metrics/readings/reading_words.h"
-#include "runner/experiments/run/report_writers.h"
 #include "runner/experiments/study/lamp_verdict.h"
 #include "runner/experiments/study/study_words.h"
 #include "runner/experiments/study/study_writers.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/judge/verdict_line.h"
+#include "runner/write/report_texts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "runner/write/plots/canvas.h"
 
+#include "runner/files/clean_text.h"
 #include "runner/write/plots/png.h"
 
 #include <cmath>
@@ -32,32 +33,6 @@ std::string path_of(const Polyline& points) {
 
 } // namespace
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            out += "&amp;";
-            break;
-        case '<':
-            out += "&lt;";
-            break;
-        case '>':
-            out += "&gt;";
-            break;
-        case '"':
-            out += "&quot;";
-            break;
-        case '\'':
-            out += "&#39;";
-            break;
-        default:
-            out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-        }
-    }
-    return out;
-}
-
 double text_width(const std::string& text, double size_px) {
     double em = 0.0;
     for (const char c : text) {
@@ -76,7 +51,7 @@ Canvas::Canvas(double width, double height, const std::string& title) {
                     "font-family=\"'DejaVu Sans','Liberation Sans',Helvetica,Arial,sans-serif\">\n",
                     px(width), px(height));
     if (!title.empty())
-        svg_ += "<title>" + escaped(title) + "</title>\n";
+        svg_ += "<title>" + xml_text(title) + "</title>\n";
 }
 
 void Canvas::line(const Polyline& points, const Stroke& stroke) {
@@ -85,7 +60,7 @@ void Canvas::line(const Polyline& points, const Stroke& stroke) {
     svg_ += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"", path_of(points),
                         css(stroke.colour), px(stroke.width_px));
     if (!stroke.dash.empty())
-        svg_ += " stroke-dasharray=\"" + escaped(stroke.dash) + "\"";
+        svg_ += " stroke-dasharray=\"" + xml_text(stroke.dash) + "\"";
     if (stroke.opacity < 1.0)
         svg_ += " stroke-opacity=\"" + px(stroke.opacity) + "\"";
     svg_ += "/>\n";
@@ -120,7 +95,7 @@ void Canvas::text(double x, double y, const std::string& words, const Lettering&
         attributes += " text-anchor=\"" + l.anchor + "\"";
     if (l.turn_deg != 0.0)
         attributes += fmt::format(" transform=\"rotate({} {} {})\"", px(l.turn_deg), px(x), px(y));
-    const std::string content = escaped(words) + "</text>\n";
+    const std::string content = xml_text(words) + "</text>\n";
     if (l.halo != "none") // a text of its own, for drawers that do not know paint-order
         svg_ +=
             fmt::format("<text {} fill=\"none\" stroke=\"{}\" stroke-width=\"3\" stroke-linejoin=\"round\">", attributes, l.halo) + content;

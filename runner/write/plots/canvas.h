@@ -34,9 +34,6 @@ struct Lettering {
 /// Estimated width; SVG text has no measure before it is drawn.
 double text_width(const std::string& text, double size_px);
 
-/// For XML text and attributes: & < > " ' escaped, control characters that XML forbids replaced by spaces.
-std::string escaped(const std::string& text);
-
 class Canvas {
   public:
     Canvas(double width, double height, const std::string& title);

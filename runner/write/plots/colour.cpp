@@ -46,6 +46,12 @@ Colour series_colour(std::size_t n) {
     return colours[n % colours.size()];
 }
 
+Colour lamp_colour(std::size_t n) {
+    static constexpr std::array<Colour, 6> colours{
+        {{194, 78, 0}, {0, 104, 168}, {0, 121, 90}, {168, 64, 127}, {138, 106, 0}, {74, 74, 74}}};
+    return colours[n % colours.size()];
+}
+
 Colour sequential(double t) {
     t = std::clamp(t, 0.0, 1.0);
     // Within what sRGB can show at each hue (least, 0.092, in the blue-greens): a clipped component would draw an edge that the data

@@ -17,6 +17,9 @@ std::string css(Colour colour); ///< "#rrggbb"
 /// Colour of the n-th series: the eight colours of Okabe and Ito (2008) without yellow, round again after the last.
 Colour series_colour(std::size_t n);
 
+/// Of a run's n-th lamp set, in every table and plot (after Okabe and Ito, too, darker); starts again after six.
+Colour lamp_colour(std::size_t n);
+
 /// Sequential map 0..1 (clamped), dark violet over blue and green to light yellow. Lightness rises evenly and monotonically
 /// (straight in OKLab's L), so that it reads as "more" in colour, in grey and for every kind of colour vision.
 Colour sequential(double t);

@@ -138,7 +138,7 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
           "Display <code>hdr-monitor</code> (HDR monitor, 1000 cd/m2): peak 1000 cd/m², black 0.001 cd/m², 16 bits; colours "
           "that it does not hold keep their luminance",
           "0.1, 1 and 10 cd/m² is shown with 19.6, 168 and 690 cd/m² at first", "redraw_texels 0.5, lamp_radius_m 0.06, lamp_places 2)",
-          "<td>display: veil in the eye</td>", "<td>display: tone mapper and display</td>"})
+          ">display: veil in the eye</td>", ">display: tone mapper and display</td>"})
         EXPECT_THAT(page, testing::HasSubstr(words));
 
     // Published techniques have shadows of their own, or none.

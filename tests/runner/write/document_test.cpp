@@ -85,10 +85,46 @@ TEST_F(ToyExperiment, BecomesMarkdown) {
               "stood | |\n");
 }
 
-TEST_F(ToyExperiment, LeavesAPageAndItsPlots) {
+TEST_F(ToyExperiment, BecomesLatex) {
+    EXPECT_EQ(table_latex(std::get<Table>(document(result).sections[0].blocks.back())),
+              "% How it fell\n\\begin{tabular}{lrr}\n\\toprule\n\\multicolumn{1}{c}{} & \\multicolumn{2}{c}{of all} \\\\\n"
+              "\\cmidrule(lr){2-3}\nside & share [\\%] & count \\\\\n\\midrule\nheads \\textbar{} tails & 37.5 &  \\\\\n"
+              "edge & \\multicolumn{2}{l}{not measured, it never stood} \\\\\n\\bottomrule\n\\end{tabular}\n");
+    const Table hostile{"signs",
+                        "50 %\n\\input{x}",
+                        {{"a_b & c"}, {"\u2264"}},
+                        {{"$1 #2 {x} ~^<\"", "\u2212"
+                                             "1.5"}}};
+    EXPECT_EQ(table_latex(hostile), "% 50 %\u240a\\input{x}\n\\begin{tabular}{rr}\n\\toprule\na\\_b \\& c & $\\le$ \\\\\n\\midrule\n"
+                                    "\\$1 \\#2 \\{x\\} \\textasciitilde{}\\textasciicircum{}\\textless{}'' & $-$1.5 \\\\\n"
+                                    "\\bottomrule\n\\end{tabular}\n");
+}
+
+TEST_F(ToyExperiment, BecomesCsvThatASpreadsheetAdds) {
+    EXPECT_EQ(table_csv(std::get<Table>(document(result).sections[0].blocks.back())),
+              "side,\"of all share, %\",of all count\r\nheads | tails,37.5,\r\nedge,\"not measured, it never stood\",\r\n");
+    EXPECT_EQ(table_csv({"signs",
+                         "",
+                         {{"a"}, {"b"}, {"c"}},
+                         {{"\u2212"
+                           "1.5",
+                           "+2", "=1+1"}}}),
+              "a,b,c\r\n-1.5,2,'=1+1\r\n");
+}
+
+TEST_F(ToyExperiment, SaysWhatIsTypedAndLists) {
+    const Document typed{"Typed", {{"Ways", {"By `a<b>` and `c", Listing{{"one of `d`", "two"}}}, 3}}};
+    for (const char* part : {"<h3>Ways</h3>", "<p>By <code>a&lt;b&gt;</code> and `c</p>", "<li>one of <code>d</code></li>", "<li>two</li>"})
+        EXPECT_THAT(document_html(typed, result), HasSubstr(part));
+    EXPECT_THAT(document_text(typed), HasSubstr("By `a<b>` and `c\n- one of `d`\n- two\n"));
+}
+
+TEST_F(ToyExperiment, LeavesAPageItsPlotsAndItsTables) {
     const TemporaryFolder folder;
-    write_document(document(result), result, folder.path(), "coins");
-    for (const char* name : {"coins.html", "toss_error.svg", "toss_error.png"})
+    write_document(document(result), result, folder.path(), "coins", TableFormat::tex);
+    write_tables(document(result), folder.path(), TableFormat::csv);
+    for (const char* name :
+         {"coins.html", "toss_error.svg", "toss_error.png", "tables/toss.tex", "tables/toss.csv", "tables/toss_error.csv"})
         EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
 }
 

@@ -1,8 +1,8 @@
 #include "runner/experiments/compare/runs/lux_ratio.h"
 
 #include "runner/experiments/compare/lamps/lamp_against.h"
-#include "runner/experiments/run/page_plots.h"
 #include "runner/files/picture_file.h"
+#include "runner/write/plots/lux_map.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -98,7 +98,7 @@ std::string lux_ratio_svg(const LuxMap& now, const LuxMap& before, const std::st
         fmt::format("after {:.2f} s; blue is less, orange more light; grey: below {:g} lx with both", now.time_s, faintest_lx);
     figure.colour_bar = plots::ColourBar{axis, true};
     figure.rasters.push_back({plots::difference_map(ratio, axis, {225, 225, 225}), -now.behind_m, now.ahead_m, now.left_m, -now.right_m});
-    add_edges(figure, now, {90, 95, 105});
+    plots::add_edges(figure, now, {90, 95, 105});
     return plots::svg_of(figure);
 }
 

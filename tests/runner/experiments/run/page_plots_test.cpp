@@ -1,5 +1,5 @@
 // Figures of the page, by what stands on their axes.
-#include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/run/run_plots.h"
 
 #include <gmock/gmock.h>
 

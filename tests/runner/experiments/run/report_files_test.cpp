@@ -1,5 +1,6 @@
 #include "runner/experiments/run/report_writers.h"
 #include "runner/files/clean_text.h"
+#include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/sample_report.h"
 
@@ -203,8 +204,8 @@ TEST(WriteReport, WritesAllFourOrSaysWhyNot) {
     std::filesystem::remove_all(folder);
     EXPECT_THROW(write_report(tests::sample_report(1), folder), DeviceError);
     std::filesystem::create_directories(folder);
-    write_report(tests::sample_report(1), folder);
-    for (const char* const name : {"report.json", "junit.xml", "readings.csv", "report.html"})
+    write_report(tests::sample_report(1), folder, TableFormat::tex);
+    for (const char* const name : {"report.json", "junit.xml", "readings.csv", "report.html", "tables/country_road-readings.tex"})
         EXPECT_TRUE(std::filesystem::is_regular_file(folder / name)) << name;
     std::filesystem::remove_all(folder);
 }

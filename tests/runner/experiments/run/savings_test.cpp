@@ -2,6 +2,7 @@
 #include "runner/experiments/run/savings.h"
 
 #include "runner/experiments/run/report_writers.h"
+#include "runner/write/report_texts.h"
 #include "tests/runner/program.h"
 #include "tests/runner/sample_report.h"
 #include "tests/runner/schema_check.h"
@@ -91,7 +92,7 @@ TEST(Savings, StandInAllFilesOfTheReport) {
     const std::string page = report_html(report, "/nonexistent");
     EXPECT_THAT(page, HasSubstr("halogen: 16.00 ms instead of 20.00 ms a frame (ratio 0.80, 0.79 … 0.81 over 7 rounds)"));
     EXPECT_THAT(page, HasSubstr("xenon: nothing that can be told from chance: 20.00 ms a frame against 20.00 ms (ratio 1.00, "));
-    EXPECT_THAT(page, HasSubstr("<td>nothing left out</td><td class=\"n\">20.00</td><td class=\"n\">5</td>"));
+    EXPECT_THAT(page, HasSubstr("<td class=\"words\">nothing left out</td><td class=\"n\">20.00</td><td class=\"n\">5</td>"));
 }
 
 TEST(Savings, SayTheReasonInTheirPlace) {

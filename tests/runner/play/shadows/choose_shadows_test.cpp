@@ -51,7 +51,7 @@ TEST_F(AutomaticShadows, TheCheapestWithinTheBoundIsTakenAndTheResolvedDriveName
                     content_of(folder / ("second/" + frame.at("exr").get<std::string>())));
     const std::string page = content_of(folder / "first/report.html");
     EXPECT_THAT(page, HasSubstr("How shadows are drawn"));
-    EXPECT_THAT(page, HasSubstr("<strong>" + choice.at("chosen").get<std::string>() + "</strong>"));
+    EXPECT_THAT(page, HasSubstr("chose <code>" + choice.at("chosen").get<std::string>() + "</code>"));
 }
 
 /// A mirror in which nothing is lit is right by any method, and decides nothing.

@@ -182,7 +182,6 @@ TEST(Svg, TextIsEscapedAndBytesRepeat) {
     EXPECT_THAT(svg, Not(HasSubstr("<b>")));
     EXPECT_THAT(svg, HasSubstr("reach [m]"));
     EXPECT_EQ(svg, svg_of(small_figure()));
-    EXPECT_EQ(escaped(std::string("a\0b\x1b[", 5)), "a b [");
 }
 
 TEST(Svg, WhatWasNotMeasuredInterruptsTheLine) {

@@ -1,6 +1,4 @@
-#include "runner/experiments/run/page_signals.h"
-
-#include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/run/run_plots.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/write/plots/svg.h"
@@ -11,8 +9,6 @@
 
 namespace fernlicht {
 namespace {
-
-using kainjow::mustache::data;
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN(); // what plots leave out
 constexpr const char* state_words[] = {"fresh", "stale", "missing", "out of range", "contradictory"};
@@ -54,10 +50,6 @@ void add_state_bands(plots::Figure& figure, const BusSignalReport& signal, doubl
     }
 }
 
-bool any_number(const std::vector<std::optional<double>>& values) {
-    return std::ranges::any_of(values, [](const auto& value) { return value.has_value(); });
-}
-
 std::vector<double> numbers(const std::vector<std::optional<double>>& values) {
     std::vector<double> all;
     for (const std::optional<double>& value : values)
@@ -81,13 +73,13 @@ std::string signal_svg(const BusReport& bus, const BusSignalReport& signal) {
     figure.width_px = 640.0;
     figure.height_px = 260.0;
     figure.x = time_axis(bus);
-    figure.y = plots::axis_around("value", signal.unit, numbers(any_number(signal.value) ? signal.value : signal.received),
+    figure.y = plots::axis_around("value", signal.unit, numbers(numbers(signal.value).empty() ? signal.received : signal.value),
                                   plots::Scale::linear, true);
     add_state_bands(figure, signal, bus.end_s);
     const bool lone = bus.time_s.size() == 1, differs = signal.value != signal.received;
-    if (differs && any_number(signal.received))
+    if (differs && !numbers(signal.received).empty())
         figure.series.push_back({"as received", inside(figure.y, bus_line(bus, signal.received)), {150, 150, 150}, 1.2, "3 3", lone});
-    if (any_number(signal.value))
+    if (!numbers(signal.value).empty())
         figure.series.push_back({differs ? "as used" : "", bus_line(bus, signal.value), {30, 90, 150}, 2.0, "", lone});
     return plots::svg_of(figure);
 }
@@ -107,7 +99,7 @@ std::string figure_over_time(const ComparedDrive& drive, const std::string& titl
             }
         const bool lone = line.size() == 1;
         if (any)
-            figure.series.push_back({short_text(drive.variants[i]->variant, 24), std::move(line), colour_of(i), 2.0, "", lone});
+            figure.series.push_back({short_text(drive.variants[i]->variant, 24), std::move(line), plots::lamp_colour(i), 2.0, "", lone});
     }
     if (figure.series.empty())
         return {};
@@ -149,35 +141,14 @@ std::string glare_over_time(const ComparedDrive& drive) {
     });
 }
 
-} // namespace
-
-std::vector<std::string> signal_svgs(const ComparedDrive& drive) {
-    std::vector<std::string> svgs;
-    const BusReport& bus = bus_of(drive);
-    if (bus.signals.empty() || bus.time_s.empty())
-        return svgs;
-    for (const BusSignalReport& signal : bus.signals)
-        svgs.push_back(signal_svg(bus, signal));
-    for (const double limit_lx : plotted_limits_lx(drive))
-        svgs.push_back(reach_over_time(drive, limit_lx));
-    svgs.push_back(glare_over_time(drive));
-    std::erase(svgs, "");
-    return svgs;
-}
-
-data signal_table(const ComparedDrive& drive) {
-    data rows{data::type::list};
+Table signals_table(const ComparedDrive& drive) {
+    Table table{
+        drive.name + "-signals",
+        "",
+        columns_of("signal<|source<|frames|age at most [s]|stale after [s]|last change [s]|state, of the ticks<|policies<|acted [ticks]"),
+        {}};
+    const auto seconds = [](const std::optional<double>& s, const char* none) { return s ? Cell(fmt::format("{:.3f}", *s), *s) : none; };
     for (const BusSignalReport& signal : bus_of(drive).signals) {
-        data row;
-        row.set("name", short_text(signal.name, 80));
-        row.set("source", short_text(signal.source, 140));
-        row.set("also", signal.also.empty()
-                            ? ""
-                            : short_text(fmt::format("also {}, within {:.3g} {}", signal.also, signal.tolerance, signal.unit), 200));
-        row.set("frames", fmt::format("{}", signal.frames));
-        row.set("oldest", signal.frames > 0 ? fmt::format("{:.3f}", signal.oldest_s) : "–");
-        row.set("stale_after", signal.stale_after_s ? fmt::format("{:.3f}", *signal.stale_after_s) : "never");
-        row.set("changed", signal.changed_s ? fmt::format("{:.3f}", *signal.changed_s) : "–");
         std::uint64_t all = 0, acted = 0;
         for (std::size_t state = 0; state < 5; ++state) {
             all += signal.ticks[state];
@@ -191,20 +162,37 @@ data signal_table(const ComparedDrive& drive) {
             if (!signal.policies[state].empty())
                 policies += fmt::format("{}{}: {}", policies.empty() ? "" : ", ", state_words[state], signal.policies[state]);
         }
-        row.set("shares", shares);
-        row.set("policies", policies);
-        row.set("acted", fmt::format("{}", acted));
-        rows.push_back(row);
+        const std::string also =
+            signal.also.empty() ? "" : fmt::format("; also {}, within {:.3g} {}", signal.also, signal.tolerance, signal.unit);
+        table.rows.push_back(
+            {short_text(signal.name, 80), short_text(signal.source, 140) + short_text(also, 200), fmt::format("{}", signal.frames),
+             seconds(signal.frames > 0 ? std::optional(signal.oldest_s) : std::nullopt, "–"), seconds(signal.stale_after_s, "never"),
+             seconds(signal.changed_s, "–"), shares, policies, fmt::format("{}", acted)});
     }
-    return rows;
+    return table;
 }
 
-std::string signal_sentence(const ComparedDrive& drive) {
+} // namespace
+
+void add_signals(const ComparedDrive& drive, std::vector<Section>& sections) {
     const BusReport& bus = bus_of(drive);
-    if (bus.signals.empty())
-        return {};
-    return fmt::format("{} frames of {} came until the drive’s end, and inputs read {} of them; {} were sent.", bus.frames,
-                       bus.log.empty() ? "the bus" : clean_text(bus.log), bus.read, bus.sent);
+    if (bus.signals.empty() || bus.time_s.empty())
+        return;
+    std::vector<std::string> svgs;
+    for (const double limit_lx : plotted_limits_lx(drive))
+        svgs.push_back(reach_over_time(drive, limit_lx));
+    svgs.push_back(glare_over_time(drive));
+    std::erase(svgs, "");
+    Section& section = sections.emplace_back(Section{"Signals", {}, 3});
+    section.blocks.emplace_back(fmt::format(
+        "What a CAN bus said over the drive{}. {} frames of {} came until the drive’s end, and inputs read {} of them; {} were sent. Bands "
+        "show where a signal was not fresh; a gap in the line is a lost signal.",
+        svgs.empty() ? "" : ", and reach and glare over the same time", bus.frames, bus.log.empty() ? "the bus" : bus.log, bus.read,
+        bus.sent));
+    section.blocks.emplace_back(signals_table(drive));
+    for (const BusSignalReport& signal : bus.signals)
+        add_plot(section, fmt::format("{}-signal-{}", drive.name, signal.name), signal_svg(bus, signal));
+    add_plots(section, drive.name + "-signals", svgs);
 }
 
 } // namespace fernlicht

@@ -1,11 +1,10 @@
-#include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/run/run_plots.h"
 
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/write/plots/svg.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
@@ -36,13 +35,6 @@ bool by_distance(const ComparedDrive& drive) {
         }
     }
     return farthest_m > 1.0;
-}
-
-std::vector<double> all_of(const plots::Polyline& points, double plots::Point::*coordinate) {
-    std::vector<double> values;
-    for (const plots::Point& point : points)
-        values.push_back(point.*coordinate);
-    return values;
 }
 
 plots::Polyline reach_line(const PlayedVariant& played, std::vector<LaneExtent> ExtentRow::*source, const ExtentKey& key, bool distance) {
@@ -76,11 +68,11 @@ bool has_value(const plots::Polyline& line) {
 void set_axes(plots::Figure& figure, const std::string& x_label, const std::string& x_unit, const std::string& y_label,
               const std::string& y_unit) {
     std::vector<double> x, y;
-    for (const plots::Series& series : figure.series) {
-        const std::vector<double> xs = all_of(series.points, &plots::Point::x), ys = all_of(series.points, &plots::Point::y);
-        x.insert(x.end(), xs.begin(), xs.end());
-        y.insert(y.end(), ys.begin(), ys.end());
-    }
+    for (const plots::Series& series : figure.series)
+        for (const plots::Point& point : series.points) {
+            x.push_back(point.x);
+            y.push_back(point.y);
+        }
     for (const plots::Band& band : figure.bands)
         y.insert(y.end(), band.high.begin(), band.high.end());
     figure.x = plots::axis_around(x_label, x_unit, x);
@@ -97,7 +89,7 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
                     const std::function<std::optional<double>(const CarRow&)>& value) {
     plots::Figure figure;
     for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.6, "", false};
+        plots::Series series{short_text(drive.variants[i]->variant, 24), {}, plots::lamp_colour(i), 1.6, "", false};
         for (const CarRow& row : drive.variants[i]->car)
             if (const std::optional<double> found = value(row))
                 series.points.push_back({row.time_s, *found});
@@ -125,12 +117,70 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
     return plots::svg_of(figure);
 }
 
+/// Light from far away and light that is none look alike on a page: nothing below this share of the largest value is drawn.
+constexpr double least_share = 1e-4;
+
+plots::Polyline line_of(const SeeingSeries& series, const SeeingSeries::Column& column) {
+    plots::Polyline line;
+    double largest = 0.0;
+    for (const Value& value : column.values)
+        largest = std::max(largest, value.figure().value_or(0.0));
+    for (std::size_t i = 0; i < series.at_m.size(); ++i) {
+        const std::optional<double> value = column.values[i].figure();
+        const bool shown = value && (!column.logarithmic || *value >= least_share * largest);
+        line.push_back({series.at_m[i], shown ? *value : not_a_number});
+    }
+    return line;
+}
+
+std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, std::size_t column) {
+    const SeeingSeries::Column& what = subject.columns[column];
+    plots::Figure figure;
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const auto series = std::ranges::find(drive.variants[i]->seeing, subject.subject, &SeeingSeries::subject);
+        if (series == drive.variants[i]->seeing.end() || column >= series->columns.size())
+            continue;
+        plots::Polyline line = line_of(*series, series->columns[column]);
+        for (const plots::Point& point : line)
+            if (std::isfinite(point.y)) {
+                x.push_back(point.x);
+                y.push_back(point.y);
+            }
+        figure.series.push_back(
+            {short_text(drive.variants[i]->variant, 24), std::move(line), plots::lamp_colour(i), 2.0, "", series->at_m.size() == 1});
+    }
+    if (y.empty())
+        return {};
+    figure.title = short_text(subject.title, 60) + ": " + short_text(what.label, 60);
+    figure.width_px = 640.0;
+    figure.height_px = 300.0;
+    figure.x = plots::axis_around(subject.over, "m", x);
+    const bool logarithmic = what.logarithmic && *std::ranges::max_element(y) > 0.0;
+    figure.y = plots::axis_around(what.label, what.unit, y, logarithmic ? plots::Scale::logarithmic : plots::Scale::linear, !logarithmic);
+    return plots::svg_of(figure);
+}
+
+std::vector<std::string> figures_of(const ComparedDrive& drive, bool control) {
+    std::vector<std::string> figures;
+    for (const SeeingSeries& subject : drive.variants.front()->seeing)
+        for (std::size_t column = 0; (subject.subject == "control") == control && column < subject.columns.size(); ++column)
+            if (subject.columns[column].drawn)
+                if (std::string svg = figure_of(drive, subject, column); !svg.empty())
+                    figures.push_back(std::move(svg));
+    return figures;
+}
+
 } // namespace
 
-plots::Colour colour_of(std::size_t variant) {
-    unsigned rgb = 0;
-    std::from_chars(variant_colour(variant) + 1, variant_colour(variant) + 7, rgb, 16);
-    return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255), static_cast<std::uint8_t>(rgb & 255)};
+void add_plot(Section& section, const std::string& name, std::string svg) {
+    if (!svg.empty())
+        section.blocks.emplace_back(Plot{name, Drawing{std::move(svg)}, {}, 1.0, true});
+}
+
+void add_plots(Section& section, const std::string& name, const std::vector<std::string>& svgs) {
+    for (std::size_t i = 0; i < svgs.size(); ++i)
+        add_plot(section, fmt::format("{}-{}", name, i + 1), svgs[i]);
 }
 
 std::vector<double> plotted_limits_lx(const ComparedDrive& drive) {
@@ -162,14 +212,14 @@ std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limi
                         twin = reach_line(played, &ExtentRow::twin, key, distance);
         measured = measured || has_value(rendered) || has_value(twin);
         plots::Band band = aim_band(played, key, has_value(rendered) ? rendered : twin);
-        band.colour = colour_of(i);
+        band.colour = plots::lamp_colour(i);
         band.opacity = 0.16;
         figure.bands.push_back(std::move(band));
         const bool lone = played.extents.size() == 1;
         if (has_value(rendered))
-            figure.series.push_back({name, std::move(rendered), colour_of(i), 2.2, "", lone});
+            figure.series.push_back({name, std::move(rendered), plots::lamp_colour(i), 2.2, "", lone});
         if (has_value(twin))
-            figure.series.push_back({name + ", twin", std::move(twin), darker(colour_of(i)), 1.1, "2 4", lone});
+            figure.series.push_back({name + ", twin", std::move(twin), darker(plots::lamp_colour(i)), 1.1, "2 4", lone});
     }
     if (!measured)
         return {};
@@ -213,13 +263,13 @@ std::string timing_svg(const ComparedDrive& drive) {
         for (const PassTime& pass : drive.variants[i]->passes) {
             if (pass.name != "frame" || pass.seconds.empty())
                 continue;
-            plots::Series series{short_text(drive.variants[i]->variant, 24), {}, colour_of(i), 1.3, "", pass.seconds.size() == 1};
+            plots::Series series{short_text(drive.variants[i]->variant, 24), {}, plots::lamp_colour(i), 1.3, "", pass.seconds.size() == 1};
             for (std::size_t k = 0; k < pass.seconds.size(); ++k)
                 series.points.push_back({static_cast<double>(k + 1), 1e3 * pass.seconds[k]});
             figure.series.push_back(std::move(series));
             plots::Mark median;
             median.value = 1e3 * spread_of(pass.seconds)->median;
-            median.colour = colour_of(i);
+            median.colour = plots::lamp_colour(i);
             figure.marks.push_back(median);
         }
     if (figure.series.empty())
@@ -249,9 +299,10 @@ std::string error_svg(const ComparedDrive& drive) {
         const double x = 1e3 * time->median, claimed = 100.0 * std::max(road.error.p95, road.floor.p95);
         floor = std::max(floor, 100.0 * road.floor.p95);
         const double low = std::min(claimed, 100.0 * std::max(least, road.floor.p95)), high = std::max(claimed, 100.0 * most);
-        figure.series.push_back({"", {{1e3 * time->minimum, claimed}, {1e3 * time->maximum, claimed}}, colour_of(i), 1.2, "", false});
-        figure.series.push_back({"", {{x, low}, {x, high}}, colour_of(i), 1.2, "", false});
-        figure.series.push_back({short_text(played.variant, 24), {{x, claimed}}, colour_of(i), 1.2, "", true});
+        figure.series.push_back(
+            {"", {{1e3 * time->minimum, claimed}, {1e3 * time->maximum, claimed}}, plots::lamp_colour(i), 1.2, "", false});
+        figure.series.push_back({"", {{x, low}, {x, high}}, plots::lamp_colour(i), 1.2, "", false});
+        figure.series.push_back({short_text(played.variant, 24), {{x, claimed}}, plots::lamp_colour(i), 1.2, "", true});
         times.insert(times.end(), {1e3 * time->minimum, 1e3 * time->maximum});
         errors.insert(errors.end(), {low, high});
     }
@@ -273,5 +324,8 @@ std::string error_svg(const ComparedDrive& drive) {
                                 0.35});
     return plots::svg_of(figure);
 }
+
+std::vector<std::string> seeing_svgs(const ComparedDrive& drive) { return figures_of(drive, false); }
+std::vector<std::string> control_svgs(const ComparedDrive& drive) { return figures_of(drive, true); }
 
 } // namespace fernlicht

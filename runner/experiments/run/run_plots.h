@@ -1,17 +1,14 @@
-// The figures of report.html as SVG, ready to stand in the page.
+// The figures of a run's report as SVG.
 #pragma once
 
-#include "runner/experiments/run/page_parts.h"
+#include "runner/experiments/run/run_document.h"
 #include "runner/write/plots/svg.h"
 
 namespace fernlicht {
 
-/// Lux on the road from above, ahead to the right: false colours on one fixed logarithmic scale (0.1 to 100 lx, so that any two maps
-/// compare), isolux lines at 1, 3, 5, 10, 30 and 50 lx, lane and road edges, metres from the car's origin. "" for an empty map.
-std::string lux_map_svg(const LuxMap& map, const std::string& lamp);
-
-/// A map's lanes and the car as lines, in one colour.
-void add_edges(plots::Figure& figure, const LuxMap& map, plots::Colour colour);
+/// Adds what was drawn, if anything, small enough for two beside each other.
+void add_plot(Section& section, const std::string& name, std::string svg);
+void add_plots(Section& section, const std::string& name, const std::vector<std::string>& svgs);
 
 /// Reach in the own lane over the drive, by distance or, where the car stands still or moves on springs, by time: a line per lamp set, the
 /// twin's as a thin dashed line, the band of +-0.1 degrees of aim. "" when nothing of that plane and limit was measured.
@@ -22,8 +19,9 @@ std::vector<std::string> seeing_svgs(const ComparedDrive& drive);
 /// The same of lamp control. Empty where the drive has none.
 std::vector<std::string> control_svgs(const ComparedDrive& drive);
 
-/// A lamp set's colour in every plot.
-plots::Colour colour_of(std::size_t variant);
+/// Signals from a bus: what was heard of each, over time with bands where it was not fresh, then reach in the own lane and light in
+/// oncoming eyes, where they were measured. All lamp sets of a drive hear the same bus.
+void add_signals(const ComparedDrive& drive, std::vector<Section>& sections);
 
 /// Speed over time. All lamp sets drive alike, so the first one's. "" without samples.
 std::string speed_svg(const ComparedDrive& drive);

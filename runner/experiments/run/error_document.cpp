@@ -1,0 +1,107 @@
+#include "runner/experiments/run/run_document.h"
+#include "runner/experiments/run/run_plots.h"
+#include "runner/files/clean_text.h"
+#include "runner/findings/extent_keys.h"
+#include "runner/findings/figures.h"
+
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+Cell share_cell(double share, double floor) {
+    return {share < floor ? "< " + two_digits(100.0 * floor) : two_digits(100.0 * share), 100.0 * share};
+}
+
+void add_error_row(Table& table, const Cell& lamp, const char* where, const std::optional<PixelErrors>& errors,
+                   const std::string& why_not) {
+    std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{lamp, where});
+    if (!errors || errors->pixels == 0) {
+        row.emplace_back("not measured: " + (why_not.empty() ? "no light there" : why_not));
+        return;
+    }
+    const ErrorQuantiles &e = errors->error, &f = errors->floor;
+    row.insert(row.end(), {share_cell(e.median, f.median),
+                           share_cell(e.p95, f.p95),
+                           share_cell(e.p99, f.p99),
+                           {two_digits(100.0 * f.p95), 100.0 * f.p95},
+                           {signed_figure(100.0 * errors->mean, 2), 100.0 * errors->mean}});
+}
+
+/// A row a plane, a cell a limit.
+void add_reach_rows(Table& table, const Cell& lamp, const DriveError& error) {
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
+        std::vector<Cell> row{lamp, plane_name(plane)};
+        for (const ReachError& reach : error.reach)
+            if (reach.plane == plane)
+                row.emplace_back(reach.why_not.empty() ? signed_figure(reach.median_m, 2) + " / " + signed_figure(reach.worst_m, 2)
+                                                       : reach.why_not);
+        if (!error.reach.empty())
+            table.rows.push_back(std::move(row));
+    }
+}
+
+std::string compared_words(const PlayedVariant& played) {
+    const DriveError& error = played.error;
+    if (!error.measured())
+        return "not measured: " + error.not_measured;
+    const std::string discs = error.lamp_radius_m > 0.0
+                                  ? fmt::format(", with lamps that are discs of {:g} cm radius, as soft-map draws them (for reach, points)",
+                                                100.0 * error.lamp_radius_m)
+                                  : ""; // where lamps of the reference are no points
+    return fmt::format("{} against {} at {} × {} pixels{}{}, which took {} s; {}", played.technique, counted(error.ticks.size(), "moment"),
+                       error.width_px, error.height_px, error.ticks.size() > 1 ? ", targets and luminance in the middle one" : "", discs,
+                       figure(error.seconds, 1),
+                       played.throughput.view_s ? fmt::format("a frame of the run takes {}", time_text(*played.throughput.view_s))
+                                                : "too few moments were played to time a frame");
+}
+
+} // namespace
+
+void add_accuracy(const ComparedDrive& drive, Sections& sections) {
+    Listing sentences;
+    Table errors{drive.name + "-errors",
+                 "",
+                 columns_of("lamp<|where<|median [%]|95 % of the pixels [%]|99 % [%]|floor of the 95 % [%]|mean, signed [%]"),
+                 {}};
+    Table reaches{
+        drive.name + "-reach-errors",
+        "Error of reach on the own lane’s centre in these moments, against rays through the same places: median / worst, m; above "
+        "0: drawn too far",
+        columns_of("lamp<|on<"),
+        {}};
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const PlayedVariant& played = *drive.variants[i];
+        const DriveError& error = played.error;
+        if (!error.measured() && error.not_measured.empty())
+            continue; // the run ended before, or was told to leave it out
+        const Cell lamp = lamp_cell(drive, i);
+        sentences.items.push_back(lamp.text + ": " + compared_words(played));
+        if (!error.measured())
+            continue;
+        add_error_row(errors, lamp, "illuminance, road", error.road, "");
+        add_error_row(errors, lamp, "illuminance, targets above it", error.target, error.no_target);
+        add_error_row(errors, lamp, "illuminance, whole view", error.whole, "");
+        add_error_row(errors, lamp, "luminance, whole view", error.luminance, error.no_luminance);
+        if (reaches.columns.size() == 2)
+            for (const ReachError& reach : error.reach)
+                if (reach.plane == ExtentPlane::road)
+                    reaches.columns.push_back({fmt::format("{:g} lx", reach.limit_lx)});
+        add_reach_rows(reaches, lamp, error);
+    }
+    if (sentences.items.empty())
+        return;
+    Section& section = sections.emplace_back(Section{"Error against run time",
+                                                     {"As drawn against the reference, which traces rays in double precision and knows its "
+                                                      "own noise: nothing is claimed below its floor. "
+                                                      "Where the reference has at least 0.05 lx, or 0.001 cd/m².",
+                                                      sentences},
+                                                     3});
+    if (!errors.rows.empty())
+        section.blocks.emplace_back(std::move(errors));
+    if (!reaches.rows.empty())
+        section.blocks.emplace_back(std::move(reaches));
+    add_plot(section, drive.name + "-error", error_svg(drive));
+}
+
+} // namespace fernlicht

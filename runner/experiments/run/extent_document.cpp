@@ -1,0 +1,176 @@
+#include "runner/experiments/run/run_document.h"
+#include "runner/files/clean_text.h"
+#include "runner/findings/extent_keys.h"
+#include "runner/findings/figures.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+constexpr const char* nothing = "\u2013";
+
+Cell value_cell(const Value& value, int decimals) {
+    return value.measured() ? Cell(with_bound(value, figure(*value.figure(), decimals)), *value.figure()) : Cell(nothing);
+}
+
+/// A measured figure of a lamp set, and where there are several, how far it is from the first one's: medians.
+void add_compared(std::vector<Cell>& cells, const ComparedDrive& drive, const ManyMoments& own, const ManyMoments* first, int decimals) {
+    const Value now = own.quantile(0.5);
+    cells.push_back(value_cell(now, decimals));
+    if (drive.variants.size() < 2)
+        return;
+    const Value change = first ? difference(now, first->quantile(0.5), "") : Value();
+    cells.push_back(!first              ? Cell("")
+                    : change.measured() ? Cell(with_bound(change, signed_figure(*change.figure(), decimals)), *change.figure())
+                                        : Cell(nothing));
+}
+
+void add_heads(std::vector<Column>& columns, const ComparedDrive& drive, const std::string& what, const char* unit) {
+    if (drive.variants.size() < 2) {
+        columns.push_back({what, unit});
+        return;
+    }
+    columns.push_back({"median", unit, what});
+    columns.push_back({"difference", unit, what});
+}
+
+ManyMoments width_at(const ExtentSummary& summary, double at_m) {
+    const auto found = summary.widths.find(at_m);
+    return found == summary.widths.end() ? ManyMoments() : found->second;
+}
+
+/// What all lamp sets of a drive have together: (plane, lane) in order of sight, limits and width distances ascending.
+struct Axes {
+    std::vector<std::pair<ExtentPlane, std::string>> places;
+    std::vector<double> limits_lx, widths_at_m;
+};
+
+void insert_sorted(std::vector<double>& values, double value) {
+    const auto place = std::lower_bound(values.begin(), values.end(), value);
+    if (place == values.end() || *place != value)
+        values.insert(place, value);
+}
+
+Axes axes_of(const ComparedDrive& drive) {
+    Axes axes;
+    for (const PlayedVariant* const played : drive.variants)
+        for (const ExtentSummary& summary : played->extent_summaries) {
+            const std::pair place(summary.key.plane, summary.key.lane);
+            if (std::find(axes.places.begin(), axes.places.end(), place) == axes.places.end())
+                axes.places.push_back(place);
+            insert_sorted(axes.limits_lx, summary.key.limit_lx);
+            for (const auto& [at_m, moments] : summary.widths)
+                insert_sorted(axes.widths_at_m, at_m);
+        }
+    const auto rank = [](const auto& place) { return std::tuple(place.second != "own", place.first); };
+    std::stable_sort(axes.places.begin(), axes.places.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    return axes;
+}
+
+std::string lane_title(const std::string& lane) {
+    return lane == "own" ? "Own lane" : lane == "all" ? "Whole width that was looked at" : "Lane \u201c" + short_text(lane, 60) + "\u201d";
+}
+
+std::vector<Column> extent_columns(const ComparedDrive& drive, const Axes& axes, bool own) {
+    std::vector<Column> columns{{"limit", "lx"}, {.head = "lamp", .words = true}};
+    add_heads(columns, drive, "reach", "m");
+    for (const double at_m : axes.widths_at_m)
+        add_heads(columns, drive, fmt::format("width at {:g} m", at_m), "m");
+    add_heads(columns, drive, "area", "m\u00b2");
+    columns.push_back({"reach, least to most", "m"});
+    if (own)
+        columns.insert(columns.end(), {{"per 0.1° of aim", "m"}, {"per 10 % of flux", "m"}});
+    columns.push_back({"twin off by ≤", "m"});
+    if (own)
+        columns.push_back({"grid error", "m"});
+    return columns;
+}
+
+/// `first`: of the first lamp set; nullptr: it is that one.
+std::vector<Cell> extent_cells(const ComparedDrive& drive, const ExtentSummary& summary, const ExtentSummary* first, const Axes& axes,
+                               bool own) {
+    std::vector<Cell> cells;
+    add_compared(cells, drive, summary.reach, first ? &first->reach : nullptr, 1);
+    for (const double at_m : axes.widths_at_m) {
+        const ManyMoments of_first = first ? width_at(*first, at_m) : ManyMoments();
+        add_compared(cells, drive, width_at(summary, at_m), first ? &of_first : nullptr, 1);
+    }
+    add_compared(cells, drive, summary.area, first ? &first->area : nullptr, 0);
+    cells.emplace_back(summary.reach.count() > 0 ? value_cell(summary.reach.quantile(0.0), 1).text + "\u2009\u2026\u2009" +
+                                                       value_cell(summary.reach.quantile(1.0), 1).text
+                                                 : nothing);
+    if (own)
+        cells.insert(cells.end(),
+                     {value_cell(summary.per_tenth_degree.quantile(0.5), 1), value_cell(summary.per_tenth_flux.quantile(0.5), 1)});
+    cells.push_back(value_cell(summary.twin_difference.quantile(1.0), 2));
+    if (own)
+        cells.push_back(value_cell(summary.grid_error.quantile(0.5), 2));
+    return cells;
+}
+
+Table extent_table(const ComparedDrive& drive, const Axes& axes, ExtentPlane plane, const std::string& lane) {
+    const bool own = lane == "own";
+    Table table{fmt::format("{}-extent-{}-{}", drive.name, plane_name(plane), lane),
+                lane_title(lane) + (plane == ExtentPlane::road ? ", on the road\u2019s surface" : ", on a target that faces the lamps"),
+                extent_columns(drive, axes, own),
+                {},
+                !own};
+    for (const double limit_lx : axes.limits_lx) {
+        std::vector<ExtentSummary> summaries;
+        for (const PlayedVariant* const played : drive.variants) {
+            const auto found = std::ranges::find(played->extent_summaries, ExtentKey{plane, lane, limit_lx}, &ExtentSummary::key);
+            summaries.push_back(found == played->extent_summaries.end() ? ExtentSummary() : *found);
+        }
+        for (std::size_t i = 0; i < summaries.size(); ++i) {
+            std::vector<Cell>& row = table.rows.emplace_back();
+            row = {{fmt::format("{:g}", limit_lx), limit_lx}, lamp_cell(drive, i)};
+            const std::vector<Cell> cells = extent_cells(drive, summaries[i], i > 0 ? &summaries.front() : nullptr, axes, own);
+            row.insert(row.end(), cells.begin(), cells.end());
+        }
+    }
+    return table;
+}
+
+/// "halogen: 61.2 m at 5 lx; xenon: ...", of the own lane on the road at 1 and 5 lx.
+Listing reaches_at_a_glance(const ComparedDrive& drive) {
+    Listing reaches;
+    for (const double limit_lx : {1.0, 5.0}) {
+        Value first;
+        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+            const auto& all = drive.variants[i]->extent_summaries;
+            const auto found = std::ranges::find(all, ExtentKey{ExtentPlane::road, "own", limit_lx}, &ExtentSummary::key);
+            if (found == all.end() || found->reach.count() == 0)
+                continue;
+            const Value reach = found->reach.quantile(0.5), by_aim = found->per_tenth_degree.quantile(0.5);
+            const Value change = i == 0 ? Value() : difference(reach, first, "");
+            first = i == 0 ? reach : first;
+            std::string& words = reaches.items.emplace_back(
+                fmt::format("{}: reach at {:g} lx {} m", lamp_cell(drive, i).text, limit_lx, value_cell(reach, 1).text));
+            if (change.measured())
+                words += fmt::format(" ({} m)", with_bound(change, signed_figure(*change.figure(), 1)));
+            if (by_aim.measured())
+                words += fmt::format(", {} m per 0.1° of aim", value_cell(by_aim, 1).text);
+        }
+    }
+    return reaches;
+}
+
+} // namespace
+
+void add_extents(const ComparedDrive& drive, Sections& sections) {
+    const Axes axes = axes_of(drive);
+    if (axes.places.empty())
+        return;
+    if (Listing reaches = reaches_at_a_glance(drive); !reaches.items.empty())
+        sections.push_back({"At a glance", {"Own lane, on the road’s surface, median over the drive.", std::move(reaches)}, 3});
+    Section& section = sections.emplace_back(Section{"Reach and width", {}, 3});
+    section.blocks.emplace_back(fmt::format("Medians over the drive, from the rendered lux image. Reach runs from the bumper along the "
+                                            "lane’s centre to the farthest place with at least that illuminance{}.",
+                                            drive.variants.size() > 1 ? "; differences are from " + drive.variants.front()->variant : ""));
+    for (const auto& [plane, lane] : axes.places)
+        section.blocks.emplace_back(extent_table(drive, axes, plane, lane));
+}
+
+} // namespace fernlicht

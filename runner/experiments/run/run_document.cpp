@@ -1,0 +1,199 @@
+#include "runner/experiments/run/run_document.h"
+
+#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_plots.h"
+#include "runner/files/clean_text.h"
+#include "runner/findings/extent_keys.h"
+#include "runner/findings/figures.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace fernlicht {
+namespace {
+
+/// What turned a run red that failed.
+const char* failure_word(const Report& report) {
+    bool limits = false, references = false;
+    for (const PlayedVariant& played : report.played)
+        for (const Verdict& verdict : played.verdicts)
+            if (is_red(verdict) && verdict.kind == VerdictKind::fail)
+                (verdict.name.starts_with("reference") ? references : limits) = true;
+    return limits ? "Limits exceeded" : references ? "Differs from the references" : "The list of known failures is out of date";
+}
+
+const char* verdict_word(const Report& report) {
+    const VerdictKind verdict = overall(report);
+    return verdict == VerdictKind::fail           ? failure_word(report)
+           : verdict == VerdictKind::flaky        ? "Flaky"
+           : !report.complete                     ? "Incomplete"
+           : verdict == VerdictKind::not_measured ? "Not everything was measured"
+           : count_verdicts(report).all() == 0    ? "No limits were set"
+                                                  : "Within limits";
+}
+
+Table verdict_table(const char* name, const char* caption, const std::string& found) {
+    return {name, caption, columns_of("reading`|drive, lamp<|" + found + "<|repeat with`"), {}};
+}
+
+Cell milliseconds(double seconds) { return {figure(1e3 * seconds, 2), 1e3 * seconds}; }
+
+Table passes_table(const ComparedDrive& drive) {
+    Table table{
+        drive.name + "-times", "", columns_of("lamp<|pass<|median [ms]|5 % … 95 % [ms]|least … most [ms]|samples|warm-up dropped"), {}};
+    for (std::size_t i = 0; i < drive.variants.size(); ++i)
+        for (const PassTime& pass : drive.variants[i]->passes)
+            if (const std::optional<Spread> spread = spread_of(pass.seconds)) {
+                const bool by_picture = pass.name.starts_with("display: "); // each stored one, none of them dropped
+                table.rows.push_back({lamp_cell(drive, i), short_text(pass.name, 40), milliseconds(spread->median),
+                                      milliseconds(spread->p05).text + " … " + milliseconds(spread->p95).text,
+                                      milliseconds(spread->minimum).text + " … " + milliseconds(spread->maximum).text,
+                                      fmt::format("{}", spread->count),
+                                      fmt::format("{}", by_picture ? 0 : drive.variants[i]->warm_up_dropped)});
+            }
+    return table;
+}
+
+Table throughput_table(const ComparedDrive& drive) {
+    Table table{drive.name + "-throughput",
+                "The whole run: drawn, read back, measured, stored",
+                columns_of("lamp<|moments|moments [1/s]|all drawing alone: rate [1/s]|all drawing alone: share [%]|driver’s view alone: "
+                           "rate [1/s]|driver’s view alone: share [%]|peak memory [MiB]"),
+                {}};
+    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
+        const Throughput& t = drive.variants[i]->throughput;
+        if (!t.moments_per_s())
+            continue;
+        std::vector<Cell>& row = table.rows.emplace_back(
+            std::vector<Cell>{lamp_cell(drive, i), fmt::format("{}", t.moments), {figure(*t.moments_per_s(), 1), *t.moments_per_s()}});
+        for (const std::optional<double>& alone_s : {t.drawing_s, t.view_s}) {
+            row.push_back(alone_s ? Cell(figure(1.0 / *alone_s, 1), 1.0 / *alone_s) : Cell("not measured"));
+            row.push_back(alone_s ? Cell(figure(100.0 * *t.share_of(alone_s), 0), 100.0 * *t.share_of(alone_s)) : Cell("not measured"));
+        }
+        row.emplace_back(figure(t.peak_memory_mib, 0), t.peak_memory_mib);
+    }
+    return table;
+}
+
+void add_reaches(const ComparedDrive& drive, Sections& sections) {
+    Section section{
+        "Reach over the drive",
+        {"Full lines: from the rendered lux image. Thin broken lines: the independent calculation in double precision from the candela "
+         "tables. Shaded: ±0.1° of aim."},
+        3};
+    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
+        for (const double limit_lx : plotted_limits_lx(drive))
+            add_plot(section, fmt::format("{}-reach-{:g}lx-{}", drive.name, limit_lx, plane_name(plane)),
+                     reach_svg(drive, plane, limit_lx));
+    if (section.blocks.size() == 1)
+        return;
+    add_plot(section, drive.name + "-speed", speed_svg(drive));
+    add_plots(section, drive.name + "-car", car_svgs(drive));
+    sections.push_back(std::move(section));
+}
+
+void add_if_plotted(Sections& sections, const std::string& title, const std::string& words, const std::string& name,
+                    const std::vector<std::string>& svgs) {
+    if (!svgs.empty())
+        add_plots(sections.emplace_back(Section{title, {words}, 3}), name, svgs);
+}
+
+void add_costs(const ComparedDrive& drive, Sections& sections) {
+    const std::string plot = timing_svg(drive);
+    Table passes = passes_table(drive);
+    if (plot.empty() && passes.rows.empty())
+        return;
+    Section& section = sections.emplace_back(Section{"What it cost", {}, 3});
+    add_plot(section, drive.name + "-times", plot);
+    section.blocks.emplace_back(std::move(passes));
+    section.blocks.emplace_back("Only frames drawn with nothing beside them give times: the first after the warm-up, then every tenth of a "
+                                "kind. Stages of `display` are timed in every stored picture, while the next moments are drawn.");
+    section.blocks.emplace_back(throughput_table(drive));
+}
+
+} // namespace
+
+std::vector<ComparedDrive> compared_drives(const Report& report) {
+    std::vector<ComparedDrive> drives;
+    for (const PlayedVariant& played : report.played) {
+        auto found = std::ranges::find(drives, played.drive, &ComparedDrive::name);
+        if (found == drives.end())
+            found = drives.insert(drives.end(), ComparedDrive{played.drive, {}});
+        found->variants.push_back(&played);
+    }
+    return drives;
+}
+
+Cell lamp_cell(const ComparedDrive& drive, std::size_t index) {
+    return Cell::of_series(short_text(drive.variants[index]->variant, 40), index);
+}
+
+Section verdict_section(const Report& report) {
+    Table failures = verdict_table("failures", "Outside limits or references", "found"),
+          flakes = verdict_table("flakes", "Flaky: repeats that differ", "what differs"),
+          gaps = verdict_table("not-measured", "Not measured", "why"), known = verdict_table("known-failures", "Known failures", "found"),
+          passes = verdict_table("green", "What is green", "found");
+    passes.columns.pop_back();
+    passes.aside = true;
+    const auto add = [&](const Verdict& verdict, const std::string& where) {
+        Table& table = !is_red(verdict)                            ? (verdict.kind == VerdictKind::pass ? passes : known)
+                       : verdict.kind == VerdictKind::flaky        ? flakes
+                       : verdict.kind == VerdictKind::not_measured ? gaps
+                                                                   : failures;
+        table.rows.push_back(
+            {verdict.name, where, verdict.known.empty() ? verdict.text : verdict.text + "; " + verdict.known, verdict.rerun});
+        if (&table == &passes)
+            table.rows.back().pop_back();
+    };
+    for (const PlayedVariant& played : report.played)
+        for (const Verdict& verdict : played.verdicts)
+            add(verdict, played.drive + ", " + played.variant);
+    for (const Verdict& verdict : report.listed)
+        add(verdict, "list of known failures");
+    Section section{verdict_word(report), {}};
+    if (!report.complete)
+        section.blocks.emplace_back("The run did not end: " + report.interrupted + ". What follows is what was done until then.");
+    const VerdictCounts counts = count_verdicts(report);
+    if (counts.all() > 0)
+        section.blocks.emplace_back(fmt::format(
+            "{} of {} verdicts are green: limits, and references and repeats where they were asked for.", counts.pass, counts.all()));
+    for (Table* const table : {&failures, &flakes, &gaps, &known, &passes}) {
+        if (table == &passes && !report.warnings.empty())
+            section.blocks.emplace_back(Listing{report.warnings});
+        for (std::size_t row = table->rows.size(); table != &passes && row-- > 1;) // the same command once
+            if (!table->rows[row].back().text.empty() && table->rows[row].back().text == table->rows[row - 1].back().text)
+                table->rows[row].back().text = "as above";
+        if (!table->rows.empty())
+            section.blocks.emplace_back(std::move(*table));
+    }
+    return section;
+}
+
+void add_course(const ComparedDrive& drive, Sections& sections) {
+    add_reaches(drive, sections);
+    add_if_plotted(sections, "Lamps that move",
+                   "What the laws and actuators of the drive’s `control` did, and what it was worth against the same lamps held still: "
+                   "calculated in double precision from the candela tables, without shadows. Bends are those of less than 1500 m radius.",
+                   drive.name + "-control", control_svgs(drive));
+    add_signals(drive, sections);
+    add_if_plotted(sections, "Seeing and glare",
+                   "Calculated in double precision from the candela tables, without shadows of trees and houses; a crest of the road hides "
+                   "lamps.",
+                   drive.name + "-seeing", seeing_svgs(drive));
+    add_costs(drive, sections);
+}
+
+Document document(const Report& report) {
+    Document document{"fernlicht run", {verdict_section(report)}};
+    if (report.live)
+        document.sections.push_back(live_section(*report.live));
+    for (const ComparedDrive& drive : compared_drives(report)) {
+        document.sections.push_back({drive.name, {}});
+        for (const auto add : {add_extents, add_course, add_accuracy, add_details, add_drawing})
+            add(drive, document.sections);
+    }
+    return document;
+}
+
+} // namespace fernlicht

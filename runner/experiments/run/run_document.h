@@ -1,0 +1,36 @@
+// A run's report as sections of a document.
+#pragma once
+
+#include "runner/findings/document.h"
+#include "runner/findings/report.h"
+
+namespace fernlicht {
+
+/// One drive with every lamp set that it was played with, in the order of the report.
+struct ComparedDrive {
+    std::string name;
+    std::vector<const PlayedVariant*> variants;
+};
+std::vector<ComparedDrive> compared_drives(const Report& report);
+
+/// A lamp set's name beside its colour.
+Cell lamp_cell(const ComparedDrive& drive, std::size_t index);
+
+/// The verdict in a word, then its reasons, and what could not be measured.
+Section verdict_section(const Report& report);
+/// Punctuality and losses of a live run.
+Section live_section(const LiveFigures& live);
+
+using Sections = std::vector<Section>;
+/// Each adds what it has to say of a drive, if anything. Reach, width and area per limit and lamp set, one table per plane and lane:
+void add_extents(const ComparedDrive& drive, Sections& sections);
+/// Plots over the drive, signals, and what it cost.
+void add_course(const ComparedDrive& drive, Sections& sections);
+/// How far each lamp set's lux images lie from the reference, and what that cost.
+void add_accuracy(const ComparedDrive& drive, Sections& sections);
+/// Readings beside each other per lamp set; lamps with their files; what was noted and left out, and what that saved.
+void add_details(const ComparedDrive& drive, Sections& sections);
+/// How shadows and pictures are drawn, and how pictures are seen on a display.
+void add_drawing(const ComparedDrive& drive, Sections& sections);
+
+} // namespace fernlicht

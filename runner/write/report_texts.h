@@ -1,0 +1,19 @@
+// What programs read of verdicts, readings and times. Pure functions of the report.
+#pragma once
+
+#include "runner/findings/report.h"
+
+#include <string>
+
+namespace fernlicht {
+
+/// JUnit: one test suite per drive and variant, one test case per verdict. Carries no times, so that equal runs give equal bytes.
+std::string report_junit(const Report& report);
+
+/// RFC 4180, one line per reading.
+std::string report_csv(const Report& report);
+
+/// RFC 4180: times of passes and the run's throughput. What differs from run to run is here and not in report_csv.
+std::string times_csv(const Report& report);
+
+} // namespace fernlicht
