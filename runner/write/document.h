@@ -13,16 +13,17 @@ std::string head_of(const Column& column);
 std::string plot_svg(const Plot& plot);
 /// Where its files lie below the document's folder, without extension.
 std::string place_of(const Plot& plot);
-/// One self-contained page, without scripts; plots stand in it as SVG, and as many pictures as it can bear, read below `folder`.
+/// One self-contained page; plots stand in it as SVG, pictures are read below `folder`. It has a script only where something sorts or
+/// slides.
 std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder = {});
 /// For a terminal: paragraphs, tables in columns, captions of plots. Lines end with a newline.
 std::string document_text(const Document& document);
 /// A table in Markdown's pipes.
 std::string table_markdown(const Table& table);
-/// As LaTeX's `tabular` with the rules of booktabs, for \input; the caption is a comment above it.
-std::string table_latex(const Table& table);
-/// RFC 4180 with one line of heads. Figures are those that are shown, with a plain minus sign.
-std::string table_csv(const Table& table);
+/// Title, tables and paragraphs.
+std::string document_markdown(const Document& document);
+/// Its tables for LaTeX with booktabs, as wide as the text; paragraphs are comments.
+std::string document_latex(const Document& document);
 
 enum class TableFormat { none, csv, tex };
 /// Each table as tables/NAME.csv or .tex, those that a page folds away too.

@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
-#include "runner/experiments/regulation/regulation_report.h"
+#include "runner/experiments/regulation/regulation_result.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/json_text.h"
 
@@ -23,15 +23,13 @@ std::optional<double> margin_in(const std::optional<RowResult>& row) {
     return row && row->verdict != RowVerdict::not_measured ? std::optional(row->margin) : std::nullopt;
 }
 
-std::string verdict_in(const std::optional<RowResult>& row) {
-    return !row ? "" : row->verdict == RowVerdict::pass ? "pass" : row->verdict == RowVerdict::fail ? "fail" : "not_measured";
-}
+std::string verdict_in(const RowResult* row) { return row ? name_of(row->verdict) : ""; }
 
 Json lamp_json(const ComparedLamp& lamp) {
     return {{"file", lamp.path.string()},
             {"name", lamp.file.name},
             {"format", lamp.file.format},
-            {"cut_off", Json::parse(json_of(lamp.cut_off, fit_elbow({&lamp.file.table, {}}), lamp.file.name, {}, false))}};
+            {"cut_off", Json::parse(cut_off_json({lamp.file, {}, false, lamp.cut_off, fit_elbow({&lamp.file.table, {}})}))}};
 }
 
 Json regulation_json(const LampPairComparison& lamps) {
@@ -50,8 +48,8 @@ Json regulation_json(const LampPairComparison& lamps) {
     return {{"id", lamps.regulation->id},
             {"edition", lamps.regulation->edition},
             {"rows", rows},
-            {"old", Json::parse(json_of(*lamps.regulation, *lamps.before.check, {lamps.before.file.name}))},
-            {"new", Json::parse(json_of(*lamps.regulation, *lamps.now.check, {lamps.now.file.name}))}};
+            {"old", Json::parse(fernlicht::regulation_json({*lamps.regulation, {lamps.before.file.name}, *lamps.before.check}))},
+            {"new", Json::parse(fernlicht::regulation_json({*lamps.regulation, {lamps.now.file.name}, *lamps.now.check}))}};
 }
 
 } // namespace
