@@ -41,8 +41,7 @@ std::string eulumdat_text() {
 
 void read_eulumdat_text(benchmark::State& state) {
     const std::string text = eulumdat_text();
-    LampReadOptions options;
-    options.type_c_axis = TypeCAxis::horizontal;
+    LampReadOptions options{.type_c_axis = TypeCAxis::horizontal};
     for (auto _ : state)
         benchmark::DoNotOptimize(read_eulumdat("w.ldt", text, options, {}));
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));

@@ -59,9 +59,7 @@ struct Stage {
         scene = build_scene(network);
         FilesRead opened;
         add_road_users(scene, drive.traffic, opened);
-        RendererSettings settings;
-        settings.traffic_levels = levels;
-        settings.traffic_shadows = shadows;
+        RendererSettings settings{.traffic_levels = levels, .traffic_shadows = shadows};
         renderer.emplace(device, scene, settings);
         for (int frame = 0; frame < (moving ? moving_frames : 1); ++frame) {
             const double time_s = frame / frames_a_second;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -168,8 +169,7 @@ TEST_F(DrawnDaylight, NeitherSunNorMoonCostsNothing) {
 TEST(ReferenceDaylight, AgreesWithTheTwin) {
     const Scene scene = yard();
     const Moment moment = sunlit(300.0, 20.0, 3000.0, 100.0);
-    ReferenceSettings settings;
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings{.footprint = Footprint::centre};
     const View view = ahead();
     const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
     const Twin twin(scene, true);
@@ -223,9 +223,7 @@ constexpr Wanted as_seen{.colour = true, .luminance = true, .light = true};
 class ColouredLight : public testing::TestWithParam<const char*> {
   protected:
     Frame draw(const Wanted& wanted, const ToneMapper& mapper = {}) {
-        RendererSettings settings;
-        settings.technique = GetParam();
-        settings.tone_mapper = mapper;
+        RendererSettings settings{.technique = GetParam(), .tone_mapper = mapper};
         Renderer renderer(device_, scene_, settings);
         return renderer.draw(warm_night(), ahead_of_board(), wanted);
     }
@@ -291,8 +289,7 @@ INSTANTIATE_TEST_SUITE_P(, ColouredLight, testing::Values("photometric", "photom
 TEST(ColouredLightOfOthers, TechniquesWithoutLuminanceHaveNone) {
     Device device = open_device("auto");
     const Scene scene = red_board();
-    RendererSettings settings;
-    settings.technique = "full";
+    RendererSettings settings{.technique = "full"};
     Renderer renderer(device, scene, settings);
     EXPECT_FALSE(renderer.available(as_seen).light);
     EXPECT_TRUE(renderer.draw(warm_night(), ahead_of_board(), as_seen).light.empty());

@@ -187,10 +187,7 @@ Moment two_low_beams() {
     static const auto file = std::make_shared<const LampFile>(lamp_of_model(lamp_models().at(0)));
     Moment moment;
     for (const double side : {0.558, -0.558}) {
-        LitLamp lamp;
-        lamp.file = file;
-        lamp.pose = {{3.604, side, 0.587}, glm::dmat3(1.0)};
-        lamp.colour = colour_of_temperature(3200.0);
+        LitLamp lamp{.file = file, .pose = {{3.604, side, 0.587}, glm::dmat3(1.0)}, .colour = colour_of_temperature(3200.0)};
         moment.lamps.push_back(std::move(lamp));
     }
     moment.daylight.horizontal_illuminance_lx = 0.2;
@@ -198,19 +195,13 @@ Moment two_low_beams() {
 }
 
 View over_the_bonnet() {
-    View view;
-    view.name = "driver";
-    view.position_m = {1.3, 0.35, 1.2};
-    view.pitch_rad = radians(-6.0);
-    view.width_px = 160;
-    view.height_px = 120;
+    View view{.name = "driver", .position_m = {1.3, 0.35, 1.2}, .pitch_rad = radians(-6.0), .width_px = 160, .height_px = 120};
     return view;
 }
 
 TEST(OwnCar, HidesWhatIsBehindItAndTakesNoLight) {
     constexpr Wanted wanted{.illuminance = true, .luminance = true, .ids = true};
-    Drive drive;
-    drive.views = {over_the_bonnet()};
+    Drive drive{.views = {over_the_bonnet()}};
     drive.own_car.emplace().model = std::make_shared<const Model>(car_body({}));
     const Scene without = level_road();
     Scene with = without;
@@ -262,8 +253,7 @@ TEST(RetroTint, RedIsRedAndAsBrightAsItsFigure) {
         View view = over_the_bonnet();
         view.pitch_rad = radians(-1.5);
         view.vertical_fov_rad = radians(6.0);
-        RendererSettings settings;
-        settings.technique = technique;
+        RendererSettings settings{.technique = technique};
         Device device = open_device("auto");
         Renderer renderer(device, scene, settings);
         const Frame frame = renderer.draw(moment, view, {.colour = true, .luminance = true});

@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 #include <gtest/gtest.h>
 #include <random>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -48,8 +49,7 @@ TEST(MergedBeam, AxesThatCancelAreRefused) {
 }
 
 TEST(MergedBeam, IsExactAt25MetresAndWrongNearer) {
-    Moment moment;
-    moment.lamps = {turned_lamp({3.5, 0.6, 0.65}, 0.02), turned_lamp({3.5, -0.6, 0.65}, -0.01, 0.7)};
+    Moment moment{.lamps = {turned_lamp({3.5, 0.6, 0.65}, 0.02), turned_lamp({3.5, -0.6, 0.65}, -0.01, 0.7)}};
     const Pose pose = merged_pose(moment.lamps);
     const ProjectedBeam beam = make_merged_beam(moment.lamps, {512, 256, 32});
     double worst_nearer = 0.0;
@@ -225,10 +225,7 @@ TEST(ProjectedBeam, WindowLeavesTheDarkRimOutAndIsNeverWiderThanItsLimits) {
     EXPECT_NEAR(w.bottom, tan_deg(-1) / std::cos(radians(10)), 1e-12);
     EXPECT_NEAR(w.top, tan_deg(1) / std::cos(radians(10)), 1e-12);
     const TangentWindow all = lit_window(even_table(-180, 180, -90, 90));
-    EXPECT_EQ(all.left, -1.4);
-    EXPECT_EQ(all.right, 1.4);
-    EXPECT_EQ(all.bottom, -0.45);
-    EXPECT_EQ(all.top, 0.36);
+    EXPECT_EQ(std::tuple(all.left, all.right, all.bottom, all.top), std::tuple(-1.4, 1.4, -0.45, 0.36));
 }
 
 TEST(ProjectedBeam, TexelsStandAtHalvesAndHoldLuxAt25Metres) {
@@ -241,9 +238,7 @@ TEST(ProjectedBeam, TexelsStandAtHalvesAndHoldLuxAt25Metres) {
             const double h = degrees(std::atan(edge * (-0.75 + 0.5 * static_cast<double>(i))));
             EXPECT_NEAR(static_cast<double>(beam.lx[row * 4 + i]), 10.0 * (h + 10.0) / 20.0, 1e-6) << i;
         }
-    EXPECT_EQ(beam.scale_lx, static_cast<double>(beam.lx[3]));
-    EXPECT_EQ(beam.distance_m, 25.0);
-    EXPECT_EQ(beam.bytes(), 32u);
+    EXPECT_EQ(std::tuple(beam.scale_lx, beam.distance_m, beam.bytes()), std::tuple(static_cast<double>(beam.lx[3]), 25.0, 32u));
 }
 
 TEST(ProjectedBeam, RowsRunFromBelowUpwards) {
@@ -254,10 +249,7 @@ TEST(ProjectedBeam, RowsRunFromBelowUpwards) {
 }
 
 TEST(ProjectedBeam, IsBilinearBetweenTexelsHeldAtTheEdgeAndDarkOutside) {
-    ProjectedBeam beam;
-    beam.width = 2;
-    beam.height = 2;
-    beam.lx = {0.0F, 4.0F, 8.0F, 20.0F};
+    ProjectedBeam beam{.width = 2, .height = 2, .lx = {0.0F, 4.0F, 8.0F, 20.0F}};
     EXPECT_EQ(projected_lx(beam, 0.25, 0.25), 0.0);
     EXPECT_EQ(projected_lx(beam, 0.75, 0.25), 4.0);
     EXPECT_EQ(projected_lx(beam, 0.5, 0.25), 2.0);

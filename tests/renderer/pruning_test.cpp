@@ -108,20 +108,15 @@ RandomScene random_scene(std::uint64_t seed, const Features& on) {
 }
 
 View driver_160() {
-    View view;
-    view.position_m = {1.5, 0.35, 1.2};
-    view.pitch_rad = radians(-3.0);
-    view.vertical_fov_rad = radians(40.0);
-    view.width_px = 160;
-    view.height_px = 120;
+    View view{
+        .position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(40.0), .width_px = 160, .height_px = 120};
     return view;
 }
 
 class PruningTest : public testing::Test {
   protected:
     Frame draw(const RandomScene& s, const char* technique, Work* work = nullptr) {
-        RendererSettings settings;
-        settings.technique = technique;
+        RendererSettings settings{.technique = technique};
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, s.scene, settings);
         if (work != nullptr)
@@ -188,17 +183,14 @@ std::vector<std::filesystem::path> shipped_drives() {
 }
 
 TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
-    DriveEdits smaller;
-    smaller.resolution = std::pair(320, 240);
+    DriveEdits smaller{.resolution = std::pair(320, 240)};
     Drive drive = read_drive(GetParam(), smaller);
     const RoadNetwork network = read_opendrive(drive.road_file);
     tell_story(drive, network);
     const Route route(network, drive.start, drive.via);
     const Scene scene = staged_scene(drive, network, route);
     Device device = open_device("auto");
-    RendererSettings settings;
-    settings.tone_mapper = drive.tone_mapper;
-    settings.shadows = drive.shadows;
+    RendererSettings settings{.tone_mapper = drive.tone_mapper, .shadows = drive.shadows};
     Renderer pruned(device, scene, settings);
     settings.technique = "photometric-unpruned";
     Renderer unpruned(device, scene, settings);

@@ -33,18 +33,16 @@ inline std::shared_ptr<const LampFile> file_of(CandelaTable table) {
 
 /// `at` in the car's frame.
 inline LitLamp mounted(const Pose& ego, const char* name, std::shared_ptr<const LampFile> file, const glm::dvec3& at, double factor) {
-    LitLamp lamp;
-    lamp.name = name;
-    lamp.file = std::move(file);
-    lamp.pose = {ego.position_m + ego.axes * at, ego.axes * axes_from_angles(0.02 * at.y, -0.01, 0.0)};
-    lamp.intensity_factor = factor;
+    LitLamp lamp{.name = name,
+                 .file = std::move(file),
+                 .pose = {ego.position_m + ego.axes * at, ego.axes * axes_from_angles(0.02 * at.y, -0.01, 0.0)},
+                 .intensity_factor = factor};
     return lamp;
 }
 
 /// The right one stands first, so that a technique cannot take the first one for the left.
 inline Moment two_lamps(double sky_lx) {
-    Moment moment;
-    moment.ego = {{4.4e6, -5.2e5, 312.0}, axes_from_angles(0.7, 0.0, 0.0)};
+    Moment moment{.ego = {{4.4e6, -5.2e5, 312.0}, axes_from_angles(0.7, 0.0, 0.0)}};
     moment.daylight.horizontal_illuminance_lx = sky_lx;
     moment.lamps = {mounted(moment.ego, "right", file_of(soft_beam(9000.0, 3.0)), {3.4, -0.6, 0.65}, 0.8),
                     mounted(moment.ego, "left", file_of(soft_beam(14000.0, -2.0)), {3.4, 0.6, 0.7}, 1.0)};
@@ -82,13 +80,12 @@ inline Scene ground_and_board(const Pose& ego, int cells) {
 }
 
 inline View view_towards(double yaw_deg, double pitch_deg) {
-    View view;
-    view.position_m = {1.5, 0.35, 1.2};
-    view.yaw_rad = radians(yaw_deg);
-    view.pitch_rad = radians(pitch_deg);
-    view.vertical_fov_rad = radians(30.0);
-    view.width_px = 96;
-    view.height_px = 64;
+    View view{.position_m = {1.5, 0.35, 1.2},
+              .yaw_rad = radians(yaw_deg),
+              .pitch_rad = radians(pitch_deg),
+              .vertical_fov_rad = radians(30.0),
+              .width_px = 96,
+              .height_px = 64};
     return view;
 }
 
@@ -100,8 +97,7 @@ class PublishedTest : public testing::Test {
         return renderer(technique, scene).draw(moment, view, wanted);
     }
     Renderer renderer(const std::string& technique, const Scene& scene, bool eight_bit = false) {
-        RendererSettings settings;
-        settings.technique = technique;
+        RendererSettings settings{.technique = technique};
         if (eight_bit)
             settings.beams = eight_bit_texels;
         return Renderer(device_, scene, settings);

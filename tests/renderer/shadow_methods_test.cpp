@@ -15,8 +15,7 @@ constexpr Wanted all_results{.colour = true, .illuminance = true, .target = true
 constexpr double lamp_x = 2.2, lamp_z = 0.65;
 
 ShadowSettings method(ShadowMethod which) {
-    ShadowSettings settings;
-    settings.method = which;
+    ShadowSettings settings{.method = which};
     return settings;
 }
 
@@ -37,9 +36,7 @@ class ShadowMethodTest : public testing::Test {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const View& view, const ShadowSettings& shadows,
                const char* technique = "photometric", const Wanted& wanted = {.illuminance = true}) {
-        RendererSettings settings;
-        settings.technique = technique;
-        settings.shadows = shadows;
+        RendererSettings settings{.technique = technique, .shadows = shadows};
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, scene, settings);
         return renderer.draw(moment, view, wanted);
@@ -183,10 +180,7 @@ INSTANTIATE_TEST_SUITE_P(All, MapMethods,
 
 /// Both lamps' shadows fall as from midway: the edge lies (z / z_c - 1) times the lamp's distance from midway beside its own.
 TEST_F(ShadowMethodTest, OneMapForAllErrsByTheParallaxFromMidway) {
-    View above;
-    above.projection = Projection::map;
-    above.map_ahead_m = 24.0;
-    above.map_behind_m = -16.0;
+    View above{.projection = Projection::map, .map_ahead_m = 24.0, .map_behind_m = -16.0};
     above.map_left_m = above.map_right_m = 3.0;
     above.width_px = 1200;
     above.height_px = 160;
@@ -208,14 +202,13 @@ TEST_F(ShadowMethodTest, OneMapForAllErrsByTheParallaxFromMidway) {
 
 /// A strip of road across the edge of a shadow, 4 mm a pixel.
 View strip_at(double x, double y, int width_px) {
-    View view;
-    view.projection = Projection::map;
-    view.map_ahead_m = x + 0.1;
-    view.map_behind_m = -(x - 0.1);
-    view.map_left_m = y + 0.002 * width_px;
-    view.map_right_m = -(y - 0.002 * width_px);
-    view.width_px = width_px;
-    view.height_px = 4;
+    View view{.projection = Projection::map,
+              .width_px = width_px,
+              .height_px = 4,
+              .map_ahead_m = x + 0.1,
+              .map_behind_m = -(x - 0.1),
+              .map_left_m = y + 0.002 * width_px,
+              .map_right_m = -(y - 0.002 * width_px)};
     return view;
 }
 
@@ -247,11 +240,7 @@ TEST_F(ShadowMethodTest, PenumbraeConvergeToTheReferenceOfADisc) {
     const double about = shadow_y(0.6, post.x, post.y - post.width, at);
     const View view = strip_at(at, about, 240);
     const Wanted wanted{.illuminance = true};
-    ReferenceSettings rays;
-    rays.footprint = Footprint::centre;
-    rays.lamp_radius_m = radius;
-    rays.target_error = 0.002;
-    rays.least_samples = 1024;
+    ReferenceSettings rays{.footprint = Footprint::centre, .target_error = 0.002, .least_samples = 1024, .lamp_radius_m = radius};
     const Reference reference(scene);
     const ReferenceImage shaded = reference.render(moment, view, wanted, rays);
     rays.shadows = false;

@@ -12,8 +12,7 @@ namespace {
 constexpr ShadowSettings volumes{.method = ShadowMethod::volumes, .tolerance_m = 1e-4};
 
 Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) {
-    Moment moment;
-    moment.lamps = {lamp_at(at, 0.0, 0.0)};
+    Moment moment{.lamps = {lamp_at(at, 0.0, 0.0)}};
     return moment;
 }
 

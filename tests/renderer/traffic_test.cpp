@@ -18,6 +18,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <tuple>
 #include <unistd.h>
 
 namespace fernlicht {
@@ -58,20 +59,18 @@ std::string oncoming(double gap_m, int count = 1, double every_m = 25.0, const c
 }
 
 View driver(int width = 240, int height = 160, double fov_deg = 30.0) {
-    View view;
-    view.position_m = {1.3, 0.35, 1.2};
-    view.pitch_rad = radians(-1.0);
-    view.vertical_fov_rad = radians(fov_deg);
-    view.width_px = width;
-    view.height_px = height;
+    View view{.position_m = {1.3, 0.35, 1.2},
+              .pitch_rad = radians(-1.0),
+              .vertical_fov_rad = radians(fov_deg),
+              .width_px = width,
+              .height_px = height};
     return view;
 }
 
 class Traffic : public testing::Test {
   protected:
     RendererSettings settings(const char* technique = "photometric") {
-        RendererSettings s;
-        s.technique = technique;
+        RendererSettings s{.technique = technique};
         return s;
     }
     Frame draw(const Street& street, const Moment& moment, const View& view, const RendererSettings& s) {
@@ -146,8 +145,7 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
     moment.lamps.clear();
     moment.least_traffic_lx = 0.01;
     const View view = driver(48, 32);
-    ReferenceSettings rays;
-    rays.footprint = Footprint::centre;
+    ReferenceSettings rays{.footprint = Footprint::centre};
     const ReferenceImage truth = Reference(street.scene).render(moment, view, everything, rays);
     const Frame frame = draw(street, moment, view, settings());
     const Twin shaded(street.scene, true), unshaded(street.scene, false);

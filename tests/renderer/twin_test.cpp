@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -73,12 +74,8 @@ Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
 }
 
 View driver_96() {
-    View view;
-    view.position_m = {1.5, 0.35, 1.2};
-    view.pitch_rad = radians(-3.0);
-    view.vertical_fov_rad = radians(30.0);
-    view.width_px = 96;
-    view.height_px = 64;
+    View view{
+        .position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(30.0), .width_px = 96, .height_px = 64};
     return view;
 }
 
@@ -186,9 +183,7 @@ TEST_F(TwinTest, ShadowsFallWhereRaysSay) {
     Renderer renderer(device_, scene, {});
     Moment moment = two_lamps({});
     moment.lamps.pop_back(); // one lamp: lit or dark
-    View above;
-    above.projection = Projection::map;
-    above.map_ahead_m = 60.0;
+    View above{.projection = Projection::map, .map_ahead_m = 60.0};
     above.map_left_m = above.map_right_m = 8.0;
     above.width_px = 64;
     above.height_px = 240;
@@ -225,10 +220,8 @@ TEST_F(TwinTest, TwiceTheSameBytes) {
         return renderer.draw(moment, driver_96(), all_of_both);
     };
     const Frame a = draw(), b = draw();
-    EXPECT_EQ(a.colour, b.colour);
-    EXPECT_EQ(a.illuminance_lx, b.illuminance_lx);
-    EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2);
-    EXPECT_EQ(a.target_lx, b.target_lx);
+    EXPECT_EQ(std::tuple(a.colour, a.illuminance_lx, a.luminance_cdm2, a.target_lx),
+              std::tuple(b.colour, b.illuminance_lx, b.luminance_cdm2, b.target_lx));
 }
 
 TEST_F(TwinTest, ABlackLampGivesExactlyZero) {

@@ -27,8 +27,7 @@ LitLamp beam(const glm::dvec3& at) {
 }
 
 Moment in(const Weather& weather, double sky_lx = 0.0) {
-    Moment moment;
-    moment.weather = weather;
+    Moment moment{.weather = weather};
     moment.daylight.horizontal_illuminance_lx = sky_lx;
     moment.lamps = {beam({3.4, 0.6, 0.65}), beam({3.4, -0.6, 0.65})};
     moment.lamps[1].colour.linear_srgb = {1.6, 0.85, 0.95};
@@ -54,9 +53,7 @@ class DrawnWeather : public testing::Test {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const char* technique = "photometric", int samples = 32, Work* work = nullptr,
                const View& view = ahead_in_weather()) {
-        RendererSettings settings;
-        settings.technique = technique;
-        settings.fog_samples = samples;
+        RendererSettings settings{.technique = technique, .fog_samples = samples};
         Renderer renderer(device_, scene, settings);
         if (work != nullptr)
             *work = renderer.count(moment, view, all_drawn);
@@ -156,9 +153,7 @@ TEST_F(DrawnWeather, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
         EXPECT_EQ(a.colour, b.colour) << weather.extinction_per_m << ' ' << weather.wetness;
         EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << weather.extinction_per_m;
         EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << weather.extinction_per_m << ' ' << weather.wetness;
-        EXPECT_EQ(a.target_lx, b.target_lx);
-        EXPECT_EQ(a.depth_m, b.depth_m);
-        EXPECT_EQ(a.ids, b.ids);
+        EXPECT_EQ(std::tuple(a.target_lx, a.depth_m, a.ids), std::tuple(b.target_lx, b.depth_m, b.ids));
     }
 }
 
@@ -274,8 +269,7 @@ TEST(ReferenceWeather, AgreesWithTheTwin) {
     const Scene scene = road(0.1);
     Moment moment = in({0.03, 1.0, 0.85, 0.7}, 2.0);
     moment.daylight.sun = {radians(80.0), radians(20.0), 40.0};
-    ReferenceSettings settings;
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings{.footprint = Footprint::centre};
     View view = ahead_in_weather();
     view.width_px = 16;
     view.height_px = 12;

@@ -3,20 +3,18 @@
 #include "scenarios/values/scene.h"
 
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using photometry::combined_reflectance;
-using photometry::textured_rl;
+using photometry::combined_reflectance, photometry::textured_rl;
 
 constexpr glm::dvec3 own(0.5, 0.25, 0.125), blend_colour(1.0, 0.5, 0.0);
 constexpr glm::dvec4 texel(0.75, 0.5, 0.25, 0.25);
 
 void expect_colour(const glm::dvec3& found, double r, double g, double b) {
-    EXPECT_EQ(found.r, r);
-    EXPECT_EQ(found.g, g);
-    EXPECT_EQ(found.b, b);
+    EXPECT_EQ(std::tuple(found.r, found.g, found.b), std::tuple(r, g, b));
 }
 
 glm::dvec3 combined(TextureMode mode, const glm::dvec4& t = texel) {

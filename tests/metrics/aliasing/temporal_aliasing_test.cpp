@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -30,10 +31,7 @@ TEST(TemporalAliasing, WhatStandsStillReadsExactlyNothing) {
     const Image<double> still(64, 1, 0.1);
     const TemporalAliasing found = measure_temporal_aliasing(std::vector(12, still), std::vector(12, Image<double>(64, 1, 1.0F)),
                                                              tracks_along_x(64, 12, 0.0), rate_hz, ppd);
-    EXPECT_EQ(found.tracks, 64U);
-    EXPECT_EQ(found.crawl_percent, 0.0);
-    EXPECT_EQ(found.flicker_percent, 0.0);
-    EXPECT_EQ(found.visible, 0.0);
+    EXPECT_EQ(std::tuple(found.tracks, found.crawl_percent, found.flicker_percent, found.visible), std::tuple(64U, 0.0, 0.0, 0.0));
 }
 
 TEST(TemporalAliasing, WhatTheSceneCarriesAlongReadsNothing) {

@@ -261,8 +261,7 @@ TEST(Elbow, AShortRiseIsAimedByTheElbowAndByNothingElse) {
         const RegulationCheck check = check_regulation(regulation("r112-b"), {lamp}, options);
         return std::ranges::find(check.rows, "75R", &RowResult::id)->found;
     };
-    CheckOptions not_re_aimed;
-    not_re_aimed.re_aim = false;
+    CheckOptions not_re_aimed{.re_aim = false};
     EXPECT_NEAR(found(t, not_re_aimed) / found(aimed, {.aim = AimRule::as_is}), 1.0, 0.05);
 }
 

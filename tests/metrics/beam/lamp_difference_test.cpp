@@ -15,8 +15,7 @@ namespace {
 
 /// Every second row and column.
 CandelaTable thinned(const CandelaTable& table) {
-    CandelaTable out;
-    out.rule = table.rule;
+    CandelaTable out{.rule = table.rule};
     for (std::size_t h = 0; h < table.h_deg.size(); h += 2)
         out.h_deg.push_back(table.h_deg[h]);
     for (std::size_t v = 0; v < table.v_deg.size(); v += 2) {

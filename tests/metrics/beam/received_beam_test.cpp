@@ -15,9 +15,7 @@ std::vector<double> axis(double from, double to, double step) {
 }
 
 template <class Function> CandelaTable table_of(std::vector<double> h, std::vector<double> v, Function cd) {
-    CandelaTable t;
-    t.h_deg = std::move(h);
-    t.v_deg = std::move(v);
+    CandelaTable t{.h_deg = std::move(h), .v_deg = std::move(v)};
     for (const double y : t.v_deg)
         for (const double x : t.h_deg)
             t.cd.push_back(cd(x, y));

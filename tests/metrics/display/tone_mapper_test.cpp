@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -94,8 +95,7 @@ INSTANTIATE_TEST_SUITE_P(, ToneMappers, testing::ValuesIn(mappers()),
                          [](const auto& test) { return std::string(name(test.param.kind)) + std::to_string(test.index); });
 
 TEST(ToneCurve, ACurveThatIsNotFoundYetIsLinear) {
-    ToneMapper open;
-    open.kind = ToneMapperKind::histogram;
+    ToneMapper open{.kind = ToneMapperKind::histogram};
     ASSERT_TRUE(open.is_open());
     EXPECT_EQ(toned(open, 25.0), 0.25);
     EXPECT_EQ(*untoned(open, 0.25), 25.0);
@@ -126,9 +126,7 @@ TEST(ToneFit, HistogramOfFourPixels) {
     Image<std::uint8_t> sources(2, 2);
     sources.at(1, 1) = 1;
     histogram.add(picture, sources);
-    EXPECT_EQ(histogram.pixels(), 4U);
-    EXPECT_EQ(histogram.most_cdm2(), 5000.0);
-    EXPECT_EQ(histogram.most_on_surfaces_cdm2(), 100.0);
+    EXPECT_EQ(std::tuple(histogram.pixels(), histogram.most_cdm2(), histogram.most_on_surfaces_cdm2()), std::tuple(4U, 5000.0, 100.0));
     EXPECT_NEAR(histogram.log_mean_cdm2(), std::cbrt(500000.0), 1.0e-9);
     EXPECT_THROW(histogram.add(picture, Image<std::uint8_t>(1, 2)), std::invalid_argument);
 }

@@ -112,16 +112,13 @@ TEST(DeBoer, NeedsLightOffTheLineOfSight) {
 LitLamp lamp_at(const glm::dvec3& position_m, double cd) {
     auto file = std::make_shared<LampFile>();
     file->table = {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd};
-    LitLamp lamp;
-    lamp.name = "left";
-    lamp.file = std::move(file);
+    LitLamp lamp{.name = "left", .file = std::move(file)};
     lamp.pose.position_m = position_m;
     return lamp;
 }
 
 Moment moment_with(std::vector<LitLamp> lamps) {
-    Moment moment;
-    moment.lamps = std::move(lamps);
+    Moment moment{.lamps = std::move(lamps)};
     return moment;
 }
 
@@ -179,9 +176,8 @@ TEST(EyeLight, ACrestHidesLampsAndALevelRoadDoesNot) {
 Moment oncoming() {
     auto file = std::make_shared<LampFile>();
     file->table = {{-80.0, 80.0}, {-80.0, 80.0}, {5000.0, 5000.0, 5000.0, 5000.0}, {}, BetweenSamples::linear_cd};
-    Moment moment;
-    moment.other_lamps = {{"other left", file, {{50.0, 3.5, 1.2}, axes_from_angles(pi, 0.0, 0.0)}, 1.0, {}, 0.0, 0, {0.16, 0.12}}};
-    moment.bodies = {{"other", {{53.0, 3.5, 0.0}, axes_from_angles(pi, 0.0, 0.0)}, true, 0.0}};
+    Moment moment{.other_lamps = {{"other left", file, {{50.0, 3.5, 1.2}, axes_from_angles(pi, 0.0, 0.0)}, 1.0, {}, 0.0, 0, {0.16, 0.12}}},
+                  .bodies = {{"other", {{53.0, 3.5, 0.0}, axes_from_angles(pi, 0.0, 0.0)}, true, 0.0}}};
     return moment;
 }
 

@@ -12,14 +12,12 @@
 #include <limits>
 #include <numeric>
 #include <tbb/global_control.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using tests::DirectFlip;
-using tests::disturbed;
-using tests::made_scene;
-using tests::shifted;
+using tests::DirectFlip, tests::disturbed, tests::made_scene, tests::shifted;
 
 constexpr Rgb8 black{0, 0, 0}, white{255, 255, 255}, red{255, 0, 0}, green{0, 255, 0}, blue{0, 0, 255}, grey{119, 119, 119};
 
@@ -289,10 +287,8 @@ TEST(FlipHdr, WrongInputIsRefused) {
 TEST(DisplayDifference, TheSameHasNone) {
     const Image<Rgb8> picture(3, 2, {1, 2, 3});
     const DisplayDifference found = compare_displays(picture, picture);
-    EXPECT_EQ(found.maximum, 0);
-    EXPECT_EQ(found.rmse, 0.0);
-    EXPECT_EQ(found.percent_different, 0.0);
-    EXPECT_EQ(found.psnr_db, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(std::tuple(found.maximum, found.rmse, found.percent_different, found.psnr_db),
+              std::tuple(0, 0.0, 0.0, std::numeric_limits<double>::infinity()));
 }
 
 // Of four pixels one differs by -3 and 4 in two channels: 25 over 12 values, rmse 1.4434, 20 log10(255 / 1.4434) = 44.943 dB.
@@ -300,9 +296,7 @@ TEST(DisplayDifference, ByHand) {
     Image<Rgb8> reference(2, 2, {10, 20, 30}), tested = reference;
     tested.at(1, 0) = {7, 24, 30};
     const DisplayDifference found = compare_displays(tested, reference);
-    EXPECT_EQ(found.maximum, 4);
-    EXPECT_EQ(found.maximum_x, 1);
-    EXPECT_EQ(found.maximum_y, 0);
+    EXPECT_EQ(std::tuple(found.maximum, found.maximum_x, found.maximum_y), std::tuple(4, 1, 0));
     EXPECT_DOUBLE_EQ(found.rmse, std::sqrt(25.0 / 12.0));
     EXPECT_NEAR(found.psnr_db, 44.943, 5e-4);
     EXPECT_DOUBLE_EQ(found.percent_different, 25.0);

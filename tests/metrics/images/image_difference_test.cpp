@@ -10,14 +10,15 @@
 #include <opencv2/core.hpp>
 #include <random>
 #include <stdexcept>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
+using testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Property;
 using ::testing::ThrowsMessage;
-using testing::ElementsAre;
 
 Image<float> picture(int width, int height, const std::vector<float>& values) {
     Image<float> image(width, height);
@@ -29,10 +30,8 @@ TEST(ImageDifference, TheSameIsIdentical) {
     const auto image = picture(2, 2, {0.0F, 1.0F, 2.0F, 1e6F});
     const ImageDifference difference = compare_images(image, image, 0.0, 0.0);
     EXPECT_TRUE(difference.identical);
-    EXPECT_EQ(difference.maximum, 0.0);
-    EXPECT_EQ(difference.rmse, 0.0);
-    EXPECT_EQ(difference.percent_over, 0.0);
-    EXPECT_EQ(difference.psnr_db, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(std::tuple(difference.maximum, difference.rmse, difference.percent_over, difference.psnr_db),
+              std::tuple(0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()));
 }
 
 // Differences 0, -3, 4, 0 on a reference with peak 100: mse 25/4, rmse 2.5, psnr 20 log10(40) = 32.0412 dB.

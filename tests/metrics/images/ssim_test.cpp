@@ -11,9 +11,7 @@
 namespace fernlicht {
 namespace {
 
-using tests::disturbed;
-using tests::made_scene;
-using tests::shifted;
+using tests::disturbed, tests::made_scene, tests::shifted;
 
 TEST(Ssim, TheSameIsOne) {
     const auto luma = luma_of(made_scene(30, 20));

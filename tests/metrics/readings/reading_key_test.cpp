@@ -338,10 +338,7 @@ TEST(Quantities, ASubjectStandsWhereTheTableSaysSo) {
 // A limit on a reading that cannot exist is found before a drive is played, not after.
 
 Drive limited_by(const std::string& reading) {
-    Drive drive;
-    drive.file = "night.yaml";
-    drive.probes = {{"kerb-30m", 30.0, 0.0, 0.0}};
-    drive.limits = {{reading, 1.0, std::nullopt}};
+    Drive drive{.file = "night.yaml", .probes = {{"kerb-30m", 30.0, 0.0, 0.0}}, .limits = {{reading, 1.0, std::nullopt}}};
     return drive;
 }
 

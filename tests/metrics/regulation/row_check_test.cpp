@@ -17,23 +17,16 @@ namespace fernlicht {
 namespace {
 
 using generated::Lamp;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::IsSupersetOf;
+using testing::HasSubstr, testing::IsEmpty, testing::IsSupersetOf;
 
 CandelaTable constant(double cd, double h_deg = 60.0, double v_deg = 30.0) {
-    CandelaTable t;
-    t.h_deg = {-h_deg, 0.0, h_deg};
-    t.v_deg = {-v_deg, 0.0, v_deg};
+    CandelaTable t{.h_deg = {-h_deg, 0.0, h_deg}, .v_deg = {-v_deg, 0.0, v_deg}};
     t.cd.assign(9, cd);
     return t;
 }
 
 Regulation table_of(std::vector<RegulationRow> rows) {
-    Regulation r;
-    r.id = "test";
-    r.receiver = un_receiver;
-    r.rows = std::move(rows);
+    Regulation r{.id = "test", .receiver = un_receiver, .rows = std::move(rows)};
     return r;
 }
 

@@ -11,10 +11,7 @@
 namespace fernlicht {
 namespace {
 
-using tests::extent_of;
-using tests::lit_by;
-using tests::straight_grid;
-using tests::two_lanes;
+using tests::extent_of, tests::lit_by, tests::straight_grid, tests::two_lanes;
 
 constexpr double pi_ = 3.14159265358979323846;
 
@@ -297,8 +294,7 @@ TEST(GridError, AReachThatGoesOnHasNone) {
 RoadNetwork library_road(const char* name) { return read_opendrive(std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/roads/") + name); }
 
 Moment at(double distance_m) {
-    Moment moment;
-    moment.distance_m = distance_m;
+    Moment moment{.distance_m = distance_m};
     return moment;
 }
 
@@ -377,12 +373,10 @@ TEST(ExtentGrid, RefusesParametersThatGiveNoGrid) {
     const Route route(network, {});
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     for (const double bad : {0.0, -1.0, nan, infinity, 1e-9}) {
-        ExtentParameters parameters;
-        parameters.cell_m = bad;
+        ExtentParameters parameters{.cell_m = bad};
         EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, parameters), std::invalid_argument) << bad;
     }
-    ExtentParameters parameters;
-    parameters.ahead_m = 1e12;
+    ExtentParameters parameters{.ahead_m = 1e12};
     EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, parameters), std::invalid_argument);
     parameters = {};
     parameters.beside_m = nan;

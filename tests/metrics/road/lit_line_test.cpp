@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -33,9 +34,7 @@ TEST(Crossing, IsStraightInTheLogarithmAndFallsBackWhereItIsDark) {
 TEST(LitLine, NothingLit) {
     const LitLine line = lit_line({{0.0, 0.5}, {1.0, 0.9}, {2.0, 0.0}}, 1.0);
     EXPECT_FALSE(line.lit);
-    EXPECT_EQ(line.last_m, 0.0);
-    EXPECT_EQ(line.lit_m, 0.0);
-    EXPECT_EQ(line.unlit_before_last_m, 0.0);
+    EXPECT_EQ(std::tuple(line.last_m, line.lit_m, line.unlit_before_last_m), std::tuple(0.0, 0.0, 0.0));
     EXPECT_FALSE(line.lit_at_end);
 }
 

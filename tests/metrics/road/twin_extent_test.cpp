@@ -10,15 +10,12 @@
 namespace fernlicht {
 namespace {
 
-using tests::extent_of;
-using tests::straight_grid;
+using tests::extent_of, tests::straight_grid;
 
 LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double pitch_rad = 0.0) {
     auto file = std::make_shared<LampFile>();
     file->table = std::move(table);
-    LitLamp lamp;
-    lamp.file = std::move(file);
-    lamp.pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)};
+    LitLamp lamp{.file = std::move(file), .pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)}};
     return lamp;
 }
 
@@ -30,8 +27,7 @@ CandelaTable cut_off_at_horizon(double cd) {
 }
 
 Moment moment_of(std::vector<LitLamp> lamps) {
-    Moment moment;
-    moment.lamps = std::move(lamps);
+    Moment moment{.lamps = std::move(lamps)};
     return moment;
 }
 

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <initializer_list>
 #include <limits>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -92,9 +93,7 @@ TEST(ShadowEdges, AreMatchedByOrderAndDirection) {
 
 TEST(ShadowEdges, ErrorsOfSectionsTogether) {
     const EdgeError error = edge_error({{{{{0.0, 1}, 0.03}, {{1.0, -1}, -0.04}}, 1, 0}, {{}, 0, 2}});
-    EXPECT_EQ(error.edges, 2U);
-    EXPECT_EQ(error.lost, 1U);
-    EXPECT_EQ(error.invented, 2U);
+    EXPECT_EQ(std::tuple(error.edges, error.lost, error.invented), std::tuple(2U, 1U, 2U));
     EXPECT_NEAR(error.rms_cm.value(), std::sqrt((9.0 + 16.0) / 2.0), 1e-12);
     EXPECT_NEAR(error.worst_cm.value(), 4.0, 1e-12);
     EXPECT_FALSE(edge_error({}).rms_cm.has_value());

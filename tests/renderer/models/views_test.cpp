@@ -35,9 +35,7 @@ Moment lit() {
     static const auto file = std::make_shared<const LampFile>(lamp_of_model(lamp_models().at(0)));
     Moment moment;
     for (const double side : {0.6, -0.6}) {
-        LitLamp lamp;
-        lamp.file = file;
-        lamp.pose = {{3.6, side, 0.65}, glm::dmat3(1.0)};
+        LitLamp lamp{.file = file, .pose = {{3.6, side, 0.65}, glm::dmat3(1.0)}};
         moment.lamps.push_back(std::move(lamp));
     }
     moment.daylight.horizontal_illuminance_lx = 0.2; // so that mirrors see something
@@ -101,11 +99,7 @@ TEST(Views, AMirrorExchangesLeftAndRight) {
     Device device = open_device("auto");
     const Scene scene = road_with_car();
     Renderer renderer(device, scene, {});
-    View view;
-    view.position_m = {1.3, 0.35, 1.2};
-    view.yaw_rad = 0.15;
-    view.width_px = 160;
-    view.height_px = 120;
+    View view{.position_m = {1.3, 0.35, 1.2}, .yaw_rad = 0.15, .width_px = 160, .height_px = 120};
     const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
     const Frame plain = renderer.draw(lit(), view, wanted);
     view.mirrored = true;
@@ -226,21 +220,14 @@ Moment low_beams() {
     static const auto file = std::make_shared<const LampFile>(lamp_of_model(lamp_models().at(0)));
     Moment moment;
     for (const double side : {0.6, -0.6}) {
-        LitLamp lamp;
-        lamp.name = side > 0.0 ? "left" : "right";
-        lamp.file = file;
-        lamp.pose = {{0.0, side, 0.65}, axes_from_angles(0.0, 0.0, 0.0)};
+        LitLamp lamp{.name = side > 0.0 ? "left" : "right", .file = file, .pose = {{0.0, side, 0.65}, axes_from_angles(0.0, 0.0, 0.0)}};
         moment.lamps.push_back(std::move(lamp));
     }
     return moment;
 }
 
 View map_of_plane() {
-    View view;
-    view.name = "map";
-    view.projection = Projection::map;
-    view.map_ahead_m = 65.0;
-    view.map_behind_m = -5.0;
+    View view{.name = "map", .projection = Projection::map, .map_ahead_m = 65.0, .map_behind_m = -5.0};
     view.map_left_m = view.map_right_m = 6.0;
     view.width_px = 48;
     view.height_px = 240;
@@ -270,8 +257,7 @@ TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
                 moment, {65.0 - 60.0 * (y + 0.5) / view.height_px, 6.0 - 12.0 * (x + 0.5) / view.width_px, 0.0}, {0.0, 0.0, 1.0}));
     ASSERT_GT(*std::ranges::max_element(truth), 5.0);
     const auto drawn = [&](const Scene& scene, const std::string& technique) {
-        RendererSettings settings;
-        settings.technique = technique;
+        RendererSettings settings{.technique = technique};
         return Renderer(device, scene, settings).draw(moment, view, {.illuminance = true});
     };
     const Frame two = drawn(coarse, "photometric"), many = drawn(fine, "photometric");

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -18,19 +19,15 @@ using reference::fresnel_reflectance;
 constexpr double stored = 6e-8;
 
 ReferenceSettings centre_rays() {
-    ReferenceSettings settings;
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings{.footprint = Footprint::centre};
     return settings;
 }
 
 TEST(ReferenceDirect, LightsAWallAt25MetresAsTheInverseSquareAndTheCubeOfTheCosineSay) {
     Mesh wall{"wall", {25.0, 0.0, 0.0}, {}, {}, {}};
     add_quad(wall, {0, 20, -20}, {0, -20, -20}, {0, -20, 20}, {0, 20, 20});
-    Scene scene;
-    scene.materials = {lambert(0.5, SurfaceKind::object)};
-    scene.meshes = {finished(wall, 0)};
-    Moment moment;
-    moment.lamps = {even_lamp(10000.0, looking({0, 0, 0}, 0, 0))};
+    Scene scene{.materials = {lambert(0.5, SurfaceKind::object)}, .meshes = {finished(wall, 0)}};
+    Moment moment{.lamps = {even_lamp(10000.0, looking({0, 0, 0}, 0, 0))}};
     const View view = camera({0, 0, 0}, 0, 0, 60, 33); // an odd number: one pixel on the axis
     const ReferenceImage image = Reference(scene).render(moment, view, everything, centre_rays());
     for (int y = 0; y < 33; ++y)
@@ -51,8 +48,7 @@ TEST(ReferenceDirect, AveragesAPixelOfThePlaneUnderALampAsTheIntegralDoes) {
     const double h = 0.65, cd = 1000.0;
     moment.lamps = {even_lamp(cd, looking({0, 0, h}, 0, -90))};
     const View view = map_about({1.0, 0.5}, 2.0, 4);
-    ReferenceSettings settings;
-    settings.target_error = 0.001;
+    ReferenceSettings settings{.target_error = 0.001};
     const ReferenceImage image = Reference(scene).render(moment, view, lux, settings);
     ASSERT_TRUE(image.complete);
     for (int row = 0; row < 4; ++row)
@@ -113,9 +109,7 @@ TEST(ReferenceDirect, SpreadsTheShadowOfADiscLampOverItsPenumbra) {
     // From x on the ground the wall's upper edge cuts the disc (which stands upright, facing ahead) at the height 1 + (1/(x-4)) 4 above the
     // ground. A disc of radius 0.1 about 2 m: fully lit where the line is below 1.9, dark where above 2.1.
     const Wall wall;
-    ReferenceSettings settings;
-    settings.lamp_radius_m = 0.1;
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings{.footprint = Footprint::centre, .lamp_radius_m = 0.1};
     View view = map_about({8.0, 0.0}, 1.0, 200);
     view.width_px = 1;
     view.map_left_m = view.map_right_m = 0.005;
@@ -217,10 +211,8 @@ TEST(ReferenceDirect, DoesNotLeakThroughTheSeamsOfAFineMesh) {
                 ceiling.indices.push_back(v);
         }
     scene.meshes.push_back(finished(ceiling, 1));
-    Moment moment;
-    moment.lamps = {even_lamp(1e6, looking({0, 0, 4}, 0, -90))};
-    ReferenceSettings settings;
-    settings.least_samples = 64;
+    Moment moment{.lamps = {even_lamp(1e6, looking({0, 0, 4}, 0, -90))}};
+    ReferenceSettings settings{.least_samples = 64};
     const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 8.0, 100), lux, settings);
     for (const float e : image.illuminance_lx.mean.pixels())
         ASSERT_EQ(e, 0.0F);
@@ -234,18 +226,14 @@ TEST(ReferenceDirect, LeavesOutWhatIsNotWantedAndRefusesNonsense) {
     ASSERT_FALSE(image.target_lx.mean.empty());
     const double x = 2.25, y = 0.25, d2 = x * x + y * y + 1.75 * 1.75; // pixel (1, 1): lamp at 2 m, target at 0.25 m
     EXPECT_NEAR(image.target_lx.mean.at(1, 1), 1000.0 / d2, 1e-6 * 1000.0 / d2);
-    ReferenceSettings settings;
-    settings.target_error = 0.0;
+    ReferenceSettings settings{.target_error = 0.0};
     EXPECT_THROW(reference.render(wall.moment, map_about({2, 0}, 1.0, 4), lux, settings), std::invalid_argument);
 }
 
 // Smooth surfaces, by Whitted's recursion and by paths, against closed forms.
 
 ReferenceSettings one_ray(Integrator integrator) {
-    ReferenceSettings settings;
-    settings.integrator = integrator;
-    settings.footprint = Footprint::centre;
-    settings.target_error = 0.005;
+    ReferenceSettings settings{.integrator = integrator, .footprint = Footprint::centre, .target_error = 0.005};
     return settings;
 }
 
@@ -289,8 +277,7 @@ TEST(Fresnel, RefractionFollowsSnell) {
 
 /// A wall at x = 4 that faces the car, a mirror in the plane x = y that shows it to an eye that looks along +y, and a lamp before the wall.
 Scene mirror_and_wall(const Material& mirror) {
-    Scene scene;
-    scene.materials = {lambert(0.5, SurfaceKind::object), mirror};
+    Scene scene{.materials = {lambert(0.5, SurfaceKind::object), mirror}};
     Mesh wall{"wall", {4.0, 0.0, 0.0}, {}, {}, {}}, looking_glass{"mirror", {0.0, 0.0, 0.0}, {}, {}, {}};
     add_quad(wall, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
     add_quad(looking_glass, {-1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 1}); // faces +x -y
@@ -386,8 +373,7 @@ TEST(Whitted, GlassInAnEvenRoomCannotBeSeen) {
 
 TEST(Whitted, IsDirectLightToTheBitWhereNothingIsSmooth) {
     const Scene scene = level_ground(20.0, lambert(0.3));
-    Moment moment;
-    moment.lamps = {even_lamp(1000.0, looking({0, 0, 1}, 0, -20))};
+    Moment moment{.lamps = {even_lamp(1000.0, looking({0, 0, 1}, 0, -20))}};
     moment.daylight.horizontal_illuminance_lx = 2.0;
     ReferenceSettings settings;
     const View view = camera({0, 0, 1.2}, 0, -5, 30, 8);

@@ -14,9 +14,7 @@ namespace {
 double hypotenuse(double a, double b) { return std::hypot(a, b); }
 
 ReferenceSettings paths(double target_error) {
-    ReferenceSettings settings;
-    settings.integrator = Integrator::path;
-    settings.target_error = target_error;
+    ReferenceSettings settings{.integrator = Integrator::path, .target_error = target_error};
     return settings;
 }
 
@@ -169,9 +167,7 @@ Scene round_room(const Material& material, int rows) {
         for (const std::uint32_t j : {0U, 1U, 2U, 0U, 2U, 3U})
             room.indices.push_back(first + j);
     }
-    Scene scene;
-    scene.materials = {material};
-    scene.meshes = {finished(room, 0)};
+    Scene scene{.materials = {material}, .meshes = {finished(room, 0)}};
     return scene;
 }
 
@@ -179,8 +175,7 @@ TEST(ReferencePath, AnIntegratingSphereSpreadsALampsLightEvenly) {
     // Whatever the lamp's beam, light that has bounced is the same everywhere: E = rho flux / (4 pi r^2 (1 - rho)). The lamp's flux
     // is 2 pi I: a lamp shines into the half-space before it.
     const Scene scene = round_room(lambert(0.7), 64);
-    Moment moment;
-    moment.lamps = {even_lamp(10.0, looking({0.3, -0.2, 0.1}, 40, 30))};
+    Moment moment{.lamps = {even_lamp(10.0, looking({0.3, -0.2, 0.1}, 40, 30))}};
     const Reference reference(scene);
     const View view = camera({0, 0, 0}, 0, 0, 50, 3);
     ReferenceSettings settings = paths(0.005);
@@ -211,8 +206,7 @@ TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
     add_quad(sign, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
     scene.meshes = {finished(screen, 0), finished(sign, 1)};
     const glm::dvec3 lamp_m{0.1, 0.0, 0.0}, place{0.0, 0.25, 0.0};
-    Moment moment;
-    moment.lamps = {even_lamp(1000.0, looking(lamp_m, 0, 0))};
+    Moment moment{.lamps = {even_lamp(1000.0, looking(lamp_m, 0, 0))}};
     View view = camera({1.0, 0.25, 0.0}, 180, 0, 1, 1);
     ReferenceSettings settings = paths(0.005);
     settings.footprint = Footprint::centre;
@@ -235,8 +229,7 @@ TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
 
 TEST(ReferencePath, IsDirectLightWhereNothingReflects) {
     Scene scene = level_ground(20.0, lambert(0.0));
-    Moment moment;
-    moment.lamps = {even_lamp(1000.0, looking({0, 0, 1}, 0, -20))};
+    Moment moment{.lamps = {even_lamp(1000.0, looking({0, 0, 1}, 0, -20))}};
     const Reference reference(scene);
     ReferenceSettings settings = paths(0.01);
     const ReferenceImage path = reference.render(moment, map_about({3, 0}, 2.0, 8), lux, settings);

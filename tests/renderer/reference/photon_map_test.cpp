@@ -14,9 +14,7 @@ namespace fernlicht {
 namespace {
 
 ReferenceSettings photons(std::int64_t count, double radius_m, bool final_gather) {
-    ReferenceSettings settings;
-    settings.integrator = Integrator::photon_map;
-    settings.target_error = 0.005;
+    ReferenceSettings settings{.integrator = Integrator::photon_map, .target_error = 0.005};
     settings.solver.photons = count;
     settings.solver.radius_m = radius_m;
     settings.solver.final_gather = final_gather;
@@ -47,8 +45,7 @@ struct Solved {
 };
 
 Moment with(LitLamp lamp) {
-    Moment moment;
-    moment.lamps = {std::move(lamp)};
+    Moment moment{.lamps = {std::move(lamp)}};
     return moment;
 }
 
@@ -81,8 +78,7 @@ TEST(PhotonMap, AWallAt25mHasItsIlluminance) {
     file->table.h_deg = {-6.0, 1.0, 6.0}, file->table.v_deg = {-6.0, 6.0};
     file->table.cd.assign(6, 10'000.0);
     lamp.file = file;
-    Scene scene;
-    scene.materials = {lambert(0.5, SurfaceKind::object)};
+    Scene scene{.materials = {lambert(0.5, SurfaceKind::object)}};
     Mesh wall{"wall", {25.0, 0.0, 0.0}, {}, {}, {}};
     add_quad(wall, {0, 4, -4}, {0, -4, -4}, {0, -4, 4}, {0, 4, 4});
     scene.meshes = {finished(wall, 0)};
@@ -147,9 +143,7 @@ TEST(PhotonMap, MeetsPathsInARoomWithALamp) {
     const Moment moment = with(even_lamp(100.0, looking({-0.6, 0.1, 0.3}, 0, -10)));
     const View view = camera({-0.8, 0.0, 0.0}, 0, 0, 60, 4);
     const Reference reference(scene);
-    ReferenceSettings paths;
-    paths.integrator = Integrator::path;
-    paths.target_error = 0.005;
+    ReferenceSettings paths{.integrator = Integrator::path, .target_error = 0.005};
     const ReferenceImage truth = reference.render(moment, view, everything, paths),
                          gathered = reference.render(moment, view, everything, photons(1 << 18, 0.05, true)),
                          seen = reference.render(moment, view, everything, photons(1 << 18, 0.1, false));
@@ -211,9 +205,7 @@ TEST(SolvedLight, RefusesSettingsThatMakeNoSense) {
 // Radiosity against closed forms and against paths.
 
 ReferenceSettings radiosity(double patch_m, int rays, bool final_gather) {
-    ReferenceSettings settings;
-    settings.integrator = Integrator::radiosity;
-    settings.target_error = 0.005;
+    ReferenceSettings settings{.integrator = Integrator::radiosity, .target_error = 0.005};
     settings.solver.patch_m = patch_m;
     settings.solver.form_factor_rays = rays;
     settings.solver.final_gather = final_gather;
@@ -226,8 +218,7 @@ void expect_radiosity(const Estimate& estimate, double truth, double bias, int x
 }
 
 TEST(Patches, CoverTheirTrianglesAndFindTheirOwnPlaces) {
-    Scene scene;
-    scene.materials = {lambert(0.5)};
+    Scene scene{.materials = {lambert(0.5)}};
     Mesh mesh{"triangles", {3.0, -2.0, 0.5}, {}, {}, {}};
     add_quad(mesh, {0, 0, 0}, {20, 0, 0}, {20, 0.1, 0}, {0, 0.1, 0}); // long and thin
     add_quad(mesh, {0, 1, 0}, {2, 1, 0}, {2.5, 4, 1}, {0.2, 3, 0.3});
@@ -314,13 +305,10 @@ TEST(Radiosity, MeetsPathsInARoomWithALampAndALedge) {
     add_quad(ledge, {0.2, -0.5, -0.2}, {0.8, -0.5, -0.2}, {0.8, 0.5, -0.2}, {0.2, 0.5, -0.2});
     add_quad(ledge, {0.2, -0.5, -0.25}, {0.2, 0.5, -0.25}, {0.8, 0.5, -0.25}, {0.8, -0.5, -0.25});
     scene.meshes.push_back(finished(ledge, 1));
-    Moment moment;
-    moment.lamps = {even_lamp(100.0, looking({-0.6, 0.1, 0.3}, 0, -10))};
+    Moment moment{.lamps = {even_lamp(100.0, looking({-0.6, 0.1, 0.3}, 0, -10))}};
     const View view = camera({-0.8, 0.0, 0.0}, 0, -15, 60, 4);
     const Reference reference(scene);
-    ReferenceSettings paths;
-    paths.integrator = Integrator::path;
-    paths.target_error = 0.01;
+    ReferenceSettings paths{.integrator = Integrator::path, .target_error = 0.01};
     ReferenceSettings solver = radiosity(0.1, 64, true);
     solver.target_error = 0.01;
     const ReferenceImage truth = reference.render(moment, view, everything, paths),

@@ -43,23 +43,18 @@ inline Pose looking(glm::dvec3 position_m, double yaw_deg, double pitch_deg) {
 
 /// A camera with a narrow, square view.
 inline View camera(glm::dvec3 position_m, double yaw_deg, double pitch_deg, double fov_deg, int px) {
-    View view;
-    view.position_m = position_m;
-    view.yaw_rad = radians(yaw_deg);
-    view.pitch_rad = radians(pitch_deg);
-    view.vertical_fov_rad = radians(fov_deg);
+    View view{.position_m = position_m, .yaw_rad = radians(yaw_deg), .pitch_rad = radians(pitch_deg), .vertical_fov_rad = radians(fov_deg)};
     view.width_px = view.height_px = px;
     return view;
 }
 
 /// A map of px x px pixels over 2 half x 2 half metres about a place.
 inline View map_about(glm::dvec2 centre_m, double half_m, int px) {
-    View view;
-    view.projection = Projection::map;
-    view.map_ahead_m = centre_m.x + half_m;
-    view.map_behind_m = half_m - centre_m.x;
-    view.map_left_m = half_m + centre_m.y;
-    view.map_right_m = half_m - centre_m.y;
+    View view{.projection = Projection::map,
+              .map_ahead_m = centre_m.x + half_m,
+              .map_behind_m = half_m - centre_m.x,
+              .map_left_m = half_m + centre_m.y,
+              .map_right_m = half_m - centre_m.y};
     view.width_px = view.height_px = px;
     return view;
 }
@@ -73,9 +68,7 @@ inline Scene closed_room(const Material& material) {
     add_quad(room, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});
     add_quad(room, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1});
     add_quad(room, {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1});
-    Scene scene;
-    scene.materials = {material};
-    scene.meshes = {finished(room, 0)};
+    Scene scene{.materials = {material}, .meshes = {finished(room, 0)}};
     return scene;
 }
 
@@ -83,17 +76,12 @@ inline Scene closed_room(const Material& material) {
 inline Scene level_ground(double half_m, const Material& material) {
     Mesh ground{"ground", {}, {}, {}, {}};
     add_quad(ground, {-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0});
-    Scene scene;
-    scene.materials = {material};
-    scene.meshes = {finished(ground, 0)};
+    Scene scene{.materials = {material}, .meshes = {finished(ground, 0)}};
     return scene;
 }
 
 inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road) {
-    Material material;
-    material.name = "lambert";
-    material.kind = kind;
-    material.albedo = glm::vec3(static_cast<float>(albedo));
+    Material material{.name = "lambert", .kind = kind, .albedo = glm::vec3(static_cast<float>(albedo))};
     return material;
 }
 

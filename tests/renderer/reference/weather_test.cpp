@@ -13,16 +13,12 @@ namespace fernlicht {
 namespace {
 
 ReferenceSettings by(Integrator integrator, double target_error = 0.005) {
-    ReferenceSettings settings;
-    settings.integrator = integrator;
-    settings.target_error = target_error;
-    settings.most_samples = 1 << 14;
+    ReferenceSettings settings{.integrator = integrator, .target_error = target_error, .most_samples = 1 << 14};
     return settings;
 }
 
 Moment in_fog(double extinction_per_m, double albedo = 1.0, double asymmetry = 0.85) {
-    Moment moment;
-    moment.weather = {extinction_per_m, albedo, asymmetry, 0.0};
+    Moment moment{.weather = {extinction_per_m, albedo, asymmetry, 0.0}};
     return moment;
 }
 
@@ -114,8 +110,7 @@ TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
     shining.emission_cdm2 = glm::vec3(50.0F);
     Material mirror = lambert(0.0);
     mirror.mirror = 0.8F;
-    Scene scene;
-    scene.materials = {shining, mirror};
+    Scene scene{.materials = {shining, mirror}};
     Mesh wall{"wall", {}, {}, {}, {}}, glass{"mirror", {}, {}, {}, {}};
     add_quad(wall, {-12, -30, -30}, {-12, 30, -30}, {-12, 30, 30}, {-12, -30, 30}); // faces +x, behind the eye
     add_quad(glass, {8, 30, -30}, {8, -30, -30}, {8, -30, 30}, {8, 30, 30});        // faces -x
@@ -133,8 +128,7 @@ TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
 
 TEST(ReferenceFog, BouncedLightIsTakenOnBothOfItsWays) {
     // Lamp to a board of 1 m x 1 m, board to a black post beside the lamp; nothing scatters: E = rho / pi E_board A cos cos / d^2 nearly.
-    Scene scene;
-    scene.materials = {lambert(0.9), lambert(0.0)};
+    Scene scene{.materials = {lambert(0.9), lambert(0.0)}};
     Mesh board{"board", {}, {}, {}, {}}, post{"post", {}, {}, {}, {}};
     add_quad(board, {8, 0.5, -0.5}, {8, -0.5, -0.5}, {8, -0.5, 0.5}, {8, 0.5, 0.5});
     add_quad(post, {0, -1.5, -0.5}, {0, -0.5, -0.5}, {0, -0.5, 0.5}, {0, -1.5, 0.5}); // faces +x
@@ -223,8 +217,7 @@ TEST(ReferenceWet, AWetRoomMakesNoEnergy) {
 
 TEST(ReferenceSun, LightThatTheGroundThrowsUpIsTheSameByAllMethods) {
     // A plate that looks down on the corner of a sunlit square from 1 m up: E = rho E_sun F, view factor of Howell's catalogue B-3.
-    Scene scene;
-    scene.materials = {lambert(0.5), lambert(0.0, SurfaceKind::object)};
+    Scene scene{.materials = {lambert(0.5), lambert(0.0, SurfaceKind::object)}};
     Mesh ground{"ground", {}, {}, {}, {}}, plate{"plate", {}, {}, {}, {}};
     add_quad(ground, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     add_quad(plate, {-0.01, -0.01, 1}, {-0.01, 0.01, 1}, {0.01, 0.01, 1}, {0.01, -0.01, 1}); // faces down

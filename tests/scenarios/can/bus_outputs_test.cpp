@@ -9,29 +9,18 @@
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
 
 constexpr std::int64_t a_millisecond_ns = 1'000'000;
 
 CanSignal signal_of(const char* name, std::uint16_t start, std::uint16_t length, double factor, const char* unit) {
-    CanSignal made;
-    made.name = name;
-    made.start_bit = start;
-    made.length = length;
-    made.factor = factor;
-    made.unit = unit;
+    CanSignal made{.name = name, .start_bit = start, .length = length, .factor = factor, .unit = unit};
     return made;
 }
 
 /// Status, every 50 ms: multiplexed by Lamp; Level on both pages. State, no cycle: Mode with labels.
 CanDatabase lamps() {
-    CanMessage status;
-    status.id = 0x210;
-    status.name = "Status";
-    status.length = 4;
-    status.cycle_s = 0.05;
+    CanMessage status{.id = 0x210, .name = "Status", .length = 4, .cycle_s = 0.05};
     CanSignal lamp = signal_of("Lamp", 0, 8, 1.0, "");
     lamp.multiplexor = true;
     CanSignal left = signal_of("Left", 8, 16, 0.01, "deg");
@@ -46,25 +35,17 @@ CanDatabase lamps() {
     CanSignal level = signal_of("Level", 24, 8, 0.5, "%");
     level.start_value = 20.0;
     status.signals = {lamp, left, right, level};
-    CanMessage state;
-    state.id = 0x18ff2011;
-    state.extended = true;
-    state.name = "State";
-    state.length = 1;
+    CanMessage state{.id = 0x18ff2011, .extended = true, .name = "State", .length = 1};
     CanSignal mode = signal_of("Mode", 0, 8, 1.0, "");
     mode.labels = {{7, "country"}, {9, "town"}};
     state.signals = {mode};
-    CanDatabase database;
-    database.file = "lamps.dbc";
-    database.messages = {status, state};
+    CanDatabase database{.file = "lamps.dbc", .messages = {status, state}};
     return database;
 }
 
 BusOutput output(const char* message, const char* signal, const char* name) {
-    BusOutput made;
-    made.target = {message, signal};
-    made.name = name;
-    made.where = {"drive.yaml", 9, 5, std::string("can.outputs.") + message + "." + signal};
+    BusOutput made{
+        .target = {message, signal}, .name = name, .where = {"drive.yaml", 9, 5, std::string("can.outputs.") + message + "." + signal}};
     return made;
 }
 
@@ -77,10 +58,9 @@ std::vector<std::string> lines(const std::vector<CanFrame>& frames) {
 
 TEST(BusOutputs, SendEachMessageAtItsCycleWithWhatHeldThen) {
     SignalTable table({"left", "right"});
-    BusMapping mapping;
-    mapping.channel = "vcan0";
-    mapping.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Right", "lamp.right.swivel_rad"),
-                       output("Status", "Level", "lamp.left.level")};
+    BusMapping mapping{.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Right", "lamp.right.swivel_rad"),
+                                   output("Status", "Level", "lamp.left.level")},
+                       .channel = "vcan0"};
     BusOutputs outputs(mapping, {lamps()}, table);
     EXPECT_EQ(outputs.next_ns(), 0);
     table.of(0, lamp_signal::swivel) = 0.017453292519943295 * 1.5;  // 150 = 0x0096
@@ -99,8 +79,7 @@ TEST(BusOutputs, SendEachMessageAtItsCycleWithWhatHeldThen) {
 
 TEST(BusOutputs, CutsWhatDoesNotFitAndKeepsWhatIsLost) {
     SignalTable table({"left", "right"});
-    BusMapping mapping;
-    mapping.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Level", "lamp.left.level")};
+    BusMapping mapping{.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Level", "lamp.left.level")}};
     BusOutputs outputs(mapping, {lamps()}, table);
     EXPECT_EQ(lines(outputs.due(0)).front(), "(0000000000.000000) can0 210#00000014") << "start values before anything is known";
     table.of(0, lamp_signal::swivel) = 1.0; // 57 degrees of at most 15
@@ -114,8 +93,7 @@ TEST(BusOutputs, CutsWhatDoesNotFitAndKeepsWhatIsLost) {
 
 TEST(BusOutputs, SendLabelsOfTheNearestValue) {
     SignalTable table({"left"});
-    BusMapping mapping;
-    mapping.outputs = {output("State", "Mode", "control.mode")};
+    BusMapping mapping{.outputs = {output("State", "Mode", "control.mode")}};
     mapping.outputs.front().values = {{"country", 0.0}, {"town", 1.0}};
     mapping.outputs.front().cycle_s = 0.1;
     BusOutputs outputs(mapping, {lamps()}, table);
@@ -129,8 +107,7 @@ TEST(BusOutputs, SendLabelsOfTheNearestValue) {
 TEST(BusOutputs, AreRefusedWhereNothingSaysHow) {
     const SignalTable table({"left"});
     const auto refused = [&](std::vector<BusOutput> wanted) {
-        BusMapping mapping;
-        mapping.outputs = std::move(wanted);
+        BusMapping mapping{.outputs = std::move(wanted)};
         try {
             BusOutputs(mapping, {lamps()}, table);
         } catch (const InputError& error) {
@@ -153,11 +130,8 @@ TEST(BusOutputs, AreRefusedWhereNothingSaysHow) {
 
 TEST(BusOutputs, OfAMessageThatIsReadAreRefused) {
     const SignalTable table({"left", "right"});
-    BusMapping mapping;
-    mapping.outputs = {output("Status", "Level", "lamp.left.level")};
-    BusInput input;
-    input.name = "lamp.left.switch";
-    input.source = {"Status", "Level"};
+    BusMapping mapping{.outputs = {output("Status", "Level", "lamp.left.level")}};
+    BusInput input{.name = "lamp.left.switch", .source = {"Status", "Level"}};
     mapping.inputs = {input};
     try {
         const BusOutputs outputs(mapping, {lamps()}, table);

@@ -8,59 +8,29 @@
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Pair;
+using testing::ElementsAre, testing::HasSubstr, testing::Pair;
 
 constexpr std::int64_t millisecond_ns = 1'000'000;
 
 /// Speed: 16 bits Intel at byte 0, 0.01 km/h, 0 to 300. Turn: at byte 2, 8 bits, labels. Same speed again in another message.
 CanDatabase cockpit() {
-    CanSignal speed;
-    speed.name = "Speed";
-    speed.length = 16;
-    speed.factor = 0.01;
-    speed.maximum = 300.0;
-    speed.unit = "km/h";
-    CanSignal turn;
-    turn.name = "Turn";
-    turn.start_bit = 16;
-    turn.length = 8;
-    turn.labels = {{0, "Off"}, {1, "Left"}, {2, "Right"}};
-    CanMessage cockpit;
-    cockpit.id = 0x100;
-    cockpit.length = 3;
-    cockpit.name = "Cockpit";
-    cockpit.cycle_s = 0.01;
-    cockpit.signals = {speed, turn};
+    CanSignal speed{.name = "Speed", .length = 16, .factor = 0.01, .maximum = 300.0, .unit = "km/h"};
+    CanSignal turn{.name = "Turn", .start_bit = 16, .length = 8, .labels = {{0, "Off"}, {1, "Left"}, {2, "Right"}}};
+    CanMessage cockpit{.id = 0x100, .name = "Cockpit", .length = 3, .cycle_s = 0.01, .signals = {speed, turn}};
     CanMessage brakes = cockpit;
     brakes.id = 0x18ff0000;
     brakes.extended = true;
     brakes.name = "Brakes";
     brakes.length = 2;
     brakes.signals = {speed};
-    CanSignal exact;
-    exact.name = "YawRate";
-    exact.length = 64;
-    exact.kind = CanValueKind::float64;
-    exact.unit = "rad/s";
-    CanMessage event;
-    event.id = 0x200;
-    event.length = 8;
-    event.name = "Event";
-    event.signals = {exact};
-    CanDatabase database;
-    database.file = "cockpit.dbc";
-    database.messages = {cockpit, brakes, event};
+    CanSignal exact{.name = "YawRate", .length = 64, .kind = CanValueKind::float64, .unit = "rad/s"};
+    CanMessage event{.id = 0x200, .name = "Event", .length = 8, .signals = {exact}};
+    CanDatabase database{.file = "cockpit.dbc", .messages = {cockpit, brakes, event}};
     return database;
 }
 
 CanFrame frame(std::int64_t time_ns, std::uint32_t id, std::initializer_list<int> bytes, bool extended = false) {
-    CanFrame made;
-    made.time_ns = time_ns;
-    made.channel = "can0";
-    made.id = id;
-    made.extended = extended;
+    CanFrame made{.time_ns = time_ns, .channel = "can0", .id = id, .extended = extended};
     for (const int byte : bytes)
         made.data[made.length++] = static_cast<std::uint8_t>(byte);
     return made;
@@ -70,17 +40,14 @@ CanFrame frame(std::int64_t time_ns, std::uint32_t id, std::initializer_list<int
 CanFrame ten_mps(std::int64_t time_ns) { return frame(time_ns, 0x100, {0x10, 0x0e, 0}); }
 
 BusInput speed_input() {
-    BusInput input;
-    input.name = "ego.speed_mps";
-    input.source = {"Cockpit", "Speed"};
+    BusInput input{.name = "ego.speed_mps", .source = {"Cockpit", "Speed"}};
     input.policies.fill(BusPolicy::lost);
     input.where = {"drive.yaml", 7, 3, "can.inputs.ego.speed_mps"};
     return input;
 }
 
 BusMapping mapping_of(std::vector<BusInput> inputs) {
-    BusMapping mapping;
-    mapping.inputs = std::move(inputs);
+    BusMapping mapping{.inputs = std::move(inputs)};
     return mapping;
 }
 

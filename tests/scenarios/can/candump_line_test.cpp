@@ -6,12 +6,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using testing::ElementsAre, testing::HasSubstr;
 
 const InputError::Where here{"a.log", 7, 0, {}};
 
@@ -27,9 +27,7 @@ void expect_same_text(const std::string& line) {
 
 TEST(CandumpLine, ReadsWhatTheDescriptionOfTheFormatShows) { // can-utils, lib.h
     CandumpLine line = parsed("(1436509052.249713) vcan0 044#2A366C2BBA");
-    EXPECT_EQ(line.frame.time_ns, 1436509052249713000);
-    EXPECT_EQ(line.frame.channel, "vcan0");
-    EXPECT_EQ(line.frame.id, 0x44U);
+    EXPECT_EQ(std::tuple(line.frame.time_ns, line.frame.channel, line.frame.id), std::tuple(1436509052249713000, "vcan0", 0x44U));
     EXPECT_FALSE(line.frame.extended || line.frame.fd || line.frame.remote || line.frame.error);
     EXPECT_THAT(line.frame.bytes(), testing::ElementsAre(0x2a, 0x36, 0x6c, 0x2b, 0xba));
     EXPECT_EQ(line.style, CandumpStyle{});
@@ -131,8 +129,7 @@ TEST(CandumpLine, HoldsRandomFramesInEveryForm) {
     const auto coin = [&] { return random() % 2 == 0; };
     for (int i = 0; i < 200'000; ++i) {
         CanFrame frame = random_frame(random);
-        CandumpStyle style;
-        style.stamp_digits = coin() ? 6 : 9;
+        CandumpStyle style{.stamp_digits = coin() ? 6 : 9};
         if (style.stamp_digits == 9)
             frame.time_ns += static_cast<std::int64_t>(random() % 1000);
         style.channel_columns = coin() ? 0 : static_cast<std::uint8_t>(frame.channel.size() + 1 + random() % 5);

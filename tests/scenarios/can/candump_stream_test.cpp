@@ -11,8 +11,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using testing::ElementsAre, testing::HasSubstr;
 using What = CandumpStream::What;
 
 std::vector<std::int64_t> times_ms(const std::string& text, const CandumpReading& reading = {}) {
@@ -103,8 +102,7 @@ TEST(CandumpStream, KnowsWhatStampsCountFrom) {
     EXPECT_THAT(times_ms(delta), ElementsAre(0, 250, 350));
     EXPECT_THAT(times_ms(zero), ElementsAre(0, 250, 350));
     EXPECT_THAT(times_ms(absolute), ElementsAre(0, 250, 100));
-    CandumpReading reading;
-    reading.first_ns = 5'000'000'000;
+    CandumpReading reading{.first_ns = 5'000'000'000};
     EXPECT_THAT(times_ms(delta, reading), ElementsAre(5000, 5250, 5350));
     EXPECT_THAT(times_ms(zero, reading), ElementsAre(5000, 5250, 5350));
     EXPECT_THAT(times_ms(absolute, reading), ElementsAre(0, 250, 100)); // nothing to add to
@@ -128,8 +126,7 @@ TEST(CandumpStream, TakesDatesByTheOffsetFromUtc) {
 }
 
 TEST(CandumpStream, RefusesTimesBeyondItsClock) {
-    CandumpReading reading;
-    reading.stamps = CandumpStamps::delta;
+    CandumpReading reading{.stamps = CandumpStamps::delta};
     EXPECT_THAT(refusal("(9000000000.000000) can0 123#\n(9000000000.000000) can0 123#\n", reading),
                 HasSubstr("a.log:2: found stamps that add up"));
 }

@@ -5,13 +5,12 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <random>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
 
 constexpr const char* whole_file = R"(VERSION "1.2"
 
@@ -105,14 +104,9 @@ TEST_F(Dbc, EachStatementMeansWhatItSays) {
     EXPECT_FALSE(switches.bit_rate_switch) << "only CAN FD has one, whatever the default";
     EXPECT_EQ(switches.length, 4);
     EXPECT_THAT(switches.senders, ElementsAre("Cockpit", "Body"));
-    EXPECT_EQ(switches.comment, "what the driver switches");
-    EXPECT_EQ(switches.cycle_s, 0.02);
-    EXPECT_EQ(switches.send_type, "Cyclic");
+    EXPECT_EQ(std::tuple(switches.comment, switches.cycle_s, switches.send_type), std::tuple("what the driver switches", 0.02, "Cyclic"));
     ASSERT_EQ(switches.signals.size(), 3U);
-    CanSignal wheel;
-    wheel.name = "Wheel";
-    wheel.start_bit = 15;
-    wheel.length = 16;
+    CanSignal wheel{.name = "Wheel", .start_bit = 15, .length = 16};
     wheel.big_endian = wheel.is_signed = true;
     wheel.factor = 0.0625;
     wheel.offset = -1;

@@ -180,8 +180,7 @@ const std::filesystem::path build = std::filesystem::path(FERNLICHT_BINARY).pare
 const std::vector<ControlledLamp> lamps{{"left", {3.4, 0.6, 0.65}, 0.0}, {"high", {3.4, 0.5, 0.65}, 0.0, {{-4.0, 0.0}, {0.0, 4.0}}}};
 
 ControlParameters with(const std::filesystem::path& compiled_plugin, const std::string& parameters = "") {
-    ControlParameters control;
-    control.plugins = {{compiled_plugin, parameters, {"left", "high"}}};
+    ControlParameters control{.plugins = {{compiled_plugin, parameters, {"left", "high"}}}};
     control.plugins[0].give_up_s = 0.4;
     return control;
 }
@@ -190,10 +189,7 @@ ControlRun run(
     const ControlParameters& control, const std::function<void(ControlInputs&)>& change = [](ControlInputs&) {}) {
     return run_control(control, lamps, {},
                        [&](double t) {
-                           ControlInputs in;
-                           in.time_s = t;
-                           in.speed_mps = 20.0;
-                           in.yaw_rate_rad_s = 20.0 / 150.0;
+                           ControlInputs in{.time_s = t, .speed_mps = 20.0, .yaw_rate_rad_s = 20.0 / 150.0};
                            change(in);
                            return in;
                        },

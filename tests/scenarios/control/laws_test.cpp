@@ -63,8 +63,7 @@ TEST(BeamModes, MotorwayLightWetnessAndWipers) {
 }
 
 TEST(CorneringLight, TurnsOnBySteeringAndIndicatorWhileSlow) {
-    CorneringParameters parameters;
-    parameters.fade_s = 0.0;
+    CorneringParameters parameters{.fade_s = 0.0};
     CorneringLight light(parameters);
     const auto left = [&](double kmh, double steering_rad, double indicator = 0.0) {
         SignalTable table = at_kmh(kmh);
@@ -170,12 +169,11 @@ TEST(ControlStability, ErrorGoesWithTheSquareOfThePeriod) {
 }
 
 ControlInputs circle(double time_s, double speed_mps, double radius_m) {
-    ControlInputs in;
-    in.time_s = time_s;
-    in.speed_mps = speed_mps;
-    in.distance_m = speed_mps * time_s;
-    in.yaw_rate_rad_s = speed_mps / radius_m;
-    in.steering_rad = (2.7 + 0.003 * speed_mps * speed_mps) / radius_m;
+    ControlInputs in{.time_s = time_s,
+                     .distance_m = speed_mps * time_s,
+                     .speed_mps = speed_mps,
+                     .yaw_rate_rad_s = speed_mps / radius_m,
+                     .steering_rad = (2.7 + 0.003 * speed_mps * speed_mps) / radius_m};
     in.curvature_per_m = in.curvature_25m_per_m = 1.0 / radius_m;
     in.bearing_ahead_rad = 0.5 * speed_mps * 1.5 / radius_m;
     return in;
@@ -185,8 +183,7 @@ const std::vector<ControlledLamp> two_lamps{{"left", {3.4, 0.6, 0.65}, 0.0}, {"r
 const ControlledCar car{2.7, 0.003};
 
 ControlParameters bend_light(BendLaw law) {
-    ControlParameters control;
-    control.bend = BendParameters{};
+    ControlParameters control{.bend = BendParameters{}};
     control.bend->law = law;
     control.bend->lamps = {"left", "right"};
     return control;

@@ -12,9 +12,7 @@ namespace fernlicht {
 namespace {
 
 using DriveRefusal = DriveFixture;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::StartsWith;
+using testing::AllOf, testing::HasSubstr, testing::StartsWith;
 
 const std::filesystem::path file = "/tmp/some.yaml";
 

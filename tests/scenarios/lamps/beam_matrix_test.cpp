@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -169,10 +170,9 @@ TEST_F(BeamMatrix, NothingMakesItFallOver) {
 
 TEST_F(BeamMatrix, RoundTripsLoseNothing) {
     for (unsigned seed = 0; seed < 40; ++seed) {
-        LampFile lamp;
-        lamp.name = "round, trip; \"quoted\"";
-        lamp.table = random_lamp_table(seed);
-        lamp.labels = {{"MANUFAC", "Büch\ner: sons"}, {"unit", "furlong"}};
+        LampFile lamp{.name = "round, trip; \"quoted\"",
+                      .table = random_lamp_table(seed),
+                      .labels = {{"MANUFAC", "Büch\ner: sons"}, {"unit", "furlong"}}};
         if (seed % 2 == 0)
             lamp.declared_flux_lm = 1234.5678901234567;
         const auto path = folder_ / "trip.csv";
@@ -187,8 +187,7 @@ TEST_F(BeamMatrix, RoundTripsLoseNothing) {
 }
 
 TEST_F(BeamMatrix, OtherNamesCannotBeWritten) {
-    LampFile lamp;
-    lamp.table = random_lamp_table(1);
+    LampFile lamp{.table = random_lamp_table(1)};
     EXPECT_THROW(write_lamp(lamp, folder_ / "lamp.txt"), InputError);
     lamp.table.cd[0] = -1.0;
     EXPECT_THROW(write_lamp(lamp, folder_ / "lamp.csv"), std::invalid_argument);
@@ -246,9 +245,7 @@ class Png {
 };
 
 LampReadOptions options_for(double scale, double distance, double left, double right, double bottom, double top) {
-    LampReadOptions options;
-    options.texture_scale_lx = scale;
-    options.texture_distance_m = distance;
+    LampReadOptions options{.texture_scale_lx = scale, .texture_distance_m = distance};
     options.texture_h_extent_deg[0] = left;
     options.texture_h_extent_deg[1] = right;
     options.texture_v_extent_deg[0] = bottom;
@@ -314,12 +311,11 @@ TEST_F(BeamTexture, MessagesNameWhatIsMissing) {
 }
 
 LampFile lamp_with(const CandelaTable& table) {
-    LampFile lamp;
-    lamp.name = "round trip";
-    lamp.table = table;
-    lamp.labels = {{"MANUFAC", "B\xc3\xbc"
-                               "cher: sons"}};
-    lamp.declared_flux_lm = 987.6543210123;
+    LampFile lamp{.name = "round trip",
+                  .table = table,
+                  .declared_flux_lm = 987.6543210123,
+                  .labels = {{"MANUFAC", "B\xc3\xbc"
+                                         "cher: sons"}}};
     return lamp;
 }
 
@@ -340,9 +336,7 @@ TEST_F(BeamTexture, RoundTripsOfEvenGridsLoseNothingBeyondFloat) {
                 const double given = intensity_cd(lamp.table, lamp.table.h_deg[h], lamp.table.v_deg[v]);
                 EXPECT_NEAR(back.table.at(v, h), given, 1.2e-7 * given) << "2^-23";
             }
-        EXPECT_EQ(back.name, lamp.name);
-        EXPECT_EQ(back.labels, lamp.labels);
-        EXPECT_EQ(back.declared_flux_lm, lamp.declared_flux_lm);
+        EXPECT_EQ(std::tuple(back.name, back.labels, back.declared_flux_lm), std::tuple(lamp.name, lamp.labels, lamp.declared_flux_lm));
     }
 }
 

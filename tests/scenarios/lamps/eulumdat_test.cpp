@@ -31,17 +31,14 @@ struct Ldt {
 class Eulumdat : public LampTrial {
   protected:
     static LampReadOptions horizontal() {
-        LampReadOptions options;
-        options.type_c_axis = TypeCAxis::horizontal;
+        LampReadOptions options{.type_c_axis = TypeCAxis::horizontal};
         return options;
     }
     LampFile lamp(const Ldt& ldt) const { return read("w.ldt", ldt.text(), horizontal()); }
 };
 
 TEST_F(Eulumdat, ListsCandelaPerThousandLumen) {
-    Ldt ldt;
-    ldt.sets = "1\n1\nLED\n2500\n4000 K\nRa > 80\n29.50";
-    ldt.output = "80";
+    Ldt ldt{.output = "80", .sets = "1\n1\nLED\n2500\n4000 K\nRa > 80\n29.50"};
     const LampFile l = lamp(ldt);
     EXPECT_EQ(l.format, "EULUMDAT, Isym 1");
     EXPECT_EQ(l.name, "Widget");
@@ -52,24 +49,21 @@ TEST_F(Eulumdat, ListsCandelaPerThousandLumen) {
 }
 
 TEST_F(Eulumdat, TheConversionFactorMultiplies) {
-    Ldt ldt;
-    ldt.conversion = "1.5";
+    Ldt ldt{.conversion = "1.5"};
     EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 150.0, 1e-12);
     ldt.conversion = "0";
     EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 100.0, 1e-12);
 }
 
 TEST_F(Eulumdat, AbsoluteFilesHaveANegativeNumberOfLamps) {
-    Ldt ldt;
-    ldt.sets = "1\n-1\nLED\n500\n4000\n80\n15";
+    Ldt ldt{.sets = "1\n-1\nLED\n500\n4000\n80\n15"};
     const LampFile l = lamp(ldt);
     EXPECT_NEAR(peak_of(l.table).cd, 50.0, 1e-12);
     EXPECT_THAT(all_notes(l), HasSubstr("absolute photometry"));
 }
 
 TEST_F(Eulumdat, SeveralLampSetsAreAlternatives) {
-    Ldt ldt;
-    ldt.sets = "2\n1\nsmall\n500\n3000\n80\n10\n2\nlarge\n1200\n3000\n80\n30";
+    Ldt ldt{.sets = "2\n1\nsmall\n500\n3000\n80\n10\n2\nlarge\n1200\n3000\n80\n30"};
     EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 50.0, 1e-12);
     EXPECT_THAT(all_notes(lamp(ldt)), HasSubstr("the first, 'small' with 500 lm"));
     ldt.sets = "2\n1\n2\nsmall\nlarge\n500\n1200\nwarm\ncold\n80\n80\n10\n30";
@@ -85,8 +79,7 @@ double lopsided(double c, double gamma) {
 }
 
 template <class Form> Ldt planes(int symmetry, const std::vector<double>& stored_c, Form form) {
-    Ldt ldt;
-    ldt.symmetry = symmetry;
+    Ldt ldt{.symmetry = symmetry};
     ldt.c.clear();
     for (int c = 0; c < 360; c += 15)
         ldt.c.push_back(c);
@@ -135,8 +128,7 @@ TEST_F(Eulumdat, SymmetryThreeIsStoredFromC270ThroughC0ToC90) {
 }
 
 TEST_F(Eulumdat, DecimalCommasByteOrderMarksAndOldEncodingsAreRead) {
-    Ldt ldt;
-    ldt.intensities = {100.5, 100.25, 100.125};
+    Ldt ldt{.intensities = {100.5, 100.25, 100.125}};
     const LampFile plain = lamp(ldt);
     std::string commas = ldt.text();
     for (std::size_t at = commas.find("\n0\n90\n180\n"); at < commas.size(); ++at)
@@ -154,8 +146,7 @@ TEST_F(Eulumdat, DecimalCommasByteOrderMarksAndOldEncodingsAreRead) {
 }
 
 TEST_F(Eulumdat, ASinglePlaneIsRotationalWhateverTheSymmetrySays) {
-    Ldt ldt;
-    ldt.symmetry = 0;
+    Ldt ldt{.symmetry = 0};
     EXPECT_NEAR(flux_lm(lamp(ldt).table), 4 * pi * 100, 1e-9);
 }
 
@@ -226,8 +217,7 @@ class CPlanes : public LampTrial {
         for (const double ci : c)
             for (const double g : gamma)
                 text += fmt::format("{}\n", form(ci, g));
-        LampReadOptions options;
-        options.type_c_axis = axis;
+        LampReadOptions options{.type_c_axis = axis};
         return read("c.ies", text, options);
     }
     static std::vector<double> steps(double from, double to, double by) {

@@ -8,8 +8,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using testing::HasSubstr, testing::Not;
 
 class IesFile : public LampTrial {};
 
@@ -368,10 +367,10 @@ TEST_F(IesFile, NothingMakesItFallOver) {
 
 TEST_F(IesFile, RoundTripsLoseNothing) {
     for (unsigned seed = 0; seed < 40; ++seed) {
-        LampFile lamp;
-        lamp.name = "round trip";
-        lamp.table = random_lamp_table(seed);
-        lamp.labels = {{"MANUFAC", "Büch\ner"}, {"MORE THAN ENOUGH", std::string(700, 'x') + " " + std::string(150, 'y') + " z"}};
+        LampFile lamp{
+            .name = "round trip",
+            .table = random_lamp_table(seed),
+            .labels = {{"MANUFAC", "Büch\ner"}, {"MORE THAN ENOUGH", std::string(700, 'x') + " " + std::string(150, 'y') + " z"}}};
         if (seed % 2 == 0)
             lamp.declared_flux_lm = 1234.5678901234567;
         const auto path = folder_ / "trip.ies";
@@ -389,8 +388,7 @@ TEST_F(IesFile, RoundTripsLoseNothing) {
 }
 
 TEST_F(IesFile, ATableThatBeginsAtZeroIsNotMirroredOnItsWayBack) {
-    LampFile lamp;
-    lamp.table = {{0.0, 5.0, 10.0}, {-1.0, 0.0}, {1, 2, 3, 4, 5, 6}, {}, BetweenSamples::linear_cd};
+    LampFile lamp{.table = {{0.0, 5.0, 10.0}, {-1.0, 0.0}, {1, 2, 3, 4, 5, 6}, {}, BetweenSamples::linear_cd}};
     write_lamp(lamp, folder_ / "zero.ies");
     const LampFile back = read_lamp(folder_ / "zero.ies");
     EXPECT_EQ(intensity_cd(back.table, -5.0, 0.0), 0.0);

@@ -23,10 +23,7 @@ LitLamp lamp_of(CandelaTable table, const Pose& pose) {
 }
 
 LitLamp even(double cd) {
-    CandelaTable table;
-    table.h_deg = {-180.0, 180.0};
-    table.v_deg = {-90.0, 90.0};
-    table.cd = {cd, cd, cd, cd};
+    CandelaTable table{.h_deg = {-180.0, 180.0}, .v_deg = {-90.0, 90.0}, .cd = {cd, cd, cd, cd}};
     return lamp_of(table, {glm::dvec3(0.0), axes_from_angles(0.0, 0.0, 0.0)});
 }
 
@@ -191,10 +188,7 @@ CandelaTable steep_table() {
 LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double yaw_rad, double pitch_rad) {
     auto file = std::make_shared<LampFile>();
     file->table = std::move(table);
-    LitLamp lamp;
-    lamp.file = std::move(file);
-    lamp.pose = {position_m, axes_from_angles(yaw_rad, pitch_rad, 0.02)};
-    lamp.intensity_factor = 0.7;
+    LitLamp lamp{.file = std::move(file), .pose = {position_m, axes_from_angles(yaw_rad, pitch_rad, 0.02)}, .intensity_factor = 0.7};
     return lamp;
 }
 

@@ -16,8 +16,7 @@
 namespace fernlicht {
 namespace {
 
-using test::Json;
-using test::WrittenGltf;
+using test::Json, test::WrittenGltf;
 using testing::HasSubstr;
 
 class Gltf : public testing::Test {

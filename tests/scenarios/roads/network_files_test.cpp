@@ -110,9 +110,7 @@ PlanPoint clothoid_reference(double start_per_m, double end_per_m, double length
 }
 
 PlanElement element_of(double length_m, decltype(PlanElement::shape) shape) {
-    PlanElement element;
-    element.length_m = length_m;
-    element.shape = std::move(shape);
+    PlanElement element{.length_m = length_m, .shape = std::move(shape)};
     return element;
 }
 

@@ -15,8 +15,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
+using testing::Contains, testing::HasSubstr;
 
 enum class Verdict { refused, warned, none };
 

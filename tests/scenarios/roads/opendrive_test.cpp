@@ -9,13 +9,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
 using namespace opendrive_text;
-using testing::Contains;
-using testing::HasSubstr;
+using testing::Contains, testing::HasSubstr;
 
 RoadNetwork network_of(const std::string& content) {
     const TemporaryFile written(content);
@@ -133,15 +133,11 @@ TEST(OpenDrive, RoadMarks) {
     const RoadNetwork network = network_of(text);
     const auto& marks = network.roads[0].sections[0].lanes[1].marks;
     ASSERT_EQ(marks.size(), 3U);
-    EXPECT_EQ(marks[0].kind, MarkKind::solid_broken);
-    EXPECT_EQ(marks[0].width_m, 0.25);
-    EXPECT_EQ(marks[0].colour, "yellow");
+    EXPECT_EQ(std::tuple(marks[0].kind, marks[0].width_m, marks[0].colour), std::tuple(MarkKind::solid_broken, 0.25, "yellow"));
     ASSERT_EQ(marks[1].stripes.size(), 1U);
     EXPECT_EQ(marks[1].colour, "white");
-    EXPECT_EQ(marks[1].stripes[0].dash_m, 3.0);
-    EXPECT_EQ(marks[1].stripes[0].gap_m, 9.0);
-    EXPECT_EQ(marks[1].stripes[0].t_m, 0.1);
-    EXPECT_EQ(marks[1].stripes[0].width_m, 0.2);
+    EXPECT_EQ(std::tuple(marks[1].stripes[0].dash_m, marks[1].stripes[0].gap_m, marks[1].stripes[0].t_m, marks[1].stripes[0].width_m),
+              std::tuple(3.0, 9.0, 0.1, 0.2));
     ASSERT_EQ(marks[2].stripes.size(), 1U);
     EXPECT_GT(marks[2].stripes[0].gap_m, 1e6); // stands alone
     EXPECT_THAT(network.warnings, Contains(HasSubstr("sway")));
@@ -181,17 +177,13 @@ TEST(OpenDrive, Signals) {
     const auto signals = network_of(text).roads[0].signals;
     ASSERT_EQ(signals.size(), 2U);
     EXPECT_FALSE(signals[0].facing_forward);
-    EXPECT_EQ(signals[0].heading_offset_rad, 0.1);
-    EXPECT_EQ(signals[0].subtype, "57");
-    EXPECT_EQ(signals[0].height_m, 0.7);
+    EXPECT_EQ(std::tuple(signals[0].heading_offset_rad, signals[0].subtype, signals[0].height_m), std::tuple(0.1, "57", 0.7));
     EXPECT_TRUE(signals[1].facing_forward);
     EXPECT_TRUE(signals[1].dynamic);
 }
 
 TEST(OpenDrive, GapsAreToldWithPlaceAndSize) {
-    RoadText text;
-    text.length = "20";
-    text.plan = "\n" + geometry(0.0, 0.0, 0.0, 0.0, 10.0) + "\n" + geometry(10.0, 10.0, 0.25, 0.0, 10.0) + "\n";
+    RoadText text{.length = "20", .plan = "\n" + geometry(0.0, 0.0, 0.0, 0.0, 10.0) + "\n" + geometry(10.0, 10.0, 0.25, 0.0, 10.0) + "\n"};
     const RoadNetwork network = network_of(text);
     ASSERT_EQ(network.warnings.size(), 1U);
     EXPECT_THAT(network.warnings[0], HasSubstr(":9: road '1': the reference line jumps by 0.250 m at s = 10"));
@@ -216,14 +208,12 @@ std::string refusal(const std::string& content) {
 std::string road_refusal(const RoadText& text) { return refusal(file(road(text))); }
 
 std::string plan_refusal(const std::string& plan) {
-    RoadText text;
-    text.plan = plan;
+    RoadText text{.plan = plan};
     return road_refusal(text);
 }
 
 std::string lane_refusal(const std::string& lanes) {
-    RoadText text;
-    text.lanes = lanes;
+    RoadText text{.lanes = lanes};
     return road_refusal(text);
 }
 
@@ -288,8 +278,7 @@ TEST(OpenDriveBadInput, LengthsAndCurvatures) {
 }
 
 TEST(OpenDriveBadInput, AGeometryWithoutLengthAmongOthersIsTold) {
-    RoadText text;
-    text.plan = geometry(0, 0, 0, 0, 50.0) + geometry(50.0, 50.0, 0, 0, 0.0) + geometry(50.0, 50.0, 0, 0, 50.0);
+    RoadText text{.plan = geometry(0, 0, 0, 0, 50.0) + geometry(50.0, 50.0, 0, 0, 0.0) + geometry(50.0, 50.0, 0, 0, 50.0)};
     const TemporaryFile written(file(road(text)));
     const RoadNetwork network = read_opendrive(written.path());
     EXPECT_EQ(network.roads[0].plan.size(), 2U);
@@ -331,8 +320,7 @@ TEST(OpenDriveBadInput, RoadsTwiceOrWithoutId) {
 TEST(OpenDriveBadInput, ManyWarningsAreCounted) {
     std::string roads;
     for (int i = 0; i < 1500; ++i) {
-        RoadText text;
-        text.id = std::to_string(i);
+        RoadText text{.id = std::to_string(i)};
         text.link = R"(<successor elementType="road" elementId="none" contactPoint="start"/>)";
         roads += road(text);
     }

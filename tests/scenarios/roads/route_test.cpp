@@ -111,8 +111,7 @@ TEST(Route, DistanceIsThatOfTheLane) {
 
 /// Over a grade, with roll, widening lanes, a lane offset, spirals: equal distances are equal metres.
 TEST(Route, DistanceIsMetresOnTheSurface) {
-    RoadText text;
-    text.length = "200";
+    RoadText text{.length = "200"};
     text.plan = geometry(0.0, 0.0, 0.0, 0.3, 60.0, R"(<spiral curvStart="0" curvEnd="0.02"/>)");
     PlanElement first;
     first.heading_rad = 0.3, first.length_m = 60.0, first.shape = Spiral{0.0, 0.02};
@@ -168,8 +167,7 @@ TEST(Route, FollowsLaneLinksOverSections) {
 }
 
 TEST(Route, LaneWithoutLinkGoesOnWhereItsCentreDoes) {
-    RoadText text;
-    text.lanes = section(0.0, lane(1), lane(-1)) + section(50.0, lane(1), lane(-1, "3.4"));
+    RoadText text{.lanes = section(0.0, lane(1), lane(-1)) + section(50.0, lane(1), lane(-1, "3.4"))};
     const RoadNetwork same = network_with(road(text));
     EXPECT_NEAR(Route(same, {}).length_m(), 100.0, 1e-6);
     text.lanes = section(0.0, lane(1), lane(-1)) + section(50.0, lane(1), lane(-1, "8"));

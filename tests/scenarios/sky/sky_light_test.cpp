@@ -17,8 +17,7 @@ constexpr SkyCover covers[] = {SkyCover::clear, SkyCover::partly_cloudy, SkyCove
 
 /// Munich.
 Daylight at(int month, int day, int hour, int minute, SkyCover cover = SkyCover::clear) {
-    Daylight daylight;
-    daylight.clock = SkyClock{2026, month, day, 3600 * hour + 60 * minute, 0.0, 48.14, 11.58, cover, 0.0};
+    Daylight daylight{.clock = SkyClock{2026, month, day, 3600 * hour + 60 * minute, 0.0, 48.14, 11.58, cover, 0.0}};
     return daylight_at(daylight, 0.0);
 }
 

@@ -61,8 +61,7 @@ TEST(StreetLamps, HangWithTheirAxisDown) {
 TEST(StreetLamps, GiveTheRoadItsTwentyLux) {
     const LitStraight lit;
     LitLamp lamp = lit.moment.other_lamps[0];
-    Moment alone;
-    alone.lamps = {lamp};
+    Moment alone{.lamps = {lamp}};
     const glm::dvec3 below = lamp.pose.position_m - glm::dvec3(0.0, 0.0, 8.0), across = lamp.pose.up();
     EXPECT_NEAR(surface_illuminance_lx(alone, below, {0.0, 0.0, 1.0}), 1349.5 / 64.0, 0.01);
     EXPECT_GT(surface_illuminance_lx(alone, below + 8.0 * across, {0.0, 0.0, 1.0}),

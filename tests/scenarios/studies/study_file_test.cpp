@@ -13,8 +13,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using testing::ElementsAre, testing::HasSubstr;
 
 const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
 

@@ -16,9 +16,8 @@ using testing::HasSubstr;
 
 /// One that is not linear and depends on time, y' = -2 t y^2, y(0) = 1: y = 1 / (1 + t^2); beside it an oscillator, x'' = -4 x, x = cos 2t.
 OdeProblem smooth() {
-    OdeProblem problem;
-    problem.derivative = [](double t, const double* x, double* dxdt) {
-        dxdt[0] = -2.0 * t * x[0] * x[0];
+    OdeProblem problem {
+        .derivative = [](double t, const double* x, double* dxdt) { dxdt[0] = -2.0 * t * x[0] * x[0] };
         dxdt[1] = x[2];
         dxdt[2] = -4.0 * x[1];
     };
@@ -84,9 +83,7 @@ TEST(OdeIntegrator, ErrorFollowsTheTolerance) {
 
 /// x' = lambda x with n steps of z / |lambda|: how far it is from 0 after that.
 double after_steps(Solver solver, double z, int steps) {
-    OdeProblem problem;
-    problem.derivative = [](double, const double* x, double* dxdt) { dxdt[0] = -x[0]; };
-    problem.scale = {1.0};
+    OdeProblem problem{.derivative = [](double, const double* x, double* dxdt) { dxdt[0] = -x[0]; }, .scale = {1.0}};
     OdeIntegrator integrator(problem, {.solver = solver, .fixed_step_s = z});
     std::vector<double> x{1.0};
     integrator.integrate(0.0, z * steps, x);
@@ -107,9 +104,8 @@ TEST(OdeIntegrator, RosenbrockIsLStable) {
 
 /// Van der Pol's oscillator with mu = 1000 has stretches that are stiff and corners that are not.
 TEST(OdeIntegrator, ChoosesByStiffness) {
-    OdeProblem problem;
-    problem.derivative = [](double, const double* x, double* dxdt) {
-        dxdt[0] = x[1];
+    OdeProblem problem {
+        .derivative = [](double, const double* x, double* dxdt) { dxdt[0] = x[1] };
         dxdt[1] = 1000.0 * (1.0 - x[0] * x[0]) * x[1] - x[0];
     };
     problem.scale = {1.0, 1.0};
@@ -153,9 +149,8 @@ TEST(OdeIntegrator, GoesBackToTheExplicitMethod) {
 
 TEST(OdeIntegrator, StopsAtEvents) {
     // A falling body: h = 10 - 4.905 t^2 reaches the ground at sqrt(10 / 4.905).
-    OdeProblem problem;
-    problem.derivative = [](double, const double* x, double* dxdt) {
-        dxdt[0] = x[1];
+    OdeProblem problem {
+        .derivative = [](double, const double* x, double* dxdt) { dxdt[0] = x[1] };
         dxdt[1] = -9.81;
     };
     problem.scale = {1.0, 1.0};
@@ -333,9 +328,7 @@ std::vector<SolverRow> rows_of(const std::vector<SolverRow>& all, const std::str
 }
 
 TEST(SolverStudy, ErrorsFallWithTheWorkAsTheorySays) {
-    SolverStudy quick;
-    quick.repetitions = 1;
-    quick.tolerances = {1e-4, 1e-6, 1e-8};
+    SolverStudy quick{.repetitions = 1, .tolerances = {1e-4, 1e-6, 1e-8}};
     const std::vector<SolverRow> all = study_solvers(quick);
     for (const SolverRow& row : all) {
         EXPECT_EQ(row.not_measured, "") << row.problem;

@@ -171,17 +171,12 @@ Corners box_of(const glm::dvec3& low, const glm::dvec3& high) {
 }
 
 LitLamp lamp_looking(const glm::dvec3& place, double yaw_rad) {
-    LitLamp lamp;
-    lamp.pose = {place, axes_from_angles(yaw_rad, -0.01, 0.0)};
-    lamp.intensity_factor = 1.0;
+    LitLamp lamp{.pose = {place, axes_from_angles(yaw_rad, -0.01, 0.0)}, .intensity_factor = 1.0};
     return lamp;
 }
 
 Camera camera_at(const glm::dvec3& place, double yaw_rad, double pitch_rad) {
-    View view;
-    view.position_m = place;
-    view.yaw_rad = yaw_rad;
-    view.pitch_rad = pitch_rad;
+    View view{.position_m = place, .yaw_rad = yaw_rad, .pitch_rad = pitch_rad};
     return camera_of(Moment{}, view);
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <tuple>
 #include <unistd.h>
 
 namespace fernlicht {
@@ -59,9 +60,7 @@ TEST(MirroredDrive, MirrorsLampsOnlyWhereAsked) {
     EXPECT_EQ(turned.position_m.y, -lamp.position_m.y);
     EXPECT_EQ(turned.yaw_rad, -0.01);
     EXPECT_EQ(turned.file->table, mirrored(lamp.file->table));
-    EXPECT_EQ(kept.name, lamp.name);
-    EXPECT_EQ(kept.file, lamp.file);
-    EXPECT_EQ(kept.position_m, lamp.position_m);
+    EXPECT_EQ(std::tuple(kept.name, kept.file, kept.position_m), std::tuple(lamp.name, lamp.file, lamp.position_m));
     EXPECT_TRUE(road.mirrored_road);
     EXPECT_EQ(road.views[0].position_m.y, -drive.views[0].position_m.y) << "the driver changes seats";
 }

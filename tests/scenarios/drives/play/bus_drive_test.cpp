@@ -12,8 +12,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
+using testing::Contains, testing::HasSubstr;
 
 const std::filesystem::path shipped = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives/s-bend-can.yaml";
 
@@ -55,8 +54,7 @@ double swivel_rad(const Moment& moment, std::size_t lamp) {
 class BusDriveTest : public DriveFixture {
   protected:
     Drive scripted() {
-        DriveEdits edits;
-        edits.can_log = std::filesystem::path();
+        DriveEdits edits{.can_log = std::filesystem::path()};
         return read_drive(shipped, edits);
     }
     /// The shipped drive by these frames.
@@ -65,8 +63,7 @@ class BusDriveTest : public DriveFixture {
         for (const CanFrame& frame : frames)
             text += candump_line(frame) + '\n';
         write_file(folder / "bus.log", text);
-        DriveEdits edits;
-        edits.can_log = folder / "bus.log";
+        DriveEdits edits{.can_log = folder / "bus.log"};
         Drive drive = read_drive(shipped, edits);
         if (mapping) {
             BusMapping with = *mapping;
@@ -272,8 +269,7 @@ can:
     // Left: 10.00 degrees = 0x03e8, level 50 %; right measured at -5.00 = 0xfe0c. The switch goes off at 1.5 s.
     write_file(folder / "bus.log", "(0.500000) can0 200#0003E80000640000\n(0.500000) can0 220#00000CFE\n(0.500000) can0 100#01000000\n"
                                    "(0.000000) can0 100#01000000\n(1.500000) can0 100#00000000\n");
-    DriveEdits edits;
-    edits.can_start_ns = 0;
+    DriveEdits edits{.can_start_ns = 0};
     const Staged played(read(yaml, edits));
     EXPECT_EQ(swivel_rad(played.at(4, 0), 0), 0.0) << "not asked yet";
     EXPECT_NEAR(swivel_rad(played.at(14, 0), 0), radians(10.0), 1e-3) << "an actuator has followed";

@@ -25,12 +25,8 @@ constexpr double wheelbase_m = 2.7;
 /// One road of 500 m with one lane, right of its reference line, 3.5 m wide.
 RoadNetwork network(PlanElement plan, std::vector<Cubic> elevation = {}, std::vector<Cubic> superelevation = {}) {
     plan.length_m = 500.0;
-    Lane lane;
-    lane.id = -1;
-    lane.widths = {{0.0, 3.5, 0.0, 0.0, 0.0}};
-    LaneSection section;
-    section.end_m = 500.0;
-    section.lanes = {Lane{}, lane};
+    Lane lane{.id = -1, .widths = {{0.0, 3.5, 0.0, 0.0, 0.0}}};
+    LaneSection section{.end_m = 500.0, .lanes = {Lane{}, lane}};
     section.lanes[0].type = "none";
     Road road;
     road.id = "1";
@@ -39,15 +35,13 @@ RoadNetwork network(PlanElement plan, std::vector<Cubic> elevation = {}, std::ve
     road.elevation = std::move(elevation);
     road.superelevation = std::move(superelevation);
     road.sections = {section};
-    RoadNetwork result;
-    result.roads = {road};
+    RoadNetwork result{.roads = {road}};
     return result;
 }
 
 PlanElement straight() { return {}; }
 PlanElement bend(double radius_m) {
-    PlanElement plan;
-    plan.shape = Arc{1.0 / radius_m};
+    PlanElement plan{.shape = Arc{1.0 / radius_m}};
     return plan;
 }
 
@@ -127,11 +121,8 @@ struct MomentTest : testing::Test {
         drive.step_s = 1.0 / 30.0;
         drive.duration_s = 10.0;
         drive.daylight = {"moon", 0.2};
-        MountedLamp lamp;
-        lamp.name = "left";
-        lamp.file = std::make_shared<const LampFile>();
-        lamp.position_m = {3.4, 0.6, 0.65};
-        lamp.pitch_rad = radians(-1.0);
+        MountedLamp lamp{
+            .name = "left", .file = std::make_shared<const LampFile>(), .position_m = {3.4, 0.6, 0.65}, .pitch_rad = radians(-1.0)};
         variant.lamps = {lamp, lamp};
         variant.lamps[1].name = "right";
         variant.lamps[1].position_m.y = -0.6;

@@ -19,18 +19,14 @@ namespace {
 using namespace mesh_checks;
 
 Lane lane_across(int id, const char* type, double width) {
-    Lane lane;
-    lane.id = id;
-    lane.type = type;
+    Lane lane{.id = id, .type = type};
     if (id != 0)
         lane.widths.push_back({0.0, width, 0.0, 0.0, 0.0});
     return lane;
 }
 
 RoadMark mark(MarkKind kind, const char* colour = "white") {
-    RoadMark mark;
-    mark.kind = kind;
-    mark.colour = colour;
+    RoadMark mark{.kind = kind, .colour = colour};
     return mark;
 }
 
@@ -38,12 +34,10 @@ RoadMark mark(MarkKind kind, const char* colour = "white") {
 Road road_with(MarkKind centre, MarkKind edge) {
     Road road;
     road.length_m = 100.0;
-    PlanElement element;
-    element.length_m = 100.0;
+    PlanElement element{.length_m = 100.0};
     road.plan.push_back(element);
-    LaneSection section;
-    section.end_m = 100.0;
-    section.lanes = {lane_across(1, "driving", 3.0), lane_across(0, "none", 0.0), lane_across(-1, "driving", 3.0)};
+    LaneSection section{.end_m = 100.0,
+                        .lanes = {lane_across(1, "driving", 3.0), lane_across(0, "none", 0.0), lane_across(-1, "driving", 3.0)}};
     section.lanes[1].marks.push_back(mark(centre));
     section.lanes[2].marks.push_back(mark(edge));
     road.sections.push_back(section);
@@ -217,14 +211,11 @@ RoadNetwork plain_road() {
     Road road;
     road.id = "1";
     road.length_m = 100.0;
-    PlanElement element;
-    element.length_m = 100.0;
+    PlanElement element{.length_m = 100.0};
     road.plan.push_back(element);
-    LaneSection section;
-    section.end_m = 100.0;
+    LaneSection section{.end_m = 100.0};
     for (const int id : {1, 0, -1}) {
-        Lane lane;
-        lane.id = id;
+        Lane lane{.id = id};
         if (id != 0)
             lane.widths.push_back({0.0, 3.0, 0.0, 0.0, 0.0});
         section.lanes.push_back(lane);
@@ -236,14 +227,7 @@ RoadNetwork plain_road() {
 }
 
 RoadObject object(const char* type, double length, double width, double height) {
-    RoadObject object;
-    object.id = "7";
-    object.type = type;
-    object.s_m = 50.0;
-    object.t_m = -6.0;
-    object.length_m = length;
-    object.width_m = width;
-    object.height_m = height;
+    RoadObject object{.id = "7", .type = type, .s_m = 50.0, .t_m = -6.0, .length_m = length, .width_m = width, .height_m = height};
     return object;
 }
 
@@ -347,14 +331,8 @@ Board board_of(const RoadSignal& signal) {
 }
 
 RoadSignal signal(double t, bool facing_forward) {
-    RoadSignal signal;
-    signal.id = "9";
-    signal.s_m = 50.0;
-    signal.t_m = t;
-    signal.z_offset_m = 2.1;
-    signal.width_m = 0.9;
-    signal.height_m = 0.7;
-    signal.facing_forward = facing_forward;
+    RoadSignal signal{
+        .id = "9", .s_m = 50.0, .t_m = t, .z_offset_m = 2.1, .width_m = 0.9, .height_m = 0.7, .facing_forward = facing_forward};
     return signal;
 }
 

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <set>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -80,9 +81,7 @@ void expect_sound(const RoadNetwork& network, const Scene& scene) {
         EXPECT_EQ(found.crowded_edges, 0U);
         EXPECT_EQ(found.euler, static_cast<std::int64_t>(found.parts)) << "a crack or a T-junction";
         const Faults wrong = faults(surface);
-        EXPECT_EQ(wrong.downward, 0U);
-        EXPECT_EQ(wrong.turned, 0U);
-        EXPECT_EQ(wrong.without_area, 0U);
+        EXPECT_EQ(std::tuple(wrong.downward, wrong.turned, wrong.without_area), std::tuple(0U, 0U, 0U));
     }
 }
 

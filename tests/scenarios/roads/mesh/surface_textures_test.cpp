@@ -27,8 +27,7 @@ struct Blocks {
 };
 
 Blocks blocks(const SurfaceTexture& texture, std::size_t channel, int block) {
-    Blocks out;
-    out.side = texture.width / block;
+    Blocks out{.side = texture.width / block};
     out.values.assign(static_cast<std::size_t>(out.side) * static_cast<std::size_t>(out.side), 0.0);
     for (int y = 0; y < texture.height; ++y)
         for (int x = 0; x < texture.width; ++x)
@@ -57,8 +56,7 @@ const SurfaceTexture& named(const std::vector<SurfaceTexture>& all, const std::s
 }
 
 Scene textured_materials() {
-    Scene scene;
-    scene.materials = road_materials();
+    Scene scene{.materials = road_materials()};
     add_road_textures(scene, 1);
     return scene;
 }
@@ -288,8 +286,7 @@ TEST(TexturePosition, MeshesAgreeExactlyApartFromWholeRepetitions) {
 }
 
 TEST(TexturePosition, RoadMeshesHaveTheirTexturesInTrueSize) {
-    RoadMeshOptions options;
-    options.textures = true;
+    RoadMeshOptions options{.textures = true};
     for (const char* name : {"country.xodr", "village.xodr"}) {
         SCOPED_TRACE(name);
         const Scene scene = build_scene(shipped_road(name), options);
