@@ -3,6 +3,7 @@
 #include "renderer/gl/scene/ground_plane.h"
 #include "scenarios/values/errors.h"
 #include "tests/renderer/shadow_scene.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -118,14 +119,7 @@ TEST_F(PlanarShadows, RefuseGroundThatIsNotOnePlane) {
     Moment moment{.lamps = {lamp_at({3.5, 0.6, 0.65})}};
     RendererSettings settings{.shadows = planar};
     Renderer renderer(device_, scene, settings);
-    const auto message = [&](auto act) -> std::string {
-        try {
-            act();
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    };
+    const auto message = [](auto act) { return tests::refusal_of(act, ""); };
     using testing::AllOf;
     using testing::HasSubstr;
     const auto refused =

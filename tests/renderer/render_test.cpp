@@ -3,8 +3,10 @@
 #include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace fernlicht {
@@ -75,12 +77,7 @@ TEST(Device, RefusesABackendThatItDoesNotKnow) {
 }
 
 TEST(Device, NamesTheCountOfDevicesForOneThatIsNotThere) {
-    try {
-        open_device("egl-device=99");
-        FAIL();
-    } catch (const DeviceError& error) {
-        EXPECT_NE(std::string(error.what()).find("EGL devices"), std::string::npos) << error.what();
-    }
+    EXPECT_THAT(tests::refusal_of<DeviceError>([] { open_device("egl-device=99"); }), testing::HasSubstr("EGL devices"));
 }
 
 TEST(Device, TriesEveryBackendAndOneWorks) {
@@ -102,14 +99,10 @@ TEST(Device, AfterOneIsClosedAnotherCanBeOpened) {
 
 TEST(Program, AnErrorNamesFileAndLine) {
     Device device = open_device("auto");
-    try {
-        // The condition in an included file cannot be read: the message names that file.
-        gl::Program(device.context(), "naive.vert.glsl", "naive.frag.glsl", {{"LAMP_COUNT", "1"}, {"WANT_COLOUR", "nonsense("}});
-        FAIL();
-    } catch (const DeviceError& error) {
-        const std::string text = error.what();
-        EXPECT_NE(text.find("outputs.glsl:"), std::string::npos) << text;
-    }
+    const std::vector<gl::Program::Define> broken{{"LAMP_COUNT", "1"}, {"WANT_COLOUR", "nonsense("}};
+    // The condition in an included file cannot be read: the message names that file.
+    EXPECT_THAT(tests::refusal_of<DeviceError>([&] { gl::Program(device.context(), "naive.vert.glsl", "naive.frag.glsl", broken); }),
+                testing::HasSubstr("outputs.glsl:"));
 }
 
 } // namespace

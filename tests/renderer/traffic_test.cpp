@@ -10,16 +10,15 @@
 #include "scenarios/light/light.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/traffic/road_user_mesh.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <tuple>
-#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -35,13 +34,10 @@ struct Street {
         add_road_users(scene, drive.traffic, drive.opened);
     }
     static Drive read(const std::string& traffic, const std::string& road) {
-        const auto file = std::filesystem::temp_directory_path() / fmt::format("fernlicht-traffic-test-{}.yaml", ::getpid());
-        std::ofstream(file) << fmt::format("fernlicht: 1\nroad: {}/scenarios/library/roads/{}.xodr\nroute: {{s_m: 20}}\nspeed_mps: 20\n"
-                                           "duration_s: 4\nvariants: {{one: {{file: {}}}}}\n{}",
-                                           FERNLICHT_SOURCE_DIR, road, low_beam, traffic);
-        Drive drive = read_drive(file);
-        std::filesystem::remove(file);
-        return drive;
+        return read_drive(
+            tests::written("traffic.yaml", fmt::format("fernlicht: 1\nroad: {}/scenarios/library/roads/{}.xodr\nroute: {{s_m: 20}}\n"
+                                                       "speed_mps: 20\nduration_s: 4\nvariants: {{one: {{file: {}}}}}\n{}",
+                                                       FERNLICHT_SOURCE_DIR, road, low_beam, traffic)));
     }
     Moment at(double time_s) const {
         return moment_at({0, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants[0]);

@@ -7,6 +7,7 @@
 #include "scenarios/models/placed_model.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "tests/scenarios/models/written_gltf.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,15 +44,12 @@ Moment lit() {
 }
 
 std::vector<View> six() {
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "six_views";
-    std::filesystem::create_directories(folder);
     const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
-    write_file(folder / "drive.yaml",
-               "fernlicht: 1\nroad: " + library + "roads/straight.xodr\nspeed_mps: 10\nduration_s: 1\nview_set: " + library +
-                   "views/six.yaml\nvariants: {a: {source: filament, file: " + library + "lamps/halogen-low.ies}}\n");
-    std::vector<View> views = read_drive(folder / "drive.yaml").views;
-    std::filesystem::remove_all(folder);
-    return views;
+    return read_drive(tests::written("drive.yaml", "fernlicht: 1\nroad: " + library +
+                                                       "roads/straight.xodr\nspeed_mps: 10\nduration_s: 1\nview_set: " + library +
+                                                       "views/six.yaml\nvariants: {a: {source: filament, file: " + library +
+                                                       "lamps/halogen-low.ies}}\n"))
+        .views;
 }
 
 glm::dvec2 pixel_of(const Camera& camera, const View& view, const glm::dvec3& point_m) {

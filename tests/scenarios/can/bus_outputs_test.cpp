@@ -2,6 +2,7 @@
 #include "scenarios/can/bus_outputs.h"
 #include "scenarios/can/candump_log.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -108,12 +109,7 @@ TEST(BusOutputs, AreRefusedWhereNothingSaysHow) {
     const SignalTable table({"left"});
     const auto refused = [&](std::vector<BusOutput> wanted) {
         BusMapping mapping{.outputs = std::move(wanted)};
-        try {
-            BusOutputs(mapping, {lamps()}, table);
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string("not refused");
+        return tests::refusal_of([&] { BusOutputs(mapping, {lamps()}, table); });
     };
     EXPECT_EQ(refused({output("State", "Mode", "control.mode")}), "drive.yaml:9:5: can.outputs.State.Mode: message 'State' without a cycle "
                                                                   "time, expected GenMsgCycleTime in its database, or cycle_s");
@@ -133,14 +129,9 @@ TEST(BusOutputs, OfAMessageThatIsReadAreRefused) {
     BusMapping mapping{.outputs = {output("Status", "Level", "lamp.left.level")}};
     BusInput input{.name = "lamp.left.switch", .source = {"Status", "Level"}};
     mapping.inputs = {input};
-    try {
-        const BusOutputs outputs(mapping, {lamps()}, table);
-        FAIL() << "not refused";
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(),
-                     "drive.yaml:9:5: can.outputs.Status.Level: an output of message 'Status', which lamp.left.switch is read "
-                     "from, expected a message that nobody else sends");
-    }
+    EXPECT_EQ(tests::refusal_of([&] { BusOutputs(mapping, {lamps()}, table); }),
+              "drive.yaml:9:5: can.outputs.Status.Level: an output of message 'Status', which lamp.left.switch is read "
+              "from, expected a message that nobody else sends");
     mapping.inputs.front().source = {"State", "Mode"};
     EXPECT_NO_THROW(BusOutputs(mapping, {lamps()}, table));
 }

@@ -1,12 +1,12 @@
 // Whole logs of candump: kinds of lines, what stamps count from, real ones.
 #include "scenarios/can/candump_stream.h"
+#include "tests/trial.h"
 
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -24,12 +24,7 @@ std::vector<std::int64_t> times_ms(const std::string& text, const CandumpReading
 }
 
 std::string refusal(const std::string& text, const CandumpReading& reading = {}) {
-    try {
-        times_ms(text, reading);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "was read";
+    return tests::refusal_of([&] { times_ms(text, reading); });
 }
 
 TEST(CandumpStream, TellsFramesFromWhatStandsBetweenThem) {
@@ -70,11 +65,7 @@ TEST(CandumpStream, GoesOnBehindALineThatIsTooLong) {
         for (const bool in_a_file : {false, true}) {
             const std::string text =
                 std::string(length, 'x') + "\n(1.000000) can0 123#11\n" + std::string(length, 'y') + "\n(2.000000) can0 123#22";
-            const std::string path =
-                (std::filesystem::path(testing::TempDir()) / fmt::format("fernlicht-long-{}.log", ::getpid())).string();
-            std::ofstream(path) << text;
-            CandumpStream stream = in_a_file ? CandumpStream(path) : CandumpStream("a.log", text);
-            std::filesystem::remove(path);
+            CandumpStream stream = in_a_file ? CandumpStream(tests::written("long.log", text).string()) : CandumpStream("a.log", text);
             EXPECT_THROW(stream.next(), InputError);
             EXPECT_EQ(stream.next(), What::frame) << length;
             EXPECT_EQ(stream.line_number(), 2U);

@@ -2,6 +2,7 @@
 #include "scenarios/can/signal_bits.h"
 #include "scenarios/can/signal_codec.h"
 #include "tests/scenarios/can/dbc_trial.h"
+#include "tests/trial.h"
 
 #include <bit>
 #include <cmath>
@@ -26,12 +27,7 @@ class Codec : public DbcTrial {
 };
 
 std::string encode_refusal(const CanMessage& message, const std::map<std::string, double>& values) {
-    try {
-        encode(message, values);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { encode(message, values); }, "");
 }
 
 TEST_F(Codec, IntelCountsFromTheLeastSignificantBitUpwards) {

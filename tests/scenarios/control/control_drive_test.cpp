@@ -8,6 +8,7 @@
 #include "scenarios/drives/play/place_traffic.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/drive_fixture.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -216,12 +217,7 @@ std::filesystem::path compiled_plugin(const std::string& name, const std::string
 }
 
 std::string refusal(const std::filesystem::path& file) {
-    try {
-        run(with(file));
-        return {};
-    } catch (const InputError& error) {
-        return error.what();
-    }
+    return tests::refusal_of([&] { run(with(file)); }, "");
 }
 
 TEST(Plugin, ExampleInCBendsTheLight) {

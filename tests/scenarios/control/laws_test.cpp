@@ -6,6 +6,7 @@
 #include "scenarios/control/high_beam.h"
 #include "scenarios/control/masked_beam.h"
 #include "scenarios/values/pose.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -312,12 +313,7 @@ TEST(Signals, UnknownNamesNameTheNearest) {
     const SignalTable table({"left"});
     EXPECT_EQ(table.name(table.find("lamp.left.swivel_rad")), "lamp.left.swivel_rad");
     EXPECT_EQ(table.find("ego.speed_mps"), std::size_t{signal::ego_speed});
-    try {
-        table.find("ego.sped_mps");
-        FAIL();
-    } catch (const std::invalid_argument& error) {
-        EXPECT_STREQ(error.what(), "'ego.speed_mps', the nearest signal");
-    }
+    EXPECT_EQ(tests::refusal_of<std::invalid_argument>([&] { table.find("ego.sped_mps"); }), "'ego.speed_mps', the nearest signal");
 }
 
 } // namespace

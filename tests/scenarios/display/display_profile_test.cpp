@@ -1,5 +1,6 @@
 #include "scenarios/display/display_profile.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -132,13 +133,8 @@ struct Refusal {
 class DisplayRefusals : public testing::TestWithParam<Refusal> {};
 
 TEST_P(DisplayRefusals, NameTheirPlace) {
-    try {
-        profile_of(GetParam().text);
-        FAIL() << "was taken";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr(GetParam().says));
-        EXPECT_THAT(error.what(), testing::HasSubstr("profile.yaml:"));
-    }
+    EXPECT_THAT(tests::refusal_of([] { profile_of(GetParam().text); }),
+                testing::AllOf(testing::HasSubstr(GetParam().says), testing::HasSubstr("profile.yaml:")));
 }
 
 constexpr const char* srgb_lines = "primaries: {red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329]}\n";

@@ -3,6 +3,7 @@
 #include "scenarios/values/files.h"
 #include "scenarios/yaml/yaml_entry.h"
 #include "tests/scenarios/drives/drive_fixture.h"
+#include "tests/trial.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -16,14 +17,7 @@ using testing::AllOf, testing::HasSubstr, testing::StartsWith;
 
 const std::filesystem::path file = "/tmp/some.yaml";
 
-std::string refusal(const auto& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "not refused";
-}
+std::string refusal(const auto& action) { return tests::refusal_of(action); }
 
 std::string parse_refusal(const std::string& content) {
     return refusal([&] { parse_yaml(content, file); });

@@ -1,6 +1,7 @@
 #include "scenarios/lamps/candela_table.h"
 
 #include "scenarios/values/pose.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -159,13 +160,8 @@ TEST(CandelaTableFlux, OfASteepLogarithmicCellIsItsClosedForm) {
 }
 
 TEST(CandelaTable, NamesTheBrokenInvariant) {
-    const auto complaint = [](const CandelaTable& table) -> std::string {
-        try {
-            check_invariants(table);
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "none";
+    const auto complaint = [](const CandelaTable& table) {
+        return tests::refusal_of<std::invalid_argument>([&] { check_invariants(table); }, "none");
     };
     using testing::HasSubstr;
     const CandelaTable good{{0.0, 1.0}, {0.0, 1.0}, {1.0, 2.0, 3.0, 4.0}, {}, BetweenSamples::linear_cd};

@@ -1,6 +1,7 @@
 // Our own lamps: files that are what the model writes, with the flux and the edges of common lamps. The rows of their regulations are held
 // in tests/metrics/regulation/shipped_lamps_test.cpp.
 #include "scenarios/lamps/lamp_model.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,7 @@ const CandelaTable& table(const std::string& name) {
 }
 
 TEST(LampModel, ShippedFilesAreWhatTheModelWritesByteForByte) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / "lamp_model";
-    std::filesystem::create_directories(folder);
+    const auto folder = tests::new_folder();
     for (const LampModel& m : lamp_models()) {
         const auto path = folder / (m.name + ".ies");
         write_lamp(lamp_of_model(m), path);
@@ -34,7 +34,6 @@ TEST(LampModel, ShippedFilesAreWhatTheModelWritesByteForByte) {
         EXPECT_TRUE(read_file(path, opened) == read_file(shipped(m.name), opened)) << m.name;
         EXPECT_LT(opened.back().bytes, 1'000'000u);
     }
-    std::filesystem::remove_all(folder);
 }
 
 TEST(LampModel, ShippedFilesSayThatTheyAreAModel) {

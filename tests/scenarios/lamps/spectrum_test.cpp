@@ -2,10 +2,10 @@
 
 #include "scenarios/lamps/spectral_tables.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -94,28 +94,12 @@ TEST(LampColour, AGreenLedHasNoColourTemperature) {
 
 class SpectrumFile : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  ("spectrum_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::filesystem::path file(const std::string& content) {
-        const auto path = folder_ / "s.csv";
-        std::ofstream(path, std::ios::binary) << content;
-        return path;
-    }
+    std::filesystem::path file(const std::string& content) { return tests::written("s.csv", content, folder_); }
     std::string refusal(const std::string& content) {
         FilesRead opened;
-        try {
-            read_spectrum(file(content), opened);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "not refused";
+        return tests::refusal_of([&] { read_spectrum(file(content), opened); });
     }
-    std::filesystem::path folder_;
+    const std::filesystem::path folder_ = tests::new_folder();
 };
 
 std::string flat(const std::string& separator, const std::string& line_end = "\n") {

@@ -3,6 +3,7 @@
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/models/written_gltf.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <fstream>
@@ -11,7 +12,6 @@
 #include <gtest/gtest.h>
 #include <random>
 #include <sstream>
-#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -21,13 +21,6 @@ using testing::HasSubstr;
 
 class Gltf : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  ("gltf_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     Model read(const WrittenGltf& file) const {
         file.write_gltf(folder_ / "model.gltf");
         return read_model(folder_ / "model.gltf");
@@ -37,18 +30,12 @@ class Gltf : public testing::Test {
         return refusal(folder_ / "model.gltf");
     }
     std::string refusal_of_text(const std::string& text, const std::string& name = "model.gltf") const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return refusal(folder_ / name);
+        return refusal(tests::written(name, text, folder_));
     }
     static std::string refusal(const std::filesystem::path& path) {
-        try {
-            read_model(path);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "not refused";
+        return tests::refusal_of([&] { read_model(path); });
     }
-    std::filesystem::path folder_;
+    const std::filesystem::path folder_ = tests::new_folder();
 };
 
 TEST_F(Gltf, AxesAndNormalsBecomeOurs) {
@@ -296,9 +283,6 @@ std::string mutated(std::string bytes, std::mt19937& random) {
 
 class GltfMutation : public testing::Test {
   protected:
-    GltfMutation() { std::filesystem::create_directories(folder_); }
-    ~GltfMutation() override { std::filesystem::remove_all(folder_); }
-
     /// How many of the mutants were refused; the rest were read and are whole.
     std::size_t refused(const std::filesystem::path& file, std::size_t mutants, std::uint32_t seed) {
         std::mt19937 random(seed);
@@ -320,7 +304,7 @@ class GltfMutation : public testing::Test {
         }
         return count;
     }
-    const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("fernlicht-mutants-" + std::to_string(::getpid()));
+    const std::filesystem::path folder_ = tests::new_folder();
 };
 
 TEST_F(GltfMutation, OurOwnFilesAreReadOrRefused) {

@@ -3,6 +3,7 @@
 #include "scenarios/roads/road_network.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/roads/opendrive_text.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -194,28 +195,17 @@ TEST(OpenDrive, GapsAreToldWithPlaceAndSize) {
 /// The refusal without the file's name; "" when the file is read.
 std::string refusal(const std::string& content) {
     const TemporaryFile written(content);
-    try {
-        read_opendrive(written.path());
-    } catch (const InputError& error) {
-        const std::string sentence = error.what();
-        EXPECT_THAT(sentence, testing::StartsWith(written.path().string()));
-        EXPECT_EQ(sentence.find('\n'), std::string::npos);
-        return sentence.substr(written.path().string().size());
-    }
-    return "";
+    const std::string sentence = tests::refusal_of([&] { read_opendrive(written.path()); }, "");
+    if (sentence.empty())
+        return sentence;
+    EXPECT_THAT(sentence, testing::StartsWith(written.path().string()));
+    EXPECT_EQ(sentence.find('\n'), std::string::npos);
+    return sentence.substr(written.path().string().size());
 }
 
 std::string road_refusal(const RoadText& text) { return refusal(file(road(text))); }
-
-std::string plan_refusal(const std::string& plan) {
-    RoadText text{.plan = plan};
-    return road_refusal(text);
-}
-
-std::string lane_refusal(const std::string& lanes) {
-    RoadText text{.lanes = lanes};
-    return road_refusal(text);
-}
+std::string plan_refusal(const std::string& plan) { return road_refusal({.plan = plan}); }
+std::string lane_refusal(const std::string& lanes) { return road_refusal({.lanes = lanes}); }
 
 TEST(OpenDriveBadInput, NotAFileAtAll) {
     EXPECT_THROW(read_opendrive("/nowhere/road.xodr"), InputError);

@@ -2,6 +2,7 @@
 
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/roads/opendrive_text.h"
+#include "tests/trial.h"
 
 #include <chrono>
 #include <cmath>
@@ -21,12 +22,7 @@ RoadNetwork network_with(const std::string& roads) {
 }
 
 std::string refusal(const RoadNetwork& network, const Route::Start& start, const std::vector<std::string>& via = {}) {
-    try {
-        const Route route(network, start, via);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { const Route route(network, start, via); }, "");
 }
 
 void expect_position(const Pose& pose, double x, double y, double tolerance = 1e-9) {

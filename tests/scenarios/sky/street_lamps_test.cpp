@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/place_street_lamps.h"
 #include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -169,14 +170,9 @@ TEST(StreetLamps, WithoutArmAreNotInTheirPole) {
 }
 
 TEST(StreetLamps, ThatFindNoObjectSayWhatStandsThere) {
-    try {
-        const LitVillage none("lantern");
-        FAIL();
-    } catch (const InputError& error) {
-        const std::string text = error.what();
-        for (const char* part : {"village.yaml", "street_lamps.posts.on_objects", "village.xodr", "'lamp post'"})
-            EXPECT_NE(text.find(part), std::string::npos) << text;
-    }
+    const std::string text = tests::refusal_of([] { const LitVillage none("lantern"); });
+    for (const char* part : {"village.yaml", "street_lamps.posts.on_objects", "village.xodr", "'lamp post'"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
     LitVillage unknown("lamp post");
     unknown.drive.street_lamps[0].found.reset();
     EXPECT_THROW(unknown.around({}, 100.0), std::logic_error);

@@ -1,6 +1,7 @@
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/yaml_schema_check.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <filesystem>
@@ -19,20 +20,9 @@ const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
 
 class StudyFile : public testing::Test {
   protected:
-    std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) / ("study-" + std::to_string(::getpid()) + ".yaml");
-    void TearDown() override { std::filesystem::remove(file_); }
-
-    Study read(const std::string& text) {
-        std::ofstream(file_) << text;
-        return read_study(file_);
-    }
-    std::string refusal(const std::string& text) {
-        try {
-            read(text);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "not refused";
+    static Study read(const std::string& text) { return read_study(tests::written("study.yaml", text)); }
+    static std::string refusal(const std::string& text) {
+        return tests::refusal_of([&] { read(text); });
     }
     static std::string with(const std::string& more) {
         return "fernlicht_study: 1\nlamps:\n  a: {low: " + library + "lamps/halogen-low.ies}\n  b: {left: " + library +
@@ -142,12 +132,7 @@ TEST_F(StudyFile, HighBeamsComeWithTheLampOrNotAtAll) {
     std::string text = with("");
     text.replace(text.find("straight.yaml"), 13, "first-light.yaml");
     const Study study = read(text);
-    try {
-        cell_drive(study, cells_of(study).front());
-        FAIL() << "not refused";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("lamps.a: found no high beam"));
-    }
+    EXPECT_THAT(tests::refusal_of([&] { cell_drive(study, cells_of(study).front()); }), HasSubstr("lamps.a: found no high beam"));
 }
 
 // study.schema.json says the same as the reader of studies: editors that use it must neither refuse good studies nor pass misspelt keys.
@@ -169,12 +154,7 @@ class StudySchema : public testing::Test {
     std::string violation(const std::string& yaml) { return check_.violation(to_json(parse_yaml(yaml, "test.yaml"))); }
     std::string refusal(const std::string& yaml) {
         std::ofstream(file_) << yaml;
-        try {
-            read_study(file_);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "not refused";
+        return tests::refusal_of([&] { read_study(file_); });
     }
 };
 

@@ -1,10 +1,9 @@
 #include "scenarios/drives/edits/mirrored_drive.h"
+#include "tests/trial.h"
 
 #include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <tuple>
-#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -39,10 +38,7 @@ TEST(MirroredDrive, TwiceIsTheDriveAsItWas) {
 TEST(MirroredDrive, IsWrittenAndReadBack) {
     Drive drive = example();
     mirror_traffic(drive, true);
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / ("mirrored-" + std::to_string(::getpid()) + ".yaml");
-    std::ofstream(file) << write_drive(drive);
-    const Drive back = read_drive(file);
-    std::filesystem::remove(file);
+    const Drive back = read_drive(tests::written("mirrored.yaml", write_drive(drive)));
     EXPECT_EQ(write_drive(back), write_drive(drive));
     EXPECT_TRUE(back.mirrored_road);
     for (std::size_t v = 0; v < back.variants.size(); ++v)

@@ -5,6 +5,7 @@
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/traffic/road_user_mesh.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <filesystem>
@@ -13,7 +14,6 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -253,15 +253,11 @@ TEST(Advance, TicksFillTheDurationWithoutItsEnd) {
 
 class PlacedTraffic : public testing::Test {
   protected:
-    PlacedTraffic() : file(std::filesystem::temp_directory_path() / fmt::format("fernlicht-traffic-{}.yaml", ::getpid())) {}
-    ~PlacedTraffic() override { std::filesystem::remove(file); }
-
     Drive read(const std::string& traffic) {
-        std::ofstream(file) << "fernlicht: 1\nroad: " FERNLICHT_SOURCE_DIR "/scenarios/library/roads/straight.xodr\nspeed_mps: 20\n"
-                               "duration_s: 4\nvariants: {one: {file: "
-                            << lamp << "}}\n"
-                            << traffic;
-        return read_drive(file);
+        return read_drive(tests::written("traffic.yaml", "fernlicht: 1\nroad: " FERNLICHT_SOURCE_DIR
+                                                         "/scenarios/library/roads/straight.xodr\nspeed_mps: 20\nduration_s: 4\n"
+                                                         "variants: {one: {file: " +
+                                                             std::string(lamp) + "}}\n" + traffic));
     }
     Moment moment(Drive& drive, double time_s) {
         const RoadNetwork network = read_opendrive(drive.road_file);
@@ -273,7 +269,6 @@ class PlacedTraffic : public testing::Test {
     std::string row(const std::string& keys) { return "traffic: {other: {file: " + std::string(lamp) + ", " + keys + "}}\n"; }
 
     static constexpr const char* lamp = FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/halogen-low.ies";
-    std::filesystem::path file;
 };
 
 TEST_F(PlacedTraffic, OncomingCarsComeOnTheOtherLaneAndShineBack) {

@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/motion.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/drive_fixture.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -137,12 +138,7 @@ std::string refusal(const VehicleParameters& car, std::vector<SpeedPoint> speed 
     drive.vehicle = car;
     if (!speed.empty())
         drive.speed = std::move(speed);
-    try {
-        const Simulated played(std::move(drive));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { const Simulated played(std::move(drive)); }, "");
 }
 
 TEST(Motion, RefusesACarThatLeavesItsModel) {
