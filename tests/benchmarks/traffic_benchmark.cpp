@@ -59,8 +59,7 @@ struct Stage {
         scene = build_scene(network);
         FilesRead opened;
         add_road_users(scene, drive.traffic, opened);
-        RendererSettings settings{.traffic_levels = levels, .traffic_shadows = shadows};
-        renderer.emplace(device, scene, settings);
+        renderer.emplace(device, scene, RendererSettings{.traffic_levels = levels, .traffic_shadows = shadows});
         for (int frame = 0; frame < (moving ? moving_frames : 1); ++frame) {
             const double time_s = frame / frames_a_second;
             moments.push_back(moment_at({frame, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants.front()));

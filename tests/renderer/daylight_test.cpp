@@ -223,8 +223,7 @@ constexpr Wanted as_seen{.colour = true, .luminance = true, .light = true};
 class ColouredLight : public testing::TestWithParam<const char*> {
   protected:
     Frame draw(const Wanted& wanted, const ToneMapper& mapper = {}) {
-        RendererSettings settings{.technique = GetParam(), .tone_mapper = mapper};
-        Renderer renderer(device_, scene_, settings);
+        Renderer renderer(device_, scene_, RendererSettings{.technique = GetParam(), .tone_mapper = mapper});
         return renderer.draw(warm_night(), ahead_of_board(), wanted);
     }
     Device device_ = open_device("auto");
@@ -289,8 +288,7 @@ INSTANTIATE_TEST_SUITE_P(, ColouredLight, testing::Values("photometric", "photom
 TEST(ColouredLightOfOthers, TechniquesWithoutLuminanceHaveNone) {
     Device device = open_device("auto");
     const Scene scene = red_board();
-    RendererSettings settings{.technique = "full"};
-    Renderer renderer(device, scene, settings);
+    Renderer renderer(device, scene, RendererSettings{.technique = "full"});
     EXPECT_FALSE(renderer.available(as_seen).light);
     EXPECT_TRUE(renderer.draw(warm_night(), ahead_of_board(), as_seen).light.empty());
 }

@@ -195,8 +195,7 @@ Moment two_low_beams() {
 }
 
 View over_the_bonnet() {
-    View view{.name = "driver", .position_m = {1.3, 0.35, 1.2}, .pitch_rad = radians(-6.0), .width_px = 160, .height_px = 120};
-    return view;
+    return {.name = "driver", .position_m = {1.3, 0.35, 1.2}, .pitch_rad = radians(-6.0), .width_px = 160, .height_px = 120};
 }
 
 TEST(OwnCar, HidesWhatIsBehindItAndTakesNoLight) {

@@ -108,9 +108,8 @@ RandomScene random_scene(std::uint64_t seed, const Features& on) {
 }
 
 View driver_160() {
-    View view{
+    return {
         .position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(40.0), .width_px = 160, .height_px = 120};
-    return view;
 }
 
 class PruningTest : public testing::Test {
@@ -183,8 +182,7 @@ std::vector<std::filesystem::path> shipped_drives() {
 }
 
 TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
-    DriveEdits smaller{.resolution = std::pair(320, 240)};
-    Drive drive = read_drive(GetParam(), smaller);
+    Drive drive = read_drive(GetParam(), DriveEdits{.resolution = std::pair(320, 240)});
     const RoadNetwork network = read_opendrive(drive.road_file);
     tell_story(drive, network);
     const Route route(network, drive.start, drive.via);

@@ -33,11 +33,10 @@ inline std::shared_ptr<const LampFile> file_of(CandelaTable table) {
 
 /// `at` in the car's frame.
 inline LitLamp mounted(const Pose& ego, const char* name, std::shared_ptr<const LampFile> file, const glm::dvec3& at, double factor) {
-    LitLamp lamp{.name = name,
-                 .file = std::move(file),
-                 .pose = {ego.position_m + ego.axes * at, ego.axes * axes_from_angles(0.02 * at.y, -0.01, 0.0)},
-                 .intensity_factor = factor};
-    return lamp;
+    return {.name = name,
+            .file = std::move(file),
+            .pose = {ego.position_m + ego.axes * at, ego.axes * axes_from_angles(0.02 * at.y, -0.01, 0.0)},
+            .intensity_factor = factor};
 }
 
 /// The right one stands first, so that a technique cannot take the first one for the left.
@@ -80,13 +79,12 @@ inline Scene ground_and_board(const Pose& ego, int cells) {
 }
 
 inline View view_towards(double yaw_deg, double pitch_deg) {
-    View view{.position_m = {1.5, 0.35, 1.2},
-              .yaw_rad = radians(yaw_deg),
-              .pitch_rad = radians(pitch_deg),
-              .vertical_fov_rad = radians(30.0),
-              .width_px = 96,
-              .height_px = 64};
-    return view;
+    return {.position_m = {1.5, 0.35, 1.2},
+            .yaw_rad = radians(yaw_deg),
+            .pitch_rad = radians(pitch_deg),
+            .vertical_fov_rad = radians(30.0),
+            .width_px = 96,
+            .height_px = 64};
 }
 
 class PublishedTest : public testing::Test {

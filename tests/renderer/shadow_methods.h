@@ -22,8 +22,7 @@ inline std::shared_ptr<const LampFile> evenly_bright() {
 }
 
 inline LitLamp lamp_at(const char* name, const glm::dvec3& place, const std::shared_ptr<const LampFile>& file) {
-    LitLamp lamp{.name = name, .file = file, .pose = {place, axes_from_angles(0.0, -0.01, 0.0)}, .intensity_factor = 1.0};
-    return lamp;
+    return {.name = name, .file = file, .pose = {place, axes_from_angles(0.0, -0.01, 0.0)}, .intensity_factor = 1.0};
 }
 
 inline void add_sheet(Scene& scene, const char* name, std::uint32_t material, const glm::dvec3& at, const glm::vec3& a,
@@ -75,12 +74,11 @@ inline Scene road_in_waves(double height_m, double length_m) {
 
 /// From where a driver sits, along the road.
 inline View driver_view(int width_px, int height_px) {
-    View view{.position_m = {1.5, 0.35, 1.2},
-              .pitch_rad = radians(-3.0),
-              .vertical_fov_rad = radians(30.0),
-              .width_px = width_px,
-              .height_px = height_px};
-    return view;
+    return {.position_m = {1.5, 0.35, 1.2},
+            .pitch_rad = radians(-3.0),
+            .vertical_fov_rad = radians(30.0),
+            .width_px = width_px,
+            .height_px = height_px};
 }
 
 } // namespace fernlicht::tests

@@ -14,10 +14,7 @@ using namespace tests;
 constexpr Wanted all_results{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 constexpr double lamp_x = 2.2, lamp_z = 0.65;
 
-ShadowSettings method(ShadowMethod which) {
-    ShadowSettings settings{.method = which};
-    return settings;
-}
+ShadowSettings method(ShadowMethod which) { return {.method = which}; }
 
 Moment with_lamps(const std::vector<double>& sides) {
     Moment moment;
@@ -202,14 +199,13 @@ TEST_F(ShadowMethodTest, OneMapForAllErrsByTheParallaxFromMidway) {
 
 /// A strip of road across the edge of a shadow, 4 mm a pixel.
 View strip_at(double x, double y, int width_px) {
-    View view{.projection = Projection::map,
-              .width_px = width_px,
-              .height_px = 4,
-              .map_ahead_m = x + 0.1,
-              .map_behind_m = -(x - 0.1),
-              .map_left_m = y + 0.002 * width_px,
-              .map_right_m = -(y - 0.002 * width_px)};
-    return view;
+    return {.projection = Projection::map,
+            .width_px = width_px,
+            .height_px = 4,
+            .map_ahead_m = x + 0.1,
+            .map_behind_m = -(x - 0.1),
+            .map_left_m = y + 0.002 * width_px,
+            .map_right_m = -(y - 0.002 * width_px)};
 }
 
 /// Share of a disc on one side of a chord at u radii from its centre.

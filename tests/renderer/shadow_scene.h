@@ -62,13 +62,12 @@ inline LitLamp lamp_at(const glm::dvec3& place_m, double yaw_rad = 0.0, double p
 }
 
 inline View driver_for_shadows(int width = 320, int height = 240) {
-    View view{.name = "driver",
-              .position_m = {1.5, 0.35, 1.2},
-              .pitch_rad = radians(-4.0),
-              .vertical_fov_rad = radians(35.0),
-              .width_px = width,
-              .height_px = height};
-    return view;
+    return {.name = "driver",
+            .position_m = {1.5, 0.35, 1.2},
+            .pitch_rad = radians(-4.0),
+            .vertical_fov_rad = radians(35.0),
+            .width_px = width,
+            .height_px = height};
 }
 
 /// `per_m` pixels a metre.

@@ -11,10 +11,7 @@ namespace {
 
 constexpr ShadowSettings volumes{.method = ShadowMethod::volumes, .tolerance_m = 1e-4};
 
-Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) {
-    Moment moment{.lamps = {lamp_at(at, 0.0, 0.0)}};
-    return moment;
-}
+Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) { return {.lamps = {lamp_at(at, 0.0, 0.0)}}; }
 
 Mesh thing(const glm::dvec3& origin, const char* name = "thing") { return {name, origin, {}, {}, {}}; }
 

@@ -55,20 +55,16 @@ std::string oncoming(double gap_m, int count = 1, double every_m = 25.0, const c
 }
 
 View driver(int width = 240, int height = 160, double fov_deg = 30.0) {
-    View view{.position_m = {1.3, 0.35, 1.2},
-              .pitch_rad = radians(-1.0),
-              .vertical_fov_rad = radians(fov_deg),
-              .width_px = width,
-              .height_px = height};
-    return view;
+    return {.position_m = {1.3, 0.35, 1.2},
+            .pitch_rad = radians(-1.0),
+            .vertical_fov_rad = radians(fov_deg),
+            .width_px = width,
+            .height_px = height};
 }
 
 class Traffic : public testing::Test {
   protected:
-    RendererSettings settings(const char* technique = "photometric") {
-        RendererSettings s{.technique = technique};
-        return s;
-    }
+    RendererSettings settings(const char* technique = "photometric") { return {.technique = technique}; }
     Frame draw(const Street& street, const Moment& moment, const View& view, const RendererSettings& s) {
         Renderer renderer(device_, street.scene, s);
         return renderer.draw(moment, view, everything);

@@ -74,9 +74,7 @@ Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
 }
 
 View driver_96() {
-    View view{
-        .position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(30.0), .width_px = 96, .height_px = 64};
-    return view;
+    return {.position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(30.0), .width_px = 96, .height_px = 64};
 }
 
 class TwinTest : public testing::Test {

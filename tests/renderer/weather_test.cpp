@@ -53,8 +53,7 @@ class DrawnWeather : public testing::Test {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const char* technique = "photometric", int samples = 32, Work* work = nullptr,
                const View& view = ahead_in_weather()) {
-        RendererSettings settings{.technique = technique, .fog_samples = samples};
-        Renderer renderer(device_, scene, settings);
+        Renderer renderer(device_, scene, RendererSettings{.technique = technique, .fog_samples = samples});
         if (work != nullptr)
             *work = renderer.count(moment, view, all_drawn);
         return renderer.draw(moment, view, all_drawn);

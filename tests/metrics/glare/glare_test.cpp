@@ -117,10 +117,7 @@ LitLamp lamp_at(const glm::dvec3& position_m, double cd) {
     return lamp;
 }
 
-Moment moment_with(std::vector<LitLamp> lamps) {
-    Moment moment{.lamps = std::move(lamps)};
-    return moment;
-}
+Moment moment_with(std::vector<LitLamp> lamps) { return {.lamps = std::move(lamps)}; }
 
 // 1000 cd at 0.65 m, an eye 50 m ahead, 3.5 m to the left, 1.1 m up: d^2 = 2500 + 12.25 + 0.2025 = 2512.4525; theta = atan(sqrt(12.4525) /
 // 50) = 4.0370 degrees.
@@ -176,9 +173,8 @@ TEST(EyeLight, ACrestHidesLampsAndALevelRoadDoesNot) {
 Moment oncoming() {
     auto file = std::make_shared<LampFile>();
     file->table = {{-80.0, 80.0}, {-80.0, 80.0}, {5000.0, 5000.0, 5000.0, 5000.0}, {}, BetweenSamples::linear_cd};
-    Moment moment{.other_lamps = {{"other left", file, {{50.0, 3.5, 1.2}, axes_from_angles(pi, 0.0, 0.0)}, 1.0, {}, 0.0, 0, {0.16, 0.12}}},
+    return Moment{.other_lamps = {{"other left", file, {{50.0, 3.5, 1.2}, axes_from_angles(pi, 0.0, 0.0)}, 1.0, {}, 0.0, 0, {0.16, 0.12}}},
                   .bodies = {{"other", {{53.0, 3.5, 0.0}, axes_from_angles(pi, 0.0, 0.0)}, true, 0.0}}};
-    return moment;
 }
 
 const std::vector<BodyBox> cars(2, BodyBox{{4.5, 1.8, 1.45}, -0.9});

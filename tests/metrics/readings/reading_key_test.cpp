@@ -338,8 +338,7 @@ TEST(Quantities, ASubjectStandsWhereTheTableSaysSo) {
 // A limit on a reading that cannot exist is found before a drive is played, not after.
 
 Drive limited_by(const std::string& reading) {
-    Drive drive{.file = "night.yaml", .probes = {{"kerb-30m", 30.0, 0.0, 0.0}}, .limits = {{reading, 1.0, std::nullopt}}};
-    return drive;
+    return {.file = "night.yaml", .probes = {{"kerb-30m", 30.0, 0.0, 0.0}}, .limits = {{reading, 1.0, std::nullopt}}};
 }
 
 TEST(ReadingNames, WhatARunCanMeasureIsKnown) {

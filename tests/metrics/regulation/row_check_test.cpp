@@ -25,10 +25,7 @@ CandelaTable constant(double cd, double h_deg = 60.0, double v_deg = 30.0) {
     return t;
 }
 
-Regulation table_of(std::vector<RegulationRow> rows) {
-    Regulation r{.id = "test", .receiver = un_receiver, .rows = std::move(rows)};
-    return r;
-}
+Regulation table_of(std::vector<RegulationRow> rows) { return {.id = "test", .receiver = un_receiver, .rows = std::move(rows)}; }
 
 RowResult only_row(const RegulationRow& row, const CandelaTable& lamp, double re_aim_deg = 0.0) {
     Regulation r = table_of({row});

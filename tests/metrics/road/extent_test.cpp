@@ -293,10 +293,7 @@ TEST(GridError, AReachThatGoesOnHasNone) {
 
 RoadNetwork library_road(const char* name) { return read_opendrive(std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/roads/") + name); }
 
-Moment at(double distance_m) {
-    Moment moment{.distance_m = distance_m};
-    return moment;
-}
+Moment at(double distance_m) { return {.distance_m = distance_m}; }
 
 TEST(ExtentGrid, RowsBeginAtTheBumperAndColumnsReachBothSides) {
     const RoadNetwork network = library_road("straight.xodr");
@@ -373,8 +370,7 @@ TEST(ExtentGrid, RefusesParametersThatGiveNoGrid) {
     const Route route(network, {});
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     for (const double bad : {0.0, -1.0, nan, infinity, 1e-9}) {
-        ExtentParameters parameters{.cell_m = bad};
-        EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, parameters), std::invalid_argument) << bad;
+        EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, ExtentParameters{.cell_m = bad}), std::invalid_argument) << bad;
     }
     ExtentParameters parameters{.ahead_m = 1e12};
     EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, parameters), std::invalid_argument);

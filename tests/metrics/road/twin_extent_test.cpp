@@ -15,8 +15,7 @@ using tests::extent_of, tests::straight_grid;
 LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double pitch_rad = 0.0) {
     auto file = std::make_shared<LampFile>();
     file->table = std::move(table);
-    LitLamp lamp{.file = std::move(file), .pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)}};
-    return lamp;
+    return LitLamp{.file = std::move(file), .pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)}};
 }
 
 CandelaTable everywhere(double cd) { return {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd}; }
@@ -26,10 +25,7 @@ CandelaTable cut_off_at_horizon(double cd) {
     return {{-180.0, 180.0}, {-90.0, 0.0, 1e-9, 90.0}, {cd, cd, cd, cd, 0.0, 0.0, 0.0, 0.0}, {}, BetweenSamples::linear_cd};
 }
 
-Moment moment_of(std::vector<LitLamp> lamps) {
-    Moment moment{.lamps = std::move(lamps)};
-    return moment;
-}
+Moment moment_of(std::vector<LitLamp> lamps) { return {.lamps = std::move(lamps)}; }
 
 // 0.65 m above the road, 1 % down: its cut-off meets the road 65 m ahead.
 LitLamp dipped_lamp() { return lamp_with(cut_off_at_horizon(50000.0), {0.0, 0.0, 0.65}, -std::atan(0.01)); }

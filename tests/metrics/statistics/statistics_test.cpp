@@ -241,11 +241,10 @@ TEST(Below, FavoursNoNumber) {
 
 /// Bars of a tenth each way, of seven timings.
 WorkPrecisionRow row(const char* label, double error, double seconds, double floor = 0.0) {
-    WorkPrecisionRow r{.label = label,
-                       .error = {error, 0.9 * error, 1.1 * error},
-                       .seconds = {seconds, 0.9 * seconds, 1.1 * seconds, 7, true},
-                       .floor = floor};
-    return r;
+    return {.label = label,
+            .error = {error, 0.9 * error, 1.1 * error},
+            .seconds = {seconds, 0.9 * seconds, 1.1 * seconds, 7, true},
+            .floor = floor};
 }
 
 TEST(WorkPrecision, FrontIsWhatNobodyBeatsInBoth) {

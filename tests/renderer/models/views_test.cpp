@@ -255,8 +255,7 @@ TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
                 moment, {65.0 - 60.0 * (y + 0.5) / view.height_px, 6.0 - 12.0 * (x + 0.5) / view.width_px, 0.0}, {0.0, 0.0, 1.0}));
     ASSERT_GT(*std::ranges::max_element(truth), 5.0);
     const auto drawn = [&](const Scene& scene, const std::string& technique) {
-        RendererSettings settings{.technique = technique};
-        return Renderer(device, scene, settings).draw(moment, view, {.illuminance = true});
+        return Renderer(device, scene, RendererSettings{.technique = technique}).draw(moment, view, {.illuminance = true});
     };
     const Frame two = drawn(coarse, "photometric"), many = drawn(fine, "photometric");
     EXPECT_LT(error_of(two, truth), 1e-4);

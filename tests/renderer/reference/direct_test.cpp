@@ -18,10 +18,7 @@ using reference::fresnel_reflectance;
 /// Floats store the results: half a unit in the last place.
 constexpr double stored = 6e-8;
 
-ReferenceSettings centre_rays() {
-    ReferenceSettings settings{.footprint = Footprint::centre};
-    return settings;
-}
+ReferenceSettings centre_rays() { return {.footprint = Footprint::centre}; }
 
 TEST(ReferenceDirect, LightsAWallAt25MetresAsTheInverseSquareAndTheCubeOfTheCosineSay) {
     Mesh wall{"wall", {25.0, 0.0, 0.0}, {}, {}, {}};
@@ -48,8 +45,7 @@ TEST(ReferenceDirect, AveragesAPixelOfThePlaneUnderALampAsTheIntegralDoes) {
     const double h = 0.65, cd = 1000.0;
     moment.lamps = {even_lamp(cd, looking({0, 0, h}, 0, -90))};
     const View view = map_about({1.0, 0.5}, 2.0, 4);
-    ReferenceSettings settings{.target_error = 0.001};
-    const ReferenceImage image = Reference(scene).render(moment, view, lux, settings);
+    const ReferenceImage image = Reference(scene).render(moment, view, lux, ReferenceSettings{.target_error = 0.001});
     ASSERT_TRUE(image.complete);
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column) {
@@ -212,8 +208,7 @@ TEST(ReferenceDirect, DoesNotLeakThroughTheSeamsOfAFineMesh) {
         }
     scene.meshes.push_back(finished(ceiling, 1));
     Moment moment{.lamps = {even_lamp(1e6, looking({0, 0, 4}, 0, -90))}};
-    ReferenceSettings settings{.least_samples = 64};
-    const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 8.0, 100), lux, settings);
+    const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 8.0, 100), lux, ReferenceSettings{.least_samples = 64});
     for (const float e : image.illuminance_lx.mean.pixels())
         ASSERT_EQ(e, 0.0F);
 }
@@ -233,8 +228,7 @@ TEST(ReferenceDirect, LeavesOutWhatIsNotWantedAndRefusesNonsense) {
 // Smooth surfaces, by Whitted's recursion and by paths, against closed forms.
 
 ReferenceSettings one_ray(Integrator integrator) {
-    ReferenceSettings settings{.integrator = integrator, .footprint = Footprint::centre, .target_error = 0.005};
-    return settings;
+    return {.integrator = integrator, .footprint = Footprint::centre, .target_error = 0.005};
 }
 
 Material smooth(float mirror, float glass_index) {

@@ -13,10 +13,7 @@ namespace {
 
 double hypotenuse(double a, double b) { return std::hypot(a, b); }
 
-ReferenceSettings paths(double target_error) {
-    ReferenceSettings settings{.integrator = Integrator::path, .target_error = target_error};
-    return settings;
-}
+ReferenceSettings paths(double target_error) { return {.integrator = Integrator::path, .target_error = target_error}; }
 
 /// Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom; seeds are fixed. 1e-6: floats store the result.
 void expect_estimate(const Estimate& estimate, double truth, int x = 0, int y = 0) {
@@ -167,8 +164,7 @@ Scene round_room(const Material& material, int rows) {
         for (const std::uint32_t j : {0U, 1U, 2U, 0U, 2U, 3U})
             room.indices.push_back(first + j);
     }
-    Scene scene{.materials = {material}, .meshes = {finished(room, 0)}};
-    return scene;
+    return Scene{.materials = {material}, .meshes = {finished(room, 0)}};
 }
 
 TEST(ReferencePath, AnIntegratingSphereSpreadsALampsLightEvenly) {

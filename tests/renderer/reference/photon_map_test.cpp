@@ -44,10 +44,7 @@ struct Solved {
     }
 };
 
-Moment with(LitLamp lamp) {
-    Moment moment{.lamps = {std::move(lamp)}};
-    return moment;
-}
+Moment with(LitLamp lamp) { return {.lamps = {std::move(lamp)}}; }
 
 LitLamp library_lamp(const char* name, const Pose& pose) {
     return {name,         std::make_shared<LampFile>(read_lamp(std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/") + name)),

@@ -68,21 +68,18 @@ inline Scene closed_room(const Material& material) {
     add_quad(room, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});
     add_quad(room, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1});
     add_quad(room, {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1});
-    Scene scene{.materials = {material}, .meshes = {finished(room, 0)}};
-    return scene;
+    return Scene{.materials = {material}, .meshes = {finished(room, 0)}};
 }
 
 /// A level square of ground about (0, 0, 0), `half_m` to each side.
 inline Scene level_ground(double half_m, const Material& material) {
     Mesh ground{"ground", {}, {}, {}, {}};
     add_quad(ground, {-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0});
-    Scene scene{.materials = {material}, .meshes = {finished(ground, 0)}};
-    return scene;
+    return Scene{.materials = {material}, .meshes = {finished(ground, 0)}};
 }
 
 inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road) {
-    Material material{.name = "lambert", .kind = kind, .albedo = glm::vec3(static_cast<float>(albedo))};
-    return material;
+    return {.name = "lambert", .kind = kind, .albedo = glm::vec3(static_cast<float>(albedo))};
 }
 
 /// Solid angle of a polygon seen from a point, sr: a fan of triangles by van Oosterom and Strackee 1983. Even light of I candela that falls

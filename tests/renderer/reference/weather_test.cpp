@@ -13,13 +13,11 @@ namespace fernlicht {
 namespace {
 
 ReferenceSettings by(Integrator integrator, double target_error = 0.005) {
-    ReferenceSettings settings{.integrator = integrator, .target_error = target_error, .most_samples = 1 << 14};
-    return settings;
+    return {.integrator = integrator, .target_error = target_error, .most_samples = 1 << 14};
 }
 
 Moment in_fog(double extinction_per_m, double albedo = 1.0, double asymmetry = 0.85) {
-    Moment moment{.weather = {extinction_per_m, albedo, asymmetry, 0.0}};
-    return moment;
+    return {.weather = {extinction_per_m, albedo, asymmetry, 0.0}};
 }
 
 /// Five standard errors (path_test.cpp).

@@ -15,8 +15,7 @@ using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
 constexpr std::int64_t a_millisecond_ns = 1'000'000;
 
 CanSignal signal_of(const char* name, std::uint16_t start, std::uint16_t length, double factor, const char* unit) {
-    CanSignal made{.name = name, .start_bit = start, .length = length, .factor = factor, .unit = unit};
-    return made;
+    return {.name = name, .start_bit = start, .length = length, .factor = factor, .unit = unit};
 }
 
 /// Status, every 50 ms: multiplexed by Lamp; Level on both pages. State, no cycle: Mode with labels.
@@ -40,14 +39,11 @@ CanDatabase lamps() {
     CanSignal mode = signal_of("Mode", 0, 8, 1.0, "");
     mode.labels = {{7, "country"}, {9, "town"}};
     state.signals = {mode};
-    CanDatabase database{.file = "lamps.dbc", .messages = {status, state}};
-    return database;
+    return CanDatabase{.file = "lamps.dbc", .messages = {status, state}};
 }
 
 BusOutput output(const char* message, const char* signal, const char* name) {
-    BusOutput made{
-        .target = {message, signal}, .name = name, .where = {"drive.yaml", 9, 5, std::string("can.outputs.") + message + "." + signal}};
-    return made;
+    return {.target = {message, signal}, .name = name, .where = {"drive.yaml", 9, 5, std::string("can.outputs.") + message + "." + signal}};
 }
 
 std::vector<std::string> lines(const std::vector<CanFrame>& frames) {

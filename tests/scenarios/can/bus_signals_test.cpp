@@ -26,8 +26,7 @@ CanDatabase cockpit() {
     brakes.signals = {speed};
     CanSignal exact{.name = "YawRate", .length = 64, .kind = CanValueKind::float64, .unit = "rad/s"};
     CanMessage event{.id = 0x200, .name = "Event", .length = 8, .signals = {exact}};
-    CanDatabase database{.file = "cockpit.dbc", .messages = {cockpit, brakes, event}};
-    return database;
+    return CanDatabase{.file = "cockpit.dbc", .messages = {cockpit, brakes, event}};
 }
 
 CanFrame frame(std::int64_t time_ns, std::uint32_t id, std::initializer_list<int> bytes, bool extended = false) {
@@ -47,10 +46,7 @@ BusInput speed_input() {
     return input;
 }
 
-BusMapping mapping_of(std::vector<BusInput> inputs) {
-    BusMapping mapping{.inputs = std::move(inputs)};
-    return mapping;
-}
+BusMapping mapping_of(std::vector<BusInput> inputs) { return {.inputs = std::move(inputs)}; }
 
 BusSignals bus_of(const BusInput& input) { return {mapping_of({input}), {cockpit()}}; }
 

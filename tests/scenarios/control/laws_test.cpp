@@ -64,8 +64,7 @@ TEST(BeamModes, MotorwayLightWetnessAndWipers) {
 }
 
 TEST(CorneringLight, TurnsOnBySteeringAndIndicatorWhileSlow) {
-    CorneringParameters parameters{.fade_s = 0.0};
-    CorneringLight light(parameters);
+    CorneringLight light(CorneringParameters{.fade_s = 0.0});
     const auto left = [&](double kmh, double steering_rad, double indicator = 0.0) {
         SignalTable table = at_kmh(kmh);
         table[signal::ego_steering] = steering_rad;

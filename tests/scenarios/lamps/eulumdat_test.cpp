@@ -30,10 +30,7 @@ struct Ldt {
 
 class Eulumdat : public LampTrial {
   protected:
-    static LampReadOptions horizontal() {
-        LampReadOptions options{.type_c_axis = TypeCAxis::horizontal};
-        return options;
-    }
+    static LampReadOptions horizontal() { return {.type_c_axis = TypeCAxis::horizontal}; }
     LampFile lamp(const Ldt& ldt) const { return read("w.ldt", ldt.text(), horizontal()); }
 };
 
@@ -217,8 +214,7 @@ class CPlanes : public LampTrial {
         for (const double ci : c)
             for (const double g : gamma)
                 text += fmt::format("{}\n", form(ci, g));
-        LampReadOptions options{.type_c_axis = axis};
-        return read("c.ies", text, options);
+        return read("c.ies", text, LampReadOptions{.type_c_axis = axis});
     }
     static std::vector<double> steps(double from, double to, double by) {
         std::vector<double> out;

@@ -188,8 +188,7 @@ CandelaTable steep_table() {
 LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double yaw_rad, double pitch_rad) {
     auto file = std::make_shared<LampFile>();
     file->table = std::move(table);
-    LitLamp lamp{.file = std::move(file), .pose = {position_m, axes_from_angles(yaw_rad, pitch_rad, 0.02)}, .intensity_factor = 0.7};
-    return lamp;
+    return LitLamp{.file = std::move(file), .pose = {position_m, axes_from_angles(yaw_rad, pitch_rad, 0.02)}, .intensity_factor = 0.7};
 }
 
 Moment two_lamps(const CandelaTable& table) {

@@ -109,10 +109,7 @@ PlanPoint clothoid_reference(double start_per_m, double end_per_m, double length
     return {static_cast<double>(x), static_cast<double>(y), ds_m * (start_per_m + 0.5 * static_cast<double>(change) * ds_m), 0.0, 1.0};
 }
 
-PlanElement element_of(double length_m, decltype(PlanElement::shape) shape) {
-    PlanElement element{.length_m = length_m, .shape = std::move(shape)};
-    return element;
-}
+PlanElement element_of(double length_m, decltype(PlanElement::shape) shape) { return {.length_m = length_m, .shape = std::move(shape)}; }
 
 struct Clothoid {
     double start_per_m, end_per_m, length_m;

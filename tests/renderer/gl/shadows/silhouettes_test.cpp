@@ -171,8 +171,7 @@ Corners box_of(const glm::dvec3& low, const glm::dvec3& high) {
 }
 
 LitLamp lamp_looking(const glm::dvec3& place, double yaw_rad) {
-    LitLamp lamp{.pose = {place, axes_from_angles(yaw_rad, -0.01, 0.0)}, .intensity_factor = 1.0};
-    return lamp;
+    return {.pose = {place, axes_from_angles(yaw_rad, -0.01, 0.0)}, .intensity_factor = 1.0};
 }
 
 Camera camera_at(const glm::dvec3& place, double yaw_rad, double pitch_rad) {

@@ -53,18 +53,14 @@ double swivel_rad(const Moment& moment, std::size_t lamp) {
 
 class BusDriveTest : public DriveFixture {
   protected:
-    Drive scripted() {
-        DriveEdits edits{.can_log = std::filesystem::path()};
-        return read_drive(shipped, edits);
-    }
+    Drive scripted() { return read_drive(shipped, DriveEdits{.can_log = std::filesystem::path()}); }
     /// The shipped drive by these frames.
     Drive played_by(const std::vector<CanFrame>& frames, const BusMapping* mapping = nullptr) {
         std::string text;
         for (const CanFrame& frame : frames)
             text += candump_line(frame) + '\n';
         write_file(folder / "bus.log", text);
-        DriveEdits edits{.can_log = folder / "bus.log"};
-        Drive drive = read_drive(shipped, edits);
+        Drive drive = read_drive(shipped, DriveEdits{.can_log = folder / "bus.log"});
         if (mapping) {
             BusMapping with = *mapping;
             with.log = folder / "bus.log";
@@ -269,8 +265,7 @@ can:
     // Left: 10.00 degrees = 0x03e8, level 50 %; right measured at -5.00 = 0xfe0c. The switch goes off at 1.5 s.
     write_file(folder / "bus.log", "(0.500000) can0 200#0003E80000640000\n(0.500000) can0 220#00000CFE\n(0.500000) can0 100#01000000\n"
                                    "(0.000000) can0 100#01000000\n(1.500000) can0 100#00000000\n");
-    DriveEdits edits{.can_start_ns = 0};
-    const Staged played(read(yaml, edits));
+    const Staged played(read(yaml, DriveEdits{.can_start_ns = 0}));
     EXPECT_EQ(swivel_rad(played.at(4, 0), 0), 0.0) << "not asked yet";
     EXPECT_NEAR(swivel_rad(played.at(14, 0), 0), radians(10.0), 1e-3) << "an actuator has followed";
     EXPECT_LT(swivel_rad(played.at(5, 0), 0), radians(9.0)) << "which takes its time";

@@ -35,15 +35,11 @@ RoadNetwork network(PlanElement plan, std::vector<Cubic> elevation = {}, std::ve
     road.elevation = std::move(elevation);
     road.superelevation = std::move(superelevation);
     road.sections = {section};
-    RoadNetwork result{.roads = {road}};
-    return result;
+    return RoadNetwork{.roads = {road}};
 }
 
 PlanElement straight() { return {}; }
-PlanElement bend(double radius_m) {
-    PlanElement plan{.shape = Arc{1.0 / radius_m}};
-    return plan;
-}
+PlanElement bend(double radius_m) { return {.shape = Arc{1.0 / radius_m}}; }
 
 double pitch_rad(const Pose& pose) { return std::atan2(pose.forward().z, std::hypot(pose.forward().x, pose.forward().y)); }
 double roll_rad(const Pose& pose) { return std::atan2(pose.left().z, pose.up().z); }

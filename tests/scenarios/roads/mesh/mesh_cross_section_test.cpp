@@ -25,10 +25,7 @@ Lane lane_across(int id, const char* type, double width) {
     return lane;
 }
 
-RoadMark mark(MarkKind kind, const char* colour = "white") {
-    RoadMark mark{.kind = kind, .colour = colour};
-    return mark;
-}
+RoadMark mark(MarkKind kind, const char* colour = "white") { return {.kind = kind, .colour = colour}; }
 
 /// 100 m, two driving lanes of 3 m; `centre` between them, `edge` at the right.
 Road road_with(MarkKind centre, MarkKind edge) {
@@ -227,8 +224,7 @@ RoadNetwork plain_road() {
 }
 
 RoadObject object(const char* type, double length, double width, double height) {
-    RoadObject object{.id = "7", .type = type, .s_m = 50.0, .t_m = -6.0, .length_m = length, .width_m = width, .height_m = height};
-    return object;
+    return {.id = "7", .type = type, .s_m = 50.0, .t_m = -6.0, .length_m = length, .width_m = width, .height_m = height};
 }
 
 struct Box {
@@ -331,9 +327,7 @@ Board board_of(const RoadSignal& signal) {
 }
 
 RoadSignal signal(double t, bool facing_forward) {
-    RoadSignal signal{
-        .id = "9", .s_m = 50.0, .t_m = t, .z_offset_m = 2.1, .width_m = 0.9, .height_m = 0.7, .facing_forward = facing_forward};
-    return signal;
+    return {.id = "9", .s_m = 50.0, .t_m = t, .z_offset_m = 2.1, .width_m = 0.9, .height_m = 0.7, .facing_forward = facing_forward};
 }
 
 TEST(MeshSignals, BoardFacesTheTrafficItIsFor) {
