@@ -215,7 +215,7 @@ TEST(BandSplit, KeepsWhatADisplayCanShowAndFoldsTheRest) {
     EXPECT_NEAR(above.folded.at(100, 16), std::cos(2.0 * pi * 0.65 * 100.5) * std::cos(2.0 * pi * 0.65 / 16.0), 0.002);
 }
 
-TEST(FourierTransform, IsThatOfOpenCV) {
+TEST(FourierTransform, IsThatOfOpenCVAndNamesItsFrequencies) {
     constexpr std::size_t side = 32;
     std::mt19937 generator(3);
     std::vector<std::complex<double>> block(side * side);
@@ -236,9 +236,6 @@ TEST(FourierTransform, IsThatOfOpenCV) {
     std::vector<std::complex<double>> three(3);
     EXPECT_THROW(fourier_transform(std::span(three)), std::invalid_argument);
     EXPECT_THROW(fourier_transform(three, 2), std::invalid_argument);
-}
-
-TEST(FourierTransform, NamesItsFrequencies) {
     EXPECT_EQ(bin_frequency(0, 32), 0.0);
     EXPECT_EQ(bin_frequency(15, 32), 15.0 / 32.0);
     EXPECT_EQ(bin_frequency(16, 32), -0.5);

@@ -44,16 +44,13 @@ constexpr double detector_lift_deg = 0.004;
 
 const CutOffOptions by_point{.sharpness = SharpnessRule::maximum, .detector_deg = 0.0};
 
-TEST(CutOff, SharpnessOfARampIsATenthOfItsSlope) {
+TEST(CutOff, SharpnessIsThatOfTheClosedForms) {
     for (const double k : {1.3, 2.0, 4.0}) {
         const CandelaTable t = edge_table({}, [&](double above) { return ramp(above, k, 0.5); });
         const CutOffFigures c = measure_cut_off({&t, {}}, by_point);
         EXPECT_NEAR(*c.level.sharpness, 0.1 * k, 1e-9) << k;
         EXPECT_NEAR(*c.level.inflection_deg, -0.57, 1e-3) << k;
     }
-}
-
-TEST(CutOff, SharpnessOfALogisticIsItsClosedForm) {
     for (const double softness : {0.08, 0.12, 0.2}) {
         const CandelaTable t = edge_table({}, [&](double above) { return logistic(above, softness); });
         const CutOffFigures c = measure_cut_off({&t, {}}, by_point);
@@ -64,10 +61,8 @@ TEST(CutOff, SharpnessOfALogisticIsItsClosedForm) {
         const CutOffFigures at = measure_cut_off({&t, {}}, {.sharpness = SharpnessRule::at_inflection, .detector_deg = 0.0});
         EXPECT_NEAR(*at.level.sharpness, 2.0 * (0.5 - 1.0 / (1.0 + std::exp(0.1 / softness))), 3e-3) << softness;
     }
-}
-
-// A disc of diameter d over an exponential ramp of q = k ln 10 per degree multiplies all of it alike: G stays; at the ends it is rounded.
-TEST(CutOff, ADetectorChangesNoSharpnessOnALongRampAndSoftensANarrowOne) {
+    // A disc of diameter d over an exponential ramp of q = k ln 10 per degree multiplies all of it alike: G stays; at the ends it is
+    // rounded.
     const CandelaTable wide = edge_table({}, [](double above) { return ramp(above, 3.0, 0.6); });
     EXPECT_NEAR(*measure_cut_off({&wide, {}}).level.sharpness, 0.3, 1e-4);
     const CandelaTable narrow = edge_table({}, [](double above) { return ramp(above, 10.0, 0.1); });
@@ -75,7 +70,7 @@ TEST(CutOff, ADetectorChangesNoSharpnessOnALongRampAndSoftensANarrowOne) {
     EXPECT_LT(*measure_cut_off({&narrow, {}}).level.sharpness, 0.97);
 }
 
-TEST(CutOff, KinkIsFoundWhereItIs) {
+TEST(CutOff, KinkAndShoulderAreFoundWhereTheyAre) {
     for (const double kink : {-0.6, 0.0, 0.4})
         for (const double angle : {15.0, 10.0}) {
             const Edge edge{-0.57, kink, std::tan(angle * 3.14159265358979 / 180.0)};
@@ -84,10 +79,7 @@ TEST(CutOff, KinkIsFoundWhereItIs) {
             EXPECT_NEAR(*c.kink_h_deg, kink, 0.02);
             EXPECT_NEAR(*c.rise_angle_deg, angle, 0.1);
         }
-}
-
-// On the line 0.37 above the level part a shoulder of slope m lies 0.37 / m to the right of the kink.
-TEST(CutOff, ShoulderIsFoundOnTheLineAt02D) {
+    // On the line 0.37 above the level part a shoulder of slope m lies 0.37 / m to the right of the kink.
     const Edge edge{-0.57, 0.2, 1.0};
     const CandelaTable t = edge_table(
         edge, [](double above) { return logistic(above, 0.1); }, 0.01, 0.05);
@@ -216,14 +208,11 @@ TEST(Elbow, IsFoundWhereItWasPlantedWithItsAngleAndItsShoulder) {
     }
 }
 
-TEST(Elbow, TurnsWithTheLamp) {
+TEST(Elbow, TurnsWithTheLampAndSaysWhereThereIsNone) {
     const CandelaTable t = planted::beam({});
     const CutOffElbow there = fit_elbow({&t, {}}), turned = fit_elbow({&t, {0.37, -0.21}});
     EXPECT_NEAR(turned.at->h_deg - there.at->h_deg, 0.37, 0.01);
     EXPECT_NEAR(turned.at->v_deg - there.at->v_deg, -0.21, 1e-3);
-}
-
-TEST(Elbow, WhereThereIsNoneItSaysWhy) {
     CandelaTable flat = planted::beam({});
     std::ranges::fill(flat.cd, 500.0);
     EXPECT_THAT(fit_elbow({&flat, {}}).reason, HasSubstr("an edge in 0 columns only"));

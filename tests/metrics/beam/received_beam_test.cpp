@@ -25,7 +25,7 @@ template <class Function> CandelaTable table_of(std::vector<double> h, std::vect
 
 const Receiver square{Receiver::Shape::square, 0.15}, disc{Receiver::Shape::disc, 0.5};
 
-TEST(ReceivedCd, OfConstantAndLinearLightIsTheCentre) {
+TEST(ReceivedCd, IsTheClosedFormOfKnownLights) {
     const CandelaTable constant = table_of({-5, 0, 5}, {-5, 0.3, 5}, [](double, double) { return 1234.0; });
     const CandelaTable ramp = table_of(axis(-5, 5, 0.7), axis(-5, 5, 0.3), [](double h, double v) { return 5000 + 300 * h - 70 * v; });
     for (const Receiver& receiver : {square, disc, Receiver{}})
@@ -33,11 +33,8 @@ TEST(ReceivedCd, OfConstantAndLinearLightIsTheCentre) {
             EXPECT_NEAR(*received_cd(constant, receiver, d), 1234.0, 1e-9);
             EXPECT_NEAR(*received_cd(ramp, receiver, d), 5000 + 300 * d.h_deg - 70 * d.v_deg, 1e-8);
         }
-}
-
-// Of x^2, a square of side a adds a^2/12 to the centre and a disc of radius r adds r^2/4; a table of step s that runs straight adds s^2/6
-// on average over whole steps. In H the receiver is wider by 1 / cos V: none at V = 0.
-TEST(ReceivedCd, OfQuadraticLightIsItsClosedForm) {
+    // Of x^2, a square of side a adds a^2/12 to the centre and a disc of radius r adds r^2/4; a table of step s that runs straight adds
+    // s^2/6 on average over whole steps. In H the receiver is wider by 1 / cos V: none at V = 0.
     const double step = 0.001;
     const CandelaTable h2 = table_of(axis(-1, 1, step), {-1, 0, 1}, [](double h, double) { return 1e6 * h * h; });
     const CandelaTable v2 = table_of({-1, 0, 1}, axis(-1, 1, step), [](double, double v) { return 1e6 * v * v; });
@@ -46,10 +43,7 @@ TEST(ReceivedCd, OfQuadraticLightIsItsClosedForm) {
     EXPECT_NEAR(*received_cd(v2, square, {0, -0.3}), 1e6 * (0.09 + 0.15 * 0.15 / 12.0) + straight, 1.0);
     EXPECT_NEAR(*received_cd(h2, disc, {0.2, 0}), 1e6 * (0.04 + 0.0625 / 4.0) + straight, 1.0);
     EXPECT_NEAR(*received_cd(v2, disc, {0, -0.3}), 1e6 * (0.09 + 0.0625 / 4.0) + straight, 1.0);
-}
-
-// A step from 0 to 1000 cd through the middle of a cell border: half the light, whatever the receiver.
-TEST(ReceivedCd, OfAStepIsHalfAndOfAnEighthOfTheSideItsShare) {
+    // A step from 0 to 1000 cd through the middle of a cell border: half the light, whatever the receiver.
     CandelaTable t = table_of({-5, 5}, {-5, 0, 0.000001, 5}, [](double, double v) { return v > 0.0 ? 1000.0 : 0.0; });
     EXPECT_NEAR(*received_cd(t, square, {0, 0}), 500.0, 0.01);
     EXPECT_NEAR(*received_cd(t, disc, {0, 0}), 500.0, 0.01);

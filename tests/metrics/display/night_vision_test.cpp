@@ -14,15 +14,12 @@ namespace {
 
 constexpr double pixel_deg = 0.05;
 
-TEST(NightVision, AcuityIsThePublishedFit) {
+TEST(NightVision, AcuityConesAndRodsAreThePublishedFits) {
     EXPECT_NEAR(acuity_cycles_per_deg(1.0), 17.25 * 0.336675 + 25.72, 1.0e-4); // atan(0.35)
     EXPECT_NEAR(acuity_cycles_per_deg(0.01), 5.31, 0.01);
     EXPECT_NEAR(acuity_cycles_per_deg(100.0), 17.25 * std::atan(3.15) + 25.72, 1.0e-12);
     EXPECT_EQ(acuity_cycles_per_deg(1.0e-9), acuity_cycles_per_deg(1.0e-3));
     EXPECT_NEAR(acuity_cycles_per_deg(0.0), 3.0, 0.01);
-}
-
-TEST(NightVision, ConesGoWithTheLight) {
     EXPECT_EQ(cone_share(0.0), 0.0);
     EXPECT_EQ(cone_share(0.004), 0.0);
     EXPECT_EQ(cone_share(5.5), 1.0);
@@ -34,9 +31,6 @@ TEST(NightVision, ConesGoWithTheLight) {
         EXPECT_GE(cone_share(l), last);
         last = cone_share(l);
     }
-}
-
-TEST(NightVision, RodsSeeBlueBrighterAndRedDarker) {
     EXPECT_NEAR(rod_luminance_cdm2(glm::dvec3(3.0)), 3.0, 1.0e-12);
     // By hand: red has X 0.4124, Y 0.2126, Z 0.0193: 0.2126 (1.33 * 1.5623 - 1.68) / 2.573 = 0.0329.
     EXPECT_NEAR(rod_luminance_cdm2({1.0, 0.0, 0.0}), 0.0329, 1.0e-4);
@@ -55,7 +49,7 @@ TEST(NightVision, AdaptsToOneDegreeAround) {
     EXPECT_NEAR(adaptation_cdm2(light, pixel_deg).at(0, 0), 2.0F, 1.0e-5F); // cut at the edge, not darker there
 }
 
-TEST(NightVision, BrightPicturesKeepTheirBytes) {
+TEST(NightVision, BrightPicturesKeepTheirBytesAndDarkRedIsGreyAndDarker) {
     Image<glm::vec3> light(64, 48);
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x)
@@ -63,9 +57,6 @@ TEST(NightVision, BrightPicturesKeepTheirBytes) {
     EXPECT_EQ(colours_at_night(light, pixel_deg), light);
     EXPECT_EQ(sharpness_at_night(light, pixel_deg), light); // 50 cycles a degree: sigma 0.007 degrees, 0.14 pixels
     EXPECT_TRUE(sharpness_at_night(Image<glm::vec3>(), pixel_deg).empty());
-}
-
-TEST(NightVision, DarkRedIsGreyAndDarker) {
     const Image<glm::vec3> dark(40, 40, glm::vec3(0.004F, 0.0F, 0.0F));
     const glm::vec3 seen = colours_at_night(dark, pixel_deg).at(20, 20);
     EXPECT_EQ(seen.x, seen.y);
@@ -196,16 +187,13 @@ TEST(Scatter, OneSourceVeilsAsTheEquationSays) {
 }
 
 /// Where all round is as bright, nothing is gained or lost; what lies within a pixel counts as kept.
-TEST(Scatter, EvenLightStaysEven) {
+TEST(Scatter, EvenLightStaysEvenAndNothingScatteredIsTheSamePicture) {
     for (const int height : {60, 150, 300, 600}) {
         const Image<glm::vec3> even(height, height, glm::vec3(5.0F));
         ScatterFunction f = eye_scatter({});
         f.to_deg = 15.0; // so that all of it comes from within the picture
         EXPECT_NEAR(scattered(even, fov_rad, f).at(height / 2, height / 2).y, 5.0F, 0.02F) << height;
     }
-}
-
-TEST(Scatter, NothingScatteredIsTheSamePicture) {
     const Image<glm::vec3> picture = night_picture(40, 30);
     EXPECT_EQ(scattered(picture, fov_rad, windscreen_scatter(0.0)), picture);
     EXPECT_TRUE(scattered(Image<glm::vec3>(), fov_rad, eye_scatter({})).empty());
@@ -215,15 +203,12 @@ constexpr double deg = std::numbers::pi / 180.0;
 
 /// By hand: tan 20 degrees = 0.3639702; / 768 = 4.739196e-4 rad, twice that 3.25841'; 2.1 mm / 2.5 m = 8.4e-4 rad = 2.88771';
 /// 768 * 2.1 mm / 0.7279405 = 2.21556 m.
-TEST(SeenSize, OfTheProjectorByHand) {
+TEST(SeenSize, OfTheProjectorByHandAndOfTheEyeHalfAPeriod) {
     const SeenSize seen = seen_size(40.0 * deg, 768, 2.1, 2.5);
     EXPECT_NEAR(seen.scene_pixel_arcmin, 3.25841, 1.0e-4);
     EXPECT_NEAR(seen.display_pixel_arcmin, 2.88771, 1.0e-4);
     EXPECT_NEAR(seen.magnification(), 0.88624, 1.0e-4);
     EXPECT_NEAR(seen.life_size_m, 2.21556, 1.0e-4);
-}
-
-TEST(SeenSize, IsLifeSizeFromThereAndHalfFromTwiceAsFar) {
     for (const double fov : {0.01 * deg, 40.0 * deg, 120.0 * deg, 179.0 * deg})
         for (const int rows : {64, 768, 16384}) {
             const double from_m = seen_size(fov, rows, 0.27, 1.0).life_size_m;
@@ -231,11 +216,8 @@ TEST(SeenSize, IsLifeSizeFromThereAndHalfFromTwiceAsFar) {
         }
     EXPECT_NEAR(seen_size(40.0 * deg, 768, 0.27, 2.0 * seen_size(40.0 * deg, 768, 0.27, 1.0).life_size_m).magnification(), 0.5, 1.0e-6);
     EXPECT_NEAR(seen_size(40.0 * deg, 1, 0.27, 1.0).scene_pixel_arcmin, 40.0 * 60.0, 1.0e-9); // one row sees it all
-}
-
-/// 30 cycles a degree are a minute of arc to half a period. Of Larson, Rushmeier and Piatko's fit: 17.25 atan(0.35) + 25.72 = 31.53 at
-/// 1 cd/m2, 5.31 at 0.01.
-TEST(SeenSize, TheEyeResolvesHalfAPeriod) {
+    /// 30 cycles a degree are a minute of arc to half a period. Of Larson, Rushmeier and Piatko's fit: 17.25 atan(0.35) + 25.72 = 31.53 at
+    /// 1 cd/m2, 5.31 at 0.01.
     EXPECT_NEAR(resolved_arcmin(1.0), 30.0 / 31.5276, 1.0e-4);
     EXPECT_NEAR(resolved_arcmin(0.01), 5.65, 0.01);
     EXPECT_NEAR(resolved_arcmin(1.0e-6), 9.975, 0.001);

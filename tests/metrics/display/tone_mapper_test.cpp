@@ -111,15 +111,12 @@ TEST(ToneCurve, FiguresByHand) {
     EXPECT_NEAR(contrast_kept({ToneMapperKind::linear, 1.0, 99.0, {}}, 1.0, 0.01), 0.5, 1.0e-12);
 }
 
-TEST(ToneFit, SShowsTheLuminanceAsAsked) {
+TEST(ToneFit, OfOneLuminanceAndOfAHistogramOfFourPixels) {
     for (const double l : {0.01, 0.5, 10.0})
         EXPECT_NEAR(toned({ToneMapperKind::rational, fitted_s(l, 100.0, 0.18), 100.0, {}}, l), 0.18, 1.0e-14);
     EXPECT_EQ(fitted_s(50.0, 100.0, 0.18), 1.0); // linear shows it with 0.5 already
     EXPECT_EQ(fitted_s(100.0, 100.0, 0.18), 1.0);
     EXPECT_EQ(fitted_s(0.0, 100.0, 0.18), 1.0);
-}
-
-TEST(ToneFit, HistogramOfFourPixels) {
     LuminanceHistogram histogram;
     Image<float> picture(2, 2);
     picture.pixels() = {0.0F, 1.0F, 100.0F, 5000.0F};

@@ -17,19 +17,15 @@ double veil(VeilingEquation equation, double theta_deg, GlareEye eye = {}) {
     return veiling_luminance_cdm2(equation, {{1.0, theta_deg}}, eye).number().value();
 }
 
-TEST(VeilingLuminance, StilesHolladayByHand) {
+TEST(VeilingLuminance, EquationsByHand) {
     EXPECT_DOUBLE_EQ(veil(VeilingEquation::stiles_holladay, 2.0), 2.5); // 10 / 2^2
     EXPECT_DOUBLE_EQ(veil(VeilingEquation::stiles_holladay, 10.0), 0.1);
-}
-
-TEST(VeilingLuminance, AgeAdjustedByHand) { // 1 + (25/70)^4 = 1.016269
+    // 1 + (25/70)^4 = 1.016269
     EXPECT_NEAR(veil(VeilingEquation::age_adjusted, 1.0), 10.1627, 5e-5);
     EXPECT_NEAR(veil(VeilingEquation::age_adjusted, 3.0), 1.12919, 5e-6);
     EXPECT_NEAR(veil(VeilingEquation::age_adjusted, 10.0), 0.101627, 5e-7);
     EXPECT_DOUBLE_EQ(veil(VeilingEquation::age_adjusted, 10.0, {70.0, 0.5}), 0.2); // at 70 twice the classic value
-}
-
-TEST(VeilingLuminance, CieGeneralByHand) { // age 25, p = 0.5: 10/t^3 + (5/t^2 + 0.05/t) 1.0256 + 0.00125
+    // age 25, p = 0.5: 10/t^3 + (5/t^2 + 0.05/t) 1.0256 + 0.00125
     EXPECT_NEAR(veil(VeilingEquation::cie_general, 1.0), 15.1805, 5e-5);
     EXPECT_NEAR(veil(VeilingEquation::cie_general, 3.0), 0.958491, 5e-7); // 0.370370 + 0.572222 * 1.0256 + 0.00125
     EXPECT_NEAR(veil(VeilingEquation::cie_general, 10.0), 0.067658, 5e-7);
@@ -48,7 +44,7 @@ TEST(VeilingLuminance, SourcesAddAndDarkOnesDoNotCount) {
     EXPECT_EQ(lv({}), 0.0);
 }
 
-TEST(VeilingLuminance, EndsWithItsDomain) {
+TEST(VeilingLuminance, EndsWithItsDomainAndRefusesWhatIsNoLight) {
     struct Case {
         VeilingEquation equation;
         double inside, below, above;
@@ -63,23 +59,17 @@ TEST(VeilingLuminance, EndsWithItsDomain) {
             EXPECT_THAT(lv.reason(), HasSubstr(std::string(name(equation)) + " holds from"));
         }
     }
-}
-
-TEST(VeilingLuminance, RefusesWhatIsNoLight) {
     for (const GlareSource source : {GlareSource{-1.0, 5.0}, GlareSource{std::nan(""), 5.0}, GlareSource{1.0, std::nan("")}})
         EXPECT_THROW(veiling_luminance_cdm2(VeilingEquation::cie_general, {source}, {}), std::invalid_argument);
 }
 
-TEST(ThresholdIncrement, BothBranchesByHand) {
+TEST(ThresholdIncrement, BothBranchesByHandAndNothingInTheDark) {
     EXPECT_DOUBLE_EQ(threshold_increment_percent(0.2, 1.0).number().value(), 13.0);
     EXPECT_NEAR(threshold_increment_percent(0.1, 0.1).number().value(), 6.5 * std::pow(10.0, 0.8), 1e-9); // 0.1^-0.8 = 6.3096
     EXPECT_NEAR(threshold_increment_percent(1.0, 10.0).number().value(), 8.46688, 1e-5);                  // 95 / 10^1.05 = 95 / 11.22018
     EXPECT_NEAR(threshold_increment_percent(1.0, 5.0).number().value(), 17.93649, 1e-5);                  // 65 / 5^0.8 = 65 / 3.623898
     const double above = threshold_increment_percent(1.0, std::nextafter(5.0, 6.0)).number().value();
     EXPECT_NEAR(above, 17.53098, 1e-4) << "95 / 5^1.05 = 95 / 5.418975: the branches differ by 2.3 %";
-}
-
-TEST(ThresholdIncrement, KnowsNothingOfTheDark) {
     EXPECT_TRUE(threshold_increment_percent(0.2, 0.051).measured());
     for (const double lav : {0.05, 0.0}) {
         const Value ti = threshold_increment_percent(0.2, lav);
@@ -89,19 +79,13 @@ TEST(ThresholdIncrement, KnowsNothingOfTheDark) {
 }
 
 // Lu = 1: 1 + sqrt(25) = 6. theta = 3.43 degrees = 205.8 arc minutes, ^0.46 = 11.593; 0.003 * 6 * 11.593 = 0.20867.
-TEST(DeBoer, TakesDegreesAndMeansArcMinutes) {
+TEST(DeBoer, ByHandAndOnlyWithLightOffTheLineOfSight) {
     EXPECT_NEAR(de_boer_rating({{0.1, 3.43}}, 1.0).number().value(), 5.64, 0.005); // 5 - 2 lg 0.4792
     EXPECT_NEAR(de_boer_rating({{1.0, 3.43}}, 1.0).number().value(), 3.64, 0.005); // 5 - 2 lg 4.792
     EXPECT_GT(de_boer_rating({{1.0, 3.43}}, 1.0).number().value(), 3.0) << "2.00 is what 0.003 lx gives with theta in degrees";
-}
-
-TEST(DeBoer, TenTimesTheLightIsTwoSteps) {
     const double w = de_boer_rating({{0.05, 2.0}, {0.02, 3.0}}, 0.5).number().value();
     EXPECT_NEAR(de_boer_rating({{0.5, 2.0}, {0.2, 3.0}}, 0.5).number().value(), w - 2.0, 1e-12);
     EXPECT_NEAR(de_boer_rating({{0.1, 3.43}, {0.1, 3.43}}, 1.0).number().value(), 5.0 - 2.0 * std::log10(2.0 * 0.47923), 1e-4);
-}
-
-TEST(DeBoer, NeedsLightOffTheLineOfSight) {
     EXPECT_THAT(de_boer_rating({}, 1.0).reason(), HasSubstr("no light"));
     EXPECT_THAT(de_boer_rating({{0.0, 0.0}}, 1.0).reason(), HasSubstr("no light"));
     EXPECT_THAT(de_boer_rating({{1.0, 0.0}}, 1.0).reason(), HasSubstr("line of sight"));
@@ -133,15 +117,12 @@ TEST(EyeLight, AnOncomingEyeOnALevelRoad) {
 }
 
 // The lamp 10 m behind a mirror, the eye 0.5 m before the mirror: as from an image 10.5 m away, of which 0.8 is left.
-TEST(EyeLight, AMirrorShowsTheLampBehindItself) {
+TEST(EyeLight, AMirrorShowsTheLampBehindItselfAndAnglesAreExact) {
     const glm::dvec3 mirror{0.3, 0.4, 1.0}, eye{0.0, 0.0, 1.0};
     const auto lamps = seen_lamps(moment_with({lamp_at({-9.7, 0.4, 1.0}, 500.0)}), mirror);
     const GlareSource source = mirrored_source(lamps[0], mirror, 0.8, eye, {1.0, 0.0, 0.0});
     EXPECT_NEAR(source.theta_deg, degrees(std::atan2(0.4, 0.3)), 1e-12);
     EXPECT_NEAR(source.eye_lx, 0.8 * 500.0 / (10.5 * 10.5) * 0.6, 1e-12); // cos = 0.3 / 0.5
-}
-
-TEST(EyeLight, AnglesAreExactNearTheLineOfSight) {
     EXPECT_NEAR(angle_between_deg({1.0, 0.0, 0.0}, {1.0, 1e-9, 0.0}), degrees(1e-9), 1e-20);
     EXPECT_DOUBLE_EQ(angle_between_deg({1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}), 180.0);
 }

@@ -33,29 +33,20 @@ void expect_near(const Image<float>& map, const std::vector<double>& direct) {
     EXPECT_LT(std::abs(sum / static_cast<double>(map.size())), 5e-6);
 }
 
-TEST(Flip, TheSameIsZeroEverywhere) {
+TEST(Flip, EvenColoursByHandAndAsWithoutFilters) {
     const auto scene = made_scene(150, 40); // two tiles
     for (const auto map = flip_ldr(scene, scene); const float e : map.pixels())
         EXPECT_EQ(e, 0.0F);
-}
-
-// By hand. Black to white: HyAB is the difference of L*, 100; 100^0.7 = 25.1189. Green (L* 87.735, a* -86.183, b* 83.179) and blue
-// (32.297, 79.188, -107.860), a* and b* times 0.01 L*: -75.612, 72.977 and 25.575, -34.836; HyAB 55.438 + sqrt(101.187^2 + 107.813^2) =
-// 203.296; to the 0.7 41.276, 0.4 of it 16.510. 0.95 + 0.05 (25.1189 - 16.510) / (41.276 - 16.510) = 0.96738.
-TEST(Flip, BlackAndWhiteByHand) {
+    // By hand. Black to white: HyAB is the difference of L*, 100; 100^0.7 = 25.1189. Green (L* 87.735, a* -86.183, b* 83.179) and blue
+    // (32.297, 79.188, -107.860), a* and b* times 0.01 L*: -75.612, 72.977 and 25.575, -34.836; HyAB 55.438 + sqrt(101.187^2 + 107.813^2) =
+    // 203.296; to the 0.7 41.276, 0.4 of it 16.510. 0.95 + 0.05 (25.1189 - 16.510) / (41.276 - 16.510) = 0.96738.
     for (const auto map = flip_ldr({20, 20, black}, {20, 20, white}); const float e : map.pixels())
         EXPECT_NEAR(static_cast<double>(e), 0.96738, 1e-5); // the last digit of the sum by hand
-}
-
-TEST(Flip, GreenAndBlueAreTheFarthestColours) {
     EXPECT_NEAR(static_cast<double>(flip_ldr({9, 9, green}, {9, 9, blue}).at(4, 4)), 1.0, 1e-6);
     for (const Rgb8& one : {black, white, red, green, blue, grey})
         for (const Rgb8& other : {black, white, red, green, blue, grey})
             EXPECT_LE(flip_ldr({3, 3, one}, {3, 3, other}).at(1, 1), 1.0F);
-}
-
-// Even pictures stay even: the filters sum to 1 for every channel, and there are no features.
-TEST(Flip, EvenColoursAreAsWithoutFilters) {
+    // Even pictures stay even: the filters sum to 1 for every channel, and there are no features.
     for (const Rgb8& one : {black, white, red, green, blue, grey}) {
         const double direct = DirectFlip::of_even(DirectFlip::linear({1, 1, one})[0], DirectFlip::linear({1, 1, grey})[0]);
         for (const auto map = flip_ldr({30, 30, one}, {30, 30, grey}); const float e : map.pixels())
@@ -140,13 +131,10 @@ TEST(Flip, FilterOfEdgesSumsToOneOnEachSide) {
     EXPECT_LT(filters.y.radius(), 8); // the rest weighs less than a float can show
 }
 
-TEST(Flip, PixelsPerDegreeOfScreensAndViews) {
+TEST(Flip, PixelsPerDegreeOfScreensAndViewsAndWrongInput) {
     EXPECT_NEAR(pixels_per_degree_of_screen(0.7, 0.7, 3840), 67.0206, 1e-4); // 3840 pi / 180, as the paper says
     EXPECT_DOUBLE_EQ(pixels_per_degree_of_screen(0.7, 0.7, 3840), default_pixels_per_degree);
     EXPECT_NEAR(pixels_per_degree_of_view(radians(90.0), 720), 360.0 * pi / 180.0, 1e-12); // tan 45 degrees is 1
-}
-
-TEST(Flip, WrongInputIsRefused) {
     EXPECT_THROW(flip_ldr({2, 2, black}, {2, 3, black}), std::invalid_argument);
     EXPECT_THROW(flip_ldr({}, {}), std::invalid_argument);
     EXPECT_THROW(flip_ldr({2, 2, black}, {2, 2, black}, 0.5), std::invalid_argument);
@@ -207,7 +195,7 @@ TEST(FlipHdr, BlackNightsAreExposedForWhatIsLit) {
     EXPECT_EQ(range.count, 3);
 }
 
-TEST(FlipHdr, ExtremesKeepTheRangeBounded) {
+TEST(FlipHdr, ExtremesAreBoundedAndComparedAndTheSameIsZero) {
     const ExposureRange deep = exposures_for(grey_scene(3, 1, {1e-38F, 1e-38F, 1e30F}));
     EXPECT_DOUBLE_EQ(deep.stop - deep.start, most_stops);
     EXPECT_EQ(deep.count, static_cast<int>(most_stops));
@@ -217,17 +205,11 @@ TEST(FlipHdr, ExtremesKeepTheRangeBounded) {
     const auto bright = grey_scene(4, 4, {1e30F, 1.0F}), dark = grey_scene(4, 4, {1e-30F, 1.0F});
     for (const auto map = flip_hdr(bright, dark, exposures_for(dark)); const float e : map.pixels())
         EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
-}
-
-// All but dark: exposures of more than 2^127 are no floats.
-TEST(FlipHdr, NextToNoLightIsStillCompared) {
+    // All but dark: exposures of more than 2^127 are no floats.
     const auto faint = grey_scene(4, 4, {0.0F, 1e-40F, 1e-39F}), none = grey_scene(4, 4, {0.0F});
     const auto map = flip_hdr(none, faint, exposures_for(faint));
     for (const float e : map.pixels())
         EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
-}
-
-TEST(FlipHdr, TheSameIsZero) {
     const auto picture = grey_scene(30, 20, {0.0F, 0.01F, 3.0F, 200.0F, 1e4F});
     for (const auto map = flip_hdr(picture, picture, exposures_for(picture)); const float e : map.pixels())
         EXPECT_EQ(e, 0.0F);
@@ -312,15 +294,12 @@ TEST(DisplayDifference, BlackAndWhiteIsTheWholeRange) {
     EXPECT_DOUBLE_EQ(found.psnr_db, 0.0);
 }
 
-TEST(DisplayDifference, LumaAndChannels) {
+TEST(DisplayDifference, LumaChannelsAndWrongInput) {
     const Image<Rgb8> picture(1, 1, {255, 0, 100});
     EXPECT_NEAR(static_cast<double>(luma_of(picture).at(0, 0)), 0.2126 * 255 + 0.0722 * 100, 1e-4);
     EXPECT_EQ(channel_of(picture, 0).at(0, 0), 255.0F);
     EXPECT_EQ(channel_of(picture, 1).at(0, 0), 0.0F);
     EXPECT_EQ(channel_of(picture, 2).at(0, 0), 100.0F);
-}
-
-TEST(DisplayDifference, WrongInputIsRefused) {
     EXPECT_THROW(compare_displays({2, 2}, {2, 3}), std::invalid_argument);
     EXPECT_THROW(compare_displays({}, {}), std::invalid_argument);
 }

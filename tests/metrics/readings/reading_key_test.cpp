@@ -156,7 +156,7 @@ TEST(ReadingKey, RandomKeysComeBack) {
     }
 }
 
-TEST(ReadingKey, WhatIsNoNameIsRefused) {
+TEST(ReadingKey, WhatIsNoNameIsRefusedAndWhatNoReadingHasNotNamed) {
     for (const char* name : {"",
                              "reach",
                              "reach_5lx_rod_own_m",
@@ -196,9 +196,6 @@ TEST(ReadingKey, WhatIsNoNameIsRefused) {
                              "foreground_ratio_own_standard_error_",
                              "_standard_error_m"})
         EXPECT_FALSE(key_of(name)) << name;
-}
-
-TEST(ReadingKey, WhatNoReadingHasIsNotNamed) {
     EXPECT_THROW(name_of(ReadingKey{}), std::logic_error);
     ReadingKey reach = key("reach_5lx_road_own_m");
     reach.distance_m = 5.0;
@@ -230,15 +227,12 @@ TEST(ReadingKey, SubjectsThatOthersNamesHoldAreNotClear) {
     EXPECT_TRUE(is_clear_subject(SubjectKind::pass, pass_subject("display: glare")));
 }
 
-TEST(ReadingKey, AnEyeHasANameOfItsOwn) {
+TEST(ReadingKey, EyesHaveNamesOfTheirOwnAndKindsAreTold) {
     for (const char* name : {"glare_mirrors_at_15m", "glare_own", "glare_far_away"})
         EXPECT_EQ(eye_name(eye_of(name).value()), name);
     EXPECT_EQ(eye_of("glare_mirrors_at_15m")->distance_m, 15.0);
     EXPECT_EQ(eye_name(key("glare_mirrors_at_15m_time_above_1lx_s")), "glare_mirrors_at_15m");
     EXPECT_FALSE(eye_of("detection_card_own"));
-}
-
-TEST(ReadingKey, KindsAreTold) {
     EXPECT_TRUE(is_extent(key("unlit_before_reach_1lx_road_own_m")));
     EXPECT_FALSE(is_extent(key("sensor_a_reach_5lx_m")));
     EXPECT_TRUE(is_time(key("frame_time_median_ms")));
@@ -250,7 +244,7 @@ TEST(ReadingKey, KindsAreTold) {
 
 // Readings in words: the usual ones word for word, of all others that nothing is left open.
 
-TEST(ReadingWords, SayWhatANameSays) {
+TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
     const std::pair<const char*, const char*> readings[] = {
         {"reach_5lx_target_own_m", "reach at 5 lx on a target, own lane"},
         {"reach_0.5lx_road_left_1_left_edge_m", "reach at 0.5 lx on the road, left 1, left edge"},
@@ -274,9 +268,6 @@ TEST(ReadingWords, SayWhatANameSays) {
         {"control_left_bends_reach_gain_5lx_m", "reach at 5 lx in left bends, gained by control"}};
     for (const auto& [name, words] : readings)
         EXPECT_EQ(reading_in_words(key_of(name).value()), words);
-}
-
-TEST(ReadingWords, LeaveNothingOpen) {
     for (const QuantityRow& row : quantities())
         for (const ReadingKey& key :
              shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {5.0}, .distance_m = 50.0}))
@@ -285,14 +276,11 @@ TEST(ReadingWords, LeaveNothingOpen) {
 
 // docs/readings.md has the table that the program prints.
 
-TEST(ReadingsList, IsTheTableOfTheDocumentation) {
+TEST(ReadingsList, IsTheTableOfTheDocumentationAndSaysEachQuantityInWords) {
     std::stringstream page;
     page << std::ifstream(FERNLICHT_SOURCE_DIR "/docs/readings.md").rdbuf();
     EXPECT_THAT(page.str(), testing::HasSubstr("<!-- readings: begin -->\n" + readings_markdown() + "<!-- readings: end -->"))
         << "put what `fernlicht readings --markdown` prints between the two comments";
-}
-
-TEST(ReadingsList, SaysEachQuantityInWords) {
     EXPECT_THAT(readings_text(), testing::HasSubstr("patch_dark_own[_max]_m\n    m: longest patch of a moment that is darker than its "
                                                     "surroundings; lower is better\n"));
     EXPECT_THAT(readings_text(), testing::HasSubstr("sensor_NAME_at_50m_lx\nsensor_NAME_max_lx\n"));
@@ -341,19 +329,13 @@ Drive limited_by(const std::string& reading) {
     return {.file = "night.yaml", .probes = {{"kerb-30m", 30.0, 0.0, 0.0}}, .limits = {{reading, 1.0, std::nullopt}}};
 }
 
-TEST(ReadingNames, WhatARunCanMeasureIsKnown) {
+TEST(ReadingNames, WhatARunCanMeasureIsKnownAndAllElseRefused) {
     for (const char* name : {"reach_5lx_road_own_m", "reach_0.5lx_target_left_1_min_m", "width_3lx_road_all_at_50m_m",
                              "area_1lx_target_own_m2", "unlit_before_reach_1lx_road_own_m", "reach_1lx_target_own_per_tenth_degree_m",
                              "probe_kerb-30m_lx", "probe_kerb-30m_twin_lx", "frame_time_median_ms"})
         EXPECT_NO_THROW(check_names(limited_by(name))) << name;
-}
-
-TEST(ReadingNames, WhatNoRunCanMeasureIsRefused) {
     for (const char* name : {"reach_1lx_rod_own_m", "reach_road_own_m", "width", "probe_kerb_lx", "probe_kerb-30m", "frame_time_ms", ""})
         EXPECT_THROW(check_names(limited_by(name)), InputError) << name;
-}
-
-TEST(ReadingNames, ANameThatReadingsWouldTakeForTheirOwnIsRefused) {
     Drive drive = limited_by("probe_kerb-30m_lx");
     drive.probes.push_back({"kerb-30m_max", 30.0, 1.0, 0.0});
     EXPECT_THROW(check_names(drive), InputError) << "its median would be the largest of kerb-30m";
@@ -414,7 +396,7 @@ TEST(Value, ADifferenceIsWhatBothLetItBe) {
     EXPECT_EQ(difference(60.0, none, "m"), none);
 }
 
-TEST(Value, ABoundKeepsALimitOrLeavesItOpen) {
+TEST(Value, KeepsALimitOrLeavesItOpenRanksAndIsNeverNan) {
     const Value beyond = Value::at_least(200.0);
     EXPECT_EQ(holds(beyond, 180.0, {}), true);
     EXPECT_EQ(holds(beyond, {}, 150.0), false);
@@ -425,17 +407,11 @@ TEST(Value, ABoundKeepsALimitOrLeavesItOpen) {
     EXPECT_EQ(holds(Value::at_most(30.0), 20.0, {}), std::nullopt);
     EXPECT_EQ(holds(61.0, 61.0, 61.0), true);
     EXPECT_EQ(holds(none, 1.0, {}), std::nullopt);
-}
-
-TEST(Value, RanksByItsFigure) {
     EXPECT_TRUE(ranks_before(199.0, Value::at_least(200.0)));
     EXPECT_TRUE(ranks_before(200.0, Value::at_least(200.0)));
     EXPECT_TRUE(ranks_before(Value::at_most(10.0), 10.0));
     EXPECT_FALSE(ranks_before(Value::at_least(200.0), Value::at_least(200.0)));
     EXPECT_TRUE(ranks_before(none, -1e9));
-}
-
-TEST(Value, IsNeverNanOrInfinite) {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(Value{bad}, std::invalid_argument);
         EXPECT_THROW(Value::at_least(bad), std::invalid_argument);

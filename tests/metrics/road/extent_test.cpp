@@ -39,7 +39,7 @@ class BareLampOnTheRoad : public ::testing::Test {
 };
 
 // Straight in ln E over a cell c, the error of a power law x^-3 is about c^2 / (8 x): 2.5 mm at 12 m.
-TEST_F(BareLampOnTheRoad, ReachesWhereTheLawSays) {
+TEST_F(BareLampOnTheRoad, ReachesWhereTheLawSaysInLanesFromLeftToRight) {
     for (const double limit : limits) {
         const LaneExtent own = extent_of(extents, "own", limit);
         EXPECT_NEAR(own.reach_centre_m, lamp.road_reach_m(limit), 0.004) << limit;
@@ -50,9 +50,6 @@ TEST_F(BareLampOnTheRoad, ReachesWhereTheLawSays) {
         EXPECT_NEAR(extent_of(extents, "left 1", limit).reach_centre_m, lamp.road_reach_m(limit, 3.5), 0.004);
         EXPECT_NEAR(extent_of(extents, "right 1", limit).reach_right_edge_m, lamp.road_reach_m(limit, 3.25), 0.004);
     }
-}
-
-TEST_F(BareLampOnTheRoad, LanesComeFromLeftToRightThenAll) {
     ASSERT_EQ(extents.size(), 16U);
     EXPECT_EQ(extents[0].lane, "left 1");
     EXPECT_FALSE(extents[0].same_direction);
@@ -63,17 +60,14 @@ TEST_F(BareLampOnTheRoad, LanesComeFromLeftToRightThenAll) {
 }
 
 // Lit inside the circle r about the lamp's foot; the half ahead of the bumper counts.
-TEST_F(BareLampOnTheRoad, AreaIsHalfACircle) {
+TEST_F(BareLampOnTheRoad, AreasAreThoseOfTheCircle) {
     for (const double limit : limits) {
         const double radius_m = lamp.road_reach_m(limit);
         const LaneExtent all = extent_of(extents, "all", limit);
         EXPECT_NEAR(all.area_m2 / (0.5 * pi_ * radius_m * radius_m), 1.0, 1e-3) << limit;
         EXPECT_NEAR(all.reach_centre_m, radius_m, 0.004);
     }
-}
-
-// Half the circle between the chords at offsets a and b: integral of sqrt(r^2 - y^2).
-TEST_F(BareLampOnTheRoad, AreaOfALaneIsTheCircleBetweenItsEdges) {
+    // Half the circle between the chords at offsets a and b: integral of sqrt(r^2 - y^2).
     const auto up_to = [](double r, double y) { return 0.5 * (y * std::sqrt(r * r - y * y) + r * r * std::asin(y / r)); };
     const double radius_m = lamp.road_reach_m(3.0);
     const auto between = [&](double right_m, double left_m) { return up_to(radius_m, left_m) - up_to(radius_m, right_m); };
@@ -313,7 +307,7 @@ TEST(ExtentGrid, RowsBeginAtTheBumperAndColumnsReachBothSides) {
             EXPECT_EQ(grid.surface[row * grid.offset_m.size() + column], route.pose(53.6 + grid.ahead_m[row], grid.offset_m[column]));
 }
 
-TEST(ExtentGrid, IsFineOnTheRoadAndCoarseBesideIt) {
+TEST(ExtentGrid, IsFineOnTheRoadAndEndsWithTheRoute) {
     const RoadNetwork network = library_road("straight.xodr");
     const Route route(network, {});
     const ExtentGrid grid = make_extent_grid(route, at(50.0), 3.6, {});
@@ -324,11 +318,6 @@ TEST(ExtentGrid, IsFineOnTheRoadAndCoarseBesideIt) {
         EXPECT_LE(step_m, paved ? 0.125 : 0.5);
     }
     EXPECT_LT(grid.offset_m.size(), 321U);
-}
-
-TEST(ExtentGrid, EndsWithTheRoute) {
-    const RoadNetwork network = library_road("straight.xodr");
-    const Route route(network, {});
     const ExtentGrid near_end = make_extent_grid(route, at(route.length_m() - 13.6), 3.6, {});
     EXPECT_EQ(near_end.ahead_m.back(), 10.0) << "a route's pose is clamped: rows beyond its end would all be one place";
     EXPECT_TRUE(make_extent_grid(route, at(route.length_m() - 3.0), 3.6, {}).ahead_m.empty());

@@ -16,15 +16,16 @@ namespace {
 
 using Order = std::vector<std::size_t>;
 
-TEST(Spread, NothingGivesNothing) { EXPECT_FALSE(spread_of({})); }
-
-TEST(Spread, OneSampleIsAllOfIt) {
+TEST(Spread, OfNothingOfOneSampleAndOfNoNumber) {
+    EXPECT_FALSE(spread_of({}));
     const auto spread = spread_of({7.0});
     ASSERT_TRUE(spread);
     EXPECT_EQ(spread->count, 1U);
     for (const double value : {spread->median, spread->p05, spread->p95, spread->minimum, spread->maximum, spread->mean})
         EXPECT_EQ(value, 7.0);
     EXPECT_EQ(spread->standard_deviation, 0.0);
+    EXPECT_THROW(spread_of({1.0, std::nan("")}), std::invalid_argument);
+    EXPECT_THROW(spread_of({std::numeric_limits<double>::infinity()}), std::invalid_argument);
 }
 
 // Type 7: place = share * (n - 1). For 1, 2, 4, 8: p05 at 0.15 -> 1.15, median at 1.5 -> 3, p95 at 2.85 -> 4 + 0.85 * 4.
@@ -56,11 +57,6 @@ TEST(Spread, DeviationSurvivesAFarMean) {
     const auto spread = spread_of({1e9, 1e9 + 1.0, 1e9 + 2.0});
     ASSERT_TRUE(spread);
     EXPECT_DOUBLE_EQ(spread->standard_deviation, 1.0);
-}
-
-TEST(Spread, RefusesWhatIsNoNumber) {
-    EXPECT_THROW(spread_of({1.0, std::nan("")}), std::invalid_argument);
-    EXPECT_THROW(spread_of({std::numeric_limits<double>::infinity()}), std::invalid_argument);
 }
 
 // 1, 1, 2, 4, 9: median 2, distances 1 1 0 2 7.
@@ -110,28 +106,19 @@ TEST(SpreadTest, BoundsAreThoseOfPrintedTables) {
     EXPECT_NEAR(spread_test({101, 1.0}, {1, 0.0}, 0.002, 1)->bound, 3.174, 5e-4);
     EXPECT_NEAR(normal_bound(0.05, 1), 1.960, 5e-4);
     EXPECT_NEAR(normal_bound(0.01, 1), 2.576, 5e-4);
-}
-
-TEST(SpreadTest, ManyComparisonsShareTheFalseAlarm) {
     EXPECT_DOUBLE_EQ(spread_test({6, 1.0}, {1, 0.0}, 0.05, 5)->bound, spread_test({6, 1.0}, {1, 0.0}, 0.01, 1)->bound);
     EXPECT_DOUBLE_EQ(normal_bound(0.05, 5), normal_bound(0.01, 1));
 }
 
 // By hand: samples {1, 2, 3} (variance 1) and {4, 6} (variance 2): s^2 = (2*1 + 1*2) / 3 = 4/3, error sqrt(4/3 (1/3 + 1/2)) = sqrt(10/9).
-TEST(SpreadTest, StandardErrorByHand) {
+TEST(SpreadTest, StandardErrorByHandAndNoTestWithoutSpread) {
     const auto test = spread_test({3, 1.0}, {2, 2.0}, 0.05, 1);
     ASSERT_TRUE(test);
     EXPECT_EQ(test->freedom, 3);
     EXPECT_NEAR(test->standard_error, std::sqrt(10.0 / 9.0), 1e-15);
     EXPECT_NEAR(spread_test({4, 9.0}, {1, 0.0}, 0.05, 1)->standard_error, 3.0 * std::sqrt(1.25), 1e-15);
-}
-
-TEST(SpreadTest, NothingThatVariesIsNoTest) {
     EXPECT_FALSE(spread_test({1, 0.0}, {1, 0.0}, 0.05, 1));
     EXPECT_FALSE(spread_test({9, 0.0}, {9, 0.0}, 0.05, 1));
-}
-
-TEST(SpreadTest, RefusesWhatIsNoSample) {
     EXPECT_THROW(spread_test({0, 0.0}, {1, 0.0}, 0.05, 1), std::invalid_argument);
     EXPECT_THROW(spread_test({2, -1.0}, {1, 0.0}, 0.05, 1), std::invalid_argument);
     EXPECT_THROW(spread_test({2, std::numeric_limits<double>::quiet_NaN()}, {1, 0.0}, 0.05, 1), std::invalid_argument);
@@ -167,14 +154,11 @@ TEST(PairedRatio, SpreadLiesBetweenOrderStatisticsOfTheLogarithm) {
     EXPECT_EQ(ratio->difference, Difference::not_distinguishable);
 }
 
-TEST(PairedRatio, ADifferenceInsideTheSpreadIsRefused) {
+TEST(PairedRatio, ADifferenceInsideTheSpreadIsRefusedAndExchangingBothTurnsIt) {
     EXPECT_EQ(paired_ratio(times(drifting, {0.97, 1.02, 1.06, 1.03, 0.98, 1.02, 1.02}), drifting)->difference,
               Difference::not_distinguishable);
     EXPECT_EQ(paired_ratio(times(drifting, {1.001, 1.02, 1.06, 1.03, 1.002, 1.02, 1.02}), drifting)->difference, Difference::slower);
     EXPECT_EQ(paired_ratio(drifting, drifting)->difference, Difference::not_distinguishable);
-}
-
-TEST(PairedRatio, ExchangingBothTurnsTheVerdictRound) {
     const std::vector<double> other = times(drifting, {1.3, 1.2, 1.25, 1.4, 1.2, 1.1, 1.6});
     const auto there = paired_ratio(other, drifting), back = paired_ratio(drifting, other);
     EXPECT_EQ(there->difference, Difference::slower);
@@ -183,15 +167,12 @@ TEST(PairedRatio, ExchangingBothTurnsTheVerdictRound) {
     EXPECT_NEAR(there->p05 * back->p95, 1.0, 1e-15);
 }
 
-TEST(PairedRatio, TooFewRoundsTellNothing) {
+TEST(PairedRatio, TooFewRoundsTellNothingAndNoTimesAreRefused) {
     EXPECT_FALSE(paired_ratio({}, {}));
     const auto five = paired_ratio({2, 2, 2, 2, 2}, {1, 1, 1, 1, 1}), six = paired_ratio({2, 2, 2, 2, 2, 2}, {1, 1, 1, 1, 1, 1});
     EXPECT_DOUBLE_EQ(five->median, 2.0);
     EXPECT_EQ(five->difference, Difference::not_distinguishable);
     EXPECT_EQ(six->difference, Difference::slower);
-}
-
-TEST(PairedRatio, RefusesWhatIsNoTime) {
     EXPECT_THROW(paired_ratio({1.0}, {1.0, 2.0}), std::invalid_argument);
     EXPECT_THROW(paired_ratio({1.0}, {0.0}), std::invalid_argument);
     EXPECT_THROW(paired_ratio({-1.0}, {1.0}), std::invalid_argument);
@@ -242,8 +223,8 @@ TEST(Below, FavoursNoNumber) {
 /// Bars of a tenth each way, of seven timings.
 WorkPrecisionRow row(const char* label, double error, double seconds, double floor = 0.0) {
     return {.label = label,
-            .error = {error, 0.9 * error, 1.1 * error},
-            .seconds = {seconds, 0.9 * seconds, 1.1 * seconds, 7, true},
+            .error = Interval{error, 0.9 * error, 1.1 * error},
+            .seconds = Interval{seconds, 0.9 * seconds, 1.1 * seconds, 7, true},
             .floor = floor};
 }
 

@@ -43,16 +43,13 @@ TEST(Strictness, EveryPixelWithinAnAbsoluteBound) {
 }
 
 // 5 % of 20 is 1, just kept; 10 % of 30 is 3. With 6 %: 1 of 1.2 and 3 of 1.8. The second is farthest.
-TEST(Strictness, RelativeBoundsArePixelsOwn) {
+TEST(Strictness, RelativeBoundsArePixelsOwnAndPercentagesCountThem) {
     EXPECT_TRUE(judged({.kind = Kind::every, .bound = {0.0, 0.1}}, tested, reference).passed);
     const StrictnessResult failed = judged({.kind = Kind::every, .bound = {0.0, 0.06}}, tested, reference);
     EXPECT_FALSE(failed.passed);
     EXPECT_DOUBLE_EQ(failed.found, 3.0);
     EXPECT_NEAR(failed.threshold, 1.8, 1e-12);
     EXPECT_TRUE(judged({.kind = Kind::every, .bound = {1.2, 0.06}}, tested, reference).passed);
-}
-
-TEST(Strictness, PercentageOfPixels) {
     const StrictnessNode node{.kind = Kind::percentage, .bound = {2.0}, .percent = 40.0};
     const StrictnessResult passed = judged(node, tested, reference);
     EXPECT_TRUE(passed.passed);

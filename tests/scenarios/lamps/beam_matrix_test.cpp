@@ -18,15 +18,12 @@ class BeamMatrix : public LampTrial {
 
 constexpr const char* body = "V\\H,-10,0,10\n-1,1,2,3\n0,4,5,6\n2,7,8,9\n";
 
-TEST_F(BeamMatrix, CandelaStandAsTheyAre) {
+TEST_F(BeamMatrix, CandelaStandAsTheyAreAndLuxCountWithTheSquareOfTheDistance) {
     const LampFile lamp = read("m.csv", std::string("# unit: cd\n# a comment\n") + body);
     EXPECT_EQ(lamp.format, "beam matrix");
     EXPECT_EQ(lamp.name, "m");
     EXPECT_EQ(lamp.table, (CandelaTable{{-10, 0, 10}, {-1, 0, 2}, {1, 2, 3, 4, 5, 6, 7, 8, 9}, {}, BetweenSamples::linear_cd}));
     EXPECT_EQ(read("no-extension", std::string("# unit: cd\n") + body).table, lamp.table) << "told by content";
-}
-
-TEST_F(BeamMatrix, LuxCountWithTheSquareOfTheDistance) {
     EXPECT_DOUBLE_EQ(peak_of(table(std::string("# unit: lx\n") + body)).cd, 9 * 625.0);
     EXPECT_DOUBLE_EQ(peak_of(table(std::string("# unit: lx\n# distance_m: 10\n") + body)).cd, 900.0);
 }
@@ -87,21 +84,15 @@ TEST_F(BeamMatrix, ScreenAnglesAndAPlanarScreenTogether) {
             EXPECT_NEAR(intensity_cd(t, h, v), 1000.0, 1e-6);
 }
 
-TEST_F(BeamMatrix, SeparatorsAndDecimalCommas) {
+TEST_F(BeamMatrix, SeparatorsOrderOfRowsAndZeroPadding) {
     const CandelaTable expected = table("# unit: cd\nV\\H,-1.5,0\n-1,1.5,2\n0,4,5.25\n");
     EXPECT_EQ(table("# unit: cd\nV\\H;-1,5;0\n-1;1,5;2\n0;4;5,25\n"), expected);
     EXPECT_EQ(table("# unit: cd\n\t-1.5\t0\n-1\t1.5\t2\n0\t4\t5.25\n"), expected);
     EXPECT_EQ(table("# unit: cd\r\nV\\H  -1.5 0\r\n-1 1.5   2\r\n\r\n0 4 5.25\r\n"), expected);
     EXPECT_EQ(table("\xef\xbb\xbf# unit: cd\n,-1.5,0,\n-1,1.5,2,\n0,\"4\",5.25,\n"), expected);
-}
-
-TEST_F(BeamMatrix, RowsFromTheTopDownAreSorted) {
     const LampFile lamp = read("d.csv", "# unit: cd\nV\\H,-1,0\n1,7,8\n0,4,5\n-1,1,2\n");
     EXPECT_EQ(lamp.table, table("# unit: cd\nV\\H,-1,0\n-1,1,2\n0,4,5\n1,7,8\n"));
     EXPECT_THAT(all_notes(lamp), HasSubstr("vertical angles do not ascend"));
-}
-
-TEST_F(BeamMatrix, ZeroPaddingIsAGapUnlessTheFileSaysWhatIs) {
     const std::string padded = "V\\H,-1,0,1\n-90,0,0,0\n-2,5,5,5\n0,5,5,5\n2,5,5,5\n";
     EXPECT_EQ(intensity_cd(table("# unit: cd\n" + padded), 0.0, -2.1), 0.0);
     EXPECT_GT(intensity_cd(table("# unit: cd\n# gaps_deg: none\n" + padded), 0.0, -2.1), 4.9);
@@ -168,7 +159,7 @@ TEST_F(BeamMatrix, NothingMakesItFallOver) {
         must_not_fall_over("p.csv", good.substr(0, n));
 }
 
-TEST_F(BeamMatrix, RoundTripsLoseNothing) {
+TEST_F(BeamMatrix, RoundTripsLoseNothingAndOtherNamesCannotBeWritten) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         LampFile lamp{.name = "round, trip; \"quoted\"",
                       .table = random_lamp_table(seed),
@@ -184,9 +175,6 @@ TEST_F(BeamMatrix, RoundTripsLoseNothing) {
         EXPECT_EQ(back.labels, (decltype(back.labels){{"MANUFAC", "Büch er: sons"}, {"unit", "furlong"}}));
         EXPECT_THAT(back.notes, testing::IsEmpty());
     }
-}
-
-TEST_F(BeamMatrix, OtherNamesCannotBeWritten) {
     LampFile lamp{.table = random_lamp_table(1)};
     EXPECT_THROW(write_lamp(lamp, folder_ / "lamp.txt"), InputError);
     lamp.table.cd[0] = -1.0;

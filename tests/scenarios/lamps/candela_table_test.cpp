@@ -44,16 +44,13 @@ CandelaTable random_table(unsigned seed, BetweenSamples rule = BetweenSamples::l
         h, v, [&](double, double) { return cd(random); }, rule);
 }
 
-TEST(CandelaTable, GivesItsOwnSamples) {
+TEST(CandelaTable, GivesItsOwnSamplesAndRunsLinearlyBetweenThem) {
     for (const auto rule : {BetweenSamples::linear_cd, BetweenSamples::log_cd}) {
         const CandelaTable table = random_table(1, rule);
         for (std::size_t v = 0; v < table.v_deg.size(); ++v)
             for (std::size_t h = 0; h < table.h_deg.size(); ++h)
                 EXPECT_NEAR(intensity_cd(table, table.h_deg[h], table.v_deg[v]), table.at(v, h), 1e-14 * 5000.0 * 10.0);
     }
-}
-
-TEST(CandelaTable, RunsLinearlyInCandelaOrInItsLogarithm) {
     CandelaTable table{{0.0, 2.0}, {-1.0, 1.0}, {1.0, 100.0, 10.0, 1000.0}, {}, BetweenSamples::linear_cd};
     EXPECT_DOUBLE_EQ(intensity_cd(table, 0.5, -1.0), 25.75);
     EXPECT_DOUBLE_EQ(intensity_cd(table, 1.0, 0.0), 277.75);
@@ -109,16 +106,13 @@ TEST(CandelaTable, FindsItsPeak) {
     EXPECT_DOUBLE_EQ(peak.v_deg, -0.75);
 }
 
-TEST(CandelaTableFlux, OfAConstantIntensityIsFourPiTimesIt) {
+TEST(CandelaTableFlux, OfAConstantIntensityAndOfACosine) {
     for (const auto rule : {BetweenSamples::linear_cd, BetweenSamples::log_cd})
         for (const double step : {180.0, 90.0, 5.0, 0.5}) {
             const CandelaTable table = table_of(
                 axis(-180.0, 180.0, 2.0 * step), axis(-90.0, 90.0, step), [](double, double) { return 12.5; }, rule);
             EXPECT_NEAR(flux_lm(table), 4.0 * pi * 12.5, 1e-11 * 4.0 * pi * 12.5) << step;
         }
-}
-
-TEST(CandelaTableFlux, OfACosineEmitterIsPiTimesItsAxialIntensity) {
     // Lambert: I = I0 cos(angle to the axis) = I0 cos V cos H; linear interpolation over 1 degree loses about step^2/12 in each direction.
     const CandelaTable table = table_of(axis(-90.0, 90.0, 1.0), axis(-90.0, 90.0, 1.0), [](double h, double v) {
         return std::max(0.0, 800.0 * std::cos(radians(v)) * std::cos(radians(h)));
@@ -150,9 +144,6 @@ TEST(CandelaTableFlux, IsTheIntegralOfTheTablesOwnRule) {
             // linear ones.
             EXPECT_NEAR(flux_lm(table) / flux_by_midpoints(table, 200), 1.0, 1.2e-4) << seed;
         }
-}
-
-TEST(CandelaTableFlux, OfASteepLogarithmicCellIsItsClosedForm) {
     // Near V = 0 the cosine is 1: the integral of exp along V is (b - a)/ln(b/a) times the area. The cosine leaves 1e-8 on 0.01 degrees.
     const CandelaTable table{{0.0, 0.01}, {-0.005, 0.005}, {1e-6, 1e-6, 1e9, 1e9}, {}, BetweenSamples::log_cd};
     const double area = radians(0.01) * radians(0.01);
@@ -225,15 +216,12 @@ TEST(CandelaTableSums, EqualTheSumOfBothEverywhere) {
     }
 }
 
-TEST(CandelaTableSums, DoNotSmearATableBeyondItsEdge) {
+TEST(CandelaTableSums, EndWithTheirTablesAndMarkWhereNeitherHasData) {
     const CandelaTable narrow = table_of({-5.0, 0.0, 5.0}, {-5.0, 0.0, 5.0}, [](double, double) { return 1000.0; });
     const CandelaTable wide = table_of({-40.0, 40.0}, {-20.0, 20.0}, [](double, double) { return 1.0; });
     EXPECT_NEAR(intensity_cd(sum(narrow, wide), 5.001, 0.0), 1.0, 1e-9);
     EXPECT_NEAR(intensity_cd(sum(wide, narrow), 4.999, 4.999), 1001.0, 1e-9);
     EXPECT_NEAR(intensity_cd(sum(wide, narrow), 0.0, -5.001), 1.0, 1e-9);
-}
-
-TEST(CandelaTableSums, MarkWhereNeitherHasData) {
     const CandelaTable left = table_of({-20.0, -10.0}, {0.0, 5.0}, [](double, double) { return 8.0; });
     const CandelaTable right = table_of({10.0, 20.0}, {-5.0, 0.0}, [](double, double) { return 4.0; });
     const CandelaTable both = sum(left, right);
@@ -274,16 +262,13 @@ TEST(CandelaTablePrediction, FindsTheSpikeItCannotPredict) {
     EXPECT_LT(error.median_relative, 1e-15);
 }
 
-TEST(CandelaTablePrediction, FollowsTheCurvatureOfAParabola) {
+TEST(CandelaTablePrediction, FollowsTheCurvatureOfAParabolaAndNothingInATinyOrDarkTable) {
     // y = x^2 on step 1, predicted from step 2: the chord lies 1 above the curve at each middle. Peak 100.
     const CandelaTable table = table_of(axis(-10.0, 10.0, 1.0), {0.0, 1.0}, [](double h, double) { return h * h; });
     const InterpolationError error = interpolation_error(table);
     EXPECT_EQ(error.samples, 20U);
     EXPECT_NEAR(error.median_relative, 0.01, 1e-12);
     EXPECT_NEAR(error.p95_relative, 0.01, 1e-12);
-}
-
-TEST(CandelaTablePrediction, CannotBeMadeOnATinyOrDarkTable) {
     EXPECT_EQ(interpolation_error(table_of({0.0, 1.0}, {0.0, 1.0}, [](double, double) { return 3.0; })).samples, 0U);
     EXPECT_EQ(interpolation_error(table_of({0.0, 1.0, 2.0}, {0.0, 1.0, 2.0}, [](double, double) { return 0.0; })).samples, 0U);
 }

@@ -188,15 +188,12 @@ TEST_F(Eulumdat, MessagesNameTheLine) {
     EXPECT_THAT(complaint([](Ldt& l) { l.gamma = {0, 90, 90}, l.intensities = {1, 2, 3}; }), HasSubstr("the angle 90 is given twice"));
 }
 
-TEST_F(Eulumdat, NoPrefixOfAGoodFileIsTakenForAGoodFile) {
+TEST_F(Eulumdat, NoPrefixOfAGoodFileIsReadAndNothingMakesItFallOver) {
     const std::string good = Ldt{}.text();
     const std::size_t last_number = good.rfind('\n', good.size() - 2) + 1;
     for (std::size_t n = 0; n <= last_number; ++n)
         EXPECT_THAT(refusal("p.ldt", good.substr(0, n)), HasSubstr("p.ldt")) << n;
     EXPECT_EQ(refusal("p.ldt", good), "");
-}
-
-TEST_F(Eulumdat, NothingMakesItFallOver) {
     must_survive_random_bytes("r.ldt", "", 11);
     must_survive_random_bytes("r.ldt", "ACME\n2\n0\n2\n0\n3\n0\n", 12);
     must_survive_changed_bytes("r.ldt", planes(4, turn(0, 90), [](double, double g) { return g; }).text(), 13);
@@ -282,16 +279,13 @@ TEST_F(CPlanes, SymmetriesFillTheTurn) {
     same(lamp(steps(-180, 180, 15), gamma, lobe, axis), lamp(steps(0, 360, 15), gamma, lobe, axis));
 }
 
-TEST_F(CPlanes, TheTurnClosesAcrossAMissing360) {
+TEST_F(CPlanes, TheTurnClosesAcrossAMissing360AndAWideHoleHasNoData) {
     const auto gamma = steps(0, 180, 10);
     for (const double last : {350.0, 355.0}) {
         const LampFile l = lamp(
             steps(0, last, last == 350.0 ? 10.0 : 5.0), gamma, [](double, double) { return 30.0; }, TypeCAxis::horizontal);
         EXPECT_NEAR(flux_lm(l.table), 4 * pi * 30, 1e-9) << last;
     }
-}
-
-TEST_F(CPlanes, AWideHoleHasNoData) {
     const LampFile l = lamp(
         steps(0, 270, 10), steps(0, 180, 10), [](double, double) { return 30.0; }, TypeCAxis::horizontal);
     EXPECT_THAT(all_notes(l), HasSubstr("leave 90 degrees of the turn open"));
@@ -325,23 +319,17 @@ TEST_F(CPlanes, ABeamAlongTheNadirIsTurnedForward) {
     EXPECT_EQ(intensity_cd(l.table, 120.0, 0.0), 0.0) << "behind";
 }
 
-TEST_F(CPlanes, TurningKeepsTheFlux) {
+TEST_F(CPlanes, TurningKeepsTheFluxAndTheOptionOutvotesTheLight) {
     const auto c = steps(0, 330, 30), gamma = steps(0, 90, 5);
     const double there = flux_lm(lamp(c, gamma, downlight, TypeCAxis::horizontal).table); // not resampled
     EXPECT_NEAR(flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / there, 1.0, 1e-3);
-}
-
-/// A cone, and half of one, that ends in light.
-TEST_F(CPlanes, ATurnedConeThatEndsInLightKeepsItsFlux) {
+    /// A cone, and half of one, that ends in light.
     for (const double turn : {360.0, 187.5})
         for (const double step : {2.5, 7.5}) {
             const auto c = steps(0, turn, 7.5), gamma = steps(0, 37.5, step);
             const double there = flux_lm(lamp(c, gamma, downlight, TypeCAxis::horizontal).table); // not resampled
             EXPECT_NEAR(flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / there, 1.0, 2e-4) << turn << " " << step;
         }
-}
-
-TEST_F(CPlanes, TheOptionOutvotesTheLight) {
     const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight, TypeCAxis::horizontal);
     EXPECT_LT(peak_of(l.table).v_deg, -60.0);
 }

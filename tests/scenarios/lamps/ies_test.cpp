@@ -41,7 +41,7 @@ TEST_F(IesFile, EditionsAreToldByTheirHeaders) {
     EXPECT_THAT(all_notes(read("e.ies", small("IES:LM-63-2031\n"))), HasSubstr("edition of 2031"));
 }
 
-TEST_F(IesFile, FactorsMultiplyOnceAndTheReservedFieldOnlyBefore1995) {
+TEST_F(IesFile, FactorsMultiplyOnceAndTheDeclaredFluxIsThatOfAllLamps) {
     const auto peak = [&](const std::string& head, const std::string& ballast_line) {
         return peak_of(read("f.ies", head + "TILT=NONE\n2 500 2.0 2 2 3 1 0 0 0\n" + ballast_line + "\n-1 1\n-1 1\n5 6\n7 100\n").table).cd;
     };
@@ -52,9 +52,6 @@ TEST_F(IesFile, FactorsMultiplyOnceAndTheReservedFieldOnlyBefore1995) {
     // 2019: the field is the file's generation type, here "accredited laboratory"; not 10 % more light.
     EXPECT_DOUBLE_EQ(peak("IES:LM-63-2019\n", "1 1.10000 60"), 100 * 2.0);
     EXPECT_DOUBLE_EQ(peak("IESNA91\n", "1 0 60"), 100 * 2.0) << "a reserved field of 0 must not darken the lamp";
-}
-
-TEST_F(IesFile, DeclaredFluxIsThatOfAllLamps) {
     const LampFile lamp = read("f.ies", "TILT=NONE\n2 500 1 2 2 3 1 0 0 0\n1 1 60\n-1 1\n-1 1\n5 6\n7 8\n");
     EXPECT_DOUBLE_EQ(lamp.declared_flux_lm.value(), 1000.0);
 }
@@ -97,7 +94,7 @@ TEST_F(IesFile, ZeroAndNegativeDimensionsAreNoMatter) {
     EXPECT_EQ(peak_of(read("d.ies", text).table).cd, 8.0);
 }
 
-TEST_F(IesFile, HalvesOfTypesAAndBAreMirrored) {
+TEST_F(IesFile, HalvesAreMirroredAndASinglePlaneIsRefused) {
     for (const int type : {2, 3}) {
         const LampFile lamp =
             read("m.ies", fmt::format("IESNA91\nTILT=NONE\n1 -1 1 2 3 {} 2 0 0 0\n1 1 0\n-1 1\n0 5 10\n9 9\n6 6\n3 3\n", type));
@@ -106,9 +103,6 @@ TEST_F(IesFile, HalvesOfTypesAAndBAreMirrored) {
         EXPECT_NEAR(intensity_cd(lamp.table, 5.0, 0.0), 6.0, 0.01);
         EXPECT_NEAR(intensity_cd(lamp.table, -10.0, 0.0), 3.0, 0.01);
     }
-}
-
-TEST_F(IesFile, ASinglePlaneOfTypesAAndBIsRefused) {
     for (const int type : {2, 3})
         EXPECT_THAT(refusal("s.ies", fmt::format("IESNA91\nTILT=NONE\n1 -1 1 2 1 {} 2 0 0 0\n1 1 0\n-1 1\n0\n9 9\n", type)),
                     HasSubstr("s.ies:6: horizontal angles: found a single one"));
@@ -287,7 +281,7 @@ TEST_F(IesFile, SlightlyNegativeIntensitiesAreNoise) {
 }
 
 /// Commas separate in IES files, so that these fail somewhere, or not at all and with a rest.
-TEST_F(IesFile, DecimalCommasAreCalledThat) {
+TEST_F(IesFile, DecimalCommasAndUtf16AreCalledThat) {
     const auto complaint = [&](const std::string& numbers) { return refusal("c.ies", "IESNA91\nTILT=NONE\n" + numbers); };
     const std::string says = "has decimal commas, expected points: write ";
     EXPECT_THAT(complaint("1 -1 1,0 2 2 3 2 0 0 0\n1 1 0\n-1 1\n-1 1\n5 6\n7 8\n"), HasSubstr("c.ies:3:6: " + says + "1.0 for 1,0"));
@@ -302,9 +296,6 @@ TEST_F(IesFile, DecimalCommasAreCalledThat) {
     EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1,1\n-1,1\n5,6\n7,x\n"), HasSubstr("found 'x'"));
     write("comma.tlt", "1\n2\n0,0 1,5\n1 1\n");
     EXPECT_THAT(refusal("k.ies", "IESNA91\nTILT=comma.tlt\n" + std::string(small_numbers)), HasSubstr("comma.tlt:3:1: " + says));
-}
-
-TEST_F(IesFile, Utf16IsCalledThat) {
     for (const auto& [low, high] : {std::pair{1, 0}, std::pair{0, 1}}) // either order of bytes, with a mark and without
         for (const bool mark : {true, false}) {
             std::string bytes = mark ? (low != 0 ? "\xff\xfe" : "\xfe\xff") : "";
@@ -344,15 +335,12 @@ TEST_F(IesFile, MessagesNameLineAndPlace) {
     EXPECT_THAT(all_notes(read("y.ies", good + "44 55\n")), HasSubstr("Line 12 goes on after the last candela value"));
 }
 
-TEST_F(IesFile, NoPrefixOfAGoodFileIsTakenForAGoodFile) {
+TEST_F(IesFile, NoPrefixOfAGoodFileIsReadAndNothingMakesItFallOver) {
     const std::string good = small();
     const std::size_t last_number = good.rfind(' ') + 1;
     for (std::size_t n = 0; n <= last_number; ++n)
         EXPECT_THAT(refusal("p.ies", good.substr(0, n)), HasSubstr("p.ies")) << n;
     EXPECT_EQ(refusal("p.ies", good), "");
-}
-
-TEST_F(IesFile, NothingMakesItFallOver) {
     must_survive_random_bytes("r.ies", "", 1);
     must_survive_random_bytes("r.ies", "IESNA:LM-63-2002\nTILT=NONE\n", 2);
     must_survive_random_bytes("r.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 3 3 2 0 0 0\n1 1 55\n", 3);
@@ -385,9 +373,6 @@ TEST_F(IesFile, RoundTripsLoseNothing) {
         write_lamp(back, folder_ / "again.ies");
         EXPECT_EQ(read_lamp(folder_ / "again.ies").table, lamp.table);
     }
-}
-
-TEST_F(IesFile, ATableThatBeginsAtZeroIsNotMirroredOnItsWayBack) {
     LampFile lamp{.table = {{0.0, 5.0, 10.0}, {-1.0, 0.0}, {1, 2, 3, 4, 5, 6}, {}, BetweenSamples::linear_cd}};
     write_lamp(lamp, folder_ / "zero.ies");
     const LampFile back = read_lamp(folder_ / "zero.ies");

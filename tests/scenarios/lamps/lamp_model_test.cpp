@@ -59,7 +59,7 @@ Edge edge_at(const CandelaTable& t, double h) {
     return edge;
 }
 
-TEST(LampModel, CutOffIsSharpStraightAndOnePercentDown) {
+TEST(LampModel, CutOffIsSharpOnePercentDownAndRisesToTheKerb) {
     for (const std::string lamp : {"halogen-low", "xenon-low"}) {
         const Edge edge = edge_at(table(lamp), -2.5);
         EXPECT_GE(edge.sharpness, 0.13) << lamp;
@@ -68,9 +68,6 @@ TEST(LampModel, CutOffIsSharpStraightAndOnePercentDown) {
         for (const double h : {-1.5, -2.5, -3.5}) // linearity: within 0.2 degrees of each other
             EXPECT_NEAR(edge_at(table(lamp), h).inflection_v_deg, -0.57, 0.05) << lamp << h;
     }
-}
-
-TEST(LampModel, CutOffRisesToTheKerbByFifteenDegrees) {
     for (const std::string lamp : {"halogen-low", "xenon-low"}) {
         const double at_1 = edge_at(table(lamp), 1.0).inflection_v_deg, at_3 = edge_at(table(lamp), 3.0).inflection_v_deg;
         EXPECT_NEAR(std::atan((at_3 - at_1) / 2.0) * 180.0 / 3.14159265, 15.0, 1.5) << lamp;

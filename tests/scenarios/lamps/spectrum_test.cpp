@@ -70,7 +70,7 @@ TEST(LampColour, HalogenAndXenonAreApart) {
     EXPECT_LT(halogen.linear_srgb.z, xenon.linear_srgb.z);
 }
 
-TEST(LampColour, LuminanceIsOneAndNoComponentNegative) {
+TEST(LampColour, LuminanceIsOneAndOtherTemperaturesAreRefused) {
     for (const double kelvin : {1000.0, 1500.0, 1900.0, 3200.0, 4300.0, 6504.0, 25000.0}) {
         const glm::dvec3 rgb = colour_of_temperature(kelvin).linear_srgb;
         EXPECT_NEAR(luminance_of(rgb), 1.0, 1e-12) << kelvin;
@@ -79,14 +79,8 @@ TEST(LampColour, LuminanceIsOneAndNoComponentNegative) {
     const glm::dvec3 white = colour_of_temperature(6504.0).linear_srgb; // beside D65, on Planck's locus a little more magenta
     EXPECT_NEAR(white.x, 1.0, 0.06);
     EXPECT_NEAR(white.z, 1.0, 0.06);
-}
-
-TEST(LampColour, TemperatureOutsideTheRangeIsRefused) {
     for (const double kelvin : {0.0, 999.0, 25001.0, std::nan("")})
         EXPECT_THROW(colour_of_temperature(kelvin), std::invalid_argument) << kelvin;
-}
-
-TEST(LampColour, AGreenLedHasNoColourTemperature) {
     const Spectrum green{{500.0, 520.0, 530.0, 550.0}, {0.0, 1.0, 1.0, 0.0}};
     EXPECT_EQ(colour_of_spectrum(green).cct_k, 0.0);
     EXPECT_THROW(colour_of_spectrum({{900.0, 1000.0}, {1.0, 1.0}}), std::invalid_argument);

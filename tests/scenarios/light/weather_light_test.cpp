@@ -119,15 +119,12 @@ glm::dvec3 at_elevation(double deg, double azimuth_deg = 0.0) {
 const glm::dvec3 up(0.0, 0.0, 1.0);
 
 /// n = 1.333: 2.04 % at normal incidence, all at grazing; at Brewster's angle, 53.1 degrees, one polarisation alone.
-TEST(Water, ReflectsAsFresnelSays) {
+TEST(Water, ReflectsAsFresnelSaysAndReturnsByReciprocity) {
     EXPECT_NEAR(photometry::water_reflectance(1.0), std::pow(0.333 / 2.333, 2), 1e-12);
     EXPECT_NEAR(photometry::water_reflectance(0.0), 1.0, 1e-12);
     const double n2 = 1.333 * 1.333, brewster = 1.0 / std::sqrt(1.0 + n2);
     EXPECT_NEAR(photometry::water_reflectance(brewster), 0.5 * std::pow((1.0 - n2) / (1.0 + n2), 2), 1e-12);
-}
-
-/// Twice the integral of F cosine gives 6.6 % for diffuse light from outside; from within, 1 - (1 - 0.066) / n^2 = 47.4 %.
-TEST(Water, HoldsBackFromWithinWhatReciprocitySays) {
+    /// Twice the integral of F cosine gives 6.6 % for diffuse light from outside; from within, 1 - (1 - 0.066) / n^2 = 47.4 %.
     double outside = 0.0;
     constexpr int n = 100'000;
     for (int i = 0; i < n; ++i) {
@@ -139,15 +136,12 @@ TEST(Water, HoldsBackFromWithinWhatReciprocitySays) {
 }
 
 /// A road gets darker when wet; seen and lit from above, asphalt of 0.08 has 0.045 left (0.08 * 0.98^2 / (1.777 (1 - 0.4745 * 0.08))).
-TEST(WetRoad, IsDarkerFromAbove) {
+TEST(WetRoad, IsDarkerFromAboveAndReturnsNoMoreThanItGets) {
     const double dry = 0.08 / pi * 100.0;
     const double wet = wet_light(glm::dvec3(0.08), up, at_elevation(60.0), at_elevation(60.0, 90.0), 100.0 / std::sin(radians(60.0))).x;
     EXPECT_LT(wet, 0.7 * dry);
     EXPECT_NEAR(photometry::wet_albedo(0.08, 1.0, 1.0), 0.0449, 0.0002);
-}
-
-/// No more light comes back than came, whatever the direction: diffuse and mirrored, over the hemisphere.
-TEST(WetRoad, ReturnsNoMoreThanItGets) {
+    /// No more light comes back than came, whatever the direction: diffuse and mirrored, over the hemisphere.
     for (const double elevation : {5.0, 30.0, 90.0}) {
         const glm::dvec3 to_light = at_elevation(elevation);
         const double got = std::sin(radians(elevation));

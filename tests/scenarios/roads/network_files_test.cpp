@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(OfEveryCurvature, NetworkClothoid,
                                          Clothoid{5.0, -5.0, 10.0},                 // wound both ways
                                          Clothoid{1e-6, 1e-3, 1e4}));
 
-TEST(NetworkPlan, ArcOfAnyCurvature) {
+TEST(NetworkPlan, ArcOfAnyCurvatureIsPlacedAndTurned) {
     for (const double curvature : {0.0, 1e-300, 1e-15, 1e-6, -1e-4, 0.001, 0.00999, 0.01001, -0.5, 3.0}) {
         const double length = 10.0;
         const PlanPoint point = plan_point(element_of(length, Arc{curvature}), length);
@@ -158,9 +158,6 @@ TEST(NetworkPlan, ArcOfAnyCurvature) {
         EXPECT_NEAR(point.y_m, static_cast<double>(y), 1e-13 * length) << curvature;
         EXPECT_DOUBLE_EQ(point.heading_rad, curvature * length);
     }
-}
-
-TEST(NetworkPlan, ElementIsPlacedAndTurned) {
     PlanElement element = element_of(20.0, Line{});
     element.x_m = 680'000.0, element.y_m = 5'400'000.0, element.heading_rad = radians(90.0);
     const PlanPoint point = plan_point(element, 5.0);

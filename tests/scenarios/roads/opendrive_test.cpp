@@ -218,14 +218,11 @@ TEST(OpenDriveBadInput, NotAFileAtAll) {
     EXPECT_THAT(refusal("<OpenDRIVE/>"), HasSubstr("holds no road"));
 }
 
-TEST(OpenDriveBadInput, TruncatedAnywhere) {
+TEST(OpenDriveBadInput, TruncatedRandomOrNestedTooDeeply) {
     const std::string whole = file(road({}));
     const std::size_t end = whole.find("</OpenDRIVE>");
     for (std::size_t length = 1; length < end; length += 7)
         EXPECT_NE(refusal(whole.substr(0, length)), "") << length;
-}
-
-TEST(OpenDriveBadInput, RandomBytes) {
     std::mt19937 generator(11);
     for (int i = 0; i < 50; ++i) {
         std::string bytes(200, ' ');
@@ -233,9 +230,6 @@ TEST(OpenDriveBadInput, RandomBytes) {
             c = static_cast<char>(generator() % 256);
         EXPECT_NE(refusal(bytes), "");
     }
-}
-
-TEST(OpenDriveBadInput, NestedTooDeeply) {
     std::string deep;
     for (int i = 0; i < 100'000; ++i)
         deep += "<a>";
@@ -244,15 +238,12 @@ TEST(OpenDriveBadInput, NestedTooDeeply) {
     EXPECT_THAT(refusal(file(deep)), HasSubstr("nested too deeply"));
 }
 
-TEST(OpenDriveBadInput, NumbersThatAreNone) {
+TEST(OpenDriveBadInput, NumbersLengthsAndCurvatures) {
     for (const std::string value : {"nan", "inf", "-inf", "1e999", "1e10", "-99999999999", "ten", "", "1,5", "1.5 m", "0x10", "--1"})
         EXPECT_THAT(plan_refusal("\n" + fmt::format(R"(<geometry s="0" x="{}" y="0" hdg="0" length="10"><line/></geometry>)", value)),
                     HasSubstr(fmt::format(":8: geometry@x: found '{}', expected a number", value)));
     EXPECT_EQ(plan_refusal(R"(<geometry s="0" x=" +1.5e0 " y="1e-400" hdg="-0" length="100"><line/></geometry>)"), "");
     EXPECT_THAT(plan_refusal(R"(<geometry s="0" y="0" hdg="0" length="10"><line/></geometry>)"), HasSubstr("geometry@x: is missing"));
-}
-
-TEST(OpenDriveBadInput, LengthsAndCurvatures) {
     EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, -10.0)), HasSubstr("geometry@length: found -10, expected a length, not below 0"));
     EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, 0.0)), HasSubstr("has no geometry with a length"));
     EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, 1e9)), HasSubstr("expected a road of at most 1000000 m"));
@@ -275,7 +266,7 @@ TEST(OpenDriveBadInput, AGeometryWithoutLengthAmongOthersIsTold) {
     EXPECT_THAT(network.warnings, testing::ElementsAre(HasSubstr("has no length and is left out")));
 }
 
-TEST(OpenDriveBadInput, Lanes) {
+TEST(OpenDriveBadInput, LanesAndRolls) {
     EXPECT_THAT(lane_refusal(section(0.0, "", lane(-1, "1e9"))), HasSubstr("expected at most 1000 m from the reference line"));
     EXPECT_THAT(lane_refusal(section(0.0, "", R"(<lane id="-1"><width sOffset="0" a="3" b="0" c="0" d="1"/></lane>)")),
                 HasSubstr("at most 1000 m"));
@@ -285,9 +276,6 @@ TEST(OpenDriveBadInput, Lanes) {
     EXPECT_THAT(lane_refusal(section(0.0, "", R"(<lane id="-1.5"/>)")), HasSubstr("expected a whole number"));
     EXPECT_THAT(lane_refusal(section(50.0, "", lane(-1)) + section(0.0, "", lane(-1))),
                 HasSubstr("expected lane sections in ascending order"));
-}
-
-TEST(OpenDriveBadInput, RoadsUpsideDown) {
     RoadText text;
     text.profiles = R"(<lateralProfile><superelevation s="0" a="0" b="0.05" c="0" d="0"/></lateralProfile>)";
     EXPECT_THAT(road_refusal(text), HasSubstr("road '1' rolls by 1.5 rad at s = 30, expected at most 1.4 rad"));

@@ -223,16 +223,12 @@ TEST(Route, TakesTheLeastTurnAtAJunction) {
     EXPECT_EQ(route.place(150.0).first, "2");
 }
 
-TEST(Route, ViaNamesTheRoadBehindOrWithinTheJunction) {
+TEST(Route, ViaNamesTheRoadBehindOrWithinTheJunctionAndMustExist) {
     const RoadNetwork network = network_with(fork());
     EXPECT_EQ(Route(network, {}, {"3"}).place(180.0).first, "3");
     EXPECT_EQ(Route(network, {}, {"11"}).place(180.0).first, "3");
     EXPECT_EQ(Route(network, {}, {"1", "10", "2"}).place(180.0).first, "2");
     EXPECT_THAT(refusal(network, {}, {"2", "3"}), HasSubstr("does not meet road '3'"));
-}
-
-TEST(Route, RefusesWhatDoesNotExist) {
-    const RoadNetwork network = network_with(fork());
     EXPECT_THAT(refusal(network, {"7", 0, 0.0}), HasSubstr("found no road '7', expected one of the roads 1, 11, 10, 2, 3"));
     EXPECT_THAT(refusal(network, {"1", -4, 0.0}), HasSubstr("found no lane -4 at s = 0 m of road '1', expected one of the lanes -1"));
     EXPECT_THAT(refusal(network, {"1", 0, 100.5}), HasSubstr("outside road '1'"));

@@ -35,7 +35,7 @@ struct LitStraight {
     }
 };
 
-TEST(StreetLamps, StandEveryThirtyMetresWithinWhatIsAskedFor) {
+TEST(StreetLamps, StandEveryThirtyMetresWithTheirAxisDown) {
     const LitStraight lit;
     ASSERT_EQ(lit.moment.other_lamps.size(), 10U); // 10, 40 .. 280 m of 10 .. 310, those within 200 m of 100
     const LitLamp& first = lit.moment.other_lamps[0];
@@ -43,10 +43,7 @@ TEST(StreetLamps, StandEveryThirtyMetresWithinWhatIsAskedFor) {
     const Pose lane = lit.route.pose(10.0, -4.0);
     EXPECT_NEAR(first.pose.position_m.z - lane.position_m.z, 8.0, 1e-9);
     EXPECT_NEAR(glm::dot(first.pose.position_m - lane.position_m, lane.left()), 1.0, 1e-9) << "an arm of 1 m towards the lane";
-}
-
-/// Down, C 0 (lamp space's right) along the road, C 90 (its up) towards the lane, from either side.
-TEST(StreetLamps, HangWithTheirAxisDown) {
+    /// Down, C 0 (lamp space's right) along the road, C 90 (its up) towards the lane, from either side.
     for (const double beside_m : {-4.0, 6.0}) {
         const LitStraight lit(beside_m);
         const Pose& pose = lit.moment.other_lamps[0].pose;

@@ -119,16 +119,10 @@ TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
     EXPECT_THAT(refusal(with("limits: [{reading: x}]\n")), HasSubstr("a limit without a number"));
     EXPECT_THAT(refusal("fernlicht_study: 2\n"), HasSubstr("version of the study file's schema"));
     EXPECT_THAT(refusal(with("lamps: {}\n")), HasSubstr("lamps"));
-}
-
-TEST_F(StudyFile, RefusesMoreCellsThanAnybodyWaitsFor) {
     std::string aims;
     for (int i = 0; i < 90; ++i)
         aims += (i ? ", " : "") + std::to_string(-0.01 * i);
     EXPECT_THAT(refusal(with("conditions: {aim_percent: [" + aims + "], voltage_v: [12, 13, 13.5]}\n")), HasSubstr("540 cells"));
-}
-
-TEST_F(StudyFile, HighBeamsComeWithTheLampOrNotAtAll) {
     std::string text = with("");
     text.replace(text.find("straight.yaml"), 13, "first-light.yaml");
     const Study study = read(text);

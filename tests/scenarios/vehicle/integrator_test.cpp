@@ -91,13 +91,10 @@ double after_steps(Solver solver, double z, int steps) {
     return std::abs(x[0]);
 }
 
-TEST(OdeIntegrator, DormandPrinceIsStableUpTo3Point306) {
+TEST(OdeIntegrator, DormandPrinceIsStableUpTo3Point306AndRosenbrockIsLStable) {
     // The largest z with |R(-z)| = 1 of R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 + z^5/120 + z^6/600.
     EXPECT_LT(after_steps(Solver::dormand_prince, 3.30, 1000), 1.0);
     EXPECT_GT(after_steps(Solver::dormand_prince, 3.31, 1000), 1.0);
-}
-
-TEST(OdeIntegrator, RosenbrockIsLStable) {
     // R(infinity) = 0: one step of any length leaves nothing, up to the rounding of 1 / (gamma h).
     for (const double z : {10.0, 1e3, 1e6, 1e9, 1e12})
         EXPECT_LT(after_steps(Solver::rosenbrock, z, 1), 10.0 / z) << z;
@@ -250,7 +247,7 @@ TEST(Actuator, StiffnessOverEightDecades) {
     }
 }
 
-TEST(Actuator, DeadTimeShiftsTheAnswer) {
+TEST(Actuator, DeadTimeAndRateLimitHold) {
     ActuatorParameters late = unlimited;
     late.dead_time_s = 0.0375;
     const ActuatorRun now = stepped(unlimited, 0.05, 1.0, {.tolerance = 1e-9}), then = stepped(late, 0.05, 1.0, {.tolerance = 1e-9});
@@ -258,9 +255,6 @@ TEST(Actuator, DeadTimeShiftsTheAnswer) {
         EXPECT_NEAR(then.angle_rad(t_s), now.angle_rad(t_s - 0.0375), 2e-8);
     EXPECT_EQ(then.angle_rad(0.0474), 0.0) << "not before the dead time is over";
     EXPECT_GT(then.angle_rad(0.0476), 0.0);
-}
-
-TEST(Actuator, TheRateLimitHoldsToTheLastBit) {
     ActuatorParameters slow = unlimited;
     slow.rate_limit_rad_s = 0.2;
     const ActuatorRun run = stepped(slow, 0.5, 4.0, {.tolerance = 1e-9});

@@ -58,17 +58,13 @@ double painted_width(const std::vector<Strip>& strips) {
     return width;
 }
 
-TEST(MeshCrossSection, BrokenLineIsThereInDashesOnly) {
+TEST(MeshCrossSection, BrokenLineIsThereInDashesWithStationsAtBothEnds) {
     const Road road = road_with(MarkKind::broken, MarkKind::none);
     const SectionProfile profile(road, road.sections[0]);
     EXPECT_NEAR(painted_width(profile.strips(2.0, 2.0)), 0.12, 1e-12); // 4 m dash, 8 m gap
     EXPECT_EQ(painted_width(profile.strips(6.0, 6.0)), 0.0);
     EXPECT_NEAR(painted_width(profile.strips(13.0, 13.0)), 0.12, 1e-12);
     EXPECT_EQ(profile.strips(6.0, 6.0).size(), 1U) << "lanes of one material are one strip";
-}
-
-TEST(MeshCrossSection, EveryDashBeginsAndEndsAtAStation) {
-    const Road road = road_with(MarkKind::broken, MarkKind::none);
     std::vector<double> stations;
     SectionProfile(road, road.sections[0]).append_stations(stations);
     for (const double expected : {0.0, 4.0, 12.0, 16.0, 96.0, 100.0})
@@ -160,20 +156,21 @@ const Material& named(const std::vector<Material>& all, const std::string& name)
     throw std::out_of_range(name);
 }
 
-TEST(MeshMaterials, RoadSurfacesHaveTheirRl) {
+TEST(MeshMaterials, RoadSurfacesHaveTheirRlAndBoardsTheirRa) {
     const std::vector<Material> all = road_materials();
     EXPECT_NEAR(total_rl_mcd(named(all, "asphalt")), 15.0, 0.01);
     EXPECT_NEAR(total_rl_mcd(named(all, "marking-white")), 150.0, 0.1);
     EXPECT_NEAR(total_rl_mcd(named(all, "marking-yellow")), 120.0, 0.1);
-}
-
-TEST(MeshMaterials, AsphaltsDiffusePartAloneIsTooDark) {
     Material diffuse = named(road_materials(), "asphalt");
     diffuse.retro_rl = 0.0F;
     EXPECT_NEAR(total_rl_mcd(diffuse), 0.551, 0.001); // 0.08 sin(1.24 deg) / pi
+    const Material board = named(road_materials(), "board");
+    EXPECT_EQ(board.kind, SurfaceKind::board);
+    EXPECT_FLOAT_EQ(board.retro_rl, 180.0F);
+    EXPECT_NEAR(static_cast<double>(board.retro_reference_rad), 0.33 * 3.14159265358979323846 / 180.0, 1e-7);
 }
 
-TEST(MeshMaterials, AllAreNamedAndPhysical) {
+TEST(MeshMaterials, AllAreNamedPhysicalAndChosenByLaneType) {
     for (const Material& material : road_materials()) {
         EXPECT_FALSE(material.name.empty());
         for (const float albedo : {material.albedo.r, material.albedo.g, material.albedo.b}) {
@@ -182,16 +179,6 @@ TEST(MeshMaterials, AllAreNamedAndPhysical) {
         }
         EXPECT_GE(material.retro_rl, 0.0F);
     }
-}
-
-TEST(MeshMaterials, BoardsReturnRa2AtTwentyMinutes) {
-    const Material board = named(road_materials(), "board");
-    EXPECT_EQ(board.kind, SurfaceKind::board);
-    EXPECT_FLOAT_EQ(board.retro_rl, 180.0F);
-    EXPECT_NEAR(static_cast<double>(board.retro_reference_rad), 0.33 * 3.14159265358979323846 / 180.0, 1e-7);
-}
-
-TEST(MeshMaterials, LaneTypes) {
     EXPECT_EQ(lane_material("driving"), RoadMaterial::asphalt);
     EXPECT_EQ(lane_material("shoulder"), RoadMaterial::asphalt);
     EXPECT_EQ(lane_material("sidewalk"), RoadMaterial::concrete);
@@ -330,7 +317,7 @@ RoadSignal signal(double t, bool facing_forward) {
     return {.id = "9", .s_m = 50.0, .t_m = t, .z_offset_m = 2.1, .width_m = 0.9, .height_m = 0.7, .facing_forward = facing_forward};
 }
 
-TEST(MeshSignals, BoardFacesTheTrafficItIsFor) {
+TEST(MeshSignals, BoardsFaceTheTrafficAndLightsDoNotReflect) {
     const Board forward = board_of(signal(-5.0, true));
     EXPECT_LT(forward.normal.x, -0.999) << "traffic in +s comes from the west";
     EXPECT_LT(forward.box.high.x, 50.0) << "before its post";
@@ -339,11 +326,7 @@ TEST(MeshSignals, BoardFacesTheTrafficItIsFor) {
     EXPECT_NEAR(forward.box.high.y - forward.box.low.y, 0.9, 1e-3);
     EXPECT_TRUE(forward.has_post);
     EXPECT_GT(board_of(signal(5.0, false)).normal.x, 0.999);
-}
-
-TEST(MeshSignals, NoPostStandsOnALane) { EXPECT_FALSE(board_of(signal(-1.5, true)).has_post); }
-
-TEST(MeshSignals, TrafficLightsDoNotReflect) {
+    EXPECT_FALSE(board_of(signal(-1.5, true)).has_post);
     RoadSignal light = signal(-5.0, true);
     light.dynamic = true;
     EXPECT_EQ(board_of(light).normal, glm::dvec3(0.0));

@@ -61,7 +61,7 @@ Scene textured_materials() {
     return scene;
 }
 
-TEST(TilingNoise, RepeatsAndIsContinuousAcrossItsBorder) {
+TEST(TilingNoise, RepeatsIsContinuousAndBounded) {
     const TilingNoise noise(5, 1);
     for (int i = 0; i < 64; ++i) {
         const double v = (i + 0.3) / 64.0;
@@ -72,10 +72,6 @@ TEST(TilingNoise, RepeatsAndIsContinuousAcrossItsBorder) {
             EXPECT_NEAR(noise.gradient(v, 0.0, cells), noise.gradient(v, 1.0 - 1e-9, cells), 1e-7);
         }
     }
-}
-
-TEST(TilingNoise, GradientNoiseIsZeroOnItsLatticeAndBounded) {
-    const TilingNoise noise(5, 1);
     double greatest = 0.0;
     for (int i = 0; i < 8; ++i)
         EXPECT_EQ(noise.gradient(i / 8.0, 0.375, 8), 0.0);
@@ -102,7 +98,7 @@ TEST(TilingNoise, UniformHasMeanAndVarianceOfItsLaw) {
     EXPECT_NE(noise.uniform(3, 4), TilingNoise(5, 2).uniform(3, 4));
 }
 
-TEST(SurfaceTextures, AllHaveOneSize) {
+TEST(SurfaceTextures, HaveOneSizeAndTheBytesOfTheirSeed) {
     const std::vector<SurfaceTexture> all = road_textures(1);
     std::set<std::string> names;
     for (const SurfaceTexture& texture : all) {
@@ -112,9 +108,6 @@ TEST(SurfaceTextures, AllHaveOneSize) {
         names.insert(texture.name);
     }
     EXPECT_EQ(names, (std::set<std::string>{"asphalt", "concrete", "grass", "paint-wear"}));
-}
-
-TEST(SurfaceTextures, OneSeedGivesTheSameBytesAndAnotherOthers) {
     const std::vector<SurfaceTexture> a = road_textures(7), b = road_textures(7), c = road_textures(8);
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].rgba, b[i].rgba) << a[i].name;
@@ -257,13 +250,10 @@ int axis_of(const glm::vec3& n) {
     return a.z >= std::max(a.x, a.y) ? 2 : a.x >= a.y ? 0 : 1;
 }
 
-TEST(TexturePosition, FromAboveByHand) {
+TEST(TexturePosition, FromAboveAndUprightByHand) {
     // 8 m a repetition: 100 m is 12 of them and 4 m, -3 m is -1 of them and 5 m.
     expect_uv(at({100.0, -3.0, 5.0}, {1.5F, 0.25F, 0.0F}, {0.0F, 0.0F, 1.0F}), 5.5F / 8.0F, 5.25F / 8.0F);
     expect_uv(at({0.0, 0.0, 0.0}, {-2.0F, 12.0F, 0.0F}, {0.1F, 0.2F, 0.97F}), -0.25F, 1.5F);
-}
-
-TEST(TexturePosition, UprightRunsToTheRightAndUp) {
     const glm::vec3 p(1.0F, 2.0F, 4.0F);
     expect_uv(at({}, p, {1.0F, 0.0F, 0.0F}), 0.25F, 0.5F);   // from the east, north is to the right
     expect_uv(at({}, p, {-1.0F, 0.0F, 0.0F}), -0.25F, 0.5F); // from the west, south
