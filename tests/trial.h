@@ -6,8 +6,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace fernlicht::tests {
 
@@ -33,6 +36,17 @@ template <class Error = InputError, class Action> std::string refusal_of(const A
         return error.what();
     }
     return otherwise;
+}
+
+/// Lines of a file: of {"seed", "3|-1"} "seed: 3" and "seed: -1"; of {"", "a|b"} "a" and "b".
+inline std::vector<std::string> each_of(std::initializer_list<std::pair<std::string, std::string>> keys) {
+    std::vector<std::string> lines;
+    for (const auto& [key, values] : keys)
+        for (std::size_t at = 0, end = 0; end != std::string::npos; at = end + 1) {
+            end = values.find('|', at);
+            lines.push_back((key.empty() ? "" : key + ": ") + values.substr(at, end - at));
+        }
+    return lines;
 }
 
 /// Notes of what was read, a line each.

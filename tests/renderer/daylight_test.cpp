@@ -19,13 +19,12 @@ constexpr Wanted drawn{.colour = true, .illuminance = true, .target = true, .lum
 Scene yard() {
     Scene scene = level_ground(300.0, lambert(0.2));
     scene.materials.push_back(lambert(0.5, SurfaceKind::object));
-    Mesh board{"board", {20.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(board, {0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3});
-    add_quad(board, {0.2F, -3, 0}, {0.2F, 3, 0}, {0.2F, 3, 3}, {0.2F, -3, 3});
     Mesh post{"post", {16.0, 1.0, 0.0}, {}, {}, {}};
     add_quad(post, {0, 0.2F, 0}, {0, -0.2F, 0}, {0, -0.2F, 2}, {0, 0.2F, 2});
     add_quad(post, {0.2F, -0.2F, 0}, {0.2F, 0.2F, 0}, {0.2F, 0.2F, 2}, {0.2F, -0.2F, 2});
-    scene.meshes.push_back(finished(board, 1));
+    scene.meshes.push_back(
+        quads("board", 1, {20.0, 0.0, 0.0},
+              {{{0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3}}, {{0.2F, -3, 0}, {0.2F, 3, 0}, {0.2F, 3, 3}, {0.2F, -3, 3}}}));
     scene.meshes.push_back(finished(post, 1));
     return scene;
 }

@@ -37,9 +37,7 @@ Moment in(const Weather& weather, double sky_lx = 0.0) {
 Scene road(double albedo) {
     Scene scene = level_ground(300.0, lambert(albedo));
     scene.materials.push_back(lambert(albedo, SurfaceKind::board));
-    Mesh board{"board", {30.0, 3.0, 0.0}, {}, {}, {}};
-    add_quad(board, {0, 2, 0}, {0, -2, 0}, {0, -2, 3}, {0, 2, 3});
-    scene.meshes.push_back(finished(board, 1));
+    scene.meshes.push_back(quads("board", 1, {30.0, 3.0, 0.0}, {{{0, 2, 0}, {0, -2, 0}, {0, -2, 3}, {0, 2, 3}}}));
     return scene;
 }
 

@@ -6,6 +6,7 @@
 #include "metrics/readings/readings_list.h"
 #include "metrics/readings/significance.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -157,44 +158,15 @@ TEST(ReadingKey, RandomKeysComeBack) {
 }
 
 TEST(ReadingKey, WhatIsNoNameIsRefusedAndWhatNoReadingHasNotNamed) {
-    for (const char* name : {"",
-                             "reach",
-                             "reach_5lx_rod_own_m",
-                             "reach_road_own_m",
-                             "reach_5lx_road_own",
-                             "reach_5lx_road_own_max_m",
-                             "reach_5lx_road_own_m2",
-                             "reach_5.0lx_road_own_m",
-                             "reach_+5lx_road_own_m",
-                             "reach_-5lx_road_own_m",
-                             "reach_infl_road_own_m",
-                             "reach_1e999lx_road_own_m",
-                             "reach_5lx_road_left_m",
-                             "reach_5lx_road_left_01_m",
-                             "reach_5lx_road_left 1_m",
-                             "Reach_5lx_road_own_m",
-                             " reach_5lx_road_own_m",
-                             "reach_5lx_road_own_m ",
-                             "width_5lx_road_own_m",
-                             "area_5lx_road_own_m",
-                             "probe__lx",
-                             "probe_lx",
-                             "probe_a b_lx",
-                             "sensor_a_lx",
-                             "glare__facing_max_lx",
-                             "glare_a_facing_lx",
-                             "glare_a_time_above_5_de_boer_s",
-                             "detection_card_m",
-                             "detection_card_own_max_m",
-                             "visibility_level_card_own_at_50m_1",
-                             "control_class_x_share",
-                             "frame_time_ms",
-                             "_time_median_ms",
-                             "board_top_at_5m_lx",
-                             "reach_5lx_road_own_grid_error_standard_error_m",
-                             "reach_5lx_road_own_standard_error_lx",
-                             "foreground_ratio_own_standard_error_",
-                             "_standard_error_m"})
+    for (const std::string& name : tests::each_of(
+             {{"", "|reach|reach_5lx_rod_own_m|reach_road_own_m|reach_5lx_road_own|reach_5lx_road_own_max_m|reach_5lx_road_own_m2|"
+                   "reach_5.0lx_road_own_m|reach_+5lx_road_own_m|reach_-5lx_road_own_m|reach_infl_road_own_m|reach_1e999lx_road_own_m|"
+                   "reach_5lx_road_left_m|reach_5lx_road_left_01_m|reach_5lx_road_left 1_m|Reach_5lx_road_own_m| reach_5lx_road_own_m|"
+                   "reach_5lx_road_own_m |width_5lx_road_own_m|area_5lx_road_own_m|probe__lx|probe_lx|probe_a b_lx|sensor_a_lx|"
+                   "glare__facing_max_lx|glare_a_facing_lx|glare_a_time_above_5_de_boer_s|detection_card_m|detection_card_own_max_m|"
+                   "visibility_level_card_own_at_50m_1|control_class_x_share|frame_time_ms|_time_median_ms|board_top_at_5m_lx|"
+                   "reach_5lx_road_own_grid_error_standard_error_m|reach_5lx_road_own_standard_error_lx|"
+                   "foreground_ratio_own_standard_error_|_standard_error_m"}}))
         EXPECT_FALSE(key_of(name)) << name;
     EXPECT_THROW(name_of(ReadingKey{}), std::logic_error);
     ReadingKey reach = key("reach_5lx_road_own_m");

@@ -21,9 +21,8 @@ constexpr double stored = 6e-8;
 ReferenceSettings centre_rays() { return {.footprint = Footprint::centre}; }
 
 TEST(ReferenceDirect, LightsAWallAt25MetresAsTheInverseSquareAndTheCubeOfTheCosineSay) {
-    Mesh wall{"wall", {25.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(wall, {0, 20, -20}, {0, -20, -20}, {0, -20, 20}, {0, 20, 20});
-    Scene scene{.materials = {lambert(0.5, SurfaceKind::object)}, .meshes = {finished(wall, 0)}};
+    Scene scene{.materials = {lambert(0.5, SurfaceKind::object)},
+                .meshes = {quads("wall", 0, {25.0, 0.0, 0.0}, {{{0, 20, -20}, {0, -20, -20}, {0, -20, 20}, {0, 20, 20}}})}};
     Moment moment{.lamps = {even_lamp(10000.0, looking({0, 0, 0}, 0, 0))}};
     const View view = camera({0, 0, 0}, 0, 0, 60, 33); // an odd number: one pixel on the axis
     const ReferenceImage image = Reference(scene).render(moment, view, everything, centre_rays());
@@ -298,8 +297,7 @@ TEST(Whitted, AMirrorShowsTheWall) {
 /// Two plates of glass, 4 m x 4 m, at x = 1 and x = 1.2, one body; a shining wall at x = 3.
 Scene slab_before_shining_wall(float glass_index) {
     Scene scene;
-    Material shining = lambert(0.0, SurfaceKind::object);
-    shining.emission_cdm2 = glm::vec3(100.0F);
+    Material shining = lambert(0.0, SurfaceKind::object, 100.0);
     scene.materials = {smooth(0.0F, glass_index), shining};
     Mesh slab{"slab", {}, {}, {}, {}}, wall{"wall", {3.0, 0.0, 0.0}, {}, {}, {}};
     add_quad(slab, {1.0, 2, -2}, {1.0, -2, -2}, {1.0, -2, 2}, {1.0, 2, 2});
@@ -331,8 +329,7 @@ TEST(Whitted, ASlabOfGlassLetsThroughWhatStokesSays) {
 
 TEST(Whitted, GlassInAnEvenRoomCannotBeSeen) {
     // Wherever light goes in a black room whose walls shine evenly, it comes from a wall: mirror and refraction keep energy.
-    Material wall = lambert(0.0, SurfaceKind::object);
-    wall.emission_cdm2 = glm::vec3(3.0F);
+    Material wall = lambert(0.0, SurfaceKind::object, 3.0);
     Scene scene = closed_room(wall);
     scene.materials.push_back(smooth(0.0F, 1.5F));
     Mesh prism{"prism", {}, {}, {}, {}};

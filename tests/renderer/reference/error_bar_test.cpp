@@ -91,22 +91,12 @@ TEST(ReferenceErrorBars, HoldAcrossAShadowsEdge) {
 }
 
 TEST(ReferenceErrorBars, HoldWhereLightBounces) {
-    Scene scene = level_ground(0.5, lambert(0.0));
-    Material shining = lambert(0.0, SurfaceKind::object);
-    shining.emission_cdm2 = glm::vec3(100.0F);
-    scene.materials.push_back(shining);
-    Mesh plate{"plate", {0.0, 0.0, 1.0}, {}, {}, {}};
-    add_quad(plate, {-0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, -0.5, 0});
-    scene.meshes.push_back(finished(plate, 1));
-    const double f12 =
-        2.0 / pi * (0.5 * std::log(4.0 / 3.0) + 2.0 * std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0)) - 2.0 * std::atan(1.0));
     ReferenceSettings settings{.integrator = Integrator::path, .target_error = 0.02};
-    expect_right_width(scores(scene, {}, map_about({0, 0}, 0.5, 1), settings, pi * 100.0 * f12));
+    expect_right_width(scores(plates(0.0, 0.0, 100.0), {}, map_about({0, 0}, 0.5, 1), settings, pi * 100.0 * plates_factor));
 }
 
 TEST(ReferenceErrorBars, HoldInARoomWhereLightGoesOnAndOn) {
-    Material wall = lambert(0.6);
-    wall.emission_cdm2 = glm::vec3(1.0F);
+    Material wall = lambert(0.6, SurfaceKind::road, 1.0);
     ReferenceSettings settings{.integrator = Integrator::path, .target_error = 0.02};
     expect_right_width(
         scores(closed_room(wall), {}, camera({0.2, 0.1, -0.3}, 20, 10, 60, 1), settings, pi / (1.0 - static_cast<double>(wall.albedo.x))));

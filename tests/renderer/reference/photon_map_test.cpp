@@ -76,9 +76,7 @@ TEST(PhotonMap, AWallAt25mHasItsIlluminance) {
     file->table.cd.assign(6, 10'000.0);
     lamp.file = file;
     Scene scene{.materials = {lambert(0.5, SurfaceKind::object)}};
-    Mesh wall{"wall", {25.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(wall, {0, 4, -4}, {0, -4, -4}, {0, -4, 4}, {0, 4, 4});
-    scene.meshes = {finished(wall, 0)};
+    scene.meshes = {quads("wall", 0, {25.0, 0.0, 0.0}, {{{0, 4, -4}, {0, -4, -4}, {0, -4, 4}, {0, 4, 4}}})};
     const Solved solved(scene, with(lamp), photons(1 << 18, 0.3, false));
     for (const double angle_deg : {0.0, 4.0}) {
         const double c = std::cos(radians(angle_deg)), truth = 16.0 * c * c * c;
@@ -90,8 +88,7 @@ TEST(PhotonMap, AWallAt25mHasItsIlluminance) {
 }
 
 TEST(PhotonMap, KeepsEnergyInAWhiteClosedRoom) {
-    Material wall = lambert(0.6);
-    wall.emission_cdm2 = glm::vec3(3.0F);
+    Material wall = lambert(0.6, SurfaceKind::road, 3.0);
     const Scene scene = closed_room(wall);
     const double truth = 3.0 / (1.0 - static_cast<double>(wall.albedo.x));
     const View view = camera({0, 0, 0}, 0, 0, 20, 2); // the middle of a wall, more than a radius away from its ends
@@ -245,8 +242,7 @@ TEST(Patches, CoverTheirTrianglesAndFindTheirOwnPlaces) {
 TEST(Radiosity, IsExactInAClosedRoomOfOneMaterial) {
     // Rows of form factors add up to 1 in a closed room whatever the rays: L = Le / (1 - rho) without noise.
     for (const double albedo : {0.0, 0.5, 0.9}) {
-        Material wall = lambert(albedo);
-        wall.emission_cdm2 = glm::vec3(3.0F);
+        Material wall = lambert(albedo, SurfaceKind::road, 3.0);
         const Scene scene = closed_room(wall);
         const double truth = 3.0 / (1.0 - static_cast<double>(wall.albedo.x));
         for (const bool gather : {false, true}) {
@@ -266,26 +262,14 @@ TEST(Radiosity, IsExactInAClosedRoomOfOneMaterial) {
     }
 }
 
-/// A ground of 1 m x 1 m and a plate of the same size 1 m above that faces it.
-Scene plates(double ground_albedo, double plate_albedo, double plate_cdm2) {
-    Scene scene = level_ground(0.5, lambert(ground_albedo));
-    Material shining = lambert(plate_albedo, SurfaceKind::object);
-    shining.emission_cdm2 = glm::vec3(static_cast<float>(plate_cdm2));
-    scene.materials.push_back(shining);
-    Mesh plate{"plate", {0.0, 0.0, 1.0}, {}, {}, {}};
-    add_quad(plate, {-0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, -0.5, 0});
-    scene.meshes.push_back(finished(plate, 1));
-    return scene;
-}
-
 TEST(Radiosity, PlatesExchangeTheViewFactor) {
-    // F12 = 0.19982 (Howell's catalogue, C-11, X = Y = 1). With each plate one patch (two triangles whose factors are nearly the same)
+    // With each plate one patch (two triangles whose factors are nearly the same)
     // the two equations E1 = F (pi L + rho2 E2), E2 = F rho1 E1 have a solution by hand; patches of 0.25 m differ from it by 0.3 %.
-    const double f12 = 0.19982;
+    const double f12 = plates_factor;
     ReferenceSettings settings = radiosity(0.25, 4096, false);
     settings.least_samples = 4096; // light differs from patch to patch within the one pixel
     const ReferenceImage black = Reference(plates(0.0, 0.0, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, settings);
-    expect_radiosity(black.illuminance_lx, pi * 100.0 * f12, 1e-4); // the factor has five digits
+    expect_radiosity(black.illuminance_lx, pi * 100.0 * f12, 1e-4);
     EXPECT_LT(black.illuminance_lx.standard_error.at(0, 0), 0.01 * pi * 100.0 * f12);
     const ReferenceImage gathered =
         Reference(plates(0.0, 0.0, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, radiosity(0.25, 256, true));
@@ -328,11 +312,7 @@ TEST(Radiosity, MeetsPathsInARoomWithALampAndALedge) {
 
 TEST(Radiosity, TheSkyIsThatWhichThingsLetThrough) {
     // A plate 2 m above hides its share; on the plate's own lower side nothing shines and the ground is black.
-    Scene scene = level_ground(1.0, lambert(0.0));
-    scene.materials.push_back(lambert(0.0, SurfaceKind::object));
-    Mesh plate{"plate", {0.0, 0.0, 2.0}, {}, {}, {}};
-    add_quad(plate, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0});
-    scene.meshes.push_back(finished(plate, 1));
+    const Scene scene = hidden_sky(1.0);
     Moment moment;
     moment.daylight.horizontal_illuminance_lx = 40.0;
     const double x = 0.5, r = std::sqrt(1.0 + x * x), hidden = 4.0 * 2.0 * (x / r * std::atan(x / r)) / (2.0 * pi); // Howell B-3

@@ -27,6 +27,25 @@ inline Mesh finished(Mesh mesh, std::uint32_t material) {
     return mesh;
 }
 
+struct Quad {
+    glm::dvec3 a, b, c, d; ///< counter-clockwise as seen from its lit side
+};
+
+/// A mesh of one material.
+inline Mesh quads(const char* name, std::uint32_t material, const glm::dvec3& origin_m, std::initializer_list<Quad> all) {
+    Mesh mesh{name, origin_m, {}, {}, {}};
+    for (const auto& [a, b, c, d] : all)
+        add_quad(mesh, a, b, c, d);
+    return finished(std::move(mesh), material);
+}
+
+inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road, double emission_cdm2 = 0.0) {
+    return {.name = "lambert",
+            .kind = kind,
+            .albedo = glm::vec3(static_cast<float>(albedo)),
+            .emission_cdm2 = glm::vec3(static_cast<float>(emission_cdm2))};
+}
+
 /// The same candela in every direction of the forward half-space.
 inline LitLamp even_lamp(double cd, const Pose& pose) {
     auto file = std::make_shared<LampFile>();
@@ -61,25 +80,39 @@ inline View map_about(glm::dvec2 centre_m, double half_m, int px) {
 
 /// A closed cube of 2 m about (0, 0, 0), seen from within, of one material.
 inline Scene closed_room(const Material& material) {
-    Mesh room{"room", {}, {}, {}, {}};
-    add_quad(room, {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1});
-    add_quad(room, {-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1});
-    add_quad(room, {-1, -1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1});
-    add_quad(room, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});
-    add_quad(room, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1});
-    add_quad(room, {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1});
-    return Scene{.materials = {material}, .meshes = {finished(room, 0)}};
+    return {.materials = {material},
+            .meshes = {quads("room", 0, {},
+                             {{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}},
+                              {{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}},
+                              {{-1, -1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1}},
+                              {{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}},
+                              {{-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1}},
+                              {{1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}}})}};
 }
 
 /// A level square of ground about (0, 0, 0), `half_m` to each side.
 inline Scene level_ground(double half_m, const Material& material) {
-    Mesh ground{"ground", {}, {}, {}, {}};
-    add_quad(ground, {-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0});
-    return Scene{.materials = {material}, .meshes = {finished(ground, 0)}};
+    return {.materials = {material},
+            .meshes = {quads("ground", 0, {}, {{{-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0}}})}};
 }
 
-inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road) {
-    return {.name = "lambert", .kind = kind, .albedo = glm::vec3(static_cast<float>(albedo))};
+/// A ground of 1 m x 1 m and a plate of the same size 1 m above that faces it.
+inline Scene plates(double ground_albedo, double plate_albedo, double plate_cdm2) {
+    Scene scene = level_ground(0.5, lambert(ground_albedo));
+    scene.materials.push_back(lambert(plate_albedo, SurfaceKind::object, plate_cdm2));
+    scene.meshes.push_back(quads("plate", 1, {0.0, 0.0, 1.0}, {{{-0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, -0.5, 0}}}));
+    return scene;
+}
+/// How much of it they see of each other (Howell's catalogue, C-11, X = Y = 1).
+inline const double plates_factor =
+    2.0 / pi * (0.5 * std::log(4.0 / 3.0) + 2.0 * std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0)) - 2.0 * std::atan(1.0));
+
+/// Black ground under a plate of 2 m x 2 m, 2 m above.
+inline Scene hidden_sky(double half_m) {
+    Scene scene = level_ground(half_m, lambert(0.0));
+    scene.materials.push_back(lambert(0.0, SurfaceKind::object));
+    scene.meshes.push_back(quads("plate", 1, {0.0, 0.0, 2.0}, {{{-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}}}));
+    return scene;
 }
 
 /// Solid angle of a polygon seen from a point, sr: a fan of triangles by van Oosterom and Strackee 1983. Even light of I candela that falls

@@ -27,8 +27,7 @@ void expect_in_weather(const Estimate& estimate, double truth, int x = 0, int y 
 
 TEST(ReferenceFog, WhiteFogChangesNothingInAnEvenRoom) {
     // Where light is the same from all sides, what fog takes it gives back: L = Le / (1 - rho) whatever the fog.
-    Material wall = lambert(0.5);
-    wall.emission_cdm2 = glm::vec3(3.0F);
+    Material wall = lambert(0.5, SurfaceKind::road, 3.0);
     const Scene scene = closed_room(wall);
     for (const double asymmetry : {0.0, 0.85}) {
         const ReferenceImage image =
@@ -104,15 +103,14 @@ TEST(ReferenceFog, SingleScatteringByPathsIsThatOfDirectLight) {
 }
 
 TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
-    Material shining = lambert(0.0);
-    shining.emission_cdm2 = glm::vec3(50.0F);
+    Material shining = lambert(0.0, SurfaceKind::road, 50.0);
     Material mirror = lambert(0.0);
     mirror.mirror = 0.8F;
     Scene scene{.materials = {shining, mirror}};
-    Mesh wall{"wall", {}, {}, {}, {}}, glass{"mirror", {}, {}, {}, {}};
-    add_quad(wall, {-12, -30, -30}, {-12, 30, -30}, {-12, 30, 30}, {-12, -30, 30}); // faces +x, behind the eye
-    add_quad(glass, {8, 30, -30}, {8, -30, -30}, {8, -30, 30}, {8, 30, 30});        // faces -x
-    scene.meshes = {finished(wall, 0), finished(glass, 1)};
+    // faces +x, behind the eye
+    // faces -x
+    scene.meshes = {quads("wall", 0, {}, {{{-12, -30, -30}, {-12, 30, -30}, {-12, 30, 30}, {-12, -30, 30}}}),
+                    quads("mirror", 1, {}, {{{8, 30, -30}, {8, -30, -30}, {8, -30, 30}, {8, 30, 30}}})};
     const Moment moment = in_fog(0.05, 0.0); // takes and scatters nothing
     for (const Integrator integrator : {Integrator::whitted, Integrator::path}) {
         ReferenceSettings settings = by(integrator, 0.001);
@@ -202,8 +200,7 @@ TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
 
 TEST(ReferenceWet, AWetRoomMakesNoEnergy) {
     // Below the sum of the two: light sent on by film and ground is at most all of it.
-    Material wall = lambert(0.8);
-    wall.emission_cdm2 = glm::vec3(1.0F);
+    Material wall = lambert(0.8, SurfaceKind::road, 1.0);
     const Scene scene = closed_room(wall);
     Moment moment;
     moment.weather.wetness = 1.0;

@@ -217,68 +217,37 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
     for (const char* bad : {"0", "-1", "nan", ".inf", "1e7", "'3'", "three", "3 s", "[3]", "~"})
         EXPECT_THAT(with_duration(fmt::format("duration_s: {}\n", bad)), StartsWith("drive.yaml:5:13: duration_s: found")) << bad;
     EXPECT_THAT(with_duration("duration_s: 100\nstep_s: 1e-6\n"), HasSubstr("100000000 steps"));
-    for (const char* bad : {"step_s: 0",
-                            "step_s: -0.1",
-                            "rate_hz: 0",
-                            "speed_mps: 3",
-                            "step_s: 1\nrate_hz: 1",
-                            "views: {v: {vertical_fov_deg: 180}}",
-                            "views: {v: {vertical_fov_deg: 0}}",
-                            "views: {v: {resolution_px: [0, 10]}}",
-                            "views: {v: {resolution_px: [16385, 10]}}",
-                            "views: {v: {resolution_px: [10.5, 10]}}",
-                            "views: {v: {resolution_px: [10]}}",
-                            "views: {v: {position_m: [0, 0, nan]}}",
-                            "views: {v: {map: {}, yaw_deg: 3}}",
-                            "views: {v: {map: {ahead_m: 5, behind_m: -5}}}",
-                            "views: {}",
-                            "views: []",
-                            "daylight: dawn",
-                            "daylight: {horizontal_illuminance_lx: -1}",
-                            "daylight: {date: 2026-02-29, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}",
-                            "daylight: {date: 2026-02-28, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0, sun: {}}",
-                            "daylight: {date: 2026-02-28, time: -1:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}",
-                            "daylight: {horizontal_illuminance_lx: 1, sun: {azimuth_deg: 1, elevation_deg: 1, illuminance_lx: 1}, "
-                            "moon: {azimuth_deg: 1, elevation_deg: 1, illuminance_lx: 1}}",
-                            "daylight: {horizontal_illuminance_lx: 1, sun: {azimuth_deg: 1, elevation_deg: -5, illuminance_lx: 1}}",
-                            "traffic: {others: {entities: all}}",
-                            "weather: {fog: {visibility_m: 100}, extinction_per_m: 1}",
-                            "weather: {extinction_per_m: 11}",
-                            "weather: {mist: true}",
-                            "seed: -1",
-                            "seed: 18446744073709551616",
-                            "shadows: yes",
-                            "beams: 8",
-                            "textures: true",
-                            "textures: mine.png",
-                            "tone_mapper: {s: 0.5}",
-                            "tone_mapper: {l_max_cdm2: 0}",
-                            "tone_mapper: {l_max_cdm2: 1.0e-42}",
-                            "tone_mapper: {kind: linear, s: 3}",
-                            "tone_mapper: {kind: histogram, s: 20}",
-                            "tone_mapper: {kind: logarithmic, s: fitted}",
-                            "tone_mapper: {curve: [[0, -1], [1, 0]]}",
-                            "tone_mapper: {kind: histogram, l_max_cdm2: 100, curve: [[-4.6, -5.3], [0, -1.6], [3.0, 0]]}",
-                            "tone_mapper: {kind: histogram, l_max_cdm2: all, curve: [[-4.6, -5.3], [3.0, 0]]}",
-                            "tone_mapper: {kind: histogram, curve: [[-4.6, -5.3], [30.0, 0]]}",
-                            "tone_mapper: {kind: histogram, l_max_cdm2: 19.95, curve: [[2.995, -1.6], [3.0, 0]]}",
-                            "tone_mapper: square",
-                            "tone_mapper: [linear]",
-                            "capture: {per_second: -1}",
-                            "measure: {extent: {limits_lx: []}}",
-                            "measure: {extent: {limits_lx: [0]}}",
-                            "measure: {extent: {cell_m: 0.02, ahead_m: 2000, beside_m: 200}}",
-                            "limits: [{reading: x}]",
-                            "limits: [{reading: x, at_least: 2, at_most: 1}]",
-                            "changes: [{at_s: -1, level: 1}]",
-                            "changes: [{at_s: 1}]",
-                            "changes: [{at_s: 1, level: 1.5}]",
-                            "changes: [{at_s: 1, level: 1, between_samples: log_cd}]",
-                            "name: ../up",
-                            "route: {s_m: -1}",
-                            "route: {lane: 1.5}",
-                            "technique: ''",
-                            "car: {lamps: {left: low.ies}}"})
+    for (const std::string& bad : tests::each_of(
+             {{"step_s", "0|-0.1"},
+              {"", "rate_hz: 0|speed_mps: 3|step_s: 1\nrate_hz: 1"},
+              {"views", "{v: {vertical_fov_deg: 180}}|{v: {vertical_fov_deg: 0}}|{v: {resolution_px: [0, 10]}}|"
+                        "{v: {resolution_px: [16385, 10]}}|{v: {resolution_px: [10.5, 10]}}|{v: {resolution_px: [10]}}|"
+                        "{v: {position_m: [0, 0, nan]}}|{v: {map: {}, yaw_deg: 3}}|{v: {map: {ahead_m: 5, behind_m: -5}}}|{}|[]"},
+              {"daylight", "dawn|{horizontal_illuminance_lx: -1}|"
+                           "{date: 2026-02-29, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}|"
+                           "{date: 2026-02-28, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0, sun: {}}|"
+                           "{date: 2026-02-28, time: -1:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}|"
+                           "{horizontal_illuminance_lx: 1, sun: {azimuth_deg: 1, elevation_deg: 1, illuminance_lx: 1}, moon: {azimuth_deg: "
+                           "1, elevation_deg: 1, illuminance_lx: 1}}|"
+                           "{horizontal_illuminance_lx: 1, sun: {azimuth_deg: 1, elevation_deg: -5, illuminance_lx: 1}}"},
+              {"", "traffic: {others: {entities: all}}"},
+              {"weather", "{fog: {visibility_m: 100}, extinction_per_m: 1}|{extinction_per_m: 11}|{mist: true}"},
+              {"seed", "-1|18446744073709551616"},
+              {"", "shadows: yes|beams: 8"},
+              {"textures", "true|mine.png"},
+              {"tone_mapper", "{s: 0.5}|{l_max_cdm2: 0}|{l_max_cdm2: 1.0e-42}|{kind: linear, s: 3}|{kind: histogram, s: 20}|"
+                              "{kind: logarithmic, s: fitted}|{curve: [[0, -1], [1, 0]]}|"
+                              "{kind: histogram, l_max_cdm2: 100, curve: [[-4.6, -5.3], [0, -1.6], [3.0, 0]]}|"
+                              "{kind: histogram, l_max_cdm2: all, curve: [[-4.6, -5.3], [3.0, 0]]}|"
+                              "{kind: histogram, curve: [[-4.6, -5.3], [30.0, 0]]}|"
+                              "{kind: histogram, l_max_cdm2: 19.95, curve: [[2.995, -1.6], [3.0, 0]]}|square|[linear]"},
+              {"", "capture: {per_second: -1}"},
+              {"measure", "{extent: {limits_lx: []}}|{extent: {limits_lx: [0]}}|{extent: {cell_m: 0.02, ahead_m: 2000, beside_m: 200}}"},
+              {"limits", "[{reading: x}]|[{reading: x, at_least: 2, at_most: 1}]"},
+              {"changes", "[{at_s: -1, level: 1}]|[{at_s: 1}]|[{at_s: 1, level: 1.5}]|[{at_s: 1, level: 1, between_samples: log_cd}]"},
+              {"", "name: ../up"},
+              {"route", "{s_m: -1}|{lane: 1.5}"},
+              {"", "technique: ''|car: {lamps: {left: low.ies}}"}}))
         EXPECT_NE(refusal(minimal + bad + "\n"), "not refused") << bad;
 }
 
