@@ -148,14 +148,11 @@ TEST(Flip, SummaryByHand) {
     map.pixels() = {0.4F, 0.1F, 0.3F, 0.2F};
     const FlipSummary s = summary_of_flip(map);
     EXPECT_NEAR(s.mean, 0.25, 1e-8);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.minimum), 0.1F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.maximum), 0.4F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.first_quartile), 0.1F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.median), 0.2F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.third_quartile), 0.3F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.weighted_first_quartile), 0.2F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.weighted_median), 0.3F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.weighted_third_quartile), 0.4F);
+    for (const auto& [found, expected] :
+         {std::pair(s.minimum, 0.1F), std::pair(s.maximum, 0.4F), std::pair(s.first_quartile, 0.1F), std::pair(s.median, 0.2F),
+          std::pair(s.third_quartile, 0.3F), std::pair(s.weighted_first_quartile, 0.2F), std::pair(s.weighted_median, 0.3F),
+          std::pair(s.weighted_third_quartile, 0.4F)})
+        EXPECT_FLOAT_EQ(static_cast<float>(found), expected);
 }
 
 Image<glm::vec3> grey_scene(int width, int height, const std::vector<float>& values) {
@@ -207,8 +204,7 @@ TEST(FlipHdr, ExtremesAreBoundedAndComparedAndTheSameIsZero) {
         EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
     // All but dark: exposures of more than 2^127 are no floats.
     const auto faint = grey_scene(4, 4, {0.0F, 1e-40F, 1e-39F}), none = grey_scene(4, 4, {0.0F});
-    const auto map = flip_hdr(none, faint, exposures_for(faint));
-    for (const float e : map.pixels())
+    for (const auto map = flip_hdr(none, faint, exposures_for(faint)); const float e : map.pixels())
         EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
     const auto picture = grey_scene(30, 20, {0.0F, 0.01F, 3.0F, 200.0F, 1e4F});
     for (const auto map = flip_hdr(picture, picture, exposures_for(picture)); const float e : map.pixels())
@@ -266,11 +262,12 @@ TEST(FlipHdr, WrongInputIsRefused) {
     EXPECT_THROW(flip_hdr(grey_scene(2, 3, {1.0F}), light, exposures_for(light)), std::invalid_argument);
 }
 
-TEST(DisplayDifference, TheSameHasNone) {
+TEST(DisplayDifference, OfTheSameAndOfBlackAndWhite) {
     const Image<Rgb8> picture(3, 2, {1, 2, 3});
-    const DisplayDifference found = compare_displays(picture, picture);
-    EXPECT_EQ(std::tuple(found.maximum, found.rmse, found.percent_different, found.psnr_db),
+    const DisplayDifference same = compare_displays(picture, picture), whole = compare_displays({2, 2, {255, 255, 255}}, {2, 2, {0, 0, 0}});
+    EXPECT_EQ(std::tuple(same.maximum, same.rmse, same.percent_different, same.psnr_db),
               std::tuple(0, 0.0, 0.0, std::numeric_limits<double>::infinity()));
+    EXPECT_EQ(std::tuple(whole.maximum, whole.rmse, whole.psnr_db), std::tuple(255, 255.0, 0.0));
 }
 
 // Of four pixels one differs by -3 and 4 in two channels: 25 over 12 values, rmse 1.4434, 20 log10(255 / 1.4434) = 44.943 dB.
@@ -285,13 +282,6 @@ TEST(DisplayDifference, ByHand) {
     EXPECT_DOUBLE_EQ(found.mean_signed[0], -0.75);
     EXPECT_DOUBLE_EQ(found.mean_signed[1], 1.0);
     EXPECT_DOUBLE_EQ(found.mean_signed[2], 0.0);
-}
-
-TEST(DisplayDifference, BlackAndWhiteIsTheWholeRange) {
-    const DisplayDifference found = compare_displays({2, 2, {255, 255, 255}}, {2, 2, {0, 0, 0}});
-    EXPECT_EQ(found.maximum, 255);
-    EXPECT_DOUBLE_EQ(found.rmse, 255.0);
-    EXPECT_DOUBLE_EQ(found.psnr_db, 0.0);
 }
 
 TEST(DisplayDifference, LumaChannelsAndWrongInput) {

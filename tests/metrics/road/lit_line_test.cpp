@@ -31,51 +31,30 @@ TEST(Crossing, IsStraightInTheLogarithmAndFallsBackWhereItIsDark) {
     EXPECT_DOUBLE_EQ(between_samples(10.0, 0.0, 0.25), 7.5);
 }
 
-TEST(LitLine, NothingLit) {
-    const LitLine line = lit_line({{0.0, 0.5}, {1.0, 0.9}, {2.0, 0.0}}, 1.0);
-    EXPECT_FALSE(line.lit);
-    EXPECT_EQ(std::tuple(line.last_m, line.lit_m, line.unlit_before_last_m), std::tuple(0.0, 0.0, 0.0));
-    EXPECT_FALSE(line.lit_at_end);
-}
-
-// Dark to 1.5, lit to 3.5, dark to 5.5, lit to 6.5: crossings half way, 100 : 1 about 10.
-TEST(LitLine, GapsBeforeTheReachAreAddedUp) {
-    const LitLine line =
-        lit_line({{0.0, 1.0}, {1.0, 1.0}, {2.0, 100.0}, {3.0, 100.0}, {4.0, 1.0}, {5.0, 1.0}, {6.0, 100.0}, {7.0, 1.0}, {8.0, 1.0}}, 10.0);
-    EXPECT_TRUE(line.lit);
-    EXPECT_DOUBLE_EQ(line.first_m, 1.5);
-    EXPECT_DOUBLE_EQ(line.last_m, 6.5);
-    EXPECT_DOUBLE_EQ(line.lit_m, 3.0);
-    EXPECT_DOUBLE_EQ(line.unlit_before_last_m, 3.5);
-    EXPECT_FALSE(line.lit_at_end);
-}
-
-TEST(LitLine, ExactlyTheLimitIsLit) {
-    const LitLine line = lit_line({{0.0, 5.0}, {1.0, 5.0}, {2.0, 1.0}}, 5.0);
-    EXPECT_DOUBLE_EQ(line.last_m, 1.0);
-    EXPECT_DOUBLE_EQ(line.lit_m, 1.0);
-}
-
-TEST(LitLine, ALitSampleBetweenDarkOnesCounts) {
-    const LitLine line = lit_line({{0.0, 0.0}, {1.0, 10.0}, {2.0, 0.0}}, 5.0);
-    EXPECT_DOUBLE_EQ(line.first_m, 0.5);
-    EXPECT_DOUBLE_EQ(line.last_m, 1.5);
-}
-
-TEST(LitLine, WhatWasNotLookedAtIsNeitherLitNorDark) {
-    const LitLine line = lit_line({{0.0, 9.0}, {1.0, 9.0}, {2.0, std::nullopt}, {3.0, 9.0}, {4.0, 9.0}, {5.0, std::nullopt}}, 5.0);
-    EXPECT_DOUBLE_EQ(line.lit_m, 2.0);
-    EXPECT_DOUBLE_EQ(line.last_m, 4.0);
-    EXPECT_EQ(line.unlit_before_last_m, 0.0);
-    EXPECT_TRUE(line.lit_at_end);
-}
-
-TEST(LitLine, EmptyAndSingle) {
-    EXPECT_FALSE(lit_line({}, 1.0).lit);
-    const LitLine one = lit_line({{3.0, 2.0}}, 1.0);
-    EXPECT_TRUE(one.lit);
-    EXPECT_EQ(one.last_m, 3.0);
-    EXPECT_TRUE(one.lit_at_end);
+TEST(LitLine, AddsUpWhatIsLitBetweenCrossings) {
+    const std::tuple<const char*, std::vector<LineSample>, double, LitLine> cases[] = {
+        {"nothing lit", {{0.0, 0.5}, {1.0, 0.9}, {2.0, 0.0}}, 1.0, {}},
+        // Dark to 1.5, lit to 3.5, dark to 5.5, lit to 6.5: crossings half way, 100 : 1 about 10.
+        {"gaps before the reach",
+         {{0.0, 1.0}, {1.0, 1.0}, {2.0, 100.0}, {3.0, 100.0}, {4.0, 1.0}, {5.0, 1.0}, {6.0, 100.0}, {7.0, 1.0}, {8.0, 1.0}},
+         10.0,
+         {true, 1.5, 6.5, 3.0, 3.5, false}},
+        {"exactly the limit is lit", {{0.0, 5.0}, {1.0, 5.0}, {2.0, 1.0}}, 5.0, {true, 0.0, 1.0, 1.0, 0.0, false}},
+        {"a lit sample between dark ones", {{0.0, 0.0}, {1.0, 10.0}, {2.0, 0.0}}, 5.0, {true, 0.5, 1.5, 1.0, 0.5, false}},
+        {"what was not looked at is neither lit nor dark",
+         {{0.0, 9.0}, {1.0, 9.0}, {2.0, std::nullopt}, {3.0, 9.0}, {4.0, 9.0}, {5.0, std::nullopt}},
+         5.0,
+         {true, 0.0, 4.0, 2.0, 0.0, true}},
+        {"nothing at all", {}, 1.0, {}},
+        {"one sample", {{3.0, 2.0}}, 1.0, {true, 3.0, 3.0, 0.0, 0.0, true}}};
+    for (const auto& [what, samples, limit_lx, expected] : cases) {
+        const LitLine line = lit_line(samples, limit_lx);
+        EXPECT_EQ(std::tuple(line.lit, line.lit_at_end), std::tuple(expected.lit, expected.lit_at_end)) << what;
+        EXPECT_DOUBLE_EQ(line.first_m, expected.first_m) << what;
+        EXPECT_DOUBLE_EQ(line.last_m, expected.last_m) << what;
+        EXPECT_DOUBLE_EQ(line.lit_m, expected.lit_m) << what;
+        EXPECT_DOUBLE_EQ(line.unlit_before_last_m, expected.unlit_before_last_m) << what;
+    }
 }
 
 /// 10 m/s from 40 m away to the place: 1, 2, 8, 2, 0 lx.

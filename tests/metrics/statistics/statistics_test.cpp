@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -18,45 +19,30 @@ using Order = std::vector<std::size_t>;
 
 TEST(Spread, OfNothingOfOneSampleAndOfNoNumber) {
     EXPECT_FALSE(spread_of({}));
-    const auto spread = spread_of({7.0});
-    ASSERT_TRUE(spread);
-    EXPECT_EQ(spread->count, 1U);
-    for (const double value : {spread->median, spread->p05, spread->p95, spread->minimum, spread->maximum, spread->mean})
+    const auto one = spread_of({7.0}).value();
+    for (const double value : {one.median, one.p05, one.p95, one.minimum, one.maximum, one.mean})
         EXPECT_EQ(value, 7.0);
-    EXPECT_EQ(spread->standard_deviation, 0.0);
+    EXPECT_EQ(std::tuple(one.count, one.standard_deviation), std::tuple(1U, 0.0));
     EXPECT_THROW(spread_of({1.0, std::nan("")}), std::invalid_argument);
     EXPECT_THROW(spread_of({std::numeric_limits<double>::infinity()}), std::invalid_argument);
 }
 
-// Type 7: place = share * (n - 1). For 1, 2, 4, 8: p05 at 0.15 -> 1.15, median at 1.5 -> 3, p95 at 2.85 -> 4 + 0.85 * 4.
+// Type 7: place = share * (n - 1). For 1, 2, 4, 8: p05 at 0.15 -> 1.15, median at 1.5 -> 3, p95 at 2.85 -> 4 + 0.85 * 4. Squares about the
+// mean: 18.0625 + 7.5625 + 3.0625 + 0.0625 = 28.75; over n - 1.
 TEST(Spread, QuantilesLieBetweenOrderStatistics) {
-    const auto spread = spread_of({8.0, 1.0, 4.0, 2.0});
-    ASSERT_TRUE(spread);
-    EXPECT_DOUBLE_EQ(spread->p05, 1.15);
-    EXPECT_DOUBLE_EQ(spread->median, 3.0);
-    EXPECT_DOUBLE_EQ(spread->p95, 7.4);
-    EXPECT_DOUBLE_EQ(spread->mean, 3.75);
-    // Squares about the mean: 18.0625 + 7.5625 + 3.0625 + 0.0625 = 28.75; over n - 1.
-    EXPECT_DOUBLE_EQ(spread->standard_deviation, std::sqrt(28.75 / 3.0));
-}
-
-TEST(Spread, HundredAndOneStepsHitTheirPercents) {
-    std::vector<double> samples(101);
-    std::iota(samples.rbegin(), samples.rend(), 0.0);
-    const auto spread = spread_of(samples);
-    ASSERT_TRUE(spread);
-    EXPECT_DOUBLE_EQ(spread->p05, 5.0);
-    EXPECT_DOUBLE_EQ(spread->median, 50.0);
-    EXPECT_DOUBLE_EQ(spread->p95, 95.0);
-    EXPECT_EQ(spread->minimum, 0.0);
-    EXPECT_EQ(spread->maximum, 100.0);
-}
-
-// One-pass variance gives 0 or worse here: the squares agree in all 16 digits.
-TEST(Spread, DeviationSurvivesAFarMean) {
-    const auto spread = spread_of({1e9, 1e9 + 1.0, 1e9 + 2.0});
-    ASSERT_TRUE(spread);
-    EXPECT_DOUBLE_EQ(spread->standard_deviation, 1.0);
+    std::vector<double> percents(101);
+    std::iota(percents.rbegin(), percents.rend(), 0.0);
+    for (const auto& [spread, p05, median, p95] :
+         {std::tuple(spread_of({8.0, 1.0, 4.0, 2.0}).value(), 1.15, 3.0, 7.4), std::tuple(spread_of(percents).value(), 5.0, 50.0, 95.0)}) {
+        EXPECT_DOUBLE_EQ(spread.p05, p05);
+        EXPECT_DOUBLE_EQ(spread.median, median);
+        EXPECT_DOUBLE_EQ(spread.p95, p95);
+    }
+    EXPECT_EQ(std::tuple(spread_of(percents)->minimum, spread_of(percents)->maximum), std::tuple(0.0, 100.0));
+    EXPECT_DOUBLE_EQ(spread_of({8.0, 1.0, 4.0, 2.0})->mean, 3.75);
+    EXPECT_DOUBLE_EQ(spread_of({8.0, 1.0, 4.0, 2.0})->standard_deviation, std::sqrt(28.75 / 3.0));
+    // One-pass variance gives 0 or worse here: the squares agree in all 16 digits.
+    EXPECT_DOUBLE_EQ(spread_of({1e9, 1e9 + 1.0, 1e9 + 2.0})->standard_deviation, 1.0);
 }
 
 // 1, 1, 2, 4, 9: median 2, distances 1 1 0 2 7.
@@ -136,22 +122,17 @@ std::vector<double> times(const std::vector<double>& reference, const std::vecto
 
 const std::vector<double> drifting{1.0, 2.0, 4.0, 8.0, 4.0, 2.0, 1.0}; // the machine slows down eightfold and recovers
 
-TEST(PairedRatio, WhatSlowsTheWholeRoundCancels) {
-    const auto ratio = paired_ratio(times(drifting, {1.02, 1.03, 1.02, 1.04, 1.02, 1.03, 1.02}), drifting);
-    ASSERT_TRUE(ratio);
-    EXPECT_EQ(ratio->rounds, 7U);
-    EXPECT_DOUBLE_EQ(ratio->median, 1.02);
-    EXPECT_EQ(ratio->difference, Difference::slower);
-}
-
-// Type 7 at 0.05 and 0.95 of seven: places 0.3 and 5.7, so between 0.5 and 1 and between 2 and 4 in the logarithm.
-TEST(PairedRatio, SpreadLiesBetweenOrderStatisticsOfTheLogarithm) {
-    const auto ratio = paired_ratio(times(drifting, {1.0, 4.0, 0.5, 1.0, 2.0, 1.5, 1.5}), drifting);
-    ASSERT_TRUE(ratio);
-    EXPECT_DOUBLE_EQ(ratio->median, 1.5);
-    EXPECT_NEAR(ratio->p05, 0.5 * std::pow(2.0, 0.3), 1e-15);
-    EXPECT_NEAR(ratio->p95, 2.0 * std::pow(2.0, 0.7), 1e-14);
-    EXPECT_EQ(ratio->difference, Difference::not_distinguishable);
+// What slows the whole round cancels. Type 7 at 0.05 and 0.95 of seven: places 0.3 and 5.7, so between 0.5 and 1 and between 2 and 4 in the
+// logarithm.
+TEST(PairedRatio, MedianAndSpreadAreThoseOfTheLogarithm) {
+    const auto even = paired_ratio(times(drifting, {1.02, 1.03, 1.02, 1.04, 1.02, 1.03, 1.02}), drifting).value(),
+               uneven = paired_ratio(times(drifting, {1.0, 4.0, 0.5, 1.0, 2.0, 1.5, 1.5}), drifting).value();
+    EXPECT_EQ(std::tuple(even.rounds, even.difference), std::tuple(7U, Difference::slower));
+    EXPECT_DOUBLE_EQ(even.median, 1.02);
+    EXPECT_DOUBLE_EQ(uneven.median, 1.5);
+    EXPECT_NEAR(uneven.p05, 0.5 * std::pow(2.0, 0.3), 1e-15);
+    EXPECT_NEAR(uneven.p95, 2.0 * std::pow(2.0, 0.7), 1e-14);
+    EXPECT_EQ(uneven.difference, Difference::not_distinguishable);
 }
 
 TEST(PairedRatio, ADifferenceInsideTheSpreadIsRefusedAndExchangingBothTurnsIt) {
@@ -182,15 +163,10 @@ TEST(PairedRatio, TooFewRoundsTellNothingAndNoTimesAreRefused) {
 // By an implementation of mt19937-64 and of the shuffle in another language.
 TEST(RandomOrder, IsTheSeedsOwnOnEveryMachine) {
     std::mt19937_64 generator(1);
-    EXPECT_EQ(random_order(8, generator), (Order{4, 6, 3, 5, 1, 7, 2, 0}));
-    EXPECT_EQ(random_order(8, generator), (Order{0, 5, 6, 3, 7, 4, 2, 1}));
-    EXPECT_EQ(random_order(8, generator), (Order{7, 5, 2, 3, 0, 1, 6, 4}));
+    for (const Order& expected : {Order{4, 6, 3, 5, 1, 7, 2, 0}, Order{0, 5, 6, 3, 7, 4, 2, 1}, Order{7, 5, 2, 3, 0, 1, 6, 4}})
+        EXPECT_EQ(random_order(8, generator), expected);
     generator.seed(2);
     EXPECT_EQ(random_order(8, generator), (Order{7, 5, 2, 0, 3, 1, 6, 4}));
-}
-
-TEST(RandomOrder, OfNothingAndOfOne) {
-    std::mt19937_64 generator(1);
     EXPECT_EQ(random_order(0, generator), Order{});
     EXPECT_EQ(random_order(1, generator), Order{0});
 }
@@ -272,9 +248,15 @@ TEST(WorkPrecision, FewTimingsMakeNothingSure) {
     EXPECT_FALSE(standings({good, bad})[1].surely); // as exact, and once found to be faster
 }
 
-TEST(WorkPrecision, EqualsDoNotBeatOneAnother) {
-    const std::vector<Standing> s = standings({row("a", 1.0, 1.0), row("b", 1.0, 1.0)});
-    EXPECT_TRUE(s[0].on_front && s[1].on_front);
+TEST(WorkPrecision, EqualsDoNotBeatOneAnotherAndWhatIsNotMeasuredHasNoStanding) {
+    const std::vector<Standing> equal = standings({row("a", 1.0, 1.0), row("b", 1.0, 1.0)});
+    EXPECT_TRUE(equal[0].on_front && equal[1].on_front);
+    WorkPrecisionRow none = row("none", 0.0, 0.1);
+    none.error.reset();
+    const std::vector<Standing> s = standings({none, row("a", 1.0, 1.0)});
+    EXPECT_FALSE(s[0].on_front || s[0].dominated_by);
+    EXPECT_TRUE(s[1].on_front);
+    EXPECT_TRUE(standings({}).empty());
 }
 
 TEST(WorkPrecision, BelowTheFloorNobodyIsBetter) {
@@ -285,16 +267,6 @@ TEST(WorkPrecision, BelowTheFloorNobodyIsBetter) {
     EXPECT_TRUE(s[0].on_front);
     EXPECT_EQ(s[1].dominated_by, 0U); // no more exact as far as can be known, and slower
     EXPECT_EQ(row("c", 0.6, 1.0, 0.5).claimed_error(), 0.6);
-}
-
-TEST(WorkPrecision, WhatIsNotMeasuredHasNoStanding) {
-    WorkPrecisionRow none = row("none", 0.0, 0.1);
-    none.error.reset();
-    const std::vector<Standing> s = standings({none, row("a", 1.0, 1.0)});
-    EXPECT_FALSE(s[0].on_front);
-    EXPECT_FALSE(s[0].dominated_by);
-    EXPECT_TRUE(s[1].on_front);
-    EXPECT_TRUE(standings({}).empty());
 }
 
 TEST(WorkPrecision, SlopeOfAPowerIsItsExponent) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -90,22 +91,18 @@ TEST(Strictness, ShiftTakesAPixelAsAWhole) {
     EXPECT_FALSE(judge_strictness(moving, after, before, "levels").passed);
 }
 
-TEST(Strictness, MasksChooseThePixels) {
+TEST(Strictness, MasksChooseThePixelsAndTheWorstChannelDecides) {
     PixelMask mask(3, 1, 255);
     mask.at(2, 0) = 0;
-    const StrictnessNode masked{.kind = Kind::every, .bound = {1.0}, .mask = mask, .mask_name = "sky.png"};
-    const StrictnessResult found = judged(masked, tested, reference);
-    EXPECT_TRUE(found.passed);
-    EXPECT_EQ(found.pixels, 2U);
-    EXPECT_THAT(found.statement, HasSubstr("sky.png"));
+    const StrictnessResult masked = judged({.kind = Kind::every, .bound = {1.0}, .mask = mask, .mask_name = "sky.png"}, tested, reference);
+    EXPECT_TRUE(masked.passed);
+    EXPECT_EQ(masked.pixels, 2U);
+    EXPECT_THAT(masked.statement, HasSubstr("sky.png"));
     EXPECT_FALSE(judged({.kind = Kind::hard_limit, .bound = {1.0}, .mask = mask}, tested, reference).passed); // anywhere
-}
-
-TEST(Strictness, WorstChannelDecides) {
-    const StrictnessResult found =
+    const StrictnessResult worst =
         judge_strictness({.kind = Kind::every, .bound = {2.0}}, {reference, row({1, 2, 3})}, {reference, row({1, 2, 8})}, "levels");
-    EXPECT_FALSE(found.passed);
-    EXPECT_DOUBLE_EQ(found.found, 5.0);
+    EXPECT_FALSE(worst.passed);
+    EXPECT_DOUBLE_EQ(worst.found, 5.0);
 }
 
 // Margins 0.25 (3 of 4) and -0.5 (3 of 2).
@@ -167,21 +164,13 @@ Image<float> brighter(const Image<float>& image, float factor) {
 
 // 2 % more light is never the same light, 0.5 % is, and 20 % is not the same picture.
 TEST(StrictnessClasses, LightByHowMuchItIsOff) {
-    const auto passes = [](const char* name, const Image<float>& picture) {
-        for (const StrictnessClass& one : strictness_classes())
-            if (one.name == name)
-                return judged(one.linear, picture, night()).passed;
-        ADD_FAILURE() << name;
-        return false;
-    };
-    EXPECT_TRUE(passes("identical", night()));
-    EXPECT_FALSE(passes("identical", brighter(night(), 1.00001F)));
-    EXPECT_TRUE(passes("same-driver", brighter(night(), 1.0005F)));
-    EXPECT_FALSE(passes("same-driver", brighter(night(), 1.005F)));
-    EXPECT_TRUE(passes("same-light", brighter(night(), 1.005F)));
-    EXPECT_FALSE(passes("same-light", brighter(night(), 1.02F)));
-    EXPECT_TRUE(passes("same-picture", brighter(night(), 1.08F)));
-    EXPECT_FALSE(passes("same-picture", brighter(night(), 1.2F)));
+    for (const auto& [name, factor, passes] :
+         {std::tuple("identical", 1.0F, true), std::tuple("identical", 1.00001F, false), std::tuple("same-driver", 1.0005F, true),
+          std::tuple("same-driver", 1.005F, false), std::tuple("same-light", 1.005F, true), std::tuple("same-light", 1.02F, false),
+          std::tuple("same-picture", 1.08F, true), std::tuple("same-picture", 1.2F, false)}) {
+        const auto one = std::ranges::find(strictness_classes(), std::string_view(name), &StrictnessClass::name);
+        EXPECT_EQ(judged(one->linear, brighter(night(), factor), night()).passed, passes) << name << ' ' << factor;
+    }
 }
 
 // Every class that passes lets the looser ones pass.
@@ -198,16 +187,11 @@ TEST(StrictnessClasses, AreOrdered) {
 
 TEST(StrictnessClasses, LevelsOfDisplays) {
     const Image<float> levels(100, 100, 100.0F);
-    const auto passes = [&](std::size_t number, float by) {
-        return judged(strictness_classes()[number].display, Image<float>(100, 100, 100.0F + by), levels).passed;
-    };
-    EXPECT_FALSE(passes(0, 1.0F));
-    EXPECT_TRUE(passes(1, 1.0F));
-    EXPECT_FALSE(passes(1, 2.0F));
-    EXPECT_TRUE(passes(2, 2.0F));
-    EXPECT_FALSE(passes(2, 3.0F));
-    EXPECT_TRUE(passes(3, 8.0F));
-    EXPECT_FALSE(passes(3, 9.0F));
+    for (const auto& [number, by, passes] :
+         {std::tuple(0U, 1.0F, false), std::tuple(1U, 1.0F, true), std::tuple(1U, 2.0F, false), std::tuple(2U, 2.0F, true),
+          std::tuple(2U, 3.0F, false), std::tuple(3U, 8.0F, true), std::tuple(3U, 9.0F, false)})
+        EXPECT_EQ(judged(strictness_classes()[number].display, Image<float>(100, 100, 100.0F + by), levels).passed, passes)
+            << number << ' ' << by;
 }
 
 } // namespace

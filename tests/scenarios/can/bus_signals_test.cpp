@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -18,12 +19,7 @@ CanDatabase cockpit() {
     CanSignal speed{.name = "Speed", .length = 16, .factor = 0.01, .maximum = 300.0, .unit = "km/h"};
     CanSignal turn{.name = "Turn", .start_bit = 16, .length = 8, .labels = {{0, "Off"}, {1, "Left"}, {2, "Right"}}};
     CanMessage cockpit{.id = 0x100, .name = "Cockpit", .length = 3, .cycle_s = 0.01, .signals = {speed, turn}};
-    CanMessage brakes = cockpit;
-    brakes.id = 0x18ff0000;
-    brakes.extended = true;
-    brakes.name = "Brakes";
-    brakes.length = 2;
-    brakes.signals = {speed};
+    CanMessage brakes{.id = 0x18ff0000, .extended = true, .name = "Brakes", .length = 2, .cycle_s = 0.01, .signals = {speed}};
     CanSignal exact{.name = "YawRate", .length = 64, .kind = CanValueKind::float64, .unit = "rad/s"};
     CanMessage event{.id = 0x200, .name = "Event", .length = 8, .signals = {exact}};
     return CanDatabase{.file = "cockpit.dbc", .messages = {cockpit, brakes, event}};
@@ -208,12 +204,16 @@ TEST(BusSignals, LabelsStandForValues) {
     EXPECT_EQ(said(3).state, BusState::out_of_range) << "nobody said what 3 is";
 }
 
-TEST(BusSignals, OppositeSignsTurnRound) {
+TEST(BusSignals, OppositeSignsTurnRoundAndAFrameFromThePastCountsAsNow) {
     BusInput input = speed_input();
     input.opposite = true;
-    BusSignals bus = bus_of(input);
-    bus.take(ten_mps(0));
-    EXPECT_EQ(bus.at(0).front().value, -10.0);
+    BusSignals round = bus_of(input), bus = bus_of(speed_input());
+    round.take(ten_mps(0));
+    EXPECT_EQ(round.at(0).front().value, -10.0);
+    bus.take(ten_mps(100 * millisecond_ns));
+    bus.take(frame(90 * millisecond_ns, 0x100, {0x20, 0x1c, 0}));
+    EXPECT_EQ(bus.at(100 * millisecond_ns).front().value, 20.0) << "the one taken last";
+    EXPECT_EQ(bus.at(100 * millisecond_ns).front().age_s, 0.0);
 }
 
 TEST(BusSignals, DoublesThatAreNoNumbersAreOutOfRange) {
@@ -231,14 +231,6 @@ TEST(BusSignals, DoublesThatAreNoNumbersAreOutOfRange) {
     EXPECT_EQ(said(lost).state, BusState::out_of_range);
     EXPECT_EQ(said(7.0).state, BusState::out_of_range) << "no car turns so fast: beyond the signal table's range";
     EXPECT_EQ(said(-6.3).state, BusState::fresh);
-}
-
-TEST(BusSignals, AFrameFromThePastCountsAsNow) {
-    BusSignals bus = bus_of(speed_input());
-    bus.take(ten_mps(100 * millisecond_ns));
-    bus.take(frame(90 * millisecond_ns, 0x100, {0x20, 0x1c, 0}));
-    EXPECT_EQ(bus.at(100 * millisecond_ns).front().value, 20.0) << "the one taken last";
-    EXPECT_EQ(bus.at(100 * millisecond_ns).front().age_s, 0.0);
 }
 
 std::string refused(const BusInput& input) {
@@ -278,20 +270,16 @@ TEST(BusUnits, FitThoseOfTheTable) {
         const auto conversion = conversion_between(written, table);
         return conversion ? conversion->to_table(physical) : lost;
     };
-    EXPECT_EQ(value("km/h", "m/s", 36.0), 10.0);
-    EXPECT_EQ(value("kph", "m/s", 36.0), 10.0);
+    for (const auto& [written, table, physical, expected] :
+         {std::tuple("km/h", "m/s", 36.0, 10.0), std::tuple("kph", "m/s", 36.0, 10.0), std::tuple("%", "1", 50.0, 0.5),
+          std::tuple("", "1", 2.0, 2.0), std::tuple("m/s^2", "m/s2", 2.0, 2.0), std::tuple("m/s\xc2\xb2", "m/s2", 2.0, 2.0),
+          std::tuple("klx", "lx", 2.0, 2000.0), std::tuple("ms", "s", 2.0, 0.002)})
+        EXPECT_EQ(value(written, table, physical), expected) << written;
     EXPECT_DOUBLE_EQ(value("mph", "m/s", 100.0), 44.704);
     EXPECT_DOUBLE_EQ(value("\xc2\xb0/s", "rad/s", 180.0), 3.141592653589793);
     EXPECT_DOUBLE_EQ(value("deg", "rad", -90.0), -1.5707963267948966);
     EXPECT_DOUBLE_EQ(value("degrees", "rad", 90.0), 1.5707963267948966);
-    EXPECT_EQ(value("%", "1", 50.0), 0.5);
-    EXPECT_EQ(value("", "1", 2.0), 2.0);
-    EXPECT_EQ(value("m/s^2", "m/s2", 2.0), 2.0);
-    EXPECT_EQ(value("m/s\xc2\xb2", "m/s2", 2.0), 2.0);
-    EXPECT_EQ(value("klx", "lx", 2.0), 2000.0);
-    EXPECT_EQ(value("ms", "s", 2.0), 0.002);
-    EXPECT_TRUE(std::isnan(value("bar", "m/s", 2.0)));
-    EXPECT_TRUE(std::isnan(value("%", "m/s", 2.0)));
+    EXPECT_TRUE(std::isnan(value("bar", "m/s", 2.0)) && std::isnan(value("%", "m/s", 2.0)));
     for (const char* const unit : {"km/h", "mph", "m/s"})
         EXPECT_DOUBLE_EQ(conversion_between(unit, "m/s")->to_physical(conversion_between(unit, "m/s")->to_table(42.0)), 42.0);
 }

@@ -130,7 +130,7 @@ TEST(CandumpLine, HoldsRandomFramesInEveryForm) {
     const auto coin = [&] { return random() % 2 == 0; };
     for (int i = 0; i < 200'000; ++i) {
         CanFrame frame = random_frame(random);
-        CandumpStyle style{.stamp_digits = coin() ? 6 : 9};
+        CandumpStyle style{.stamp_digits = std::uint8_t{coin() ? std::uint8_t{6} : std::uint8_t{9}}};
         if (style.stamp_digits == 9)
             frame.time_ns += static_cast<std::int64_t>(random() % 1000);
         style.channel_columns = coin() ? 0 : static_cast<std::uint8_t>(frame.channel.size() + 1 + random() % 5);

@@ -76,12 +76,14 @@ TEST(CandumpStream, GoesOnBehindALineThatIsTooLong) {
         }
 }
 
-TEST(CandumpStream, RefusesWhatIsNoLog) {
+TEST(CandumpStream, RefusesWhatIsNoLogAndTimesBeyondItsClock) {
     EXPECT_THAT(refusal(std::string(20'000, 'x')), HasSubstr("a.log:1: found a line of more than 16384 bytes"));
     EXPECT_THAT(refusal("(1.000000) can0 123#11\n" + std::string(20'000, ' ') + "\n"), HasSubstr("a.log:2: found a line of more"));
     EXPECT_THAT(refusal("(1.000000) can0 123#11\n\tword\n"), HasSubstr("a.log:2:1"));
     EXPECT_THAT(refusal("DROPCOUNT: dropped many CAN frames\n"), HasSubstr("a.log:1:1"));
     EXPECT_THAT(refusal(std::string("\0\0\0\n", 4)), HasSubstr("a.log:1:1: found '\\x00\\x00\\x00'"));
+    EXPECT_THAT(refusal("(9000000000.000000) can0 123#\n(9000000000.000000) can0 123#\n", {.stamps = CandumpStamps::delta}),
+                HasSubstr("a.log:2: found stamps that add up"));
     EXPECT_THROW(CandumpStream("/nowhere/a.log"), InputError);
     EXPECT_THROW(CandumpStream("/"), InputError);
 }
@@ -116,14 +118,7 @@ TEST(CandumpStream, TakesDatesByTheOffsetFromUtc) {
     EXPECT_THAT(refusal(" (1970-01-01 00:30:00.000000)  can0  123   [0] \n", reading), HasSubstr("before 1970 in UTC"));
 }
 
-TEST(CandumpStream, RefusesTimesBeyondItsClock) {
-    CandumpReading reading{.stamps = CandumpStamps::delta};
-    EXPECT_THAT(refusal("(9000000000.000000) can0 123#\n(9000000000.000000) can0 123#\n", reading),
-                HasSubstr("a.log:2: found stamps that add up"));
-}
-
 TEST(CandumpStream, ReadsFilesInPiecesAsFromMemory) {
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "candump_pieces.log";
     std::string text;
     for (int i = 0; i < 40'000; ++i) // lines across the ends of what is read at once
         text += candump_line({.time_ns = i * 1'000'000LL,
@@ -131,7 +126,7 @@ TEST(CandumpStream, ReadsFilesInPiecesAsFromMemory) {
                               .id = static_cast<std::uint32_t>(i % 2048),
                               .length = static_cast<std::uint8_t>(i % 9)}) +
                 "\n";
-    std::ofstream(path, std::ios::binary) << text;
+    const std::filesystem::path path = tests::written("pieces.log", text);
     std::string again;
     CandumpStream stream(path);
     EXPECT_TRUE(stream.may_wait());
@@ -142,7 +137,6 @@ TEST(CandumpStream, ReadsFilesInPiecesAsFromMemory) {
     EXPECT_EQ(read_candump(path, opened).size(), 40'000U);
     ASSERT_EQ(opened.size(), 1U);
     EXPECT_EQ(opened[0].bytes, text.size());
-    std::filesystem::remove(path);
 }
 
 TEST(CandumpStream, WritesTheRecordingOfOthersBackByteByByte) {

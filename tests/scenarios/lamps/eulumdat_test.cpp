@@ -319,17 +319,15 @@ TEST_F(CPlanes, ABeamAlongTheNadirIsTurnedForward) {
     EXPECT_EQ(intensity_cd(l.table, 120.0, 0.0), 0.0) << "behind";
 }
 
+/// The whole, a cone, and half of one, that end in light.
 TEST_F(CPlanes, TurningKeepsTheFluxAndTheOptionOutvotesTheLight) {
-    const auto c = steps(0, 330, 30), gamma = steps(0, 90, 5);
-    const double there = flux_lm(lamp(c, gamma, downlight, TypeCAxis::horizontal).table); // not resampled
-    EXPECT_NEAR(flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / there, 1.0, 1e-3);
-    /// A cone, and half of one, that ends in light.
+    const auto kept = [&](const std::vector<double>& c, const std::vector<double>& gamma) { // of what is not resampled
+        return flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / flux_lm(lamp(c, gamma, downlight, TypeCAxis::horizontal).table);
+    };
+    EXPECT_NEAR(kept(steps(0, 330, 30), steps(0, 90, 5)), 1.0, 1e-3);
     for (const double turn : {360.0, 187.5})
-        for (const double step : {2.5, 7.5}) {
-            const auto c = steps(0, turn, 7.5), gamma = steps(0, 37.5, step);
-            const double there = flux_lm(lamp(c, gamma, downlight, TypeCAxis::horizontal).table); // not resampled
-            EXPECT_NEAR(flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / there, 1.0, 2e-4) << turn << " " << step;
-        }
+        for (const double step : {2.5, 7.5})
+            EXPECT_NEAR(kept(steps(0, turn, 7.5), steps(0, 37.5, step)), 1.0, 2e-4) << turn << " " << step;
     const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight, TypeCAxis::horizontal);
     EXPECT_LT(peak_of(l.table).v_deg, -60.0);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {

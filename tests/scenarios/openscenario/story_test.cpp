@@ -135,7 +135,6 @@ class Catalogs : public testing::Test {
         const StoryFile file(text);
         return refusal_of(file.path());
     }
-    std::filesystem::path folder_;
 };
 
 TEST_F(Catalogs, AreFoundByTheirNameAndBehindItByTheirFiles) {

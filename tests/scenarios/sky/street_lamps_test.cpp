@@ -45,12 +45,12 @@ TEST(StreetLamps, StandEveryThirtyMetresWithTheirAxisDown) {
     EXPECT_NEAR(glm::dot(first.pose.position_m - lane.position_m, lane.left()), 1.0, 1e-9) << "an arm of 1 m towards the lane";
     /// Down, C 0 (lamp space's right) along the road, C 90 (its up) towards the lane, from either side.
     for (const double beside_m : {-4.0, 6.0}) {
-        const LitStraight lit(beside_m);
-        const Pose& pose = lit.moment.other_lamps[0].pose;
-        const Pose lane = lit.route.pose(10.0, 0.0);
+        const LitStraight beside(beside_m);
+        const Pose& pose = beside.moment.other_lamps[0].pose;
+        const Pose along = beside.route.pose(10.0, 0.0);
         EXPECT_NEAR(pose.forward().z, -1.0, 1e-12);
-        EXPECT_NEAR(std::abs(glm::dot(pose.left(), lane.forward())), 1.0, 1e-12);
-        EXPECT_NEAR(glm::dot(pose.up(), lane.left()) * beside_m, -std::abs(beside_m), 1e-9);
+        EXPECT_NEAR(std::abs(glm::dot(pose.left(), along.forward())), 1.0, 1e-12);
+        EXPECT_NEAR(glm::dot(pose.up(), along.left()) * beside_m, -std::abs(beside_m), 1e-9);
         EXPECT_NEAR(glm::dot(glm::cross(pose.forward(), pose.left()), pose.up()), 1.0, 1e-12);
     }
 }

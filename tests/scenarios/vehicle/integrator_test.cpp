@@ -17,8 +17,9 @@ using testing::HasSubstr;
 
 /// One that is not linear and depends on time, y' = -2 t y^2, y(0) = 1: y = 1 / (1 + t^2); beside it an oscillator, x'' = -4 x, x = cos 2t.
 OdeProblem smooth() {
-    OdeProblem problem {
-        .derivative = [](double t, const double* x, double* dxdt) { dxdt[0] = -2.0 * t * x[0] * x[0] };
+    OdeProblem problem;
+    problem.derivative = [](double t, const double* x, double* dxdt) {
+        dxdt[0] = -2.0 * t * x[0] * x[0];
         dxdt[1] = x[2];
         dxdt[2] = -4.0 * x[1];
     };
@@ -102,8 +103,9 @@ TEST(OdeIntegrator, DormandPrinceIsStableUpTo3Point306AndRosenbrockIsLStable) {
 
 /// Van der Pol's oscillator with mu = 1000 has stretches that are stiff and corners that are not.
 TEST(OdeIntegrator, ChoosesByStiffness) {
-    OdeProblem problem {
-        .derivative = [](double, const double* x, double* dxdt) { dxdt[0] = x[1] };
+    OdeProblem problem;
+    problem.derivative = [](double, const double* x, double* dxdt) {
+        dxdt[0] = x[1];
         dxdt[1] = 1000.0 * (1.0 - x[0] * x[0]) * x[1] - x[0];
     };
     problem.scale = {1.0, 1.0};
@@ -147,8 +149,9 @@ TEST(OdeIntegrator, GoesBackToTheExplicitMethod) {
 
 TEST(OdeIntegrator, StopsAtEvents) {
     // A falling body: h = 10 - 4.905 t^2 reaches the ground at sqrt(10 / 4.905).
-    OdeProblem problem {
-        .derivative = [](double, const double* x, double* dxdt) { dxdt[0] = x[1] };
+    OdeProblem problem;
+    problem.derivative = [](double, const double* x, double* dxdt) {
+        dxdt[0] = x[1];
         dxdt[1] = -9.81;
     };
     problem.scale = {1.0, 1.0};

@@ -13,17 +13,17 @@
 namespace fernlicht::gl {
 namespace {
 
-using Corners = std::vector<glm::vec3>;
+using Soup = std::vector<glm::vec3>;
 
-void add(Corners& corners, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) { corners.insert(corners.end(), {a, b, c}); }
-void add(Corners& corners, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
+void add(Soup& corners, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) { corners.insert(corners.end(), {a, b, c}); }
+void add(Soup& corners, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
     add(corners, a, b, c);
     add(corners, a, c, d);
 }
 
 /// From 0 to 1 in x, y, z; normals outwards.
-Corners cube() {
-    Corners c;
+Soup cube() {
+    Soup c;
     add(c, {0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0});
     add(c, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1});
     add(c, {0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1});
@@ -70,7 +70,7 @@ double winding(const std::vector<glm::vec4>& corners, const glm::dvec3& lamp, co
 }
 
 /// Triangles that the way from the lamp to a point passes through.
-int crossed(const Corners& c, const glm::dvec3& lamp, const glm::dvec3& point) {
+int crossed(const Soup& c, const glm::dvec3& lamp, const glm::dvec3& point) {
     int n = 0;
     for (std::size_t i = 0; i < c.size(); i += 3) {
         const glm::dvec3 a(c[i]), ab = glm::dvec3(c[i + 1]) - a, ac = glm::dvec3(c[i + 2]) - a, d = point - lamp, p = glm::cross(d, ac);
@@ -96,18 +96,18 @@ TEST(Silhouettes, OfACubeHaveTheWallsOfItsOutline) {
 }
 
 TEST(Silhouettes, OpenSheetsFinsAndFlippedTrianglesGiveClosedHulls) {
-    Corners fin = cube();
+    Soup fin = cube();
     add(fin, {0, 0, 0}, {0, 0, 1}, {-1, -1, 0}); // a third triangle at an edge
     EXPECT_EQ(Silhouettes(fin).closed_bodies(), 0U);
-    Corners flipped = cube();
+    Soup flipped = cube();
     std::swap(flipped[1], flipped[2]);
     EXPECT_EQ(Silhouettes(flipped).closed_bodies(), 0U);
-    Corners open = cube();
+    Soup open = cube();
     open.resize(open.size() - 6);
     EXPECT_EQ(Silhouettes(open).closed_bodies(), 0U);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> somewhere(-3.0, 3.0);
-    for (const Corners& shape : {fin, flipped, open, cube(), Corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}})
+    for (const Soup& shape : {fin, flipped, open, cube(), Soup{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}})
         for (int i = 0; i < 20; ++i) {
             const glm::dvec3 lamp(somewhere(random), somewhere(random), somewhere(random));
             EXPECT_TRUE(is_closed(hulls(Silhouettes(shape), lamp)));
@@ -117,24 +117,24 @@ TEST(Silhouettes, OpenSheetsFinsAndFlippedTrianglesGiveClosedHulls) {
 
 /// Of a closed body fronts alone cast; inside out those are the far sides, and within it light would reach what the near sides hide.
 TEST(Silhouettes, BodiesInsideOutCastFromAllTriangles) {
-    Corners inside_out = cube();
+    Soup inside_out = cube();
     for (std::size_t i = 0; i < inside_out.size(); i += 3)
         std::swap(inside_out[i + 1], inside_out[i + 2]);
     EXPECT_EQ(Silhouettes(inside_out).closed_bodies(), 0U);
     EXPECT_EQ(hulls(Silhouettes(inside_out), {-5.0, 0.5, 0.5}).size() / 3, 2U * 12U + 4U * 2U * 2U) << "two layers, each with its walls";
-    Corners both = cube(); // and its mirror image at a corner: that one place does not make it one body
+    Soup both = cube(); // and its mirror image at a corner: that one place does not make it one body
     for (const glm::vec3& p : inside_out)
         both.push_back(p + 1.0F);
     EXPECT_EQ(Silhouettes(both).bodies().size(), 2U);
     EXPECT_EQ(Silhouettes(both).closed_bodies(), 1U);
-    Corners sheet; // from both sides: no volume, and a front towards every lamp
+    Soup sheet; // from both sides: no volume, and a front towards every lamp
     add(sheet, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     add(sheet, {0, 0, 0}, {0, 1, 0}, {1, 0, 0});
     EXPECT_EQ(Silhouettes(sheet).closed_bodies(), 1U);
 }
 
 TEST(Silhouettes, HullsHoldWhatTheLampDoesNotSeeAndNothingElse) {
-    Corners shapes = cube();
+    Soup shapes = cube();
     for (const glm::vec3& p : cube()) // a second cube, half its size, beside
         shapes.push_back(glm::vec3(0.3F, 2.0F, 0.1F) + 0.5F * p);
     add(shapes, {2, -1, 0}, {2, 3, 0}, {2, 3, 2}, {2, -1, 2}); // an open sheet behind both

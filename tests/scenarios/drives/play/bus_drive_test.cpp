@@ -53,6 +53,13 @@ double swivel_rad(const Moment& moment, std::size_t lamp) {
 
 class BusDriveTest : public DriveFixture {
   protected:
+    /// A car at 36 km/h on a library road with these keys of `can`.
+    static std::string on(const char* road, const char* duration_s, const std::string& keys) {
+        return fmt::format("fernlicht: 1\nroad: {0}/scenarios/library/roads/{1}.xodr\nspeed_kmh: 36\nduration_s: {2}\nstep_s: 0.1\n"
+                           "variants: {{one: {{file: low.ies}}}}\ncan:\n  databases: {0}/scenarios/library/can/mock-up.dbc\n"
+                           "  log: bus.log\n  inputs: {3}\n",
+                           FERNLICHT_SOURCE_DIR, road, duration_s, keys);
+    }
     Drive scripted() { return read_drive(shipped, DriveEdits{.can_log = std::filesystem::path()}); }
     /// The shipped drive by these frames.
     Drive played_by(const std::vector<CanFrame>& frames, const BusMapping* mapping = nullptr) {
@@ -189,18 +196,7 @@ TEST_F(BusDriveTest, TickByTickIsTheSameAsBeforehand) {
 }
 
 TEST_F(BusDriveTest, APlaceFromTheBusIsWhereTheCarIs) {
-    const std::string yaml = fmt::format(R"(fernlicht: 1
-road: {0}/scenarios/library/roads/straight.xodr
-speed_kmh: 36
-duration_s: 2
-step_s: 0.1
-variants: {{one: {{file: low.ies}}}}
-can:
-  databases: {0}/scenarios/library/can/mock-up.dbc
-  log: bus.log
-  inputs: {{ego.speed_mps: Travel.Speed, ego.distance_m: Travel.Distance}}
-)",
-                                         FERNLICHT_SOURCE_DIR);
+    const std::string yaml = on("straight", "2", "{ego.speed_mps: Travel.Speed, ego.distance_m: Travel.Distance}");
     // 36.00 km/h = 0x0e10; 5.000 m = 0x1388, 7.000 m = 0x1b58 after 1 s, and then nothing: both lost after 60 ms.
     write_file(folder / "bus.log", "(100.000000) can0 110#100E881300000000\n(101.000000) can0 110#100E581B00000000\n");
     const Staged played(read(yaml));
@@ -214,18 +210,7 @@ can:
 }
 
 TEST_F(BusDriveTest, TheRouteEndsTheDrive) {
-    const std::string yaml = fmt::format(R"(fernlicht: 1
-road: {0}/scenarios/library/roads/s-bend.xodr
-speed_kmh: 36
-duration_s: 100
-step_s: 0.1
-variants: {{one: {{file: low.ies}}}}
-can:
-  databases: {0}/scenarios/library/can/mock-up.dbc
-  log: bus.log
-  inputs: {{ego.speed_mps: {{signal: Travel.Speed, stale: hold}}}}
-)",
-                                         FERNLICHT_SOURCE_DIR);
+    const std::string yaml = on("s-bend", "100", "{ego.speed_mps: {signal: Travel.Speed, stale: hold}}");
     write_file(folder / "bus.log", "(0.000000) can0 110#409C000000000000\n"); // 400 km/h = 111.1 m/s
     const Staged before(read(yaml));
     const double room_m = before.route.length_m() - before.drive.bumper_m;
@@ -235,8 +220,7 @@ can:
     live_drive.live = true;
     Staged live(std::move(live_drive));
     BusDrive drive(live.drive, live.route);
-    CanFrame frame = parse_candump_line("(0.000000) can0 110#409C000000000000", {}).frame;
-    drive.take(frame);
+    drive.take(parse_candump_line("(0.000000) can0 110#409C000000000000", {}).frame);
     while (!drive.done())
         drive.step();
     drive.finish();
@@ -246,22 +230,11 @@ can:
 }
 
 TEST_F(BusDriveTest, CommandsLevelsAndMeasuredAnglesReachTheLamps) {
-    const std::string yaml = fmt::format(R"(fernlicht: 1
-road: {0}/scenarios/library/roads/straight.xodr
-speed_kmh: 36
-duration_s: 2
-step_s: 0.1
-variants: {{one: {{file: low.ies}}}}
-can:
-  databases: {0}/scenarios/library/can/mock-up.dbc
-  log: bus.log
-  inputs:
-    lamp.left.swivel_command_rad: {{signal: LampCommand.SwivelLeft, stale: hold}}
-    lamp.left.level: {{signal: LampCommand.LevelLeft, stale: hold}}
-    lamp.right.swivel_rad: {{signal: LampMeasured.SwivelRight, stale: hold}}
-    lamp.*.switch: {{signal: Switches.LowBeam, stale: hold}}
-)",
-                                         FERNLICHT_SOURCE_DIR);
+    const std::string yaml = on("straight", "2",
+                                "{lamp.left.swivel_command_rad: {signal: LampCommand.SwivelLeft, stale: hold}, "
+                                "lamp.left.level: {signal: LampCommand.LevelLeft, stale: hold}, "
+                                "lamp.right.swivel_rad: {signal: LampMeasured.SwivelRight, stale: hold}, "
+                                "'lamp.*.switch': {signal: Switches.LowBeam, stale: hold}}");
     // Left: 10.00 degrees = 0x03e8, level 50 %; right measured at -5.00 = 0xfe0c. The switch goes off at 1.5 s.
     write_file(folder / "bus.log", "(0.500000) can0 200#0003E80000640000\n(0.500000) can0 220#00000CFE\n(0.500000) can0 100#01000000\n"
                                    "(0.000000) can0 100#01000000\n(1.500000) can0 100#00000000\n");

@@ -309,8 +309,7 @@ TEST_F(PlacedTraffic, AResolvedDriveReadsBackToTheSameTraffic) {
                                  "face_m: [0.2, 0.1], tail_cd: 5, brake_cd: 70, repeat: {count: 2, every_m: 11}") +
                              "");
     const std::string written = write_drive(drive);
-    std::ofstream(file) << written;
-    EXPECT_EQ(write_drive(read_drive(file)), written);
+    EXPECT_EQ(write_drive(read_drive(tests::written("again.yaml", written))), written);
     EXPECT_THAT(written, testing::HasSubstr("least_lx: 0.05"));
     EXPECT_EQ(write_drive(read("")).find("traffic:"), std::string::npos) << "a drive without traffic says nothing of it";
 }
@@ -344,9 +343,9 @@ TEST_F(PlacedTraffic, EachHasABodyInItsOwnFrame) {
 
 TEST_F(PlacedTraffic, AModelBringsItsMeshAndItsMounts) {
     const Model car = car_body({{4.2, 1.7, 1.5}, -0.8, glm::vec3(0.3F)});
-    const std::filesystem::path model = file.parent_path() / (file.stem().string() + ".glb");
+    const std::filesystem::path model = tests::new_folder() / "car.glb";
     write_file(model, glb_of(car));
-    Drive drive = read(row("model: " + model.filename().string() + ", ahead: {gap_m: 30}, speed_mps: 20"));
+    Drive drive = read(row("model: " + model.string() + ", ahead: {gap_m: 30}, speed_mps: 20"));
     moment(drive, 0.0);
     Scene scene;
     FilesRead opened;
