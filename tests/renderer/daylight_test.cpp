@@ -3,6 +3,7 @@
 #include "renderer/twin.h"
 #include "scenarios/display/display_profile.h"
 #include "scenarios/display/tone_curve.h"
+#include "tests/renderer/device_test.h"
 #include "tests/renderer/reference/rooms.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 
 namespace fernlicht {
 namespace {
-
-constexpr Wanted drawn{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 /// Ground and an upright board with a post before it, 20 m ahead.
 Scene yard() {
@@ -43,7 +42,7 @@ View ahead() {
     return view;
 }
 
-class DrawnDaylight : public testing::Test {
+class DrawnDaylight : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, bool shadows, const char* technique = "photometric", Work* work = nullptr) {
         RendererSettings settings;
@@ -51,10 +50,9 @@ class DrawnDaylight : public testing::Test {
         settings.technique = technique;
         Renderer renderer(device_, scene, settings);
         if (work != nullptr)
-            *work = renderer.count(moment, ahead(), drawn);
-        return renderer.draw(moment, ahead(), drawn);
+            *work = renderer.count(moment, ahead(), all_results);
+        return renderer.draw(moment, ahead(), all_results);
     }
-    Device device_ = open_device("auto");
 };
 
 struct Tally {
@@ -146,10 +144,7 @@ TEST_F(DrawnDaylight, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
          {std::tuple(0.0, 0.0, 0.0), std::tuple(60'000.0, 30.0, 9000.0), std::tuple(0.2, 60.0, 0.0), std::tuple(100.0, -2.0, 0.0)}) {
         const Moment moment = sunlit(300.0, elevation, lx, sky);
         const Frame a = draw(scene, moment, true), b = draw(scene, moment, true, "photometric-unpruned");
-        EXPECT_EQ(a.colour, b.colour) << lx;
-        EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << lx;
-        EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << lx;
-        EXPECT_EQ(a.target_lx, b.target_lx) << lx;
+        expect_same_frames(a, b, std::to_string(lx));
     }
 }
 

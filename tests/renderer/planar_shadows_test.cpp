@@ -36,10 +36,7 @@ void tilt(Scene& scene, double slope_rad) {
     }
 }
 
-class PlanarShadows : public testing::Test {
-  protected:
-    Device device_ = open_device("auto");
-};
+class PlanarShadows : public DeviceTest {};
 
 TEST(PlaneFit, FindsAPlaneAndAnswersForLinesAndNothing) {
     gl::PlaneFit fit;

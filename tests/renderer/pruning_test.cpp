@@ -7,7 +7,7 @@
 #include "scenarios/drives/play/told_story.h"
 #include "scenarios/drives/story/tell_story.h"
 #include "scenarios/roads/mesh/road_mesh.h"
-#include "tests/renderer/same_frames.h"
+#include "tests/renderer/device_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,6 @@
 
 namespace fernlicht {
 namespace {
-
-constexpr Wanted all_pictures{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 std::shared_ptr<LampFile> round_beam(double peak_cd, double half_deg) {
     auto file = std::make_shared<LampFile>();
@@ -112,17 +110,16 @@ View driver_160() {
         .position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(40.0), .width_px = 160, .height_px = 120};
 }
 
-class PruningTest : public testing::Test {
+class PruningTest : public DeviceTest {
   protected:
     Frame draw(const RandomScene& s, const char* technique, Work* work = nullptr) {
         RendererSettings settings{.technique = technique};
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, s.scene, settings);
         if (work != nullptr)
-            *work = renderer.count(s.moment, driver_160(), all_pictures);
-        return renderer.draw(s.moment, driver_160(), all_pictures);
+            *work = renderer.count(s.moment, driver_160(), all_results);
+        return renderer.draw(s.moment, driver_160(), all_results);
     }
-    Device device_ = open_device("auto");
 };
 
 TEST_F(PruningTest, PrunedAndUnprunedGiveTheSameBytesOverRandomScenes) {
@@ -205,13 +202,13 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
                 moments.push_back(moment);
         }
         for (const View& view : drive.views) {
-            pruned.prepare(moments, view, all_pictures);
-            unpruned.prepare(moments, view, all_pictures);
+            pruned.prepare(moments, view, all_results);
+            unpruned.prepare(moments, view, all_results);
         }
         const int compiled = pruned.compiled_programs();
         for (const Moment& moment : moments)
             for (const View& view : drive.views)
-                expect_same_frames(pruned.draw(moment, view, all_pictures), unpruned.draw(moment, view, all_pictures),
+                expect_same_frames(pruned.draw(moment, view, all_results), unpruned.draw(moment, view, all_results),
                                    variant.name + ", " + view.name + ", " + std::to_string(moment.time_s) + " s");
         EXPECT_EQ(pruned.compiled_programs(), compiled) << "nothing compiles once a drive is prepared";
         EXPECT_GT(compiled, 1);

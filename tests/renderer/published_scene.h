@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "tests/renderer/device_test.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -87,9 +88,8 @@ inline View view_towards(double yaw_deg, double pitch_deg) {
             .height_px = 64};
 }
 
-class PublishedTest : public testing::Test {
+class PublishedTest : public DeviceTest {
   protected:
-    Device device_ = open_device("auto");
     Frame drawn(const std::string& technique, const Scene& scene, const Moment& moment, const View& view,
                 const Wanted& wanted = {.illuminance = true, .ids = true}) {
         return renderer(technique, scene).draw(moment, view, wanted);

@@ -3,11 +3,11 @@
 #include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
 #include "scenarios/values/errors.h"
+#include "tests/renderer/device_test.h"
 #include "tests/trial.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 namespace {
@@ -26,14 +26,13 @@ Scene wall() {
     return scene;
 }
 
-class RenderTest : public testing::Test {
+class RenderTest : public DeviceTest {
   protected:
     RenderTest() {
         moment_.daylight.horizontal_illuminance_lx = 10.0;
         view_.width_px = 64;
         view_.height_px = 48;
     }
-    Device device_ = open_device("auto");
     Scene scene_ = wall();
     Moment moment_;
     View view_;

@@ -1,5 +1,6 @@
 // Shadow methods that draw depth maps: where edges lie, that nothing shades itself, and that the bytes do not depend on what is left out.
 #include "renderer/reference/reference.h"
+#include "tests/renderer/device_test.h"
 #include "tests/renderer/shadow_methods.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@ namespace {
 
 using namespace tests;
 
-constexpr Wanted all_results{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 constexpr double lamp_x = 2.2, lamp_z = 0.65;
 
 ShadowSettings method(ShadowMethod which) { return {.method = which}; }
@@ -29,7 +29,7 @@ double shadow_y(double side, double x, double y, double at_x, double from_x = la
     return side + (y - side) * (at_x - from_x) / (x - from_x);
 }
 
-class ShadowMethodTest : public testing::Test {
+class ShadowMethodTest : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const View& view, const ShadowSettings& shadows,
                const char* technique = "photometric", const Wanted& wanted = {.illuminance = true}) {
@@ -70,7 +70,6 @@ class ShadowMethodTest : public testing::Test {
         }
         return best;
     }
-    Device device_ = open_device("auto");
 };
 
 class MapMethods : public ShadowMethodTest, public testing::WithParamInterface<ShadowMethod> {};
@@ -86,10 +85,7 @@ TEST_P(MapMethods, PrunedAndUnprunedGiveTheSameBytesTwice) {
             const Frame a = draw(scene, moment, view, method(GetParam()), "photometric", all_results);
             for (const char* technique : {"photometric", "photometric-unpruned"}) {
                 const Frame b = draw(scene, moment, view, method(GetParam()), technique, all_results);
-                EXPECT_EQ(a.colour, b.colour) << technique;
-                EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << technique;
-                EXPECT_EQ(a.target_lx, b.target_lx) << technique;
-                EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << technique;
+                expect_same_frames(a, b, technique);
             }
         }
     }

@@ -3,15 +3,13 @@
 
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
-#include "tests/renderer/same_frames.h"
+#include "tests/renderer/device_test.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace fernlicht {
-
-inline constexpr Wanted all_results{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 inline void add_flat(Mesh& mesh, std::uint32_t material, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size()), begin = static_cast<std::uint32_t>(mesh.indices.size());

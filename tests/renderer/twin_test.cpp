@@ -4,6 +4,7 @@
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "scenarios/photometry.h"
+#include "tests/renderer/device_test.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -77,10 +78,7 @@ View driver_96() {
     return {.position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(30.0), .width_px = 96, .height_px = 64};
 }
 
-class TwinTest : public testing::Test {
-  protected:
-    Device device_ = open_device("auto");
-};
+class TwinTest : public DeviceTest {};
 
 struct TwinComparison {
     int compared = 0, beyond = 0;
@@ -115,8 +113,6 @@ TwinComparison compare(const Frame& frame, const Twin& twin, const Moment& momen
     return result;
 }
 
-constexpr Wanted all_of_both{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
-
 TEST_F(TwinTest, DriverIsSane) { EXPECT_LT(check_sanity(device_), sanity_bound); }
 
 TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
@@ -126,7 +122,7 @@ TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
     Renderer renderer(device_, scene, settings);
     for (const double sky_lx : {0.0, 3.4}) {
         const Moment moment = two_lamps({}, sky_lx);
-        const TwinComparison c = compare(renderer.draw(moment, driver_96(), all_of_both), Twin(scene, false), moment, driver_96());
+        const TwinComparison c = compare(renderer.draw(moment, driver_96(), all_results), Twin(scene, false), moment, driver_96());
         RecordProperty("worst_ratio_to_bound_ppm", static_cast<int>(1e6 * c.worst_ratio));
         EXPECT_GT(c.compared, 3000);
         EXPECT_EQ(c.beyond, 0) << "worst " << c.worst_ratio << " of the bound";
@@ -141,7 +137,7 @@ TEST_F(TwinTest, TheBoundIsNotSlack) {
     settings.shadows.method = ShadowMethod::none;
     Renderer renderer(device_, scene, settings);
     const Moment moment = two_lamps({});
-    const Frame frame = renderer.draw(moment, driver_96(), all_of_both);
+    const Frame frame = renderer.draw(moment, driver_96(), all_results);
     Moment one_lamp = moment;
     one_lamp.lamps.pop_back();
     EXPECT_GT(compare(frame, Twin(scene, false), one_lamp, driver_96()).beyond, 1000);
@@ -160,9 +156,9 @@ TEST_F(TwinTest, UtmCoordinatesGiveTheSameFrame) {
     const Scene here = small_scene({}), there = small_scene(far);
     RendererSettings settings;
     Renderer at_origin(device_, here, settings);
-    const Frame a = at_origin.draw(two_lamps({}), driver_96(), all_of_both);
+    const Frame a = at_origin.draw(two_lamps({}), driver_96(), all_results);
     Renderer at_utm(device_, there, settings);
-    const Frame b = at_utm.draw(two_lamps(far), driver_96(), all_of_both);
+    const Frame b = at_utm.draw(two_lamps(far), driver_96(), all_results);
     const Twin twin(here, false);
     const Moment moment = two_lamps({});
     int differing = 0;
@@ -215,11 +211,10 @@ TEST_F(TwinTest, TwiceTheSameBytes) {
     const Moment moment = two_lamps({}, 1.0);
     const auto draw = [&] {
         Renderer renderer(device_, scene, {});
-        return renderer.draw(moment, driver_96(), all_of_both);
+        return renderer.draw(moment, driver_96(), all_results);
     };
     const Frame a = draw(), b = draw();
-    EXPECT_EQ(std::tuple(a.colour, a.illuminance_lx, a.luminance_cdm2, a.target_lx),
-              std::tuple(b.colour, b.illuminance_lx, b.luminance_cdm2, b.target_lx));
+    expect_same_frames(a, b, "again");
 }
 
 TEST_F(TwinTest, ABlackLampGivesExactlyZero) {
@@ -228,7 +223,7 @@ TEST_F(TwinTest, ABlackLampGivesExactlyZero) {
     for (LitLamp& lamp : moment.lamps)
         lamp.intensity_factor = 0.0;
     Renderer renderer(device_, scene, {});
-    const Frame frame = renderer.draw(moment, driver_96(), all_of_both);
+    const Frame frame = renderer.draw(moment, driver_96(), all_results);
     for (const float e : frame.illuminance_lx.pixels())
         ASSERT_EQ(e, 0.0F);
 }
@@ -247,7 +242,7 @@ TEST_F(TwinTest, RetroreflectionAtTheThirtyMetreGeometryIsMeasuredInTheImage) {
     view.vertical_fov_rad = radians(2.0);
     view.width_px = view.height_px = 33;
     Renderer renderer(device_, scene, {});
-    const Frame frame = renderer.draw(moment, view, all_of_both);
+    const Frame frame = renderer.draw(moment, view, all_results);
     const double luminance = static_cast<double>(frame.luminance_cdm2.at(16, 16)),
                  illuminance = static_cast<double>(frame.illuminance_lx.at(16, 16));
     const double cosine = 0.65 / std::hypot(30.0, 0.65);

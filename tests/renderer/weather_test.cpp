@@ -4,6 +4,7 @@
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
 #include "scenarios/light/fog_light.h"
+#include "tests/renderer/device_test.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -11,8 +12,6 @@
 
 namespace fernlicht {
 namespace {
-
-constexpr Wanted all_drawn{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 LitLamp beam(const glm::dvec3& at) {
     auto file = std::make_shared<LampFile>();
@@ -47,16 +46,15 @@ View ahead_in_weather() {
     return view;
 }
 
-class DrawnWeather : public testing::Test {
+class DrawnWeather : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const char* technique = "photometric", int samples = 32, Work* work = nullptr,
                const View& view = ahead_in_weather()) {
         Renderer renderer(device_, scene, RendererSettings{.technique = technique, .fog_samples = samples});
         if (work != nullptr)
-            *work = renderer.count(moment, view, all_drawn);
-        return renderer.draw(moment, view, all_drawn);
+            *work = renderer.count(moment, view, all_results);
+        return renderer.draw(moment, view, all_results);
     }
-    Device device_ = open_device("auto");
 };
 
 /// Black ground and no sky: what is seen is the air alone. Float against double at the same places, in every pixel, sky and surfaces.
@@ -147,10 +145,7 @@ TEST_F(DrawnWeather, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
         Moment moment = in(weather, weather.wetness > 0.5 ? 0.0 : 1.0);
         moment.lamps[1].intensity_factor = weather.extinction_per_m > 0.02 ? 0.0 : 1.0;
         const Frame a = draw(scene, moment), b = draw(scene, moment, "photometric-unpruned");
-        EXPECT_EQ(a.colour, b.colour) << weather.extinction_per_m << ' ' << weather.wetness;
-        EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << weather.extinction_per_m;
-        EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << weather.extinction_per_m << ' ' << weather.wetness;
-        EXPECT_EQ(std::tuple(a.target_lx, a.depth_m, a.ids), std::tuple(b.target_lx, b.depth_m, b.ids));
+        expect_same_frames(a, b, std::to_string(weather.extinction_per_m) + ' ' + std::to_string(weather.wetness));
     }
 }
 
@@ -240,9 +235,7 @@ TEST_F(DrawnWeather, BeamsOfOthersPrunedAndUnprunedGiveTheSameBytes) {
             moment.other_lamps = others();
             moment.least_traffic_lx = least_lx;
             const Frame a = draw(scene, moment), b = draw(scene, moment, "photometric-unpruned");
-            EXPECT_EQ(a.colour, b.colour) << extinction << ' ' << least_lx;
-            EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << extinction;
-            EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << extinction << ' ' << least_lx;
+            expect_same_frames(a, b, std::to_string(extinction) + ' ' + std::to_string(least_lx));
         }
 }
 

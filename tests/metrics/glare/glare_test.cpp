@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 namespace {

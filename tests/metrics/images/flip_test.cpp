@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
 #include <tbb/global_control.h>

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <random>

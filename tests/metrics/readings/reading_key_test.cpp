@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <filesystem>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <numeric>
 #include <tuple>
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <stdexcept>
 
 namespace fernlicht {

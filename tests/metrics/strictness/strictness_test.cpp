@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
 #include <tuple>

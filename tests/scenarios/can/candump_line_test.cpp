@@ -6,7 +6,6 @@
 #include "tests/trial.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <tuple>
 
 namespace fernlicht {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 namespace {

@@ -5,7 +5,6 @@
 #include "tests/trial.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <string>
 
 namespace fernlicht {

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 namespace {

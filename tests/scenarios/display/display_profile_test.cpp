@@ -3,7 +3,6 @@
 #include "tests/trial.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <stdexcept>
 
 namespace fernlicht {

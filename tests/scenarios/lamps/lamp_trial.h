@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <random>
 #include <string>
 

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <random>
 #include <sstream>
 

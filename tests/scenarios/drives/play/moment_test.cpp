@@ -13,7 +13,6 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 namespace {
