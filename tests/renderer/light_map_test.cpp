@@ -6,6 +6,7 @@
 #include "scenarios/light/light.h"
 #include "scenarios/light/retro_tint.h"
 #include "scenarios/models/road_user_bodies.h"
+#include "tests/lamps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +33,8 @@ Moment moved(Moment moment, const Pose& car) {
 
 /// 625 cd in every direction, 1 m above the road over the car's origin.
 Moment even_lamp() {
-    auto file = std::make_shared<LampFile>();
-    file->table = {{-180, 180}, {-90, 90}, std::vector<double>(4, 625.0), {}, BetweenSamples::linear_cd};
     Moment moment;
-    moment.lamps.push_back({"even", file, Pose{{0.0, 0.0, 1.0}, glm::dmat3(1.0)}, 1.0, {}, 0.0});
+    moment.lamps.push_back({"even", tests::file_of(tests::even_table(625.0)), Pose{{0.0, 0.0, 1.0}, glm::dmat3(1.0)}, 1.0, {}, 0.0});
     return moment;
 }
 

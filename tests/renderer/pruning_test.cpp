@@ -7,6 +7,7 @@
 #include "scenarios/drives/play/told_story.h"
 #include "scenarios/drives/story/tell_story.h"
 #include "scenarios/roads/mesh/road_mesh.h"
+#include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
 
 #include <algorithm>
@@ -19,16 +20,10 @@
 namespace fernlicht {
 namespace {
 
-std::shared_ptr<LampFile> round_beam(double peak_cd, double half_deg) {
-    auto file = std::make_shared<LampFile>();
-    for (int i = -20; i <= 20; ++i)
-        file->table.h_deg.push_back(half_deg * i / 20.0);
-    for (int i = -20; i <= 20; ++i)
-        file->table.v_deg.push_back(half_deg * i / 20.0);
-    for (const double v : file->table.v_deg)
-        for (const double h : file->table.h_deg)
-            file->table.cd.push_back(peak_cd * std::exp(-4.0 * (h * h + v * v) / (half_deg * half_deg)));
-    return file;
+std::shared_ptr<const LampFile> round_beam(double peak_cd, double half_deg) {
+    const std::vector<double> angles = tests::steps(-half_deg, half_deg, half_deg / 20.0);
+    return tests::file_of(tests::table_of(
+        angles, angles, [&](double h, double v) { return peak_cd * std::exp(-4.0 * (h * h + v * v) / (half_deg * half_deg)); }));
 }
 
 /// What a random scene may hold; each can be switched by itself.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
 
 #include <cmath>
@@ -14,22 +15,10 @@ namespace fernlicht::tests {
 
 /// A cut-off that is soft enough for a texture of 1024 x 512 to hold it.
 inline CandelaTable soft_beam(double peak_cd, double turn_deg) {
-    CandelaTable table;
-    for (int i = -60; i <= 60; ++i)
-        table.h_deg.push_back(i * 0.5);
-    for (int i = -40; i <= 20; ++i)
-        table.v_deg.push_back(i * 0.5);
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg)
-            table.cd.push_back(100.0 + peak_cd / (1.0 + std::exp((v + 1.0) / 0.8)) * std::exp(-(h - turn_deg) * (h - turn_deg) / 150.0) *
-                                           std::exp(-v * v / 60.0));
-    return table;
-}
-
-inline std::shared_ptr<const LampFile> file_of(CandelaTable table) {
-    auto file = std::make_shared<LampFile>();
-    file->table = std::move(table);
-    return file;
+    return table_of(steps(-30.0, 30.0, 0.5), steps(-20.0, 10.0, 0.5), [=](double h, double v) {
+        return 100.0 +
+               peak_cd / (1.0 + std::exp((v + 1.0) / 0.8)) * std::exp(-(h - turn_deg) * (h - turn_deg) / 150.0) * std::exp(-v * v / 60.0);
+    });
 }
 
 /// `at` in the car's frame.

@@ -14,15 +14,8 @@ constexpr Wanted lux_and_surfaces{.illuminance = true, .ids = true};
 
 /// Symmetric: a projection with q = 1 + z would move the axis of any other.
 CandelaTable round_beam() {
-    CandelaTable table;
-    for (int i = -60; i <= 60; ++i)
-        table.h_deg.push_back(i * 0.5);
-    for (int i = -30; i <= 30; ++i)
-        table.v_deg.push_back(i * 0.5);
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg)
-            table.cd.push_back(10000.0 * std::exp(-(h * h + v * v) / 60.0));
-    return table;
+    return tests::table_of(tests::steps(-30.0, 30.0, 0.5), tests::steps(-15.0, 15.0, 0.5),
+                           [](double h, double v) { return 10000.0 * std::exp(-(h * h + v * v) / 60.0); });
 }
 
 /// A wall across the lamps' axis, so many metres ahead of a lamp that stands in the camera, seen from there.

@@ -3,6 +3,7 @@
 
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
+#include "tests/lamps.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -12,13 +13,7 @@ namespace fernlicht::tests {
 
 /// The same light everywhere within 30 degrees to the sides, 8 up and 14 down.
 inline std::shared_ptr<const LampFile> evenly_bright() {
-    auto file = std::make_shared<LampFile>();
-    for (int i = -30; i <= 30; ++i)
-        file->table.h_deg.push_back(i);
-    for (int i = -14; i <= 8; ++i)
-        file->table.v_deg.push_back(i);
-    file->table.cd.assign(file->table.h_deg.size() * file->table.v_deg.size(), 10000.0);
-    return file;
+    return file_of(table_of(steps(-30.0, 30.0, 1.0), steps(-14.0, 8.0, 1.0), [](double, double) { return 10000.0; }));
 }
 
 inline LitLamp lamp_at(const char* name, const glm::dvec3& place, const std::shared_ptr<const LampFile>& file) {

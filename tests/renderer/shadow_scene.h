@@ -3,6 +3,7 @@
 
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
+#include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
 
 #include <algorithm>
@@ -43,13 +44,7 @@ inline Scene level_road_for_shadows() {
 }
 
 /// As bright in every direction within 80 degrees to the sides and 40 degrees up and down.
-inline std::shared_ptr<const LampFile> even_beam(double cd = 10000.0) {
-    auto file = std::make_shared<LampFile>();
-    file->table.h_deg = {-80.0, 80.0};
-    file->table.v_deg = {-40.0, 40.0};
-    file->table.cd = {cd, cd, cd, cd};
-    return file;
-}
+inline std::shared_ptr<const LampFile> even_beam(double cd = 10000.0) { return tests::file_of(tests::even_table(cd, 80.0, 40.0)); }
 
 inline LitLamp lamp_at(const glm::dvec3& place_m, double yaw_rad = 0.0, double pitch_rad = 0.0) {
     LitLamp lamp;

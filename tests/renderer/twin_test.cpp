@@ -4,6 +4,7 @@
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "scenarios/photometry.h"
+#include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
 
 #include <cmath>
@@ -16,18 +17,10 @@ namespace {
 
 /// A beam with a cut-off and a kink, steep enough to hurt: ln I falls by about 500 per radian at the cut-off.
 CandelaTable steep_beam() {
-    CandelaTable table;
-    for (int i = -300; i <= 300; ++i)
-        table.h_deg.push_back(i * 0.1);
-    for (int i = -200; i <= 100; ++i)
-        table.v_deg.push_back(i * 0.05);
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg) {
-            const double cut = -0.57 + (h > 0.0 ? std::min(h * 0.268, 2.0) : 0.0);
-            table.cd.push_back(300.0 + 20000.0 / (1.0 + std::exp((v - cut) / 0.11)) * std::exp(-h * h / 200.0) *
-                                           std::exp(-(v - cut) * (v - cut) / 40.0));
-        }
-    return table;
+    return tests::table_of(tests::steps(-30.0, 30.0, 0.1), tests::steps(-10.0, 5.0, 0.05), [](double h, double v) {
+        const double cut = -0.57 + (h > 0.0 ? std::min(h * 0.268, 2.0) : 0.0);
+        return 300.0 + 20000.0 / (1.0 + std::exp((v - cut) / 0.11)) * std::exp(-h * h / 200.0) * std::exp(-(v - cut) * (v - cut) / 40.0);
+    });
 }
 
 void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, glm::vec3 normal) {
@@ -61,8 +54,7 @@ Scene small_scene(glm::dvec3 origin) {
 }
 
 Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
-    auto file = std::make_shared<LampFile>();
-    file->table = steep_beam();
+    const auto file = tests::file_of(steep_beam());
     Moment moment;
     moment.ego.position_m = origin;
     moment.daylight.horizontal_illuminance_lx = sky_lx;

@@ -14,14 +14,8 @@ namespace fernlicht {
 namespace {
 
 LitLamp beam(const glm::dvec3& at) {
-    auto file = std::make_shared<LampFile>();
-    for (int i = -60; i <= 60; ++i)
-        file->table.h_deg.push_back(0.5 * i);
-    for (int i = -60; i <= 40; ++i)
-        file->table.v_deg.push_back(0.25 * i);
-    for (const double v : file->table.v_deg)
-        for (const double h : file->table.h_deg)
-            file->table.cd.push_back(300.0 + 15000.0 / (1.0 + std::exp((v + 0.6) / 0.3)) * std::exp(-h * h / 200.0));
+    const auto cd = [](double h, double v) { return 300.0 + 15000.0 / (1.0 + std::exp((v + 0.6) / 0.3)) * std::exp(-h * h / 200.0); };
+    const auto file = tests::file_of(tests::table_of(tests::steps(-30.0, 30.0, 0.5), tests::steps(-15.0, 10.0, 0.25), cd));
     return {"beam", file, {at, axes_from_angles(0.0, 0.0, 0.0)}, 1.0, {}, 0.0};
 }
 

@@ -3,6 +3,7 @@
 #include "metrics/beam/cut_off_elbow.h"
 #include "metrics/regulation/aim.h"
 #include "metrics/regulation/regulation_check.h"
+#include "tests/lamps.h"
 #include "tests/metrics/planted_cut_off.h"
 
 #include <algorithm>
@@ -21,16 +22,9 @@ struct Edge {
 
 /// The profile over the distance above the edge, in cd.
 template <class Profile> CandelaTable edge_table(const Edge& edge, Profile profile, double v_step = 0.01, double h_step = 0.1) {
-    CandelaTable t;
-    for (int i = 0; - 7.0 + i * h_step <= 7.0 + 1e-9; ++i)
-        t.h_deg.push_back(-7.0 + i * h_step);
-    for (int i = 0; - 5.0 + i * v_step <= 5.0 + 1e-9; ++i)
-        t.v_deg.push_back(-5.0 + i * v_step);
-    for (const double v : t.v_deg)
-        for (const double h : t.h_deg)
-            t.cd.push_back(profile(v - edge.line(h)));
-    t.rule = BetweenSamples::log_cd;
-    return t;
+    return tests::table_of(
+        tests::steps(-7.0, 7.0, h_step), tests::steps(-5.0, 5.0, v_step), [&](double h, double v) { return profile(v - edge.line(h)); },
+        BetweenSamples::log_cd);
 }
 
 /// 10 000 cd falling to 100 cd in a logistic of the logarithm: G = 2 tanh(0.1 / (4 s)) by hand, inflection on the edge.

@@ -2,6 +2,7 @@
 #include "metrics/glare/eye_light.h"
 #include "metrics/glare/glare.h"
 #include "metrics/glare/traffic_glare.h"
+#include "tests/lamps.h"
 
 #include <cmath>
 #include <filesystem>
@@ -93,9 +94,7 @@ TEST(DeBoer, ByHandAndOnlyWithLightOffTheLineOfSight) {
 // Lamps as eyes meet them, against hand-worked places on a level road, and what a crest hides.
 
 LitLamp lamp_at(const glm::dvec3& position_m, double cd) {
-    auto file = std::make_shared<LampFile>();
-    file->table = {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd};
-    LitLamp lamp{.name = "left", .file = std::move(file)};
+    LitLamp lamp{.name = "left", .file = tests::file_of(tests::even_table(cd))};
     lamp.pose.position_m = position_m;
     return lamp;
 }
@@ -151,8 +150,7 @@ TEST(EyeLight, ACrestHidesLampsAndALevelRoadDoesNot) {
 
 /// 5000 cd in all directions ahead, 50 m before the eye and 3.5 m to the left, on body 0.
 Moment oncoming() {
-    auto file = std::make_shared<LampFile>();
-    file->table = {{-80.0, 80.0}, {-80.0, 80.0}, {5000.0, 5000.0, 5000.0, 5000.0}, {}, BetweenSamples::linear_cd};
+    const auto file = tests::file_of(tests::even_table(5000.0, 80.0, 80.0));
     return Moment{.other_lamps = {{"other left", file, {{50.0, 3.5, 1.2}, axes_from_angles(pi, 0.0, 0.0)}, 1.0, {}, 0.0, 0, {0.16, 0.12}}},
                   .bodies = {{"other", {{53.0, 3.5, 0.0}, axes_from_angles(pi, 0.0, 0.0)}, true, 0.0}}};
 }

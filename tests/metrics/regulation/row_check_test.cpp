@@ -3,6 +3,7 @@
 #include "metrics/regulation/rows.h"
 #include "scenarios/lamps/lamp_file.h"
 #include "scenarios/values/errors.h"
+#include "tests/lamps.h"
 #include "tests/metrics/regulation/generated_lamp.h"
 
 #include <algorithm>
@@ -105,13 +106,8 @@ TEST(RowCheck, TwoLampsAreHalvedAndEachHeldToItsOwnRows) {
 
 TEST(RegulationCheck, ReAimKeepsWithinTheAllowanceAndSaysSo) {
     // A lamp that is lit right of 0.6 R: turned to the left by 0.6 or more it lights HV. Allowed are 0.75 of R149, not the 0.5 of R112.
-    CandelaTable t;
-    for (int i = -100; i <= 100; ++i)
-        t.h_deg.push_back(i * 0.1);
-    t.v_deg = {-5, 0, 5};
-    for (int j = 0; j < 3; ++j)
-        for (const double h : t.h_deg)
-            t.cd.push_back(h > 0.55 ? 5000.0 : 100.0);
+    const CandelaTable t =
+        tests::table_of(tests::steps(-10.0, 10.0, 0.1), {-5, 0, 5}, [](double h, double) { return h > 0.55 ? 5000.0 : 100.0; });
     Regulation r = table_of({point("HV", 0, 0, at_least(4000)), point("dark", -1, 0, at_most(200))});
     r.aim = AimRule::maximum; // its middle would put the light on HV at once: as-is is asked below by a rule that finds nothing
     r.re_aim = {0.75, 0.75, 0.25};

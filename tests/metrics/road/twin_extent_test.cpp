@@ -1,6 +1,7 @@
 #include "metrics/road/extent.h"
 
 #include "scenarios/light/light.h"
+#include "tests/lamps.h"
 #include "tests/metrics/straight_grid.h"
 
 #include <cmath>
@@ -13,12 +14,10 @@ namespace {
 using tests::extent_of, tests::straight_grid;
 
 LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double pitch_rad = 0.0) {
-    auto file = std::make_shared<LampFile>();
-    file->table = std::move(table);
-    return LitLamp{.file = std::move(file), .pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)}};
+    return {.file = tests::file_of(std::move(table)), .pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)}};
 }
 
-CandelaTable everywhere(double cd) { return {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd}; }
+CandelaTable everywhere(double cd) { return tests::even_table(cd); }
 
 /// `cd` below the lamp's horizon, nothing above it.
 CandelaTable cut_off_at_horizon(double cd) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/reference/reference.h"
+#include "tests/lamps.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -48,11 +49,7 @@ inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road, dou
 
 /// The same candela in every direction of the forward half-space.
 inline LitLamp even_lamp(double cd, const Pose& pose) {
-    auto file = std::make_shared<LampFile>();
-    file->table.h_deg = {-180.0, 180.0};
-    file->table.v_deg = {-90.0, 90.0};
-    file->table.cd = {cd, cd, cd, cd};
-    return {"lamp", file, pose, 1.0, LampColour{}, 0.0};
+    return {"lamp", tests::file_of(tests::even_table(cd)), pose, 1.0, LampColour{}, 0.0};
 }
 
 /// A lamp that looks along a direction of the world.

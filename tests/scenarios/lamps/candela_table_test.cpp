@@ -1,6 +1,7 @@
 #include "scenarios/lamps/candela_table.h"
 
 #include "scenarios/values/pose.h"
+#include "tests/lamps.h"
 #include "tests/trial.h"
 
 #include <cmath>
@@ -11,23 +12,7 @@
 namespace fernlicht {
 namespace {
 
-std::vector<double> axis(double from, double to, double step) {
-    std::vector<double> out;
-    const auto count = static_cast<int>(std::lround((to - from) / step));
-    for (int i = 0; i <= count; ++i)
-        out.push_back(from + (to - from) * i / count);
-    return out;
-}
-
-template <class Intensity>
-CandelaTable table_of(std::vector<double> h, std::vector<double> v, Intensity intensity, BetweenSamples rule = BetweenSamples::linear_cd) {
-    CandelaTable table{std::move(h), std::move(v), {}, {}, rule};
-    for (const double vd : table.v_deg)
-        for (const double hd : table.h_deg)
-            table.cd.push_back(intensity(hd, vd));
-    check_invariants(table);
-    return table;
-}
+using tests::steps, tests::table_of;
 
 CandelaTable random_table(unsigned seed, BetweenSamples rule = BetweenSamples::linear_cd) {
     std::mt19937 random(seed);
@@ -74,7 +59,7 @@ TEST(CandelaTable, HasNoLightOutsideItsAxes) {
 
 TEST(CandelaTable, WrapsRoundAFullTurn) {
     const CandelaTable table =
-        table_of(axis(-180.0, 180.0, 10.0), {-90.0, 90.0}, [](double h, double) { return 2.0 + std::cos(radians(h)); });
+        table_of(steps(-180.0, 180.0, 10.0), {-90.0, 90.0}, [](double h, double) { return 2.0 + std::cos(radians(h)); });
     EXPECT_NEAR(intensity_cd(table, 185.0, 0.0), intensity_cd(table, -175.0, 0.0), 1e-12);
     EXPECT_NEAR(intensity_cd(table, -725.0, 0.0), intensity_cd(table, -5.0, 0.0), 1e-12);
     EXPECT_NEAR(intensity_cd(table, 180.0, 0.0), 1.0, 1e-12);
@@ -96,7 +81,7 @@ TEST(CandelaTable, HasNoLightInAGapButOnItsBorder) {
 }
 
 TEST(CandelaTable, FindsItsPeak) {
-    const CandelaTable table = table_of(axis(-20.0, 20.0, 0.5), axis(-10.0, 5.0, 0.25), [](double h, double v) {
+    const CandelaTable table = table_of(steps(-20.0, 20.0, 0.5), steps(-10.0, 5.0, 0.25), [](double h, double v) {
         return 3e4 * std::exp(-std::pow(h - 1.5, 2) / 50.0 - std::pow(v + 0.75, 2) / 4.0);
     });
     const Peak peak = peak_of(table);
@@ -109,11 +94,11 @@ TEST(CandelaTableFlux, OfAConstantIntensityAndOfACosine) {
     for (const auto rule : {BetweenSamples::linear_cd, BetweenSamples::log_cd})
         for (const double step : {180.0, 90.0, 5.0, 0.5}) {
             const CandelaTable table = table_of(
-                axis(-180.0, 180.0, 2.0 * step), axis(-90.0, 90.0, step), [](double, double) { return 12.5; }, rule);
+                steps(-180.0, 180.0, 2.0 * step), steps(-90.0, 90.0, step), [](double, double) { return 12.5; }, rule);
             EXPECT_NEAR(flux_lm(table), 4.0 * pi * 12.5, 1e-11 * 4.0 * pi * 12.5) << step;
         }
     // Lambert: I = I0 cos(angle to the axis) = I0 cos V cos H; linear interpolation over 1 degree loses about step^2/12 in each direction.
-    const CandelaTable table = table_of(axis(-90.0, 90.0, 1.0), axis(-90.0, 90.0, 1.0), [](double h, double v) {
+    const CandelaTable table = table_of(steps(-90.0, 90.0, 1.0), steps(-90.0, 90.0, 1.0), [](double h, double v) {
         return std::max(0.0, 800.0 * std::cos(radians(v)) * std::cos(radians(h)));
     });
     EXPECT_NEAR(flux_lm(table) / (pi * 800.0), 1.0, 6e-5);
@@ -245,14 +230,14 @@ TEST(CandelaTableSums, SubtractAndCountWhatCannotBeTaken) {
 
 TEST(CandelaTablePrediction, IsPerfectForABilinearBeam) {
     const CandelaTable table =
-        table_of(axis(-10.0, 10.0, 1.0), axis(-5.0, 5.0, 0.5), [](double h, double v) { return 100.0 + h + 2.0 * v + 0.1 * h * v; });
+        table_of(steps(-10.0, 10.0, 1.0), steps(-5.0, 5.0, 0.5), [](double h, double v) { return 100.0 + h + 2.0 * v + 0.1 * h * v; });
     const InterpolationError error = interpolation_error(table);
     EXPECT_EQ(error.samples, 21U * 21U - 11U * 11U);
     EXPECT_LT(error.worst_relative, 1e-14);
 }
 
 TEST(CandelaTablePrediction, FindsTheSpikeItCannotPredict) {
-    CandelaTable table = table_of(axis(-10.0, 10.0, 1.0), axis(-5.0, 5.0, 0.5), [](double, double) { return 10.0; });
+    CandelaTable table = table_of(steps(-10.0, 10.0, 1.0), steps(-5.0, 5.0, 0.5), [](double, double) { return 10.0; });
     table.at(7, 4) = 100.0;
     const InterpolationError error = interpolation_error(table);
     EXPECT_DOUBLE_EQ(error.worst_relative, 0.9);
@@ -263,7 +248,7 @@ TEST(CandelaTablePrediction, FindsTheSpikeItCannotPredict) {
 
 TEST(CandelaTablePrediction, FollowsTheCurvatureOfAParabolaAndNothingInATinyOrDarkTable) {
     // y = x^2 on step 1, predicted from step 2: the chord lies 1 above the curve at each middle. Peak 100.
-    const CandelaTable table = table_of(axis(-10.0, 10.0, 1.0), {0.0, 1.0}, [](double h, double) { return h * h; });
+    const CandelaTable table = table_of(steps(-10.0, 10.0, 1.0), {0.0, 1.0}, [](double h, double) { return h * h; });
     const InterpolationError error = interpolation_error(table);
     EXPECT_EQ(error.samples, 20U);
     EXPECT_NEAR(error.median_relative, 0.01, 1e-12);

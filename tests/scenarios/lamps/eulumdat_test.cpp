@@ -1,4 +1,5 @@
 // EULUMDAT: symmetries, lamp sets, absolute values, and broken files.
+#include "tests/lamps.h"
 #include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@ namespace fernlicht {
 namespace {
 
 using testing::HasSubstr;
+using tests::steps;
 
 /// The parts of a file that the tests change.
 struct Ldt {
@@ -88,13 +90,6 @@ template <class Form> Ldt planes(int symmetry, const std::vector<double>& stored
     return ldt;
 }
 
-std::vector<double> turn(double from, double to) {
-    std::vector<double> out;
-    for (double c = from; c <= to; c += 15)
-        out.push_back(c);
-    return out;
-}
-
 TEST_F(Eulumdat, EachSymmetryFillsTheTurn) {
     const auto expect_form = [&](const Ldt& ldt, auto form) {
         const LampFile l = lamp(ldt);
@@ -104,20 +99,20 @@ TEST_F(Eulumdat, EachSymmetryFillsTheTurn) {
                 EXPECT_NEAR(intensity_cd(l.table, -c, g - 90.0), form(c, g), 1e-9)
                     << "Isym " << ldt.symmetry << ", C " << c << ", gamma " << g;
     };
-    expect_form(planes(0, turn(0, 345), lopsided), lopsided);
+    expect_form(planes(0, steps(0, 345, 15), lopsided), lopsided);
     const auto about_0 = [](double c, double g) {
         return 100.0 + std::sin(radians(g)) * (30.0 * std::cos(radians(c)) + 8.0 * std::cos(2.0 * radians(c)));
     };
-    expect_form(planes(2, turn(0, 180), about_0), about_0);
+    expect_form(planes(2, steps(0, 180, 15), about_0), about_0);
     const auto quarters = [](double c, double g) { return 100.0 + 30.0 * std::sin(radians(g)) * std::cos(2.0 * radians(c)); };
-    expect_form(planes(4, turn(0, 90), quarters), quarters);
+    expect_form(planes(4, steps(0, 90, 15), quarters), quarters);
 }
 
 TEST_F(Eulumdat, SymmetryThreeIsStoredFromC270ThroughC0ToC90) {
     const auto about_90 = [](double c, double g) {
         return 100.0 + std::sin(radians(g)) * (40.0 * std::sin(radians(c)) + 8.0 * std::cos(2.0 * radians(c)));
     };
-    const LampFile l = lamp(planes(3, turn(-90, 90), about_90));
+    const LampFile l = lamp(planes(3, steps(-90, 90, 15), about_90));
     ASSERT_THAT(all_notes(l), HasSubstr("Plane C 90 is taken as forward"));
     for (double c = 0; c < 360; c += 15)
         for (double g = 0; g <= 180; g += 30)
@@ -196,7 +191,7 @@ TEST_F(Eulumdat, NoPrefixOfAGoodFileIsReadAndNothingMakesItFallOver) {
     EXPECT_EQ(refusal("p.ldt", good), "");
     must_survive_random_bytes("r.ldt", "", 11);
     must_survive_random_bytes("r.ldt", "ACME\n2\n0\n2\n0\n3\n0\n", 12);
-    must_survive_changed_bytes("r.ldt", planes(4, turn(0, 90), [](double, double g) { return g; }).text(), 13);
+    must_survive_changed_bytes("r.ldt", planes(4, steps(0, 90, 15), [](double, double g) { return g; }).text(), 13);
 }
 
 // Type C: symmetries, open and closed turns, and where the beam points.
@@ -212,12 +207,6 @@ class CPlanes : public LampTrial {
             for (const double g : gamma)
                 text += fmt::format("{}\n", form(ci, g));
         return read("c.ies", text, LampReadOptions{.type_c_axis = axis});
-    }
-    static std::vector<double> steps(double from, double to, double by) {
-        std::vector<double> out;
-        for (int i = 0; from + i * by <= to + 1e-9; ++i)
-            out.push_back(from + i * by);
-        return out;
     }
 };
 

@@ -7,6 +7,7 @@
 #include "scenarios/light/wet_light.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/scene.h"
+#include "tests/lamps.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -16,16 +17,9 @@
 namespace fernlicht {
 namespace {
 
-LitLamp lamp_of(CandelaTable table, const Pose& pose) {
-    auto file = std::make_shared<LampFile>();
-    file->table = std::move(table);
-    return {"lamp", file, pose, 1.0, {}, 0.0};
-}
+LitLamp lamp_of(CandelaTable table, const Pose& pose) { return {"lamp", tests::file_of(std::move(table)), pose, 1.0, {}, 0.0}; }
 
-LitLamp even(double cd) {
-    CandelaTable table{.h_deg = {-180.0, 180.0}, .v_deg = {-90.0, 90.0}, .cd = {cd, cd, cd, cd}};
-    return lamp_of(table, {glm::dvec3(0.0), axes_from_angles(0.0, 0.0, 0.0)});
-}
+LitLamp even(double cd) { return lamp_of(tests::even_table(cd), {glm::dvec3(0.0), axes_from_angles(0.0, 0.0, 0.0)}); }
 
 TEST(HenyeyGreenstein, ScattersAllOfItAndHasItsMeanCosine) {
     for (const double g : {0.0, 0.3, 0.85, 0.9}) {
@@ -57,14 +51,9 @@ TEST(Airlight, IsTheClosedFormForAnEvenLampInThinAir) {
 
 /// Another way to the same integral: a million equal steps along the ray, by intensity and distance themselves.
 TEST(Airlight, IsTheIntegralAlongTheRay) {
-    CandelaTable beam;
-    for (int i = -40; i <= 40; ++i)
-        beam.h_deg.push_back(i);
-    for (int i = -60; i <= 40; ++i)
-        beam.v_deg.push_back(0.25 * i);
-    for (const double v : beam.v_deg)
-        for (const double h : beam.h_deg)
-            beam.cd.push_back(300.0 + 20000.0 / (1.0 + std::exp((v + 0.6) / 0.2)) * std::exp(-h * h / 200.0));
+    const CandelaTable beam = tests::table_of(tests::steps(-40.0, 40.0, 1.0), tests::steps(-15.0, 10.0, 0.25), [](double h, double v) {
+        return 300.0 + 20000.0 / (1.0 + std::exp((v + 0.6) / 0.2)) * std::exp(-h * h / 200.0);
+    });
     const LitLamp lamp = lamp_of(beam, {glm::dvec3(3.4, 0.6, 0.65), axes_from_angles(0.0, 0.0, 0.0)});
     const glm::dvec3 eye(1.3, 0.35, 1.2);
     for (const Weather& fog : {Weather{0.003, 1.0, 0.85, 0.0}, Weather{0.1, 0.7, 0.5, 0.0}, Weather{10.0, 1.0, 0.9, 0.0}})
@@ -180,9 +169,9 @@ CandelaTable steep_table() {
 }
 
 LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double yaw_rad, double pitch_rad) {
-    auto file = std::make_shared<LampFile>();
-    file->table = std::move(table);
-    return LitLamp{.file = std::move(file), .pose = {position_m, axes_from_angles(yaw_rad, pitch_rad, 0.02)}, .intensity_factor = 0.7};
+    return LitLamp{.file = tests::file_of(std::move(table)),
+                   .pose = {position_m, axes_from_angles(yaw_rad, pitch_rad, 0.02)},
+                   .intensity_factor = 0.7};
 }
 
 Moment two_lamps(const CandelaTable& table) {

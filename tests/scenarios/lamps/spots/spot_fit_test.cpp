@@ -3,6 +3,7 @@
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/lamps/spots/spot_directions.h"
 #include "scenarios/values/pose.h"
+#include "tests/lamps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,30 +15,19 @@ namespace {
 
 /// The spots' own light over the front half, every 3 degrees.
 CandelaTable table_of(const std::vector<Spot>& spots, double step_deg = 3.0) {
-    CandelaTable table;
-    for (int i = 0; i <= static_cast<int>(std::lround(180.0 / step_deg)); ++i)
-        table.h_deg.push_back(-90.0 + i * step_deg);
-    table.v_deg = table.h_deg;
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg) {
-            table.cd.push_back(0.0);
-            for (const Spot& spot : spots)
-                table.cd.back() += intensity_cd(spot, h, v);
-        }
-    return table;
+    return tests::table_of(tests::steps(-90.0, 90.0, step_deg), tests::steps(-90.0, 90.0, step_deg), [&](double h, double v) {
+        double cd = 0.0;
+        for (const Spot& spot : spots)
+            cd += intensity_cd(spot, h, v);
+        return cd;
+    });
 }
 
 /// A low beam in small: 45 x 29 samples with a cut-off.
 CandelaTable small_beam() {
-    CandelaTable table;
-    for (int i = -22; i <= 22; ++i)
-        table.h_deg.push_back(2.0 * i);
-    for (int i = -20; i <= 8; ++i)
-        table.v_deg.push_back(0.5 * i);
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg)
-            table.cd.push_back(100.0 + 20000.0 * std::exp(-h * h / 200.0 + std::min(v, 0.0) / 3.0) / (1.0 + std::exp((v + 0.6) / 0.3)));
-    return table;
+    return tests::table_of(tests::steps(-44.0, 44.0, 2.0), tests::steps(-10.0, 4.0, 0.5), [](double h, double v) {
+        return 100.0 + 20000.0 * std::exp(-h * h / 200.0 + std::min(v, 0.0) / 3.0) / (1.0 + std::exp((v + 0.6) / 0.3));
+    });
 }
 
 void expect_legal(const SpotFit& fit) {
@@ -156,11 +146,8 @@ TEST(SpotFit, ResidualsAreWhatIsLeftOverOnTheTable) {
 }
 
 TEST(SpotFit, ALoneSampleIsANarrowCone) {
-    CandelaTable table;
-    for (int i = -18; i <= 18; ++i)
-        table.h_deg.push_back(5.0 * i);
-    table.v_deg = table.h_deg;
-    table.cd.assign(37 * 37, 0.0);
+    const std::vector<double> angles = tests::steps(-90.0, 90.0, 5.0);
+    CandelaTable table = tests::table_of(angles, angles, [](double, double) { return 0.0; });
     table.at(18, 18) = 500.0;
     const SpotFit fit = fit_spots(table, 1);
     ASSERT_EQ(fit.spots.size(), 1u);
@@ -224,15 +211,10 @@ TEST(SpotFit, HostileTablesGiveLegalSpots) {
     lone.cd.assign(lone.cd.size(), 0.0);
     lone.at(3, 40) = 5.0;
     tables.push_back(lone);
-    CandelaTable many{{}, {}, {}, {}, BetweenSamples::linear_cd}; // one sample of very many
-    for (int i = 0; i < 201; ++i) {
-        many.h_deg.push_back(-40.0 + 0.4 * i);
-        many.v_deg.push_back(-20.0 + 0.2 * i);
-    }
-    many.cd.assign(201 * 201, 0.0);
+    CandelaTable many = tests::table_of(tests::steps(-40.0, 40.0, 0.4), tests::steps(-20.0, 20.0, 0.2), [](double, double) { return 0.0; });
     many.at(77, 123) = 1e5;
     tables.push_back(many);
-    tables.push_back({{-180, 180}, {-90, 90}, {1, 1, 1, 1}, {}, BetweenSamples::linear_cd});
+    tables.push_back(tests::even_table(1.0));
     tables.push_back({{-1e-9, 1e-9}, {-1e-9, 1e-9}, {1, 2, 3, 4}, {}, BetweenSamples::log_cd});
     tables.push_back({{89, 90}, {89, 90}, {1, 1, 1, 1}, {}, BetweenSamples::linear_cd});
     tables.push_back({{-10, 0, 10}, {-10, 0, 10}, std::vector<double>(9, 7.0), {1, 1, 1, 1}, BetweenSamples::linear_cd}); // gaps only
