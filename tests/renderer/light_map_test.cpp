@@ -132,7 +132,7 @@ TEST(LightMap, MovingCarAndLampsTogetherChangesNothing) {
     same(bake_volume(here, volume).lx, bake_volume(there, volume).lx);
 }
 
-TEST(LightMap, LampsThatAreOffAndTheSkyAddNothing) {
+TEST(LightMap, LampsThatAreOffAddNothingAndAxesNeedCells) {
     Moment moment = two_dim_lamps();
     const LightMap2d lit = bake_ground(moment, {{0.0, 50.0, 16, 1.0}, {-5.0, 5.0, 8, 1.0}});
     moment.daylight.horizontal_illuminance_lx = 100.0;
@@ -143,6 +143,11 @@ TEST(LightMap, LampsThatAreOffAndTheSkyAddNothing) {
     EXPECT_EQ(dark.lx, std::vector<float>(dark.lx.size(), 0.0F));
     EXPECT_EQ(dark.error.worst_lx, 0.0);
     EXPECT_FALSE(dark.error.p95_relative);
+    const Moment other_moment = two_dim_lamps();
+    EXPECT_THROW(bake_ground(other_moment, {{0.0, 1.0, 0, 1.0}, {0.0, 1.0, 1, 1.0}}), std::invalid_argument);
+    EXPECT_THROW(bake_ground(other_moment, {{0.0, 0.0, 4, 1.0}, {0.0, 1.0, 4, 1.0}}), std::invalid_argument);
+    EXPECT_THROW(bake_ground(other_moment, {{0.0, 1.0, 4, 0.0}, {0.0, 1.0, 4, 1.0}}), std::invalid_argument);
+    EXPECT_THROW(bake_volume(other_moment, {{0, 1, 60000, 1}, {0, 1, 60000, 1}, {0, 1, 60000, 1}}), std::invalid_argument);
 }
 
 TEST(LightMap, FinerMapsErrLess) {
@@ -157,14 +162,6 @@ TEST(LightMap, FinerMapsErrLess) {
     EXPECT_GT(*volume.error.p95_relative, *fine.error.p95_relative);
     RecordProperty("ground_p95", std::to_string(*fine.error.p95_relative));
     RecordProperty("volume_p95", std::to_string(*volume.error.p95_relative));
-}
-
-TEST(LightMap, AxesWithoutCellsOrLengthAreRefused) {
-    const Moment moment = two_dim_lamps();
-    EXPECT_THROW(bake_ground(moment, {{0.0, 1.0, 0, 1.0}, {0.0, 1.0, 1, 1.0}}), std::invalid_argument);
-    EXPECT_THROW(bake_ground(moment, {{0.0, 0.0, 4, 1.0}, {0.0, 1.0, 4, 1.0}}), std::invalid_argument);
-    EXPECT_THROW(bake_ground(moment, {{0.0, 1.0, 4, 0.0}, {0.0, 1.0, 4, 1.0}}), std::invalid_argument);
-    EXPECT_THROW(bake_volume(moment, {{0, 1, 60000, 1}, {0, 1, 60000, 1}, {0, 1, 60000, 1}}), std::invalid_argument);
 }
 
 // The own car's body hides what lies behind it and takes no light from the road; a red reflector is seen red, as bright as its R_A says.

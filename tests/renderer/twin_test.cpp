@@ -198,7 +198,7 @@ TEST_F(TwinTest, ShadowsFallWhereRaysSay) {
     EXPECT_LE(wrong, dark / 100) << dark << " dark of " << total;
 }
 
-TEST_F(TwinTest, TwiceTheSameBytes) {
+TEST_F(TwinTest, TwiceTheSameBytesAndExactlyZeroOfABlackLamp) {
     const Scene scene = small_scene({});
     const Moment moment = two_lamps({}, 1.0);
     const auto draw = [&] {
@@ -207,15 +207,11 @@ TEST_F(TwinTest, TwiceTheSameBytes) {
     };
     const Frame a = draw(), b = draw();
     expect_same_frames(a, b, "again");
-}
-
-TEST_F(TwinTest, ABlackLampGivesExactlyZero) {
-    const Scene scene = small_scene({});
-    Moment moment = two_lamps({});
-    for (LitLamp& lamp : moment.lamps)
+    Moment other_moment = two_lamps({});
+    for (LitLamp& lamp : other_moment.lamps)
         lamp.intensity_factor = 0.0;
     Renderer renderer(device_, scene, {});
-    const Frame frame = renderer.draw(moment, driver_96(), all_results);
+    const Frame frame = renderer.draw(other_moment, driver_96(), all_results);
     for (const float e : frame.illuminance_lx.pixels())
         ASSERT_EQ(e, 0.0F);
 }

@@ -28,9 +28,6 @@ TEST(CombinedReflectance, IsThatOfTheTable) {
     EXPECT_EQ(combined(TextureMode::decal, {0.75, 0.5, 0.25, 1.0}), glm::dvec3(0.75, 0.5, 0.25));
     // Cf (1 - Ct) + Cc Ct, channel by channel: 0.5 0.25 + 1 0.75, 0.25 0.5 + 0.5 0.5, 0.125 0.75 + 0.
     EXPECT_EQ(combined(TextureMode::blend), glm::dvec3(0.875, 0.375, 0.09375));
-}
-
-TEST(CombinedReflectance, OpacityCountsForDecalOnly) {
     const glm::dvec4 clear(0.75, 0.5, 0.25, 0.0);
     for (const TextureMode mode : {TextureMode::modulate, TextureMode::replace, TextureMode::blend})
         EXPECT_EQ(combined(mode, clear), combined(mode));

@@ -174,9 +174,6 @@ TEST(TrafficGlare, IsHiddenByAnotherCarAndNotByItsOwn) {
     EXPECT_EQ(count(), 1U);
     moment.bodies[1] = {"beside", {{30.0, 5.0, 0.0}, glm::dmat3(1.0)}, true, 0.0};
     EXPECT_EQ(count(), 1U);
-}
-
-TEST(TrafficGlare, KnowsWhereABoxEnds) {
     const BodyBox box{{4.0, 2.0, 1.5}, -1.0}; // x -1..3, y -1..1, z 0..1.5
     EXPECT_TRUE(box_hides(box, {}, {-5.0, 0.0, 1.0}, {5.0, 0.0, 1.0}));
     EXPECT_FALSE(box_hides(box, {}, {-5.0, 0.0, 1.6}, {5.0, 0.0, 1.6}));

@@ -273,7 +273,7 @@ TEST(Quantities, EachHasOneRowInTheOrderOfTheirNames) {
     EXPECT_EQ(quantities().size(), static_cast<std::size_t>(Quantity::pass_time) + 1);
 }
 
-TEST(Quantities, NamesEndInTheirUnit) {
+TEST(Quantities, NamesEndInTheirUnitAndHoldTheirSubject) {
     const std::pair<const char*, const char*> ends[] = {{"m", "_m"},       {"m2", "_m2"},         {"lx", "_lx"},  {"cd/m2", "_cdm2"},
                                                         {"%", "_percent"}, {"s", "_s"},           {"ms", "_ms"},  {"1", ""},
                                                         {"1/m", "_per_m"}, {"1/deg", "_per_deg"}, {"deg", "_deg"}};
@@ -285,9 +285,6 @@ TEST(Quantities, NamesEndInTheirUnit) {
              shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {1.0}, .distance_m = 5.0}))
             EXPECT_TRUE(name_of(key).ends_with(end->second)) << name_of(key);
     }
-}
-
-TEST(Quantities, ASubjectStandsWhereTheTableSaysSo) {
     for (const QuantityRow& row : quantities())
         EXPECT_EQ(row.subject != SubjectKind::none,
                   std::string(row.forms).find("<name>") != std::string::npos || std::string(row.forms).find("<eye>") != std::string::npos)

@@ -99,7 +99,7 @@ TEST(Extent, OnATargetFacingTheLamp) {
     EXPECT_EQ(extent_of(extents, "own", 5.0).plane, ExtentPlane::target);
 }
 
-TEST(Extent, BeyondTheGridIsCutOffNotInvented) {
+TEST(Extent, BeyondTheGridIsCutOffAndLanesOutsideAreLeftOut) {
     const ExtentGrid grid = straight_grid({.ahead_m = 30.0});
     const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {20.0, 50.0});
     for (const LaneExtent& extent : extents) {
@@ -111,6 +111,12 @@ TEST(Extent, BeyondTheGridIsCutOffNotInvented) {
     EXPECT_NEAR(extent_of(extents, "all", 5.0).area_m2, 30.0 * 40.0, 1e-9);
     EXPECT_NEAR(extent_of(extents, "own", 5.0).area_m2, 30.0 * 3.5, 1e-9);
     EXPECT_NEAR(extent_of(extents, "all", 5.0).widths[0].width_m, 40.0, 1e-12);
+    const ExtentGrid other_grid = straight_grid({.ahead_m = 10.0, .beside_m = 3.0});
+    const auto other_extents =
+        measure_extent(other_grid, std::vector<double>(other_grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {});
+    ASSERT_EQ(other_extents.size(), 2U);
+    EXPECT_EQ(other_extents[0].lane, "own");
+    EXPECT_EQ(other_extents[1].lane, "all");
 }
 
 TEST(Extent, UnlitIsZeroEverywhere) {
@@ -145,7 +151,7 @@ TEST(Extent, WedgeHasItsWidthsAndArea) {
     EXPECT_TRUE(own.reach_is_cut_off);
 }
 
-TEST(Extent, DarkGapOnTheWayIsReported) {
+TEST(Extent, OfADarkGapAndOfTwoPools) {
     const ExtentGrid grid = straight_grid({.ahead_m = 60.0});
     const auto extents = measure_extent(
         grid, lit_by(grid, [](double x, double) { return (x >= 10.0 && x <= 20.0) || (x >= 30.0 && x <= 40.0) ? 10.0 : 0.1; }),
@@ -154,20 +160,17 @@ TEST(Extent, DarkGapOnTheWayIsReported) {
     const LaneExtent own = extent_of(extents, "own", 1.0);
     EXPECT_NEAR(own.reach_centre_m, 40.25, 1e-12);
     EXPECT_NEAR(own.unlit_before_reach_m, 9.75 + 9.5, 1e-12);
-}
-
-// Two separate pools of light: the edges are the outermost, the width leaves the dark between them out.
-TEST(Extent, WidthCountsOnlyWhatIsLit) {
-    const ExtentGrid grid = straight_grid({.ahead_m = 10.0, .beside_m = 4.0});
+    // Two separate pools of light: the edges are the outermost, the width leaves the dark between them out.
+    const ExtentGrid other_grid = straight_grid({.ahead_m = 10.0, .beside_m = 4.0});
     const auto pools = [](double, double y) { return std::abs(y) >= 1.0 && std::abs(y) <= 2.0 ? 10.0 : 0.0; };
-    const auto extents = measure_extent(grid, lit_by(grid, pools), ExtentPlane::road, {5.0}, {5.0});
-    const LaneExtent::Width width = extent_of(extents, "all", 5.0).widths.at(0);
+    const auto other_extents = measure_extent(other_grid, lit_by(other_grid, pools), ExtentPlane::road, {5.0}, {5.0});
+    const LaneExtent::Width width = extent_of(other_extents, "all", 5.0).widths.at(0);
     EXPECT_NEAR(width.left_m, 2.0625, 1e-12);
     EXPECT_NEAR(width.right_m, -2.0625, 1e-12);
     EXPECT_NEAR(width.width_m, 2.0 * 1.125, 1e-12);
 }
 
-TEST(Extent, EndsWhereTheLaneEnds) {
+TEST(Extent, FollowsLanesThatEndOrRunSlanting) {
     ExtentGrid grid = straight_grid({.ahead_m = 40.0});
     for (std::size_t row = 0; row < grid.sections.size(); ++row)
         if (grid.ahead_m[row] > 25.0)
@@ -179,24 +182,14 @@ TEST(Extent, EndsWhereTheLaneEnds) {
     EXPECT_NEAR(left.area_m2, 25.0 * 3.5, 1e-9);
     ASSERT_EQ(left.widths.size(), 1U);
     EXPECT_EQ(left.widths[0].at_m, 20.0);
-}
-
-TEST(Extent, LaneEdgesMayRunSlanting) {
-    ExtentGrid grid = straight_grid({.ahead_m = 40.0});
-    for (std::size_t row = 0; row < grid.sections.size(); ++row)
-        grid.sections[row].lanes = {{"own", "driving", -1, true, 1.0 + grid.ahead_m[row] * 0.05, -1.0}};
-    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {10.3});
-    const LaneExtent own = extent_of(extents, "own", 5.0);
+    ExtentGrid other_grid = straight_grid({.ahead_m = 40.0});
+    for (std::size_t row = 0; row < other_grid.sections.size(); ++row)
+        other_grid.sections[row].lanes = {{"own", "driving", -1, true, 1.0 + other_grid.ahead_m[row] * 0.05, -1.0}};
+    const auto other_extents =
+        measure_extent(other_grid, std::vector<double>(other_grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {10.3});
+    const LaneExtent own = extent_of(other_extents, "own", 5.0);
     EXPECT_NEAR(own.area_m2, 40.0 * 2.0 + 0.5 * 40.0 * 2.0, 1e-9);
     EXPECT_NEAR(own.widths.at(0).width_m, 2.515, 1e-9);
-}
-
-TEST(Extent, LaneOutsideTheWidthThatWasLookedAtIsLeftOut) {
-    const ExtentGrid grid = straight_grid({.ahead_m = 10.0, .beside_m = 3.0});
-    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {});
-    ASSERT_EQ(extents.size(), 2U);
-    EXPECT_EQ(extents[0].lane, "own");
-    EXPECT_EQ(extents[1].lane, "all");
 }
 
 // On a circular arc of 50 m radius to the left the strip from offset a to b has (R - (a + b) / 2) / R times the straight one's area.

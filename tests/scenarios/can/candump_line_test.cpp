@@ -311,7 +311,7 @@ TEST(CanFilter, MatchesExtendedAndRemoteUnlessTheMaskTells) {
     EXPECT_FALSE(passes("123:9FFFFFFF", "00000123#"));
 }
 
-TEST(CanFilter, LetsErrorFramesPassByTheirOwnMaskAlone) {
+TEST(CanFilter, LetsErrorFramesPassAndPassesByAnyOrAll) {
     EXPECT_FALSE(passes("0:0", "20000004#0000000000000000"));
     EXPECT_TRUE(passes("0:0,#FFFFFFFF", "20000004#0000000000000000"));
     EXPECT_TRUE(passes("0:0,#FFFFFFFF", "123#"));
@@ -319,9 +319,6 @@ TEST(CanFilter, LetsErrorFramesPassByTheirOwnMaskAlone) {
     EXPECT_FALSE(passes("0~0,#FFFFFFFF", "123#"));
     EXPECT_FALSE(passes("#00000003", "20000004#0000000000000000"));
     EXPECT_TRUE(passes("#00000003", "123#")); // without a filter for data frames all of them
-}
-
-TEST(CanFilter, PassesByAnyOrJoinedByAll) {
     EXPECT_TRUE(passes("100:700,200:700", "2AA#"));
     EXPECT_FALSE(passes("100:700,200:700", "3AA#"));
     EXPECT_TRUE(passes("100~7FF,200~7FF", "100#"));
@@ -329,7 +326,7 @@ TEST(CanFilter, PassesByAnyOrJoinedByAll) {
     EXPECT_TRUE(passes("100~7FF,200~7FF,J", "300#"));
 }
 
-TEST(CanFilter, BelongsToAChannel) {
+TEST(CanFilter, BelongsToAChannelAndSaysWhatIsNone) {
     const CanFrame frame = parse_candump_line("(1.000000) can0 123#", {}).frame;
     CanFrame error = parse_candump_line("(1.000000) can0 20000001#", {}).frame;
     EXPECT_TRUE(parse_channel_filter("can0", "--channel").passes(frame));
@@ -339,9 +336,6 @@ TEST(CanFilter, BelongsToAChannel) {
     EXPECT_TRUE(parse_channel_filter("any", "--channel").passes(frame));
     EXPECT_TRUE(parse_channel_filter("any,123:7FF", "--channel").passes(frame));
     EXPECT_FALSE(parse_channel_filter("can0,124:7FF,#FF", "--channel").passes(frame));
-}
-
-TEST(CanFilter, SaysWhatIsNoFilter) {
     for (const char* bad : {"", "123", "123:", ":7FF", "123:7FG", "123:7FF,", "#", "#X", "123456789:7FF", "jj", "123:7FF:1", "-1:7FF"})
         EXPECT_THROW(parse_can_filters(bad, "--filter"), InputError) << bad;
     for (const char* bad : {"", ",123:7FF", "sixteen_letters__", "can0,"})

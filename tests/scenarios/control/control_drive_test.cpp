@@ -256,10 +256,14 @@ TEST(Plugin, UnusableLibrariesAreRefused) {
     EXPECT_THAT(refusal(compiled_plugin("answers", "return 3;")), HasSubstr("step() of 'answers' failed with 3 at 0 s"));
 }
 
-TEST(Plugin, CrashesAreErrors) {
+TEST(Plugin, CrashesExitsAndExceptionsAreErrors) {
     EXPECT_THAT(refusal(compiled_plugin("segv", "*(volatile int*)0 = 1;")), HasSubstr("a segmentation fault in step() of 'segv' at 0 s"));
     EXPECT_THAT(refusal(compiled_plugin("aborts", "if (in->time_s > 0.5) abort();")), HasSubstr("abort() in step() of 'aborts' at 0.52 s"));
     EXPECT_THAT(refusal(compiled_plugin("loops", "for (volatile int i = 0; ; ) i = i;")), HasSubstr("no return within 0.4 s"));
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(guarded_call([] { std::exit(0); }, 10.0), testing::ExitedWithCode(2), "called exit");
+    EXPECT_EQ(guarded_call([] { throw std::runtime_error("no"); }, 1.0).failed, "an exception: no");
+    EXPECT_EQ(guarded_call([] {}, 1.0).failed, "");
 }
 
 TEST(Plugin, CommandsThatAreNoneAreLeftOut) {
@@ -268,16 +272,6 @@ TEST(Plugin, CommandsThatAreNoneAreLeftOut) {
     EXPECT_NEAR(odd.swivel_rad(0, 1.95), 0.05, 1e-9) << "the last good command holds";
     EXPECT_EQ(odd.level(0, 1.95), 1.0);
     EXPECT_THAT(odd.notes, testing::Contains("control law 'odd': 150 commands were no numbers or out of range, and left out"));
-}
-
-TEST(Plugin, ExitIsNoFinishedRun) {
-    GTEST_FLAG_SET(death_test_style, "threadsafe");
-    EXPECT_EXIT(guarded_call([] { std::exit(0); }, 10.0), testing::ExitedWithCode(2), "called exit");
-}
-
-TEST(Plugin, ExceptionsAreErrors) {
-    EXPECT_EQ(guarded_call([] { throw std::runtime_error("no"); }, 1.0).failed, "an exception: no");
-    EXPECT_EQ(guarded_call([] {}, 1.0).failed, "");
 }
 
 } // namespace

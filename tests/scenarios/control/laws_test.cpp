@@ -152,16 +152,13 @@ TEST(GlareFree, AMaskedBeamIsDarkInItsWindowsAndWholeBesideThem) {
     EXPECT_THROW(masked(table, {{0, 1}}, {}), std::invalid_argument);
 }
 
-TEST(ControlStability, ExtremesStayInsideStopsAndRateLimit) {
+TEST(ControlStability, ExtremesStayInsideAndErrorGoesWithTheSquareOfThePeriod) {
     for (const ExtremeTrial& trial : control_with_extreme_signals())
         EXPECT_LT(trial.error, 1e-6) << trial.what;
     for (const ExtremeTrial& trial : control_mirrored())
         EXPECT_LT(trial.error, 1e-12) << trial.what;
-}
-
-/// The filter takes a tick's input for all of the period before it, half a period early; holding the command is half a period late. What is
-/// left goes with the square.
-TEST(ControlStability, ErrorGoesWithTheSquareOfThePeriod) {
+    /// The filter takes a tick's input for all of the period before it, half a period early; holding the command is half a period late.
+    /// What is left goes with the square.
     const double coarse = control_period_error_rad(BendLaw::yaw_rate, 0.02), fine = control_period_error_rad(BendLaw::yaw_rate, 0.01);
     EXPECT_GT(coarse, 1e-5);
     EXPECT_NEAR(coarse / fine, 4.0, 0.5);
@@ -233,24 +230,21 @@ TEST(BendLight, FollowsAStepAfterDeadTimeFilterAndActuator) {
     EXPECT_NEAR(run.swivel_rad(0, 2.5), 0.1, 1e-5);
 }
 
-TEST(BendLight, LostSignalGoesStraightAheadAndComesBack) {
+TEST(BendLight, FailuresGoStraightAheadOrStayAndComeBack) {
     ControlParameters control = bend_light(BendLaw::yaw_rate);
     control.failures = {{ControlFailure::Kind::lost_signal, 1.0, 4.0, "ego.yaw_rate_rad_s"}};
     const ControlRun run = run_control(control, two_lamps, car, [](double t) { return circle(t, 20.0, 150.0); }, {8.0, 0.1});
     EXPECT_NEAR(run.swivel_rad(0, 1.0), 0.1, 1e-9);
     EXPECT_NEAR(run.swivel_rad(0, 3.9), 0.0, 1e-6);
     EXPECT_NEAR(run.swivel_rad(0, 7.9), 0.1, 1e-6);
-}
-
-TEST(BendLight, StuckSwivelStaysWhereItIs) {
-    ControlParameters control = bend_light(BendLaw::yaw_rate);
-    control.failures = {{ControlFailure::Kind::stuck_swivel, 1.0, 6.0, "left"}};
-    control.stuck_swivel = std::nullopt;
-    const ControlRun run =
-        run_control(control, two_lamps, car, [](double t) { return circle(t, 20.0, t < 1.5 ? 150.0 : -150.0); }, {8.0, 0.1});
-    EXPECT_NEAR(run.swivel_rad(0, 5.9), 0.1, 1e-9);
-    EXPECT_NEAR(run.swivel_rad(1, 5.9), -0.1, 1e-6);
-    EXPECT_NEAR(run.swivel_rad(0, 7.9), -0.1, 1e-6);
+    ControlParameters other_control = bend_light(BendLaw::yaw_rate);
+    other_control.failures = {{ControlFailure::Kind::stuck_swivel, 1.0, 6.0, "left"}};
+    other_control.stuck_swivel = std::nullopt;
+    const ControlRun other_run =
+        run_control(other_control, two_lamps, car, [](double t) { return circle(t, 20.0, t < 1.5 ? 150.0 : -150.0); }, {8.0, 0.1});
+    EXPECT_NEAR(other_run.swivel_rad(0, 5.9), 0.1, 1e-9);
+    EXPECT_NEAR(other_run.swivel_rad(1, 5.9), -0.1, 1e-6);
+    EXPECT_NEAR(other_run.swivel_rad(0, 7.9), -0.1, 1e-6);
 }
 
 /// Left, into a left bend, the lamp jams; then the bend goes right. Within the filter's and the diagnosis' time the other looks straight

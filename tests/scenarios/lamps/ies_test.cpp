@@ -78,7 +78,7 @@ TEST_F(IesFile, SeparatorsLineEndsAndBytesMayVary) {
     EXPECT_EQ(read("tilt.ies", "IESNA91\n tilt = none \n" + std::string(small_numbers)).table, table);
 }
 
-TEST_F(IesFile, LabelsAreKeptAsUtf8) {
+TEST_F(IesFile, LabelsAreKeptAsUtf8AndDimensionsAreNoMatter) {
     const LampFile lamp = read("l.ies", small("IESNA:LM-63-1995\n[MANUFAC] B\xfc"
                                               "cher \x80\n[MORE] AG\n[_SECRET] x\nloose line\n"));
     ASSERT_EQ(lamp.labels.size(), 3U);
@@ -87,9 +87,6 @@ TEST_F(IesFile, LabelsAreKeptAsUtf8) {
     EXPECT_EQ(lamp.labels[1].first, "_SECRET");
     EXPECT_EQ(lamp.labels[2], (std::pair<std::string, std::string>{"text", "loose line"}));
     EXPECT_EQ(lamp.name, "l");
-}
-
-TEST_F(IesFile, ZeroAndNegativeDimensionsAreNoMatter) {
     const std::string text = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 2 3 2 -0.12 0 -0.34\n1 1 0\n-1 1\n-1 1\n5 6\n7 8\n";
     EXPECT_EQ(peak_of(read("d.ies", text).table).cd, 8.0);
 }
@@ -108,7 +105,7 @@ TEST_F(IesFile, HalvesAreMirroredAndASinglePlaneIsRefused) {
                     HasSubstr("s.ies:6: horizontal angles: found a single one"));
 }
 
-TEST_F(IesFile, AnglesAreSortedAndRepeatedOnesTakenOnce) {
+TEST_F(IesFile, AnglesAreSortedAndTypesTakenForWhatTheyAre) {
     const std::string head = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 3 3 2 0 0 0\n1 1 0\n";
     const LampFile descending = read("a.ies", head + "2 0 -2\n-1 0 1\n13 12 11\n23 22 21\n33 32 31\n");
     EXPECT_EQ(descending.table, read("b.ies", small()).table);
@@ -118,9 +115,6 @@ TEST_F(IesFile, AnglesAreSortedAndRepeatedOnesTakenOnce) {
     EXPECT_THAT(all_notes(repeated), HasSubstr("1 horizontal angles are repeated"));
     EXPECT_THAT(refusal("d.ies", head + "-2 0 2\n-1 1 1\n1 2 3\n4 5 6\n7 8 9\n"),
                 HasSubstr("d.ies:6: horizontal angles: the angle 1 is given twice"));
-}
-
-TEST_F(IesFile, TypeCodesThatCannotBeAreTakenForWhatTheyAre) {
     const LampFile automotive = read("c.ies", "TILT=NONE\n1 -1 1 3 3 1 2 0 0 0\n1 1 55\n-2 0 2\n-1 0 1\n11 12 13\n21 22 23\n31 32 33\n");
     EXPECT_EQ(automotive.table, read("a.ies", small()).table);
     EXPECT_THAT(all_notes(automotive), HasSubstr("read as type A"));

@@ -24,12 +24,16 @@ RoadNetwork network_of(const std::string& content) {
 
 RoadNetwork network_of(const RoadText& text) { return network_of(file(road(text))); }
 
-TEST(OpenDrive, CleanFileHasNoWarnings) {
+TEST(OpenDrive, CleanFileHasNoWarningsAndGapsAreTold) {
     const RoadNetwork network = network_of(RoadText{});
     EXPECT_TRUE(network.warnings.empty());
     ASSERT_EQ(network.opened.size(), 1U);
     EXPECT_NE(network.find("1"), nullptr);
     EXPECT_EQ(network.find("2"), nullptr);
+    RoadText text{.length = "20", .plan = "\n" + geometry(0.0, 0.0, 0.0, 0.0, 10.0) + "\n" + geometry(10.0, 10.0, 0.25, 0.0, 10.0) + "\n"};
+    const RoadNetwork other_network = network_of(text);
+    ASSERT_EQ(other_network.warnings.size(), 1U);
+    EXPECT_THAT(other_network.warnings[0], HasSubstr(":9: road '1': the reference line jumps by 0.250 m at s = 10"));
 }
 
 TEST(OpenDrive, HeaderOffsetTurnsThenMoves) {
@@ -180,13 +184,6 @@ TEST(OpenDrive, Signals) {
     EXPECT_EQ(std::tuple(signals[0].heading_offset_rad, signals[0].subtype, signals[0].height_m), std::tuple(0.1, "57", 0.7));
     EXPECT_TRUE(signals[1].facing_forward);
     EXPECT_TRUE(signals[1].dynamic);
-}
-
-TEST(OpenDrive, GapsAreToldWithPlaceAndSize) {
-    RoadText text{.length = "20", .plan = "\n" + geometry(0.0, 0.0, 0.0, 0.0, 10.0) + "\n" + geometry(10.0, 10.0, 0.25, 0.0, 10.0) + "\n"};
-    const RoadNetwork network = network_of(text);
-    ASSERT_EQ(network.warnings.size(), 1U);
-    EXPECT_THAT(network.warnings[0], HasSubstr(":9: road '1': the reference line jumps by 0.250 m at s = 10"));
 }
 
 // Input that cannot be meant: one sentence with file and line, never a crash, a hang or a wrong road.

@@ -29,7 +29,7 @@ void expect_position(const Pose& pose, double x, double y, double tolerance = 1e
     EXPECT_NEAR(pose.position_m.y, y, tolerance);
 }
 
-TEST(Route, RightLaneRunsAlongS) {
+TEST(Route, RightLanesRunAlongSAndLeftOnesAgainstIt) {
     const RoadNetwork network = network_with(road({}));
     const Route route(network, {});
     EXPECT_NEAR(route.length_m(), 100.0, 1e-9);
@@ -39,17 +39,13 @@ TEST(Route, RightLaneRunsAlongS) {
     EXPECT_NEAR(route.pose(30.0).up().z, 1.0, 1e-12);
     expect_position(route.pose(-5.0), 0.0, -1.75);
     expect_position(route.pose(500.0), 100.0, -1.75);
-}
-
-TEST(Route, LeftLaneRunsAgainstS) {
-    const RoadNetwork network = network_with(road({}));
-    const Route route(network, {"1", 1, 100.0});
-    expect_position(route.pose(30.0), 70.0, 1.75);
-    expect_position(route.pose(30.0, 1.0), 70.0, 0.75); // left of one who drives towards -x is -y
-    EXPECT_NEAR(route.pose(30.0).forward().x, -1.0, 1e-12);
-    EXPECT_NEAR(route.pose(30.0).left().y, -1.0, 1e-12);
-    EXPECT_EQ(route.place(30.0).first, "1");
-    EXPECT_NEAR(route.place(30.0).second, 70.0, 1e-9);
+    const Route other_route(network, {"1", 1, 100.0});
+    expect_position(other_route.pose(30.0), 70.0, 1.75);
+    expect_position(other_route.pose(30.0, 1.0), 70.0, 0.75); // left of one who drives towards -x is -y
+    EXPECT_NEAR(other_route.pose(30.0).forward().x, -1.0, 1e-12);
+    EXPECT_NEAR(other_route.pose(30.0).left().y, -1.0, 1e-12);
+    EXPECT_EQ(other_route.place(30.0).first, "1");
+    EXPECT_NEAR(other_route.place(30.0).second, 70.0, 1e-9);
 }
 
 TEST(Route, LeftHandTrafficStartsOnTheLeft) {

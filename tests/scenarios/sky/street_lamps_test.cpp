@@ -156,7 +156,7 @@ TEST(StreetLamps, OnPolesOfTheRoadAddWhatIsMissing) {
 }
 
 /// A lamp without arm must not stand in its own pole, which would take all of its light.
-TEST(StreetLamps, WithoutArmAreNotInTheirPole) {
+TEST(StreetLamps, StandBesideTheirPoleAndSayWhatStandsThere) {
     LitStraight lit;
     lit.drive.street_lamps[0].arm_m = 0.0;
     Scene scene;
@@ -164,9 +164,6 @@ TEST(StreetLamps, WithoutArmAreNotInTheirPole) {
     for (const Mesh& mesh : scene.meshes)
         for (const Vertex& vertex : mesh.vertices)
             EXPECT_GT(std::abs(static_cast<double>(vertex.position_m.z) - 8.0), 0.015);
-}
-
-TEST(StreetLamps, ThatFindNoObjectSayWhatStandsThere) {
     const std::string text = tests::refusal_of([] { const LitVillage none("lantern"); });
     for (const char* part : {"village.yaml", "street_lamps.posts.on_objects", "village.xodr", "'lamp post'"})
         EXPECT_NE(text.find(part), std::string::npos) << text;

@@ -53,7 +53,7 @@ double error_between(Solver solver, double step_s) {
 }
 
 /// Order seen when the step is halved. Within 0.25 of the method's: the next term of the error is smaller by some h, and h is 0.025 here.
-TEST(OdeIntegrator, HasTheMethodsOrders) {
+TEST(OdeIntegrator, HasTheMethodsOrdersAlsoWithAJacobianByDifferences) {
     const OdeProblem problem = smooth();
     const auto order = [&](Solver solver) { return std::log2(error_at_end(problem, solver, 0.05) / error_at_end(problem, solver, 0.025)); };
     EXPECT_NEAR(order(Solver::dormand_prince), 5.0, 0.25);
@@ -62,12 +62,10 @@ TEST(OdeIntegrator, HasTheMethodsOrders) {
         << "local error of the continuous extension of order 4";
     EXPECT_NEAR(std::log2(error_between(Solver::rosenbrock, 0.1) / error_between(Solver::rosenbrock, 0.05)), 4.0, 0.3)
         << "local error of the continuous extension of order 3";
-}
-
-TEST(OdeIntegrator, AJacobianByDifferencesKeepsTheOrder) {
-    OdeProblem problem = smooth();
-    problem.jacobian = nullptr;
-    EXPECT_NEAR(std::log2(error_at_end(problem, Solver::rosenbrock, 0.1) / error_at_end(problem, Solver::rosenbrock, 0.05)), 4.0, 0.25);
+    OdeProblem other_problem = smooth();
+    other_problem.jacobian = nullptr;
+    EXPECT_NEAR(std::log2(error_at_end(other_problem, Solver::rosenbrock, 0.1) / error_at_end(other_problem, Solver::rosenbrock, 0.05)),
+                4.0, 0.25);
 }
 
 TEST(OdeIntegrator, ErrorFollowsTheTolerance) {
@@ -291,7 +289,7 @@ TEST(Actuator, StopsHoldAndLetGo) {
     EXPECT_NEAR(run.angle_rad(0.55), 0.05 - 0.07 * step_response(w, 0.1, 0.05), 1e-7);
 }
 
-TEST(Actuator, ALampSwitchIsAnsweredAtItsTime) {
+TEST(Actuator, ALampSwitchIsAnsweredAtItsTimeAndNoChangeCostsNothing) {
     const auto parked_before = [](double tick_s) { return tick_s >= 0.12345 ? 0.05 : 0.0; };
     const ActuatorRun run = run_actuator(unlimited, parked_before, {0.12345}, 0.5, {.tolerance = 1e-9});
     EXPECT_EQ(run.angle_rad(0.12345), 0.0);
@@ -299,14 +297,11 @@ TEST(Actuator, ALampSwitchIsAnsweredAtItsTime) {
     for (const double later_s : {1e-4, 1e-3, 0.02})
         EXPECT_NEAR(run.angle_rad(0.12345 + later_s), 0.05 * step_response(w, 0.7, later_s), 1e-9)
             << "not at the next control tick, 0.13 s";
-}
-
-TEST(Actuator, ACommandThatDoesNotChangeCostsNothing) {
-    const ActuatorRun run = run_actuator(
+    const ActuatorRun other_run = run_actuator(
         unlimited, [](double) { return 0.02; }, {}, 100.0);
-    EXPECT_EQ(run.angle_rad(0.0), 0.02);
-    EXPECT_EQ(run.angle_rad(100.0), 0.02);
-    EXPECT_LT(run.work.derivatives, 100U);
+    EXPECT_EQ(other_run.angle_rad(0.0), 0.02);
+    EXPECT_EQ(other_run.angle_rad(100.0), 0.02);
+    EXPECT_LT(other_run.work.derivatives, 100U);
 }
 
 // The studies' figures, which reports show: errors fall as theory says. The extremes are held to their bounds as cases of `fernlicht

@@ -101,19 +101,16 @@ TEST(MeshCrossSection, SolidBrokenHasTheSolidLineOnTheLeftOfTheCentre) {
         }
 }
 
-TEST(MeshCrossSection, PaintWiderThanItsLanesIsCutNotOverlapped) {
+TEST(MeshCrossSection, PaintIsCutAtItsLanesAndFineDashesAreSolid) {
     Road road = road_with(MarkKind::solid, MarkKind::solid);
     road.sections[0].lanes[2].widths[0].a = 0.1;
     const std::vector<Strip> strips = SectionProfile(road, road.sections[0]).strips(50.0, 50.0);
     expect_side_by_side(strips);
     EXPECT_DOUBLE_EQ(strips.front().right_t_m, -0.1);
     EXPECT_DOUBLE_EQ(strips.back().left_t_m, 3.0);
-}
-
-TEST(MeshCrossSection, DashesFinerThanAPictureAreSolid) {
-    Road road = road_with(MarkKind::broken, MarkKind::none);
-    road.sections[0].lanes[1].marks[0].stripes.push_back({0.12, 1e-6, 1e-6, 0.0, 0.0});
-    const SectionProfile profile(road, road.sections[0]);
+    Road other_road = road_with(MarkKind::broken, MarkKind::none);
+    other_road.sections[0].lanes[1].marks[0].stripes.push_back({0.12, 1e-6, 1e-6, 0.0, 0.0});
+    const SectionProfile profile(other_road, other_road.sections[0]);
     std::vector<double> stations;
     profile.append_stations(stations);
     EXPECT_LT(stations.size(), 20U);
@@ -238,7 +235,7 @@ void expect_near(const glm::dvec3& found, const glm::dvec3& expected) {
     EXPECT_LT(glm::distance(found, expected), 1e-3) << found.x << " " << found.y << " " << found.z;
 }
 
-TEST(MeshObjects, BoxHasItsSizeAndFacesOutwards) {
+TEST(MeshObjects, BoxesAndPostsHaveTheirSizesAndFlatThingsAreLeftOut) {
     const std::vector<Triangle> box = of_object(object("barrier", 4.0, 0.5, 1.0), "barrier");
     EXPECT_EQ(box.size(), 12U);
     expect_near(box_of(box).low, {48.0, -6.25, 0.0});
@@ -248,15 +245,9 @@ TEST(MeshObjects, BoxHasItsSizeAndFacesOutwards) {
         EXPECT_GT(glm::dot(triangle.cross(), outward), 0.0);
         EXPECT_GT(glm::dot(triangle.normals[0], outward), 0.0);
     }
-}
-
-TEST(MeshObjects, FlatThingsAreLeftOut) {
     for (const char* type : {"crosswalk", "parkingSpace", "roadMark", "patch"})
         EXPECT_TRUE(of_object(object(type, 4.0, 3.0, 0.1), type).empty()) << type;
     EXPECT_TRUE(of_object(object("obstacle", 4.0, 3.0, 0.0), "obstacle").empty());
-}
-
-TEST(MeshObjects, PostIsRoundWithALid) {
     const std::vector<Triangle> post = of_object(object("pole", 0.0, 0.0, 5.0), "pole");
     EXPECT_EQ(post.size(), 12U * 2U + 10U);
     EXPECT_NEAR(box_of(post).high.z, 5.0, 1e-3);

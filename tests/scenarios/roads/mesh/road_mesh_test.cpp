@@ -127,7 +127,7 @@ double greatest_distance_m(const RoadNetwork& network, const Scene& scene, std::
     return worst;
 }
 
-TEST(RoadMesh, LibraryRoadsKeepTheChordError) {
+TEST(RoadMesh, ChordErrorIsKeptAndFollowsTheOption) {
     for (const auto& file : roads_under(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads")) {
         SCOPED_TRACE(file.filename());
         const RoadNetwork network = read_opendrive(file);
@@ -135,9 +135,6 @@ TEST(RoadMesh, LibraryRoadsKeepTheChordError) {
         EXPECT_LE(greatest_distance_m(network, build_scene(network), samples), 0.005);
         EXPECT_GT(samples, 1000U);
     }
-}
-
-TEST(RoadMesh, ChordErrorFollowsTheOption) {
     const RoadNetwork network = read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads/country.xodr");
     std::size_t samples = 0;
     RoadMeshOptions coarse, fine;
