@@ -266,8 +266,7 @@ TEST_P(ColouredLight, AskingForItChangesNothingElse) {
     Wanted without = as_seen;
     without.light = false;
     const Frame with = draw(as_seen), plain = draw(without);
-    EXPECT_EQ(with.colour, plain.colour);
-    EXPECT_EQ(with.luminance_cdm2, plain.luminance_cdm2);
+    EXPECT_EQ(std::tuple(with.colour, with.luminance_cdm2), std::tuple(plain.colour, plain.luminance_cdm2));
     EXPECT_TRUE(plain.light.empty());
     EXPECT_EQ(draw({.light = true}).light, with.light);
 }

@@ -88,8 +88,7 @@ TEST(MergedBeam, SeesBothWindowsWhole) {
 TEST(MergedBeam, GoesWithTheCar) {
     std::vector<LitLamp> lamps{turned_lamp({3.5, 0.6, 0.65}, 0.02), turned_lamp({3.5, -0.6, 0.65}, -0.01)};
     const ProjectedBeam at_origin = make_merged_beam(lamps, {64, 32, 32});
-    const Pose car{{3e6, -2e6, 400.0}, axes_from_angles(1.0, 0.05, 0.02)};
-    const Pose before = compose(car, merged_pose(lamps));
+    const Pose car{{3e6, -2e6, 400.0}, axes_from_angles(1.0, 0.05, 0.02)}, before = compose(car, merged_pose(lamps));
     for (LitLamp& lamp : lamps)
         lamp.pose = compose(car, lamp.pose);
     const Pose after = merged_pose(lamps);
@@ -255,8 +254,7 @@ TEST(ProjectedBeam, EightBitsAreStepsOfTheLargestValue) {
     const ProjectedBeam fine = make_projected_beam(rising_table(), {64, 8, 32}), coarse = make_projected_beam(rising_table(), {64, 8, 8});
     ASSERT_EQ(coarse.steps.size(), 512u);
     EXPECT_TRUE(coarse.lx.empty());
-    EXPECT_EQ(coarse.scale_lx, fine.scale_lx);
-    EXPECT_EQ(coarse.steps[63], 255);
+    EXPECT_EQ(std::tuple(coarse.scale_lx, coarse.steps[63]), std::tuple(fine.scale_lx, 255));
     for (std::size_t i = 0; i < 512; ++i)
         EXPECT_EQ(coarse.steps[i], std::lround(255.0 * static_cast<double>(fine.lx[i]) / fine.scale_lx));
     EXPECT_EQ(fine.quantisation_error_of_peak, 0.0);
@@ -286,8 +284,7 @@ TEST(ProjectedBeam, DarkAndBackwardBeamsAreDark) {
     dark.cd.assign(4, 0.0);
     for (const CandelaTable& table : {dark, even_table(100, 170, -5, 5), even_table(-5, 5, 60, 80)}) {
         const ProjectedBeam beam = make_projected_beam(table, {8, 4, 8});
-        EXPECT_EQ(beam.scale_lx, 0.0);
-        EXPECT_EQ(beam.worst_error_of_peak, 0.0);
+        EXPECT_EQ(std::tuple(beam.scale_lx, beam.worst_error_of_peak), std::tuple(0.0, 0.0));
         for (const std::uint16_t step : beam.steps)
             EXPECT_EQ(step, 0);
     }

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -51,8 +52,7 @@ TEST_F(RenderTest, DrawsWithTheProgramOfAFrameAndLeavesNothingBehind) {
     EXPECT_GT(after, before);
     const Frame frame = used.draw(moment_, view_, wanted);
     EXPECT_EQ(used.compiled_programs(), after);
-    EXPECT_EQ(frame.colour, expected.colour);
-    EXPECT_EQ(frame.illuminance_lx, expected.illuminance_lx);
+    EXPECT_EQ(std::tuple(frame.colour, frame.illuminance_lx), std::tuple(expected.colour, expected.illuminance_lx));
 }
 
 TEST_F(RenderTest, TheGpusClockSumsPiecesAndStartsAgain) {

@@ -151,8 +151,7 @@ TEST_P(MapMethods, EdgesLieWhereRaysSayWithinATexel) {
     for (const auto& [x, at] : {std::pair(5.0, 10.0), std::pair(20.0, 30.0), std::pair(60.0, 80.0)}) {
         const Post post{x, -0.1, 0.3}; // its other side's shadow lies behind it
         const Scene scene = road_with({post});
-        const Frame free = draw(scene, moment, view, method(ShadowMethod::none));
-        const Frame drawn = draw(scene, moment, view, method(GetParam()));
+        const Frame free = draw(scene, moment, view, method(ShadowMethod::none)), drawn = draw(scene, moment, view, method(GetParam()));
         const double texel_m = (at - lamp_x) * 2.0 * std::tan(radians(30.0)) / 1022.0;
         const double truth = shadow_y(0.6, x, post.y - post.width, at), found = edge(drawn, free, moment, view, at, truth);
         RecordProperty(fmt::format("error_cm_at_{}_m", at), fmt::format("{:.2f}", 100.0 * (found - truth)));

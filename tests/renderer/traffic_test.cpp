@@ -316,8 +316,7 @@ TEST_F(Traffic, ShadowsOfOthersCostNothingWhereThereAreNone) {
         };
         const auto [one, programs, work] = drawn(with);
         const auto [other, other_programs, other_work] = drawn(without);
-        EXPECT_EQ(one.colour, other.colour);
-        EXPECT_EQ(one.illuminance_lx, other.illuminance_lx);
+        EXPECT_EQ(std::tuple(one.colour, one.illuminance_lx), std::tuple(other.colour, other.illuminance_lx));
         EXPECT_EQ(programs, other_programs);
         EXPECT_EQ(work, other_work);
     }

@@ -233,8 +233,7 @@ TEST_F(TwinTest, RetroreflectionAtTheThirtyMetreGeometryIsMeasuredInTheImage) {
     const Frame frame = renderer.draw(moment, view, all_results);
     const double luminance = static_cast<double>(frame.luminance_cdm2.at(16, 16)),
                  illuminance = static_cast<double>(frame.illuminance_lx.at(16, 16));
-    const double cosine = 0.65 / std::hypot(30.0, 0.65);
-    const double rl = luminance / (illuminance / cosine);
+    const double cosine = 0.65 / std::hypot(30.0, 0.65), rl = luminance / (illuminance / cosine);
     // 0.0145 by retroreflection and 0.08 cos / pi = 0.00055 by diffusion; the text book's 0.55 mcd is the latter alone.
     EXPECT_NEAR(rl, 0.0145 + 0.08 * cosine / pi, 2e-4);
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -59,8 +60,7 @@ TEST(NightVision, BrightPicturesKeepTheirBytesAndDarkRedIsGreyAndDarker) {
     EXPECT_TRUE(sharpness_at_night(Image<glm::vec3>(), pixel_deg).empty());
     const Image<glm::vec3> dark(40, 40, glm::vec3(0.004F, 0.0F, 0.0F));
     const glm::vec3 seen = colours_at_night(dark, pixel_deg).at(20, 20);
-    EXPECT_EQ(seen.x, seen.y);
-    EXPECT_EQ(seen.y, seen.z);
+    EXPECT_EQ(std::tuple(seen.x, seen.y), std::tuple(seen.y, seen.z));
     EXPECT_NEAR(seen.x, 0.004F * 0.0329F, 1.0e-6F);
 }
 

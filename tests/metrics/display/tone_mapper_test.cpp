@@ -174,8 +174,7 @@ TEST(DisplayColour, ColoursOfTheDisplayComeBack) {
         const DisplayProfile profile = read_display_profile(
             std::filesystem::path(FERNLICHT_SOURCE_DIR "/scenarios/library/displays") / (std::string(name) + ".yaml"), opened);
         for (int n = 0; n < 1000; ++n) {
-            const glm::dvec3 rgb(share(random), share(random), share(random));
-            const glm::dvec3 black = grey_xyz(profile, profile.black_cdm2);
+            const glm::dvec3 rgb(share(random), share(random), share(random)), black = grey_xyz(profile, profile.black_cdm2);
             const glm::dvec3 back = shares_for(profile, black + profile.xyz_from_rgb * rgb);
             for (int i = 0; i < 3; ++i)
                 EXPECT_NEAR(back[i], rgb[i], 1.0e-12) << name;

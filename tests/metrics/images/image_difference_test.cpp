@@ -40,8 +40,7 @@ TEST(ImageDifference, FiguresByHandAndThresholdsThatMayBeMet) {
     const ImageDifference difference = compare_images(tested, reference, 0.0, 0.0);
     EXPECT_FALSE(difference.identical);
     EXPECT_DOUBLE_EQ(difference.maximum, 4.0);
-    EXPECT_EQ(difference.maximum_x, 0);
-    EXPECT_EQ(difference.maximum_y, 1);
+    EXPECT_EQ(std::tuple(difference.maximum_x, difference.maximum_y), std::tuple(0, 1));
     EXPECT_DOUBLE_EQ(difference.rmse, 2.5);
     EXPECT_NEAR(difference.psnr_db, 32.041199826559248, 1e-12);
     EXPECT_DOUBLE_EQ(difference.percent_over, 50.0);
@@ -55,8 +54,7 @@ TEST(ImageDifference, FiguresByHandAndThresholdsThatMayBeMet) {
 
 TEST(ImageDifference, BlackReferenceHasNoPeak) {
     const ImageDifference difference = compare_images(picture(1, 1, {1.0F}), picture(1, 1, {0.0F}), 0.0, 0.0);
-    EXPECT_EQ(difference.psnr_db, -std::numeric_limits<double>::infinity());
-    EXPECT_EQ(difference.rmse, 1.0);
+    EXPECT_EQ(std::tuple(difference.psnr_db, difference.rmse), std::tuple(-std::numeric_limits<double>::infinity(), 1.0));
 }
 
 TEST(ImageDifference, TwoPercentOffIsSeen) {
@@ -160,8 +158,7 @@ TEST(PixelErrors, AreaCountsNotPixels) {
     const PixelErrors errors = fold.finish().value();
     EXPECT_THAT(errors.percent_beyond, ElementsAre(91.0, 91.0, 91.0));
     EXPECT_EQ(errors.error.median, 0.0);
-    EXPECT_EQ(errors.worst.picture, 2);
-    EXPECT_EQ(errors.worst.y, 4);
+    EXPECT_EQ(std::tuple(errors.worst.picture, errors.worst.y), std::tuple(2, 4));
 }
 
 TEST(PixelErrors, InTheDarkErrorsAreAbsolute) {
@@ -169,8 +166,7 @@ TEST(PixelErrors, InTheDarkErrorsAreAbsolute) {
     fold.add({0.02, 0.049, 0.001, 1.0, 0, 0, 0});
     fold.add({0.0, 0.0, 0.0, 1.0, 0, 1, 0});
     PixelErrors errors = fold.finish().value();
-    EXPECT_EQ(errors.pixels, 0U);
-    EXPECT_EQ(errors.dark_pixels, 2U);
+    EXPECT_EQ(std::tuple(errors.pixels, errors.dark_pixels), std::tuple(0U, 2U));
     EXPECT_NEAR(errors.dark_worst.error, 0.029, 1e-12);
     EXPECT_NEAR(errors.dark_floor.p99, 0.99 * 0.002, 1e-8);
     EXPECT_EQ(errors.mean, 0.0);
@@ -276,8 +272,7 @@ TEST(NoisyDifference, AZoneIsSeenByItsBlocks) {
         for (int x = 60; x < 68; ++x)
             a.mean.at(x, y) -= 1.5F;
     const NoisyDifference difference = compared(a, b);
-    EXPECT_EQ(difference.blocks, 25U * 20U);
-    EXPECT_EQ(difference.blocks_over, 4U);
+    EXPECT_EQ(std::tuple(difference.blocks, difference.blocks_over), std::tuple(25U * 20U, 4U));
     EXPECT_TRUE((difference.worst_x == 60 || difference.worst_x == 64) && (difference.worst_y == 40 || difference.worst_y == 44));
     EXPECT_NEAR(difference.worst_z, 4.0 * 0.15 / (0.05 * std::sqrt(2.0)), 3.0);
     EXPECT_LT(std::abs(difference.sum_z), difference.sum_bound);

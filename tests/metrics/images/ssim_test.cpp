@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <tbb/global_control.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -23,8 +24,7 @@ TEST(Ssim, OfTheSameAndOfEvenPicturesByHand) {
     Image<float> reference(40, 30, 50.0F), tested = reference;
     tested.at(31, 7) = 250.0F;
     const Ssim other_found = ssim(tested, reference, 255.0);
-    EXPECT_EQ(other_found.minimum_x, 31);
-    EXPECT_EQ(other_found.minimum_y, 7);
+    EXPECT_EQ(std::tuple(other_found.minimum_x, other_found.minimum_y), std::tuple(31, 7));
     EXPECT_LT(other_found.minimum, 0.5);
     EXPECT_THROW(ssim({2, 2}, {2, 3}, 1.0), std::invalid_argument);
     EXPECT_THROW(ssim({}, {}, 1.0), std::invalid_argument);

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <limits>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -33,8 +34,7 @@ class BareLampOnTheRoad : public ::testing::Test {
   protected:
     const BareLamp lamp;
     const ExtentGrid grid = straight_grid({});
-    const std::vector<double> lx = lit_by(grid, [this](double x, double y) { return lamp.road_lx(x, y); });
-    const std::vector<double> limits{1.0, 3.0, 5.0, 10.0};
+    const std::vector<double> lx = lit_by(grid, [this](double x, double y) { return lamp.road_lx(x, y); }), limits{1.0, 3.0, 5.0, 10.0};
     const std::vector<LaneExtent> extents = measure_extent(grid, lx, ExtentPlane::road, limits, {5.0, 10.0});
 };
 
@@ -124,8 +124,7 @@ TEST(Extent, UnlitIsZeroEverywhere) {
     const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 0.0), ExtentPlane::road, {1.0}, {20.0});
     ASSERT_EQ(extents.size(), 4U);
     for (const LaneExtent& extent : extents) {
-        EXPECT_EQ(extent.reach_centre_m, 0.0);
-        EXPECT_EQ(extent.area_m2, 0.0);
+        EXPECT_EQ(std::tuple(extent.reach_centre_m, extent.area_m2), std::tuple(0.0, 0.0));
         EXPECT_FALSE(extent.reach_is_cut_off);
         ASSERT_EQ(extent.widths.size(), 1U);
         EXPECT_EQ(extent.widths[0].width_m, 0.0);
@@ -287,10 +286,8 @@ TEST(ExtentGrid, RowsBeginAtTheBumperAndColumnsReachBothSides) {
     const Route route(network, {});
     const ExtentGrid grid = make_extent_grid(route, at(50.0), 3.6, {});
     ASSERT_EQ(grid.ahead_m.size(), 401U);
-    EXPECT_EQ(grid.ahead_m.front(), 0.0);
-    EXPECT_EQ(grid.ahead_m.back(), 200.0);
-    EXPECT_EQ(grid.offset_m.front(), -20.0);
-    EXPECT_EQ(grid.offset_m.back(), 20.0);
+    EXPECT_EQ(std::tuple(grid.ahead_m.front(), grid.ahead_m.back()), std::tuple(0.0, 200.0));
+    EXPECT_EQ(std::tuple(grid.offset_m.front(), grid.offset_m.back()), std::tuple(-20.0, 20.0));
     EXPECT_TRUE(std::ranges::is_sorted(grid.offset_m));
     EXPECT_TRUE(std::ranges::binary_search(grid.offset_m, 0.0));
     EXPECT_EQ(grid.sections.size(), grid.ahead_m.size());

@@ -85,8 +85,7 @@ TEST(ShadowEdges, AreMatchedByOrderAndDirection) {
     ASSERT_EQ(match.matched.size(), 2U);
     EXPECT_NEAR(match.matched[0].error_m, 0.02, 1e-12);
     EXPECT_NEAR(match.matched[1].error_m, -0.01, 1e-12);
-    EXPECT_EQ(match.lost, 2U);
-    EXPECT_EQ(match.invented, 2U);
+    EXPECT_EQ(std::tuple(match.lost, match.invented), std::tuple(2U, 2U));
     // The near one of two of the same direction, and never one of the other.
     const EdgeMatch nearer = match_edges({{1.0, -1}}, {{0.7, -1}, {0.9, 1}, {1.05, -1}});
     ASSERT_EQ(nearer.matched.size(), 1U);

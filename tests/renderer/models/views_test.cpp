@@ -138,8 +138,7 @@ TEST(Views, TheLightIsTheSameInAll) {
     const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
     for (View view : views) {
         const View& reference = view.mirrored ? back : wide;
-        const Frame all = renderer.draw(moment, reference, wanted);
-        const Frame frame = renderer.draw(moment, view, wanted);
+        const Frame all = renderer.draw(moment, reference, wanted), frame = renderer.draw(moment, view, wanted);
         const Camera camera = camera_of(moment, view), other = camera_of(moment, reference);
         int compared = 0, outside = 0;
         double worst = 0.0;

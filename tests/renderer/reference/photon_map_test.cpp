@@ -289,8 +289,7 @@ TEST(Radiosity, MeetsPathsInARoomWithALampAndALedge) {
     Moment moment{.lamps = {even_lamp(100.0, looking({-0.6, 0.1, 0.3}, 0, -10))}};
     const View view = camera({-0.8, 0.0, 0.0}, 0, -15, 60, 4);
     const Reference reference(scene);
-    ReferenceSettings paths{.integrator = Integrator::path, .target_error = 0.01};
-    ReferenceSettings solver = radiosity(0.1, 64, true);
+    ReferenceSettings paths{.integrator = Integrator::path, .target_error = 0.01}, solver = radiosity(0.1, 64, true);
     solver.target_error = 0.01;
     const ReferenceImage truth = reference.render(moment, view, everything, paths),
                          solved = reference.render(moment, view, everything, solver);

@@ -103,8 +103,7 @@ TEST(ReferenceFog, SingleScatteringByPathsIsThatOfDirectLight) {
 }
 
 TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
-    Material shining = lambert(0.0, SurfaceKind::road, 50.0);
-    Material mirror = lambert(0.0);
+    Material shining = lambert(0.0, SurfaceKind::road, 50.0), mirror = lambert(0.0);
     mirror.mirror = 0.8F;
     Scene scene{.materials = {shining, mirror}};
     // faces +x, behind the eye

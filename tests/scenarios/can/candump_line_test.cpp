@@ -34,8 +34,7 @@ TEST(CandumpLine, ReadsWhatTheDescriptionOfTheFormatShows) { // can-utils, lib.h
 
     line = parsed("(0000000000.000000) can0 12345678#");
     EXPECT_TRUE(line.frame.extended);
-    EXPECT_EQ(line.frame.id, 0x12345678U);
-    EXPECT_EQ(line.frame.length, 0);
+    EXPECT_EQ(std::tuple(line.frame.id, line.frame.length), std::tuple(0x12345678U, 0));
 
     line = parsed("(0000000000.000000) can0 123#R7");
     EXPECT_TRUE(line.frame.remote);
@@ -46,8 +45,7 @@ TEST(CandumpLine, ReadsWhatTheDescriptionOfTheFormatShows) { // can-utils, lib.h
     EXPECT_EQ(parsed("(0000000000.000000) can0 123#R8_9").frame.raw_dlc, 9);
 
     line = parsed("(0000000000.000000) can0 123#1122334455667788_E");
-    EXPECT_EQ(line.frame.raw_dlc, 14);
-    EXPECT_EQ(line.frame.length, 8);
+    EXPECT_EQ(std::tuple(line.frame.raw_dlc, line.frame.length), std::tuple(14, 8));
 
     for (const char* same : {"123#11.22.33.44.55.66.77.88", "123#11.2233.44556677.88", "123#1122334455667788"})
         EXPECT_THAT(parsed(std::string("(0000000000.000000) can0 ") + same).frame.bytes(),

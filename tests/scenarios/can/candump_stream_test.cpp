@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -45,8 +46,7 @@ TEST(CandumpStream, TellsFramesFromWhatStandsBetweenThem) {
         }
     }
     EXPECT_THAT(kinds, ElementsAre(What::comment, What::comment, What::frame, What::explanation, What::lost, What::comment, What::frame));
-    EXPECT_EQ(stream.text(), "(0000000002.000000) can0 123#11");
-    EXPECT_EQ(stream.line_number(), 7U);
+    EXPECT_EQ(std::tuple(stream.text(), stream.line_number()), std::tuple("(0000000002.000000) can0 123#11", 7U));
 }
 
 TEST(CandumpStream, GoesOnBehindABadLine) {
@@ -55,8 +55,7 @@ TEST(CandumpStream, GoesOnBehindABadLine) {
     EXPECT_THROW(stream.next(), InputError);
     EXPECT_EQ(stream.next(), What::frame);
     EXPECT_EQ(stream.line().frame.data[0], 0x22);
-    EXPECT_EQ(stream.next(), What::end);
-    EXPECT_EQ(stream.next(), What::end);
+    EXPECT_EQ(std::tuple(stream.next(), stream.next()), std::tuple(What::end, What::end));
 }
 
 TEST(CandumpStream, GoesOnBehindALineThatIsTooLong) {

@@ -93,14 +93,12 @@ class Dbc : public DbcTrial {};
 
 TEST_F(Dbc, EachStatementMeansWhatItSays) {
     const CanDatabase read = this->read(whole_file);
-    EXPECT_EQ(read.version, "1.2");
-    EXPECT_EQ(read.comment, "the bus");
+    EXPECT_EQ(std::tuple(read.version, read.comment), std::tuple("1.2", "the bus"));
     EXPECT_THAT(read.nodes, ElementsAre("Body", "Cockpit", "Lamps"));
     ASSERT_EQ(read.messages.size(), 2U);
     const CanMessage& switches = read.messages[0];
     EXPECT_EQ(switches.id, 0x123U);
-    EXPECT_FALSE(switches.extended);
-    EXPECT_FALSE(switches.fd);
+    EXPECT_FALSE(switches.extended || switches.fd);
     EXPECT_FALSE(switches.bit_rate_switch) << "only CAN FD has one, whatever the default";
     EXPECT_EQ(switches.length, 4);
     EXPECT_THAT(switches.senders, ElementsAre("Cockpit", "Body"));
@@ -120,9 +118,7 @@ TEST_F(Dbc, EachStatementMeansWhatItSays) {
     EXPECT_THAT(switches.signals[0].receivers, ElementsAre("Lamps", "Body"));
     const CanMessage& speeds = read.messages[1];
     EXPECT_EQ(speeds.id, 0x18FEF1FEU);
-    EXPECT_TRUE(speeds.extended);
-    EXPECT_TRUE(speeds.fd);
-    EXPECT_TRUE(speeds.bit_rate_switch);
+    EXPECT_TRUE(speeds.extended && speeds.fd && speeds.bit_rate_switch);
     EXPECT_FALSE(speeds.cycle_s);
     EXPECT_EQ(speeds.send_type, "OnEvent");
     EXPECT_THAT(speeds.senders, IsEmpty());

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -27,8 +28,7 @@ TEST(YamlTree, KeepsKindsOrderPlacesAndWhatAliasesName) {
     ASSERT_EQ(root.kind, YamlValue::Kind::map);
     ASSERT_EQ(root.members.size(), 3U);
     EXPECT_EQ(root.members[0].key, "b");
-    EXPECT_EQ(root.members[0].value.line, 1U);
-    EXPECT_EQ(root.members[0].value.column, 4U);
+    EXPECT_EQ(std::tuple(root.members[0].value.line, root.members[0].value.column), std::tuple(1U, 4U));
     const YamlValue& list = root.members[1].value;
     ASSERT_EQ(list.items.size(), 2U);
     EXPECT_FALSE(list.items[0].quoted);

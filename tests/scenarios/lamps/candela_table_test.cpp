@@ -162,8 +162,7 @@ TEST(CandelaTable, MirrorsForLeftHandTraffic) {
     CandelaTable table = random_table(3);
     table.gaps.assign((table.v_deg.size() - 1) * (table.h_deg.size() - 1), 0);
     table.gaps[2] = 1;
-    const CandelaTable before = table;
-    const CandelaTable mirror = mirrored(table);
+    const CandelaTable before = table, mirror = mirrored(table);
     EXPECT_EQ(table, before);
     check_invariants(mirror);
     for (double h = -33.05; h < 5.0; h += 0.61)
@@ -201,8 +200,7 @@ TEST(CandelaTableSums, EndWithTheirTablesAndMarkWhereNeitherHasData) {
     EXPECT_NEAR(intensity_cd(sum(wide, narrow), 4.999, 4.999), 1001.0, 1e-9);
     EXPECT_NEAR(intensity_cd(sum(wide, narrow), 0.0, -5.001), 1.0, 1e-9);
     const CandelaTable left = table_of({-20.0, -10.0}, {0.0, 5.0}, [](double, double) { return 8.0; });
-    const CandelaTable right = table_of({10.0, 20.0}, {-5.0, 0.0}, [](double, double) { return 4.0; });
-    const CandelaTable both = sum(left, right);
+    const CandelaTable right = table_of({10.0, 20.0}, {-5.0, 0.0}, [](double, double) { return 4.0; }), both = sum(left, right);
     EXPECT_EQ(intensity_cd(both, 0.0, 0.0), 0.0);
     EXPECT_EQ(intensity_cd(both, -9.0, 2.0), 0.0);
     EXPECT_NEAR(intensity_cd(both, -15.0, 2.0), 8.0, 1e-12);

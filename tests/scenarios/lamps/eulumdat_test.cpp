@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -39,8 +40,7 @@ class Eulumdat : public LampTrial {
 TEST_F(Eulumdat, ListsCandelaPerThousandLumen) {
     Ldt ldt{.output = "80", .sets = "1\n1\nLED\n2500\n4000 K\nRa > 80\n29.50"};
     const LampFile l = lamp(ldt);
-    EXPECT_EQ(l.format, "EULUMDAT, Isym 1");
-    EXPECT_EQ(l.name, "Widget");
+    EXPECT_EQ(std::tuple(l.format, l.name), std::tuple("EULUMDAT, Isym 1", "Widget"));
     EXPECT_NEAR(flux_lm(l.table), 4 * pi * 250, 1e-9);
     EXPECT_DOUBLE_EQ(l.declared_flux_lm.value(), 2000.0);
     EXPECT_EQ(l.labels[0], (std::pair<std::string, std::string>{"company", "ACME"}));

@@ -185,8 +185,7 @@ TEST(QuickLight, BoundsHoldTheIlluminanceAndAreNarrow) {
     std::uniform_real_distribution<double> along(-5.0, 120.0), across(-40.0, 40.0), above(-3.0, 4.0), tilt(-0.3, 0.3);
     int unknown = 0;
     for (int i = 0; i < 200000; ++i) {
-        const glm::dvec3 point{along(chance), across(chance), above(chance)};
-        const glm::dvec3 normal = axes_from_angles(0.3, tilt(chance), tilt(chance))[2];
+        const glm::dvec3 point{along(chance), across(chance), above(chance)}, normal = axes_from_angles(0.3, tilt(chance), tilt(chance))[2];
         const std::pair<LuxBounds, double> found[]{{light.surface_lx(point, normal, 0.0), surface_illuminance_lx(moment, point, normal)},
                                                    {light.target_lx(point), target_illuminance_lx(moment, point)}};
         for (const auto& [bounds, truth] : found) {

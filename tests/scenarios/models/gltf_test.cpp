@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <random>
 #include <sstream>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -91,8 +92,7 @@ TEST_F(Gltf, NodesNamedLampAreMounts) {
     ASSERT_EQ(model.mounts.size(), 1U);
     EXPECT_EQ(model.mounts[0].name, "lamp.low.left");
     EXPECT_LT(glm::length(model.mounts[0].pose.position_m - glm::dvec3(3.6, 0.7, 0.65)), 1e-12);
-    EXPECT_EQ(model.mounts[0].pose.forward(), glm::dvec3(1, 0, 0));
-    EXPECT_EQ(model.mounts[0].pose.up(), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(std::tuple(model.mounts[0].pose.forward(), model.mounts[0].pose.up()), std::tuple(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)));
 }
 
 TEST_F(Gltf, BaseColourIsReflectanceAndTheRestIsNoted) {
@@ -107,8 +107,7 @@ TEST_F(Gltf, BaseColourIsReflectanceAndTheRestIsNoted) {
     file.json["extensions"]["KHR_lights_punctual"] = Json::object();
     const Model model = read(file);
     ASSERT_EQ(model.materials.size(), 1U);
-    EXPECT_EQ(model.materials[0].albedo, glm::vec3(0.5, 0.25, 0.125));
-    EXPECT_EQ(model.materials[0].retro_rl, 2.5F);
+    EXPECT_EQ(std::tuple(model.materials[0].albedo, model.materials[0].retro_rl), std::tuple(glm::vec3(0.5, 0.25, 0.125), 2.5F));
     EXPECT_EQ(model.triangles(), 2U) << "a second sheet that faces down";
     const std::string notes = testing::PrintToString(model.notes);
     for (const char* word : {"metal and gloss", "transparent", "animations left out: 1", "lights of the file", "both sides"})

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -101,8 +102,7 @@ PlanPoint clothoid_reference(double start_per_m, double end_per_m, double length
     Real x = 0.0L, y = 0.0L;
     for (int i = 0; i < pieces; ++i)
         for (const Real side : {-node, node}) {
-            const Real u = h * (static_cast<Real>(i) + 0.5L + 0.5L * side);
-            const Real heading = u * (start_per_m + 0.5L * change * u);
+            const Real u = h * (static_cast<Real>(i) + 0.5L + 0.5L * side), heading = u * (start_per_m + 0.5L * change * u);
             x += 0.5L * h * std::cos(heading);
             y += 0.5L * h * std::sin(heading);
         }
@@ -129,8 +129,7 @@ TEST_P(NetworkClothoid, AgreesWithIntegration) {
         EXPECT_NEAR(cached.x_m, expected.x_m, 1e-12 * length) << part;
         EXPECT_NEAR(cached.y_m, expected.y_m, 1e-12 * length) << part;
         EXPECT_NEAR(cached.heading_rad, expected.heading_rad, 1e-12 * (1.0 + std::abs(expected.heading_rad)));
-        EXPECT_EQ(cached.x_m, computed.x_m);
-        EXPECT_EQ(cached.y_m, computed.y_m);
+        EXPECT_EQ(std::tuple(cached.x_m, cached.y_m), std::tuple(computed.x_m, computed.y_m));
     }
 }
 

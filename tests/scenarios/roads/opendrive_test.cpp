@@ -158,15 +158,13 @@ TEST(OpenDrive, ObjectsOutlinesAndRepeats) {
     const RoadNetwork network = network_of(text);
     const auto& objects = network.roads[0].objects;
     ASSERT_EQ(objects.size(), 3U + 3U + 2U);
-    EXPECT_EQ(objects[1].s_m, 35.0);
-    EXPECT_EQ(objects[1].t_m, 5.5);
+    EXPECT_EQ(std::tuple(objects[1].s_m, objects[1].t_m), std::tuple(35.0, 5.5));
     EXPECT_EQ(objects[2].height_m, 2.0);
     EXPECT_NEAR(objects[3].length_m, 10.0 / 3.0, 1e-12); // continuous: three pieces, end to end
     EXPECT_NEAR(objects[3].s_m, 20.0 + 10.0 / 6.0, 1e-12);
     EXPECT_EQ(objects[3].z_offset_m, 0.1);
     ASSERT_EQ(objects[6].outline_m.size(), 3U);
-    EXPECT_EQ(objects[6].outline_m[1], glm::dvec3(2.0, 0.0, 3.0));
-    EXPECT_EQ(objects[6].outline_base_m[1], 0.5);
+    EXPECT_EQ(std::tuple(objects[6].outline_m[1], objects[6].outline_base_m[1]), std::tuple(glm::dvec3(2.0, 0.0, 3.0), 0.5));
     // corners on the road, seen from an object that is turned to the left by 90 degrees
     EXPECT_NEAR(glm::distance(objects[7].outline_m[1], glm::dvec3(0.0, -2.0, 0.2)), 0.0, 1e-12);
     EXPECT_NEAR(glm::distance(objects[7].outline_m[2], glm::dvec3(1.0, -2.0, 0.2)), 0.0, 1e-12);
@@ -182,8 +180,7 @@ TEST(OpenDrive, Signals) {
     ASSERT_EQ(signals.size(), 2U);
     EXPECT_FALSE(signals[0].facing_forward);
     EXPECT_EQ(std::tuple(signals[0].heading_offset_rad, signals[0].subtype, signals[0].height_m), std::tuple(0.1, "57", 0.7));
-    EXPECT_TRUE(signals[1].facing_forward);
-    EXPECT_TRUE(signals[1].dynamic);
+    EXPECT_TRUE(signals[1].facing_forward && signals[1].dynamic);
 }
 
 // Input that cannot be meant: one sentence with file and line, never a crash, a hang or a wrong road.

@@ -173,8 +173,7 @@ TEST(Moon, Examples47aAnd48a) {
     EXPECT_NEAR(moon.distance_km, 368409.7, 0.1);
     EXPECT_NEAR(degrees(moon.right_ascension_rad), 134.688470, 2e-4);
     EXPECT_NEAR(degrees(moon.declination_rad), 13.768368, 1e-4);
-    const double t = julian_centuries(2448724.5);
-    const double phase = phase_angle_rad(sun_place(t), moon_place(t));
+    const double t = julian_centuries(2448724.5), phase = phase_angle_rad(sun_place(t), moon_place(t));
     EXPECT_NEAR(degrees(phase), 69.0756, 0.01);
     EXPECT_NEAR(illuminated_fraction(phase), 0.6786, 1e-4);
 }
@@ -217,8 +216,7 @@ TEST(Weather, ExtinctionOfFogRainAndSnow) {
     EXPECT_GT(snow(Intensity::heavy).extinction_per_m, rain(Intensity::heavy).extinction_per_m);
     EXPECT_EQ(rain(Intensity::heavy).wetness, 1.0);
     EXPECT_EQ(snow(Intensity::heavy).wetness, 0.0);
-    const Weather fog{0.03, 1.0, 0.85, 0.0}, dark{0.01, 0.5, 0.0, 0.2};
-    const Weather both = together(fog, dark);
+    const Weather fog{0.03, 1.0, 0.85, 0.0}, dark{0.01, 0.5, 0.0, 0.2}, both = together(fog, dark);
     EXPECT_DOUBLE_EQ(both.extinction_per_m, 0.04);
     EXPECT_DOUBLE_EQ(both.scattering_albedo, 0.035 / 0.04);
     EXPECT_DOUBLE_EQ(both.asymmetry, 0.03 * 0.85 / 0.035);

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <set>
+#include <tuple>
 #include <unistd.h>
 
 namespace fernlicht {
@@ -94,8 +95,7 @@ TEST_F(StudyFile, MirroredCellsHaveTheRoadInAMirror) {
     const std::vector<StudyCell> cells = cells_of(study);
     ASSERT_EQ(cells.size(), 4U);
     EXPECT_EQ(cells[1].name, "straight_b");
-    EXPECT_EQ(cells[3].name, "straight_b_mirrored");
-    EXPECT_EQ(cells[3].condition, "night, aim -1 %, 13.2 V, mirrored");
+    EXPECT_EQ(std::tuple(cells[3].name, cells[3].condition), std::tuple("straight_b_mirrored", "night, aim -1 %, 13.2 V, mirrored"));
     const Drive plain = cell_drive(study, cells[1]), mirrored = cell_drive(study, cells[3]);
     EXPECT_FALSE(plain.mirrored_road);
     EXPECT_TRUE(mirrored.mirrored_road);

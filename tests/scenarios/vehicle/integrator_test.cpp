@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -176,8 +177,7 @@ TEST(OdeIntegrator, ThePathIsTheSolutionWhoeverAsks) {
     OdeIntegrator integrator(problem, {.tolerance = 1e-9});
     std::vector<double> x{1.0, 1.0, 0.0};
     integrator.integrate(0.0, 2.0, x, {}, &path);
-    EXPECT_EQ(path.start_s(), 0.0);
-    EXPECT_EQ(path.end_s(), 2.0);
+    EXPECT_EQ(std::tuple(path.start_s(), path.end_s()), std::tuple(0.0, 2.0));
     EXPECT_EQ(path.at(2.0, 0), x[1]);
     EXPECT_EQ(path.at(3.0, 0), x[1]);
     EXPECT_EQ(path.at(-1.0, 0), 1.0);

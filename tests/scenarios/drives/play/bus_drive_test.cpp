@@ -98,8 +98,7 @@ class BusDriveTest : public DriveFixture {
 TEST_F(BusDriveTest, SignalsThatSayTheSameAsTheScriptMakeTheSameMoments) {
     Drive drive = scripted();
     drive.can = std::make_shared<const BusMapping>(exact(drive));
-    const Staged script(drive);
-    const Staged bus(played_by(recording_of(script), script.drive.can.get()));
+    const Staged script(drive), bus(played_by(recording_of(script), script.drive.can.get()));
     ASSERT_TRUE(bus.drive.bus_motion);
     ASSERT_EQ(tick_count(bus.drive), tick_count(script.drive));
     double place_m = 0.0, turn_rad = 0.0;
@@ -118,8 +117,7 @@ TEST_F(BusDriveTest, SignalsThatSayTheSameAsTheScriptMakeTheSameMoments) {
 }
 
 TEST_F(BusDriveTest, QuantisedSignalsMoveThingsAsFarAsTheirSteps) {
-    const Staged script(scripted());
-    const Staged bus(read_drive(shipped));
+    const Staged script(scripted()), bus(read_drive(shipped));
     double place_m = 0.0, turn_rad = 0.0;
     for (int tick = 0; tick < tick_count(script.drive); ++tick) {
         const Moment a = script.at(tick), b = bus.at(tick);

@@ -171,8 +171,7 @@ class PlanIndex {
             const double area = a.x * b.y - a.y * b.x;
             if (std::abs(area) < 1e-9)
                 continue;
-            const double u = (d.x * b.y - d.y * b.x) / area, v = (a.x * d.y - a.y * d.x) / area;
-            const double z = p[0].z + u * a.z + v * b.z;
+            const double u = (d.x * b.y - d.y * b.x) / area, v = (a.x * d.y - a.y * d.x) / area, z = p[0].z + u * a.z + v * b.z;
             if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && z <= ceiling)
                 found = std::max(found, z);
         }

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <random>
 #include <set>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -102,8 +103,7 @@ TEST(SurfaceTextures, HaveOneSizeAndTheBytesOfTheirSeed) {
     const std::vector<SurfaceTexture> all = road_textures(1);
     std::set<std::string> names;
     for (const SurfaceTexture& texture : all) {
-        EXPECT_EQ(texture.width, 256);
-        EXPECT_EQ(texture.height, 256);
+        EXPECT_EQ(std::tuple(texture.width, texture.height), std::tuple(256, 256));
         EXPECT_EQ(texture.rgba.size(), 4U * 256U * 256U);
         names.insert(texture.name);
     }
@@ -235,10 +235,7 @@ glm::vec2 at(const glm::dvec3& origin, const glm::vec3& position, const glm::vec
     return texture_position(origin, {position, normal});
 }
 
-void expect_uv(const glm::vec2& found, float u, float v) {
-    EXPECT_EQ(found.x, u);
-    EXPECT_EQ(found.y, v);
-}
+void expect_uv(const glm::vec2& found, float u, float v) { EXPECT_EQ(std::tuple(found.x, found.y), std::tuple(u, v)); }
 
 RoadNetwork shipped_road(const char* name) {
     return read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads" / name);
@@ -269,8 +266,7 @@ TEST(TexturePosition, MeshesAgreeExactlyApartFromWholeRepetitions) {
         const glm::dvec3 a(680000.0, 5400000.0, 300.0), b = a + glm::round(glm::dvec3(near(random), near(random), near(random)));
         const glm::dvec3 world = on_lattice(a + glm::dvec3(near(random), near(random), near(random)));
         const glm::vec3& normal = normals[static_cast<std::size_t>(i % 3)];
-        const glm::dvec2 uv_a(at(a, glm::vec3(world - a), normal)), uv_b(at(b, glm::vec3(world - b), normal));
-        const glm::dvec2 apart = uv_a - uv_b;
+        const glm::dvec2 uv_a(at(a, glm::vec3(world - a), normal)), uv_b(at(b, glm::vec3(world - b), normal)), apart = uv_a - uv_b;
         EXPECT_EQ(apart, glm::round(apart));
     }
 }
