@@ -1,5 +1,5 @@
 // Our own lamps: files that are what the model writes, with the flux and the edges of common lamps. The rows of their regulations are held
-// in tests/metrics/regulation/shipped_lamps_test.cpp.
+// in tests/metrics/regulation/row_check_test.cpp.
 #include "scenarios/lamps/lamp_model.h"
 #include "tests/trial.h"
 
