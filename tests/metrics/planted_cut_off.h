@@ -10,8 +10,7 @@
 namespace fernlicht::planted {
 
 struct CutOff {
-    double elbow_h_deg = 0.0, level_v_deg = -0.57;
-    double angle_deg = 15.0;
+    double elbow_h_deg = 0.0, level_v_deg = -0.57, angle_deg = 15.0;
     double rise_deg = 3.0;     ///< along the edge
     double softness_deg = 0.1; ///< of the logistic in which log I falls by two decades: G = 2 tanh(0.1 / (4 s))
     double noise = 0.0;

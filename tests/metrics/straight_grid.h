@@ -6,8 +6,7 @@
 namespace fernlicht::tests {
 
 struct StraightGrid {
-    double ahead_m = 100.0, beside_m = 20.0, along_m = 0.5, across_m = 0.125;
-    double target_height_m = 0.0;
+    double ahead_m = 100.0, beside_m = 20.0, along_m = 0.5, across_m = 0.125, target_height_m = 0.0;
 };
 
 /// Own lane 3.5 m wide about offset 0, an oncoming one to its left, a shoulder of 1.5 m to its right.
@@ -22,8 +21,7 @@ inline CrossSection two_lanes() {
 inline ExtentGrid straight_grid(const StraightGrid& size) {
     ExtentGrid grid;
     grid.target_height_m = size.target_height_m;
-    const int rows = static_cast<int>(size.ahead_m / size.along_m + 0.5);
-    const int half = static_cast<int>(size.beside_m / size.across_m + 0.5);
+    const int rows = static_cast<int>(size.ahead_m / size.along_m + 0.5), half = static_cast<int>(size.beside_m / size.across_m + 0.5);
     for (int column = -half; column <= half; ++column)
         grid.offset_m.push_back(column * size.across_m);
     for (int row = 0; row <= rows; ++row) {

@@ -1,28 +1,29 @@
 // Sun and moon as they are drawn: against the double-precision twin, the reference, and closed forms; left out where they do not shine.
-#include "tests/renderer/reference/rooms.h"
-
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
+#include "scenarios/display/display_profile.h"
+#include "scenarios/display/tone_mapper.h"
+#include "tests/renderer/device_test.h"
+#include "tests/renderer/reference/rooms.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
-
-constexpr Wanted drawn{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 /// Ground and an upright board with a post before it, 20 m ahead.
 Scene yard() {
     Scene scene = level_ground(300.0, lambert(0.2));
     scene.materials.push_back(lambert(0.5, SurfaceKind::object));
-    Mesh board{"board", {20.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(board, {0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3});
-    add_quad(board, {0.2F, -3, 0}, {0.2F, 3, 0}, {0.2F, 3, 3}, {0.2F, -3, 3});
     Mesh post{"post", {16.0, 1.0, 0.0}, {}, {}, {}};
     add_quad(post, {0, 0.2F, 0}, {0, -0.2F, 0}, {0, -0.2F, 2}, {0, 0.2F, 2});
     add_quad(post, {0.2F, -0.2F, 0}, {0.2F, 0.2F, 0}, {0.2F, 0.2F, 2}, {0.2F, -0.2F, 2});
-    scene.meshes.push_back(finished(board, 1));
+    scene.meshes.push_back(
+        quads("board", 1, {20.0, 0.0, 0.0},
+              {{{0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3}}, {{0.2F, -3, 0}, {0.2F, 3, 0}, {0.2F, 3, 3}, {0.2F, -3, 3}}}));
     scene.meshes.push_back(finished(post, 1));
     return scene;
 }
@@ -41,7 +42,7 @@ View ahead() {
     return view;
 }
 
-class DrawnDaylight : public testing::Test {
+class DrawnDaylight : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, bool shadows, const char* technique = "photometric", Work* work = nullptr) {
         RendererSettings settings;
@@ -49,10 +50,9 @@ class DrawnDaylight : public testing::Test {
         settings.technique = technique;
         Renderer renderer(device_, scene, settings);
         if (work != nullptr)
-            *work = renderer.count(moment, ahead(), drawn);
-        return renderer.draw(moment, ahead(), drawn);
+            *work = renderer.count(moment, ahead(), all_results);
+        return renderer.draw(moment, ahead(), all_results);
     }
-    Device device_ = open_device("auto");
 };
 
 struct Tally {
@@ -144,10 +144,7 @@ TEST_F(DrawnDaylight, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
          {std::tuple(0.0, 0.0, 0.0), std::tuple(60'000.0, 30.0, 9000.0), std::tuple(0.2, 60.0, 0.0), std::tuple(100.0, -2.0, 0.0)}) {
         const Moment moment = sunlit(300.0, elevation, lx, sky);
         const Frame a = draw(scene, moment, true), b = draw(scene, moment, true, "photometric-unpruned");
-        EXPECT_EQ(a.colour, b.colour) << lx;
-        EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << lx;
-        EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << lx;
-        EXPECT_EQ(a.target_lx, b.target_lx) << lx;
+        expect_same_frames(a, b, std::to_string(lx));
     }
 }
 
@@ -166,8 +163,7 @@ TEST_F(DrawnDaylight, NeitherSunNorMoonCostsNothing) {
 TEST(ReferenceDaylight, AgreesWithTheTwin) {
     const Scene scene = yard();
     const Moment moment = sunlit(300.0, 20.0, 3000.0, 100.0);
-    ReferenceSettings settings;
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings{.footprint = Footprint::centre};
     const View view = ahead();
     const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
     const Twin twin(scene, true);
@@ -182,6 +178,112 @@ TEST(ReferenceDaylight, AgreesWithTheTwin) {
         }
     EXPECT_LE(differ, 20); // outlines and edges of shadows
     EXPECT_GT(shaded, 20);
+}
+
+// Luminance with its colour: beside the luminance, and shown by the equations of a display beside what the GPU shows.
+
+/// A red board on grey ground under a warm lamp; another's lamp in view; some sky.
+Scene red_board() {
+    Scene scene = level_ground(300.0, lambert(0.2));
+    Material red = lambert(0.5, SurfaceKind::object);
+    red.albedo = {0.6F, 0.05F, 0.03F};
+    scene.materials.push_back(red);
+    Mesh board{"board", {20.0, 0.0, 0.0}, {}, {}, {}};
+    add_quad(board, {0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3});
+    scene.meshes.push_back(finished(board, 1));
+    return scene;
+}
+
+Moment warm_night() {
+    Moment moment;
+    moment.daylight.horizontal_illuminance_lx = 0.5;
+    LitLamp own = even_lamp(20000.0, looking({3.5, 0.0, 0.65}, 0, 0));
+    own.colour = colour_of_temperature(3200.0);
+    moment.lamps = {own};
+    LitLamp other = even_lamp(800.0, looking({40.0, 12.0, 0.65}, 180, 0));
+    other.face_m = {0.3, 0.2};
+    moment.other_lamps = {other};
+    return moment;
+}
+
+View ahead_of_board() {
+    View view = camera({1.5, 0.35, 1.2}, 0, -3, 30, 96);
+    view.height_px = 64;
+    return view;
+}
+
+constexpr Wanted as_seen{.colour = true, .luminance = true, .light = true};
+
+class ColouredLight : public testing::TestWithParam<const char*> {
+  protected:
+    Frame draw(const Wanted& wanted, const ToneMapper& mapper = {}) {
+        Renderer renderer(device_, scene_, RendererSettings{.technique = GetParam(), .tone_mapper = mapper});
+        return renderer.draw(warm_night(), ahead_of_board(), wanted);
+    }
+    Device device_ = open_device("auto");
+    Scene scene_ = red_board();
+};
+
+TEST_P(ColouredLight, ItsLuminanceIsTheLuminance) {
+    const Frame frame = draw(as_seen);
+    ASSERT_EQ(frame.light.size(), frame.luminance_cdm2.size());
+    int coloured = 0, bright = 0;
+    for (std::size_t i = 0; i < frame.light.size(); ++i) {
+        const glm::vec3 light = frame.light.pixels()[i];
+        const double luminance =
+            0.2126 * static_cast<double>(light.r) + 0.7152 * static_cast<double>(light.g) + 0.0722 * static_cast<double>(light.b);
+        EXPECT_NEAR(luminance, static_cast<double>(frame.luminance_cdm2.pixels()[i]), 1.0e-6 * luminance);
+        coloured += light.r > 3.0F * light.g ? 1 : 0;
+        bright += luminance > 1000.0 ? 1 : 0;
+    }
+    EXPECT_GT(coloured, 100); // the board
+    if (std::string_view(GetParam()) != "photometric-naive") {
+        EXPECT_GT(bright, 0); // the other's lamp
+    }
+}
+
+/// The GPU shows it as an sRGB display does: luminance through the tone mapper, each channel clipped, the code rounded.
+TEST_P(ColouredLight, TheGpuShowsItsColours) {
+    const DisplayProfile srgb = srgb_display();
+    for (const ToneMapper& mapper :
+         {ToneMapper{ToneMapperKind::rational, 20.0, 100.0, {}}, ToneMapper{ToneMapperKind::linear, 1.0, 50.0, {}},
+          ToneMapper{ToneMapperKind::logarithmic, 50.0, 1000.0, {}}}) {
+        const Frame frame = draw(as_seen, mapper);
+        for (std::size_t i = 0; i < frame.light.size(); ++i) {
+            const glm::dvec3 light(frame.light.pixels()[i]);
+            const double luminance = glm::dot(light, glm::dvec3(0.2126, 0.7152, 0.0722));
+            const glm::dvec3 shares =
+                luminance > 0.0 ? glm::clamp(light * (toned(mapper, luminance) / luminance), 0.0, 1.0) : glm::dvec3(0.0);
+            const Rgb8 shown = frame.colour.pixels()[i];
+            EXPECT_NEAR(255.0 * encoded(srgb, shares.r), shown.r, 0.52);
+            EXPECT_NEAR(255.0 * encoded(srgb, shares.g), shown.g, 0.52);
+            EXPECT_NEAR(255.0 * encoded(srgb, shares.b), shown.b, 0.52);
+        }
+    }
+}
+
+TEST_P(ColouredLight, AskingForItChangesNothingElse) {
+    Wanted without = as_seen;
+    without.light = false;
+    const Frame with = draw(as_seen), plain = draw(without);
+    EXPECT_EQ(std::tuple(with.colour, with.luminance_cdm2), std::tuple(plain.colour, plain.luminance_cdm2));
+    EXPECT_TRUE(plain.light.empty());
+    EXPECT_EQ(draw({.light = true}).light, with.light);
+}
+
+INSTANTIATE_TEST_SUITE_P(, ColouredLight, testing::Values("photometric", "photometric-unpruned", "photometric-naive"),
+                         [](const auto& test) {
+                             std::string name = test.param;
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+TEST(ColouredLightOfOthers, TechniquesWithoutLuminanceHaveNone) {
+    Device device = open_device("auto");
+    const Scene scene = red_board();
+    Renderer renderer(device, scene, RendererSettings{.technique = "full"});
+    EXPECT_FALSE(renderer.available(as_seen).light);
+    EXPECT_TRUE(renderer.draw(warm_night(), ahead_of_board(), as_seen).light.empty());
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "renderer/gl/scene/ground_plane.h"
 #include "scenarios/values/errors.h"
 #include "tests/renderer/shadow_scene.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -35,10 +36,7 @@ void tilt(Scene& scene, double slope_rad) {
     }
 }
 
-class PlanarShadows : public testing::Test {
-  protected:
-    Device device_ = open_device("auto");
-};
+class PlanarShadows : public DeviceTest {};
 
 TEST(PlaneFit, FindsAPlaneAndAnswersForLinesAndNothing) {
     gl::PlaneFit fit;
@@ -83,8 +81,7 @@ TEST_F(PlanarShadows, FallOnNothingUpright) {
     Mesh wall{"wall", {20.0, 0.0, 0.0}, {}, {}, {}};
     add_box(wall, 1, {0, -6, 0}, {0.3F, 6, 3});
     scene.meshes.push_back(wall);
-    Moment moment;
-    moment.lamps = {lamp_at({3.5, 0.6, 0.65})};
+    Moment moment{.lamps = {lamp_at({3.5, 0.6, 0.65})}};
     const Frame with = drawn_with(device_, scene, moment, driver_for_shadows(), ShadowMethod::planar),
                 without = drawn_with(device_, scene, moment, driver_for_shadows(), ShadowMethod::none);
     int upright = 0;
@@ -98,8 +95,7 @@ TEST_F(PlanarShadows, FallOnNothingUpright) {
 
 TEST_F(PlanarShadows, TargetsAboveTheRoadAreHiddenAsByVolumes) {
     const Scene scene = three_casters();
-    Moment moment;
-    moment.lamps = {lamp_at({3.5, 0.6, 0.65})};
+    Moment moment{.lamps = {lamp_at({3.5, 0.6, 0.65})}};
     const View map = map_for_shadows(60.0, 12.0, 5);
     const Frame plane = drawn_with(device_, scene, moment, map, ShadowMethod::planar),
                 volumes = drawn_with(device_, scene, moment, map, ShadowMethod::volumes);
@@ -117,19 +113,10 @@ TEST_F(PlanarShadows, RefuseGroundThatIsNotOnePlane) {
     Mesh bank{"bank", {30.0, 0.0, 0.0}, {}, {}, {}};
     add_flat(bank, 0, {0, -10, 0.0F}, {20, -10, 0.5F}, {20, 10, 0.5F}, {0, 10, 0.0F});
     scene.meshes.push_back(bank);
-    Moment moment;
-    moment.lamps = {lamp_at({3.5, 0.6, 0.65})};
-    RendererSettings settings;
-    settings.shadows = planar;
+    Moment moment{.lamps = {lamp_at({3.5, 0.6, 0.65})}};
+    RendererSettings settings{.shadows = planar};
     Renderer renderer(device_, scene, settings);
-    const auto message = [&](auto act) -> std::string {
-        try {
-            act();
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    };
+    const auto message = [](auto act) { return tests::refusal_of(act, ""); };
     using testing::AllOf;
     using testing::HasSubstr;
     const auto refused =

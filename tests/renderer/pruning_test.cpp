@@ -7,7 +7,8 @@
 #include "scenarios/drives/play/told_story.h"
 #include "scenarios/drives/story/tell_story.h"
 #include "scenarios/roads/mesh/road_mesh.h"
-#include "tests/renderer/same_frames.h"
+#include "tests/lamps.h"
+#include "tests/renderer/device_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,18 +20,10 @@
 namespace fernlicht {
 namespace {
 
-constexpr Wanted all_pictures{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
-
-std::shared_ptr<LampFile> round_beam(double peak_cd, double half_deg) {
-    auto file = std::make_shared<LampFile>();
-    for (int i = -20; i <= 20; ++i)
-        file->table.h_deg.push_back(half_deg * i / 20.0);
-    for (int i = -20; i <= 20; ++i)
-        file->table.v_deg.push_back(half_deg * i / 20.0);
-    for (const double v : file->table.v_deg)
-        for (const double h : file->table.h_deg)
-            file->table.cd.push_back(peak_cd * std::exp(-4.0 * (h * h + v * v) / (half_deg * half_deg)));
-    return file;
+std::shared_ptr<const LampFile> round_beam(double peak_cd, double half_deg) {
+    const std::vector<double> angles = tests::steps(-half_deg, half_deg, half_deg / 20.0);
+    return tests::file_of(tests::table_of(
+        angles, angles, [&](double h, double v) { return peak_cd * std::exp(-4.0 * (h * h + v * v) / (half_deg * half_deg)); }));
 }
 
 /// What a random scene may hold; each can be switched by itself.
@@ -108,27 +101,20 @@ RandomScene random_scene(std::uint64_t seed, const Features& on) {
 }
 
 View driver_160() {
-    View view;
-    view.position_m = {1.5, 0.35, 1.2};
-    view.pitch_rad = radians(-3.0);
-    view.vertical_fov_rad = radians(40.0);
-    view.width_px = 160;
-    view.height_px = 120;
-    return view;
+    return {
+        .position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(40.0), .width_px = 160, .height_px = 120};
 }
 
-class PruningTest : public testing::Test {
+class PruningTest : public DeviceTest {
   protected:
     Frame draw(const RandomScene& s, const char* technique, Work* work = nullptr) {
-        RendererSettings settings;
-        settings.technique = technique;
+        RendererSettings settings{.technique = technique};
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, s.scene, settings);
         if (work != nullptr)
-            *work = renderer.count(s.moment, driver_160(), all_pictures);
-        return renderer.draw(s.moment, driver_160(), all_pictures);
+            *work = renderer.count(s.moment, driver_160(), all_results);
+        return renderer.draw(s.moment, driver_160(), all_results);
     }
-    Device device_ = open_device("auto");
 };
 
 TEST_F(PruningTest, PrunedAndUnprunedGiveTheSameBytesOverRandomScenes) {
@@ -188,17 +174,13 @@ std::vector<std::filesystem::path> shipped_drives() {
 }
 
 TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
-    DriveEdits smaller;
-    smaller.resolution = std::pair(320, 240);
-    Drive drive = read_drive(GetParam(), smaller);
+    Drive drive = read_drive(GetParam(), DriveEdits{.resolution = std::pair(320, 240)});
     const RoadNetwork network = read_opendrive(drive.road_file);
     tell_story(drive, network);
     const Route route(network, drive.start, drive.via);
     const Scene scene = staged_scene(drive, network, route);
     Device device = open_device("auto");
-    RendererSettings settings;
-    settings.tone_mapper = drive.tone_mapper;
-    settings.shadows = drive.shadows;
+    RendererSettings settings{.tone_mapper = drive.tone_mapper, .shadows = drive.shadows};
     Renderer pruned(device, scene, settings);
     settings.technique = "photometric-unpruned";
     Renderer unpruned(device, scene, settings);
@@ -215,13 +197,13 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
                 moments.push_back(moment);
         }
         for (const View& view : drive.views) {
-            pruned.prepare(moments, view, all_pictures);
-            unpruned.prepare(moments, view, all_pictures);
+            pruned.prepare(moments, view, all_results);
+            unpruned.prepare(moments, view, all_results);
         }
         const int compiled = pruned.compiled_programs();
         for (const Moment& moment : moments)
             for (const View& view : drive.views)
-                expect_same_frames(pruned.draw(moment, view, all_pictures), unpruned.draw(moment, view, all_pictures),
+                expect_same_frames(pruned.draw(moment, view, all_results), unpruned.draw(moment, view, all_results),
                                    variant.name + ", " + view.name + ", " + std::to_string(moment.time_s) + " s");
         EXPECT_EQ(pruned.compiled_programs(), compiled) << "nothing compiles once a drive is prepared";
         EXPECT_GT(compiled, 1);

@@ -282,8 +282,7 @@ Comparison compare(const Frame& frame, const Formula& formula, const std::vector
         const Value expected = formula(car, point);
         // 1e-3: a pixel's place, found by perspective interpolation in float over triangles of up to 160 m, moves by 1e-4 of its distance
         // from the lamp, and light goes with its square and the angle.
-        const double tolerance = expected.slack_lx + 1e-3 * expected.lx + 1e-4;
-        const double found = static_cast<double>(frame.illuminance_lx.at(x, y));
+        const double tolerance = expected.slack_lx + 1e-3 * expected.lx + 1e-4, found = static_cast<double>(frame.illuminance_lx.at(x, y));
         const double ratio = std::abs(found - expected.lx) / tolerance;
         if (ratio > 1.0 && result.worst_ratio <= 1.0)
             ADD_FAILURE() << "first at pixel " << x << ' ' << y << ", " << point.p.x << " m ahead, " << point.p.y << " m left, "

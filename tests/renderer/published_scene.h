@@ -3,6 +3,8 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "tests/lamps.h"
+#include "tests/renderer/device_test.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -13,38 +15,23 @@ namespace fernlicht::tests {
 
 /// A cut-off that is soft enough for a texture of 1024 x 512 to hold it.
 inline CandelaTable soft_beam(double peak_cd, double turn_deg) {
-    CandelaTable table;
-    for (int i = -60; i <= 60; ++i)
-        table.h_deg.push_back(i * 0.5);
-    for (int i = -40; i <= 20; ++i)
-        table.v_deg.push_back(i * 0.5);
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg)
-            table.cd.push_back(100.0 + peak_cd / (1.0 + std::exp((v + 1.0) / 0.8)) * std::exp(-(h - turn_deg) * (h - turn_deg) / 150.0) *
-                                           std::exp(-v * v / 60.0));
-    return table;
-}
-
-inline std::shared_ptr<const LampFile> file_of(CandelaTable table) {
-    auto file = std::make_shared<LampFile>();
-    file->table = std::move(table);
-    return file;
+    return table_of(steps(-30.0, 30.0, 0.5), steps(-20.0, 10.0, 0.5), [=](double h, double v) {
+        return 100.0 +
+               peak_cd / (1.0 + std::exp((v + 1.0) / 0.8)) * std::exp(-(h - turn_deg) * (h - turn_deg) / 150.0) * std::exp(-v * v / 60.0);
+    });
 }
 
 /// `at` in the car's frame.
 inline LitLamp mounted(const Pose& ego, const char* name, std::shared_ptr<const LampFile> file, const glm::dvec3& at, double factor) {
-    LitLamp lamp;
-    lamp.name = name;
-    lamp.file = std::move(file);
-    lamp.pose = {ego.position_m + ego.axes * at, ego.axes * axes_from_angles(0.02 * at.y, -0.01, 0.0)};
-    lamp.intensity_factor = factor;
-    return lamp;
+    return {.name = name,
+            .file = std::move(file),
+            .pose = {ego.position_m + ego.axes * at, ego.axes * axes_from_angles(0.02 * at.y, -0.01, 0.0)},
+            .intensity_factor = factor};
 }
 
 /// The right one stands first, so that a technique cannot take the first one for the left.
 inline Moment two_lamps(double sky_lx) {
-    Moment moment;
-    moment.ego = {{4.4e6, -5.2e5, 312.0}, axes_from_angles(0.7, 0.0, 0.0)};
+    Moment moment{.ego = {{4.4e6, -5.2e5, 312.0}, axes_from_angles(0.7, 0.0, 0.0)}};
     moment.daylight.horizontal_illuminance_lx = sky_lx;
     moment.lamps = {mounted(moment.ego, "right", file_of(soft_beam(9000.0, 3.0)), {3.4, -0.6, 0.65}, 0.8),
                     mounted(moment.ego, "left", file_of(soft_beam(14000.0, -2.0)), {3.4, 0.6, 0.7}, 1.0)};
@@ -82,26 +69,22 @@ inline Scene ground_and_board(const Pose& ego, int cells) {
 }
 
 inline View view_towards(double yaw_deg, double pitch_deg) {
-    View view;
-    view.position_m = {1.5, 0.35, 1.2};
-    view.yaw_rad = radians(yaw_deg);
-    view.pitch_rad = radians(pitch_deg);
-    view.vertical_fov_rad = radians(30.0);
-    view.width_px = 96;
-    view.height_px = 64;
-    return view;
+    return {.position_m = {1.5, 0.35, 1.2},
+            .yaw_rad = radians(yaw_deg),
+            .pitch_rad = radians(pitch_deg),
+            .vertical_fov_rad = radians(30.0),
+            .width_px = 96,
+            .height_px = 64};
 }
 
-class PublishedTest : public testing::Test {
+class PublishedTest : public DeviceTest {
   protected:
-    Device device_ = open_device("auto");
     Frame drawn(const std::string& technique, const Scene& scene, const Moment& moment, const View& view,
                 const Wanted& wanted = {.illuminance = true, .ids = true}) {
         return renderer(technique, scene).draw(moment, view, wanted);
     }
     Renderer renderer(const std::string& technique, const Scene& scene, bool eight_bit = false) {
-        RendererSettings settings;
-        settings.technique = technique;
+        RendererSettings settings{.technique = technique};
         if (eight_bit)
             settings.beams = eight_bit_texels;
         return Renderer(device_, scene, settings);

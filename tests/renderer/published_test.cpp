@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -14,15 +15,8 @@ constexpr Wanted lux_and_surfaces{.illuminance = true, .ids = true};
 
 /// Symmetric: a projection with q = 1 + z would move the axis of any other.
 CandelaTable round_beam() {
-    CandelaTable table;
-    for (int i = -60; i <= 60; ++i)
-        table.h_deg.push_back(i * 0.5);
-    for (int i = -30; i <= 30; ++i)
-        table.v_deg.push_back(i * 0.5);
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg)
-            table.cd.push_back(10000.0 * std::exp(-(h * h + v * v) / 60.0));
-    return table;
+    return tests::table_of(tests::steps(-30.0, 30.0, 0.5), tests::steps(-15.0, 15.0, 0.5),
+                           [](double h, double v) { return 10000.0 * std::exp(-(h * h + v * v) / 60.0); });
 }
 
 /// A wall across the lamps' axis, so many metres ahead of a lamp that stands in the camera, seen from there.
@@ -136,8 +130,7 @@ TEST_F(PublishedTest, TwoPassesAddUpToOne) {
     const View view = view_towards(0.0, -4.0);
     constexpr Wanted wanted{.colour = true, .illuminance = true, .depth = true, .ids = true};
     const Frame two = drawn("two-pass-projective", scene, moment, view, wanted), one = drawn("full-clamped", scene, moment, view, wanted);
-    EXPECT_EQ(two.ids, one.ids);
-    EXPECT_EQ(two.depth_m, one.depth_m);
+    EXPECT_EQ(std::tuple(two.ids, two.depth_m), std::tuple(one.ids, one.depth_m));
     int lit = 0;
     for (int y = 0; y < view.height_px; ++y)
         for (int x = 0; x < view.width_px; ++x) {

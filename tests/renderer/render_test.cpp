@@ -1,8 +1,14 @@
+#include "renderer/device.h"
+#include "renderer/gl/device/program.h"
 #include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
+#include "scenarios/values/errors.h"
+#include "tests/renderer/device_test.h"
+#include "tests/trial.h"
 
 #include <cmath>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -21,14 +27,13 @@ Scene wall() {
     return scene;
 }
 
-class RenderTest : public testing::Test {
+class RenderTest : public DeviceTest {
   protected:
     RenderTest() {
         moment_.daylight.horizontal_illuminance_lx = 10.0;
         view_.width_px = 64;
         view_.height_px = 48;
     }
-    Device device_ = open_device("auto");
     Scene scene_ = wall();
     Moment moment_;
     View view_;
@@ -47,8 +52,7 @@ TEST_F(RenderTest, DrawsWithTheProgramOfAFrameAndLeavesNothingBehind) {
     EXPECT_GT(after, before);
     const Frame frame = used.draw(moment_, view_, wanted);
     EXPECT_EQ(used.compiled_programs(), after);
-    EXPECT_EQ(frame.colour, expected.colour);
-    EXPECT_EQ(frame.illuminance_lx, expected.illuminance_lx);
+    EXPECT_EQ(std::tuple(frame.colour, frame.illuminance_lx), std::tuple(expected.colour, expected.illuminance_lx));
 }
 
 TEST_F(RenderTest, TheGpusClockSumsPiecesAndStartsAgain) {
@@ -64,6 +68,36 @@ TEST_F(RenderTest, TheGpusClockSumsPiecesAndStartsAgain) {
     EXPECT_TRUE(std::isfinite(sum));
     EXPECT_GT(sum, 0.0);
     EXPECT_EQ(timer.seconds(), 0.0);
+}
+
+TEST(Device, NamesWhatItDoesNotKnowOrHave) {
+    for (const char* name : {"", "vulkan", "egl-device=", "egl-device=x", "egl-device=-1", "egl-device=99999", "EGL"})
+        EXPECT_THROW(open_device(name), InputError) << name;
+    EXPECT_THAT(tests::refusal_of<DeviceError>([] { open_device("egl-device=99"); }), testing::HasSubstr("EGL devices"));
+}
+
+TEST(Device, TriesEveryBackendAndOneWorks) {
+    int working = 0;
+    for (const BackendAttempt& attempt : try_all_backends()) {
+        EXPECT_NE(attempt.works, attempt.info.gl_version.empty());
+        EXPECT_NE(attempt.works, !attempt.failure.empty()) << attempt.backend;
+        working += attempt.works ? 1 : 0;
+    }
+    EXPECT_GE(working, 1);
+}
+
+TEST(Device, SoftwareDrawsOnTheCpuAndOneOpensAfterAnother) {
+    EXPECT_TRUE(open_device("software").info().software);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_FALSE(open_device("auto").info().gl_renderer.empty());
+}
+
+TEST(Program, AnErrorNamesFileAndLine) {
+    Device device = open_device("auto");
+    const std::vector<gl::Program::Define> broken{{"LAMP_COUNT", "1"}, {"WANT_COLOUR", "nonsense("}};
+    // The condition in an included file cannot be read: the message names that file.
+    EXPECT_THAT(tests::refusal_of<DeviceError>([&] { gl::Program(device.context(), "naive.vert.glsl", "naive.frag.glsl", broken); }),
+                testing::HasSubstr("outputs.glsl:"));
 }
 
 } // namespace

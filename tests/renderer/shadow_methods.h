@@ -3,6 +3,7 @@
 
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
+#include "tests/lamps.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -12,22 +13,11 @@ namespace fernlicht::tests {
 
 /// The same light everywhere within 30 degrees to the sides, 8 up and 14 down.
 inline std::shared_ptr<const LampFile> evenly_bright() {
-    auto file = std::make_shared<LampFile>();
-    for (int i = -30; i <= 30; ++i)
-        file->table.h_deg.push_back(i);
-    for (int i = -14; i <= 8; ++i)
-        file->table.v_deg.push_back(i);
-    file->table.cd.assign(file->table.h_deg.size() * file->table.v_deg.size(), 10000.0);
-    return file;
+    return file_of(table_of(steps(-30.0, 30.0, 1.0), steps(-14.0, 8.0, 1.0), [](double, double) { return 10000.0; }));
 }
 
 inline LitLamp lamp_at(const char* name, const glm::dvec3& place, const std::shared_ptr<const LampFile>& file) {
-    LitLamp lamp;
-    lamp.name = name;
-    lamp.file = file;
-    lamp.pose = {place, axes_from_angles(0.0, -0.01, 0.0)};
-    lamp.intensity_factor = 1.0;
-    return lamp;
+    return {.name = name, .file = file, .pose = {place, axes_from_angles(0.0, -0.01, 0.0)}, .intensity_factor = 1.0};
 }
 
 inline void add_sheet(Scene& scene, const char* name, std::uint32_t material, const glm::dvec3& at, const glm::vec3& a,
@@ -48,8 +38,7 @@ struct Post {
 
 /// A road, posts, and a wall across the road.
 inline Scene road_with(const std::vector<Post>& posts, double wall_x = 0.0) {
-    Scene scene;
-    scene.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}, {"board", SurfaceKind::board, glm::vec3(0.4F)}};
+    Scene scene{.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}, {"board", SurfaceKind::board, glm::vec3(0.4F)}}};
     add_sheet(scene, "road", 0, {-5.0, -30.0, 0.0}, {300.0F, 0.0F, 0.0F}, {0.0F, 60.0F, 0.0F});
     for (const Post& post : posts)
         add_sheet(scene, "post", 1, {post.x, post.y, 0.0}, {0.0F, static_cast<float>(-post.width), 0.0F},
@@ -61,8 +50,7 @@ inline Scene road_with(const std::vector<Post>& posts, double wall_x = 0.0) {
 
 /// A road in waves, whose crests the light grazes: crests shade what lies behind them, and must not shade themselves.
 inline Scene road_in_waves(double height_m, double length_m) {
-    Scene scene;
-    scene.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}};
+    Scene scene{.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}}};
     Mesh mesh{"waves", {0.0, 0.0, 0.0}, {}, {}, {}};
     const double k = 2.0 * pi / length_m;
     for (int i = 0; i <= 200; ++i) {
@@ -81,13 +69,11 @@ inline Scene road_in_waves(double height_m, double length_m) {
 
 /// From where a driver sits, along the road.
 inline View driver_view(int width_px, int height_px) {
-    View view;
-    view.position_m = {1.5, 0.35, 1.2};
-    view.pitch_rad = radians(-3.0);
-    view.vertical_fov_rad = radians(30.0);
-    view.width_px = width_px;
-    view.height_px = height_px;
-    return view;
+    return {.position_m = {1.5, 0.35, 1.2},
+            .pitch_rad = radians(-3.0),
+            .vertical_fov_rad = radians(30.0),
+            .width_px = width_px,
+            .height_px = height_px};
 }
 
 } // namespace fernlicht::tests

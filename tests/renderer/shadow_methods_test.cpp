@@ -1,5 +1,6 @@
 // Shadow methods that draw depth maps: where edges lie, that nothing shades itself, and that the bytes do not depend on what is left out.
 #include "renderer/reference/reference.h"
+#include "tests/renderer/device_test.h"
 #include "tests/renderer/shadow_methods.h"
 
 #include <algorithm>
@@ -11,14 +12,9 @@ namespace {
 
 using namespace tests;
 
-constexpr Wanted all_results{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 constexpr double lamp_x = 2.2, lamp_z = 0.65;
 
-ShadowSettings method(ShadowMethod which) {
-    ShadowSettings settings;
-    settings.method = which;
-    return settings;
-}
+ShadowSettings method(ShadowMethod which) { return {.method = which}; }
 
 Moment with_lamps(const std::vector<double>& sides) {
     Moment moment;
@@ -33,13 +29,11 @@ double shadow_y(double side, double x, double y, double at_x, double from_x = la
     return side + (y - side) * (at_x - from_x) / (x - from_x);
 }
 
-class ShadowMethodTest : public testing::Test {
+class ShadowMethodTest : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const View& view, const ShadowSettings& shadows,
                const char* technique = "photometric", const Wanted& wanted = {.illuminance = true}) {
-        RendererSettings settings;
-        settings.technique = technique;
-        settings.shadows = shadows;
+        RendererSettings settings{.technique = technique, .shadows = shadows};
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, scene, settings);
         return renderer.draw(moment, view, wanted);
@@ -76,7 +70,6 @@ class ShadowMethodTest : public testing::Test {
         }
         return best;
     }
-    Device device_ = open_device("auto");
 };
 
 class MapMethods : public ShadowMethodTest, public testing::WithParamInterface<ShadowMethod> {};
@@ -92,10 +85,7 @@ TEST_P(MapMethods, PrunedAndUnprunedGiveTheSameBytesTwice) {
             const Frame a = draw(scene, moment, view, method(GetParam()), "photometric", all_results);
             for (const char* technique : {"photometric", "photometric-unpruned"}) {
                 const Frame b = draw(scene, moment, view, method(GetParam()), technique, all_results);
-                EXPECT_EQ(a.colour, b.colour) << technique;
-                EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << technique;
-                EXPECT_EQ(a.target_lx, b.target_lx) << technique;
-                EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << technique;
+                expect_same_frames(a, b, technique);
             }
         }
     }
@@ -161,8 +151,7 @@ TEST_P(MapMethods, EdgesLieWhereRaysSayWithinATexel) {
     for (const auto& [x, at] : {std::pair(5.0, 10.0), std::pair(20.0, 30.0), std::pair(60.0, 80.0)}) {
         const Post post{x, -0.1, 0.3}; // its other side's shadow lies behind it
         const Scene scene = road_with({post});
-        const Frame free = draw(scene, moment, view, method(ShadowMethod::none));
-        const Frame drawn = draw(scene, moment, view, method(GetParam()));
+        const Frame free = draw(scene, moment, view, method(ShadowMethod::none)), drawn = draw(scene, moment, view, method(GetParam()));
         const double texel_m = (at - lamp_x) * 2.0 * std::tan(radians(30.0)) / 1022.0;
         const double truth = shadow_y(0.6, x, post.y - post.width, at), found = edge(drawn, free, moment, view, at, truth);
         RecordProperty(fmt::format("error_cm_at_{}_m", at), fmt::format("{:.2f}", 100.0 * (found - truth)));
@@ -183,10 +172,7 @@ INSTANTIATE_TEST_SUITE_P(All, MapMethods,
 
 /// Both lamps' shadows fall as from midway: the edge lies (z / z_c - 1) times the lamp's distance from midway beside its own.
 TEST_F(ShadowMethodTest, OneMapForAllErrsByTheParallaxFromMidway) {
-    View above;
-    above.projection = Projection::map;
-    above.map_ahead_m = 24.0;
-    above.map_behind_m = -16.0;
+    View above{.projection = Projection::map, .map_ahead_m = 24.0, .map_behind_m = -16.0};
     above.map_left_m = above.map_right_m = 3.0;
     above.width_px = 1200;
     above.height_px = 160;
@@ -208,15 +194,13 @@ TEST_F(ShadowMethodTest, OneMapForAllErrsByTheParallaxFromMidway) {
 
 /// A strip of road across the edge of a shadow, 4 mm a pixel.
 View strip_at(double x, double y, int width_px) {
-    View view;
-    view.projection = Projection::map;
-    view.map_ahead_m = x + 0.1;
-    view.map_behind_m = -(x - 0.1);
-    view.map_left_m = y + 0.002 * width_px;
-    view.map_right_m = -(y - 0.002 * width_px);
-    view.width_px = width_px;
-    view.height_px = 4;
-    return view;
+    return {.projection = Projection::map,
+            .width_px = width_px,
+            .height_px = 4,
+            .map_ahead_m = x + 0.1,
+            .map_behind_m = -(x - 0.1),
+            .map_left_m = y + 0.002 * width_px,
+            .map_right_m = -(y - 0.002 * width_px)};
 }
 
 /// Share of a disc on one side of a chord at u radii from its centre.
@@ -247,11 +231,7 @@ TEST_F(ShadowMethodTest, PenumbraeConvergeToTheReferenceOfADisc) {
     const double about = shadow_y(0.6, post.x, post.y - post.width, at);
     const View view = strip_at(at, about, 240);
     const Wanted wanted{.illuminance = true};
-    ReferenceSettings rays;
-    rays.footprint = Footprint::centre;
-    rays.lamp_radius_m = radius;
-    rays.target_error = 0.002;
-    rays.least_samples = 1024;
+    ReferenceSettings rays{.footprint = Footprint::centre, .target_error = 0.002, .least_samples = 1024, .lamp_radius_m = radius};
     const Reference reference(scene);
     const ReferenceImage shaded = reference.render(moment, view, wanted, rays);
     rays.shadows = false;

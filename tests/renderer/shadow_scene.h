@@ -3,15 +3,14 @@
 
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
-#include "tests/renderer/same_frames.h"
+#include "tests/lamps.h"
+#include "tests/renderer/device_test.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace fernlicht {
-
-inline constexpr Wanted all_results{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 inline void add_flat(Mesh& mesh, std::uint32_t material, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size()), begin = static_cast<std::uint32_t>(mesh.indices.size());
@@ -37,8 +36,7 @@ inline void add_box(Mesh& mesh, std::uint32_t material, glm::vec3 low, glm::vec3
 
 /// A level road of 260 m by 80 m: material 0; what stands on it is of material 1.
 inline Scene level_road_for_shadows() {
-    Scene scene;
-    scene.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}, {"thing", SurfaceKind::object, glm::vec3(0.3F)}};
+    Scene scene{.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}, {"thing", SurfaceKind::object, glm::vec3(0.3F)}}};
     Mesh road{"road", {0.0, 0.0, 0.0}, {}, {}, {}};
     add_flat(road, 0, {-60, -40, 0}, {200, -40, 0}, {200, 40, 0}, {-60, 40, 0});
     scene.meshes.push_back(std::move(road));
@@ -46,13 +44,7 @@ inline Scene level_road_for_shadows() {
 }
 
 /// As bright in every direction within 80 degrees to the sides and 40 degrees up and down.
-inline std::shared_ptr<const LampFile> even_beam(double cd = 10000.0) {
-    auto file = std::make_shared<LampFile>();
-    file->table.h_deg = {-80.0, 80.0};
-    file->table.v_deg = {-40.0, 40.0};
-    file->table.cd = {cd, cd, cd, cd};
-    return file;
-}
+inline std::shared_ptr<const LampFile> even_beam(double cd = 10000.0) { return tests::file_of(tests::even_table(cd, 80.0, 40.0)); }
 
 inline LitLamp lamp_at(const glm::dvec3& place_m, double yaw_rad = 0.0, double pitch_rad = 0.0) {
     LitLamp lamp;
@@ -63,22 +55,17 @@ inline LitLamp lamp_at(const glm::dvec3& place_m, double yaw_rad = 0.0, double p
 }
 
 inline View driver_for_shadows(int width = 320, int height = 240) {
-    View view;
-    view.name = "driver";
-    view.position_m = {1.5, 0.35, 1.2};
-    view.pitch_rad = radians(-4.0);
-    view.vertical_fov_rad = radians(35.0);
-    view.width_px = width;
-    view.height_px = height;
-    return view;
+    return {.name = "driver",
+            .position_m = {1.5, 0.35, 1.2},
+            .pitch_rad = radians(-4.0),
+            .vertical_fov_rad = radians(35.0),
+            .width_px = width,
+            .height_px = height};
 }
 
 /// `per_m` pixels a metre.
 inline View map_for_shadows(double ahead_m, double beside_m, int per_m) {
-    View view;
-    view.name = "map";
-    view.projection = Projection::map;
-    view.map_ahead_m = ahead_m;
+    View view{.name = "map", .projection = Projection::map, .map_ahead_m = ahead_m};
     view.map_left_m = view.map_right_m = beside_m;
     view.width_px = static_cast<int>(2.0 * beside_m) * per_m;
     view.height_px = static_cast<int>(ahead_m) * per_m;
@@ -87,8 +74,7 @@ inline View map_for_shadows(double ahead_m, double beside_m, int per_m) {
 
 inline Frame drawn_with(Device& device, const Scene& scene, const Moment& moment, const View& view, ShadowMethod method,
                         const char* technique = "photometric") {
-    RendererSettings settings;
-    settings.technique = technique;
+    RendererSettings settings{.technique = technique};
     settings.shadows.method = method;
     Renderer renderer(device, scene, settings);
     return renderer.draw(moment, view, all_results);
@@ -129,8 +115,7 @@ struct HiddenPixels {
 
 inline HiddenPixels hidden_pixels(Device& device, const Scene& scene, const Moment& moment, const View& view,
                                   const ShadowSettings& shadows) {
-    RendererSettings settings;
-    settings.shadows = shadows;
+    RendererSettings settings{.shadows = shadows};
     Renderer with(device, scene, settings);
     settings.shadows.method = ShadowMethod::none;
     Renderer without(device, scene, settings);

@@ -11,15 +11,11 @@ namespace {
 
 constexpr ShadowSettings volumes{.method = ShadowMethod::volumes, .tolerance_m = 1e-4};
 
-Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) {
-    Moment moment;
-    moment.lamps = {lamp_at(at, 0.0, 0.0)};
-    return moment;
-}
+Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) { return {.lamps = {lamp_at(at, 0.0, 0.0)}}; }
 
 Mesh thing(const glm::dvec3& origin, const char* name = "thing") { return {name, origin, {}, {}, {}}; }
 
-class ShadowVolumesTest : public testing::Test {
+class ShadowVolumesTest : public DeviceTest {
   protected:
     /// No pixel wrong but within one pixel of an edge, and there is shadow to see.
     void expect_as_rays(const Scene& scene, const Moment& moment, const View& view, const std::string& what, int least_hidden = 50) {
@@ -31,7 +27,6 @@ class ShadowVolumesTest : public testing::Test {
         RecordProperty("differ_" + what, pixels.differ());
         RecordProperty("hidden_" + what, pixels.count(1));
     }
-    Device device_ = open_device("auto");
 };
 
 TEST_F(ShadowVolumesTest, PostsNearAndFar) {

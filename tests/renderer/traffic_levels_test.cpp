@@ -78,8 +78,7 @@ TEST(TrafficLevels, MergingIsOffByNoMoreThanItsBound) {
             const double near = d - glm::length(half), lx_a_cd = 1.0 / (near * near);
             const BeamWindow window{h, h, v, v};
             // E_midway <= most_lx must hold, and does for the brightest direction between the lamps.
-            const double a = glm::length(half) / near;
-            const double most = lx_a_cd * beam.most_cd({h - 1.5 * a, h + 1.5 * a, v - a, v + a});
+            const double a = glm::length(half) / near, most = lx_a_cd * beam.most_cd({h - 1.5 * a, h + 1.5 * a, v - a, v + a});
             const double bound = beam.merging_lx(glm::length(half) / near, std::abs(half.y) / near, window, lx_a_cd, most);
             EXPECT_LE(off, bound * (1.0 + 1e-9) + 1e-12) << name << " " << d << " m, " << h << " " << v;
             worst = std::max(worst, off > 0.0 ? off / bound : 0.0);

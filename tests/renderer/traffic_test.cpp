@@ -10,20 +10,20 @@
 #include "scenarios/light/light.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/traffic/road_user_mesh.h"
+#include "tests/renderer/device_test.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
-#include <unistd.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-constexpr Wanted everything{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 constexpr const char* low_beam = FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/halogen-low.ies";
 
 /// The shipped straight with these road users.
@@ -34,13 +34,10 @@ struct Street {
         add_road_users(scene, drive.traffic, drive.opened);
     }
     static Drive read(const std::string& traffic, const std::string& road) {
-        const auto file = std::filesystem::temp_directory_path() / fmt::format("fernlicht-traffic-test-{}.yaml", ::getpid());
-        std::ofstream(file) << fmt::format("fernlicht: 1\nroad: {}/scenarios/library/roads/{}.xodr\nroute: {{s_m: 20}}\nspeed_mps: 20\n"
-                                           "duration_s: 4\nvariants: {{one: {{file: {}}}}}\n{}",
-                                           FERNLICHT_SOURCE_DIR, road, low_beam, traffic);
-        Drive drive = read_drive(file);
-        std::filesystem::remove(file);
-        return drive;
+        return read_drive(
+            tests::written("traffic.yaml", fmt::format("fernlicht: 1\nroad: {}/scenarios/library/roads/{}.xodr\nroute: {{s_m: 20}}\n"
+                                                       "speed_mps: 20\nduration_s: 4\nvariants: {{one: {{file: {}}}}}\n{}",
+                                                       FERNLICHT_SOURCE_DIR, road, low_beam, traffic)));
     }
     Moment at(double time_s) const {
         return moment_at({0, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants[0]);
@@ -58,27 +55,20 @@ std::string oncoming(double gap_m, int count = 1, double every_m = 25.0, const c
 }
 
 View driver(int width = 240, int height = 160, double fov_deg = 30.0) {
-    View view;
-    view.position_m = {1.3, 0.35, 1.2};
-    view.pitch_rad = radians(-1.0);
-    view.vertical_fov_rad = radians(fov_deg);
-    view.width_px = width;
-    view.height_px = height;
-    return view;
+    return {.position_m = {1.3, 0.35, 1.2},
+            .pitch_rad = radians(-1.0),
+            .vertical_fov_rad = radians(fov_deg),
+            .width_px = width,
+            .height_px = height};
 }
 
-class Traffic : public testing::Test {
+class Traffic : public DeviceTest {
   protected:
-    RendererSettings settings(const char* technique = "photometric") {
-        RendererSettings s;
-        s.technique = technique;
-        return s;
-    }
+    RendererSettings settings(const char* technique = "photometric") { return {.technique = technique}; }
     Frame draw(const Street& street, const Moment& moment, const View& view, const RendererSettings& s) {
         Renderer renderer(device_, street.scene, s);
-        return renderer.draw(moment, view, everything);
+        return renderer.draw(moment, view, all_results);
     }
-    Device device_ = open_device("auto");
 };
 
 double most_difference(const Image<float>& a, const Image<float>& b) {
@@ -94,13 +84,8 @@ TEST_F(Traffic, PrunedAndUnprunedGiveTheSameBytes) {
         Renderer pruned(device_, street.scene, settings()), unpruned(device_, street.scene, settings("photometric-unpruned"));
         for (const double time_s : {0.0, 1.3, 3.0}) {
             const Moment moment = street.at(time_s);
-            const Frame a = pruned.draw(moment, driver(), everything), b = unpruned.draw(moment, driver(), everything);
-            EXPECT_EQ(a.colour, b.colour) << road << time_s;
-            EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << road << time_s;
-            EXPECT_EQ(a.target_lx, b.target_lx) << road << time_s;
-            EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << road << time_s;
-            EXPECT_EQ(a.depth_m, b.depth_m) << road << time_s;
-            EXPECT_EQ(a.ids, b.ids) << road << time_s;
+            const Frame a = pruned.draw(moment, driver(), all_results), b = unpruned.draw(moment, driver(), all_results);
+            expect_same_frames(a, b, road + std::to_string(time_s));
         }
     }
 }
@@ -146,9 +131,8 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
     moment.lamps.clear();
     moment.least_traffic_lx = 0.01;
     const View view = driver(48, 32);
-    ReferenceSettings rays;
-    rays.footprint = Footprint::centre;
-    const ReferenceImage truth = Reference(street.scene).render(moment, view, everything, rays);
+    ReferenceSettings rays{.footprint = Footprint::centre};
+    const ReferenceImage truth = Reference(street.scene).render(moment, view, all_results, rays);
     const Frame frame = draw(street, moment, view, settings());
     const Twin shaded(street.scene, true), unshaded(street.scene, false);
     double worst = 0.0, worst_share = 0.0;
@@ -244,17 +228,17 @@ TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
     moment.lamps.clear();
     const View view = driver(240, 160, 40.0);
     Renderer renderer(device_, scene, settings());
-    const Frame frame = renderer.draw(moment, view, everything);
+    const Frame frame = renderer.draw(moment, view, all_results);
     RendererSettings none = settings();
     none.traffic_shadows = false;
     Renderer without(device_, scene, none);
-    const Frame lit = without.draw(moment, view, everything);
+    const Frame lit = without.draw(moment, view, all_results);
     ReferenceSettings rays, through;
     rays.footprint = through.footprint = Footprint::centre;
     through.shadows = false;
     const Reference reference(scene);
-    const ReferenceImage dark = reference.render(moment, view, everything, rays),
-                         bright = reference.render(moment, view, everything, through);
+    const ReferenceImage dark = reference.render(moment, view, all_results, rays),
+                         bright = reference.render(moment, view, all_results, through);
     const auto hidden = [&](int x, int y) {
         const double with = static_cast<double>(dark.illuminance_lx.mean.at(x, y)),
                      all = static_cast<double>(bright.illuminance_lx.mean.at(x, y));
@@ -305,7 +289,7 @@ TEST_F(Traffic, ShadowsStandHardPlaces) {
                 lamp.pose.position_m += forward_m * ahead + glm::dvec3(0.0, 0.0, up_m);
                 lamp.intensity_factor *= factor;
             }
-            const Frame a = pruned.draw(moment, view, everything), b = unpruned.draw(moment, view, everything);
+            const Frame a = pruned.draw(moment, view, all_results), b = unpruned.draw(moment, view, all_results);
             EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << forward_m << " " << up_m << " " << least_lx;
             EXPECT_TRUE(std::ranges::all_of(a.illuminance_lx.pixels(), [](float lx) { return std::isfinite(lx) && lx >= 0.0F; }))
                 << forward_m << " " << up_m << " " << least_lx;
@@ -326,14 +310,13 @@ TEST_F(Traffic, ShadowsOfOthersCostNothingWhereThereAreNone) {
         without.traffic_shadows = false;
         const auto drawn = [&](const RendererSettings& by) {
             Renderer renderer(device_, street.scene, by);
-            renderer.prepare({moment}, driver(), everything);
-            Frame frame = renderer.draw(moment, driver(), everything);
-            return std::tuple(std::move(frame), renderer.compiled_programs(), renderer.count(moment, driver(), everything));
+            renderer.prepare({moment}, driver(), all_results);
+            Frame frame = renderer.draw(moment, driver(), all_results);
+            return std::tuple(std::move(frame), renderer.compiled_programs(), renderer.count(moment, driver(), all_results));
         };
         const auto [one, programs, work] = drawn(with);
         const auto [other, other_programs, other_work] = drawn(without);
-        EXPECT_EQ(one.colour, other.colour);
-        EXPECT_EQ(one.illuminance_lx, other.illuminance_lx);
+        EXPECT_EQ(std::tuple(one.colour, one.illuminance_lx), std::tuple(other.colour, other.illuminance_lx));
         EXPECT_EQ(programs, other_programs);
         EXPECT_EQ(work, other_work);
     }
@@ -426,12 +409,12 @@ TEST_F(Traffic, LevelsStayWithinTheirBound) {
     RendererSettings all = settings();
     all.traffic_levels = false;
     Renderer coarse(device_, street.scene, settings()), fine(device_, street.scene, all);
-    const Frame a = coarse.draw(moment, driver(), everything), b = fine.draw(moment, driver(), everything);
+    const Frame a = coarse.draw(moment, driver(), all_results), b = fine.draw(moment, driver(), all_results);
     const double worst = most_difference(a.illuminance_lx, b.illuminance_lx);
     EXPECT_GT(worst, 0.0) << "levels are in use";
     EXPECT_LE(worst, worst_traffic_error * moment.least_traffic_lx * 3.0) << "of at most three units that are drawn coarsely at one place";
     RecordProperty("worst_lx", fmt::format("{}", worst));
-    const Work coarsely = coarse.count(moment, driver(), everything), finely = fine.count(moment, driver(), everything);
+    const Work coarsely = coarse.count(moment, driver(), all_results), finely = fine.count(moment, driver(), all_results);
     EXPECT_LT(coarsely.traffic_full, finely.traffic_full);
     EXPECT_GT(coarsely.traffic_merged, 0);
     EXPECT_GT(coarsely.traffic_by_vertex + coarsely.traffic_point, 0);
@@ -541,7 +524,7 @@ TEST_F(Traffic, BodiesStandWhereTheyWouldStandAsPartOfTheWorld) {
     const Frame moving = draw(street, moment, driver(), settings());
     const Scene posed = posed_scene(street.scene, moment.bodies);
     Renderer renderer(device_, posed, settings());
-    const Frame fixed = renderer.draw(moment, driver(), everything);
+    const Frame fixed = renderer.draw(moment, driver(), all_results);
     std::size_t cars = 0, differ = 0;
     for (std::size_t i = 0; i < moving.ids.size(); ++i) {
         cars += moving.ids.pixels()[i] > street.scene.meshes.size() - 2 ? 1U : 0U;
@@ -555,10 +538,10 @@ TEST_F(Traffic, BodiesStandWhereTheyWouldStandAsPartOfTheWorld) {
 TEST_F(Traffic, NothingCompilesOnceItIsPrepared) {
     const Street street(oncoming(60.0, 5, 20.0));
     Renderer renderer(device_, street.scene, settings());
-    renderer.prepare({street.at(0.0)}, driver(), everything);
+    renderer.prepare({street.at(0.0)}, driver(), all_results);
     const int compiled = renderer.compiled_programs();
     for (const double t : {0.0, 1.0, 2.0, 3.0})
-        renderer.draw(street.at(t), driver(), everything);
+        renderer.draw(street.at(t), driver(), all_results);
     EXPECT_EQ(renderer.compiled_programs(), compiled);
 }
 

@@ -4,28 +4,23 @@
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "scenarios/photometry.h"
+#include "tests/lamps.h"
+#include "tests/renderer/device_test.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
 /// A beam with a cut-off and a kink, steep enough to hurt: ln I falls by about 500 per radian at the cut-off.
 CandelaTable steep_beam() {
-    CandelaTable table;
-    for (int i = -300; i <= 300; ++i)
-        table.h_deg.push_back(i * 0.1);
-    for (int i = -200; i <= 100; ++i)
-        table.v_deg.push_back(i * 0.05);
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg) {
-            const double cut = -0.57 + (h > 0.0 ? std::min(h * 0.268, 2.0) : 0.0);
-            table.cd.push_back(300.0 + 20000.0 / (1.0 + std::exp((v - cut) / 0.11)) * std::exp(-h * h / 200.0) *
-                                           std::exp(-(v - cut) * (v - cut) / 40.0));
-        }
-    return table;
+    return tests::table_of(tests::steps(-30.0, 30.0, 0.1), tests::steps(-10.0, 5.0, 0.05), [](double h, double v) {
+        const double cut = -0.57 + (h > 0.0 ? std::min(h * 0.268, 2.0) : 0.0);
+        return 300.0 + 20000.0 / (1.0 + std::exp((v - cut) / 0.11)) * std::exp(-h * h / 200.0) * std::exp(-(v - cut) * (v - cut) / 40.0);
+    });
 }
 
 void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, glm::vec3 normal) {
@@ -59,8 +54,7 @@ Scene small_scene(glm::dvec3 origin) {
 }
 
 Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
-    auto file = std::make_shared<LampFile>();
-    file->table = steep_beam();
+    const auto file = tests::file_of(steep_beam());
     Moment moment;
     moment.ego.position_m = origin;
     moment.daylight.horizontal_illuminance_lx = sky_lx;
@@ -73,19 +67,10 @@ Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
 }
 
 View driver_96() {
-    View view;
-    view.position_m = {1.5, 0.35, 1.2};
-    view.pitch_rad = radians(-3.0);
-    view.vertical_fov_rad = radians(30.0);
-    view.width_px = 96;
-    view.height_px = 64;
-    return view;
+    return {.position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(30.0), .width_px = 96, .height_px = 64};
 }
 
-class TwinTest : public testing::Test {
-  protected:
-    Device device_ = open_device("auto");
-};
+class TwinTest : public DeviceTest {};
 
 struct TwinComparison {
     int compared = 0, beyond = 0;
@@ -120,8 +105,6 @@ TwinComparison compare(const Frame& frame, const Twin& twin, const Moment& momen
     return result;
 }
 
-constexpr Wanted all_of_both{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
-
 TEST_F(TwinTest, DriverIsSane) { EXPECT_LT(check_sanity(device_), sanity_bound); }
 
 TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
@@ -131,7 +114,7 @@ TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
     Renderer renderer(device_, scene, settings);
     for (const double sky_lx : {0.0, 3.4}) {
         const Moment moment = two_lamps({}, sky_lx);
-        const TwinComparison c = compare(renderer.draw(moment, driver_96(), all_of_both), Twin(scene, false), moment, driver_96());
+        const TwinComparison c = compare(renderer.draw(moment, driver_96(), all_results), Twin(scene, false), moment, driver_96());
         RecordProperty("worst_ratio_to_bound_ppm", static_cast<int>(1e6 * c.worst_ratio));
         EXPECT_GT(c.compared, 3000);
         EXPECT_EQ(c.beyond, 0) << "worst " << c.worst_ratio << " of the bound";
@@ -146,7 +129,7 @@ TEST_F(TwinTest, TheBoundIsNotSlack) {
     settings.shadows.method = ShadowMethod::none;
     Renderer renderer(device_, scene, settings);
     const Moment moment = two_lamps({});
-    const Frame frame = renderer.draw(moment, driver_96(), all_of_both);
+    const Frame frame = renderer.draw(moment, driver_96(), all_results);
     Moment one_lamp = moment;
     one_lamp.lamps.pop_back();
     EXPECT_GT(compare(frame, Twin(scene, false), one_lamp, driver_96()).beyond, 1000);
@@ -165,9 +148,9 @@ TEST_F(TwinTest, UtmCoordinatesGiveTheSameFrame) {
     const Scene here = small_scene({}), there = small_scene(far);
     RendererSettings settings;
     Renderer at_origin(device_, here, settings);
-    const Frame a = at_origin.draw(two_lamps({}), driver_96(), all_of_both);
+    const Frame a = at_origin.draw(two_lamps({}), driver_96(), all_results);
     Renderer at_utm(device_, there, settings);
-    const Frame b = at_utm.draw(two_lamps(far), driver_96(), all_of_both);
+    const Frame b = at_utm.draw(two_lamps(far), driver_96(), all_results);
     const Twin twin(here, false);
     const Moment moment = two_lamps({});
     int differing = 0;
@@ -186,9 +169,7 @@ TEST_F(TwinTest, ShadowsFallWhereRaysSay) {
     Renderer renderer(device_, scene, {});
     Moment moment = two_lamps({});
     moment.lamps.pop_back(); // one lamp: lit or dark
-    View above;
-    above.projection = Projection::map;
-    above.map_ahead_m = 60.0;
+    View above{.projection = Projection::map, .map_ahead_m = 60.0};
     above.map_left_m = above.map_right_m = 8.0;
     above.width_px = 64;
     above.height_px = 240;
@@ -217,27 +198,20 @@ TEST_F(TwinTest, ShadowsFallWhereRaysSay) {
     EXPECT_LE(wrong, dark / 100) << dark << " dark of " << total;
 }
 
-TEST_F(TwinTest, TwiceTheSameBytes) {
+TEST_F(TwinTest, TwiceTheSameBytesAndExactlyZeroOfABlackLamp) {
     const Scene scene = small_scene({});
     const Moment moment = two_lamps({}, 1.0);
     const auto draw = [&] {
         Renderer renderer(device_, scene, {});
-        return renderer.draw(moment, driver_96(), all_of_both);
+        return renderer.draw(moment, driver_96(), all_results);
     };
     const Frame a = draw(), b = draw();
-    EXPECT_EQ(a.colour, b.colour);
-    EXPECT_EQ(a.illuminance_lx, b.illuminance_lx);
-    EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2);
-    EXPECT_EQ(a.target_lx, b.target_lx);
-}
-
-TEST_F(TwinTest, ABlackLampGivesExactlyZero) {
-    const Scene scene = small_scene({});
-    Moment moment = two_lamps({});
-    for (LitLamp& lamp : moment.lamps)
+    expect_same_frames(a, b, "again");
+    Moment other_moment = two_lamps({});
+    for (LitLamp& lamp : other_moment.lamps)
         lamp.intensity_factor = 0.0;
     Renderer renderer(device_, scene, {});
-    const Frame frame = renderer.draw(moment, driver_96(), all_of_both);
+    const Frame frame = renderer.draw(other_moment, driver_96(), all_results);
     for (const float e : frame.illuminance_lx.pixels())
         ASSERT_EQ(e, 0.0F);
 }
@@ -256,11 +230,10 @@ TEST_F(TwinTest, RetroreflectionAtTheThirtyMetreGeometryIsMeasuredInTheImage) {
     view.vertical_fov_rad = radians(2.0);
     view.width_px = view.height_px = 33;
     Renderer renderer(device_, scene, {});
-    const Frame frame = renderer.draw(moment, view, all_of_both);
+    const Frame frame = renderer.draw(moment, view, all_results);
     const double luminance = static_cast<double>(frame.luminance_cdm2.at(16, 16)),
                  illuminance = static_cast<double>(frame.illuminance_lx.at(16, 16));
-    const double cosine = 0.65 / std::hypot(30.0, 0.65);
-    const double rl = luminance / (illuminance / cosine);
+    const double cosine = 0.65 / std::hypot(30.0, 0.65), rl = luminance / (illuminance / cosine);
     // 0.0145 by retroreflection and 0.08 cos / pi = 0.00055 by diffusion; the text book's 0.55 mcd is the latter alone.
     EXPECT_NEAR(rl, 0.0145 + 0.08 * cosine / pi, 2e-4);
 }

@@ -4,6 +4,7 @@
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
 #include "scenarios/light/fog_light.h"
+#include "tests/renderer/device_test.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,23 +13,14 @@
 namespace fernlicht {
 namespace {
 
-constexpr Wanted all_drawn{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
-
 LitLamp beam(const glm::dvec3& at) {
-    auto file = std::make_shared<LampFile>();
-    for (int i = -60; i <= 60; ++i)
-        file->table.h_deg.push_back(0.5 * i);
-    for (int i = -60; i <= 40; ++i)
-        file->table.v_deg.push_back(0.25 * i);
-    for (const double v : file->table.v_deg)
-        for (const double h : file->table.h_deg)
-            file->table.cd.push_back(300.0 + 15000.0 / (1.0 + std::exp((v + 0.6) / 0.3)) * std::exp(-h * h / 200.0));
+    const auto cd = [](double h, double v) { return 300.0 + 15000.0 / (1.0 + std::exp((v + 0.6) / 0.3)) * std::exp(-h * h / 200.0); };
+    const auto file = tests::file_of(tests::table_of(tests::steps(-30.0, 30.0, 0.5), tests::steps(-15.0, 10.0, 0.25), cd));
     return {"beam", file, {at, axes_from_angles(0.0, 0.0, 0.0)}, 1.0, {}, 0.0};
 }
 
 Moment in(const Weather& weather, double sky_lx = 0.0) {
-    Moment moment;
-    moment.weather = weather;
+    Moment moment{.weather = weather};
     moment.daylight.horizontal_illuminance_lx = sky_lx;
     moment.lamps = {beam({3.4, 0.6, 0.65}), beam({3.4, -0.6, 0.65})};
     moment.lamps[1].colour.linear_srgb = {1.6, 0.85, 0.95};
@@ -38,9 +30,7 @@ Moment in(const Weather& weather, double sky_lx = 0.0) {
 Scene road(double albedo) {
     Scene scene = level_ground(300.0, lambert(albedo));
     scene.materials.push_back(lambert(albedo, SurfaceKind::board));
-    Mesh board{"board", {30.0, 3.0, 0.0}, {}, {}, {}};
-    add_quad(board, {0, 2, 0}, {0, -2, 0}, {0, -2, 3}, {0, 2, 3});
-    scene.meshes.push_back(finished(board, 1));
+    scene.meshes.push_back(quads("board", 1, {30.0, 3.0, 0.0}, {{{0, 2, 0}, {0, -2, 0}, {0, -2, 3}, {0, 2, 3}}}));
     return scene;
 }
 
@@ -50,19 +40,15 @@ View ahead_in_weather() {
     return view;
 }
 
-class DrawnWeather : public testing::Test {
+class DrawnWeather : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const char* technique = "photometric", int samples = 32, Work* work = nullptr,
                const View& view = ahead_in_weather()) {
-        RendererSettings settings;
-        settings.technique = technique;
-        settings.fog_samples = samples;
-        Renderer renderer(device_, scene, settings);
+        Renderer renderer(device_, scene, RendererSettings{.technique = technique, .fog_samples = samples});
         if (work != nullptr)
-            *work = renderer.count(moment, view, all_drawn);
-        return renderer.draw(moment, view, all_drawn);
+            *work = renderer.count(moment, view, all_results);
+        return renderer.draw(moment, view, all_results);
     }
-    Device device_ = open_device("auto");
 };
 
 /// Black ground and no sky: what is seen is the air alone. Float against double at the same places, in every pixel, sky and surfaces.
@@ -153,12 +139,7 @@ TEST_F(DrawnWeather, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
         Moment moment = in(weather, weather.wetness > 0.5 ? 0.0 : 1.0);
         moment.lamps[1].intensity_factor = weather.extinction_per_m > 0.02 ? 0.0 : 1.0;
         const Frame a = draw(scene, moment), b = draw(scene, moment, "photometric-unpruned");
-        EXPECT_EQ(a.colour, b.colour) << weather.extinction_per_m << ' ' << weather.wetness;
-        EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << weather.extinction_per_m;
-        EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << weather.extinction_per_m << ' ' << weather.wetness;
-        EXPECT_EQ(a.target_lx, b.target_lx);
-        EXPECT_EQ(a.depth_m, b.depth_m);
-        EXPECT_EQ(a.ids, b.ids);
+        expect_same_frames(a, b, std::to_string(weather.extinction_per_m) + ' ' + std::to_string(weather.wetness));
     }
 }
 
@@ -248,9 +229,7 @@ TEST_F(DrawnWeather, BeamsOfOthersPrunedAndUnprunedGiveTheSameBytes) {
             moment.other_lamps = others();
             moment.least_traffic_lx = least_lx;
             const Frame a = draw(scene, moment), b = draw(scene, moment, "photometric-unpruned");
-            EXPECT_EQ(a.colour, b.colour) << extinction << ' ' << least_lx;
-            EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << extinction;
-            EXPECT_EQ(a.luminance_cdm2, b.luminance_cdm2) << extinction << ' ' << least_lx;
+            expect_same_frames(a, b, std::to_string(extinction) + ' ' + std::to_string(least_lx));
         }
 }
 
@@ -274,8 +253,7 @@ TEST(ReferenceWeather, AgreesWithTheTwin) {
     const Scene scene = road(0.1);
     Moment moment = in({0.03, 1.0, 0.85, 0.7}, 2.0);
     moment.daylight.sun = {radians(80.0), radians(20.0), 40.0};
-    ReferenceSettings settings;
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings{.footprint = Footprint::centre};
     View view = ahead_in_weather();
     view.width_px = 16;
     view.height_px = 12;

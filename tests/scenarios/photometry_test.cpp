@@ -3,61 +3,43 @@
 #include "scenarios/values/scene.h"
 
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using photometry::combined_reflectance;
-using photometry::textured_rl;
+using photometry::combined_reflectance, photometry::textured_rl;
 
 constexpr glm::dvec3 own(0.5, 0.25, 0.125), blend_colour(1.0, 0.5, 0.0);
 constexpr glm::dvec4 texel(0.75, 0.5, 0.25, 0.25);
-
-void expect_colour(const glm::dvec3& found, double r, double g, double b) {
-    EXPECT_EQ(found.r, r);
-    EXPECT_EQ(found.g, g);
-    EXPECT_EQ(found.b, b);
-}
 
 glm::dvec3 combined(TextureMode mode, const glm::dvec4& t = texel) {
     return combined_reflectance(static_cast<int>(mode), own, t, blend_colour);
 }
 
 // All numbers are sums of powers of two, so that equality is exact.
-TEST(CombinedReflectance, ModulateMultiplies) { expect_colour(combined(TextureMode::modulate), 0.375, 0.125, 0.03125); }
-
-TEST(CombinedReflectance, ReplaceForgetsTheOwnColour) { expect_colour(combined(TextureMode::replace), 0.75, 0.5, 0.25); }
-
-TEST(CombinedReflectance, DecalCoversByItsOpacity) {
+TEST(CombinedReflectance, IsThatOfTheTable) {
+    EXPECT_EQ(combined(TextureMode::modulate), glm::dvec3(0.375, 0.125, 0.03125));
+    EXPECT_EQ(combined(TextureMode::modulate, glm::dvec4(1.0)), own);
+    EXPECT_EQ(combined(TextureMode::replace), glm::dvec3(0.75, 0.5, 0.25));
     // 0.75 Cf + 0.25 Ct: 0.375 + 0.1875, 0.1875 + 0.125, 0.09375 + 0.0625.
-    expect_colour(combined(TextureMode::decal), 0.5625, 0.3125, 0.15625);
-    expect_colour(combined(TextureMode::decal, {0.75, 0.5, 0.25, 0.0}), 0.5, 0.25, 0.125);
-    expect_colour(combined(TextureMode::decal, {0.75, 0.5, 0.25, 1.0}), 0.75, 0.5, 0.25);
-}
-
-TEST(CombinedReflectance, BlendGoesToItsColourChannelByChannel) {
-    // Cf (1 - Ct) + Cc Ct: 0.5 0.25 + 1 0.75, 0.25 0.5 + 0.5 0.5, 0.125 0.75 + 0.
-    expect_colour(combined(TextureMode::blend), 0.875, 0.375, 0.09375);
-}
-
-TEST(CombinedReflectance, OpacityCountsForDecalOnly) {
+    EXPECT_EQ(combined(TextureMode::decal), glm::dvec3(0.5625, 0.3125, 0.15625));
+    EXPECT_EQ(combined(TextureMode::decal, {0.75, 0.5, 0.25, 0.0}), own);
+    EXPECT_EQ(combined(TextureMode::decal, {0.75, 0.5, 0.25, 1.0}), glm::dvec3(0.75, 0.5, 0.25));
+    // Cf (1 - Ct) + Cc Ct, channel by channel: 0.5 0.25 + 1 0.75, 0.25 0.5 + 0.5 0.5, 0.125 0.75 + 0.
+    EXPECT_EQ(combined(TextureMode::blend), glm::dvec3(0.875, 0.375, 0.09375));
     const glm::dvec4 clear(0.75, 0.5, 0.25, 0.0);
     for (const TextureMode mode : {TextureMode::modulate, TextureMode::replace, TextureMode::blend})
         EXPECT_EQ(combined(mode, clear), combined(mode));
 }
 
-TEST(CombinedReflectance, AWhiteTexelModulatesNothing) {
-    expect_colour(combined(TextureMode::modulate, glm::dvec4(1.0)), 0.5, 0.25, 0.125);
-}
-
-TEST(TexturedRl, GoesWithTheLuminanceOfTheReflectance) {
+TEST(TexturedRl, GoesWithTheLuminanceOfTheReflectanceUnlessTheOwnColourIsBlack) {
     EXPECT_DOUBLE_EQ(textured_rl(0.015, glm::dvec3(0.2), glm::dvec3(0.1)), 0.0075);
     EXPECT_DOUBLE_EQ(textured_rl(0.1, {0.5, 0.5, 0.5}, {0.5, 0.0, 0.0}), 0.1 * 0.2126);
     EXPECT_DOUBLE_EQ(textured_rl(0.1, {0.25, 0.5, 0.0}, {0.25, 0.5, 0.0}), 0.1);
     EXPECT_EQ(textured_rl(0.1, glm::dvec3(0.2), glm::dvec3(0.0)), 0.0);
+    EXPECT_EQ(textured_rl(0.1, glm::dvec3(0.0), glm::dvec3(0.3)), 0.1);
 }
-
-TEST(TexturedRl, ABlackOwnColourKeepsIt) { EXPECT_EQ(textured_rl(0.1, glm::dvec3(0.0), glm::dvec3(0.3)), 0.1); }
 
 /// Worst difference over a fine sweep.
 template <class Error> double worst(double from, double to, Error error) {
@@ -78,7 +60,7 @@ TEST(QuickFunctions, StayWithinWhatTheySay) {
     EXPECT_LT(worst(0.0, 1.0, [](double c) { return 255.0 * (photometry::quick_srgb_encoded(c) - photometry::srgb_encoded(c)); }), 0.01);
 }
 
-TEST(QuickFunctions, AsinBeyondThirtyDegreesStaysBeyond) {
+TEST(QuickFunctions, AsinBeyondThirtyDegreesStaysBeyondAndNothingIsNaN) {
     double last = photometry::quick_asin_half(0.5);
     EXPECT_NEAR(last, pi / 6.0, 3e-8);
     for (int i = 1; i <= 1000; ++i) {
@@ -86,6 +68,8 @@ TEST(QuickFunctions, AsinBeyondThirtyDegreesStaysBeyond) {
         EXPECT_GT(next, last);
         last = next;
     }
+    EXPECT_EQ(photometry::quick_atan(0.0, 0.0), 0.0);
+    EXPECT_FALSE(std::isnan(photometry::quick_srgb_encoded(0.0)));
 }
 
 TEST(QuickFunctions, AnglesAreThoseOfTheGoniometer) {
@@ -98,11 +82,6 @@ TEST(QuickFunctions, AnglesAreThoseOfTheGoniometer) {
                 EXPECT_NEAR(quick.x, a, 1e-7);
                 EXPECT_NEAR(quick.y, b, 1e-7);
             }
-}
-
-TEST(QuickFunctions, AtTheOriginNothingIsNaN) {
-    EXPECT_EQ(photometry::quick_atan(0.0, 0.0), 0.0);
-    EXPECT_FALSE(std::isnan(photometry::quick_srgb_encoded(0.0)));
 }
 
 } // namespace

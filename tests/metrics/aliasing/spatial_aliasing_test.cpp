@@ -1,11 +1,15 @@
 #include "metrics/aliasing/contrast_sensitivity.h"
+#include "metrics/aliasing/fourier.h"
+#include "metrics/aliasing/jaggedness.h"
 #include "metrics/aliasing/spatial_aliasing.h"
 #include "tests/metrics/aliasing/analytic_pictures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <oneapi/tbb/global_control.h>
+#include <opencv2/core.hpp>
 #include <random>
 
 namespace fernlicht {
@@ -208,6 +212,177 @@ TEST(BandSplit, KeepsWhatADisplayCanShowAndFoldsTheRest) {
     EXPECT_NEAR(above.ideal.at(100, 16), 1.0, 0.002);
     // Folded: the mean of the samples to both sides, 1/16 pixel off.
     EXPECT_NEAR(above.folded.at(100, 16), std::cos(2.0 * pi * 0.65 * 100.5) * std::cos(2.0 * pi * 0.65 / 16.0), 0.002);
+}
+
+TEST(FourierTransform, IsThatOfOpenCVAndNamesItsFrequencies) {
+    constexpr std::size_t side = 32;
+    std::mt19937 generator(3);
+    std::vector<std::complex<double>> block(side * side);
+    cv::Mat_<cv::Vec2d> theirs(static_cast<int>(side), static_cast<int>(side));
+    for (std::size_t i = 0; i < block.size(); ++i) {
+        block[i] = {static_cast<double>(generator() % 2001) - 1000.0, static_cast<double>(generator() % 2001) - 1000.0};
+        theirs(static_cast<int>(i / side), static_cast<int>(i % side)) = {block[i].real(), block[i].imag()};
+    }
+    cv::dft(theirs, theirs);
+    fourier_transform(block, side);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+        const cv::Vec2d& expected = theirs(static_cast<int>(i / side), static_cast<int>(i % side));
+        largest = std::max(largest, std::abs(block[i] - std::complex<double>(expected[0], expected[1])));
+    }
+    // Ten stages of rounding at values of up to 1000 * 1024 whose squares add to about 2.6e4^2.
+    EXPECT_LT(largest, 1e-9);
+    std::vector<std::complex<double>> three(3);
+    EXPECT_THROW(fourier_transform(std::span(three)), std::invalid_argument);
+    EXPECT_THROW(fourier_transform(three, 2), std::invalid_argument);
+    EXPECT_EQ(bin_frequency(0, 32), 0.0);
+    EXPECT_EQ(bin_frequency(15, 32), 15.0 / 32.0);
+    EXPECT_EQ(bin_frequency(16, 32), -0.5);
+    EXPECT_EQ(bin_frequency(31, 32), -1.0 / 32.0);
+}
+
+TEST(ContrastSensitivity, IsThatOfBartenAndOfKelly) {
+    // The printed formulas, worked out apart from this program.
+    EXPECT_NEAR(still_contrast_sensitivity(5.0, 100.0), 586.313020008566, 1e-9);
+    EXPECT_NEAR(still_contrast_sensitivity(4.0, 0.01), 25.779198181579336, 1e-10);
+    EXPECT_NEAR(still_contrast_sensitivity(4.75, 1.0), 148.1418777623553, 1e-9);
+    // What every such measurement shows: a peak between 1 and 6 cycles per degree, less in the dark, next to nothing at 60.
+    EXPECT_GT(still_contrast_sensitivity(4.0, 100.0), still_contrast_sensitivity(0.5, 100.0));
+    EXPECT_GT(still_contrast_sensitivity(4.0, 100.0), still_contrast_sensitivity(10.0, 100.0));
+    EXPECT_LT(still_contrast_sensitivity(4.0, 0.01), 0.1 * still_contrast_sensitivity(4.0, 100.0));
+    EXPECT_LT(still_contrast_sensitivity(60.0, 100.0), 1.0);
+    EXPECT_EQ(still_contrast_sensitivity(0.0, 100.0), 0.0);
+    // Kelly at 3 degrees per second: the logarithm is 0, so 6.1 * 3 a^2 exp(-10 a / 45.9); a = 2 pi.
+    EXPECT_NEAR(flicker_sensitivity(1.0, 3.0), 6.1 * 3.0 * 39.478417604 * std::exp(-62.83185307 / 45.9), 1e-6);
+    EXPECT_LT(flicker_sensitivity(1.0, 60.0), 0.01 * flicker_sensitivity(1.0, 6.0));
+    EXPECT_EQ(flicker_sensitivity(1.0, 0.0), 0.0);
+    EXPECT_THROW(still_contrast_sensitivity(1.0, 0.0), std::invalid_argument);
+    EXPECT_THROW(flicker_sensitivity(0.0, 1.0), std::invalid_argument);
+}
+
+/// A line through the middle of 128 x 128 pixels; `ramp_px` wide, 0: a step.
+auto slanted(double degrees, double ramp_px, double shift_px = 0.0) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    return [nx = std::cos(angle), ny = std::sin(angle), ramp_px, shift_px](double x, double y) {
+        const double across = (x - 64.0) * nx + (y - 64.0) * ny - shift_px;
+        return ramp_px > 0.0 ? std::clamp(0.5 + across / ramp_px, 0.0, 1.0) : across > 0.0 ? 1.0 : 0.0;
+    };
+}
+
+TEST(Jaggedness, AStepRoundedToPixelsStraysByItsClosedForm) {
+    for (const double degrees : {4.0, 11.0, 86.0, 101.0, 23.0, 37.0}) {
+        const auto edge = slanted(degrees, 0.0);
+        const auto found = measure_jaggedness(drawn(128, 128, 1, edge), drawn(128, 128, k, edge), k, 0.5);
+        ASSERT_TRUE(found);
+        // Rounding to whole pixels along the axis that the edge stands across is uniform over one pixel, and so is rounding to samples of
+        // the reference over 1/8: sqrt((1 + 1/64) / 12) of them, less what a mean over some 33 points takes (3 % of the square).
+        const double cosine =
+            std::max(std::abs(std::cos(degrees * std::numbers::pi / 180.0)), std::abs(std::sin(degrees * std::numbers::pi / 180.0)));
+        EXPECT_NEAR(found->rms_px / (cosine / std::sqrt(12.0)), 1.0, 0.05);
+        EXPECT_NEAR(static_cast<double>(found->points), 128.0, 2.0);
+    }
+}
+
+TEST(Jaggedness, AnEvenRampIsSmoothAndAMovedOneToo) {
+    const Image<float> reference = drawn(128, 128, k, slanted(11.0, 8.0));
+    for (const double shift_px : {0.0, 0.7}) { // where the whole line lies is no jaggedness
+        const auto found = measure_jaggedness(drawn(128, 128, 1, slanted(11.0, 8.0, shift_px)), reference, k, 0.5);
+        ASSERT_TRUE(found);
+        // Between samples, a ramp is linear: what is left are half a sample's offset beside the pixel's middle, 1/16 px tan 11 degrees =
+        // 0.012.
+        EXPECT_LT(found->rms_px, 0.005);
+    }
+}
+
+TEST(Jaggedness, NothingToMeasureIsSaid) {
+    const Image<float> flat(64, 64, 1.0F), fine(512, 512, 1.0F);
+    EXPECT_FALSE(measure_jaggedness(flat, fine, k, 0.5));
+    // A line that the reference has not within two pixels has no partner.
+    EXPECT_FALSE(measure_jaggedness(drawn(128, 128, 1, slanted(11.0, 0.0, 10.0)), drawn(128, 128, k, slanted(11.0, 0.0)), k, 0.5));
+    EXPECT_THROW(measure_jaggedness(flat, flat, k, 0.5), std::invalid_argument);
+    EXPECT_THROW(measure_jaggedness(flat, fine, k, std::nan("")), std::invalid_argument);
+}
+
+constexpr int side = 160;
+
+/// A mark 12 pixels wide through the middle, its borders `degrees` from upright; ten times as bright as the road, under light that falls
+/// off to the right by a third.
+struct MarkedRoad {
+    double nx, ny;
+    explicit MarkedRoad(double degrees)
+        : nx(std::cos(degrees * std::numbers::pi / 180.0)), ny(std::sin(degrees * std::numbers::pi / 180.0)) {}
+    bool mark(double x, double y) const { return std::abs((x - 0.5 * side) * nx + (y - 0.5 * side) * ny) < 6.0; }
+    double luminance(double x, double y) const { return (mark(x, y) ? 1.0 : 0.1) * (1.0 - x / (3.0 * side)); }
+    EdgeReference reference() const {
+        EdgeReference edges{k, drawn(side, side, k, [this](double x, double y) { return luminance(x, y); }), {}, {}, {}};
+        edges.ground = Image<Ground>(side * k, side * k, Ground::road);
+        for (int y = 0; y < side * k; ++y)
+            for (int x = 0; x < side * k; ++x)
+                if (mark((x + 0.5) / k, (y + 0.5) / k))
+                    edges.ground.at(x, y) = Ground::mark;
+        return edges;
+    }
+    /// The mean of n x n samples a pixel.
+    Image<float> picture(int n) const {
+        const Image<float> fine = drawn(side, side, n, [this](double x, double y) { return luminance(x, y); });
+        Image<float> out(side, side);
+        for (int y = 0; y < side * n; ++y)
+            for (int x = 0; x < side * n; ++x)
+                out.at(x / n, y / n) += fine.at(x, y) / static_cast<float>(n * n);
+        return out;
+    }
+};
+
+TEST(NamedEdges, StairsOfAMarkReadTheirClosedForm) {
+    for (const double degrees : {5.0, 13.0, 22.0}) {
+        const MarkedRoad road(degrees);
+        const auto one = mark_jaggedness(road.picture(1), road.reference()), four = mark_jaggedness(road.picture(2), road.reference());
+        ASSERT_TRUE(one && four);
+        // Rounding to whole pixels, as for any step (jaggedness.h); 10 % for the light that falls off and for the middle between both
+        // brightnesses, which is not where a pixel's step is.
+        EXPECT_NEAR(one->found.rms_px / (road.nx / std::sqrt(12.0)), 1.0, 0.1) << degrees;
+        EXPECT_LT(four->found.rms_px, 0.75 * one->found.rms_px);
+        EXPECT_LT(one->floor_px, 0.08); // straight lines between pixels' centres are none across a pixel's area
+        EXPECT_GT(one->found.standard_error_px, 0.0);
+        EXPECT_LT(one->found.standard_error_px, 0.05);
+    }
+}
+
+TEST(NamedEdges, TheEndsOfAMarkAndWhatIsNoRoadAreLeftOut) {
+    const MarkedRoad road(13.0);
+    EdgeReference whole = road.reference(), half = whole;
+    const auto all = mark_jaggedness(road.picture(1), whole);
+    for (int y = 0; y < side * k; ++y)
+        for (int x = 0; x < side * k; ++x)
+            if (y < side * k / 2)
+                half.ground.at(x, y) = Ground::other;
+    const auto rest = mark_jaggedness(road.picture(1), half);
+    ASSERT_TRUE(all && rest);
+    EXPECT_NEAR(static_cast<double>(rest->found.points), 0.5 * static_cast<double>(all->found.points), 8.0);
+    EXPECT_FALSE(mark_jaggedness(Image<float>(side, side, 0.5F), {k, Image<float>(side * k, side * k, 0.5F), {}, {}, whole.ground}));
+}
+
+TEST(NamedEdges, TheCutOffIsALineOfLightOnTheRoadAndNoShadowOrSilhouette) {
+    const auto beam = [](double x, double y) { return std::exp(0.1 * (y - 80.0) + 0.02 * (x - 80.0)); };
+    EdgeReference reference{k, {}, drawn(side, side, k, beam), drawn(side, side, k, beam), Image<Ground>(side * k, side * k, Ground::road)};
+    // A beam that is rounded up to whole texels of 5 pixels: each stair is a straight line's, level within the texel.
+    const auto texels = [&](double x, double y) { return beam(5.0 * std::floor(x / 5.0) + 2.5, y); };
+    const auto smooth = cut_off_jaggedness(drawn(side, side, 1, beam), reference, 1.0);
+    const auto stairs = cut_off_jaggedness(drawn(side, side, 1, texels), reference, 1.0);
+    ASSERT_TRUE(smooth && stairs);
+    EXPECT_LT(smooth->found.rms_px, 0.02);
+    EXPECT_LT(smooth->floor_px, 0.02);
+    // The line is at y = 80 - 0.2 (x - 80) + const; a stair of 5 pixels strays by +-2, -+1, 0 pixels times 0.2, across it.
+    EXPECT_NEAR(stairs->found.rms_px, 0.2 * std::sqrt(2.0) * std::cos(std::atan(0.2)), 0.02);
+    EXPECT_EQ(smooth->found.points, 160U);
+    for (int y = 0; y < side * k; ++y) // a shadow over the right half
+        for (int x = side * k / 2; x < side * k; ++x)
+            reference.illuminance_lx.at(x, y) *= 0.5F;
+    const auto left = cut_off_jaggedness(drawn(side, side, 1, beam), reference, 1.0);
+    ASSERT_TRUE(left);
+    EXPECT_NEAR(static_cast<double>(left->found.points), 78.0, 2.0);
+    EXPECT_FALSE(cut_off_jaggedness(drawn(side, side, 1, beam), reference, 1e6));
+    EXPECT_THROW(cut_off_jaggedness(Image<float>(8, 8, 1.0F), reference, 1.0), std::invalid_argument);
 }
 
 } // namespace

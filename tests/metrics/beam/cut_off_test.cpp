@@ -1,7 +1,10 @@
 // The cut-off's ruler: edges whose sharpness, place and kink are known in closed form.
 #include "metrics/beam/cut_off.h"
-
+#include "metrics/beam/cut_off_elbow.h"
 #include "metrics/regulation/aim.h"
+#include "metrics/regulation/regulation_check.h"
+#include "tests/lamps.h"
+#include "tests/metrics/planted_cut_off.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,16 +22,9 @@ struct Edge {
 
 /// The profile over the distance above the edge, in cd.
 template <class Profile> CandelaTable edge_table(const Edge& edge, Profile profile, double v_step = 0.01, double h_step = 0.1) {
-    CandelaTable t;
-    for (int i = 0; - 7.0 + i * h_step <= 7.0 + 1e-9; ++i)
-        t.h_deg.push_back(-7.0 + i * h_step);
-    for (int i = 0; - 5.0 + i * v_step <= 5.0 + 1e-9; ++i)
-        t.v_deg.push_back(-5.0 + i * v_step);
-    for (const double v : t.v_deg)
-        for (const double h : t.h_deg)
-            t.cd.push_back(profile(v - edge.line(h)));
-    t.rule = BetweenSamples::log_cd;
-    return t;
+    return tests::table_of(
+        tests::steps(-7.0, 7.0, h_step), tests::steps(-5.0, 5.0, v_step), [&](double h, double v) { return profile(v - edge.line(h)); },
+        BetweenSamples::log_cd);
 }
 
 /// 10 000 cd falling to 100 cd in a logistic of the logarithm: G = 2 tanh(0.1 / (4 s)) by hand, inflection on the edge.
@@ -42,16 +38,13 @@ constexpr double detector_lift_deg = 0.004;
 
 const CutOffOptions by_point{.sharpness = SharpnessRule::maximum, .detector_deg = 0.0};
 
-TEST(CutOff, SharpnessOfARampIsATenthOfItsSlope) {
+TEST(CutOff, SharpnessIsThatOfTheClosedForms) {
     for (const double k : {1.3, 2.0, 4.0}) {
         const CandelaTable t = edge_table({}, [&](double above) { return ramp(above, k, 0.5); });
         const CutOffFigures c = measure_cut_off({&t, {}}, by_point);
         EXPECT_NEAR(*c.level.sharpness, 0.1 * k, 1e-9) << k;
         EXPECT_NEAR(*c.level.inflection_deg, -0.57, 1e-3) << k;
     }
-}
-
-TEST(CutOff, SharpnessOfALogisticIsItsClosedForm) {
     for (const double softness : {0.08, 0.12, 0.2}) {
         const CandelaTable t = edge_table({}, [&](double above) { return logistic(above, softness); });
         const CutOffFigures c = measure_cut_off({&t, {}}, by_point);
@@ -62,10 +55,8 @@ TEST(CutOff, SharpnessOfALogisticIsItsClosedForm) {
         const CutOffFigures at = measure_cut_off({&t, {}}, {.sharpness = SharpnessRule::at_inflection, .detector_deg = 0.0});
         EXPECT_NEAR(*at.level.sharpness, 2.0 * (0.5 - 1.0 / (1.0 + std::exp(0.1 / softness))), 3e-3) << softness;
     }
-}
-
-// A disc of diameter d over an exponential ramp of q = k ln 10 per degree multiplies all of it alike: G stays; at the ends it is rounded.
-TEST(CutOff, ADetectorChangesNoSharpnessOnALongRampAndSoftensANarrowOne) {
+    // A disc of diameter d over an exponential ramp of q = k ln 10 per degree multiplies all of it alike: G stays; at the ends it is
+    // rounded.
     const CandelaTable wide = edge_table({}, [](double above) { return ramp(above, 3.0, 0.6); });
     EXPECT_NEAR(*measure_cut_off({&wide, {}}).level.sharpness, 0.3, 1e-4);
     const CandelaTable narrow = edge_table({}, [](double above) { return ramp(above, 10.0, 0.1); });
@@ -73,7 +64,7 @@ TEST(CutOff, ADetectorChangesNoSharpnessOnALongRampAndSoftensANarrowOne) {
     EXPECT_LT(*measure_cut_off({&narrow, {}}).level.sharpness, 0.97);
 }
 
-TEST(CutOff, KinkIsFoundWhereItIs) {
+TEST(CutOff, KinkAndShoulderAreFoundWhereTheyAre) {
     for (const double kink : {-0.6, 0.0, 0.4})
         for (const double angle : {15.0, 10.0}) {
             const Edge edge{-0.57, kink, std::tan(angle * 3.14159265358979 / 180.0)};
@@ -82,10 +73,7 @@ TEST(CutOff, KinkIsFoundWhereItIs) {
             EXPECT_NEAR(*c.kink_h_deg, kink, 0.02);
             EXPECT_NEAR(*c.rise_angle_deg, angle, 0.1);
         }
-}
-
-// On the line 0.37 above the level part a shoulder of slope m lies 0.37 / m to the right of the kink.
-TEST(CutOff, ShoulderIsFoundOnTheLineAt02D) {
+    // On the line 0.37 above the level part a shoulder of slope m lies 0.37 / m to the right of the kink.
     const Edge edge{-0.57, 0.2, 1.0};
     const CandelaTable t = edge_table(
         edge, [](double above) { return logistic(above, 0.1); }, 0.01, 0.05);
@@ -186,6 +174,146 @@ TEST(Aim, WithoutAnEdgeTheLampStaysAndItIsSaid) {
     const CandelaTable coarse = edge_table(
         {}, [](double above) { return logistic(above, 0.3); }, 1.0);
     EXPECT_THAT(aim_of(coarse, AimRule::cut_off).how, HasSubstr("known to 0.5 degrees only"));
+}
+
+// The elbow's fit and the aim that goes by it, over beams whose elbow is known. tests/calibration/aim.cpp says how right it is over
+// hundreds.
+
+const std::vector<planted::CutOff> planted_shapes{
+    {.elbow_h_deg = 0.4, .angle_deg = 15.0, .rise_deg = 1.0},
+    {.elbow_h_deg = -1.3, .angle_deg = 15.0, .rise_deg = 4.0, .softness_deg = 0.2, .noise = 0.02},
+    {.elbow_h_deg = 0.9, .level_v_deg = 0.6, .angle_deg = 45.0, .rise_deg = 1.5, .noise = 0.01},
+    {.elbow_h_deg = 0.0, .level_v_deg = -2.0, .angle_deg = 70.0, .rise_deg = 2.0, .softness_deg = 0.05},
+};
+
+TEST(Elbow, IsFoundWhereItWasPlantedWithItsAngleAndItsShoulder) {
+    for (const planted::CutOff& c : planted_shapes) {
+        const CandelaTable t = planted::beam(c);
+        const CutOffElbow elbow = fit_elbow({&t, {}});
+        ASSERT_TRUE(elbow.at) << elbow.reason;
+        EXPECT_NEAR(elbow.at->h_deg, c.elbow_h_deg, elbow.uncertainty.h_deg);
+        EXPECT_NEAR(elbow.at->v_deg, c.level_v_deg, elbow.uncertainty.v_deg);
+        EXPECT_LT(elbow.uncertainty.h_deg, 0.1);
+        EXPECT_LT(elbow.uncertainty.v_deg, 0.05);
+        EXPECT_NEAR(elbow.rise_angle_deg, c.angle_deg, 0.1 * c.angle_deg);
+        ASSERT_TRUE(elbow.rise_to_h_deg);
+        EXPECT_NEAR(*elbow.rise_to_h_deg, c.elbow_h_deg + c.rise_h_deg(), 0.1);
+        EXPECT_NEAR(elbow.edge_deg(*elbow.rise_to_h_deg + 1.0), c.edge(8.0), 0.05);
+    }
+}
+
+TEST(Elbow, TurnsWithTheLampAndSaysWhereThereIsNone) {
+    const CandelaTable t = planted::beam({});
+    const CutOffElbow there = fit_elbow({&t, {}}), turned = fit_elbow({&t, {0.37, -0.21}});
+    EXPECT_NEAR(turned.at->h_deg - there.at->h_deg, 0.37, 0.01);
+    EXPECT_NEAR(turned.at->v_deg - there.at->v_deg, -0.21, 1e-3);
+    CandelaTable flat = planted::beam({});
+    std::ranges::fill(flat.cd, 500.0);
+    EXPECT_THAT(fit_elbow({&flat, {}}).reason, HasSubstr("an edge in 0 columns only"));
+    const CandelaTable level = planted::beam({.angle_deg = 1.0, .rise_deg = 9.0});
+    EXPECT_THAT(fit_elbow({&level, {}}).reason, HasSubstr("no rise of 3 degrees"));
+}
+
+// The rise of this lamp ends before 2 degrees right: the line through 1, 2 and 3 degrees is not its rise.
+const planted::CutOff short_rise{.elbow_h_deg = 0.4, .angle_deg = 15.0, .rise_deg = 1.3, .softness_deg = 0.08, .step_deg = 0.05};
+
+TEST(Elbow, ThreePointsOffAStraightLineAreNoRise) {
+    const CandelaTable t = planted::beam(short_rise);
+    const CutOffFigures c = measure_cut_off({&t, {}});
+    EXPECT_FALSE(c.kink_h_deg);
+    EXPECT_THAT(c.kink_reason, HasSubstr("leaves a straight line by 0.09 degrees"));
+}
+
+TEST(Elbow, AShortRiseIsAimedByTheElbowAndByNothingElse) {
+    const CandelaTable t = planted::beam(short_rise);
+    const Aim by_text = aim_of(t, AimRule::cut_off);
+    EXPECT_FALSE(by_text.found);
+    EXPECT_EQ(by_text.turned.h_deg, 0.0);
+    EXPECT_THAT(by_text.how, HasSubstr("left as filed sideways: the edge at 1, 2 and 3 degrees right"));
+    EXPECT_THAT(aim_of(t, AimRule::cut_off_by_line).how, HasSubstr("the rise ends 0.3"));
+    const Aim aim = aim_of(t, AimRule::automatic);
+    EXPECT_EQ(aim.rule, AimRule::elbow);
+    EXPECT_NEAR(aim.turned.h_deg, -short_rise.elbow_h_deg, 0.02);
+    EXPECT_THAT(aim.how, HasSubstr("elbow set on V-V"));
+    EXPECT_THAT(aim.how, HasSubstr("not by the kink: the edge at 1, 2 and 3 degrees right"));
+    // What stands right of V-V is judged as on the same lamp filed with its elbow there.
+    planted::CutOff straight = short_rise;
+    straight.elbow_h_deg = 0.0;
+    const CandelaTable aimed = planted::beam(straight);
+    const auto found = [&](const CandelaTable& lamp, const CheckOptions& options) {
+        const RegulationCheck check = check_regulation(regulation("r112-b"), {lamp}, options);
+        return std::ranges::find(check.rows, "75R", &RowResult::id)->found;
+    };
+    CheckOptions not_re_aimed{.re_aim = false};
+    EXPECT_NEAR(found(t, not_re_aimed) / found(aimed, {.aim = AimRule::as_is}), 1.0, 0.05);
+}
+
+// The line at 0.2 D is met 1.38 degrees right of the elbow of such a beam, 0.88 right of line A.
+TEST(Elbow, ABeamOf15DegreesThatIsRightAsFiledStaysThere) {
+    for (const double rise_deg : {2.0, 2.5, 3.0}) {
+        const CandelaTable t = planted::beam({.rise_deg = rise_deg, .step_deg = 0.05});
+        const Aim aim = aim_of(t, AimRule::automatic);
+        ASSERT_TRUE(aim.found) << aim.how;
+        EXPECT_NE(aim.rule, AimRule::cut_off_by_line);
+        EXPECT_NEAR(aim.turned.h_deg, 0.0, 0.05) << rise_deg << ": " << aim.how;
+        EXPECT_THAT(aim.how, testing::AnyOf(HasSubstr("kink set on V-V"), HasSubstr("nor by the line at 0.2 D: ")));
+    }
+    const CandelaTable t = planted::beam({.rise_deg = 2.0, .step_deg = 0.05});
+    EXPECT_THAT(aim_of(t, AimRule::automatic).how, HasSubstr("it would leave the elbow at 0.8"));
+    EXPECT_NEAR(aim_of(t, AimRule::cut_off_by_line).turned.h_deg, -0.88, 0.05); // who asks for it, gets it
+}
+
+TEST(Elbow, WhereNothingAimedSidewaysThereIsNoBound) {
+    const CandelaTable t = planted::beam({.rise_deg = 1.3, .step_deg = 0.05});
+    const Aim aim = aim_of(t, AimRule::cut_off);
+    ASSERT_FALSE(aim.found);
+    EXPECT_EQ(aim.turned.h_deg, 0.0);
+    EXPECT_EQ(aim.bound.h_deg, 0.0);
+    EXPECT_GT(aim.bound.v_deg, 0.0);
+}
+
+TEST(Elbow, AnyAngleIsTurnedAtOnceInBothTraffics) {
+    for (const planted::CutOff& c : planted_shapes) {
+        const CandelaTable right = planted::beam(c), left = mirrored(right);
+        const Regulation none;
+        const Aim aim = check_regulation(none, {right}, {.aim = AimRule::automatic}).aims.front();
+        const Aim other = check_regulation(none, {left}, {.aim = AimRule::automatic, .left_hand_traffic = true}).aims.front();
+        ASSERT_TRUE(aim.found) << aim.how;
+        EXPECT_NEAR(aim.turned.v_deg, -0.57 - c.level_v_deg, aim.bound.v_deg);
+        EXPECT_LE(std::abs(aim.residual.v_deg), aim.bound.v_deg);
+        EXPECT_LE(aim.rounds, 5);
+        EXPECT_DOUBLE_EQ(other.turned.h_deg, -aim.turned.h_deg);
+        EXPECT_DOUBLE_EQ(other.turned.v_deg, aim.turned.v_deg);
+    }
+}
+
+// Round 2.5 degrees left this edge steps down: a turn by what the kink seems to be off moves the level part from one side of the step to
+// the other, and the next correction is as large.
+TEST(Elbow, WhatDoesNotConvergeStaysAsFiled) {
+    CandelaTable t = planted::beam({.step_deg = 0.05});
+    for (std::size_t v = 0; v < t.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < t.h_deg.size(); ++h) {
+            const double at = t.h_deg[h], edge = -0.57 + 0.5 * std::clamp(-2.3 - at, 0.0, 0.4) + 0.268 * std::max(0.0, at);
+            t.at(v, h) = std::pow(10.0, 2.6 + 2.0 / (1.0 + std::exp((t.v_deg[v] - edge) / 0.1)));
+        }
+    const Aim aim = aim_of(t, AimRule::cut_off);
+    EXPECT_FALSE(aim.found);
+    EXPECT_EQ(aim.turned, Direction{});
+    EXPECT_THAT(aim.how, HasSubstr("not converged after"));
+}
+
+TEST(Elbow, VerdictsThatTheAimChangesAreTold) {
+    const planted::CutOff high{.elbow_h_deg = 0.5, .level_v_deg = 0.6};
+    const CandelaTable t = planted::beam(high);
+    const RegulationCheck check = check_regulation(regulation("r112-b"), {t});
+    ASSERT_FALSE(check.as_filed.empty());
+    for (const RowResult& row : check.as_filed) {
+        const auto aimed = std::ranges::find(check.rows, row.id, &RowResult::id);
+        ASSERT_NE(aimed, check.rows.end());
+        EXPECT_NE(aimed->verdict, row.verdict) << row.id;
+    }
+    EXPECT_EQ(check.verdict_as_filed, RowVerdict::fail);
+    EXPECT_TRUE(check_regulation(regulation("r112-b"), {t}, {.aim = AimRule::as_is}).as_filed.empty());
 }
 
 } // namespace

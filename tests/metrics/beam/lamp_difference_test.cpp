@@ -4,19 +4,17 @@
 #include "scenarios/lamps/lamp_model.h"
 #include "tests/metrics/changed_lamps.h"
 #include "tests/metrics/measured_lamps.h"
+#include "tests/trial.h"
 
 #include <cmath>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace fernlicht {
 namespace {
 
 /// Every second row and column.
 CandelaTable thinned(const CandelaTable& table) {
-    CandelaTable out;
-    out.rule = table.rule;
+    CandelaTable out{.rule = table.rule};
     for (std::size_t h = 0; h < table.h_deg.size(); h += 2)
         out.h_deg.push_back(table.h_deg[h]);
     for (std::size_t v = 0; v < table.v_deg.size(); v += 2) {
@@ -156,13 +154,11 @@ TEST_P(TwoFilesOf, OneLampDifferByNothing) {
         const double light = 30000.0 * std::exp(-0.5 * (std::pow(h / 6.0, 2) + std::pow((v + 1.5) / 2.0, 2)));
         return 60.0 + light / (1.0 + std::exp((v + 0.57) / 0.12));
     };
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("two-files-{}", getpid());
-    std::filesystem::create_directories(folder);
+
     const auto written = [&](unsigned seed, double level) {
         const LampFile lamp = measured::lamp(GetParam(), 0.5, [&](double h, double v) { return level * beam(h, v); }, {0.01, seed});
-        const auto path = folder / fmt::format("{}.{}", seed, GetParam() == measured::Kind::eulumdat ? "ldt" : "ies");
-        std::ofstream(path) << measured::file_text(GetParam(), lamp);
-        const LampFile read = read_lamp(path);
+        const char* const name = GetParam() == measured::Kind::eulumdat ? "lamp.ldt" : "lamp.ies";
+        const LampFile read = read_lamp(tests::written(name, measured::file_text(GetParam(), lamp)));
         // What was read is what was measured, in its own order.
         const CandelaTable &own = SampledBeam(lamp).samples(), &again = SampledBeam(read).samples();
         EXPECT_EQ(again.h_deg.size(), own.h_deg.size());
@@ -179,7 +175,6 @@ TEST_P(TwoFilesOf, OneLampDifferByNothing) {
     ASSERT_TRUE(brighter.level) << said(brighter);
     EXPECT_NEAR(brighter.level->value, 0.03, 0.002);
     EXPECT_TRUE(brighter.zones.empty() && !brighter.aim_up_deg) << said(brighter);
-    std::filesystem::remove_all(folder);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, TwoFilesOf, testing::ValuesIn(measured::kinds), [](const auto& kind) {

@@ -28,8 +28,7 @@ class DirectFlip {
         const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), 0.7);
         std::vector<double> out;
         for (std::size_t i = 0; i < a.colour.size(); ++i) {
-            const double power = std::pow(hyab(a.colour[i], b.colour[i]), 0.7);
-            const double knee = 0.4 * largest;
+            const double power = std::pow(hyab(a.colour[i], b.colour[i]), 0.7), knee = 0.4 * largest;
             const double colour = power < knee ? 0.95 / knee * power : 0.95 + (power - knee) / (largest - knee) * 0.05;
             const double feature = std::sqrt(std::max(std::abs(a.edge[i] - b.edge[i]), std::abs(a.point[i] - b.point[i])) / std::sqrt(2.0));
             out.push_back(std::pow(colour, 1.0 - feature));

@@ -1,23 +1,22 @@
 #include "metrics/images/flip.h"
-
 #include "metrics/images/flip_filters.h"
+#include "metrics/images/image_difference.h"
 #include "scenarios/values/pose.h"
 #include "tests/metrics/images/direct_flip.h"
 #include "tests/metrics/images/made_pictures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include <limits>
 #include <numeric>
 #include <tbb/global_control.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using tests::DirectFlip;
-using tests::disturbed;
-using tests::made_scene;
-using tests::shifted;
+using tests::DirectFlip, tests::disturbed, tests::made_scene, tests::shifted;
 
 constexpr Rgb8 black{0, 0, 0}, white{255, 255, 255}, red{255, 0, 0}, green{0, 255, 0}, blue{0, 0, 255}, grey{119, 119, 119};
 
@@ -33,29 +32,20 @@ void expect_near(const Image<float>& map, const std::vector<double>& direct) {
     EXPECT_LT(std::abs(sum / static_cast<double>(map.size())), 5e-6);
 }
 
-TEST(Flip, TheSameIsZeroEverywhere) {
+TEST(Flip, EvenColoursByHandAndAsWithoutFilters) {
     const auto scene = made_scene(150, 40); // two tiles
     for (const auto map = flip_ldr(scene, scene); const float e : map.pixels())
         EXPECT_EQ(e, 0.0F);
-}
-
-// By hand. Black to white: HyAB is the difference of L*, 100; 100^0.7 = 25.1189. Green (L* 87.735, a* -86.183, b* 83.179) and blue
-// (32.297, 79.188, -107.860), a* and b* times 0.01 L*: -75.612, 72.977 and 25.575, -34.836; HyAB 55.438 + sqrt(101.187^2 + 107.813^2) =
-// 203.296; to the 0.7 41.276, 0.4 of it 16.510. 0.95 + 0.05 (25.1189 - 16.510) / (41.276 - 16.510) = 0.96738.
-TEST(Flip, BlackAndWhiteByHand) {
+    // By hand. Black to white: HyAB is the difference of L*, 100; 100^0.7 = 25.1189. Green (L* 87.735, a* -86.183, b* 83.179) and blue
+    // (32.297, 79.188, -107.860), a* and b* times 0.01 L*: -75.612, 72.977 and 25.575, -34.836; HyAB 55.438 + sqrt(101.187^2 + 107.813^2) =
+    // 203.296; to the 0.7 41.276, 0.4 of it 16.510. 0.95 + 0.05 (25.1189 - 16.510) / (41.276 - 16.510) = 0.96738.
     for (const auto map = flip_ldr({20, 20, black}, {20, 20, white}); const float e : map.pixels())
         EXPECT_NEAR(static_cast<double>(e), 0.96738, 1e-5); // the last digit of the sum by hand
-}
-
-TEST(Flip, GreenAndBlueAreTheFarthestColours) {
     EXPECT_NEAR(static_cast<double>(flip_ldr({9, 9, green}, {9, 9, blue}).at(4, 4)), 1.0, 1e-6);
     for (const Rgb8& one : {black, white, red, green, blue, grey})
         for (const Rgb8& other : {black, white, red, green, blue, grey})
             EXPECT_LE(flip_ldr({3, 3, one}, {3, 3, other}).at(1, 1), 1.0F);
-}
-
-// Even pictures stay even: the filters sum to 1 for every channel, and there are no features.
-TEST(Flip, EvenColoursAreAsWithoutFilters) {
+    // Even pictures stay even: the filters sum to 1 for every channel, and there are no features.
     for (const Rgb8& one : {black, white, red, green, blue, grey}) {
         const double direct = DirectFlip::of_even(DirectFlip::linear({1, 1, one})[0], DirectFlip::linear({1, 1, grey})[0]);
         for (const auto map = flip_ldr({30, 30, one}, {30, 30, grey}); const float e : map.pixels())
@@ -140,11 +130,10 @@ TEST(Flip, FilterOfEdgesSumsToOneOnEachSide) {
     EXPECT_LT(filters.y.radius(), 8); // the rest weighs less than a float can show
 }
 
-TEST(Flip, PixelsPerDegreeOfViews) {
+TEST(Flip, PixelsPerDegreeOfScreensAndViewsAndWrongInput) {
+    EXPECT_NEAR(pixels_per_degree_of_screen(0.7, 0.7, 3840), 67.0206, 1e-4); // 3840 pi / 180, as the paper says
+    EXPECT_DOUBLE_EQ(pixels_per_degree_of_screen(0.7, 0.7, 3840), default_pixels_per_degree);
     EXPECT_NEAR(pixels_per_degree_of_view(radians(90.0), 720), 360.0 * pi / 180.0, 1e-12); // tan 45 degrees is 1
-}
-
-TEST(Flip, WrongInputIsRefused) {
     EXPECT_THROW(flip_ldr({2, 2, black}, {2, 3, black}), std::invalid_argument);
     EXPECT_THROW(flip_ldr({}, {}), std::invalid_argument);
     EXPECT_THROW(flip_ldr({2, 2, black}, {2, 2, black}, 0.5), std::invalid_argument);
@@ -158,14 +147,150 @@ TEST(Flip, SummaryByHand) {
     map.pixels() = {0.4F, 0.1F, 0.3F, 0.2F};
     const FlipSummary s = summary_of_flip(map);
     EXPECT_NEAR(s.mean, 0.25, 1e-8);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.minimum), 0.1F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.maximum), 0.4F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.first_quartile), 0.1F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.median), 0.2F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.third_quartile), 0.3F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.weighted_first_quartile), 0.2F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.weighted_median), 0.3F);
-    EXPECT_FLOAT_EQ(static_cast<float>(s.weighted_third_quartile), 0.4F);
+    for (const auto& [found, expected] :
+         {std::pair(s.minimum, 0.1F), std::pair(s.maximum, 0.4F), std::pair(s.first_quartile, 0.1F), std::pair(s.median, 0.2F),
+          std::pair(s.third_quartile, 0.3F), std::pair(s.weighted_first_quartile, 0.2F), std::pair(s.weighted_median, 0.3F),
+          std::pair(s.weighted_third_quartile, 0.4F)})
+        EXPECT_FLOAT_EQ(static_cast<float>(found), expected);
+}
+
+Image<glm::vec3> grey_scene(int width, int height, const std::vector<float>& values) {
+    Image<glm::vec3> image(width, height);
+    for (std::size_t i = 0; i < image.size(); ++i)
+        image.pixels()[i] = glm::vec3(values[i % values.size()]);
+    return image;
+}
+
+/// The tone mapper by its published coefficients, 0.6 times the exposure going in.
+double aces(double x) {
+    const double v = 0.6 * x;
+    return std::clamp(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0);
+}
+
+/// Where it is 0.85, by halving.
+double shown_as_085() {
+    double low = 0.0, high = 10.0;
+    for (int i = 0; i < 100; ++i)
+        (aces(0.5 * (low + high)) < 0.85 ? low : high) = 0.5 * (low + high);
+    return low;
+}
+
+// Largest 8, median 0.5: sixteen to one is four stops. Start shows 8 as 0.85, stop 0.5.
+TEST(FlipHdr, ExposuresByHand) {
+    const ExposureRange range = exposures_for(grey_scene(5, 1, {0.1F, 0.2F, 0.5F, 1.0F, 8.0F}));
+    EXPECT_NEAR(aces(8.0 * std::exp2(range.start)), 0.85, 1e-9);
+    EXPECT_NEAR(range.start, std::log2(shown_as_085() / 8.0), 1e-9);
+    EXPECT_NEAR(range.stop - range.start, 4.0, 1e-6);
+    EXPECT_EQ(range.count, 4);
+}
+
+// More than half is black, as in most night pictures: the median of the four lit pixels stands in. 32 to 4: three stops.
+TEST(FlipHdr, BlackNightsAreExposedForWhatIsLit) {
+    const ExposureRange range = exposures_for(grey_scene(10, 1, {0, 0, 0, 0, 0, 0, 1.0F, 2.0F, 4.0F, 32.0F}));
+    EXPECT_NEAR(range.stop - range.start, 3.0, 1e-6);
+    EXPECT_EQ(range.count, 3);
+}
+
+TEST(FlipHdr, ExtremesAreBoundedAndComparedAndTheSameIsZero) {
+    const ExposureRange deep = exposures_for(grey_scene(3, 1, {1e-38F, 1e-38F, 1e30F}));
+    EXPECT_DOUBLE_EQ(deep.stop - deep.start, most_stops);
+    EXPECT_EQ(deep.count, static_cast<int>(most_stops));
+    const ExposureRange flat = exposures_for(grey_scene(3, 1, {2.0F}));
+    EXPECT_DOUBLE_EQ(flat.start, flat.stop);
+    EXPECT_EQ(flat.count, 2);
+    const auto bright = grey_scene(4, 4, {1e30F, 1.0F}), dark = grey_scene(4, 4, {1e-30F, 1.0F});
+    for (const auto map = flip_hdr(bright, dark, exposures_for(dark)); const float e : map.pixels())
+        EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
+    // All but dark: exposures of more than 2^127 are no floats.
+    const auto faint = grey_scene(4, 4, {0.0F, 1e-40F, 1e-39F}), none = grey_scene(4, 4, {0.0F});
+    for (const auto map = flip_hdr(none, faint, exposures_for(faint)); const float e : map.pixels())
+        EXPECT_TRUE(e >= 0.0F && e <= 1.0F) << e;
+    const auto picture = grey_scene(30, 20, {0.0F, 0.01F, 3.0F, 200.0F, 1e4F});
+    for (const auto map = flip_hdr(picture, picture, exposures_for(picture)); const float e : map.pixels())
+        EXPECT_EQ(e, 0.0F);
+}
+
+// Every exposure as the paper writes it, in doubles; the worst of them. Floats as for one exposure (flip_test.cpp), whose largest is taken:
+// 3e-4. Without colours no root of one channel is subtracted from another's: 116 times two roots good to 3e-7 is 1e-4 at most, as an error
+// 0.0576 (1e-4)^0.7 = 9e-5, and its largest 1.5e-4.
+TEST(FlipHdr, IsTheWorstOfAllExposures) {
+    const int width = 32, height = 24;
+    std::vector<float> lit, other;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double beam = 60.0 * std::exp(-0.01 * ((x - 16) * (x - 16) + 4.0 * (y - 14) * (y - 14))) + 0.02;
+            lit.push_back(static_cast<float>(beam));
+            other.push_back(static_cast<float>(y > 13 && x > 20 ? 0.5 * beam : beam));
+        }
+    const auto reference = grey_scene(width, height, lit), tested = grey_scene(width, height, other);
+    const ExposureRange range = exposures_for(reference);
+    ASSERT_GE(range.count, 3);
+    const DirectFlip direct(width, height, default_pixels_per_degree);
+    std::vector<double> worst(lit.size(), 0.0);
+    for (int i = 0; i < range.count; ++i) {
+        const double factor = std::exp2(range.start + (range.stop - range.start) * i / (range.count - 1));
+        std::vector<std::array<double, 3>> a, b;
+        for (std::size_t k = 0; k < lit.size(); ++k) {
+            const double va = aces(factor * static_cast<double>(other[k])), vb = aces(factor * static_cast<double>(lit[k]));
+            a.push_back({va, va, va});
+            b.push_back({vb, vb, vb});
+        }
+        const auto errors = direct.errors(a, b);
+        for (std::size_t k = 0; k < errors.size(); ++k)
+            worst[k] = std::max(worst[k], errors[k]);
+    }
+    const auto map = flip_hdr(tested, reference, range);
+    EXPECT_GT(*std::ranges::max_element(worst), 0.1);
+    for (std::size_t k = 0; k < worst.size(); ++k)
+        ASSERT_NEAR(static_cast<double>(map.pixels()[k]), worst[k], 3e-4) << k;
+    Image<float> tested_grey(width, height), reference_grey(width, height);
+    tested_grey.pixels() = other;
+    reference_grey.pixels() = lit;
+    const auto grey_map = flip_hdr(tested_grey, reference_grey, exposures_for(reference_grey));
+    for (std::size_t k = 0; k < worst.size(); ++k)
+        ASSERT_NEAR(static_cast<double>(grey_map.pixels()[k]), worst[k], 1.5e-4) << k;
+}
+
+TEST(FlipHdr, WrongInputIsRefused) {
+    const auto light = grey_scene(2, 2, {1.0F}), none = grey_scene(2, 2, {0.0F}), negative = grey_scene(2, 2, {1.0F, -1.0F}),
+               infinite = grey_scene(2, 2, {std::numeric_limits<float>::infinity()});
+    EXPECT_THROW(exposures_for(none), std::invalid_argument);
+    EXPECT_THROW(exposures_for(Image<float>{}), std::invalid_argument);
+    EXPECT_THROW(exposures_for(negative), std::invalid_argument);
+    EXPECT_THROW(flip_hdr(infinite, light, exposures_for(light)), std::invalid_argument);
+    EXPECT_THROW(flip_hdr(grey_scene(2, 3, {1.0F}), light, exposures_for(light)), std::invalid_argument);
+}
+
+TEST(DisplayDifference, OfTheSameAndOfBlackAndWhite) {
+    const Image<Rgb8> picture(3, 2, {1, 2, 3});
+    const DisplayDifference same = compare_displays(picture, picture), whole = compare_displays({2, 2, {255, 255, 255}}, {2, 2, {0, 0, 0}});
+    EXPECT_EQ(std::tuple(same.maximum, same.rmse, same.percent_different, same.psnr_db),
+              std::tuple(0, 0.0, 0.0, std::numeric_limits<double>::infinity()));
+    EXPECT_EQ(std::tuple(whole.maximum, whole.rmse, whole.psnr_db), std::tuple(255, 255.0, 0.0));
+}
+
+// Of four pixels one differs by -3 and 4 in two channels: 25 over 12 values, rmse 1.4434, 20 log10(255 / 1.4434) = 44.943 dB.
+TEST(DisplayDifference, ByHand) {
+    Image<Rgb8> reference(2, 2, {10, 20, 30}), tested = reference;
+    tested.at(1, 0) = {7, 24, 30};
+    const DisplayDifference found = compare_displays(tested, reference);
+    EXPECT_EQ(std::tuple(found.maximum, found.maximum_x, found.maximum_y), std::tuple(4, 1, 0));
+    EXPECT_DOUBLE_EQ(found.rmse, std::sqrt(25.0 / 12.0));
+    EXPECT_NEAR(found.psnr_db, 44.943, 5e-4);
+    EXPECT_DOUBLE_EQ(found.percent_different, 25.0);
+    EXPECT_DOUBLE_EQ(found.mean_signed[0], -0.75);
+    EXPECT_DOUBLE_EQ(found.mean_signed[1], 1.0);
+    EXPECT_DOUBLE_EQ(found.mean_signed[2], 0.0);
+}
+
+TEST(DisplayDifference, LumaChannelsAndWrongInput) {
+    const Image<Rgb8> picture(1, 1, {255, 0, 100});
+    EXPECT_NEAR(static_cast<double>(luma_of(picture).at(0, 0)), 0.2126 * 255 + 0.0722 * 100, 1e-4);
+    EXPECT_EQ(channel_of(picture, 0).at(0, 0), 255.0F);
+    EXPECT_EQ(channel_of(picture, 1).at(0, 0), 0.0F);
+    EXPECT_EQ(channel_of(picture, 2).at(0, 0), 100.0F);
+    EXPECT_THROW(compare_displays({2, 2}, {2, 3}), std::invalid_argument);
+    EXPECT_THROW(compare_displays({}, {}), std::invalid_argument);
 }
 
 } // namespace

@@ -7,24 +7,29 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <tbb/global_control.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using tests::disturbed;
-using tests::made_scene;
-using tests::shifted;
+using tests::disturbed, tests::made_scene, tests::shifted;
 
-TEST(Ssim, TheSameIsOne) {
+TEST(Ssim, OfTheSameAndOfEvenPicturesByHand) {
     const auto luma = luma_of(made_scene(30, 20));
     EXPECT_DOUBLE_EQ(ssim(luma, luma, 255.0).mean, 1.0);
     EXPECT_DOUBLE_EQ(ssim(luma, luma, 255.0).minimum, 1.0);
-}
-
-// Even pictures of 100 and 110 have no structure: (2 100 110 + 6.5025) / (100^2 + 110^2 + 6.5025), times C2 / C2.
-TEST(Ssim, EvenPicturesByHand) {
+    // Even pictures of 100 and 110 have no structure: (2 100 110 + 6.5025) / (100^2 + 110^2 + 6.5025), times C2 / C2.
     const Ssim found = ssim({16, 16, 110.0F}, {16, 16, 100.0F}, 255.0);
     EXPECT_NEAR(found.mean, 22006.5025 / 22106.5025, 1e-12);
+    Image<float> reference(40, 30, 50.0F), tested = reference;
+    tested.at(31, 7) = 250.0F;
+    const Ssim other_found = ssim(tested, reference, 255.0);
+    EXPECT_EQ(std::tuple(other_found.minimum_x, other_found.minimum_y), std::tuple(31, 7));
+    EXPECT_LT(other_found.minimum, 0.5);
+    EXPECT_THROW(ssim({2, 2}, {2, 3}, 1.0), std::invalid_argument);
+    EXPECT_THROW(ssim({}, {}, 1.0), std::invalid_argument);
+    EXPECT_THROW(ssim({2, 2}, {2, 2}, 0.0), std::invalid_argument);
+    EXPECT_THROW(ssim({2, 2, std::numeric_limits<float>::quiet_NaN()}, {2, 2}, 1.0), std::invalid_argument);
 }
 
 // What OpenCV 4.6.0's quality module (QualitySSIM::compute) says of the same pictures, channel by channel. It works in floats, whose
@@ -46,15 +51,6 @@ TEST(Ssim, IsOpenCVsOnEachChannel) {
                 << c.name << ", channel " << channel;
 }
 
-TEST(Ssim, PlaceOfTheLeastSimilarPixel) {
-    Image<float> reference(40, 30, 50.0F), tested = reference;
-    tested.at(31, 7) = 250.0F;
-    const Ssim found = ssim(tested, reference, 255.0);
-    EXPECT_EQ(found.minimum_x, 31);
-    EXPECT_EQ(found.minimum_y, 7);
-    EXPECT_LT(found.minimum, 0.5);
-}
-
 TEST(Ssim, AnyNumberOfThreadsGivesTheSameBytes) {
     const auto a = luma_of(made_scene(200, 170)), b = luma_of(disturbed(made_scene(200, 170), 25, 4));
     const double whole = ssim(b, a, 255.0).mean, scales = *ms_ssim(b, a, 255.0);
@@ -63,21 +59,15 @@ TEST(Ssim, AnyNumberOfThreadsGivesTheSameBytes) {
     EXPECT_EQ(*ms_ssim(b, a, 255.0), scales);
 }
 
-TEST(MsSsim, TheSameIsOneAndSmallPicturesHaveNone) {
+TEST(MsSsim, OfTheSameAndOfOppositePictures) {
     const auto luma = luma_of(made_scene(170, 161));
     EXPECT_DOUBLE_EQ(*ms_ssim(luma, luma, 255.0), 1.0);
     const auto small = luma_of(made_scene(170, 160));
     EXPECT_FALSE(ms_ssim(small, small, 255.0));
-}
-
-// Even pictures stay even at every scale and have contrast and structure of 1: only the coarsest scale's luminance counts, to 0.1333.
-TEST(MsSsim, EvenPicturesByHand) {
+    // Even pictures stay even at every scale and have contrast and structure of 1: only the coarsest scale's luminance counts, to 0.1333.
     EXPECT_NEAR(*ms_ssim({161, 161, 110.0F}, {161, 161, 100.0F}, 255.0), std::pow(22006.5025 / 22106.5025, 0.1333), 1e-12);
-}
-
-// A chessboard of single pixels is grey from the second scale on: against its negative, contrast and structure of the finest scale are near
-// -1 and count as 0, and so does the product.
-TEST(MsSsim, OppositeStructureIsZero) {
+    // A chessboard of single pixels is grey from the second scale on: against its negative, contrast and structure of the finest scale are
+    // near -1 and count as 0, and so does the product.
     Image<float> board(162, 162), negative(162, 162);
     for (int y = 0; y < 162; ++y)
         for (int x = 0; x < 162; ++x) {
@@ -93,13 +83,6 @@ TEST(MsSsim, OppositeStructureIsZero) {
 TEST(MsSsim, ForgivesFineNoise) {
     const auto luma = luma_of(made_scene(176, 176)), noisy = luma_of(disturbed(made_scene(176, 176), 60, 9));
     EXPECT_GT(*ms_ssim(noisy, luma, 255.0), ssim(noisy, luma, 255.0).mean);
-}
-
-TEST(Ssim, WrongInputIsRefused) {
-    EXPECT_THROW(ssim({2, 2}, {2, 3}, 1.0), std::invalid_argument);
-    EXPECT_THROW(ssim({}, {}, 1.0), std::invalid_argument);
-    EXPECT_THROW(ssim({2, 2}, {2, 2}, 0.0), std::invalid_argument);
-    EXPECT_THROW(ssim({2, 2, std::numeric_limits<float>::quiet_NaN()}, {2, 2}, 1.0), std::invalid_argument);
 }
 
 } // namespace

@@ -1,13 +1,23 @@
 // Names of readings: printed, parsed and printed again, each shape of each quantity, those that were accepted, and random ones.
+#include "metrics/folds/reading_names.h"
 #include "metrics/readings/reading_key.h"
+#include "metrics/readings/reading_words.h"
+#include "metrics/readings/significance.h"
+#include "metrics/readings/value.h"
+#include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -145,49 +155,17 @@ TEST(ReadingKey, RandomKeysComeBack) {
     }
 }
 
-TEST(ReadingKey, WhatIsNoNameIsRefused) {
-    for (const char* name : {"",
-                             "reach",
-                             "reach_5lx_rod_own_m",
-                             "reach_road_own_m",
-                             "reach_5lx_road_own",
-                             "reach_5lx_road_own_max_m",
-                             "reach_5lx_road_own_m2",
-                             "reach_5.0lx_road_own_m",
-                             "reach_+5lx_road_own_m",
-                             "reach_-5lx_road_own_m",
-                             "reach_infl_road_own_m",
-                             "reach_1e999lx_road_own_m",
-                             "reach_5lx_road_left_m",
-                             "reach_5lx_road_left_01_m",
-                             "reach_5lx_road_left 1_m",
-                             "Reach_5lx_road_own_m",
-                             " reach_5lx_road_own_m",
-                             "reach_5lx_road_own_m ",
-                             "width_5lx_road_own_m",
-                             "area_5lx_road_own_m",
-                             "probe__lx",
-                             "probe_lx",
-                             "probe_a b_lx",
-                             "sensor_a_lx",
-                             "glare__facing_max_lx",
-                             "glare_a_facing_lx",
-                             "glare_a_time_above_5_de_boer_s",
-                             "detection_card_m",
-                             "detection_card_own_max_m",
-                             "visibility_level_card_own_at_50m_1",
-                             "control_class_x_share",
-                             "frame_time_ms",
-                             "_time_median_ms",
-                             "board_top_at_5m_lx",
-                             "reach_5lx_road_own_grid_error_standard_error_m",
-                             "reach_5lx_road_own_standard_error_lx",
-                             "foreground_ratio_own_standard_error_",
-                             "_standard_error_m"})
+TEST(ReadingKey, WhatIsNoNameIsRefusedAndWhatNoReadingHasNotNamed) {
+    for (const std::string& name : tests::each_of(
+             {{"", "|reach|reach_5lx_rod_own_m|reach_road_own_m|reach_5lx_road_own|reach_5lx_road_own_max_m|reach_5lx_road_own_m2|"
+                   "reach_5.0lx_road_own_m|reach_+5lx_road_own_m|reach_-5lx_road_own_m|reach_infl_road_own_m|reach_1e999lx_road_own_m|"
+                   "reach_5lx_road_left_m|reach_5lx_road_left_01_m|reach_5lx_road_left 1_m|Reach_5lx_road_own_m| reach_5lx_road_own_m|"
+                   "reach_5lx_road_own_m |width_5lx_road_own_m|area_5lx_road_own_m|probe__lx|probe_lx|probe_a b_lx|sensor_a_lx|"
+                   "glare__facing_max_lx|glare_a_facing_lx|glare_a_time_above_5_de_boer_s|detection_card_m|detection_card_own_max_m|"
+                   "visibility_level_card_own_at_50m_1|control_class_x_share|frame_time_ms|_time_median_ms|board_top_at_5m_lx|"
+                   "reach_5lx_road_own_grid_error_standard_error_m|reach_5lx_road_own_standard_error_lx|"
+                   "foreground_ratio_own_standard_error_|_standard_error_m"}}))
         EXPECT_FALSE(key_of(name)) << name;
-}
-
-TEST(ReadingKey, WhatNoReadingHasIsNotNamed) {
     EXPECT_THROW(name_of(ReadingKey{}), std::logic_error);
     ReadingKey reach = key("reach_5lx_road_own_m");
     reach.distance_m = 5.0;
@@ -219,15 +197,12 @@ TEST(ReadingKey, SubjectsThatOthersNamesHoldAreNotClear) {
     EXPECT_TRUE(is_clear_subject(SubjectKind::pass, pass_subject("display: glare")));
 }
 
-TEST(ReadingKey, AnEyeHasANameOfItsOwn) {
+TEST(ReadingKey, EyesHaveNamesOfTheirOwnAndKindsAreTold) {
     for (const char* name : {"glare_mirrors_at_15m", "glare_own", "glare_far_away"})
         EXPECT_EQ(eye_name(eye_of(name).value()), name);
     EXPECT_EQ(eye_of("glare_mirrors_at_15m")->distance_m, 15.0);
     EXPECT_EQ(eye_name(key("glare_mirrors_at_15m_time_above_1lx_s")), "glare_mirrors_at_15m");
     EXPECT_FALSE(eye_of("detection_card_own"));
-}
-
-TEST(ReadingKey, KindsAreTold) {
     EXPECT_TRUE(is_extent(key("unlit_before_reach_1lx_road_own_m")));
     EXPECT_FALSE(is_extent(key("sensor_a_reach_5lx_m")));
     EXPECT_TRUE(is_time(key("frame_time_median_ms")));
@@ -235,6 +210,218 @@ TEST(ReadingKey, KindsAreTold) {
     EXPECT_TRUE(says_how_exact(key("probe_a_twin_lx")));
     EXPECT_FALSE(says_how_exact(key("probe_twin_lx"))) << "a probe of this name";
     EXPECT_FALSE(says_how_exact(key("control_others_still_max_lx")));
+}
+
+// Readings in words: the usual ones word for word, of all others that nothing is left open.
+
+TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
+    const std::pair<const char*, const char*> readings[] = {
+        {"reach_5lx_target_own_m", "reach at 5 lx on a target, own lane"},
+        {"reach_0.5lx_road_left_1_left_edge_m", "reach at 0.5 lx on the road, left 1, left edge"},
+        {"reach_5lx_road_own_twin_difference_worst_m", "reach at 5 lx on the road, own lane, largest, drawn against calculated"},
+        {"width_1lx_road_all_at_20m_m", "width at 1 lx on the road, whole width, 20 m ahead"},
+        {"width_1lx_road_all_at_20m_min_m", "width at 1 lx on the road, whole width, 20 m ahead, least"},
+        {"area_1lx_road_all_p05_m2", "area at 1 lx on the road, whole width, 5th percentile"},
+        {"probe_kerb_lx", "illuminance, probe kerb"},
+        {"sensor_right-edge_at_50m_lx", "illuminance 50 m before it, sensor right-edge"},
+        {"glare_oncoming_facing_max_lx", "largest illuminance, eyes of an oncoming driver"},
+        {"glare_opposite_at_50m_lx", "illuminance 50 m before it, eyes of oncoming driver opposite"},
+        {"glare_far_away_length_above_0.5lx_m", "metres above 0.5 lx, eyes of oncoming driver far_away"},
+        {"glare_mirrors_at_15m_de_boer_min", "smallest de Boer rating, mirrors of a car 15 m ahead"},
+        {"glare_own_time_above_10percent_s", "time above 10 % of threshold increment, eyes of the own driver"},
+        {"detection_card_own_m", "detection distance of card, own lane"},
+        {"detection_pedestrian-dark_right_p05_m", "detection distance of pedestrian-dark, right edge of the lanes, 5th percentile"},
+        {"visibility_level_card_own_at_50m", "visibility level of card, own lane, 50 m ahead"},
+        {"kerb_at_50m_lx", "illuminance on the road at the right edge of the lanes, 50 m ahead"},
+        {"board_overhead_at_50m_cdm2", "luminance of a board, overhead, 50 m ahead"},
+        {"marking_left_at_50m_cdm2", "luminance of the left marking, 50 m ahead"},
+        {"control_left_bends_reach_gain_5lx_m", "reach at 5 lx in left bends, gained by control"}};
+    for (const auto& [name, words] : readings)
+        EXPECT_EQ(reading_in_words(key_of(name).value()), words);
+    for (const QuantityRow& row : quantities())
+        for (const ReadingKey& key :
+             shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {5.0}, .distance_m = 50.0}))
+            EXPECT_THAT(reading_in_words(key), testing::Not(testing::ContainsRegex("[{}_]|  |, ,|,$|^ "))) << name_of(key);
+}
+
+// docs/readings.md has the table that the program prints.
+
+TEST(ReadingsList, IsTheTableOfTheDocumentationAndSaysEachQuantityInWords) {
+    std::stringstream page;
+    page << std::ifstream(FERNLICHT_SOURCE_DIR "/docs/readings.md").rdbuf();
+    EXPECT_THAT(page.str(), testing::HasSubstr("<!-- readings: begin -->\n" + readings_markdown() + "<!-- readings: end -->"))
+        << "put what `fernlicht readings --markdown` prints between the two comments";
+    EXPECT_THAT(readings_text(), testing::HasSubstr("patch_dark_own[_max]_m\n    m: longest patch of a moment that is darker than its "
+                                                    "surroundings; lower is better\n"));
+    EXPECT_THAT(readings_text(), testing::HasSubstr("sensor_NAME_at_50m_lx\nsensor_NAME_max_lx\n"));
+}
+
+// The table of quantities: complete, in order, without double ids.
+
+TEST(Quantities, EachHasOneRowInTheOrderOfTheirNames) {
+    std::set<std::string> ids;
+    for (std::size_t i = 0; i < quantities().size(); ++i) {
+        const QuantityRow& row = quantities()[i];
+        EXPECT_EQ(static_cast<std::size_t>(row.quantity), i) << row.id;
+        EXPECT_EQ(&row_of(row.quantity), &row);
+        EXPECT_TRUE(ids.insert(row.id).second) << row.id;
+        for (const char* text : {row.id, row.forms, row.unit, row.words, row.meaning})
+            EXPECT_STRNE(text, "") << row.id;
+    }
+    EXPECT_EQ(row_of(Quantity::pass_time).id, std::string("pass_time")) << "the last one";
+    EXPECT_EQ(quantities().size(), static_cast<std::size_t>(Quantity::pass_time) + 1);
+}
+
+TEST(Quantities, NamesEndInTheirUnitAndHoldTheirSubject) {
+    const std::pair<const char*, const char*> ends[] = {{"m", "_m"},       {"m2", "_m2"},         {"lx", "_lx"},  {"cd/m2", "_cdm2"},
+                                                        {"%", "_percent"}, {"s", "_s"},           {"ms", "_ms"},  {"1", ""},
+                                                        {"1/m", "_per_m"}, {"1/deg", "_per_deg"}, {"deg", "_deg"}};
+    for (const QuantityRow& row : quantities()) {
+        const auto end =
+            std::find_if(std::begin(ends), std::end(ends), [&](const auto& known) { return std::string(known.first) == row.unit; });
+        ASSERT_NE(end, std::end(ends)) << row.unit;
+        for (const ReadingKey& key :
+             shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {1.0}, .distance_m = 5.0}))
+            EXPECT_TRUE(name_of(key).ends_with(end->second)) << name_of(key);
+    }
+    for (const QuantityRow& row : quantities())
+        EXPECT_EQ(row.subject != SubjectKind::none,
+                  std::string(row.forms).find("<name>") != std::string::npos || std::string(row.forms).find("<eye>") != std::string::npos)
+            << row.id;
+}
+
+// A limit on a reading that cannot exist is found before a drive is played, not after.
+
+Drive limited_by(const std::string& reading) {
+    return {.file = "night.yaml", .probes = {{"kerb-30m", 30.0, 0.0, 0.0}}, .limits = {{reading, 1.0, std::nullopt}}};
+}
+
+TEST(ReadingNames, WhatARunCanMeasureIsKnownAndAllElseRefused) {
+    for (const char* name : {"reach_5lx_road_own_m", "reach_0.5lx_target_left_1_min_m", "width_3lx_road_all_at_50m_m",
+                             "area_1lx_target_own_m2", "unlit_before_reach_1lx_road_own_m", "reach_1lx_target_own_per_tenth_degree_m",
+                             "probe_kerb-30m_lx", "probe_kerb-30m_twin_lx", "frame_time_median_ms"})
+        EXPECT_NO_THROW(check_names(limited_by(name))) << name;
+    for (const char* name : {"reach_1lx_rod_own_m", "reach_road_own_m", "width", "probe_kerb_lx", "probe_kerb-30m", "frame_time_ms", ""})
+        EXPECT_THROW(check_names(limited_by(name)), InputError) << name;
+    Drive drive = limited_by("probe_kerb-30m_lx");
+    drive.probes.push_back({"kerb-30m_max", 30.0, 1.0, 0.0});
+    EXPECT_THROW(check_names(drive), InputError) << "its median would be the largest of kerb-30m";
+    drive.probes.back().name = "kerb-31m";
+    EXPECT_NO_THROW(check_names(drive));
+    drive.seeing.glare.emplace().oncoming.push_back({.name = "own"});
+    EXPECT_THROW(check_names(drive), InputError) << "the own driver's eyes";
+}
+
+// Changes between a figure and a bound.
+
+/// Of a reach that goes on beyond the grid nothing is told of the grid's error.
+PlayedReadings reaching(const Value& reach) {
+    PlayedReadings played;
+    const auto put = [&](const char* name, const Value& value) {
+        const ReadingKey key = key_of(name).value();
+        played.readings[key] = {key, value};
+    };
+    put("reach_1lx_target_own_m", reach);
+    if (reach.number()) {
+        put("reach_1lx_target_own_grid_error_m", 0.3);
+        put("reach_1lx_target_own_twin_difference_m", 0.1);
+        put("reach_1lx_target_own_per_tenth_degree_m", 4.0);
+    }
+    return played;
+}
+
+ReadingChange change(const Value& now, const Value& before) {
+    return change_of_reading(key_of("reach_1lx_target_own_m").value(), reaching(now), reaching(before));
+}
+
+TEST(Significance, ABoundIsExactAsABound) {
+    for (const auto& [now, before] : {std::pair{Value::at_least(200.0), Value(56.9)}, std::pair{Value(56.9), Value::at_least(200.0)}}) {
+        const ReadingChange found = change(now, before);
+        EXPECT_EQ(found.kind, ChangeKind::real) << found.why_not;
+        EXPECT_DOUBLE_EQ(found.uncertainty.value(), 0.4) << "that of the figure alone";
+        EXPECT_NEAR(found.least(), 143.1, 1e-9);
+    }
+    EXPECT_EQ(change(Value::at_least(200.0), 199.9).kind, ChangeKind::unknown) << "it may be much more";
+    EXPECT_EQ(change(Value::at_least(200.0), Value::at_least(200.0)).why_not, "both beyond 200 m");
+}
+
+// Values that are numbers, bounds or not measured, and what they make of each other.
+
+const Value none = Value::not_measured("dark");
+
+TEST(Value, ADifferenceIsWhatBothLetItBe) {
+    EXPECT_EQ(difference(90.0, 60.0, "m"), Value(30.0));
+    EXPECT_EQ(difference(Value::at_least(200.0), 60.0, "m"), Value::at_least(140.0));
+    EXPECT_EQ(difference(60.0, Value::at_least(200.0), "m"), Value::at_most(-140.0));
+    EXPECT_EQ(difference(60.0, Value::at_most(10.0), "m"), Value::at_least(50.0));
+    EXPECT_EQ(difference(Value::at_least(200.0), Value::at_most(10.0), "m"), Value::at_least(190.0));
+    EXPECT_EQ(difference(Value::at_least(200.0), Value::at_least(200.0), "m"), Value::not_measured("both beyond 200 m"));
+    EXPECT_EQ(difference(Value::at_most(5.0), Value::at_most(5.0), "m"), Value::not_measured("both below 5 m"));
+    EXPECT_EQ(difference(Value::at_least(40.0), Value::at_least(200.0), "m"),
+              Value::not_measured("one beyond 40 m, the other beyond 200 m"));
+    EXPECT_EQ(difference(none, 60.0, "m"), none);
+    EXPECT_EQ(difference(60.0, none, "m"), none);
+}
+
+TEST(Value, KeepsALimitOrLeavesItOpenRanksAndIsNeverNan) {
+    const Value beyond = Value::at_least(200.0);
+    EXPECT_EQ(holds(beyond, 180.0, {}), true);
+    EXPECT_EQ(holds(beyond, {}, 150.0), false);
+    EXPECT_EQ(holds(beyond, 220.0, {}), std::nullopt);
+    EXPECT_EQ(holds(beyond, 180.0, 220.0), std::nullopt);
+    EXPECT_EQ(holds(Value::at_most(30.0), 50.0, {}), false);
+    EXPECT_EQ(holds(Value::at_most(30.0), {}, 30.0), true);
+    EXPECT_EQ(holds(Value::at_most(30.0), 20.0, {}), std::nullopt);
+    EXPECT_EQ(holds(61.0, 61.0, 61.0), true);
+    EXPECT_EQ(holds(none, 1.0, {}), std::nullopt);
+    EXPECT_TRUE(ranks_before(199.0, Value::at_least(200.0)));
+    EXPECT_TRUE(ranks_before(200.0, Value::at_least(200.0)));
+    EXPECT_TRUE(ranks_before(Value::at_most(10.0), 10.0));
+    EXPECT_FALSE(ranks_before(Value::at_least(200.0), Value::at_least(200.0)));
+    EXPECT_TRUE(ranks_before(none, -1e9));
+    for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+        EXPECT_THROW(Value{bad}, std::invalid_argument);
+        EXPECT_THROW(Value::at_least(bad), std::invalid_argument);
+        EXPECT_THROW(Value::at_most(bad), std::invalid_argument);
+    }
+}
+
+TEST(ManyMoments, QuantilesRestOnBoundsWhereTheyMust) {
+    ManyMoments moments;
+    EXPECT_EQ(moments.quantile(0.5), Value::not_measured("not there in any moment"));
+    for (const Value& value : {Value(130.0), Value(140.0), Value(150.0), Value::at_least(200.0)})
+        moments.add(value);
+    EXPECT_EQ(moments.quantile(0.0), Value(130.0));
+    EXPECT_EQ(moments.quantile(0.5), Value(145.0));
+    EXPECT_EQ(moments.quantile(1.0), Value::at_least(200.0));
+    EXPECT_EQ(moments.quantile(0.9), Value::at_least(150.0 + 0.7 * 50.0)) << "of type 7: 0.7 of the way from the third to the fourth";
+    EXPECT_FALSE(moments.mean().measured());
+    moments.add(Value::not_measured("cut off"));
+    EXPECT_EQ(moments.account(), "4 moments, 1 left out: cut off");
+}
+
+TEST(ManyMoments, BoundsAmongTheNumbersRankWhereTheyMayLie) {
+    ManyMoments moments; // the first may be anything from 20 up
+    for (const Value& value : {Value::at_least(20.0), Value(30.0), Value(40.0)})
+        moments.add(value);
+    EXPECT_EQ(moments.quantile(0.0), Value::at_least(20.0));
+    EXPECT_EQ(moments.quantile(0.5), Value::at_least(30.0));
+    EXPECT_EQ(moments.quantile(1.0), Value::at_least(40.0));
+    moments.add(Value::at_most(35.0));
+    EXPECT_EQ(moments.quantile(1.0), Value::at_least(40.0));
+    EXPECT_EQ(moments.quantile(0.0), Value::at_most(30.0));
+    EXPECT_EQ(moments.quantile(2.0 / 3.0), Value::not_measured("between 30 and 40"));
+}
+
+TEST(ManyMoments, MeansNeedNumbers) {
+    ManyMoments moments;
+    for (const double value : {1.0, 2.0, 6.0})
+        moments.add(value);
+    EXPECT_EQ(moments.mean(), Value(3.0));
+    EXPECT_NEAR(*moments.standard_deviation().number(), std::sqrt(7.0), 1e-12);
+    ManyMoments cut;
+    cut.add(Value::not_measured("cut off"));
+    EXPECT_EQ(cut.quantile(0.5), Value::not_measured("cut off in every moment"));
 }
 
 } // namespace

@@ -3,32 +3,30 @@
 #include "metrics/regulation/rows.h"
 #include "scenarios/lamps/lamp_file.h"
 #include "scenarios/values/errors.h"
+#include "tests/lamps.h"
+#include "tests/metrics/regulation/generated_lamp.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <gmock/gmock.h>
+#include <iostream>
+#include <map>
+#include <set>
 
 namespace fernlicht {
 namespace {
 
-using testing::HasSubstr;
+using generated::Lamp;
+using testing::HasSubstr, testing::IsEmpty, testing::IsSupersetOf;
 
 CandelaTable constant(double cd, double h_deg = 60.0, double v_deg = 30.0) {
-    CandelaTable t;
-    t.h_deg = {-h_deg, 0.0, h_deg};
-    t.v_deg = {-v_deg, 0.0, v_deg};
+    CandelaTable t{.h_deg = {-h_deg, 0.0, h_deg}, .v_deg = {-v_deg, 0.0, v_deg}};
     t.cd.assign(9, cd);
     return t;
 }
 
-Regulation table_of(std::vector<RegulationRow> rows) {
-    Regulation r;
-    r.id = "test";
-    r.receiver = un_receiver;
-    r.rows = std::move(rows);
-    return r;
-}
+Regulation table_of(std::vector<RegulationRow> rows) { return {.id = "test", .receiver = un_receiver, .rows = std::move(rows)}; }
 
 RowResult only_row(const RegulationRow& row, const CandelaTable& lamp, double re_aim_deg = 0.0) {
     Regulation r = table_of({row});
@@ -108,13 +106,8 @@ TEST(RowCheck, TwoLampsAreHalvedAndEachHeldToItsOwnRows) {
 
 TEST(RegulationCheck, ReAimKeepsWithinTheAllowanceAndSaysSo) {
     // A lamp that is lit right of 0.6 R: turned to the left by 0.6 or more it lights HV. Allowed are 0.75 of R149, not the 0.5 of R112.
-    CandelaTable t;
-    for (int i = -100; i <= 100; ++i)
-        t.h_deg.push_back(i * 0.1);
-    t.v_deg = {-5, 0, 5};
-    for (int j = 0; j < 3; ++j)
-        for (const double h : t.h_deg)
-            t.cd.push_back(h > 0.55 ? 5000.0 : 100.0);
+    const CandelaTable t =
+        tests::table_of(tests::steps(-10.0, 10.0, 0.1), {-5, 0, 5}, [](double h, double) { return h > 0.55 ? 5000.0 : 100.0; });
     Regulation r = table_of({point("HV", 0, 0, at_least(4000)), point("dark", -1, 0, at_most(200))});
     r.aim = AimRule::maximum; // its middle would put the light on HV at once: as-is is asked below by a rule that finds nothing
     r.re_aim = {0.75, 0.75, 0.25};
@@ -197,6 +190,200 @@ TEST(Regulations, GoThroughLampFilesOfOthers) {
         }
     }
     EXPECT_GT(read, 0u);
+}
+
+// Every row of every table: a lamp that meets all of them by one part in a hundred passes, and one that is changed at one row's place
+// breaks this row, and no other that asks less there.
+
+std::set<std::string> broken(const std::vector<RowResult>& rows) {
+    std::set<std::string> ids;
+    for (const RowResult& row : rows)
+        if (row.verdict == RowVerdict::fail)
+            ids.insert(row.id);
+    return ids;
+}
+
+/// Places of a row at which it can be broken.
+std::vector<Direction> places_of(const RegulationRow& row) {
+    if (row.kind == RowKind::point || row.kind == RowKind::sum)
+        return {row.places.front()};
+    std::vector<Direction> places;
+    if (row.kind == RowKind::segment) {
+        for (int i = 0; i <= 60; ++i) {
+            const double share = (i % 2 ? 60 - i : i) / 60.0;
+            const Direction a = row.places[0], b = row.places[1];
+            places.push_back({a.h_deg + (b.h_deg - a.h_deg) * share, a.v_deg + (b.v_deg - a.v_deg) * share});
+        }
+    } else
+        for (double v = 10.3; v >= -5.0; v -= 0.15)
+            for (double h = -20.0; h <= 20.0; h += 0.35)
+                if (generated::inside(row.places, {h, v}))
+                    places.push_back({h, v});
+    std::erase_if(places, [](Direction d) { return std::abs(d.h_deg) > 20.2 || d.v_deg > 10.4 || d.v_deg < -5.0; });
+    return places;
+}
+
+/// What a change to `cd` at a place breaks, by the rows' own geometry; nullopt: it touches another row in part.
+std::optional<std::set<std::string>> expected(const Regulation& r, const Lamp& lamp, Direction at, double cd, bool lower) {
+    std::set<std::string> ids;
+    for (const RegulationRow& row : r.rows) {
+        if (!lower && !row.ratio_of.empty() && row.ratio_is_minimum && row.ratio * cd > generated::above * *lamp.minimum(row))
+            ids.insert(row.id); // a new maximum asks more of HV
+        if (row.scope == Scope::each_of_two || !lamp.reaches(row, at))
+            continue;
+        const auto min = lamp.minimum(row), max = lamp.maximum(row);
+        bool breaks = lower ? row.kind != RowKind::brightest && row.kind != RowKind::sum && min && cd < *min : max && cd > *max;
+        if (row.kind == RowKind::sum && lower) // two places keep their share
+            breaks = min && cd + generated::above * *min * 2.0 / 3.0 < *min;
+        if (!breaks)
+            continue;
+        if (!generated::concerns(row, at, 1e-9, 1e-9))
+            return std::nullopt;
+        ids.insert(row.id);
+    }
+    return ids;
+}
+
+/// The place where a change breaks fewest rows.
+std::optional<std::pair<Direction, std::set<std::string>>> best_place(const Regulation& r, const Lamp& lamp, const RegulationRow& row,
+                                                                      double cd, bool lower) {
+    std::optional<std::pair<Direction, std::set<std::string>>> best;
+    for (const Direction at : places_of(row)) {
+        const auto ids = expected(r, lamp, at, cd, lower);
+        if (ids && ids->contains(row.id) && (!best || ids->size() < best->second.size()))
+            best.emplace(at, *ids);
+        if (best && best->second.size() == 1)
+            break;
+    }
+    return best;
+}
+
+class EveryRow : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryRow, IsBrokenAtItsPlaceAlone) {
+    Regulation r = regulation(GetParam());
+    r.row_re_aim_deg = 0.0; // tried by itself below
+    const Lamp lamp(r);
+    const auto check = [&](const CandelaTable& table) { return check_rows(r, {{&table, {}}}); };
+    const std::vector<RowResult> base = check(lamp.table);
+    for (const RowResult& row : base)
+        EXPECT_EQ(row.verdict, RowVerdict::pass) << row.id << " " << row.found << " " << row.margin << " " << row.reason;
+    for (const RegulationRow& row : r.rows) {
+        if (row.scope == Scope::each_of_two)
+            continue;
+        for (const bool lower : {true, false}) {
+            const auto limit = lower ? lamp.minimum(row) : lamp.maximum(row);
+            if (!limit)
+                continue;
+            if (lower && row.kind == RowKind::brightest) { // dark everywhere: this row among others
+                CandelaTable dim = lamp.table;
+                for (double& cd : dim.cd)
+                    cd = std::min(cd, generated::just_below * *limit);
+                EXPECT_THAT(broken(check(dim)), testing::Contains(row.id));
+                continue;
+            }
+            const double cd = row.kind == RowKind::sum ? generated::just_below * *limit - generated::above * *limit * 2.0 / 3.0
+                                                       : (lower ? generated::just_below : generated::just_above) * *limit;
+            const auto place = best_place(r, lamp, row, cd, lower);
+            ASSERT_TRUE(place) << r.id << " " << row.id << (lower ? " min" : " max");
+            const CandelaTable changed = lamp.changed(place->first, cd, lower);
+            std::vector<std::string> near; // no other row sees the change
+            for (const RegulationRow& other : r.rows)
+                if (lamp.reaches(other, place->first) || !other.ratio_of.empty())
+                    near.push_back(other.id);
+            EXPECT_EQ(broken(check_rows(r, {{&changed, {}}}, near)), place->second)
+                << r.id << " " << row.id << " at " << place->first.h_deg << ", " << place->first.v_deg << (lower ? " min" : " max");
+            EXPECT_LE(place->second.size(), 2u) << r.id << " " << row.id; // two where another row holds there by the same limit or a ratio
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, EveryRow, testing::ValuesIn(regulation_ids()), [](const testing::TestParamInfo<std::string>& table) {
+    std::string name = table.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+});
+
+// Our own lamps against the rows of their regulations, as docs/regulations.md lists them.
+
+const CandelaTable& table(const std::string& name) {
+    static std::map<std::string, CandelaTable> tables;
+    auto [it, added] = tables.try_emplace(name);
+    if (added)
+        it->second = read_lamp(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/lamps" / (name + ".ies")).table;
+    return it->second;
+}
+
+std::vector<std::string> broken(const CandelaTable& lamp, const std::string& id, const CheckOptions& options = {}) {
+    std::vector<std::string> names;
+    for (const RowResult& row : check_regulation(regulation(id), {lamp}, options).rows)
+        if (row.verdict != RowVerdict::pass)
+            names.push_back(row.id);
+    return names;
+}
+
+const RowResult& row(const RegulationCheck& check, const std::string& id) {
+    return *std::find_if(check.rows.begin(), check.rows.end(), [&](const RowResult& r) { return r.id == id; });
+}
+
+TEST(ShippedLamps, MeetTheRowsTheyAreBuiltToWithTheMarginsThatAreDocumented) {
+    for (const auto& [lamp, id] : {std::pair{"halogen-low", "r112-b"},
+                                   {"xenon-low", "r98-d"},
+                                   {"halogen-high", "r112-driving-b"},
+                                   {"xenon-high", "r98-driving-d"}}) {
+        const RegulationCheck check = check_regulation(regulation(id), {table(lamp)});
+        EXPECT_EQ(check.verdict, RowVerdict::pass) << lamp;
+        EXPECT_FALSE(check.was_re_aimed) << lamp; // as first aimed
+        for (const RowResult& r : check.rows)
+            std::cout << "    " << lamp << " " << r.id << ": " << r.found << " " << r.unit << ", margin " << 100.0 * r.margin << " %\n";
+    }
+    // Read off the shipped files by `fernlicht lamp FILE --picture`, and from docs/lamps.md: B50L 248 cd, 75R 26 % above its minimum.
+    const RegulationCheck halogen = check_regulation(regulation("r112-b"), {table("halogen-low")});
+    EXPECT_NEAR(row(halogen, "B50L").margin, 0.29, 0.01);
+    EXPECT_NEAR(row(halogen, "75R").margin, 0.265, 0.02);
+    const RegulationCheck xenon = check_regulation(regulation("r98-d"), {table("xenon-low")});
+    EXPECT_NEAR(row(xenon, "Imax R").margin, 0.07, 0.01);
+    EXPECT_NEAR(row(xenon, "Imax L").margin, 0.08, 0.01);
+}
+
+TEST(ShippedLamps, AreAimedAsTheyCome) {
+    for (const char* lamp : {"halogen-low", "xenon-low"}) {
+        const Aim aim = aim_of(table(lamp), AimRule::cut_off);
+        EXPECT_TRUE(aim.found);
+        EXPECT_NEAR(aim.turned.h_deg, 0.0, 0.05) << lamp;
+        EXPECT_NEAR(aim.turned.v_deg, 0.0, 0.03) << lamp;
+        EXPECT_NEAR(*aim.cut_off->rise_angle_deg, 15.0, 1.5) << lamp;
+    }
+}
+
+TEST(ShippedLamps, ThatAreWrongBreakRows) {
+    const CandelaTable& low = table("halogen-low");
+    const CheckOptions as_is{.aim = AimRule::as_is};
+    EXPECT_THAT(broken(low, "r112-b", as_is), IsEmpty());
+    EXPECT_THAT(broken(mirrored(low), "r112-b", as_is), IsSupersetOf({"75R", "75L", "50L"}));
+    EXPECT_THAT(broken(scaled(low, 0.3), "r112-b"), IsSupersetOf({"75R", "50R", "25L", "25R", "zone IV"}));
+    EXPECT_THAT(broken(scaled(low, 1.5), "r112-b"), testing::Contains("B50L"));
+    CandelaTable raised = low; // aimed at the horizon in place of 1 % down
+    for (double& v : raised.v_deg)
+        v += 0.57;
+    EXPECT_THAT(broken(raised, "r112-b", as_is), testing::Contains("zone III"));
+    EXPECT_THAT(broken(raised, "r112-b"), IsEmpty()); // the procedure brings it down again
+}
+
+TEST(ShippedLamps, MirroredMeetTheSameRowsOnTheLeft) {
+    for (const auto& [lamp, id] : {std::pair{"halogen-low", "r149-c"}, {"xenon-low", "r98-d"}, {"halogen-low", "r123-c"}}) {
+        const RegulationCheck right = check_regulation(regulation(id), {table(lamp)});
+        const RegulationCheck left =
+            check_regulation(regulation(id), {mirrored(table(lamp))}, {.aim = std::nullopt, .left_hand_traffic = true});
+        ASSERT_EQ(right.rows.size(), left.rows.size());
+        for (std::size_t i = 0; i < right.rows.size(); ++i) {
+            EXPECT_EQ(left.rows[i].id, mirrored_name(right.rows[i].id));
+            EXPECT_EQ(left.rows[i].verdict, right.rows[i].verdict);
+            EXPECT_EQ(left.rows[i].found, right.rows[i].found) << right.rows[i].id; // to the bit
+            EXPECT_EQ(left.rows[i].margin, right.rows[i].margin);
+            EXPECT_EQ(left.rows[i].where.h_deg, 0.0 - right.rows[i].where.h_deg);
+        }
+    }
 }
 
 } // namespace

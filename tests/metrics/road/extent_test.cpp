@@ -1,17 +1,17 @@
 #include "metrics/road/extent.h"
-
 #include "tests/metrics/straight_grid.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <limits>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using tests::extent_of;
-using tests::lit_by;
-using tests::straight_grid;
-using tests::two_lanes;
+using tests::extent_of, tests::lit_by, tests::straight_grid, tests::two_lanes;
 
 constexpr double pi_ = 3.14159265358979323846;
 
@@ -33,13 +33,12 @@ class BareLampOnTheRoad : public ::testing::Test {
   protected:
     const BareLamp lamp;
     const ExtentGrid grid = straight_grid({});
-    const std::vector<double> lx = lit_by(grid, [this](double x, double y) { return lamp.road_lx(x, y); });
-    const std::vector<double> limits{1.0, 3.0, 5.0, 10.0};
+    const std::vector<double> lx = lit_by(grid, [this](double x, double y) { return lamp.road_lx(x, y); }), limits{1.0, 3.0, 5.0, 10.0};
     const std::vector<LaneExtent> extents = measure_extent(grid, lx, ExtentPlane::road, limits, {5.0, 10.0});
 };
 
 // Straight in ln E over a cell c, the error of a power law x^-3 is about c^2 / (8 x): 2.5 mm at 12 m.
-TEST_F(BareLampOnTheRoad, ReachesWhereTheLawSays) {
+TEST_F(BareLampOnTheRoad, ReachesWhereTheLawSaysInLanesFromLeftToRight) {
     for (const double limit : limits) {
         const LaneExtent own = extent_of(extents, "own", limit);
         EXPECT_NEAR(own.reach_centre_m, lamp.road_reach_m(limit), 0.004) << limit;
@@ -50,9 +49,6 @@ TEST_F(BareLampOnTheRoad, ReachesWhereTheLawSays) {
         EXPECT_NEAR(extent_of(extents, "left 1", limit).reach_centre_m, lamp.road_reach_m(limit, 3.5), 0.004);
         EXPECT_NEAR(extent_of(extents, "right 1", limit).reach_right_edge_m, lamp.road_reach_m(limit, 3.25), 0.004);
     }
-}
-
-TEST_F(BareLampOnTheRoad, LanesComeFromLeftToRightThenAll) {
     ASSERT_EQ(extents.size(), 16U);
     EXPECT_EQ(extents[0].lane, "left 1");
     EXPECT_FALSE(extents[0].same_direction);
@@ -63,17 +59,14 @@ TEST_F(BareLampOnTheRoad, LanesComeFromLeftToRightThenAll) {
 }
 
 // Lit inside the circle r about the lamp's foot; the half ahead of the bumper counts.
-TEST_F(BareLampOnTheRoad, AreaIsHalfACircle) {
+TEST_F(BareLampOnTheRoad, AreasAreThoseOfTheCircle) {
     for (const double limit : limits) {
         const double radius_m = lamp.road_reach_m(limit);
         const LaneExtent all = extent_of(extents, "all", limit);
         EXPECT_NEAR(all.area_m2 / (0.5 * pi_ * radius_m * radius_m), 1.0, 1e-3) << limit;
         EXPECT_NEAR(all.reach_centre_m, radius_m, 0.004);
     }
-}
-
-// Half the circle between the chords at offsets a and b: integral of sqrt(r^2 - y^2).
-TEST_F(BareLampOnTheRoad, AreaOfALaneIsTheCircleBetweenItsEdges) {
+    // Half the circle between the chords at offsets a and b: integral of sqrt(r^2 - y^2).
     const auto up_to = [](double r, double y) { return 0.5 * (y * std::sqrt(r * r - y * y) + r * r * std::asin(y / r)); };
     const double radius_m = lamp.road_reach_m(3.0);
     const auto between = [&](double right_m, double left_m) { return up_to(radius_m, left_m) - up_to(radius_m, right_m); };
@@ -105,7 +98,7 @@ TEST(Extent, OnATargetFacingTheLamp) {
     EXPECT_EQ(extent_of(extents, "own", 5.0).plane, ExtentPlane::target);
 }
 
-TEST(Extent, BeyondTheGridIsCutOffNotInvented) {
+TEST(Extent, BeyondTheGridIsCutOffAndLanesOutsideAreLeftOut) {
     const ExtentGrid grid = straight_grid({.ahead_m = 30.0});
     const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {20.0, 50.0});
     for (const LaneExtent& extent : extents) {
@@ -117,6 +110,12 @@ TEST(Extent, BeyondTheGridIsCutOffNotInvented) {
     EXPECT_NEAR(extent_of(extents, "all", 5.0).area_m2, 30.0 * 40.0, 1e-9);
     EXPECT_NEAR(extent_of(extents, "own", 5.0).area_m2, 30.0 * 3.5, 1e-9);
     EXPECT_NEAR(extent_of(extents, "all", 5.0).widths[0].width_m, 40.0, 1e-12);
+    const ExtentGrid other_grid = straight_grid({.ahead_m = 10.0, .beside_m = 3.0});
+    const auto other_extents =
+        measure_extent(other_grid, std::vector<double>(other_grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {});
+    ASSERT_EQ(other_extents.size(), 2U);
+    EXPECT_EQ(other_extents[0].lane, "own");
+    EXPECT_EQ(other_extents[1].lane, "all");
 }
 
 TEST(Extent, UnlitIsZeroEverywhere) {
@@ -124,8 +123,7 @@ TEST(Extent, UnlitIsZeroEverywhere) {
     const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 0.0), ExtentPlane::road, {1.0}, {20.0});
     ASSERT_EQ(extents.size(), 4U);
     for (const LaneExtent& extent : extents) {
-        EXPECT_EQ(extent.reach_centre_m, 0.0);
-        EXPECT_EQ(extent.area_m2, 0.0);
+        EXPECT_EQ(std::tuple(extent.reach_centre_m, extent.area_m2), std::tuple(0.0, 0.0));
         EXPECT_FALSE(extent.reach_is_cut_off);
         ASSERT_EQ(extent.widths.size(), 1U);
         EXPECT_EQ(extent.widths[0].width_m, 0.0);
@@ -151,7 +149,7 @@ TEST(Extent, WedgeHasItsWidthsAndArea) {
     EXPECT_TRUE(own.reach_is_cut_off);
 }
 
-TEST(Extent, DarkGapOnTheWayIsReported) {
+TEST(Extent, OfADarkGapAndOfTwoPools) {
     const ExtentGrid grid = straight_grid({.ahead_m = 60.0});
     const auto extents = measure_extent(
         grid, lit_by(grid, [](double x, double) { return (x >= 10.0 && x <= 20.0) || (x >= 30.0 && x <= 40.0) ? 10.0 : 0.1; }),
@@ -160,20 +158,17 @@ TEST(Extent, DarkGapOnTheWayIsReported) {
     const LaneExtent own = extent_of(extents, "own", 1.0);
     EXPECT_NEAR(own.reach_centre_m, 40.25, 1e-12);
     EXPECT_NEAR(own.unlit_before_reach_m, 9.75 + 9.5, 1e-12);
-}
-
-// Two separate pools of light: the edges are the outermost, the width leaves the dark between them out.
-TEST(Extent, WidthCountsOnlyWhatIsLit) {
-    const ExtentGrid grid = straight_grid({.ahead_m = 10.0, .beside_m = 4.0});
+    // Two separate pools of light: the edges are the outermost, the width leaves the dark between them out.
+    const ExtentGrid other_grid = straight_grid({.ahead_m = 10.0, .beside_m = 4.0});
     const auto pools = [](double, double y) { return std::abs(y) >= 1.0 && std::abs(y) <= 2.0 ? 10.0 : 0.0; };
-    const auto extents = measure_extent(grid, lit_by(grid, pools), ExtentPlane::road, {5.0}, {5.0});
-    const LaneExtent::Width width = extent_of(extents, "all", 5.0).widths.at(0);
+    const auto other_extents = measure_extent(other_grid, lit_by(other_grid, pools), ExtentPlane::road, {5.0}, {5.0});
+    const LaneExtent::Width width = extent_of(other_extents, "all", 5.0).widths.at(0);
     EXPECT_NEAR(width.left_m, 2.0625, 1e-12);
     EXPECT_NEAR(width.right_m, -2.0625, 1e-12);
     EXPECT_NEAR(width.width_m, 2.0 * 1.125, 1e-12);
 }
 
-TEST(Extent, EndsWhereTheLaneEnds) {
+TEST(Extent, FollowsLanesThatEndOrRunSlanting) {
     ExtentGrid grid = straight_grid({.ahead_m = 40.0});
     for (std::size_t row = 0; row < grid.sections.size(); ++row)
         if (grid.ahead_m[row] > 25.0)
@@ -185,24 +180,14 @@ TEST(Extent, EndsWhereTheLaneEnds) {
     EXPECT_NEAR(left.area_m2, 25.0 * 3.5, 1e-9);
     ASSERT_EQ(left.widths.size(), 1U);
     EXPECT_EQ(left.widths[0].at_m, 20.0);
-}
-
-TEST(Extent, LaneEdgesMayRunSlanting) {
-    ExtentGrid grid = straight_grid({.ahead_m = 40.0});
-    for (std::size_t row = 0; row < grid.sections.size(); ++row)
-        grid.sections[row].lanes = {{"own", "driving", -1, true, 1.0 + grid.ahead_m[row] * 0.05, -1.0}};
-    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {10.3});
-    const LaneExtent own = extent_of(extents, "own", 5.0);
+    ExtentGrid other_grid = straight_grid({.ahead_m = 40.0});
+    for (std::size_t row = 0; row < other_grid.sections.size(); ++row)
+        other_grid.sections[row].lanes = {{"own", "driving", -1, true, 1.0 + other_grid.ahead_m[row] * 0.05, -1.0}};
+    const auto other_extents =
+        measure_extent(other_grid, std::vector<double>(other_grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {10.3});
+    const LaneExtent own = extent_of(other_extents, "own", 5.0);
     EXPECT_NEAR(own.area_m2, 40.0 * 2.0 + 0.5 * 40.0 * 2.0, 1e-9);
     EXPECT_NEAR(own.widths.at(0).width_m, 2.515, 1e-9);
-}
-
-TEST(Extent, LaneOutsideTheWidthThatWasLookedAtIsLeftOut) {
-    const ExtentGrid grid = straight_grid({.ahead_m = 10.0, .beside_m = 3.0});
-    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {});
-    ASSERT_EQ(extents.size(), 2U);
-    EXPECT_EQ(extents[0].lane, "own");
-    EXPECT_EQ(extents[1].lane, "all");
 }
 
 // On a circular arc of 50 m radius to the left the strip from offset a to b has (R - (a + b) / 2) / R times the straight one's area.
@@ -289,6 +274,87 @@ TEST(GridError, AReachThatGoesOnHasNone) {
     };
     EXPECT_TRUE(error_with(60.0).reach_m);
     EXPECT_FALSE(error_with(8.0).reach_m);
+}
+
+RoadNetwork library_road(const char* name) { return read_opendrive(std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/roads/") + name); }
+
+Moment at(double distance_m) { return {.distance_m = distance_m}; }
+
+TEST(ExtentGrid, RowsBeginAtTheBumperAndColumnsReachBothSides) {
+    const RoadNetwork network = library_road("straight.xodr");
+    const Route route(network, {});
+    const ExtentGrid grid = make_extent_grid(route, at(50.0), 3.6, {});
+    ASSERT_EQ(grid.ahead_m.size(), 401U);
+    EXPECT_EQ(std::tuple(grid.ahead_m.front(), grid.ahead_m.back()), std::tuple(0.0, 200.0));
+    EXPECT_EQ(std::tuple(grid.offset_m.front(), grid.offset_m.back()), std::tuple(-20.0, 20.0));
+    EXPECT_TRUE(std::ranges::is_sorted(grid.offset_m));
+    EXPECT_TRUE(std::ranges::binary_search(grid.offset_m, 0.0));
+    EXPECT_EQ(grid.sections.size(), grid.ahead_m.size());
+    ASSERT_EQ(grid.surface.size(), grid.ahead_m.size() * grid.offset_m.size());
+    for (const std::size_t row : {std::size_t{0}, std::size_t{137}, std::size_t{400}})
+        for (std::size_t column = 0; column < grid.offset_m.size(); column += 9)
+            EXPECT_EQ(grid.surface[row * grid.offset_m.size() + column], route.pose(53.6 + grid.ahead_m[row], grid.offset_m[column]));
+}
+
+TEST(ExtentGrid, IsFineOnTheRoadAndEndsWithTheRoute) {
+    const RoadNetwork network = library_road("straight.xodr");
+    const Route route(network, {});
+    const ExtentGrid grid = make_extent_grid(route, at(50.0), 3.6, {});
+    const CrossSection& section = grid.sections.front();
+    for (std::size_t column = 0; column + 1 < grid.offset_m.size(); ++column) {
+        const double step_m = grid.offset_m[column + 1] - grid.offset_m[column];
+        const bool paved = grid.offset_m[column] >= section.paved_right_m && grid.offset_m[column + 1] <= section.paved_left_m;
+        EXPECT_LE(step_m, paved ? 0.125 : 0.5);
+    }
+    EXPECT_LT(grid.offset_m.size(), 321U);
+    const ExtentGrid near_end = make_extent_grid(route, at(route.length_m() - 13.6), 3.6, {});
+    EXPECT_EQ(near_end.ahead_m.back(), 10.0) << "a route's pose is clamped: rows beyond its end would all be one place";
+    EXPECT_TRUE(make_extent_grid(route, at(route.length_m() - 3.0), 3.6, {}).ahead_m.empty());
+}
+
+// Nothing was looked at: there is nothing to measure, and nothing breaks.
+TEST(ExtentGrid, WithoutRowsGivesNoExtents) {
+    const RoadNetwork network = library_road("straight.xodr");
+    const Route route(network, {});
+    const ExtentGrid grid = make_extent_grid(route, at(route.length_m()), 3.6, {});
+    const Moment moment = at(route.length_m());
+    const std::vector<double> lx = twin_illuminance_lx(grid, moment, ExtentPlane::road);
+    EXPECT_TRUE(lx.empty());
+    EXPECT_TRUE(measure_extent(grid, lx, ExtentPlane::road, {1.0}, {20.0}).empty());
+    EXPECT_TRUE(grid_error(grid, lx, ExtentPlane::road, {1.0}).empty());
+    EXPECT_TRUE(reach_sensitivity(grid, moment, {1.0}).empty());
+}
+
+// A lane is as long as its arc: between two rows the own lane's centre advances by the cell, also on clothoids and arcs.
+TEST(ExtentGrid, FollowsTheRoadInACurve) {
+    const RoadNetwork network = library_road("s-bend.xodr");
+    const Route route(network, {});
+    const ExtentGrid grid = make_extent_grid(route, at(300.0), 3.6, {});
+    const std::size_t columns = grid.offset_m.size();
+    const auto centre = static_cast<std::size_t>(std::ranges::lower_bound(grid.offset_m, 0.0) - grid.offset_m.begin());
+    double turned = 0.0;
+    for (std::size_t row = 0; row + 1 < grid.ahead_m.size(); ++row) {
+        const Pose& a = grid.surface[row * columns + centre];
+        const Pose& b = grid.surface[(row + 1) * columns + centre];
+        // Distances run along the reference line where the lane's centre is longer or shorter by the curve: at most 3 %.
+        EXPECT_NEAR(glm::length(b.position_m - a.position_m), 0.5, 0.015);
+        turned += std::abs(glm::cross(a.forward(), b.forward()).z);
+    }
+    EXPECT_GT(turned, 0.3) << "the road must curve for this test to mean anything";
+}
+
+TEST(ExtentGrid, RefusesParametersThatGiveNoGrid) {
+    const RoadNetwork network = library_road("straight.xodr");
+    const Route route(network, {});
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {0.0, -1.0, nan, infinity, 1e-9}) {
+        EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, ExtentParameters{.cell_m = bad}), std::invalid_argument) << bad;
+    }
+    ExtentParameters parameters{.ahead_m = 1e12};
+    EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, parameters), std::invalid_argument);
+    parameters = {};
+    parameters.beside_m = nan;
+    EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, parameters), std::invalid_argument);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "metrics/road/extent.h"
 
 #include "scenarios/light/light.h"
+#include "tests/lamps.h"
 #include "tests/metrics/straight_grid.h"
 
 #include <cmath>
@@ -10,30 +11,20 @@
 namespace fernlicht {
 namespace {
 
-using tests::extent_of;
-using tests::straight_grid;
+using tests::extent_of, tests::straight_grid;
 
 LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double pitch_rad = 0.0) {
-    auto file = std::make_shared<LampFile>();
-    file->table = std::move(table);
-    LitLamp lamp;
-    lamp.file = std::move(file);
-    lamp.pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)};
-    return lamp;
+    return {.file = tests::file_of(std::move(table)), .pose = {position_m, axes_from_angles(0.0, pitch_rad, 0.0)}};
 }
 
-CandelaTable everywhere(double cd) { return {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd}; }
+CandelaTable everywhere(double cd) { return tests::even_table(cd); }
 
 /// `cd` below the lamp's horizon, nothing above it.
 CandelaTable cut_off_at_horizon(double cd) {
     return {{-180.0, 180.0}, {-90.0, 0.0, 1e-9, 90.0}, {cd, cd, cd, cd, 0.0, 0.0, 0.0, 0.0}, {}, BetweenSamples::linear_cd};
 }
 
-Moment moment_of(std::vector<LitLamp> lamps) {
-    Moment moment;
-    moment.lamps = std::move(lamps);
-    return moment;
-}
+Moment moment_of(std::vector<LitLamp> lamps) { return {.lamps = std::move(lamps)}; }
 
 // 0.65 m above the road, 1 % down: its cut-off meets the road 65 m ahead.
 LitLamp dipped_lamp() { return lamp_with(cut_off_at_horizon(50000.0), {0.0, 0.0, 0.65}, -std::atan(0.01)); }
@@ -69,36 +60,30 @@ TEST(TwinIlluminance, LampsThatAreOffAddExactlyNothing) {
     }
 }
 
-TEST(TwinIlluminance, TheSkyLightsTheRoadAndNotTheTarget) {
+TEST(TwinIlluminance, TheSkyLightsTheRoadAloneAndThreadsChangeNothing) {
     const ExtentGrid grid = straight_grid({.ahead_m = 5.0});
     Moment moment;
     moment.daylight.horizontal_illuminance_lx = 0.2;
     EXPECT_EQ(twin_illuminance_lx(grid, moment, ExtentPlane::road).front(), 0.2);
     EXPECT_EQ(twin_illuminance_lx(grid, moment, ExtentPlane::target).front(), 0.0);
-}
-
-TEST(TwinIlluminance, ThreadsDoNotChangeABit) {
-    const ExtentGrid grid = straight_grid({});
-    const Moment moment = moment_of({dipped_lamp(), lamp_with(everywhere(1234.5), {0.1, 0.6, 0.7})});
-    const auto with_all = twin_illuminance_lx(grid, moment, ExtentPlane::road);
+    const ExtentGrid other_grid = straight_grid({});
+    const Moment other_moment = moment_of({dipped_lamp(), lamp_with(everywhere(1234.5), {0.1, 0.6, 0.7})});
+    const auto with_all = twin_illuminance_lx(other_grid, other_moment, ExtentPlane::road);
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(with_all, twin_illuminance_lx(grid, moment, ExtentPlane::road));
+    EXPECT_EQ(with_all, twin_illuminance_lx(other_grid, other_moment, ExtentPlane::road));
 }
 
-TEST(TwinExtent, BareLampReachesWhereTheLawSays) {
+TEST(TwinExtent, ReachesWhereTheLawSaysOrTheCutOffEnds) {
     const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .target_height_m = 0.25});
     const Moment moment = moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})});
     const auto road = measure_extent(grid, twin_illuminance_lx(grid, moment, ExtentPlane::road), ExtentPlane::road, {3.0}, {});
     const auto target = measure_extent(grid, twin_illuminance_lx(grid, moment, ExtentPlane::target), ExtentPlane::target, {1.0}, {});
     EXPECT_NEAR(extent_of(road, "own", 3.0).reach_centre_m, std::sqrt(std::pow(6500.0 / 3.0, 2.0 / 3.0) - 0.65 * 0.65), 3e-3);
     EXPECT_NEAR(extent_of(target, "own", 1.0).reach_centre_m, std::sqrt(10000.0 - 0.4 * 0.4), 1e-3);
-}
-
-// At the cut-off I / 65^2 = 11.8 lx: every lower limit ends there, 65 m ahead on the road, h / tan(dip). 65 m is a row of the grid.
-TEST(TwinExtent, CutOffEndsTheReach) {
-    const ExtentGrid grid = straight_grid({.ahead_m = 100.0, .across_m = 0.5});
-    const auto lx = twin_illuminance_lx(grid, moment_of({dipped_lamp()}), ExtentPlane::target);
-    const auto extents = measure_extent(grid, lx, ExtentPlane::target, {1.0, 5.0}, {});
+    // At the cut-off I / 65^2 = 11.8 lx: every lower limit ends there, 65 m ahead on the road, h / tan(dip). 65 m is a row of the grid.
+    const ExtentGrid other_grid = straight_grid({.ahead_m = 100.0, .across_m = 0.5});
+    const auto lx = twin_illuminance_lx(other_grid, moment_of({dipped_lamp()}), ExtentPlane::target);
+    const auto extents = measure_extent(other_grid, lx, ExtentPlane::target, {1.0, 5.0}, {});
     EXPECT_NEAR(extent_of(extents, "own", 1.0).reach_centre_m, 65.0, 0.5);
     EXPECT_NEAR(extent_of(extents, "own", 5.0).reach_centre_m, 65.0, 0.5);
     EXPECT_FALSE(extent_of(extents, "own", 1.0).reach_is_cut_off);

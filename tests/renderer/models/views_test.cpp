@@ -3,8 +3,11 @@
 #include "renderer/renderer.h"
 #include "scenarios/drives/drive.h"
 #include "scenarios/lamps/lamp_model.h"
+#include "scenarios/light/light.h"
 #include "scenarios/models/placed_model.h"
 #include "scenarios/models/road_user_bodies.h"
+#include "tests/scenarios/models/written_gltf.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +36,7 @@ Moment lit() {
     static const auto file = std::make_shared<const LampFile>(lamp_of_model(lamp_models().at(0)));
     Moment moment;
     for (const double side : {0.6, -0.6}) {
-        LitLamp lamp;
-        lamp.file = file;
-        lamp.pose = {{3.6, side, 0.65}, glm::dmat3(1.0)};
+        LitLamp lamp{.file = file, .pose = {{3.6, side, 0.65}, glm::dmat3(1.0)}};
         moment.lamps.push_back(std::move(lamp));
     }
     moment.daylight.horizontal_illuminance_lx = 0.2; // so that mirrors see something
@@ -43,15 +44,12 @@ Moment lit() {
 }
 
 std::vector<View> six() {
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "six_views";
-    std::filesystem::create_directories(folder);
     const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
-    write_file(folder / "drive.yaml",
-               "fernlicht: 1\nroad: " + library + "roads/straight.xodr\nspeed_mps: 10\nduration_s: 1\nview_set: " + library +
-                   "views/six.yaml\nvariants: {a: {source: filament, file: " + library + "lamps/halogen-low.ies}}\n");
-    std::vector<View> views = read_drive(folder / "drive.yaml").views;
-    std::filesystem::remove_all(folder);
-    return views;
+    return read_drive(tests::written("drive.yaml", "fernlicht: 1\nroad: " + library +
+                                                       "roads/straight.xodr\nspeed_mps: 10\nduration_s: 1\nview_set: " + library +
+                                                       "views/six.yaml\nvariants: {a: {source: filament, file: " + library +
+                                                       "lamps/halogen-low.ies}}\n"))
+        .views;
 }
 
 glm::dvec2 pixel_of(const Camera& camera, const View& view, const glm::dvec3& point_m) {
@@ -99,11 +97,7 @@ TEST(Views, AMirrorExchangesLeftAndRight) {
     Device device = open_device("auto");
     const Scene scene = road_with_car();
     Renderer renderer(device, scene, {});
-    View view;
-    view.position_m = {1.3, 0.35, 1.2};
-    view.yaw_rad = 0.15;
-    view.width_px = 160;
-    view.height_px = 120;
+    View view{.position_m = {1.3, 0.35, 1.2}, .yaw_rad = 0.15, .width_px = 160, .height_px = 120};
     const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
     const Frame plain = renderer.draw(lit(), view, wanted);
     view.mirrored = true;
@@ -144,8 +138,7 @@ TEST(Views, TheLightIsTheSameInAll) {
     const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
     for (View view : views) {
         const View& reference = view.mirrored ? back : wide;
-        const Frame all = renderer.draw(moment, reference, wanted);
-        const Frame frame = renderer.draw(moment, view, wanted);
+        const Frame all = renderer.draw(moment, reference, wanted), frame = renderer.draw(moment, view, wanted);
         const Camera camera = camera_of(moment, view), other = camera_of(moment, reference);
         int compared = 0, outside = 0;
         double worst = 0.0;
@@ -192,6 +185,95 @@ TEST(Views, ShadowMapsAreDrawnOnceForAllViewsOfAMoment) {
     for (const View& view : views)
         passes += renderer.count(moment, view, {.colour = true}).passes;
     EXPECT_EQ(passes, static_cast<int>(views.size()) + 2) << "a pass for each view and for the shadow map of each lamp";
+}
+
+// A model is lit alike however finely it is cut into triangles; for techniques that light vertices, how far they are off.
+
+/// A level plane, 5 to 65 m ahead and 6 m to each side, of 2 * along * across triangles: written as glTF, and read.
+Scene plane(int along, int across) {
+    std::vector<std::array<float, 3>> positions;
+    std::vector<std::uint32_t> indices;
+    for (int i = 0; i <= along; ++i)
+        for (int k = 0; k <= across; ++k) {
+            const double x = 5.0 + 60.0 * i / along, y = -6.0 + 12.0 * k / across;
+            positions.push_back({static_cast<float>(y), 0.0F, static_cast<float>(x)}); // glTF: x left, y up, z forward
+        }
+    const auto at = [&](int i, int k) { return static_cast<std::uint32_t>(i * (across + 1) + k); };
+    for (int i = 0; i < along; ++i)
+        for (int k = 0; k < across; ++k)
+            indices.insert(indices.end(), {at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / fmt::format("plane_{}_{}.glb", along, across);
+    test::WrittenGltf(positions, indices).write_glb(file);
+    const Model model = read_model(file);
+    std::filesystem::remove(file);
+    EXPECT_EQ(model.triangles(), static_cast<std::size_t>(2 * along * across));
+    Scene scene;
+    add_model(scene, model, {}, 1.0, SurfaceKind::terrain);
+    scene.materials.at(0).albedo = glm::vec3(0.2F);
+    return scene;
+}
+
+Moment low_beams() {
+    static const auto file = std::make_shared<const LampFile>(lamp_of_model(lamp_models().at(0)));
+    Moment moment;
+    for (const double side : {0.6, -0.6}) {
+        LitLamp lamp{.name = side > 0.0 ? "left" : "right", .file = file, .pose = {{0.0, side, 0.65}, axes_from_angles(0.0, 0.0, 0.0)}};
+        moment.lamps.push_back(std::move(lamp));
+    }
+    return moment;
+}
+
+View map_of_plane() {
+    View view{.name = "map", .projection = Projection::map, .map_ahead_m = 65.0, .map_behind_m = -5.0};
+    view.map_left_m = view.map_right_m = 6.0;
+    view.width_px = 48;
+    view.height_px = 240;
+    return view;
+}
+
+/// Root of the mean square of the difference to double precision, over that of the light itself.
+double error_of(const Frame& frame, const std::vector<double>& truth) {
+    double error = 0.0, light = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const double lx = static_cast<double>(frame.illuminance_lx.data()[i]);
+        error += (lx - truth[i]) * (lx - truth[i]);
+        light += truth[i] * truth[i];
+    }
+    return std::sqrt(error / light);
+}
+
+TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
+    Device device = open_device("auto");
+    const Scene coarse = plane(1, 1), fine = plane(200, 50);
+    const Moment moment = low_beams();
+    const View view = map_of_plane();
+    std::vector<double> truth;
+    for (int y = 0; y < view.height_px; ++y)
+        for (int x = 0; x < view.width_px; ++x)
+            truth.push_back(surface_illuminance_lx(
+                moment, {65.0 - 60.0 * (y + 0.5) / view.height_px, 6.0 - 12.0 * (x + 0.5) / view.width_px, 0.0}, {0.0, 0.0, 1.0}));
+    ASSERT_GT(*std::ranges::max_element(truth), 5.0);
+    const auto drawn = [&](const Scene& scene, const std::string& technique) {
+        return Renderer(device, scene, RendererSettings{.technique = technique}).draw(moment, view, {.illuminance = true});
+    };
+    const Frame two = drawn(coarse, "photometric"), many = drawn(fine, "photometric");
+    EXPECT_LT(error_of(two, truth), 1e-4);
+    EXPECT_LT(error_of(many, truth), 1e-4);
+    double most = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        most = std::max(most, std::abs(static_cast<double>(two.illuminance_lx.data()[i] - many.illuminance_lx.data()[i])));
+    EXPECT_LT(most, 0.01) << "lx";
+    RecordProperty("photometric_most_difference_lx", fmt::format("{:.3g}", most));
+    // What vertices light depends on where they are: told, and that it is so.
+    for (const std::string technique : {"vertex-spots", "vertex-projective"}) {
+        const Frame few = drawn(coarse, technique), lot = drawn(fine, technique);
+        std::vector<double> own;
+        for (const float lx : lot.illuminance_lx.pixels())
+            own.push_back(static_cast<double>(lx));
+        const double apart = error_of(few, own);
+        RecordProperty(technique, fmt::format("2 triangles are {:.3g} (rms) from 20000", apart));
+        EXPECT_GT(apart, 0.5) << technique;
+    }
 }
 
 } // namespace

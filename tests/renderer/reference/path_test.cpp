@@ -12,12 +12,7 @@ namespace {
 
 double hypotenuse(double a, double b) { return std::hypot(a, b); }
 
-ReferenceSettings paths(double target_error) {
-    ReferenceSettings settings;
-    settings.integrator = Integrator::path;
-    settings.target_error = target_error;
-    return settings;
-}
+ReferenceSettings paths(double target_error) { return {.integrator = Integrator::path, .target_error = target_error}; }
 
 /// Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom; seeds are fixed. 1e-6: floats store the result.
 void expect_estimate(const Estimate& estimate, double truth, int x = 0, int y = 0) {
@@ -33,8 +28,7 @@ double corner_factor(double a, double b, double c) {
 
 TEST(ReferencePath, KeepsEnergyInAWhiteClosedRoom) {
     for (const double albedo : {0.0, 0.5, 0.9}) {
-        Material wall = lambert(albedo);
-        wall.emission_cdm2 = glm::vec3(3.0F);
+        Material wall = lambert(albedo, SurfaceKind::road, 3.0);
         const Scene scene = closed_room(wall);
         const double truth = 3.0 / (1.0 - static_cast<double>(wall.albedo.x)); // L = Le + rho L
         ReferenceSettings settings = paths(0.005);
@@ -63,8 +57,7 @@ TEST(ReferencePath, ColoursTheWhiteRoomChannelByChannel) {
 TEST(ReferencePath, RetroreflectionMakesNoEnergyHoweverStrong) {
     // In a room of uniform luminance a lobe that returns at most sG adds at most what an albedo of sG would, and a narrow one nearly that.
     for (const auto& [rl, falloff] : {std::pair(20.0F, 0.02F), std::pair(200.0F, 0.1F)}) {
-        Material wall = lambert(0.3);
-        wall.emission_cdm2 = glm::vec3(1.0F);
+        Material wall = lambert(0.3, SurfaceKind::road, 1.0);
         wall.retro_rl = rl;
         wall.retro_reference_rad = 0.0F;
         wall.retro_falloff_rad = falloff;
@@ -104,20 +97,10 @@ TEST(ReferencePath, RetroLobeIsReciprocalAndReturnsNoMoreThanItSays) {
 }
 
 TEST(ReferencePath, PlatesThatFaceEachOtherExchangeTheViewFactor) {
-    // A black ground of 1 m x 1 m, a shining plate of the same size 1 m above it: F12 = 0.1998 (Howell's catalogue, C-11, X = Y = 1).
-    Scene scene = level_ground(0.5, lambert(0.0));
-    Material shining = lambert(0.0, SurfaceKind::object);
-    shining.emission_cdm2 = glm::vec3(100.0F);
-    scene.materials.push_back(shining);
-    Mesh plate{"plate", {0.0, 0.0, 1.0}, {}, {}, {}};
-    add_quad(plate, {-0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, -0.5, 0});
-    scene.meshes.push_back(finished(plate, 1));
-    const Reference reference(scene);
-    const double f12 =
-        2.0 / pi * (0.5 * std::log(4.0 / 3.0) + 2.0 * std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0)) - 2.0 * std::atan(1.0));
-    EXPECT_NEAR(f12, 0.19982, 1e-5); // the tabulated value
+    const Reference reference(plates(0.0, 0.0, 100.0));
+    EXPECT_NEAR(plates_factor, 0.19982, 1e-5); // the tabulated value
     const ReferenceImage whole = reference.render({}, map_about({0, 0}, 0.5, 1), lux, paths(0.002));
-    expect_estimate(whole.illuminance_lx, pi * 100.0 * f12);
+    expect_estimate(whole.illuminance_lx, pi * 100.0 * plates_factor);
     ReferenceSettings settings = paths(0.002);
     settings.footprint = Footprint::centre;
     const ReferenceImage middle = reference.render({}, map_about({0, 0}, 0.5, 1), lux, settings);
@@ -129,11 +112,7 @@ TEST(ReferencePath, PlatesThatFaceEachOtherExchangeTheViewFactor) {
 }
 
 TEST(ReferencePath, APlateHidesItsShareOfTheSky) {
-    Scene scene = level_ground(100.0, lambert(0.0));
-    scene.materials.push_back(lambert(0.0, SurfaceKind::object));
-    Mesh plate{"plate", {0.0, 0.0, 2.0}, {}, {}, {}};
-    add_quad(plate, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0});
-    scene.meshes.push_back(finished(plate, 1));
+    const Scene scene = hidden_sky(100.0);
     Moment moment;
     moment.daylight.horizontal_illuminance_lx = 40.0;
     ReferenceSettings settings = paths(0.002);
@@ -168,18 +147,14 @@ Scene round_room(const Material& material, int rows) {
         for (const std::uint32_t j : {0U, 1U, 2U, 0U, 2U, 3U})
             room.indices.push_back(first + j);
     }
-    Scene scene;
-    scene.materials = {material};
-    scene.meshes = {finished(room, 0)};
-    return scene;
+    return Scene{.materials = {material}, .meshes = {finished(room, 0)}};
 }
 
 TEST(ReferencePath, AnIntegratingSphereSpreadsALampsLightEvenly) {
     // Whatever the lamp's beam, light that has bounced is the same everywhere: E = rho flux / (4 pi r^2 (1 - rho)). The lamp's flux
     // is 2 pi I: a lamp shines into the half-space before it.
     const Scene scene = round_room(lambert(0.7), 64);
-    Moment moment;
-    moment.lamps = {even_lamp(10.0, looking({0.3, -0.2, 0.1}, 40, 30))};
+    Moment moment{.lamps = {even_lamp(10.0, looking({0.3, -0.2, 0.1}, 40, 30))}};
     const Reference reference(scene);
     const View view = camera({0, 0, 0}, 0, 0, 50, 3);
     ReferenceSettings settings = paths(0.005);
@@ -205,13 +180,10 @@ TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
     board.retro_reference_rad = 0.0F;
     board.retro_falloff_rad = 0.05F;
     scene.materials = {lambert(0.0, SurfaceKind::object), board};
-    Mesh screen{"screen", {}, {}, {}, {}}, sign{"board", {4.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(screen, {0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1});
-    add_quad(sign, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
-    scene.meshes = {finished(screen, 0), finished(sign, 1)};
+    scene.meshes = {quads("screen", 0, {}, {{{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}}}),
+                    quads("board", 1, {4.0, 0.0, 0.0}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}})};
     const glm::dvec3 lamp_m{0.1, 0.0, 0.0}, place{0.0, 0.25, 0.0};
-    Moment moment;
-    moment.lamps = {even_lamp(1000.0, looking(lamp_m, 0, 0))};
+    Moment moment{.lamps = {even_lamp(1000.0, looking(lamp_m, 0, 0))}};
     View view = camera({1.0, 0.25, 0.0}, 180, 0, 1, 1);
     ReferenceSettings settings = paths(0.005);
     settings.footprint = Footprint::centre;
@@ -234,8 +206,7 @@ TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
 
 TEST(ReferencePath, IsDirectLightWhereNothingReflects) {
     Scene scene = level_ground(20.0, lambert(0.0));
-    Moment moment;
-    moment.lamps = {even_lamp(1000.0, looking({0, 0, 1}, 0, -20))};
+    Moment moment{.lamps = {even_lamp(1000.0, looking({0, 0, 1}, 0, -20))}};
     const Reference reference(scene);
     ReferenceSettings settings = paths(0.01);
     const ReferenceImage path = reference.render(moment, map_about({3, 0}, 2.0, 8), lux, settings);

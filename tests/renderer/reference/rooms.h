@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/reference/reference.h"
+#include "tests/lamps.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -27,13 +28,28 @@ inline Mesh finished(Mesh mesh, std::uint32_t material) {
     return mesh;
 }
 
+struct Quad {
+    glm::dvec3 a, b, c, d; ///< counter-clockwise as seen from its lit side
+};
+
+/// A mesh of one material.
+inline Mesh quads(const char* name, std::uint32_t material, const glm::dvec3& origin_m, std::initializer_list<Quad> all) {
+    Mesh mesh{name, origin_m, {}, {}, {}};
+    for (const auto& [a, b, c, d] : all)
+        add_quad(mesh, a, b, c, d);
+    return finished(std::move(mesh), material);
+}
+
+inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road, double emission_cdm2 = 0.0) {
+    return {.name = "lambert",
+            .kind = kind,
+            .albedo = glm::vec3(static_cast<float>(albedo)),
+            .emission_cdm2 = glm::vec3(static_cast<float>(emission_cdm2))};
+}
+
 /// The same candela in every direction of the forward half-space.
 inline LitLamp even_lamp(double cd, const Pose& pose) {
-    auto file = std::make_shared<LampFile>();
-    file->table.h_deg = {-180.0, 180.0};
-    file->table.v_deg = {-90.0, 90.0};
-    file->table.cd = {cd, cd, cd, cd};
-    return {"lamp", file, pose, 1.0, LampColour{}, 0.0};
+    return {"lamp", tests::file_of(tests::even_table(cd)), pose, 1.0, LampColour{}, 0.0};
 }
 
 /// A lamp that looks along a direction of the world.
@@ -43,58 +59,57 @@ inline Pose looking(glm::dvec3 position_m, double yaw_deg, double pitch_deg) {
 
 /// A camera with a narrow, square view.
 inline View camera(glm::dvec3 position_m, double yaw_deg, double pitch_deg, double fov_deg, int px) {
-    View view;
-    view.position_m = position_m;
-    view.yaw_rad = radians(yaw_deg);
-    view.pitch_rad = radians(pitch_deg);
-    view.vertical_fov_rad = radians(fov_deg);
+    View view{.position_m = position_m, .yaw_rad = radians(yaw_deg), .pitch_rad = radians(pitch_deg), .vertical_fov_rad = radians(fov_deg)};
     view.width_px = view.height_px = px;
     return view;
 }
 
 /// A map of px x px pixels over 2 half x 2 half metres about a place.
 inline View map_about(glm::dvec2 centre_m, double half_m, int px) {
-    View view;
-    view.projection = Projection::map;
-    view.map_ahead_m = centre_m.x + half_m;
-    view.map_behind_m = half_m - centre_m.x;
-    view.map_left_m = half_m + centre_m.y;
-    view.map_right_m = half_m - centre_m.y;
+    View view{.projection = Projection::map,
+              .map_ahead_m = centre_m.x + half_m,
+              .map_behind_m = half_m - centre_m.x,
+              .map_left_m = half_m + centre_m.y,
+              .map_right_m = half_m - centre_m.y};
     view.width_px = view.height_px = px;
     return view;
 }
 
 /// A closed cube of 2 m about (0, 0, 0), seen from within, of one material.
 inline Scene closed_room(const Material& material) {
-    Mesh room{"room", {}, {}, {}, {}};
-    add_quad(room, {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1});
-    add_quad(room, {-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1});
-    add_quad(room, {-1, -1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1});
-    add_quad(room, {-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1});
-    add_quad(room, {-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1});
-    add_quad(room, {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1});
-    Scene scene;
-    scene.materials = {material};
-    scene.meshes = {finished(room, 0)};
-    return scene;
+    return {.materials = {material},
+            .meshes = {quads("room", 0, {},
+                             {{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}},
+                              {{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}},
+                              {{-1, -1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, -1, -1}},
+                              {{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}},
+                              {{-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1}},
+                              {{1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}}})}};
 }
 
 /// A level square of ground about (0, 0, 0), `half_m` to each side.
 inline Scene level_ground(double half_m, const Material& material) {
-    Mesh ground{"ground", {}, {}, {}, {}};
-    add_quad(ground, {-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0});
-    Scene scene;
-    scene.materials = {material};
-    scene.meshes = {finished(ground, 0)};
-    return scene;
+    return {.materials = {material},
+            .meshes = {quads("ground", 0, {}, {{{-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0}}})}};
 }
 
-inline Material lambert(double albedo, SurfaceKind kind = SurfaceKind::road) {
-    Material material;
-    material.name = "lambert";
-    material.kind = kind;
-    material.albedo = glm::vec3(static_cast<float>(albedo));
-    return material;
+/// A ground of 1 m x 1 m and a plate of the same size 1 m above that faces it.
+inline Scene plates(double ground_albedo, double plate_albedo, double plate_cdm2) {
+    Scene scene = level_ground(0.5, lambert(ground_albedo));
+    scene.materials.push_back(lambert(plate_albedo, SurfaceKind::object, plate_cdm2));
+    scene.meshes.push_back(quads("plate", 1, {0.0, 0.0, 1.0}, {{{-0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, -0.5, 0}}}));
+    return scene;
+}
+/// How much of it they see of each other (Howell's catalogue, C-11, X = Y = 1).
+inline const double plates_factor =
+    2.0 / pi * (0.5 * std::log(4.0 / 3.0) + 2.0 * std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0)) - 2.0 * std::atan(1.0));
+
+/// Black ground under a plate of 2 m x 2 m, 2 m above.
+inline Scene hidden_sky(double half_m) {
+    Scene scene = level_ground(half_m, lambert(0.0));
+    scene.materials.push_back(lambert(0.0, SurfaceKind::object));
+    scene.meshes.push_back(quads("plate", 1, {0.0, 0.0, 2.0}, {{{-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}}}));
+    return scene;
 }
 
 /// Solid angle of a polygon seen from a point, sr: a fan of triangles by van Oosterom and Strackee 1983. Even light of I candela that falls

@@ -13,17 +13,11 @@ namespace fernlicht {
 namespace {
 
 ReferenceSettings by(Integrator integrator, double target_error = 0.005) {
-    ReferenceSettings settings;
-    settings.integrator = integrator;
-    settings.target_error = target_error;
-    settings.most_samples = 1 << 14;
-    return settings;
+    return {.integrator = integrator, .target_error = target_error, .most_samples = 1 << 14};
 }
 
 Moment in_fog(double extinction_per_m, double albedo = 1.0, double asymmetry = 0.85) {
-    Moment moment;
-    moment.weather = {extinction_per_m, albedo, asymmetry, 0.0};
-    return moment;
+    return {.weather = {extinction_per_m, albedo, asymmetry, 0.0}};
 }
 
 /// Five standard errors (path_test.cpp).
@@ -33,8 +27,7 @@ void expect_in_weather(const Estimate& estimate, double truth, int x = 0, int y 
 
 TEST(ReferenceFog, WhiteFogChangesNothingInAnEvenRoom) {
     // Where light is the same from all sides, what fog takes it gives back: L = Le / (1 - rho) whatever the fog.
-    Material wall = lambert(0.5);
-    wall.emission_cdm2 = glm::vec3(3.0F);
+    Material wall = lambert(0.5, SurfaceKind::road, 3.0);
     const Scene scene = closed_room(wall);
     for (const double asymmetry : {0.0, 0.85}) {
         const ReferenceImage image =
@@ -110,16 +103,13 @@ TEST(ReferenceFog, SingleScatteringByPathsIsThatOfDirectLight) {
 }
 
 TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
-    Material shining = lambert(0.0);
-    shining.emission_cdm2 = glm::vec3(50.0F);
-    Material mirror = lambert(0.0);
+    Material shining = lambert(0.0, SurfaceKind::road, 50.0), mirror = lambert(0.0);
     mirror.mirror = 0.8F;
-    Scene scene;
-    scene.materials = {shining, mirror};
-    Mesh wall{"wall", {}, {}, {}, {}}, glass{"mirror", {}, {}, {}, {}};
-    add_quad(wall, {-12, -30, -30}, {-12, 30, -30}, {-12, 30, 30}, {-12, -30, 30}); // faces +x, behind the eye
-    add_quad(glass, {8, 30, -30}, {8, -30, -30}, {8, -30, 30}, {8, 30, 30});        // faces -x
-    scene.meshes = {finished(wall, 0), finished(glass, 1)};
+    Scene scene{.materials = {shining, mirror}};
+    // faces +x, behind the eye
+    // faces -x
+    scene.meshes = {quads("wall", 0, {}, {{{-12, -30, -30}, {-12, 30, -30}, {-12, 30, 30}, {-12, -30, 30}}}),
+                    quads("mirror", 1, {}, {{{8, 30, -30}, {8, -30, -30}, {8, -30, 30}, {8, 30, 30}}})};
     const Moment moment = in_fog(0.05, 0.0); // takes and scatters nothing
     for (const Integrator integrator : {Integrator::whitted, Integrator::path}) {
         ReferenceSettings settings = by(integrator, 0.001);
@@ -133,8 +123,7 @@ TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
 
 TEST(ReferenceFog, BouncedLightIsTakenOnBothOfItsWays) {
     // Lamp to a board of 1 m x 1 m, board to a black post beside the lamp; nothing scatters: E = rho / pi E_board A cos cos / d^2 nearly.
-    Scene scene;
-    scene.materials = {lambert(0.9), lambert(0.0)};
+    Scene scene{.materials = {lambert(0.9), lambert(0.0)}};
     Mesh board{"board", {}, {}, {}, {}}, post{"post", {}, {}, {}, {}};
     add_quad(board, {8, 0.5, -0.5}, {8, -0.5, -0.5}, {8, -0.5, 0.5}, {8, 0.5, 0.5});
     add_quad(post, {0, -1.5, -0.5}, {0, -0.5, -0.5}, {0, -0.5, 0.5}, {0, -1.5, 0.5}); // faces +x
@@ -210,8 +199,7 @@ TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
 
 TEST(ReferenceWet, AWetRoomMakesNoEnergy) {
     // Below the sum of the two: light sent on by film and ground is at most all of it.
-    Material wall = lambert(0.8);
-    wall.emission_cdm2 = glm::vec3(1.0F);
+    Material wall = lambert(0.8, SurfaceKind::road, 1.0);
     const Scene scene = closed_room(wall);
     Moment moment;
     moment.weather.wetness = 1.0;
@@ -223,8 +211,7 @@ TEST(ReferenceWet, AWetRoomMakesNoEnergy) {
 
 TEST(ReferenceSun, LightThatTheGroundThrowsUpIsTheSameByAllMethods) {
     // A plate that looks down on the corner of a sunlit square from 1 m up: E = rho E_sun F, view factor of Howell's catalogue B-3.
-    Scene scene;
-    scene.materials = {lambert(0.5), lambert(0.0, SurfaceKind::object)};
+    Scene scene{.materials = {lambert(0.5), lambert(0.0, SurfaceKind::object)}};
     Mesh ground{"ground", {}, {}, {}, {}}, plate{"plate", {}, {}, {}, {}};
     add_quad(ground, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     add_quad(plate, {-0.01, -0.01, 1}, {-0.01, 0.01, 1}, {0.01, 0.01, 1}, {0.01, -0.01, 1}); // faces down

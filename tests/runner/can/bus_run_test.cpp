@@ -13,9 +13,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
+using testing::HasSubstr, testing::IsEmpty, testing::Not;
 using Json = nlohmann::json;
 
 constexpr const char* few = " --quiet --no-accuracy --resolution 96x72 --frames 95:104 --capture all ";

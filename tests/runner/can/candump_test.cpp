@@ -43,9 +43,7 @@ class CandumpTest : public testing::Test {
             }
             if (!knows_dlc_)
                 frame.raw_dlc = 0;
-            SocketRecord record{};
-            record.seconds = frame.time_ns / 1'000'000'000;
-            record.microseconds = frame.time_ns % 1'000'000'000 / 1000;
+            SocketRecord record{.seconds = frame.time_ns / 1'000'000'000, .microseconds = frame.time_ns % 1'000'000'000 / 1000};
             frame.channel.copy(record.channel, sizeof record.channel - 1);
             record.bytes = frame.fd ? 72 : 16;
             record.sent = random() % 2;

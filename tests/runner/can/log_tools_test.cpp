@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -40,6 +41,7 @@ TEST(CanCut, KeepsWhatIsAskedForAndNothingElse) {
     const std::string log = written(folder, "a.log", mixed_log);
     EXPECT_EQ(told(folder, "can cut " + log), mixed_log);
     EXPECT_EQ(told(folder, "can cut - < " + log), mixed_log);
+    EXPECT_EQ(told(folder, "can cut " + written(folder, "mark.log", "\xef\xbb\xbf" + mixed_log)), mixed_log);
     const auto stamps = [&](const std::string& flags) {
         std::string text;
         std::istringstream lines(told(folder, "can cut " + log + " " + flags));
@@ -57,13 +59,18 @@ TEST(CanCut, KeepsWhatIsAskedForAndNothingElse) {
     EXPECT_EQ(stamps("--channel can0 --invert"), "10.5can1 ");
 }
 
-TEST(CanCut, KeepsDeltasTrue) {
+TEST(CanCut, KeepsDeltasTrueAndAsksWhatAPipeCannotTell) {
     const TemporaryFolder folder;
     const std::string log = written(folder, "d.txt",
                                     " (000.000000)  can0  100   [0] \n (000.100000)  can0  200   [1]  11\n"
                                     " (000.300000)  can0  100   [0] \n (000.100000)  can0  200   [1]  22\n");
     EXPECT_EQ(told(folder, "can cut --id 200 " + log), " (000.000000)  can0  200   [1]  11\n (000.400000)  can0  200   [1]  22\n");
     EXPECT_EQ(told(folder, "can cut --from +0.2 --to +0.45 " + log), " (000.000000)  can0  100   [0] \n");
+    const Outcome outcome = run_program("can convert -", "cat " + log + " |");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output,
+                HasSubstr("standard input:1: found stamps that start at 0, expected to be told whether they are delta or zero"));
+    EXPECT_EQ(run_program("can convert --stamps delta -", "cat " + log + " |").exit_code, 0);
 }
 
 TEST(CanCut, RefusesInOneSentence) {
@@ -106,38 +113,20 @@ TEST(CanCut, RefusesInOneSentence) {
     refused("cut " + written(folder, "junk.log", "\x80\xff \xc3\xa4\n"), "junk.log:1:1: found '\\x80\\xff");
 }
 
-TEST(CanCut, SkipsBadLinesWhereAskedTo) {
+TEST(CanCut, SkipsBadLinesWhereAskedToAndTellsOfChannelsThatNoFrameHas) {
     const TemporaryFolder folder;
-    const std::string log = written(folder, "a.log", "(1.000000) can0 123#11\nx\ny\n(2.000000) can0 123#22\n(3.000000) can0 1");
-    const Outcome outcome = run_program("can cut --lenient " + log);
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.output, HasSubstr("skipped: "));
-    EXPECT_THAT(outcome.output, HasSubstr("a.log:2:1: found 'x'"));
-    EXPECT_THAT(outcome.output, HasSubstr("3 lines skipped that are no frames"));
-    EXPECT_THAT(outcome.output, HasSubstr("(1.000000) can0 123#11\n(2.000000) can0 123#22\n"));
-}
-
-TEST(CanCut, SkipsALineThatIsTooLongWhereAskedTo) {
-    const TemporaryFolder folder;
-    const std::string log = written(folder, "a.log", std::string(40'000, 'x') + "\n(000.000000) can0 123#11\n(000.500000) can0 123#22\n");
-    const Outcome outcome = run_program("can cut --lenient " + log);
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.output, HasSubstr("a.log:1: found a line of more than 16384 bytes"));
-    EXPECT_THAT(outcome.output, HasSubstr("(000.000000) can0 123#11\n(000.500000) can0 123#22\n"));
-}
-
-TEST(CanCut, TellsOfChannelsThatNoFrameHas) {
-    const TemporaryFolder folder;
-    const std::string log = written(folder, "a.log", mixed_log);
-    const Outcome outcome = run_program("can cut --channel can7 --channel can1 -o /dev/null " + log);
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.output, testing::EndsWith("a.log: no frame of channel can7\n"));
-    EXPECT_THAT(outcome.output, testing::Not(HasSubstr("channel can1")));
-}
-
-TEST(CanCut, TakesAByteOrderMark) {
-    const TemporaryFolder folder;
-    EXPECT_EQ(told(folder, "can cut " + written(folder, "a.log", "\xef\xbb\xbf" + mixed_log)), mixed_log);
+    const std::string bad = written(folder, "a.log", "(1.000000) can0 123#11\nx\ny\n(2.000000) can0 123#22\n(3.000000) can0 1"),
+                      wide = written(folder, "b.log", std::string(40'000, 'x') + "\n(000.000000) can0 123#11\n(000.500000) can0 123#22\n");
+    const Outcome lenient = run_program("can cut --lenient " + bad), long_line = run_program("can cut --lenient " + wide),
+                  channels = run_program("can cut --channel can7 --channel can1 -o /dev/null " + written(folder, "c.log", mixed_log));
+    EXPECT_EQ(std::tuple(lenient.exit_code, long_line.exit_code, channels.exit_code), std::tuple(0, 0, 0));
+    EXPECT_THAT(lenient.output,
+                testing::AllOf(HasSubstr("skipped: "), HasSubstr("a.log:2:1: found 'x'"), HasSubstr("3 lines skipped that are no frames"),
+                               HasSubstr("(1.000000) can0 123#11\n(2.000000) can0 123#22\n")));
+    EXPECT_THAT(long_line.output, testing::AllOf(HasSubstr("b.log:1: found a line of more than 16384 bytes"),
+                                                 HasSubstr("(000.000000) can0 123#11\n(000.500000) can0 123#22\n")));
+    EXPECT_THAT(channels.output,
+                testing::AllOf(testing::EndsWith("c.log: no frame of channel can7\n"), testing::Not(HasSubstr("channel can1"))));
 }
 
 /// What is read may be what is written; what fails leaves the file that was there, and nothing beside it.
@@ -220,8 +209,7 @@ TEST(CanConvert, GoesToTheScreenAndBack) {
         CanFrame frame = random_frame(random);
         frame.time_ns = time_ns += static_cast<std::int64_t>(random() % 100'000) * 1000;
         frame.channel = "can0";
-        CandumpStyle style;
-        style.sent = random() % 2 == 0;
+        CandumpStyle style{.sent = random() % 2 == 0};
         text += candump_line(frame, style) + "\n";
     }
     const std::string log = written(folder, "a.log", text);
@@ -248,16 +236,6 @@ TEST(CanConvert, GoesToTheScreenAndBack) {
                                                               : "absolute")),
                   content_of(folder / "screen.txt"));
     }
-}
-
-TEST(CanConvert, AsksWhatAPipeCannotTell) {
-    const TemporaryFolder folder;
-    const std::string log = written(folder, "d.txt", " (000.000000)  can0  100   [0] \n (000.100000)  can0  200   [1]  11\n");
-    const Outcome outcome = run_program("can convert -", "cat " + log + " |");
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.output,
-                HasSubstr("standard input:1: found stamps that start at 0, expected to be told whether they are delta or zero"));
-    EXPECT_EQ(run_program("can convert --stamps delta -", "cat " + log + " |").exit_code, 0);
 }
 
 /// A pipe that does not end: each line comes out before the next goes in, and Ctrl-C ends it.

@@ -1,23 +1,20 @@
 #include "runner/play/machine_load.h"
 
 #include <gtest/gtest.h>
+#include <tuple>
 #include <unistd.h>
 
 namespace fernlicht {
 namespace {
 
-TEST(MachineLoad, ReadsWorkButNotWaiting) {
+TEST(MachineLoad, ReadsWorkAndProcessesWhateverTheirNames) {
     EXPECT_EQ(machine_ticks("cpu  1 20 300 4000 50000 600000 7000000 80000000 9 9"), 87600321.0);
     EXPECT_FALSE(machine_ticks("cpu0 1 2 3 4 5 6 7 8"));
     EXPECT_FALSE(machine_ticks("cpu  1 2 3"));
     EXPECT_FALSE(machine_ticks(""));
-}
-
-TEST(MachineLoad, ReadsAProcessWhateverItsName) {
     const auto process = process_ticks("77 (a) b (c) S 1 77 77 0 -1 4194304 102 0 0 0 250 31 0 0 20 0 1");
     ASSERT_TRUE(process);
-    EXPECT_EQ(process->first, "a) b (c");
-    EXPECT_EQ(process->second, 281.0);
+    EXPECT_EQ(std::tuple(process->first, process->second), std::tuple("a) b (c", 281.0));
     EXPECT_FALSE(process_ticks(""));
     EXPECT_FALSE(process_ticks("77 (a) S 1 2"));
 }

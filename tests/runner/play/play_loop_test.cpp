@@ -75,17 +75,13 @@ struct Played {
             view.width_px = view.height_px = 256;
     }
     PlayedVariant play_with(const Draw& draw, int moments, Writers& writers, const std::filesystem::path& folder = {}) const {
-        PlayOptions options;
-        options.ticks = {0, moments - 1};
-        options.folder = folder;
-        return play(drive, route, drive.variants.front(), options, draw, writers);
+        return play(drive, route, drive.variants.front(), PlayOptions{.ticks = {0, moments - 1}, .folder = folder}, draw, writers);
     }
 };
 
 /// Everything that is wanted, lit evenly.
 Frame even(const View& view, const Wanted& wanted, float lx) {
-    Frame frame;
-    frame.cpu_s = 0.01;
+    Frame frame{.cpu_s = 0.01};
     const auto lit = [&](bool asked) { return asked ? Image<float>(view.width_px, view.height_px, lx) : Image<float>(); };
     frame.illuminance_lx = lit(wanted.illuminance);
     frame.target_lx = lit(wanted.target);
@@ -138,8 +134,7 @@ TEST(PlayLoop, MeasuresEveryMomentInOrder) {
 TEST(PlayLoop, StopsAtTheMomentThatWasAskedForAndKeepsWhatWasMeasured) {
     const Played stage;
     Writers writers;
-    PlayOptions options;
-    options.go_on = [](int done) { return done < 7; };
+    PlayOptions options{.go_on = [](int done) { return done < 7; }};
     const PlayedVariant played = play(stage.drive, stage.route, stage.drive.variants.front(), options, evenly(20.0F), writers);
     EXPECT_EQ(played.ticks_done, 7);
     EXPECT_EQ(played.extents.size(), 7U);
@@ -178,13 +173,7 @@ TEST(PlayLoop, HoldsAsManyPicturesForALongDriveAsForAShortOne) {
 
 TEST(PlayLoop, KeepsTheMapsThatThePageShowsAndOthersInCaseOfAnInterruption) {
     LuxMaps all(100), some(100);
-    const auto map_at = [](int tick) {
-        return [tick] {
-            LuxMap map;
-            map.tick = tick;
-            return map;
-        };
-    };
+    const auto map_at = [](int tick) { return [tick] { return LuxMap{.tick = tick}; }; };
     for (int i = 0; i < 100; ++i)
         all.add(static_cast<std::size_t>(i), map_at(i));
     for (int i = 0; i < 20; ++i)
@@ -205,8 +194,7 @@ TEST(FrameTimes, ComeFromMomentsThatWereDrawnAlone) {
         const bool stored = k % 6 == 0; // 6, 12, 18, 24 after the warm-up
         if (times.begin_moment(stored ? "frame, stored" : "frame"))
             alone.push_back(k);
-        Frame frame;
-        frame.cpu_s = stored ? 0.5 : 0.1;
+        Frame frame{.cpu_s = stored ? 0.5 : 0.1};
         times.add(stored ? "frame, stored" : "frame", frame);
         frame.cpu_s = 0.05;
         times.add(frame);
@@ -263,8 +251,7 @@ TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
     EXPECT_EQ(verdicts[2].kind, VerdictKind::pass);
     const bool has_map = std::ranges::any_of(stage.drive.views, [](const View& view) { return view.projection == Projection::map; });
     EXPECT_EQ(has_map, !played.notes.empty());
-    Report report;
-    report.played = {played};
+    Report report{.played = {played}};
     report.played[0].readings = readings;
     const TemporaryFolder folder;
     write_report(report, folder.path()); // no picture is missed

@@ -9,8 +9,7 @@ namespace fernlicht {
 namespace {
 
 Stage stage_of(const char* name) {
-    DriveEdits edits;
-    edits.resolution = std::pair(160, 120);
+    DriveEdits edits{.resolution = std::pair(160, 120)};
     Drive drive = read_drive(std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/drives/") + name, edits);
     drive.capture.exr = drive.capture.png = true;
     return Stage(std::move(drive));
@@ -29,8 +28,7 @@ TEST(Preparation, NothingCompilesWhileADriveIsPlayed) {
     for (const char* technique : {"photometric", "two-pass-projective"}) {
         const Stage stage = stage_of("first-light.yaml");
         Device device = open_device("auto");
-        RendererSettings settings;
-        settings.technique = technique;
+        RendererSettings settings{.technique = technique};
         settings.shadows.width = settings.shadows.height = 64;
         Renderer renderer(device, stage.scene, settings);
         for (const Variant& variant : stage.drive.variants) {

@@ -2,6 +2,7 @@
 #include "scenarios/can/bus_outputs.h"
 #include "scenarios/can/candump_log.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -9,29 +10,17 @@
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
 
 constexpr std::int64_t a_millisecond_ns = 1'000'000;
 
 CanSignal signal_of(const char* name, std::uint16_t start, std::uint16_t length, double factor, const char* unit) {
-    CanSignal made;
-    made.name = name;
-    made.start_bit = start;
-    made.length = length;
-    made.factor = factor;
-    made.unit = unit;
-    return made;
+    return {.name = name, .start_bit = start, .length = length, .factor = factor, .unit = unit};
 }
 
 /// Status, every 50 ms: multiplexed by Lamp; Level on both pages. State, no cycle: Mode with labels.
 CanDatabase lamps() {
-    CanMessage status;
-    status.id = 0x210;
-    status.name = "Status";
-    status.length = 4;
-    status.cycle_s = 0.05;
+    CanMessage status{.id = 0x210, .name = "Status", .length = 4, .cycle_s = 0.05};
     CanSignal lamp = signal_of("Lamp", 0, 8, 1.0, "");
     lamp.multiplexor = true;
     CanSignal left = signal_of("Left", 8, 16, 0.01, "deg");
@@ -46,26 +35,15 @@ CanDatabase lamps() {
     CanSignal level = signal_of("Level", 24, 8, 0.5, "%");
     level.start_value = 20.0;
     status.signals = {lamp, left, right, level};
-    CanMessage state;
-    state.id = 0x18ff2011;
-    state.extended = true;
-    state.name = "State";
-    state.length = 1;
+    CanMessage state{.id = 0x18ff2011, .extended = true, .name = "State", .length = 1};
     CanSignal mode = signal_of("Mode", 0, 8, 1.0, "");
     mode.labels = {{7, "country"}, {9, "town"}};
     state.signals = {mode};
-    CanDatabase database;
-    database.file = "lamps.dbc";
-    database.messages = {status, state};
-    return database;
+    return CanDatabase{.file = "lamps.dbc", .messages = {status, state}};
 }
 
 BusOutput output(const char* message, const char* signal, const char* name) {
-    BusOutput made;
-    made.target = {message, signal};
-    made.name = name;
-    made.where = {"drive.yaml", 9, 5, std::string("can.outputs.") + message + "." + signal};
-    return made;
+    return {.target = {message, signal}, .name = name, .where = {"drive.yaml", 9, 5, std::string("can.outputs.") + message + "." + signal}};
 }
 
 std::vector<std::string> lines(const std::vector<CanFrame>& frames) {
@@ -77,10 +55,9 @@ std::vector<std::string> lines(const std::vector<CanFrame>& frames) {
 
 TEST(BusOutputs, SendEachMessageAtItsCycleWithWhatHeldThen) {
     SignalTable table({"left", "right"});
-    BusMapping mapping;
-    mapping.channel = "vcan0";
-    mapping.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Right", "lamp.right.swivel_rad"),
-                       output("Status", "Level", "lamp.left.level")};
+    BusMapping mapping{.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Right", "lamp.right.swivel_rad"),
+                                   output("Status", "Level", "lamp.left.level")},
+                       .channel = "vcan0"};
     BusOutputs outputs(mapping, {lamps()}, table);
     EXPECT_EQ(outputs.next_ns(), 0);
     table.of(0, lamp_signal::swivel) = 0.017453292519943295 * 1.5;  // 150 = 0x0096
@@ -99,8 +76,7 @@ TEST(BusOutputs, SendEachMessageAtItsCycleWithWhatHeldThen) {
 
 TEST(BusOutputs, CutsWhatDoesNotFitAndKeepsWhatIsLost) {
     SignalTable table({"left", "right"});
-    BusMapping mapping;
-    mapping.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Level", "lamp.left.level")};
+    BusMapping mapping{.outputs = {output("Status", "Left", "lamp.left.swivel_rad"), output("Status", "Level", "lamp.left.level")}};
     BusOutputs outputs(mapping, {lamps()}, table);
     EXPECT_EQ(lines(outputs.due(0)).front(), "(0000000000.000000) can0 210#00000014") << "start values before anything is known";
     table.of(0, lamp_signal::swivel) = 1.0; // 57 degrees of at most 15
@@ -114,8 +90,7 @@ TEST(BusOutputs, CutsWhatDoesNotFitAndKeepsWhatIsLost) {
 
 TEST(BusOutputs, SendLabelsOfTheNearestValue) {
     SignalTable table({"left"});
-    BusMapping mapping;
-    mapping.outputs = {output("State", "Mode", "control.mode")};
+    BusMapping mapping{.outputs = {output("State", "Mode", "control.mode")}};
     mapping.outputs.front().values = {{"country", 0.0}, {"town", 1.0}};
     mapping.outputs.front().cycle_s = 0.1;
     BusOutputs outputs(mapping, {lamps()}, table);
@@ -129,14 +104,8 @@ TEST(BusOutputs, SendLabelsOfTheNearestValue) {
 TEST(BusOutputs, AreRefusedWhereNothingSaysHow) {
     const SignalTable table({"left"});
     const auto refused = [&](std::vector<BusOutput> wanted) {
-        BusMapping mapping;
-        mapping.outputs = std::move(wanted);
-        try {
-            BusOutputs(mapping, {lamps()}, table);
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string("not refused");
+        BusMapping mapping{.outputs = std::move(wanted)};
+        return tests::refusal_of([&] { BusOutputs(mapping, {lamps()}, table); });
     };
     EXPECT_EQ(refused({output("State", "Mode", "control.mode")}), "drive.yaml:9:5: can.outputs.State.Mode: message 'State' without a cycle "
                                                                   "time, expected GenMsgCycleTime in its database, or cycle_s");
@@ -153,20 +122,12 @@ TEST(BusOutputs, AreRefusedWhereNothingSaysHow) {
 
 TEST(BusOutputs, OfAMessageThatIsReadAreRefused) {
     const SignalTable table({"left", "right"});
-    BusMapping mapping;
-    mapping.outputs = {output("Status", "Level", "lamp.left.level")};
-    BusInput input;
-    input.name = "lamp.left.switch";
-    input.source = {"Status", "Level"};
+    BusMapping mapping{.outputs = {output("Status", "Level", "lamp.left.level")}};
+    BusInput input{.name = "lamp.left.switch", .source = {"Status", "Level"}};
     mapping.inputs = {input};
-    try {
-        const BusOutputs outputs(mapping, {lamps()}, table);
-        FAIL() << "not refused";
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(),
-                     "drive.yaml:9:5: can.outputs.Status.Level: an output of message 'Status', which lamp.left.switch is read "
-                     "from, expected a message that nobody else sends");
-    }
+    EXPECT_EQ(tests::refusal_of([&] { BusOutputs(mapping, {lamps()}, table); }),
+              "drive.yaml:9:5: can.outputs.Status.Level: an output of message 'Status', which lamp.left.switch is read "
+              "from, expected a message that nobody else sends");
     mapping.inputs.front().source = {"State", "Mode"};
     EXPECT_NO_THROW(BusOutputs(mapping, {lamps()}, table));
 }

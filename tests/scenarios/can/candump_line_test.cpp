@@ -1,14 +1,17 @@
 // Lines of candump, read and written back byte by byte.
+#include "scenarios/can/can_filter.h"
+#include "scenarios/can/can_frame.h"
 #include "scenarios/can/candump_log.h"
 #include "tests/scenarios/can/random_frames.h"
+#include "tests/trial.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using testing::HasSubstr;
+using testing::ElementsAre, testing::HasSubstr;
 
 const InputError::Where here{"a.log", 7, 0, {}};
 
@@ -24,17 +27,14 @@ void expect_same_text(const std::string& line) {
 
 TEST(CandumpLine, ReadsWhatTheDescriptionOfTheFormatShows) { // can-utils, lib.h
     CandumpLine line = parsed("(1436509052.249713) vcan0 044#2A366C2BBA");
-    EXPECT_EQ(line.frame.time_ns, 1436509052249713000);
-    EXPECT_EQ(line.frame.channel, "vcan0");
-    EXPECT_EQ(line.frame.id, 0x44U);
+    EXPECT_EQ(std::tuple(line.frame.time_ns, line.frame.channel, line.frame.id), std::tuple(1436509052249713000, "vcan0", 0x44U));
     EXPECT_FALSE(line.frame.extended || line.frame.fd || line.frame.remote || line.frame.error);
     EXPECT_THAT(line.frame.bytes(), testing::ElementsAre(0x2a, 0x36, 0x6c, 0x2b, 0xba));
     EXPECT_EQ(line.style, CandumpStyle{});
 
     line = parsed("(0000000000.000000) can0 12345678#");
     EXPECT_TRUE(line.frame.extended);
-    EXPECT_EQ(line.frame.id, 0x12345678U);
-    EXPECT_EQ(line.frame.length, 0);
+    EXPECT_EQ(std::tuple(line.frame.id, line.frame.length), std::tuple(0x12345678U, 0));
 
     line = parsed("(0000000000.000000) can0 123#R7");
     EXPECT_TRUE(line.frame.remote);
@@ -45,8 +45,7 @@ TEST(CandumpLine, ReadsWhatTheDescriptionOfTheFormatShows) { // can-utils, lib.h
     EXPECT_EQ(parsed("(0000000000.000000) can0 123#R8_9").frame.raw_dlc, 9);
 
     line = parsed("(0000000000.000000) can0 123#1122334455667788_E");
-    EXPECT_EQ(line.frame.raw_dlc, 14);
-    EXPECT_EQ(line.frame.length, 8);
+    EXPECT_EQ(std::tuple(line.frame.raw_dlc, line.frame.length), std::tuple(14, 8));
 
     for (const char* same : {"123#11.22.33.44.55.66.77.88", "123#11.2233.44556677.88", "123#1122334455667788"})
         EXPECT_THAT(parsed(std::string("(0000000000.000000) can0 ") + same).frame.bytes(),
@@ -128,8 +127,7 @@ TEST(CandumpLine, HoldsRandomFramesInEveryForm) {
     const auto coin = [&] { return random() % 2 == 0; };
     for (int i = 0; i < 200'000; ++i) {
         CanFrame frame = random_frame(random);
-        CandumpStyle style;
-        style.stamp_digits = coin() ? 6 : 9;
+        CandumpStyle style{.stamp_digits = std::uint8_t{coin() ? std::uint8_t{6} : std::uint8_t{9}}};
         if (style.stamp_digits == 9)
             frame.time_ns += static_cast<std::int64_t>(random() % 1000);
         style.channel_columns = coin() ? 0 : static_cast<std::uint8_t>(frame.channel.size() + 1 + random() % 5);
@@ -218,14 +216,8 @@ TEST(CandumpLine, SaysWhatIsWrongAndWhere) {
              {"  can0  RX X -  123   [2]  11 22", "expected the flags of CAN FD"},
              {" \33[7mcan0  123   [2]  11 22", "found '\\x1b[7mcan0', expected one of candump's colours"},
          }) {
-        SCOPED_TRACE(bad.line);
-        try {
-            parsed(bad.line);
-            ADD_FAILURE() << "was read";
-        } catch (const InputError& error) {
-            EXPECT_THAT(error.what(), HasSubstr(bad.message));
-            EXPECT_THAT(error.what(), testing::StartsWith("a.log:7:"));
-        }
+        EXPECT_THAT(tests::refusal_of([&] { parsed(bad.line); }), testing::AllOf(HasSubstr(bad.message), testing::StartsWith("a.log:7:")))
+            << bad.line;
     }
 }
 
@@ -282,6 +274,90 @@ TEST(CandumpLine, TakesAnyTextAsFrameOrRefusesIt) {
     }
     EXPECT_GT(frames, 20'000U); // neither all nor none
     EXPECT_GT(refused, 100'000U);
+}
+
+// candump's filters with the kernel's meaning; the examples are those of candump's own help.
+
+bool passes(const std::string& filters, const std::string& frame) {
+    return parse_can_filters(filters, "--filter").passes(parse_candump_line("(1.000000) can0 " + frame, {}).frame);
+}
+
+TEST(CanFilter, LooksAtTheBitsOfTheMask) {
+    EXPECT_TRUE(passes("123:7FF", "123#11"));
+    EXPECT_FALSE(passes("123:7FF", "124#11"));
+    EXPECT_TRUE(passes("123:7FF", "123##111"));
+    EXPECT_TRUE(passes("400:700", "4FF#11"));
+    EXPECT_FALSE(passes("400:700", "500#11"));
+    EXPECT_FALSE(passes("400~7F0", "40F#11"));
+    EXPECT_TRUE(passes("400~7F0", "410#11"));
+    EXPECT_TRUE(passes("0x123:0x7ff", "123#11"));
+}
+
+TEST(CanFilter, MatchesExtendedAndRemoteUnlessTheMaskTells) {
+    EXPECT_TRUE(passes("123:7FF", "00000123#11")); // "including EFF and RTR frames"
+    EXPECT_TRUE(passes("123:7FF", "123#R"));
+    EXPECT_TRUE(passes("123:7FF", "12345123#11"));
+    EXPECT_TRUE(passes("123:C00007FF", "123#11")); // "only SFF and non-RTR frames"
+    EXPECT_FALSE(passes("123:C00007FF", "00000123#11"));
+    EXPECT_FALSE(passes("123:C00007FF", "123#R"));
+    EXPECT_TRUE(passes("12345678:DFFFFFFF", "12345678#11")); // "only for extended CAN ID 12345678"
+    EXPECT_FALSE(passes("12345678:DFFFFFFF", "678#11"));
+    EXPECT_FALSE(passes("12345678:DFFFFFFF", "12345678#R"));
+    EXPECT_TRUE(passes("00000123:DFFFFFFF", "00000123#"));
+    EXPECT_FALSE(passes("00000123:DFFFFFFF", "123#"));
+    EXPECT_TRUE(passes("123:9FFFFFFF", "123#")); // the extended flag in the mask: 11 bits are looked at
+    EXPECT_FALSE(passes("123:9FFFFFFF", "00000123#"));
+}
+
+TEST(CanFilter, LetsErrorFramesPassAndPassesByAnyOrAll) {
+    EXPECT_FALSE(passes("0:0", "20000004#0000000000000000"));
+    EXPECT_TRUE(passes("0:0,#FFFFFFFF", "20000004#0000000000000000"));
+    EXPECT_TRUE(passes("0:0,#FFFFFFFF", "123#"));
+    EXPECT_TRUE(passes("0~0,#FFFFFFFF", "20000004#0000000000000000")); // "only error frames"
+    EXPECT_FALSE(passes("0~0,#FFFFFFFF", "123#"));
+    EXPECT_FALSE(passes("#00000003", "20000004#0000000000000000"));
+    EXPECT_TRUE(passes("#00000003", "123#")); // without a filter for data frames all of them
+    EXPECT_TRUE(passes("100:700,200:700", "2AA#"));
+    EXPECT_FALSE(passes("100:700,200:700", "3AA#"));
+    EXPECT_TRUE(passes("100~7FF,200~7FF", "100#"));
+    EXPECT_FALSE(passes("100~7FF,200~7FF,j", "100#"));
+    EXPECT_TRUE(passes("100~7FF,200~7FF,J", "300#"));
+}
+
+TEST(CanFilter, BelongsToAChannelAndSaysWhatIsNone) {
+    const CanFrame frame = parse_candump_line("(1.000000) can0 123#", {}).frame;
+    CanFrame error = parse_candump_line("(1.000000) can0 20000001#", {}).frame;
+    EXPECT_TRUE(parse_channel_filter("can0", "--channel").passes(frame));
+    EXPECT_TRUE(parse_channel_filter("can0", "--channel").passes(error));
+    EXPECT_FALSE(parse_channel_filter("can0,0:0", "--channel").passes(error));
+    EXPECT_FALSE(parse_channel_filter("can1", "--channel").passes(frame));
+    EXPECT_TRUE(parse_channel_filter("any", "--channel").passes(frame));
+    EXPECT_TRUE(parse_channel_filter("any,123:7FF", "--channel").passes(frame));
+    EXPECT_FALSE(parse_channel_filter("can0,124:7FF,#FF", "--channel").passes(frame));
+    for (const char* bad : {"", "123", "123:", ":7FF", "123:7FG", "123:7FF,", "#", "#X", "123456789:7FF", "jj", "123:7FF:1", "-1:7FF"})
+        EXPECT_THROW(parse_can_filters(bad, "--filter"), InputError) << bad;
+    for (const char* bad : {"", ",123:7FF", "sixteen_letters__", "can0,"})
+        EXPECT_THROW(parse_channel_filter(bad, "--channel"), InputError) << bad;
+    EXPECT_THAT(tests::refusal_of([] { parse_can_filters("123:7FF,nonsense", "--filter"); }),
+                HasSubstr("--filter: found 'nonsense', expected filters as candump has them"));
+}
+
+// Error frames in words: data after include/uapi/linux/can/error.h, words as candump -e prints them.
+
+std::vector<std::string> words(const std::string& frame) { return error_words(parse_candump_line("(1.000000) can0 " + frame, {}).frame); }
+
+TEST(ErrorWords, NameClassesAndWhatTheirDataSay) {
+    EXPECT_THAT(words("20000001#0000000000000000"), ElementsAre("tx-timeout"));
+    EXPECT_THAT(words("20000002#0B00000000000000"), ElementsAre("lost-arbitration{at bit 11}"));
+    EXPECT_THAT(words("20000004#0004000000000000"), ElementsAre("controller-problem{rx-error-warning}"));
+    EXPECT_THAT(words("20000004#0030000000000000"), ElementsAre("controller-problem{rx-error-passive,tx-error-passive}"));
+    EXPECT_THAT(words("20000008#0000041900000000"), ElementsAre("protocol-violation{{bit-stuffing-error}{acknowledge-slot}}"));
+    EXPECT_THAT(words("20000040#0000000000000000"), ElementsAre("bus-off"));
+    EXPECT_THAT(words("20000204#0008000000008060"), ElementsAre("controller-problem{tx-error-warning}", "error-counter-tx-rx{{128}{96}}"));
+    EXPECT_THAT(words("20000080#0000000000000102"), ElementsAre("bus-error", "error-counter-tx-rx{{1}{2}}"));
+    EXPECT_THAT(words("200000A8#000000FF00000000"), ElementsAre("protocol-violation{{}{}}", "no-acknowledgement-on-tx", "bus-error"));
+    EXPECT_TRUE(words("20001000#0000000000000000").empty());
+    EXPECT_TRUE(words("123#11").empty());
 }
 
 } // namespace

@@ -1,18 +1,17 @@
 // Whole logs of candump: kinds of lines, what stamps count from, real ones.
 #include "scenarios/can/candump_stream.h"
+#include "tests/trial.h"
 
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using testing::ElementsAre, testing::HasSubstr;
 using What = CandumpStream::What;
 
 std::vector<std::int64_t> times_ms(const std::string& text, const CandumpReading& reading = {}) {
@@ -25,12 +24,7 @@ std::vector<std::int64_t> times_ms(const std::string& text, const CandumpReading
 }
 
 std::string refusal(const std::string& text, const CandumpReading& reading = {}) {
-    try {
-        times_ms(text, reading);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "was read";
+    return tests::refusal_of([&] { times_ms(text, reading); });
 }
 
 TEST(CandumpStream, TellsFramesFromWhatStandsBetweenThem) {
@@ -52,8 +46,7 @@ TEST(CandumpStream, TellsFramesFromWhatStandsBetweenThem) {
         }
     }
     EXPECT_THAT(kinds, ElementsAre(What::comment, What::comment, What::frame, What::explanation, What::lost, What::comment, What::frame));
-    EXPECT_EQ(stream.text(), "(0000000002.000000) can0 123#11");
-    EXPECT_EQ(stream.line_number(), 7U);
+    EXPECT_EQ(std::tuple(stream.text(), stream.line_number()), std::tuple("(0000000002.000000) can0 123#11", 7U));
 }
 
 TEST(CandumpStream, GoesOnBehindABadLine) {
@@ -62,8 +55,7 @@ TEST(CandumpStream, GoesOnBehindABadLine) {
     EXPECT_THROW(stream.next(), InputError);
     EXPECT_EQ(stream.next(), What::frame);
     EXPECT_EQ(stream.line().frame.data[0], 0x22);
-    EXPECT_EQ(stream.next(), What::end);
-    EXPECT_EQ(stream.next(), What::end);
+    EXPECT_EQ(std::tuple(stream.next(), stream.next()), std::tuple(What::end, What::end));
 }
 
 TEST(CandumpStream, GoesOnBehindALineThatIsTooLong) {
@@ -71,11 +63,7 @@ TEST(CandumpStream, GoesOnBehindALineThatIsTooLong) {
         for (const bool in_a_file : {false, true}) {
             const std::string text =
                 std::string(length, 'x') + "\n(1.000000) can0 123#11\n" + std::string(length, 'y') + "\n(2.000000) can0 123#22";
-            const std::string path =
-                (std::filesystem::path(testing::TempDir()) / fmt::format("fernlicht-long-{}.log", ::getpid())).string();
-            std::ofstream(path) << text;
-            CandumpStream stream = in_a_file ? CandumpStream(path) : CandumpStream("a.log", text);
-            std::filesystem::remove(path);
+            CandumpStream stream = in_a_file ? CandumpStream(tests::written("long.log", text).string()) : CandumpStream("a.log", text);
             EXPECT_THROW(stream.next(), InputError);
             EXPECT_EQ(stream.next(), What::frame) << length;
             EXPECT_EQ(stream.line_number(), 2U);
@@ -86,12 +74,14 @@ TEST(CandumpStream, GoesOnBehindALineThatIsTooLong) {
         }
 }
 
-TEST(CandumpStream, RefusesWhatIsNoLog) {
+TEST(CandumpStream, RefusesWhatIsNoLogAndTimesBeyondItsClock) {
     EXPECT_THAT(refusal(std::string(20'000, 'x')), HasSubstr("a.log:1: found a line of more than 16384 bytes"));
     EXPECT_THAT(refusal("(1.000000) can0 123#11\n" + std::string(20'000, ' ') + "\n"), HasSubstr("a.log:2: found a line of more"));
     EXPECT_THAT(refusal("(1.000000) can0 123#11\n\tword\n"), HasSubstr("a.log:2:1"));
     EXPECT_THAT(refusal("DROPCOUNT: dropped many CAN frames\n"), HasSubstr("a.log:1:1"));
     EXPECT_THAT(refusal(std::string("\0\0\0\n", 4)), HasSubstr("a.log:1:1: found '\\x00\\x00\\x00'"));
+    EXPECT_THAT(refusal("(9000000000.000000) can0 123#\n(9000000000.000000) can0 123#\n", {.stamps = CandumpStamps::delta}),
+                HasSubstr("a.log:2: found stamps that add up"));
     EXPECT_THROW(CandumpStream("/nowhere/a.log"), InputError);
     EXPECT_THROW(CandumpStream("/"), InputError);
 }
@@ -103,8 +93,7 @@ TEST(CandumpStream, KnowsWhatStampsCountFrom) {
     EXPECT_THAT(times_ms(delta), ElementsAre(0, 250, 350));
     EXPECT_THAT(times_ms(zero), ElementsAre(0, 250, 350));
     EXPECT_THAT(times_ms(absolute), ElementsAre(0, 250, 100));
-    CandumpReading reading;
-    reading.first_ns = 5'000'000'000;
+    CandumpReading reading{.first_ns = 5'000'000'000};
     EXPECT_THAT(times_ms(delta, reading), ElementsAre(5000, 5250, 5350));
     EXPECT_THAT(times_ms(zero, reading), ElementsAre(5000, 5250, 5350));
     EXPECT_THAT(times_ms(absolute, reading), ElementsAre(0, 250, 100)); // nothing to add to
@@ -127,15 +116,7 @@ TEST(CandumpStream, TakesDatesByTheOffsetFromUtc) {
     EXPECT_THAT(refusal(" (1970-01-01 00:30:00.000000)  can0  123   [0] \n", reading), HasSubstr("before 1970 in UTC"));
 }
 
-TEST(CandumpStream, RefusesTimesBeyondItsClock) {
-    CandumpReading reading;
-    reading.stamps = CandumpStamps::delta;
-    EXPECT_THAT(refusal("(9000000000.000000) can0 123#\n(9000000000.000000) can0 123#\n", reading),
-                HasSubstr("a.log:2: found stamps that add up"));
-}
-
 TEST(CandumpStream, ReadsFilesInPiecesAsFromMemory) {
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "candump_pieces.log";
     std::string text;
     for (int i = 0; i < 40'000; ++i) // lines across the ends of what is read at once
         text += candump_line({.time_ns = i * 1'000'000LL,
@@ -143,7 +124,7 @@ TEST(CandumpStream, ReadsFilesInPiecesAsFromMemory) {
                               .id = static_cast<std::uint32_t>(i % 2048),
                               .length = static_cast<std::uint8_t>(i % 9)}) +
                 "\n";
-    std::ofstream(path, std::ios::binary) << text;
+    const std::filesystem::path path = tests::written("pieces.log", text);
     std::string again;
     CandumpStream stream(path);
     EXPECT_TRUE(stream.may_wait());
@@ -154,7 +135,6 @@ TEST(CandumpStream, ReadsFilesInPiecesAsFromMemory) {
     EXPECT_EQ(read_candump(path, opened).size(), 40'000U);
     ASSERT_EQ(opened.size(), 1U);
     EXPECT_EQ(opened[0].bytes, text.size());
-    std::filesystem::remove(path);
 }
 
 TEST(CandumpStream, WritesTheRecordingOfOthersBackByteByByte) {

@@ -5,13 +5,12 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <random>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
 
 constexpr const char* whole_file = R"(VERSION "1.2"
 
@@ -94,25 +93,18 @@ class Dbc : public DbcTrial {};
 
 TEST_F(Dbc, EachStatementMeansWhatItSays) {
     const CanDatabase read = this->read(whole_file);
-    EXPECT_EQ(read.version, "1.2");
-    EXPECT_EQ(read.comment, "the bus");
+    EXPECT_EQ(std::tuple(read.version, read.comment), std::tuple("1.2", "the bus"));
     EXPECT_THAT(read.nodes, ElementsAre("Body", "Cockpit", "Lamps"));
     ASSERT_EQ(read.messages.size(), 2U);
     const CanMessage& switches = read.messages[0];
     EXPECT_EQ(switches.id, 0x123U);
-    EXPECT_FALSE(switches.extended);
-    EXPECT_FALSE(switches.fd);
+    EXPECT_FALSE(switches.extended || switches.fd);
     EXPECT_FALSE(switches.bit_rate_switch) << "only CAN FD has one, whatever the default";
     EXPECT_EQ(switches.length, 4);
     EXPECT_THAT(switches.senders, ElementsAre("Cockpit", "Body"));
-    EXPECT_EQ(switches.comment, "what the driver switches");
-    EXPECT_EQ(switches.cycle_s, 0.02);
-    EXPECT_EQ(switches.send_type, "Cyclic");
+    EXPECT_EQ(std::tuple(switches.comment, switches.cycle_s, switches.send_type), std::tuple("what the driver switches", 0.02, "Cyclic"));
     ASSERT_EQ(switches.signals.size(), 3U);
-    CanSignal wheel;
-    wheel.name = "Wheel";
-    wheel.start_bit = 15;
-    wheel.length = 16;
+    CanSignal wheel{.name = "Wheel", .start_bit = 15, .length = 16};
     wheel.big_endian = wheel.is_signed = true;
     wheel.factor = 0.0625;
     wheel.offset = -1;
@@ -126,9 +118,7 @@ TEST_F(Dbc, EachStatementMeansWhatItSays) {
     EXPECT_THAT(switches.signals[0].receivers, ElementsAre("Lamps", "Body"));
     const CanMessage& speeds = read.messages[1];
     EXPECT_EQ(speeds.id, 0x18FEF1FEU);
-    EXPECT_TRUE(speeds.extended);
-    EXPECT_TRUE(speeds.fd);
-    EXPECT_TRUE(speeds.bit_rate_switch);
+    EXPECT_TRUE(speeds.extended && speeds.fd && speeds.bit_rate_switch);
     EXPECT_FALSE(speeds.cycle_s);
     EXPECT_EQ(speeds.send_type, "OnEvent");
     EXPECT_THAT(speeds.senders, IsEmpty());
@@ -220,13 +210,21 @@ TEST_F(Dbc, WhatIsOddIsTakenAndNoted) {
               "first is taken\n");
 }
 
-TEST_F(Dbc, SignalsThatAMultiplexorKeepsApartDoNotOverlap) {
+TEST_F(Dbc, MultiplexorsKeepSignalsApart) {
     EXPECT_EQ(all_notes(read("BO_ 1 A: 8 X\n SG_ M1 M : 0|2@1+ (1,0) [0|0] \"\" X\n SG_ S m1 : 8|8@1+ (1,0) [0|0] \"\" X\n"
                              " SG_ T m2 : 8|8@1+ (1,0) [0|0] \"\" X\n")),
               "");
     EXPECT_EQ(all_notes(read("BO_ 1 A: 8 X\n SG_ M1 M : 0|2@1+ (1,0) [0|0] \"\" X\n SG_ S m1 : 8|8@1+ (1,0) [0|0] \"\" X\n"
                              " SG_ T m2 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 T M1 0-3;\n")),
               "line 4: A.T overlaps S\n");
+    const auto notes = [&](const std::string& s, const std::string& t) {
+        return all_notes(read("BO_ 1 A: 8 X\n SG_ M0 M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ S m1 : 8|8@1+ (1,0) [0|0] \"\" X\n"
+                              " SG_ T m2 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 S M0 " +
+                              s + ";\nSG_MUL_VAL_ 1 T M0 " + t + ";\n"));
+    };
+    EXPECT_EQ(notes("0-100, 3-4", "50-60"), "line 4: A.T overlaps S\n");
+    EXPECT_EQ(notes("3-4, 7-7, 0-1", "8-9, 2-2, 5-6"), "");
+    EXPECT_EQ(notes("3-4, 7-7, 0-1", "8-9, 2-2, 5-7"), "line 4: A.T overlaps S\n");
 }
 
 /// Levels of multiplexors, each switched by the one above, all over the same bits; then signals that nothing keeps apart.
@@ -267,29 +265,13 @@ TEST_F(Dbc, LongWaysUpAndManyRangesAreReadInTheirTime) {
     EXPECT_LT(std::chrono::steady_clock::now() - since, std::chrono::seconds(20)); // 1 s; far more on a busy machine
 }
 
-TEST_F(Dbc, RangesThatLieWithinOthersAreMet) {
-    const auto notes = [&](const std::string& s, const std::string& t) {
-        return all_notes(read("BO_ 1 A: 8 X\n SG_ M0 M : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ S m1 : 8|8@1+ (1,0) [0|0] \"\" X\n"
-                              " SG_ T m2 : 8|8@1+ (1,0) [0|0] \"\" X\nSG_MUL_VAL_ 1 S M0 " +
-                              s + ";\nSG_MUL_VAL_ 1 T M0 " + t + ";\n"));
-    };
-    EXPECT_EQ(notes("0-100, 3-4", "50-60"), "line 4: A.T overlaps S\n");
-    EXPECT_EQ(notes("3-4, 7-7, 0-1", "8-9, 2-2, 5-6"), "");
-    EXPECT_EQ(notes("3-4, 7-7, 0-1", "8-9, 2-2, 5-7"), "line 4: A.T overlaps S\n");
-}
-
-TEST_F(Dbc, RingsAreRefusedFromEverySignal) {
+TEST_F(Dbc, RingsAreRefusedFromEverySignalAndLimitsThatAreNoNumbersAreNone) {
     const std::string head = "BO_ 1 A: 8 X\n", end = " : 8|8@1+ (1,0) [0|0] \"\" X\n";
     EXPECT_THAT(refusal(head + " SG_ P m1M" + end + " SG_ Q m1M" + end + " SG_ R m1M" + end +
                         "SG_MUL_VAL_ 1 P Q 1-1;\nSG_MUL_VAL_ 1 Q R 1-1;\nSG_MUL_VAL_ 1 R Q 1-1;\n"),
                 testing::HasSubstr("in a ring, A.Q among them"));
-}
-
-TEST_F(Dbc, LimitsThatAreNoNumbersAreNone) {
-    for (const std::string limits : {"nan|nan", "-inf|inf", "NaN|1", "0|INF"}) {
-        const std::string notes = all_notes(read("BO_ 1 A: 2 X\n SG_ S : 0|8@1+ (1,0) [" + limits + "] \"\" X\n"));
-        EXPECT_THAT(notes, testing::HasSubstr("; taken as none")) << limits;
-    }
+    for (const std::string limits : {"nan|nan", "-inf|inf", "NaN|1", "0|INF"})
+        EXPECT_THAT(all_notes(read("BO_ 1 A: 2 X\n SG_ S : 0|8@1+ (1,0) [" + limits + "] \"\" X\n")), HasSubstr("; taken as none"));
 }
 
 TEST_F(Dbc, RefusalsNameLineAndReason) {

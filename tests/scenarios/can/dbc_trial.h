@@ -2,13 +2,9 @@
 #pragma once
 
 #include "scenarios/can/can_database.h"
-#include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <string>
 
 namespace fernlicht {
@@ -16,17 +12,8 @@ namespace fernlicht {
 /// A folder of one test, gone with it.
 class DbcTrial : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "fernlicht-dbc-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& content, const std::string& name = "trial.dbc") const {
-        const std::filesystem::path path = folder_ / name;
-        std::ofstream(path, std::ios::binary) << content;
-        return path;
+        return tests::written(name, content, folder_);
     }
     CanDatabase read(const std::string& content) const {
         FilesRead opened;
@@ -38,24 +25,14 @@ class DbcTrial : public testing::Test {
     }
     /// What the reader says behind the name of the file, "" when it reads.
     std::string refusal(const std::string& content) const {
-        try {
-            read(content);
-        } catch (const InputError& error) {
-            const std::string said = error.what();
-            const std::size_t name = said.find("trial.dbc");
-            return name == std::string::npos ? said : said.substr(name);
-        }
-        return "";
+        const std::string said = tests::refusal_of([&] { read(content); }, "");
+        const std::size_t name = said.find("trial.dbc");
+        return name == std::string::npos ? said : said.substr(name);
     }
 
-    std::filesystem::path folder_;
+    const std::filesystem::path folder_ = tests::new_folder();
 };
 
-inline std::string all_notes(const CanDatabase& database) {
-    std::string out;
-    for (const std::string& note : database.notes)
-        out += note + "\n";
-    return out;
-}
+using tests::all_notes;
 
 } // namespace fernlicht

@@ -11,9 +11,8 @@ namespace fernlicht {
 inline CanFrame random_frame(std::mt19937_64& random) {
     const auto below = [&](std::uint64_t bound) { return random() % bound; };
     static constexpr std::array<std::uint8_t, 16> fd_lengths = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
-    CanFrame frame;
-    frame.time_ns = static_cast<std::int64_t>(below(2'000'000'000'000'000)) * 1000;
-    frame.channel = std::array<const char*, 4>{"can0", "vcan12", "c", "fifteen_letters"}[below(4)];
+    CanFrame frame{.time_ns = static_cast<std::int64_t>(below(2'000'000'000'000'000)) * 1000,
+                   .channel = std::array<const char*, 4>{"can0", "vcan12", "c", "fifteen_letters"}[below(4)]};
     switch (below(6)) {
     case 0:
         frame.error = true;

@@ -1,8 +1,8 @@
 #include "scenarios/display/display_profile.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -99,7 +99,7 @@ TEST(DisplayProfile, TransferCurvesRiseAndComeBack) {
     }
 }
 
-TEST(DisplayProfile, PrimariesOfSrgbGiveItsMatrix) {
+TEST(DisplayProfile, PrimariesOfSrgbGiveItsMatrixAndPqEndsWhereItsStandardDoes) {
     const glm::dmat3 matrix = xyz_from_primaries({0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}, 1.0),
                      rounded = xyz_from_light();
     for (int column = 0; column < 3; ++column)
@@ -108,9 +108,6 @@ TEST(DisplayProfile, PrimariesOfSrgbGiveItsMatrix) {
     EXPECT_THROW(xyz_from_primaries({0.64, 0.33}, {0.30, 0.60}, {0.47, 0.465}, {0.31, 0.33}, 1.0), std::invalid_argument);
     EXPECT_THROW(xyz_from_primaries({0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.7, 0.2}, 1.0), std::invalid_argument);
     EXPECT_THROW(xyz_from_primaries({0.64, 0.0}, {0.30, 0.60}, {0.15, 0.06}, {0.31, 0.33}, 1.0), std::invalid_argument);
-}
-
-TEST(DisplayProfile, PqEndsWhereItsStandardDoes) {
     const std::string lines = "fernlicht_display: 1\nprimaries: {red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, "
                               "0.329]}\nblack_cdm2: 0.7\ntransfer: pq\npeak_cdm2: ";
     EXPECT_NEAR(profile_of(lines + "10000\n").peak_cdm2(), 10000.0, 1.0e-8);
@@ -132,13 +129,8 @@ struct Refusal {
 class DisplayRefusals : public testing::TestWithParam<Refusal> {};
 
 TEST_P(DisplayRefusals, NameTheirPlace) {
-    try {
-        profile_of(GetParam().text);
-        FAIL() << "was taken";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr(GetParam().says));
-        EXPECT_THAT(error.what(), testing::HasSubstr("profile.yaml:"));
-    }
+    EXPECT_THAT(tests::refusal_of([] { profile_of(GetParam().text); }),
+                testing::AllOf(testing::HasSubstr(GetParam().says), testing::HasSubstr("profile.yaml:")));
 }
 
 constexpr const char* srgb_lines = "primaries: {red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329]}\n";

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <set>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -20,8 +21,7 @@ TEST_P(Shipped, ReadsAndFitsItsRoad) {
     EXPECT_EQ(drive.variants[0].name, "halogen");
     EXPECT_EQ(drive.variants[1].name, "xenon");
     EXPECT_EQ(drive.variants[1].lamps[0].source, SourceKind::arc);
-    EXPECT_EQ(drive.views[0].width_px, 1024);
-    EXPECT_EQ(drive.views[0].height_px, 768);
+    EXPECT_EQ(std::tuple(drive.views[0].width_px, drive.views[0].height_px), std::tuple(1024, 768));
     ASSERT_TRUE(drive.extent);
     EXPECT_THAT(drive.extent->limits_lx, testing::ElementsAre(1.0, 3.0, 5.0, 10.0));
 
@@ -69,8 +69,7 @@ TEST(ShippedDrives, TheIihsSensorsStandInTheBend) {
         const double at_m = drive.seeing.glare->oncoming.at(0).at_m;
         EXPECT_EQ(drive.seeing.glare->oncoming[0].eye_height_m, 1.1);
         for (const Sensor& sensor : drive.seeing.sensors->points) {
-            EXPECT_EQ(sensor.at_m, at_m);
-            EXPECT_EQ(sensor.above_m, 0.25);
+            EXPECT_EQ(std::tuple(sensor.at_m, sensor.above_m), std::tuple(at_m, 0.25));
         }
         const glm::dvec3 before = route.pose(at_m - 30.0).forward(), after = route.pose(at_m + 10.0).forward();
         const double turn_rad = std::asin(before.x * after.y - before.y * after.x);

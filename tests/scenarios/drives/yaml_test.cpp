@@ -2,50 +2,42 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 #include "scenarios/yaml/yaml_entry.h"
+#include "tests/scenarios/drives/drive_fixture.h"
+#include "tests/trial.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using testing::HasSubstr;
+using DriveRefusal = DriveFixture;
+using testing::AllOf, testing::HasSubstr, testing::StartsWith;
 
 const std::filesystem::path file = "/tmp/some.yaml";
 
-std::string refusal(const auto& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "not refused";
-}
+std::string refusal(const auto& action) { return tests::refusal_of(action); }
 
 std::string parse_refusal(const std::string& content) {
     return refusal([&] { parse_yaml(content, file); });
 }
 
-TEST(YamlTree, KeepsKindsOrderAndPlaces) {
+TEST(YamlTree, KeepsKindsOrderPlacesAndWhatAliasesName) {
     const YamlValue root = parse_yaml("b: 1\na:\n  - x\n  - 'y'\nn: ~\n", file);
     ASSERT_EQ(root.kind, YamlValue::Kind::map);
     ASSERT_EQ(root.members.size(), 3U);
     EXPECT_EQ(root.members[0].key, "b");
-    EXPECT_EQ(root.members[0].value.line, 1U);
-    EXPECT_EQ(root.members[0].value.column, 4U);
+    EXPECT_EQ(std::tuple(root.members[0].value.line, root.members[0].value.column), std::tuple(1U, 4U));
     const YamlValue& list = root.members[1].value;
     ASSERT_EQ(list.items.size(), 2U);
     EXPECT_FALSE(list.items[0].quoted);
     EXPECT_TRUE(list.items[1].quoted);
     EXPECT_EQ(list.items[1].line, 4U);
     EXPECT_EQ(root.members[2].value.kind, YamlValue::Kind::null);
-}
-
-TEST(YamlTree, AliasesBecomeWhatTheyName) {
-    const YamlValue root = parse_yaml("a: &lamp {file: x}\nb: *lamp\n", file);
-    ASSERT_EQ(root.members[1].value.members.size(), 1U);
-    EXPECT_EQ(root.members[1].value.members[0].value.text, "x");
+    const YamlValue other_root = parse_yaml("a: &lamp {file: x}\nb: *lamp\n", file);
+    ASSERT_EQ(other_root.members[1].value.members.size(), 1U);
+    EXPECT_EQ(other_root.members[1].value.members[0].value.text, "x");
 }
 
 TEST(YamlTree, RefusesWithLine) {
@@ -111,9 +103,6 @@ TEST_F(YamlEntryTest, NumbersAreFiniteInRangeAndUnquoted) {
     for (const char* bad : {"'1'", "1 km", "'0,5'", "0,5,5", "nan", ".nan", "inf", "-.inf", "1e999", "0x10", "1_000", "~", "[1]", "{a: 1}",
                             "1.5.2", "+-1", "4"})
         EXPECT_THAT(refusal([&] { entry(bad).number(0.0, 3.0); }), HasSubstr("some.yaml:1:4: k: found ")) << bad;
-}
-
-TEST_F(YamlEntryTest, DecimalCommasAreCalledThat) {
     EXPECT_EQ(refusal([&] { entry("64,4").number(0.0, 300.0); }), "/tmp/some.yaml:1:4: k: has a decimal comma: write 64.4");
     EXPECT_EQ(refusal([&] { entry("-0,5e1").number_above(0.0, 300.0); }), "/tmp/some.yaml:1:4: k: has a decimal comma: write -0.5e1");
 }
@@ -133,13 +122,10 @@ TEST_F(YamlEntryTest, WholesFlagsNamesAndChoices) {
     EXPECT_NE(refusal([&] { entry(std::string(65, 'a')).name(); }), "not refused");
 }
 
-TEST_F(YamlEntryTest, PathsStartAtTheFilesFolder) {
+TEST_F(YamlEntryTest, PathsAnglesAndUnknownKeys) {
     EXPECT_EQ(entry("../lamps/a.ies").path(), "/lamps/a.ies");
     EXPECT_EQ(entry("b.ies").path(), "/tmp/b.ies");
     EXPECT_EQ(entry("/abs/c.ies").path(), "/abs/c.ies");
-}
-
-TEST_F(YamlEntryTest, UnknownKeysNameTheNearest) {
     EXPECT_THAT(refusal([&] {
                     entry("{ahead: 3}").map({"ahead_m", "left_m"});
                 }),
@@ -147,15 +133,142 @@ TEST_F(YamlEntryTest, UnknownKeysNameTheNearest) {
     EXPECT_THAT(refusal([&] { entry("{zzzzzzzzz: 3}").map({"ahead_m", "left_m"}); }), HasSubstr("one of ahead_m, left_m"));
     EXPECT_THAT(refusal([&] { entry("{left_m: 3}").map({"ahead_m", "left_m"}).require("ahead_m"); }), HasSubstr("k.ahead_m: missing"));
     EXPECT_THAT(refusal([&] { entry("3").map({"ahead_m"}); }), HasSubstr("found '3', expected a map"));
-}
-
-TEST_F(YamlEntryTest, AnglesInDegreesOrRadians) {
     const auto angle = [&](const char* text) { return entry(text).map({"yaw_deg", "yaw_rad"}).angle_rad("yaw", 90.0); };
     EXPECT_DOUBLE_EQ(*angle("{yaw_deg: 90}"), 1.5707963267948966);
     EXPECT_EQ(*angle("{yaw_rad: 0.25}"), 0.25);
     EXPECT_FALSE(angle("{}"));
     EXPECT_THAT(refusal([&] { angle("{yaw_deg: 1, yaw_rad: 1}"); }), HasSubstr("'yaw_rad' beside 'yaw_deg'"));
     EXPECT_THAT(refusal([&] { angle("{yaw_deg: 91}"); }), HasSubstr("from -90 to 90"));
+}
+
+// Drive files that must not be read: one sentence each, with file, line, column and key path.
+
+TEST_F(DriveRefusal, UnknownKeysNameTheNearestAtEveryLevel) {
+    EXPECT_EQ(refusal(minimal + "durations_s: 3\n"),
+              "drive.yaml:7:1: durations_s: unknown key, expected 'duration_s', the nearest known key");
+    EXPECT_EQ(refusal(minimal + "views: {driver: {fov_deg: 3}}\n").substr(0, 50), "drive.yaml:7:18: views.driver.fov_deg: unknown key");
+    EXPECT_THAT(refusal(minimal + "measure: {probes: {p: {ahead: 3}}}\n"),
+                HasSubstr("measure.probes.p.ahead: unknown key, expected 'ahead_m'"));
+    EXPECT_THAT(refusal(minimal + "changes: [{at: 3}]\n"), HasSubstr("changes[0].at: unknown key, expected 'at_s'"));
+    EXPECT_THAT(refusal(minimal + "car: {mount: 3}\n"), HasSubstr("car.mount: unknown key, expected 'mounts'"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_kmh: 1\nduration_s: 1\nvariants: {a: {lamps: {left: {flie: low.ies}}}}\n"),
+                HasSubstr("drive.yaml:5:31: variants.a.lamps.left.flie: unknown key, expected 'file'"));
+    for (const char* value : {"null", "[map]"})
+        EXPECT_THAT(refusal(minimal + "shadows: " + value + "\n"), AllOf(HasSubstr("shadows: found"), HasSubstr("one of none, under-car"),
+                                                                         HasSubstr("auto, or a map with keys such as method")));
+}
+
+TEST_F(DriveRefusal, MissingKeysAndOtherVersions) {
+    EXPECT_THAT(refusal("road: road.xodr\n"), HasSubstr("fernlicht: missing"));
+    EXPECT_THAT(refusal("fernlicht: 1\n"), HasSubstr("road: missing"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\n"), HasSubstr("speed_kmh: missing"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\n"), HasSubstr("duration_s: missing"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\n"), HasSubstr("variants: missing"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants: {a: {source: arc}}\n"),
+                HasSubstr("a lamp without a file"));
+    EXPECT_EQ(refusal("fernlicht: 1\nroad: road.xodr\nspeed: 60\n"),
+              "drive.yaml:3:8: speed: found '60', expected a list of {at_s, speed_kmh}; one speed for all of the drive is speed_kmh or "
+              "speed_mps");
+    EXPECT_THAT(refusal("fernlicht: 2\n"), HasSubstr("found '2', expected 1"));
+}
+
+TEST_F(DriveRefusal, MissingFilesAreNamedWithTheLineThatAsks) {
+    EXPECT_EQ(refusal("fernlicht: 1\nroad: none.xodr\n"),
+              "drive.yaml:2:7: road: there is no file none.xodr, expected a file (relative paths start at this file's folder)");
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: .\n"), HasSubstr("is not a regular file"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants:\n  a: {lamps: {left: none.ies}}\n"),
+                StartsWith("drive.yaml:6:21: variants.a.lamps.left.file: there is no file none.ies"));
+    EXPECT_THAT(
+        refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants:\n  a: {file: low.ies, spectrum: none.csv}\n"),
+        StartsWith("drive.yaml:6:32: variants.a.spectrum: there is no file none.csv"));
+    EXPECT_THAT(refusal(minimal + "changes: [{at_s: 1, file: none.ies}]\n"), HasSubstr("changes[0].file: there is no file none.ies"));
+}
+
+TEST_F(DriveRefusal, FieldsOfViewHaveOneRange) {
+    for (const char* bad : {"180", "0", "-40"})
+        EXPECT_THAT(refusal(minimal + fmt::format("views: {{v: {{vertical_fov_deg: {}}}}}\n", bad)),
+                    HasSubstr(fmt::format("views.v.vertical_fov_deg: found '{}', expected a number from 0.01 to 179", bad)));
+}
+
+TEST_F(DriveRefusal, NumbersOutOfRange) {
+    const auto with_duration = [&](const std::string& keys) {
+        return refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nvariants: {a: {file: low.ies}}\n" + keys);
+    };
+    for (const char* bad : {"0", "-1", "nan", ".inf", "1e7", "'3'", "three", "3 s", "[3]", "~"})
+        EXPECT_THAT(with_duration(fmt::format("duration_s: {}\n", bad)), StartsWith("drive.yaml:5:13: duration_s: found")) << bad;
+    EXPECT_THAT(with_duration("duration_s: 100\nstep_s: 1e-6\n"), HasSubstr("100000000 steps"));
+    for (const std::string& bad : tests::each_of(
+             {{"step_s", "0|-0.1"},
+              {"", "rate_hz: 0|speed_mps: 3|step_s: 1\nrate_hz: 1"},
+              {"views", "{v: {vertical_fov_deg: 180}}|{v: {vertical_fov_deg: 0}}|{v: {resolution_px: [0, 10]}}|"
+                        "{v: {resolution_px: [16385, 10]}}|{v: {resolution_px: [10.5, 10]}}|{v: {resolution_px: [10]}}|"
+                        "{v: {position_m: [0, 0, nan]}}|{v: {map: {}, yaw_deg: 3}}|{v: {map: {ahead_m: 5, behind_m: -5}}}|{}|[]"},
+              {"daylight", "dawn|{horizontal_illuminance_lx: -1}|"
+                           "{date: 2026-02-29, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}|"
+                           "{date: 2026-02-28, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0, sun: {}}|"
+                           "{date: 2026-02-28, time: -1:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}|"
+                           "{horizontal_illuminance_lx: 1, sun: {azimuth_deg: 1, elevation_deg: 1, illuminance_lx: 1}, moon: {azimuth_deg: "
+                           "1, elevation_deg: 1, illuminance_lx: 1}}|"
+                           "{horizontal_illuminance_lx: 1, sun: {azimuth_deg: 1, elevation_deg: -5, illuminance_lx: 1}}"},
+              {"", "traffic: {others: {entities: all}}"},
+              {"weather", "{fog: {visibility_m: 100}, extinction_per_m: 1}|{extinction_per_m: 11}|{mist: true}"},
+              {"seed", "-1|18446744073709551616"},
+              {"", "shadows: yes|beams: 8"},
+              {"textures", "true|mine.png"},
+              {"tone_mapper", "{s: 0.5}|{l_max_cdm2: 0}|{l_max_cdm2: 1.0e-42}|{kind: linear, s: 3}|{kind: histogram, s: 20}|"
+                              "{kind: logarithmic, s: fitted}|{curve: [[0, -1], [1, 0]]}|"
+                              "{kind: histogram, l_max_cdm2: 100, curve: [[-4.6, -5.3], [0, -1.6], [3.0, 0]]}|"
+                              "{kind: histogram, l_max_cdm2: all, curve: [[-4.6, -5.3], [3.0, 0]]}|"
+                              "{kind: histogram, curve: [[-4.6, -5.3], [30.0, 0]]}|"
+                              "{kind: histogram, l_max_cdm2: 19.95, curve: [[2.995, -1.6], [3.0, 0]]}|square|[linear]"},
+              {"", "capture: {per_second: -1}"},
+              {"measure", "{extent: {limits_lx: []}}|{extent: {limits_lx: [0]}}|{extent: {cell_m: 0.02, ahead_m: 2000, beside_m: 200}}"},
+              {"limits", "[{reading: x}]|[{reading: x, at_least: 2, at_most: 1}]"},
+              {"changes", "[{at_s: -1, level: 1}]|[{at_s: 1}]|[{at_s: 1, level: 1.5}]|[{at_s: 1, level: 1, between_samples: log_cd}]"},
+              {"", "name: ../up"},
+              {"route", "{s_m: -1}|{lane: 1.5}"},
+              {"", "technique: ''|car: {lamps: {left: low.ies}}"}}))
+        EXPECT_NE(refusal(minimal + bad + "\n"), "not refused") << bad;
+}
+
+TEST_F(DriveRefusal, LampKeysOutOfRange) {
+    for (const char* bad :
+         {"level: 1.01", "level: -0.1", "voltage_v: 11.9", "voltage_v: 13.9", "source: halogen", "source: led", "temperature_k: 999",
+          "temperature_k: 3000, spectrum: spectrum.csv", "aim: {pitch_deg: 1, percent_down: 1}", "aim: {pitch_deg: 91}", "aim: down",
+          "type_c_axis: up", "texture: {h_extent_deg: [3, -3]}", "lamps: {middle: low.ies}", "lamps: {left: {mount: lfet}}",
+          "lamps: {left: {mount: left, position_m: [1, 1, 1]}}", "lamps: {}", "lamps: [low.ies]",
+          "colour: {linear_srgb: [1, 1], sp_ratio: 1}"})
+        EXPECT_THAT(refusal(fmt::format(
+                        "fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants:\n  a: {{file: low.ies, {}}}\n", bad)),
+                    StartsWith("drive.yaml:6:"))
+            << bad;
+}
+
+TEST_F(DriveRefusal, NamesGivenTwiceOrUnknownAndSpeedProfiles) {
+    EXPECT_THAT(refusal(minimal + "views:\n  a: {}\n  a: {}\n"), HasSubstr("drive.yaml:9:3: found the key 'a' a second time"));
+    EXPECT_THAT(refusal(minimal + "  one: {file: low.ies}\n"), HasSubstr("'one' a second time"));
+    EXPECT_THAT(refusal(minimal + "changes: [{at_s: 1, lamp: lift, level: 1}]\n"),
+                AllOf(StartsWith("drive.yaml:7:27: changes[0].lamp: no lamp 'lift' in variant 'one'"), HasSubstr("nearest: 'left'")));
+    const std::string head = "fernlicht: 1\nroad: road.xodr\nduration_s: 1\nvariants: {a: {file: low.ies}}\n";
+    for (const char* bad : {"speed: []", "speed: [{at_s: 0}]", "speed: [{at_s: 0, speed_kmh: 1, speed_mps: 1}]",
+                            "speed: [{at_s: 1, speed_kmh: 1}, {at_s: 1, speed_kmh: 2}]", "speed: [{speed_kmh: 1}]", "speed: 80",
+                            "speed_kmh: -1", "speed_kmh: 541", "speed_mps: 1\nspeed_kmh: 1"})
+        EXPECT_THAT(refusal(head + bad + "\n"), StartsWith("drive.yaml:")) << bad;
+}
+
+TEST_F(DriveRefusal, BadBytes) {
+    EXPECT_THAT(refusal(""), HasSubstr("is empty"));
+    EXPECT_THAT(refusal("just text"), HasSubstr("expected a map"));
+    EXPECT_THAT(refusal(std::string("\x7f"
+                                    "ELF\0\1\2",
+                                    7)),
+                HasSubstr("zero byte"));
+    EXPECT_THAT(refusal(std::string((std::size_t{4} << 20) + 1, '#')), HasSubstr("at most"));
+    EXPECT_THAT(refusal(std::string(std::size_t{3} << 20, '-')), StartsWith("drive.yaml:"));
+    for (std::size_t length = 0; length + 1 < minimal.size(); ++length)
+        EXPECT_NE(refusal(minimal.substr(0, length)), "not refused") << length;
+    write_file(folder / "low.ies", "rubbish");
+    EXPECT_THAT(refusal(minimal), StartsWith("low.ies:"));
 }
 
 } // namespace

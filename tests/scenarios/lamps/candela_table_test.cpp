@@ -1,33 +1,18 @@
 #include "scenarios/lamps/candela_table.h"
 
 #include "scenarios/values/pose.h"
+#include "tests/lamps.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <limits>
 #include <random>
 
 namespace fernlicht {
 namespace {
 
-std::vector<double> axis(double from, double to, double step) {
-    std::vector<double> out;
-    const auto count = static_cast<int>(std::lround((to - from) / step));
-    for (int i = 0; i <= count; ++i)
-        out.push_back(from + (to - from) * i / count);
-    return out;
-}
-
-template <class Intensity>
-CandelaTable table_of(std::vector<double> h, std::vector<double> v, Intensity intensity, BetweenSamples rule = BetweenSamples::linear_cd) {
-    CandelaTable table{std::move(h), std::move(v), {}, {}, rule};
-    for (const double vd : table.v_deg)
-        for (const double hd : table.h_deg)
-            table.cd.push_back(intensity(hd, vd));
-    check_invariants(table);
-    return table;
-}
+using tests::steps, tests::table_of;
 
 CandelaTable random_table(unsigned seed, BetweenSamples rule = BetweenSamples::linear_cd) {
     std::mt19937 random(seed);
@@ -43,16 +28,13 @@ CandelaTable random_table(unsigned seed, BetweenSamples rule = BetweenSamples::l
         h, v, [&](double, double) { return cd(random); }, rule);
 }
 
-TEST(CandelaTable, GivesItsOwnSamples) {
+TEST(CandelaTable, GivesItsOwnSamplesAndRunsLinearlyBetweenThem) {
     for (const auto rule : {BetweenSamples::linear_cd, BetweenSamples::log_cd}) {
         const CandelaTable table = random_table(1, rule);
         for (std::size_t v = 0; v < table.v_deg.size(); ++v)
             for (std::size_t h = 0; h < table.h_deg.size(); ++h)
                 EXPECT_NEAR(intensity_cd(table, table.h_deg[h], table.v_deg[v]), table.at(v, h), 1e-14 * 5000.0 * 10.0);
     }
-}
-
-TEST(CandelaTable, RunsLinearlyInCandelaOrInItsLogarithm) {
     CandelaTable table{{0.0, 2.0}, {-1.0, 1.0}, {1.0, 100.0, 10.0, 1000.0}, {}, BetweenSamples::linear_cd};
     EXPECT_DOUBLE_EQ(intensity_cd(table, 0.5, -1.0), 25.75);
     EXPECT_DOUBLE_EQ(intensity_cd(table, 1.0, 0.0), 277.75);
@@ -63,7 +45,7 @@ TEST(CandelaTable, RunsLinearlyInCandelaOrInItsLogarithm) {
     EXPECT_DOUBLE_EQ(intensity_cd(table, 1.0, 0.0), 27.75) << "a cell with a zero has no logarithm";
 }
 
-TEST(CandelaTable, HasNoLightOutsideItsAxes) {
+TEST(CandelaTable, HasNoLightOutsideItsAxesUnlessTheyWrapRound) {
     const CandelaTable table = table_of({-10.0, 0.0, 10.0}, {-5.0, 0.0, 5.0}, [](double, double) { return 7.0; });
     EXPECT_EQ(intensity_cd(table, 10.0, 5.0), 7.0);
     for (const auto& [h, v] :
@@ -73,14 +55,11 @@ TEST(CandelaTable, HasNoLightOutsideItsAxes) {
     EXPECT_EQ(intensity_cd(table, nan, 0.0), 0.0);
     EXPECT_EQ(intensity_cd(table, 0.0, nan), 0.0);
     EXPECT_EQ(intensity_cd(table, inf, 0.0), 0.0);
-}
-
-TEST(CandelaTable, WrapsRoundAFullTurn) {
-    const CandelaTable table =
-        table_of(axis(-180.0, 180.0, 10.0), {-90.0, 90.0}, [](double h, double) { return 2.0 + std::cos(radians(h)); });
-    EXPECT_NEAR(intensity_cd(table, 185.0, 0.0), intensity_cd(table, -175.0, 0.0), 1e-12);
-    EXPECT_NEAR(intensity_cd(table, -725.0, 0.0), intensity_cd(table, -5.0, 0.0), 1e-12);
-    EXPECT_NEAR(intensity_cd(table, 180.0, 0.0), 1.0, 1e-12);
+    const CandelaTable other_table =
+        table_of(steps(-180.0, 180.0, 10.0), {-90.0, 90.0}, [](double h, double) { return 2.0 + std::cos(radians(h)); });
+    EXPECT_NEAR(intensity_cd(other_table, 185.0, 0.0), intensity_cd(other_table, -175.0, 0.0), 1e-12);
+    EXPECT_NEAR(intensity_cd(other_table, -725.0, 0.0), intensity_cd(other_table, -5.0, 0.0), 1e-12);
+    EXPECT_NEAR(intensity_cd(other_table, 180.0, 0.0), 1.0, 1e-12);
 }
 
 TEST(CandelaTable, HasNoLightInAGapButOnItsBorder) {
@@ -98,28 +77,30 @@ TEST(CandelaTable, HasNoLightInAGapButOnItsBorder) {
     EXPECT_NEAR(flux_lm(table), flux_lm(lit), 1e-12);
 }
 
-TEST(CandelaTable, FindsItsPeak) {
-    const CandelaTable table = table_of(axis(-20.0, 20.0, 0.5), axis(-10.0, 5.0, 0.25), [](double h, double v) {
+TEST(CandelaTable, FindsItsPeakAndScalesEverySample) {
+    const CandelaTable table = table_of(steps(-20.0, 20.0, 0.5), steps(-10.0, 5.0, 0.25), [](double h, double v) {
         return 3e4 * std::exp(-std::pow(h - 1.5, 2) / 50.0 - std::pow(v + 0.75, 2) / 4.0);
     });
     const Peak peak = peak_of(table);
     EXPECT_DOUBLE_EQ(peak.cd, 3e4);
     EXPECT_DOUBLE_EQ(peak.h_deg, 1.5);
     EXPECT_DOUBLE_EQ(peak.v_deg, -0.75);
+    const CandelaTable other_table = random_table(2);
+    EXPECT_NEAR(flux_lm(scaled(other_table, 2.5)), 2.5 * flux_lm(other_table), 1e-9);
+    EXPECT_EQ(peak_of(scaled(other_table, 0.0)).cd, 0.0);
+    EXPECT_THROW(scaled(other_table, -1.0), std::invalid_argument);
+    EXPECT_THROW(scaled(other_table, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
 }
 
-TEST(CandelaTableFlux, OfAConstantIntensityIsFourPiTimesIt) {
+TEST(CandelaTableFlux, OfAConstantIntensityAndOfACosine) {
     for (const auto rule : {BetweenSamples::linear_cd, BetweenSamples::log_cd})
         for (const double step : {180.0, 90.0, 5.0, 0.5}) {
             const CandelaTable table = table_of(
-                axis(-180.0, 180.0, 2.0 * step), axis(-90.0, 90.0, step), [](double, double) { return 12.5; }, rule);
+                steps(-180.0, 180.0, 2.0 * step), steps(-90.0, 90.0, step), [](double, double) { return 12.5; }, rule);
             EXPECT_NEAR(flux_lm(table), 4.0 * pi * 12.5, 1e-11 * 4.0 * pi * 12.5) << step;
         }
-}
-
-TEST(CandelaTableFlux, OfACosineEmitterIsPiTimesItsAxialIntensity) {
     // Lambert: I = I0 cos(angle to the axis) = I0 cos V cos H; linear interpolation over 1 degree loses about step^2/12 in each direction.
-    const CandelaTable table = table_of(axis(-90.0, 90.0, 1.0), axis(-90.0, 90.0, 1.0), [](double h, double v) {
+    const CandelaTable table = table_of(steps(-90.0, 90.0, 1.0), steps(-90.0, 90.0, 1.0), [](double h, double v) {
         return std::max(0.0, 800.0 * std::cos(radians(v)) * std::cos(radians(h)));
     });
     EXPECT_NEAR(flux_lm(table) / (pi * 800.0), 1.0, 6e-5);
@@ -149,9 +130,6 @@ TEST(CandelaTableFlux, IsTheIntegralOfTheTablesOwnRule) {
             // linear ones.
             EXPECT_NEAR(flux_lm(table) / flux_by_midpoints(table, 200), 1.0, 1.2e-4) << seed;
         }
-}
-
-TEST(CandelaTableFlux, OfASteepLogarithmicCellIsItsClosedForm) {
     // Near V = 0 the cosine is 1: the integral of exp along V is (b - a)/ln(b/a) times the area. The cosine leaves 1e-8 on 0.01 degrees.
     const CandelaTable table{{0.0, 0.01}, {-0.005, 0.005}, {1e-6, 1e-6, 1e9, 1e9}, {}, BetweenSamples::log_cd};
     const double area = radians(0.01) * radians(0.01);
@@ -159,13 +137,8 @@ TEST(CandelaTableFlux, OfASteepLogarithmicCellIsItsClosedForm) {
 }
 
 TEST(CandelaTable, NamesTheBrokenInvariant) {
-    const auto complaint = [](const CandelaTable& table) -> std::string {
-        try {
-            check_invariants(table);
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "none";
+    const auto complaint = [](const CandelaTable& table) {
+        return tests::refusal_of<std::invalid_argument>([&] { check_invariants(table); }, "none");
     };
     using testing::HasSubstr;
     const CandelaTable good{{0.0, 1.0}, {0.0, 1.0}, {1.0, 2.0, 3.0, 4.0}, {}, BetweenSamples::linear_cd};
@@ -185,20 +158,11 @@ TEST(CandelaTable, NamesTheBrokenInvariant) {
     EXPECT_THAT(broken([](auto& t) { t.gaps = {0, 1}; }), HasSubstr("2 gap marks"));
 }
 
-TEST(CandelaTable, ScalesEverySample) {
-    const CandelaTable table = random_table(2);
-    EXPECT_NEAR(flux_lm(scaled(table, 2.5)), 2.5 * flux_lm(table), 1e-9);
-    EXPECT_EQ(peak_of(scaled(table, 0.0)).cd, 0.0);
-    EXPECT_THROW(scaled(table, -1.0), std::invalid_argument);
-    EXPECT_THROW(scaled(table, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
-}
-
 TEST(CandelaTable, MirrorsForLeftHandTraffic) {
     CandelaTable table = random_table(3);
     table.gaps.assign((table.v_deg.size() - 1) * (table.h_deg.size() - 1), 0);
     table.gaps[2] = 1;
-    const CandelaTable before = table;
-    const CandelaTable mirror = mirrored(table);
+    const CandelaTable before = table, mirror = mirrored(table);
     EXPECT_EQ(table, before);
     check_invariants(mirror);
     for (double h = -33.05; h < 5.0; h += 0.61)
@@ -229,18 +193,14 @@ TEST(CandelaTableSums, EqualTheSumOfBothEverywhere) {
     }
 }
 
-TEST(CandelaTableSums, DoNotSmearATableBeyondItsEdge) {
+TEST(CandelaTableSums, EndWithTheirTablesAndMarkWhereNeitherHasData) {
     const CandelaTable narrow = table_of({-5.0, 0.0, 5.0}, {-5.0, 0.0, 5.0}, [](double, double) { return 1000.0; });
     const CandelaTable wide = table_of({-40.0, 40.0}, {-20.0, 20.0}, [](double, double) { return 1.0; });
     EXPECT_NEAR(intensity_cd(sum(narrow, wide), 5.001, 0.0), 1.0, 1e-9);
     EXPECT_NEAR(intensity_cd(sum(wide, narrow), 4.999, 4.999), 1001.0, 1e-9);
     EXPECT_NEAR(intensity_cd(sum(wide, narrow), 0.0, -5.001), 1.0, 1e-9);
-}
-
-TEST(CandelaTableSums, MarkWhereNeitherHasData) {
     const CandelaTable left = table_of({-20.0, -10.0}, {0.0, 5.0}, [](double, double) { return 8.0; });
-    const CandelaTable right = table_of({10.0, 20.0}, {-5.0, 0.0}, [](double, double) { return 4.0; });
-    const CandelaTable both = sum(left, right);
+    const CandelaTable right = table_of({10.0, 20.0}, {-5.0, 0.0}, [](double, double) { return 4.0; }), both = sum(left, right);
     EXPECT_EQ(intensity_cd(both, 0.0, 0.0), 0.0);
     EXPECT_EQ(intensity_cd(both, -9.0, 2.0), 0.0);
     EXPECT_NEAR(intensity_cd(both, -15.0, 2.0), 8.0, 1e-12);
@@ -262,14 +222,14 @@ TEST(CandelaTableSums, SubtractAndCountWhatCannotBeTaken) {
 
 TEST(CandelaTablePrediction, IsPerfectForABilinearBeam) {
     const CandelaTable table =
-        table_of(axis(-10.0, 10.0, 1.0), axis(-5.0, 5.0, 0.5), [](double h, double v) { return 100.0 + h + 2.0 * v + 0.1 * h * v; });
+        table_of(steps(-10.0, 10.0, 1.0), steps(-5.0, 5.0, 0.5), [](double h, double v) { return 100.0 + h + 2.0 * v + 0.1 * h * v; });
     const InterpolationError error = interpolation_error(table);
     EXPECT_EQ(error.samples, 21U * 21U - 11U * 11U);
     EXPECT_LT(error.worst_relative, 1e-14);
 }
 
 TEST(CandelaTablePrediction, FindsTheSpikeItCannotPredict) {
-    CandelaTable table = table_of(axis(-10.0, 10.0, 1.0), axis(-5.0, 5.0, 0.5), [](double, double) { return 10.0; });
+    CandelaTable table = table_of(steps(-10.0, 10.0, 1.0), steps(-5.0, 5.0, 0.5), [](double, double) { return 10.0; });
     table.at(7, 4) = 100.0;
     const InterpolationError error = interpolation_error(table);
     EXPECT_DOUBLE_EQ(error.worst_relative, 0.9);
@@ -278,16 +238,13 @@ TEST(CandelaTablePrediction, FindsTheSpikeItCannotPredict) {
     EXPECT_LT(error.median_relative, 1e-15);
 }
 
-TEST(CandelaTablePrediction, FollowsTheCurvatureOfAParabola) {
+TEST(CandelaTablePrediction, FollowsTheCurvatureOfAParabolaAndNothingInATinyOrDarkTable) {
     // y = x^2 on step 1, predicted from step 2: the chord lies 1 above the curve at each middle. Peak 100.
-    const CandelaTable table = table_of(axis(-10.0, 10.0, 1.0), {0.0, 1.0}, [](double h, double) { return h * h; });
+    const CandelaTable table = table_of(steps(-10.0, 10.0, 1.0), {0.0, 1.0}, [](double h, double) { return h * h; });
     const InterpolationError error = interpolation_error(table);
     EXPECT_EQ(error.samples, 20U);
     EXPECT_NEAR(error.median_relative, 0.01, 1e-12);
     EXPECT_NEAR(error.p95_relative, 0.01, 1e-12);
-}
-
-TEST(CandelaTablePrediction, CannotBeMadeOnATinyOrDarkTable) {
     EXPECT_EQ(interpolation_error(table_of({0.0, 1.0}, {0.0, 1.0}, [](double, double) { return 3.0; })).samples, 0U);
     EXPECT_EQ(interpolation_error(table_of({0.0, 1.0, 2.0}, {0.0, 1.0, 2.0}, [](double, double) { return 0.0; })).samples, 0U);
 }

@@ -1,13 +1,16 @@
 // EULUMDAT: symmetries, lamp sets, absolute values, and broken files.
+#include "tests/lamps.h"
 #include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
 using testing::HasSubstr;
+using tests::steps;
 
 /// The parts of a file that the tests change.
 struct Ldt {
@@ -30,21 +33,14 @@ struct Ldt {
 
 class Eulumdat : public LampTrial {
   protected:
-    static LampReadOptions horizontal() {
-        LampReadOptions options;
-        options.type_c_axis = TypeCAxis::horizontal;
-        return options;
-    }
+    static LampReadOptions horizontal() { return {.type_c_axis = TypeCAxis::horizontal}; }
     LampFile lamp(const Ldt& ldt) const { return read("w.ldt", ldt.text(), horizontal()); }
 };
 
 TEST_F(Eulumdat, ListsCandelaPerThousandLumen) {
-    Ldt ldt;
-    ldt.sets = "1\n1\nLED\n2500\n4000 K\nRa > 80\n29.50";
-    ldt.output = "80";
+    Ldt ldt{.output = "80", .sets = "1\n1\nLED\n2500\n4000 K\nRa > 80\n29.50"};
     const LampFile l = lamp(ldt);
-    EXPECT_EQ(l.format, "EULUMDAT, Isym 1");
-    EXPECT_EQ(l.name, "Widget");
+    EXPECT_EQ(std::tuple(l.format, l.name), std::tuple("EULUMDAT, Isym 1", "Widget"));
     EXPECT_NEAR(flux_lm(l.table), 4 * pi * 250, 1e-9);
     EXPECT_DOUBLE_EQ(l.declared_flux_lm.value(), 2000.0);
     EXPECT_EQ(l.labels[0], (std::pair<std::string, std::string>{"company", "ACME"}));
@@ -52,24 +48,21 @@ TEST_F(Eulumdat, ListsCandelaPerThousandLumen) {
 }
 
 TEST_F(Eulumdat, TheConversionFactorMultiplies) {
-    Ldt ldt;
-    ldt.conversion = "1.5";
+    Ldt ldt{.conversion = "1.5"};
     EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 150.0, 1e-12);
     ldt.conversion = "0";
     EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 100.0, 1e-12);
 }
 
 TEST_F(Eulumdat, AbsoluteFilesHaveANegativeNumberOfLamps) {
-    Ldt ldt;
-    ldt.sets = "1\n-1\nLED\n500\n4000\n80\n15";
+    Ldt ldt{.sets = "1\n-1\nLED\n500\n4000\n80\n15"};
     const LampFile l = lamp(ldt);
     EXPECT_NEAR(peak_of(l.table).cd, 50.0, 1e-12);
     EXPECT_THAT(all_notes(l), HasSubstr("absolute photometry"));
 }
 
 TEST_F(Eulumdat, SeveralLampSetsAreAlternatives) {
-    Ldt ldt;
-    ldt.sets = "2\n1\nsmall\n500\n3000\n80\n10\n2\nlarge\n1200\n3000\n80\n30";
+    Ldt ldt{.sets = "2\n1\nsmall\n500\n3000\n80\n10\n2\nlarge\n1200\n3000\n80\n30"};
     EXPECT_NEAR(peak_of(lamp(ldt).table).cd, 50.0, 1e-12);
     EXPECT_THAT(all_notes(lamp(ldt)), HasSubstr("the first, 'small' with 500 lm"));
     ldt.sets = "2\n1\n2\nsmall\nlarge\n500\n1200\nwarm\ncold\n80\n80\n10\n30";
@@ -85,8 +78,7 @@ double lopsided(double c, double gamma) {
 }
 
 template <class Form> Ldt planes(int symmetry, const std::vector<double>& stored_c, Form form) {
-    Ldt ldt;
-    ldt.symmetry = symmetry;
+    Ldt ldt{.symmetry = symmetry};
     ldt.c.clear();
     for (int c = 0; c < 360; c += 15)
         ldt.c.push_back(c);
@@ -98,13 +90,6 @@ template <class Form> Ldt planes(int symmetry, const std::vector<double>& stored
     return ldt;
 }
 
-std::vector<double> turn(double from, double to) {
-    std::vector<double> out;
-    for (double c = from; c <= to; c += 15)
-        out.push_back(c);
-    return out;
-}
-
 TEST_F(Eulumdat, EachSymmetryFillsTheTurn) {
     const auto expect_form = [&](const Ldt& ldt, auto form) {
         const LampFile l = lamp(ldt);
@@ -114,20 +99,20 @@ TEST_F(Eulumdat, EachSymmetryFillsTheTurn) {
                 EXPECT_NEAR(intensity_cd(l.table, -c, g - 90.0), form(c, g), 1e-9)
                     << "Isym " << ldt.symmetry << ", C " << c << ", gamma " << g;
     };
-    expect_form(planes(0, turn(0, 345), lopsided), lopsided);
+    expect_form(planes(0, steps(0, 345, 15), lopsided), lopsided);
     const auto about_0 = [](double c, double g) {
         return 100.0 + std::sin(radians(g)) * (30.0 * std::cos(radians(c)) + 8.0 * std::cos(2.0 * radians(c)));
     };
-    expect_form(planes(2, turn(0, 180), about_0), about_0);
+    expect_form(planes(2, steps(0, 180, 15), about_0), about_0);
     const auto quarters = [](double c, double g) { return 100.0 + 30.0 * std::sin(radians(g)) * std::cos(2.0 * radians(c)); };
-    expect_form(planes(4, turn(0, 90), quarters), quarters);
+    expect_form(planes(4, steps(0, 90, 15), quarters), quarters);
 }
 
 TEST_F(Eulumdat, SymmetryThreeIsStoredFromC270ThroughC0ToC90) {
     const auto about_90 = [](double c, double g) {
         return 100.0 + std::sin(radians(g)) * (40.0 * std::sin(radians(c)) + 8.0 * std::cos(2.0 * radians(c)));
     };
-    const LampFile l = lamp(planes(3, turn(-90, 90), about_90));
+    const LampFile l = lamp(planes(3, steps(-90, 90, 15), about_90));
     ASSERT_THAT(all_notes(l), HasSubstr("Plane C 90 is taken as forward"));
     for (double c = 0; c < 360; c += 15)
         for (double g = 0; g <= 180; g += 30)
@@ -135,8 +120,7 @@ TEST_F(Eulumdat, SymmetryThreeIsStoredFromC270ThroughC0ToC90) {
 }
 
 TEST_F(Eulumdat, DecimalCommasByteOrderMarksAndOldEncodingsAreRead) {
-    Ldt ldt;
-    ldt.intensities = {100.5, 100.25, 100.125};
+    Ldt ldt{.intensities = {100.5, 100.25, 100.125}};
     const LampFile plain = lamp(ldt);
     std::string commas = ldt.text();
     for (std::size_t at = commas.find("\n0\n90\n180\n"); at < commas.size(); ++at)
@@ -154,8 +138,7 @@ TEST_F(Eulumdat, DecimalCommasByteOrderMarksAndOldEncodingsAreRead) {
 }
 
 TEST_F(Eulumdat, ASinglePlaneIsRotationalWhateverTheSymmetrySays) {
-    Ldt ldt;
-    ldt.symmetry = 0;
+    Ldt ldt{.symmetry = 0};
     EXPECT_NEAR(flux_lm(lamp(ldt).table), 4 * pi * 100, 1e-9);
 }
 
@@ -200,18 +183,151 @@ TEST_F(Eulumdat, MessagesNameTheLine) {
     EXPECT_THAT(complaint([](Ldt& l) { l.gamma = {0, 90, 90}, l.intensities = {1, 2, 3}; }), HasSubstr("the angle 90 is given twice"));
 }
 
-TEST_F(Eulumdat, NoPrefixOfAGoodFileIsTakenForAGoodFile) {
+TEST_F(Eulumdat, NoPrefixOfAGoodFileIsReadAndNothingMakesItFallOver) {
     const std::string good = Ldt{}.text();
     const std::size_t last_number = good.rfind('\n', good.size() - 2) + 1;
     for (std::size_t n = 0; n <= last_number; ++n)
         EXPECT_THAT(refusal("p.ldt", good.substr(0, n)), HasSubstr("p.ldt")) << n;
     EXPECT_EQ(refusal("p.ldt", good), "");
-}
-
-TEST_F(Eulumdat, NothingMakesItFallOver) {
     must_survive_random_bytes("r.ldt", "", 11);
     must_survive_random_bytes("r.ldt", "ACME\n2\n0\n2\n0\n3\n0\n", 12);
-    must_survive_changed_bytes("r.ldt", planes(4, turn(0, 90), [](double, double g) { return g; }).text(), 13);
+    must_survive_changed_bytes("r.ldt", planes(4, steps(0, 90, 15), [](double, double g) { return g; }).text(), 13);
+}
+
+// Type C: symmetries, open and closed turns, and where the beam points.
+
+class CPlanes : public LampTrial {
+  protected:
+    /// A file of type C with I = form(C, gamma).
+    template <class Form>
+    LampFile lamp(const std::vector<double>& c, const std::vector<double>& gamma, Form form, TypeCAxis axis = TypeCAxis::automatic) const {
+        std::string text = fmt::format("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {} {} 1 2 0 0 0\n1 1 0\n{}\n{}\n", gamma.size(), c.size(),
+                                       fmt::join(gamma, " "), fmt::join(c, " "));
+        for (const double ci : c)
+            for (const double g : gamma)
+                text += fmt::format("{}\n", form(ci, g));
+        return read("c.ies", text, LampReadOptions{.type_c_axis = axis});
+    }
+};
+
+/// Not symmetric in any way: a lobe about C 30, gamma 80.
+double lobe(double c, double gamma) {
+    const double a = radians(c - 30.0), g = radians(gamma), g0 = radians(80.0);
+    const double cosine = std::sin(g) * std::sin(g0) * std::cos(a) + std::cos(g) * std::cos(g0);
+    return 100.0 + 900.0 * std::exp(8.0 * (cosine - 1.0));
+}
+
+TEST_F(CPlanes, RotationalSymmetryNeedsTwoColumns) {
+    const LampFile l = lamp(
+        {0}, steps(0, 180, 5), [](double, double) { return 75.0; }, TypeCAxis::horizontal);
+    EXPECT_EQ(l.table.h_deg, (std::vector<double>{-180, 180}));
+    EXPECT_NEAR(flux_lm(l.table), 4 * pi * 75, 1e-9);
+    // A single plane that is listed as both 0 and 360.
+    const LampFile both = lamp(
+        {0, 360}, steps(0, 180, 5), [](double, double g) { return 10.0 + g; }, TypeCAxis::horizontal);
+    EXPECT_EQ(both.table.h_deg, (std::vector<double>{-180, 180}));
+}
+
+TEST_F(CPlanes, AllPlanesAreUsedAndCRunsAgainstTheClockSeenFromAbove) {
+    const LampFile l = lamp(steps(0, 360, 10), steps(0, 180, 5), lobe, TypeCAxis::horizontal);
+    EXPECT_THAT(all_notes(l), HasSubstr("Plane C 0 is taken as forward"));
+    // Seen from above with forward up the page, C 30 lies 30 degrees to the left.
+    EXPECT_NEAR(intensity_cd(l.table, -30.0, -10.0), lobe(30, 80), 1e-9);
+    EXPECT_NEAR(intensity_cd(l.table, 30.0, -10.0), lobe(330, 80), 1e-9);
+    EXPECT_NEAR(intensity_cd(l.table, 180.0, 0.0), lobe(180, 90), 1e-9);
+    EXPECT_NEAR(intensity_cd(l.table, -180.0, 0.0), lobe(180, 90), 1e-9);
+}
+
+TEST_F(CPlanes, ForwardIsTheQuarterNearestToTheLight) {
+    const LampFile l = lamp(
+        steps(0, 355, 5), steps(0, 180, 5), [](double c, double g) { return lobe(c - 70.0, g); }, TypeCAxis::horizontal);
+    EXPECT_THAT(all_notes(l), HasSubstr("Plane C 90 is taken as forward")); // the lobe lies at C 100
+    EXPECT_NEAR(intensity_cd(l.table, -10.0, -10.0), lobe(30, 80), 1e-9);
+    const LampFile back = lamp(
+        steps(0, 355, 5), steps(0, 180, 5), [](double c, double g) { return lobe(c + 100.0, g); }, TypeCAxis::horizontal);
+    EXPECT_THAT(all_notes(back), HasSubstr("Plane C 270 is taken as forward")); // at C 290
+    EXPECT_NEAR(intensity_cd(back.table, -20.0, -10.0), lobe(30, 80), 1e-9);
+}
+
+TEST_F(CPlanes, SymmetriesFillTheTurn) {
+    const auto even = [](double c, double g) { return 50.0 + 20.0 * std::cos(2.0 * radians(c)) * std::sin(radians(g)); };
+    const auto about_0 = [](double c, double g) { return 50.0 + 20.0 * std::cos(radians(c)) * std::sin(radians(g)); };
+    const auto about_90 = [](double c, double g) { return 50.0 + 20.0 * std::sin(radians(c)) * std::sin(radians(g)); };
+    const auto same = [&](const LampFile& folded, const LampFile& full) {
+        for (double h = -180.0; h <= 180.0; h += 15.0)
+            for (double v = -90.0; v <= 90.0; v += 15.0)
+                EXPECT_NEAR(intensity_cd(folded.table, h, v), intensity_cd(full.table, h, v), 1e-9) << h << ", " << v;
+        EXPECT_NEAR(flux_lm(folded.table), flux_lm(full.table), 1e-9);
+    };
+    const auto gamma = steps(0, 180, 15);
+    const TypeCAxis axis = TypeCAxis::horizontal;
+    same(lamp(steps(0, 90, 15), gamma, even, axis), lamp(steps(0, 360, 15), gamma, even, axis));
+    same(lamp(steps(0, 180, 15), gamma, about_0, axis), lamp(steps(0, 360, 15), gamma, about_0, axis));
+    same(lamp(steps(90, 270, 15), gamma, about_90, axis), lamp(steps(0, 360, 15), gamma, about_90, axis));
+    same(lamp(steps(0, 345, 15), gamma, lobe, axis), lamp(steps(0, 360, 15), gamma, lobe, axis));
+    same(lamp(steps(-180, 180, 15), gamma, lobe, axis), lamp(steps(0, 360, 15), gamma, lobe, axis));
+}
+
+TEST_F(CPlanes, TheTurnClosesAcrossAMissing360AndAWideHoleHasNoData) {
+    const auto gamma = steps(0, 180, 10);
+    for (const double last : {350.0, 355.0}) {
+        const LampFile l = lamp(
+            steps(0, last, last == 350.0 ? 10.0 : 5.0), gamma, [](double, double) { return 30.0; }, TypeCAxis::horizontal);
+        EXPECT_NEAR(flux_lm(l.table), 4 * pi * 30, 1e-9) << last;
+    }
+    const LampFile l = lamp(
+        steps(0, 270, 10), steps(0, 180, 10), [](double, double) { return 30.0; }, TypeCAxis::horizontal);
+    EXPECT_THAT(all_notes(l), HasSubstr("leave 90 degrees of the turn open"));
+    EXPECT_NEAR(flux_lm(l.table), 0.75 * 4 * pi * 30, 1e-9);
+}
+
+TEST_F(CPlanes, TwoAnswersForOneDirectionAreNoted) {
+    const LampFile l = lamp(
+        {0, 90, 180, 270, 360}, {0, 90, 180}, [](double c, double) { return c == 360 ? 7.0 : 5.0; }, TypeCAxis::horizontal);
+    EXPECT_THAT(all_notes(l), HasSubstr("differ by up to 2 cd"));
+    EXPECT_NEAR(flux_lm(l.table), 4 * pi * 5, 1e-9);
+}
+
+/// A beam along gamma 0, leaning to C 90 and less so to C 0.
+double downlight(double c, double gamma) {
+    const double g = radians(gamma), x = std::sin(g) * std::cos(radians(c)), y = std::sin(g) * std::sin(radians(c));
+    return gamma > 90.0 ? 0.0 : 1300.0 * std::pow(std::cos(g), 4.0) * std::exp(0.3 * x + 0.9 * y);
+}
+
+TEST_F(CPlanes, ABeamAlongTheNadirIsTurnedForward) {
+    const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight);
+    EXPECT_THAT(all_notes(l), HasSubstr("gamma 0 is taken as forward"));
+    const Peak peak = peak_of(l.table);
+    EXPECT_NEAR(peak.h_deg, 0.0, 8.0);
+    EXPECT_GT(peak.v_deg, 4.0) << "C 90 is up";
+    const auto plane = [](double g) { return downlight(90, g); };
+    EXPECT_NEAR(intensity_cd(l.table, 0.0, 30.0), plane(30), 1.5);
+    EXPECT_NEAR(intensity_cd(l.table, 0.0, -30.0), downlight(270, 30), 1.5);
+    EXPECT_NEAR(intensity_cd(l.table, 30.0, 0.0), downlight(0, 30), 1.5) << "C 0 is right";
+    EXPECT_NEAR(intensity_cd(l.table, -30.0, 0.0), downlight(180, 30), 1.5);
+    EXPECT_EQ(intensity_cd(l.table, 120.0, 0.0), 0.0) << "behind";
+}
+
+/// The whole, a cone, and half of one, that end in light.
+TEST_F(CPlanes, TurningKeepsTheFluxAndTheOptionOutvotesTheLight) {
+    const auto kept = [&](const std::vector<double>& c, const std::vector<double>& gamma) { // of what is not resampled
+        return flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / flux_lm(lamp(c, gamma, downlight, TypeCAxis::horizontal).table);
+    };
+    EXPECT_NEAR(kept(steps(0, 330, 30), steps(0, 90, 5)), 1.0, 1e-3);
+    for (const double turn : {360.0, 187.5})
+        for (const double step : {2.5, 7.5})
+            EXPECT_NEAR(kept(steps(0, turn, 7.5), steps(0, 37.5, step)), 1.0, 2e-4) << turn << " " << step;
+    const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight, TypeCAxis::horizontal);
+    EXPECT_LT(peak_of(l.table).v_deg, -60.0);
+}
+
+TEST_F(CPlanes, ADarkLampIsDarkWhereverItPoints) {
+    const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), [](double, double) { return 0.0; });
+    EXPECT_EQ(flux_lm(l.table), 0.0);
+    EXPECT_EQ(flux_lm(lamp(
+                          {0}, {0, 90}, [](double, double) { return 0.0; }, TypeCAxis::nadir)
+                          .table),
+              0.0);
 }
 
 } // namespace

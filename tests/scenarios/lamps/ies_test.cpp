@@ -1,13 +1,15 @@
 // IES LM-63: what each edition and type means, and what real files do to it.
 #include "tests/scenarios/lamps/lamp_trial.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iostream>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using testing::HasSubstr, testing::Not;
 
 class IesFile : public LampTrial {};
 
@@ -40,7 +42,7 @@ TEST_F(IesFile, EditionsAreToldByTheirHeaders) {
     EXPECT_THAT(all_notes(read("e.ies", small("IES:LM-63-2031\n"))), HasSubstr("edition of 2031"));
 }
 
-TEST_F(IesFile, FactorsMultiplyOnceAndTheReservedFieldOnlyBefore1995) {
+TEST_F(IesFile, FactorsMultiplyOnceAndTheDeclaredFluxIsThatOfAllLamps) {
     const auto peak = [&](const std::string& head, const std::string& ballast_line) {
         return peak_of(read("f.ies", head + "TILT=NONE\n2 500 2.0 2 2 3 1 0 0 0\n" + ballast_line + "\n-1 1\n-1 1\n5 6\n7 100\n").table).cd;
     };
@@ -51,9 +53,6 @@ TEST_F(IesFile, FactorsMultiplyOnceAndTheReservedFieldOnlyBefore1995) {
     // 2019: the field is the file's generation type, here "accredited laboratory"; not 10 % more light.
     EXPECT_DOUBLE_EQ(peak("IES:LM-63-2019\n", "1 1.10000 60"), 100 * 2.0);
     EXPECT_DOUBLE_EQ(peak("IESNA91\n", "1 0 60"), 100 * 2.0) << "a reserved field of 0 must not darken the lamp";
-}
-
-TEST_F(IesFile, DeclaredFluxIsThatOfAllLamps) {
     const LampFile lamp = read("f.ies", "TILT=NONE\n2 500 1 2 2 3 1 0 0 0\n1 1 60\n-1 1\n-1 1\n5 6\n7 8\n");
     EXPECT_DOUBLE_EQ(lamp.declared_flux_lm.value(), 1000.0);
 }
@@ -80,23 +79,19 @@ TEST_F(IesFile, SeparatorsLineEndsAndBytesMayVary) {
     EXPECT_EQ(read("tilt.ies", "IESNA91\n tilt = none \n" + std::string(small_numbers)).table, table);
 }
 
-TEST_F(IesFile, LabelsAreKeptAsUtf8) {
+TEST_F(IesFile, LabelsAreKeptAsUtf8AndDimensionsAreNoMatter) {
     const LampFile lamp = read("l.ies", small("IESNA:LM-63-1995\n[MANUFAC] B\xfc"
                                               "cher \x80\n[MORE] AG\n[_SECRET] x\nloose line\n"));
     ASSERT_EQ(lamp.labels.size(), 3U);
     EXPECT_EQ(lamp.labels[0], (std::pair<std::string, std::string>{"MANUFAC", "B\xc3\xbc"
                                                                               "cher \xe2\x82\xac AG"}));
     EXPECT_EQ(lamp.labels[1].first, "_SECRET");
-    EXPECT_EQ(lamp.labels[2], (std::pair<std::string, std::string>{"text", "loose line"}));
-    EXPECT_EQ(lamp.name, "l");
-}
-
-TEST_F(IesFile, ZeroAndNegativeDimensionsAreNoMatter) {
+    EXPECT_EQ(std::tuple(lamp.labels[2], lamp.name), std::tuple((std::pair<std::string, std::string>{"text", "loose line"}), "l"));
     const std::string text = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 2 3 2 -0.12 0 -0.34\n1 1 0\n-1 1\n-1 1\n5 6\n7 8\n";
     EXPECT_EQ(peak_of(read("d.ies", text).table).cd, 8.0);
 }
 
-TEST_F(IesFile, HalvesOfTypesAAndBAreMirrored) {
+TEST_F(IesFile, HalvesAreMirroredAndASinglePlaneIsRefused) {
     for (const int type : {2, 3}) {
         const LampFile lamp =
             read("m.ies", fmt::format("IESNA91\nTILT=NONE\n1 -1 1 2 3 {} 2 0 0 0\n1 1 0\n-1 1\n0 5 10\n9 9\n6 6\n3 3\n", type));
@@ -105,15 +100,12 @@ TEST_F(IesFile, HalvesOfTypesAAndBAreMirrored) {
         EXPECT_NEAR(intensity_cd(lamp.table, 5.0, 0.0), 6.0, 0.01);
         EXPECT_NEAR(intensity_cd(lamp.table, -10.0, 0.0), 3.0, 0.01);
     }
-}
-
-TEST_F(IesFile, ASinglePlaneOfTypesAAndBIsRefused) {
     for (const int type : {2, 3})
         EXPECT_THAT(refusal("s.ies", fmt::format("IESNA91\nTILT=NONE\n1 -1 1 2 1 {} 2 0 0 0\n1 1 0\n-1 1\n0\n9 9\n", type)),
                     HasSubstr("s.ies:6: horizontal angles: found a single one"));
 }
 
-TEST_F(IesFile, AnglesAreSortedAndRepeatedOnesTakenOnce) {
+TEST_F(IesFile, AnglesAreSortedAndTypesTakenForWhatTheyAre) {
     const std::string head = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 3 3 2 0 0 0\n1 1 0\n";
     const LampFile descending = read("a.ies", head + "2 0 -2\n-1 0 1\n13 12 11\n23 22 21\n33 32 31\n");
     EXPECT_EQ(descending.table, read("b.ies", small()).table);
@@ -123,9 +115,6 @@ TEST_F(IesFile, AnglesAreSortedAndRepeatedOnesTakenOnce) {
     EXPECT_THAT(all_notes(repeated), HasSubstr("1 horizontal angles are repeated"));
     EXPECT_THAT(refusal("d.ies", head + "-2 0 2\n-1 1 1\n1 2 3\n4 5 6\n7 8 9\n"),
                 HasSubstr("d.ies:6: horizontal angles: the angle 1 is given twice"));
-}
-
-TEST_F(IesFile, TypeCodesThatCannotBeAreTakenForWhatTheyAre) {
     const LampFile automotive = read("c.ies", "TILT=NONE\n1 -1 1 3 3 1 2 0 0 0\n1 1 55\n-2 0 2\n-1 0 1\n11 12 13\n21 22 23\n31 32 33\n");
     EXPECT_EQ(automotive.table, read("a.ies", small()).table);
     EXPECT_THAT(all_notes(automotive), HasSubstr("read as type A"));
@@ -286,7 +275,7 @@ TEST_F(IesFile, SlightlyNegativeIntensitiesAreNoise) {
 }
 
 /// Commas separate in IES files, so that these fail somewhere, or not at all and with a rest.
-TEST_F(IesFile, DecimalCommasAreCalledThat) {
+TEST_F(IesFile, DecimalCommasAndUtf16AreCalledThat) {
     const auto complaint = [&](const std::string& numbers) { return refusal("c.ies", "IESNA91\nTILT=NONE\n" + numbers); };
     const std::string says = "has decimal commas, expected points: write ";
     EXPECT_THAT(complaint("1 -1 1,0 2 2 3 2 0 0 0\n1 1 0\n-1 1\n-1 1\n5 6\n7 8\n"), HasSubstr("c.ies:3:6: " + says + "1.0 for 1,0"));
@@ -301,9 +290,6 @@ TEST_F(IesFile, DecimalCommasAreCalledThat) {
     EXPECT_THAT(complaint("1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-1,1\n-1,1\n5,6\n7,x\n"), HasSubstr("found 'x'"));
     write("comma.tlt", "1\n2\n0,0 1,5\n1 1\n");
     EXPECT_THAT(refusal("k.ies", "IESNA91\nTILT=comma.tlt\n" + std::string(small_numbers)), HasSubstr("comma.tlt:3:1: " + says));
-}
-
-TEST_F(IesFile, Utf16IsCalledThat) {
     for (const auto& [low, high] : {std::pair{1, 0}, std::pair{0, 1}}) // either order of bytes, with a mark and without
         for (const bool mark : {true, false}) {
             std::string bytes = mark ? (low != 0 ? "\xff\xfe" : "\xfe\xff") : "";
@@ -343,15 +329,12 @@ TEST_F(IesFile, MessagesNameLineAndPlace) {
     EXPECT_THAT(all_notes(read("y.ies", good + "44 55\n")), HasSubstr("Line 12 goes on after the last candela value"));
 }
 
-TEST_F(IesFile, NoPrefixOfAGoodFileIsTakenForAGoodFile) {
+TEST_F(IesFile, NoPrefixOfAGoodFileIsReadAndNothingMakesItFallOver) {
     const std::string good = small();
     const std::size_t last_number = good.rfind(' ') + 1;
     for (std::size_t n = 0; n <= last_number; ++n)
         EXPECT_THAT(refusal("p.ies", good.substr(0, n)), HasSubstr("p.ies")) << n;
     EXPECT_EQ(refusal("p.ies", good), "");
-}
-
-TEST_F(IesFile, NothingMakesItFallOver) {
     must_survive_random_bytes("r.ies", "", 1);
     must_survive_random_bytes("r.ies", "IESNA:LM-63-2002\nTILT=NONE\n", 2);
     must_survive_random_bytes("r.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 3 3 2 0 0 0\n1 1 55\n", 3);
@@ -366,10 +349,10 @@ TEST_F(IesFile, NothingMakesItFallOver) {
 
 TEST_F(IesFile, RoundTripsLoseNothing) {
     for (unsigned seed = 0; seed < 40; ++seed) {
-        LampFile lamp;
-        lamp.name = "round trip";
-        lamp.table = random_lamp_table(seed);
-        lamp.labels = {{"MANUFAC", "Büch\ner"}, {"MORE THAN ENOUGH", std::string(700, 'x') + " " + std::string(150, 'y') + " z"}};
+        LampFile lamp{
+            .name = "round trip",
+            .table = random_lamp_table(seed),
+            .labels = {{"MANUFAC", "Büch\ner"}, {"MORE THAN ENOUGH", std::string(700, 'x') + " " + std::string(150, 'y') + " z"}}};
         if (seed % 2 == 0)
             lamp.declared_flux_lm = 1234.5678901234567;
         const auto path = folder_ / "trip.ies";
@@ -377,23 +360,133 @@ TEST_F(IesFile, RoundTripsLoseNothing) {
         const LampFile back = read_lamp(path);
         EXPECT_EQ(back.table, lamp.table) << seed;
         EXPECT_EQ(back.declared_flux_lm, lamp.declared_flux_lm);
-        EXPECT_EQ(back.name, lamp.name);
-        EXPECT_EQ(back.format, "IES LM-63-2002, type A");
+        EXPECT_EQ(std::tuple(back.name, back.format), std::tuple(lamp.name, "IES LM-63-2002, type A"));
         EXPECT_THAT(back.notes, testing::IsEmpty());
         // Once more: what we write of what we read is the same file.
         write_lamp(back, folder_ / "again.ies");
         EXPECT_EQ(read_lamp(folder_ / "again.ies").table, lamp.table);
     }
-}
-
-TEST_F(IesFile, ATableThatBeginsAtZeroIsNotMirroredOnItsWayBack) {
-    LampFile lamp;
-    lamp.table = {{0.0, 5.0, 10.0}, {-1.0, 0.0}, {1, 2, 3, 4, 5, 6}, {}, BetweenSamples::linear_cd};
+    LampFile lamp{.table = {{0.0, 5.0, 10.0}, {-1.0, 0.0}, {1, 2, 3, 4, 5, 6}, {}, BetweenSamples::linear_cd}};
     write_lamp(lamp, folder_ / "zero.ies");
     const LampFile back = read_lamp(folder_ / "zero.ies");
     EXPECT_EQ(intensity_cd(back.table, -5.0, 0.0), 0.0);
     EXPECT_EQ(intensity_cd(back.table, 0.0, 0.0), 4.0);
     EXPECT_NEAR(flux_lm(back.table), flux_lm(lamp.table), 1e-15);
+}
+
+// Files of others: each loads, and gives the flux that it declares, or else there is a reason why not.
+
+std::vector<std::filesystem::path> real_files(const std::string& extension) {
+    std::vector<std::filesystem::path> out;
+    const std::filesystem::path folder = std::filesystem::path(FERNLICHT_SHARED_DATA) / "lamps";
+    if (std::filesystem::exists(folder))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            if (entry.path().extension() == extension)
+                out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+LampFile read_upright(const std::filesystem::path& path) {
+    LampReadOptions options;
+    options.type_c_axis = TypeCAxis::horizontal; // not resampled: the flux is the file's own
+    return read_lamp(path, options);
+}
+
+bool of(const std::filesystem::path& path, const char* name) { return path.string().find(name) != std::string::npos; }
+
+/// The flux of a type C file straight from its numbers: fifty rings a zone, each its mean intensity times its solid angle.
+double zonal_flux_lm(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    std::string line;
+    while (std::getline(in, line) && line.find("TILT=NONE") == std::string::npos) {
+    }
+    std::vector<double> n;
+    for (double value = 0.0; in >> value;)
+        n.push_back(value);
+    const auto nv = static_cast<std::size_t>(n.at(3)), nh = static_cast<std::size_t>(n.at(4));
+    const double factor = n[2] * n[10];
+    const double *v = &n.at(13), *h = v + nv, *cd = h + nh;
+    double flux = 0.0;
+    for (std::size_t j = 0; j + 1 < nh || j == 0; ++j) {
+        const std::size_t next = std::min(j + 1, nh - 1);
+        const double share = nh == 1 ? 1.0 : (h[next] - h[j]) / (h[nh - 1] - h[0]);
+        for (std::size_t i = 0; i + 1 < nv; ++i) {
+            const double low = (cd[j * nv + i] + cd[next * nv + i]) / 2.0, high = (cd[j * nv + i + 1] + cd[next * nv + i + 1]) / 2.0;
+            for (int k = 0; k < 50; ++k) {
+                const double g0 = radians(v[i] + (v[i + 1] - v[i]) * k / 50), g1 = radians(v[i] + (v[i + 1] - v[i]) * (k + 1) / 50);
+                flux += factor * share * (low + (high - low) * (k + 0.5) / 50) * 2.0 * pi * (std::cos(g0) - std::cos(g1));
+            }
+        }
+    }
+    return flux;
+}
+
+TEST(RealLamps, EachIesFileGivesTheFluxOfItsNumbers) {
+    const auto files = real_files(".ies");
+    if (files.empty())
+        GTEST_SKIP() << "no files of others at " << FERNLICHT_SHARED_DATA;
+    for (const auto& path : files) {
+        SCOPED_TRACE(path.string());
+        const LampFile lamp = read_upright(path); // none is refused
+        const double flux = flux_lm(lamp.table), zonal = zonal_flux_lm(path);
+        EXPECT_NEAR(flux / zonal, 1.0, 2e-4); // fifty rings miss some 1/(6 x 50^2) of the zone about the axis
+        EXPECT_THAT(lamp.format, testing::EndsWith("type C"));
+        std::cout << fmt::format("{:>10.1f} lm, declared {:>8.1f}, ratio {:.4f}  {}\n", flux, lamp.declared_flux_lm.value_or(0.0),
+                                 lamp.declared_flux_lm ? flux / *lamp.declared_flux_lm : 0.0, path.filename().string());
+        if (!lamp.declared_flux_lm)
+            continue;
+        // Relative photometry declares the bare lamps' flux: the ratio is the luminaire's efficiency. Two files declare a made-up flux of
+        // 500 lm beside the intensities of a lamp of 904 lm.
+        const bool made_up = of(path, "relative_photometry");
+        EXPECT_THAT(flux / *lamp.declared_flux_lm, testing::AllOf(testing::Gt(made_up ? 1.0 : 0.25), testing::Lt(made_up ? 3.0 : 1.0)));
+    }
+    EXPECT_GE(files.size(), 40U);
+}
+
+TEST(RealLamps, EachEulumdatFileGivesTheFluxItDeclares) {
+    const auto files = real_files(".ldt");
+    if (files.empty())
+        GTEST_SKIP() << "no files of others at " << FERNLICHT_SHARED_DATA;
+    for (const auto& path : files) {
+        SCOPED_TRACE(path.string());
+        const LampFile lamp = read_upright(path); // none is refused
+        ASSERT_TRUE(lamp.declared_flux_lm);
+        const double ratio = flux_lm(lamp.table) / *lamp.declared_flux_lm;
+        std::cout << fmt::format("ratio {:.4f}, {}  {}\n", ratio, lamp.format, path.filename().string());
+        // One list of invented intensities of 904 lm per klm, repeated in files of all symmetries with planes that disagree at gamma 0.
+        if (of(path, "photometric-viewer")) {
+            EXPECT_THAT(ratio, testing::AllOf(testing::Gt(0.9), testing::Lt(4.0)));
+            if (lamp.format == "EULUMDAT, Isym 1") {
+                EXPECT_NEAR(ratio, 0.9045, 1e-4);
+            }
+            continue;
+        }
+        // Narrow beams in 5-degree steps: the first zone about the axis is a cone of which only the tip and the rim are known.
+        const double tolerance = of(path, "sample_05") ? 0.026 : of(path, "sample_08") || of(path, "sample_01") ? 0.011 : 0.006;
+        EXPECT_NEAR(ratio, 1.0, tolerance);
+    }
+    EXPECT_GE(files.size(), 30U);
+}
+
+TEST(RealLamps, TurningThemForwardKeepsFluxAndPeak) {
+    std::vector<std::filesystem::path> files;
+    for (const char* extension : {".ies", ".ldt"})
+        for (const auto& path : real_files(extension))
+            for (const char* name : {"ASA_15M_R2", "trapezoid.ies", "display.ies", "sample6.ldt", "sample9.ldt", "IES_C_DETECTOR"})
+                if (of(path, name))
+                    files.push_back(path);
+    if (files.empty())
+        GTEST_SKIP() << "no files of others at " << FERNLICHT_SHARED_DATA;
+    EXPECT_EQ(files.size(), 6U);
+    for (const auto& path : files) {
+        SCOPED_TRACE(path.string());
+        const LampFile forward = read_lamp(path), upright = read_upright(path);
+        EXPECT_THAT(all_notes(forward), testing::HasSubstr("gamma 0 is taken as forward"));
+        EXPECT_NEAR(flux_lm(forward.table) / flux_lm(upright.table), 1.0, 1e-3);
+        EXPECT_DOUBLE_EQ(peak_of(forward.table).cd, peak_of(upright.table).cd);
+        std::cout << forward.notes.back() << "  " << path.filename().string() << "\n";
+    }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // Our own lamps: files that are what the model writes, with the flux and the edges of common lamps. The rows of their regulations are held
-// in tests/metrics/regulation/shipped_lamps_test.cpp.
+// in tests/metrics/regulation/row_check_test.cpp.
 #include "scenarios/lamps/lamp_model.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +25,8 @@ const CandelaTable& table(const std::string& name) {
     return it->second;
 }
 
-TEST(LampModel, ShippedFilesAreWhatTheModelWritesByteForByte) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / "lamp_model";
-    std::filesystem::create_directories(folder);
+TEST(LampModel, ShippedFilesAreWhatTheModelWritesAndSayThatTheyAreAModel) {
+    const auto folder = tests::new_folder();
     for (const LampModel& m : lamp_models()) {
         const auto path = folder / (m.name + ".ies");
         write_lamp(lamp_of_model(m), path);
@@ -34,10 +34,6 @@ TEST(LampModel, ShippedFilesAreWhatTheModelWritesByteForByte) {
         EXPECT_TRUE(read_file(path, opened) == read_file(shipped(m.name), opened)) << m.name;
         EXPECT_LT(opened.back().bytes, 1'000'000u);
     }
-    std::filesystem::remove_all(folder);
-}
-
-TEST(LampModel, ShippedFilesSayThatTheyAreAModel) {
     for (const LampModel& m : lamp_models()) {
         const LampFile lamp = read_lamp(shipped(m.name));
         EXPECT_THAT(lamp.labels, testing::Contains(testing::Pair("TEST", testing::HasSubstr("a model, not a measurement"))));
@@ -60,7 +56,7 @@ Edge edge_at(const CandelaTable& t, double h) {
     return edge;
 }
 
-TEST(LampModel, CutOffIsSharpStraightAndOnePercentDown) {
+TEST(LampModel, CutOffIsSharpOnePercentDownAndRisesToTheKerb) {
     for (const std::string lamp : {"halogen-low", "xenon-low"}) {
         const Edge edge = edge_at(table(lamp), -2.5);
         EXPECT_GE(edge.sharpness, 0.13) << lamp;
@@ -69,9 +65,6 @@ TEST(LampModel, CutOffIsSharpStraightAndOnePercentDown) {
         for (const double h : {-1.5, -2.5, -3.5}) // linearity: within 0.2 degrees of each other
             EXPECT_NEAR(edge_at(table(lamp), h).inflection_v_deg, -0.57, 0.05) << lamp << h;
     }
-}
-
-TEST(LampModel, CutOffRisesToTheKerbByFifteenDegrees) {
     for (const std::string lamp : {"halogen-low", "xenon-low"}) {
         const double at_1 = edge_at(table(lamp), 1.0).inflection_v_deg, at_3 = edge_at(table(lamp), 3.0).inflection_v_deg;
         EXPECT_NEAR(std::atan((at_3 - at_1) / 2.0) * 180.0 / 3.14159265, 15.0, 1.5) << lamp;

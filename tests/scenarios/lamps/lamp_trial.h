@@ -2,15 +2,11 @@
 #pragma once
 
 #include "scenarios/lamps/lamp_file.h"
-#include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
+#include "tests/trial.h"
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <random>
 #include <string>
 
@@ -19,29 +15,15 @@ namespace fernlicht {
 /// A folder of one test, gone with it.
 class LampTrial : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "fernlicht-lamps-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& name, const std::string& content) const {
-        const std::filesystem::path path = folder_ / name;
-        std::ofstream(path, std::ios::binary) << content;
-        return path;
+        return tests::written(name, content, folder_);
     }
     LampFile read(const std::string& name, const std::string& content, const LampReadOptions& options = {}) const {
         return read_lamp(write(name, content), options);
     }
     /// What the reader says, "" when it reads.
     std::string refusal(const std::string& name, const std::string& content, const LampReadOptions& options = {}) const {
-        try {
-            read(name, content, options);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return tests::refusal_of([&] { read(name, content, options); }, "");
     }
     /// Reads or refuses with an InputError that names the file; anything else is a failure.
     void must_not_fall_over(const std::string& name, const std::string& content) const {
@@ -73,15 +55,10 @@ class LampTrial : public testing::Test {
         }
     }
 
-    std::filesystem::path folder_;
+    const std::filesystem::path folder_ = tests::new_folder();
 };
 
-inline std::string all_notes(const LampFile& lamp) {
-    std::string out;
-    for (const std::string& note : lamp.notes)
-        out += note + "\n";
-    return out;
-}
+using tests::all_notes;
 
 /// Angles of a grid with random steps, and random intensities with zeros among them.
 inline CandelaTable random_lamp_table(unsigned seed, bool even = false) {

@@ -2,11 +2,12 @@
 
 #include "scenarios/lamps/spectral_tables.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -70,7 +71,7 @@ TEST(LampColour, HalogenAndXenonAreApart) {
     EXPECT_LT(halogen.linear_srgb.z, xenon.linear_srgb.z);
 }
 
-TEST(LampColour, LuminanceIsOneAndNoComponentNegative) {
+TEST(LampColour, LuminanceIsOneAndOtherTemperaturesAreRefused) {
     for (const double kelvin : {1000.0, 1500.0, 1900.0, 3200.0, 4300.0, 6504.0, 25000.0}) {
         const glm::dvec3 rgb = colour_of_temperature(kelvin).linear_srgb;
         EXPECT_NEAR(luminance_of(rgb), 1.0, 1e-12) << kelvin;
@@ -79,14 +80,8 @@ TEST(LampColour, LuminanceIsOneAndNoComponentNegative) {
     const glm::dvec3 white = colour_of_temperature(6504.0).linear_srgb; // beside D65, on Planck's locus a little more magenta
     EXPECT_NEAR(white.x, 1.0, 0.06);
     EXPECT_NEAR(white.z, 1.0, 0.06);
-}
-
-TEST(LampColour, TemperatureOutsideTheRangeIsRefused) {
     for (const double kelvin : {0.0, 999.0, 25001.0, std::nan("")})
         EXPECT_THROW(colour_of_temperature(kelvin), std::invalid_argument) << kelvin;
-}
-
-TEST(LampColour, AGreenLedHasNoColourTemperature) {
     const Spectrum green{{500.0, 520.0, 530.0, 550.0}, {0.0, 1.0, 1.0, 0.0}};
     EXPECT_EQ(colour_of_spectrum(green).cct_k, 0.0);
     EXPECT_THROW(colour_of_spectrum({{900.0, 1000.0}, {1.0, 1.0}}), std::invalid_argument);
@@ -94,28 +89,12 @@ TEST(LampColour, AGreenLedHasNoColourTemperature) {
 
 class SpectrumFile : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  ("spectrum_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::filesystem::path file(const std::string& content) {
-        const auto path = folder_ / "s.csv";
-        std::ofstream(path, std::ios::binary) << content;
-        return path;
-    }
+    std::filesystem::path file(const std::string& content) { return tests::written("s.csv", content, folder_); }
     std::string refusal(const std::string& content) {
         FilesRead opened;
-        try {
-            read_spectrum(file(content), opened);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "not refused";
+        return tests::refusal_of([&] { read_spectrum(file(content), opened); });
     }
-    std::filesystem::path folder_;
+    const std::filesystem::path folder_ = tests::new_folder();
 };
 
 std::string flat(const std::string& separator, const std::string& line_end = "\n") {

@@ -1,28 +1,23 @@
 // Light in fog and on a wet road against closed forms, integrals worked out another way, and what physics allows.
+#include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
+#include "scenarios/light/quick_light.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/scene.h"
+#include "tests/lamps.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace fernlicht {
 namespace {
 
-LitLamp lamp_of(CandelaTable table, const Pose& pose) {
-    auto file = std::make_shared<LampFile>();
-    file->table = std::move(table);
-    return {"lamp", file, pose, 1.0, {}, 0.0};
-}
+LitLamp lamp_of(CandelaTable table, const Pose& pose) { return {"lamp", tests::file_of(std::move(table)), pose, 1.0, {}, 0.0}; }
 
-LitLamp even(double cd) {
-    CandelaTable table;
-    table.h_deg = {-180.0, 180.0};
-    table.v_deg = {-90.0, 90.0};
-    table.cd = {cd, cd, cd, cd};
-    return lamp_of(table, {glm::dvec3(0.0), axes_from_angles(0.0, 0.0, 0.0)});
-}
+LitLamp even(double cd) { return lamp_of(tests::even_table(cd), {glm::dvec3(0.0), axes_from_angles(0.0, 0.0, 0.0)}); }
 
 TEST(HenyeyGreenstein, ScattersAllOfItAndHasItsMeanCosine) {
     for (const double g : {0.0, 0.3, 0.85, 0.9}) {
@@ -54,14 +49,9 @@ TEST(Airlight, IsTheClosedFormForAnEvenLampInThinAir) {
 
 /// Another way to the same integral: a million equal steps along the ray, by intensity and distance themselves.
 TEST(Airlight, IsTheIntegralAlongTheRay) {
-    CandelaTable beam;
-    for (int i = -40; i <= 40; ++i)
-        beam.h_deg.push_back(i);
-    for (int i = -60; i <= 40; ++i)
-        beam.v_deg.push_back(0.25 * i);
-    for (const double v : beam.v_deg)
-        for (const double h : beam.h_deg)
-            beam.cd.push_back(300.0 + 20000.0 / (1.0 + std::exp((v + 0.6) / 0.2)) * std::exp(-h * h / 200.0));
+    const CandelaTable beam = tests::table_of(tests::steps(-40.0, 40.0, 1.0), tests::steps(-15.0, 10.0, 0.25), [](double h, double v) {
+        return 300.0 + 20000.0 / (1.0 + std::exp((v + 0.6) / 0.2)) * std::exp(-h * h / 200.0);
+    });
     const LitLamp lamp = lamp_of(beam, {glm::dvec3(3.4, 0.6, 0.65), axes_from_angles(0.0, 0.0, 0.0)});
     const glm::dvec3 eye(1.3, 0.35, 1.2);
     for (const Weather& fog : {Weather{0.003, 1.0, 0.85, 0.0}, Weather{0.1, 0.7, 0.5, 0.0}, Weather{10.0, 1.0, 0.9, 0.0}})
@@ -89,7 +79,7 @@ TEST(Airlight, IsTheIntegralAlongTheRay) {
 }
 
 /// What drawing takes: 32 midpoints are within a tenth of the integral where a driver looks at the road, 128 within a hundredth.
-TEST(Airlight, ComesCloserWithMoreMidpoints) {
+TEST(Airlight, ComesCloserWithMoreMidpointsAndIsNothingInClearAir) {
     const LitLamp lamp = even(1000.0);
     const Weather fog{0.03, 1.0, 0.85, 0.0};
     for (const double y : {0.3, 1.0, 3.0}) {
@@ -98,15 +88,12 @@ TEST(Airlight, ComesCloserWithMoreMidpoints) {
         EXPECT_NEAR(airlight_cdm2(lamp, fog, eye, end, 32), truth, 0.1 * truth);
         EXPECT_NEAR(airlight_cdm2(lamp, fog, eye, end, 128), truth, 0.01 * truth);
     }
-}
-
-TEST(Airlight, IsExactlyNothingInClearAirAndFromADarkLamp) {
-    LitLamp lamp = even(1000.0);
-    EXPECT_EQ(airlight_cdm2(lamp, Weather{}, {1.0, 1.0, 0.0}, {9.0, 1.0, 0.0}), 0.0);
+    LitLamp other_lamp = even(1000.0);
+    EXPECT_EQ(airlight_cdm2(other_lamp, Weather{}, {1.0, 1.0, 0.0}, {9.0, 1.0, 0.0}), 0.0);
     EXPECT_EQ(air_transmittance(Weather{}, 1e9), 1.0);
-    EXPECT_EQ(airlight_cdm2(lamp, Weather{0.1, 1.0, 0.85, 0.0}, {-9.0, 1.0, 0.0}, {-1.0, 1.0, 0.0}), 0.0) << "behind the lamp";
-    lamp.intensity_factor = 0.0;
-    EXPECT_EQ(airlight_cdm2(lamp, Weather{0.1, 1.0, 0.85, 0.0}, {1.0, 1.0, 0.0}, {9.0, 1.0, 0.0}), 0.0);
+    EXPECT_EQ(airlight_cdm2(other_lamp, Weather{0.1, 1.0, 0.85, 0.0}, {-9.0, 1.0, 0.0}, {-1.0, 1.0, 0.0}), 0.0) << "behind the lamp";
+    other_lamp.intensity_factor = 0.0;
+    EXPECT_EQ(airlight_cdm2(other_lamp, Weather{0.1, 1.0, 0.85, 0.0}, {1.0, 1.0, 0.0}, {9.0, 1.0, 0.0}), 0.0);
 }
 
 glm::dvec3 at_elevation(double deg, double azimuth_deg = 0.0) {
@@ -116,15 +103,12 @@ glm::dvec3 at_elevation(double deg, double azimuth_deg = 0.0) {
 const glm::dvec3 up(0.0, 0.0, 1.0);
 
 /// n = 1.333: 2.04 % at normal incidence, all at grazing; at Brewster's angle, 53.1 degrees, one polarisation alone.
-TEST(Water, ReflectsAsFresnelSays) {
+TEST(Water, ReflectsAsFresnelSaysAndReturnsByReciprocity) {
     EXPECT_NEAR(photometry::water_reflectance(1.0), std::pow(0.333 / 2.333, 2), 1e-12);
     EXPECT_NEAR(photometry::water_reflectance(0.0), 1.0, 1e-12);
     const double n2 = 1.333 * 1.333, brewster = 1.0 / std::sqrt(1.0 + n2);
     EXPECT_NEAR(photometry::water_reflectance(brewster), 0.5 * std::pow((1.0 - n2) / (1.0 + n2), 2), 1e-12);
-}
-
-/// Twice the integral of F cosine gives 6.6 % for diffuse light from outside; from within, 1 - (1 - 0.066) / n^2 = 47.4 %.
-TEST(Water, HoldsBackFromWithinWhatReciprocitySays) {
+    /// Twice the integral of F cosine gives 6.6 % for diffuse light from outside; from within, 1 - (1 - 0.066) / n^2 = 47.4 %.
     double outside = 0.0;
     constexpr int n = 100'000;
     for (int i = 0; i < n; ++i) {
@@ -136,15 +120,12 @@ TEST(Water, HoldsBackFromWithinWhatReciprocitySays) {
 }
 
 /// A road gets darker when wet; seen and lit from above, asphalt of 0.08 has 0.045 left (0.08 * 0.98^2 / (1.777 (1 - 0.4745 * 0.08))).
-TEST(WetRoad, IsDarkerFromAbove) {
+TEST(WetRoad, IsDarkerFromAboveAndReturnsNoMoreThanItGets) {
     const double dry = 0.08 / pi * 100.0;
     const double wet = wet_light(glm::dvec3(0.08), up, at_elevation(60.0), at_elevation(60.0, 90.0), 100.0 / std::sin(radians(60.0))).x;
     EXPECT_LT(wet, 0.7 * dry);
     EXPECT_NEAR(photometry::wet_albedo(0.08, 1.0, 1.0), 0.0449, 0.0002);
-}
-
-/// No more light comes back than came, whatever the direction: diffuse and mirrored, over the hemisphere.
-TEST(WetRoad, ReturnsNoMoreThanItGets) {
+    /// No more light comes back than came, whatever the direction: diffuse and mirrored, over the hemisphere.
     for (const double elevation : {5.0, 30.0, 90.0}) {
         const glm::dvec3 to_light = at_elevation(elevation);
         const double got = std::sin(radians(elevation));
@@ -171,6 +152,128 @@ TEST(WetRoad, GivesLessBackAndMoreToTheOncoming) {
     RecordProperty("onwards_percent_of_dry", static_cast<int>(100.0 * onwards / dry));
     EXPECT_LT(back, 0.6 * dry); // and R_L, which is 26 times as much, goes with the water
     EXPECT_GT(onwards, 20.0 * dry);
+}
+
+/// Uneven axes with a step of intensity, as cut-offs have.
+CandelaTable steep_table() {
+    CandelaTable table{{-40.0, -10.0, -1.0, 0.0, 0.2, 7.0, 35.0}, {-20.0, -5.0, -0.6, -0.5, 0.0, 8.0}, {}, {}, BetweenSamples::linear_cd};
+    for (std::size_t v = 0; v < table.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
+            table.cd.push_back(v < 3 ? 9000.0 + 1000.0 * static_cast<double>((3 * h + v) % 5) : 40.0 * static_cast<double>(h));
+    return table;
+}
+
+LitLamp lamp_with(CandelaTable table, const glm::dvec3& position_m, double yaw_rad, double pitch_rad) {
+    return LitLamp{.file = tests::file_of(std::move(table)),
+                   .pose = {position_m, axes_from_angles(yaw_rad, pitch_rad, 0.02)},
+                   .intensity_factor = 0.7};
+}
+
+Moment two_lamps(const CandelaTable& table) {
+    Moment moment;
+    moment.daylight.horizontal_illuminance_lx = 0.2;
+    moment.lamps = {lamp_with(table, {3.0, 0.6, 0.65}, 0.01, -0.01), lamp_with(table, {3.0, -0.6, 0.65}, -0.02, -0.012)};
+    return moment;
+}
+
+TEST(QuickLight, BoundsHoldTheIlluminanceAndAreNarrow) {
+    const Moment moment = two_lamps(steep_table());
+    const QuickLight light(moment);
+    std::mt19937_64 chance(7);
+    std::uniform_real_distribution<double> along(-5.0, 120.0), across(-40.0, 40.0), above(-3.0, 4.0), tilt(-0.3, 0.3);
+    int unknown = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const glm::dvec3 point{along(chance), across(chance), above(chance)}, normal = axes_from_angles(0.3, tilt(chance), tilt(chance))[2];
+        const std::pair<LuxBounds, double> found[]{{light.surface_lx(point, normal, 0.0), surface_illuminance_lx(moment, point, normal)},
+                                                   {light.target_lx(point), target_illuminance_lx(moment, point)}};
+        for (const auto& [bounds, truth] : found) {
+            if (!std::isfinite(bounds.high_lx)) {
+                ++unknown;
+                continue;
+            }
+            ASSERT_LE(bounds.low_lx, truth);
+            ASSERT_GE(bounds.high_lx, truth);
+            // 1e5 cd per degree of cut-off times 7e-6 degrees, of two lamps: 1 cd.
+            const double d2 = std::min(glm::dot(point - moment.lamps[0].pose.position_m, point - moment.lamps[0].pose.position_m),
+                                       glm::dot(point - moment.lamps[1].pose.position_m, point - moment.lamps[1].pose.position_m));
+            ASSERT_LE(bounds.high_lx - bounds.low_lx, 3.0 / d2);
+        }
+    }
+    EXPECT_LT(unknown, 8000) << "only what is steeper than 30 degrees or on the border of the table";
+}
+
+// The far right lane of a cut-off: from a degree below it to a degree above, in steps that lie within the angles' error as well.
+TEST(QuickLight, BoundsHoldAcrossACutOff) {
+    const Moment moment = two_lamps(steep_table());
+    const QuickLight light(moment);
+    for (const double step : {1e-3, 1e-7})
+        for (int i = -1000; i <= 1000; ++i) {
+            const glm::dvec3 point{60.0, 0.3, 0.65 - 57.0 * std::tan(0.01 + radians(0.55)) + step * i};
+            const LuxBounds bounds = light.target_lx(point);
+            const double truth = target_illuminance_lx(moment, point);
+            ASSERT_LE(bounds.low_lx, truth);
+            ASSERT_GE(bounds.high_lx, truth);
+        }
+}
+
+TEST(QuickLight, KnowsTheDarkAndWhatItDoesNotKnow) {
+    Moment moment = two_lamps(steep_table());
+    moment.daylight.horizontal_illuminance_lx = 0.0;
+    const LuxBounds behind = QuickLight(moment).target_lx({-10.0, 0.0, 0.5}), beside = QuickLight(moment).target_lx({13.0, 30.0, 0.5});
+    EXPECT_EQ(behind.high_lx, 0.0);
+    EXPECT_EQ(beside.high_lx, 0.0) << "outside the table there is no light";
+    EXPECT_FALSE(std::isfinite(QuickLight(moment).target_lx({3.2, 0.6, 0.0}).high_lx)) << "steeper than 30 degrees";
+    EXPECT_FALSE(std::isfinite(QuickLight(moment).target_lx(moment.lamps[0].pose.position_m).high_lx)) << "in the lamp";
+    const LuxBounds far = QuickLight(moment).surface_lx({63.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1.0);
+    EXPECT_EQ(far.low_lx, 0.0);
+    EXPECT_LT(far.high_lx, 1.0) << "13 000 cd x 0.7 x 2 lamps x 0.65 / 60^3 = 0.055 lx at most";
+
+    CandelaTable logarithmic = steep_table(), with_gap = steep_table();
+    logarithmic.rule = BetweenSamples::log_cd;
+    with_gap.gaps.assign((with_gap.h_deg.size() - 1) * (with_gap.v_deg.size() - 1), 0);
+    for (const CandelaTable& table : {logarithmic, with_gap})
+        EXPECT_FALSE(std::isfinite(QuickLight(two_lamps(table)).target_lx({23.0, 0.0, 0.5}).high_lx));
+}
+
+// At the lamp's own place there is no direction and no distance: 0 / 0 in every term, and no light in the end.
+TEST(Light, IsANumberInTheLampItself) {
+    const Moment moment = two_lamps(steep_table());
+    for (const LitLamp& lamp : moment.lamps) {
+        EXPECT_TRUE(std::isfinite(target_illuminance_lx(moment, lamp.pose.position_m)));
+        EXPECT_TRUE(std::isfinite(surface_illuminance_lx(moment, lamp.pose.position_m, {-1.0, 0.0, 0.0})));
+    }
+}
+
+// The colour of retroreflected light keeps the photometric figures that it was measured with.
+
+const glm::dvec3 weights(0.2126, 0.7152, 0.0722);
+
+double returned(const Material& material, double kelvin) {
+    return glm::dot(weights, colour_of_temperature(kelvin).linear_srgb * retro_tint(material));
+}
+
+TEST(RetroTint, GreyIsTheLampsOwnColourToTheBit) {
+    Material plate{.name = "plate", .retro_rl = 50.0F};
+    EXPECT_EQ(retro_tint(plate), glm::dvec3(1.0));
+    plate.retro_rgb = glm::vec3(0.3F);
+    EXPECT_EQ(retro_tint(plate), glm::dvec3(1.0));
+    EXPECT_FALSE(is_tinted(plate));
+    const Material dull{.name = "dull", .retro_rgb = {1.0F, 0.0F, 0.0F}};
+    EXPECT_FALSE(is_tinted(dull)) << "returns nothing";
+}
+
+TEST(RetroTint, LuminanceHoldsInIlluminantAAndFallsInBluerLight) {
+    Material reflector{.name = "reflector", .retro_rl = 120.0F, .retro_rgb = {1.0F, 0.0F, 0.0F}};
+    EXPECT_NEAR(returned(reflector, 2856.0), 1.0, 1e-12);
+    EXPECT_LT(returned(reflector, 3200.0), 0.97);
+    EXPECT_LT(returned(reflector, 4300.0), 0.85);
+    EXPECT_GT(returned(reflector, 4300.0), 0.6);
+    EXPECT_EQ(retro_tint(reflector).g, 0.0);
+    const glm::dvec3 full = retro_tint(reflector);
+    reflector.retro_rgb *= 0.5F;
+    EXPECT_NEAR(glm::length(retro_tint(reflector) - full), 0.0, 1e-12) << "its size says nothing";
+    reflector.retro_rgb = {0.8F, 0.55F, 0.0F}; // yellow
+    EXPECT_NEAR(returned(reflector, 2856.0), 1.0, 1e-12);
 }
 
 } // namespace

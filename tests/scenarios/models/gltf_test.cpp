@@ -1,27 +1,26 @@
+#include "scenarios/models/glb_writer.h"
 #include "scenarios/models/model.h"
-
+#include "scenarios/models/road_user_bodies.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/models/written_gltf.h"
+#include "tests/trial.h"
 
+#include <algorithm>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
+#include <random>
+#include <sstream>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using test::Json;
-using test::WrittenGltf;
+using test::Json, test::WrittenGltf;
 using testing::HasSubstr;
 
 class Gltf : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  ("gltf_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     Model read(const WrittenGltf& file) const {
         file.write_gltf(folder_ / "model.gltf");
         return read_model(folder_ / "model.gltf");
@@ -31,18 +30,12 @@ class Gltf : public testing::Test {
         return refusal(folder_ / "model.gltf");
     }
     std::string refusal_of_text(const std::string& text, const std::string& name = "model.gltf") const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return refusal(folder_ / name);
+        return refusal(tests::written(name, text, folder_));
     }
     static std::string refusal(const std::filesystem::path& path) {
-        try {
-            read_model(path);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "not refused";
+        return tests::refusal_of([&] { read_model(path); });
     }
-    std::filesystem::path folder_;
+    const std::filesystem::path folder_ = tests::new_folder();
 };
 
 TEST_F(Gltf, AxesAndNormalsBecomeOurs) {
@@ -99,8 +92,7 @@ TEST_F(Gltf, NodesNamedLampAreMounts) {
     ASSERT_EQ(model.mounts.size(), 1U);
     EXPECT_EQ(model.mounts[0].name, "lamp.low.left");
     EXPECT_LT(glm::length(model.mounts[0].pose.position_m - glm::dvec3(3.6, 0.7, 0.65)), 1e-12);
-    EXPECT_EQ(model.mounts[0].pose.forward(), glm::dvec3(1, 0, 0));
-    EXPECT_EQ(model.mounts[0].pose.up(), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(std::tuple(model.mounts[0].pose.forward(), model.mounts[0].pose.up()), std::tuple(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)));
 }
 
 TEST_F(Gltf, BaseColourIsReflectanceAndTheRestIsNoted) {
@@ -115,8 +107,7 @@ TEST_F(Gltf, BaseColourIsReflectanceAndTheRestIsNoted) {
     file.json["extensions"]["KHR_lights_punctual"] = Json::object();
     const Model model = read(file);
     ASSERT_EQ(model.materials.size(), 1U);
-    EXPECT_EQ(model.materials[0].albedo, glm::vec3(0.5, 0.25, 0.125));
-    EXPECT_EQ(model.materials[0].retro_rl, 2.5F);
+    EXPECT_EQ(std::tuple(model.materials[0].albedo, model.materials[0].retro_rl), std::tuple(glm::vec3(0.5, 0.25, 0.125), 2.5F));
     EXPECT_EQ(model.triangles(), 2U) << "a second sheet that faces down";
     const std::string notes = testing::PrintToString(model.notes);
     for (const char* word : {"metal and gloss", "transparent", "animations left out: 1", "lights of the file", "both sides"})
@@ -246,6 +237,100 @@ TEST_F(Gltf, ACarOfOthersHasItsSizeAndItsPicture) {
     EXPECT_EQ(model.triangles(), (5232U + 168U + 864U + 2U * 2304U) / 3U);
     ASSERT_EQ(model.textures.size(), 1U);
     EXPECT_EQ(model.textures[0].width, 512);
+}
+
+// Files with bytes changed, cut out, doubled or swapped at random: each is read or refused in one sentence, and nothing else happens.
+// Under AddressSanitizer (ci/test) this is where the reader is tried.
+
+const std::filesystem::path real_files = std::filesystem::path(FERNLICHT_SHARED_DATA) / "models";
+
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ostringstream out;
+    out << std::ifstream(path, std::ios::binary).rdbuf();
+    return out.str();
+}
+
+std::string mutated(std::string bytes, std::mt19937& random) {
+    const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
+    for (std::size_t changes = 1 + below(4); changes > 0 && !bytes.empty(); --changes) {
+        // Half of the changes in the first 4 kB, where headers and JSON are.
+        const std::size_t at = below(below(2) == 0 ? std::min<std::size_t>(bytes.size(), 4096) : bytes.size());
+        switch (below(6)) {
+        case 0:
+            bytes[at] = static_cast<char>(random());
+            break;
+        case 1:
+            bytes[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ (1U << below(8)));
+            break;
+        case 2:
+            bytes.erase(at, 1 + below(64));
+            break;
+        case 3:
+            bytes.insert(at, bytes.substr(below(bytes.size()), 1 + below(64)));
+            break;
+        case 4: // a digit becomes many
+            if (bytes[at] >= '0' && bytes[at] <= '9')
+                bytes.insert(at, below(2) == 0 ? "99999999" : "-1e308");
+            break;
+        default:
+            bytes.resize(at);
+        }
+    }
+    return bytes;
+}
+
+class GltfMutation : public testing::Test {
+  protected:
+    /// How many of the mutants were refused; the rest were read and are whole.
+    std::size_t refused(const std::filesystem::path& file, std::size_t mutants, std::uint32_t seed) {
+        std::mt19937 random(seed);
+        const std::string bytes = bytes_of(file);
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < mutants; ++k) {
+            std::ofstream(folder_ / file.filename(), std::ios::binary | std::ios::trunc) << mutated(bytes, random);
+            try {
+                const Model model = read_model(folder_ / file.filename());
+                for (const Mesh& mesh : model.meshes)
+                    for (const std::uint32_t i : mesh.indices)
+                        EXPECT_LT(i, mesh.vertices.size());
+            } catch (const InputError& error) {
+                const std::string text = error.what();
+                EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+                EXPECT_LT(text.size(), 2000U);
+                ++count;
+            }
+        }
+        return count;
+    }
+    const std::filesystem::path folder_ = tests::new_folder();
+};
+
+TEST_F(GltfMutation, OurOwnFilesAreReadOrRefused) {
+    const std::filesystem::path car = folder_ / "whole" / "car.glb";
+    std::filesystem::create_directories(car.parent_path());
+    write_file(car, glb_of(car_body({}), {}));
+    EXPECT_EQ(refused(car, 0, 1), 0U);
+    const std::size_t mutants = 300, count = refused(car, mutants, 1);
+    EXPECT_GT(count, mutants / 4);
+    EXPECT_LT(count, mutants) << "a changed coordinate is no error";
+    EXPECT_GT(refused(FERNLICHT_SOURCE_DIR "/scenarios/library/models/shelter.gltf", mutants, 2), mutants / 4);
+}
+
+TEST_F(GltfMutation, RealFilesAreReadOrRefused) {
+    if (!std::filesystem::exists(real_files))
+        GTEST_SKIP() << "no real files at " << real_files;
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(real_files)) {
+        const std::filesystem::path& path = entry.path();
+        if (path.extension() != ".gltf" && path.extension() != ".glb")
+            continue;
+        for (const auto& beside : std::filesystem::directory_iterator(path.parent_path())) // what it names
+            if (beside.is_regular_file() && beside.file_size() < (1U << 20))
+                std::filesystem::copy_file(beside.path(), folder_ / beside.path().filename(),
+                                           std::filesystem::copy_options::overwrite_existing);
+        refused(path, 20, static_cast<std::uint32_t>(++files));
+    }
+    EXPECT_GT(files, 10U);
 }
 
 } // namespace

@@ -93,8 +93,7 @@ TEST(RoadUserBodies, AreLitFromOutside) {
         int hits = 0, backs = 0;
         for (int i = 0; i < 400; ++i) { // rays towards points of the box's middle, from a ring of directions
             const double angle = 0.7 + 2.39996 * i, up = 0.05 + 0.9 * (i % 20) / 20.0;
-            const glm::dvec3 from = centre + 30.0 * glm::dvec3(std::cos(angle), std::sin(angle), up);
-            const glm::dvec3 size = model.high_m - model.low_m;
+            const glm::dvec3 from = centre + 30.0 * glm::dvec3(std::cos(angle), std::sin(angle), up), size = model.high_m - model.low_m;
             const glm::dvec3 target =
                 centre + size * glm::dvec3(0.35 * std::sin(7.1 * i), 0.3 * std::sin(3.3 * i), 0.3 * std::sin(5.7 * i));
             const glm::dvec3 d = glm::normalize(target - from);

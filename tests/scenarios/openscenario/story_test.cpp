@@ -1,6 +1,7 @@
 #include "tests/scenarios/openscenario/story_text.h"
 
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -102,23 +103,13 @@ std::string vertex(double time) {
 }
 
 std::string refusal_of(const std::filesystem::path& path) {
-    try {
-        read_storyboard(path);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "read";
+    return tests::refusal_of([&] { read_storyboard(path); }, "read");
 }
 
 /// A scenario that takes its route from a catalog in the folder.
 class Catalogs : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "fernlicht-catalogs-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
+    const std::filesystem::path folder_ = tests::new_folder();
     void write_catalog(const std::string& file, const std::string& name, const std::string& entries) const {
         std::ofstream(folder_ / file) << R"(<OpenSCENARIO><FileHeader revMajor="1" revMinor="0"/><Catalog name=")" << name << "\">"
                                       << entries << "</Catalog></OpenSCENARIO>";
@@ -144,7 +135,6 @@ class Catalogs : public testing::Test {
         const StoryFile file(text);
         return refusal_of(file.path());
     }
-    std::filesystem::path folder_;
 };
 
 TEST_F(Catalogs, AreFoundByTheirNameAndBehindItByTheirFiles) {

@@ -3,37 +3,20 @@
 
 #include "scenarios/openscenario/play_story.h"
 #include "scenarios/openscenario/reader/read_storyboard.h"
+#include "tests/trial.h"
 
-#include <fstream>
 #include <gtest/gtest.h>
-#include <string>
 
 namespace fernlicht::osc {
 
 inline const std::string straight_road = std::string(FERNLICHT_SOURCE_DIR) + "/scenarios/library/roads/straight.xodr";
 
-/// A file of its own for each test; gone with it.
 class StoryFile {
   public:
-    explicit StoryFile(const std::string& text) {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        path_ = std::filesystem::temp_directory_path() /
-                (std::string("fernlicht-") + test->test_suite_name() + "-" + test->name() + "-" + std::to_string(++count()) + ".xosc");
-        std::ofstream(path_, std::ios::binary) << text;
-    }
-    ~StoryFile() {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
-    StoryFile(const StoryFile&) = delete;
-    StoryFile& operator=(const StoryFile&) = delete;
+    explicit StoryFile(const std::string& text) : path_(tests::written("story.xosc", text)) {}
     const std::filesystem::path& path() const { return path_; }
 
   private:
-    static int& count() {
-        static int made = 0;
-        return made;
-    }
     std::filesystem::path path_;
 };
 

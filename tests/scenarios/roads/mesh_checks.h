@@ -81,8 +81,7 @@ inline Topology topology(const std::vector<Triangle>& triangles) {
             v = parent[v] = parent[parent[v]];
         return v;
     };
-    Topology result;
-    result.triangles = triangles.size();
+    Topology result{.triangles = triangles.size()};
     for (const Triangle& triangle : triangles) {
         std::array<std::uint32_t, 3> v{};
         for (std::size_t k = 0; k < 3; ++k) {

@@ -16,8 +16,7 @@ struct NearestPlace {
 /// (s, t) under a point near the surface, by walking along the surface's own axes. Not found where that does not settle: beyond the
 /// road's ends, and where the road is folded about the centre of a bend.
 inline NearestPlace nearest_place(const RoadNetwork& network, const Road& road, const glm::dvec3& point, double s_m) {
-    NearestPlace place;
-    place.s_m = s_m;
+    NearestPlace place{.s_m = s_m};
     for (int step = 0; step < 80; ++step) {
         const Pose pose = surface_pose(network, road, place.s_m, place.t_m);
         const glm::dvec3 miss = point - pose.position_m;
@@ -49,8 +48,7 @@ struct Distances {
 /// Samples every `stride`-th triangle of the mesh that is not a kerb's, at its middle and the middles of its sides.
 inline Distances distances(const RoadNetwork& network, const Road& road, const Scene& scene, const Mesh& mesh, std::size_t stride) {
     Distances result;
-    Scene one;
-    one.materials = scene.materials;
+    Scene one{.materials = scene.materials};
     one.meshes.push_back(mesh);
     const auto [from, to] = stations_of(mesh.name);
     std::vector<Pose> guides;

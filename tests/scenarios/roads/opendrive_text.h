@@ -1,34 +1,18 @@
 // Small OpenDRIVE files for tests, written into a folder of their own.
 #pragma once
 
-#include <filesystem>
+#include "tests/trial.h"
+
 #include <fmt/format.h>
-#include <fstream>
-#include <string>
-#include <unistd.h>
 
 namespace fernlicht::opendrive_text {
 
-/// A file that lives as long as this value.
 class TemporaryFile {
   public:
-    explicit TemporaryFile(const std::string& content)
-        : path_(std::filesystem::temp_directory_path() / fmt::format("fernlicht-road-{}-{}.xodr", ::getpid(), count()++)) {
-        std::ofstream(path_, std::ios::binary) << content;
-    }
-    ~TemporaryFile() {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    explicit TemporaryFile(const std::string& content) : path_(tests::written("road.xodr", content)) {}
     const std::filesystem::path& path() const { return path_; }
 
   private:
-    static int& count() {
-        static int value = 0;
-        return value;
-    }
     std::filesystem::path path_;
 };
 

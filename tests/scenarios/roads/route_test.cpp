@@ -2,12 +2,12 @@
 
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/roads/opendrive_text.h"
+#include "tests/trial.h"
 
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 namespace {
@@ -21,12 +21,7 @@ RoadNetwork network_with(const std::string& roads) {
 }
 
 std::string refusal(const RoadNetwork& network, const Route::Start& start, const std::vector<std::string>& via = {}) {
-    try {
-        const Route route(network, start, via);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { const Route route(network, start, via); }, "");
 }
 
 void expect_position(const Pose& pose, double x, double y, double tolerance = 1e-9) {
@@ -34,7 +29,7 @@ void expect_position(const Pose& pose, double x, double y, double tolerance = 1e
     EXPECT_NEAR(pose.position_m.y, y, tolerance);
 }
 
-TEST(Route, RightLaneRunsAlongS) {
+TEST(Route, RightLanesRunAlongSAndLeftOnesAgainstIt) {
     const RoadNetwork network = network_with(road({}));
     const Route route(network, {});
     EXPECT_NEAR(route.length_m(), 100.0, 1e-9);
@@ -44,17 +39,13 @@ TEST(Route, RightLaneRunsAlongS) {
     EXPECT_NEAR(route.pose(30.0).up().z, 1.0, 1e-12);
     expect_position(route.pose(-5.0), 0.0, -1.75);
     expect_position(route.pose(500.0), 100.0, -1.75);
-}
-
-TEST(Route, LeftLaneRunsAgainstS) {
-    const RoadNetwork network = network_with(road({}));
-    const Route route(network, {"1", 1, 100.0});
-    expect_position(route.pose(30.0), 70.0, 1.75);
-    expect_position(route.pose(30.0, 1.0), 70.0, 0.75); // left of one who drives towards -x is -y
-    EXPECT_NEAR(route.pose(30.0).forward().x, -1.0, 1e-12);
-    EXPECT_NEAR(route.pose(30.0).left().y, -1.0, 1e-12);
-    EXPECT_EQ(route.place(30.0).first, "1");
-    EXPECT_NEAR(route.place(30.0).second, 70.0, 1e-9);
+    const Route other_route(network, {"1", 1, 100.0});
+    expect_position(other_route.pose(30.0), 70.0, 1.75);
+    expect_position(other_route.pose(30.0, 1.0), 70.0, 0.75); // left of one who drives towards -x is -y
+    EXPECT_NEAR(other_route.pose(30.0).forward().x, -1.0, 1e-12);
+    EXPECT_NEAR(other_route.pose(30.0).left().y, -1.0, 1e-12);
+    EXPECT_EQ(other_route.place(30.0).first, "1");
+    EXPECT_NEAR(other_route.place(30.0).second, 70.0, 1e-9);
 }
 
 TEST(Route, LeftHandTrafficStartsOnTheLeft) {
@@ -111,8 +102,7 @@ TEST(Route, DistanceIsThatOfTheLane) {
 
 /// Over a grade, with roll, widening lanes, a lane offset, spirals: equal distances are equal metres.
 TEST(Route, DistanceIsMetresOnTheSurface) {
-    RoadText text;
-    text.length = "200";
+    RoadText text{.length = "200"};
     text.plan = geometry(0.0, 0.0, 0.0, 0.3, 60.0, R"(<spiral curvStart="0" curvEnd="0.02"/>)");
     PlanElement first;
     first.heading_rad = 0.3, first.length_m = 60.0, first.shape = Spiral{0.0, 0.02};
@@ -168,8 +158,7 @@ TEST(Route, FollowsLaneLinksOverSections) {
 }
 
 TEST(Route, LaneWithoutLinkGoesOnWhereItsCentreDoes) {
-    RoadText text;
-    text.lanes = section(0.0, lane(1), lane(-1)) + section(50.0, lane(1), lane(-1, "3.4"));
+    RoadText text{.lanes = section(0.0, lane(1), lane(-1)) + section(50.0, lane(1), lane(-1, "3.4"))};
     const RoadNetwork same = network_with(road(text));
     EXPECT_NEAR(Route(same, {}).length_m(), 100.0, 1e-6);
     text.lanes = section(0.0, lane(1), lane(-1)) + section(50.0, lane(1), lane(-1, "8"));
@@ -229,16 +218,12 @@ TEST(Route, TakesTheLeastTurnAtAJunction) {
     EXPECT_EQ(route.place(150.0).first, "2");
 }
 
-TEST(Route, ViaNamesTheRoadBehindOrWithinTheJunction) {
+TEST(Route, ViaNamesTheRoadBehindOrWithinTheJunctionAndMustExist) {
     const RoadNetwork network = network_with(fork());
     EXPECT_EQ(Route(network, {}, {"3"}).place(180.0).first, "3");
     EXPECT_EQ(Route(network, {}, {"11"}).place(180.0).first, "3");
     EXPECT_EQ(Route(network, {}, {"1", "10", "2"}).place(180.0).first, "2");
     EXPECT_THAT(refusal(network, {}, {"2", "3"}), HasSubstr("does not meet road '3'"));
-}
-
-TEST(Route, RefusesWhatDoesNotExist) {
-    const RoadNetwork network = network_with(fork());
     EXPECT_THAT(refusal(network, {"7", 0, 0.0}), HasSubstr("found no road '7', expected one of the roads 1, 11, 10, 2, 3"));
     EXPECT_THAT(refusal(network, {"1", -4, 0.0}), HasSubstr("found no lane -4 at s = 0 m of road '1', expected one of the lanes -1"));
     EXPECT_THAT(refusal(network, {"1", 0, 100.5}), HasSubstr("outside road '1'"));

@@ -1,5 +1,7 @@
 // Light of the sky against the figures its sources print, and against what the field expects of it.
 #include "scenarios/sky/daylight.h"
+#include "scenarios/sky/ephemeris.h"
+#include "scenarios/sky/weather.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
@@ -14,8 +16,7 @@ constexpr SkyCover covers[] = {SkyCover::clear, SkyCover::partly_cloudy, SkyCove
 
 /// Munich.
 Daylight at(int month, int day, int hour, int minute, SkyCover cover = SkyCover::clear) {
-    Daylight daylight;
-    daylight.clock = SkyClock{2026, month, day, 3600 * hour + 60 * minute, 0.0, 48.14, 11.58, cover, 0.0};
+    Daylight daylight{.clock = SkyClock{2026, month, day, 3600 * hour + 60 * minute, 0.0, 48.14, 11.58, cover, 0.0}};
     return daylight_at(daylight, 0.0);
 }
 
@@ -36,7 +37,7 @@ TEST(SkyLight, LiesWithinAFactorOfTwoOfTypicalMaxima) {
 }
 
 /// 127.5 klx exp(-0.21 / sin h) and 0.8 + 15.5 sqrt(sin h) klx, worked out by hand for sin h = 1 and 0.5.
-TEST(SkyLight, FollowsTheIes1984) {
+TEST(SkyLight, FollowsTheIesAndTheExplanatorySupplement) {
     const SkyLight zenith = sun_light(pi / 2.0, pi / 2.0, au_km, SkyCover::clear);
     EXPECT_NEAR(zenith.direct_lx, 103'350.0, 100.0);
     EXPECT_NEAR(zenith.diffuse_lx, 16'300.0, 1e-6);
@@ -47,11 +48,8 @@ TEST(SkyLight, FollowsTheIes1984) {
     EXPECT_NEAR(sun_light(radians(30.0), radians(30.0), au_km, SkyCover::overcast).diffuse_lx, 10'800.0, 1e-6);
     EXPECT_EQ(sun_light(radians(30.0), radians(30.0), au_km, SkyCover::overcast).direct_lx, 0.0);
     EXPECT_NEAR(extraterrestrial_lx(au_km * 0.983), 131'950.0, 50.0); // early January
-}
-
-/// The Supplement's fits by hand: 3.4 lx at the end of civil twilight, 8 mlx of nautical, 0.65 mlx of astronomical; full moon 0.27 lx
-/// overhead.
-TEST(SkyLight, FollowsTheExplanatorySupplementThroughTwilight) {
+    /// The Supplement's fits by hand: 3.4 lx at the end of civil twilight, 8 mlx of nautical, 0.65 mlx of astronomical; full moon 0.27 lx
+    /// overhead.
     EXPECT_NEAR(sun_light(radians(-6.0), radians(-6.0), au_km, SkyCover::clear).diffuse_lx, 3.41, 0.02);
     EXPECT_NEAR(sun_light(radians(-12.0), radians(-12.0), au_km, SkyCover::clear).diffuse_lx, 0.00807, 0.0001);
     EXPECT_NEAR(sun_light(radians(-18.0), radians(-18.0), au_km, SkyCover::clear).diffuse_lx, 6.46e-4, 0.05e-4);
@@ -59,10 +57,7 @@ TEST(SkyLight, FollowsTheExplanatorySupplementThroughTwilight) {
               sun_light(radians(-18.0), radians(-18.0), au_km, SkyCover::clear).diffuse_lx);
     EXPECT_NEAR(supplement_full_moon_lx(pi / 2.0), 0.269, 0.001);
     EXPECT_EQ(supplement_full_moon_lx(radians(-1.0)), 0.0);
-}
-
-/// Two sources, one light: sun and sky together by the IES, and the moon by ours, beside the Supplement's own totals.
-TEST(SkyLight, AgreesWithTheSupplementWhereBothSpeak) {
+    /// Two sources, one light: sun and sky together by the IES, and the moon by ours, beside the Supplement's own totals.
     for (const double h : {5.0, 10.0, 20.0, 40.0, 60.0, 90.0}) {
         const SkyLight sun = sun_light(radians(h), radians(h), au_km, SkyCover::clear);
         const double total = sun.direct_lx * std::sin(radians(h)) + sun.diffuse_lx;
@@ -137,6 +132,95 @@ TEST(Daylight, RunsWithTheClock) {
     EXPECT_NEAR(later.horizontal_illuminance_lx, expected.horizontal_illuminance_lx, 1e-6 * expected.horizontal_illuminance_lx);
     EXPECT_EQ(later.name, "evening");
     EXPECT_EQ(daylight_at(Daylight{"day", 27000.0}, 99.0), (Daylight{"day", 27000.0})) << "without a clock, as it is";
+}
+
+// Against the printed examples of J. Meeus, Astronomical Algorithms (2nd edition), and of I. Reda and A. Andreas, Solar Position Algorithm
+// (NREL/TP-560-34302).
+
+TEST(Calendar, DaysAndTimesOfMeeusAndTheAlmanacs) {
+    EXPECT_EQ(julian_day({1957, 10, 4, 0.81 * 24.0}), 2436116.31); // launch of Sputnik 1
+    EXPECT_EQ(julian_day({2000, 1, 1, 12.0}), 2451545.0);
+    EXPECT_EQ(julian_day({1987, 1, 27, 0.0}), 2446822.5);
+    EXPECT_EQ(julian_day({1900, 1, 1, 0.0}), 2415020.5);
+    EXPECT_EQ(julian_day({2026, 12, 31, 26.0}), julian_day({2027, 1, 1, 2.0}));
+    EXPECT_EQ(days_in_month(2000, 2), 29);
+    EXPECT_EQ(days_in_month(1900, 2), 28);
+    const double day = julian_day({1987, 4, 10, 0.0});
+    const Ecliptic ecliptic = ecliptic_at(julian_centuries(day)); // 22.a: -3.788", 23 deg 26' 36.850"
+    EXPECT_NEAR(degrees(ecliptic.nutation_rad) * 3600.0, -3.788, 0.5);
+    EXPECT_NEAR(degrees(ecliptic.obliquity_rad) * 3600.0, 84396.850, 0.1);
+    EXPECT_NEAR(degrees(sidereal_time_rad(day, ecliptic.nutation_rad, ecliptic.obliquity_rad)),
+                15.0 * (13.0 + 10.0 / 60.0 + 46.1351 / 3600.0), 2e-4);
+    /// Observed: 56.86 s in 1990, 63.83 s in 2000, 69.4 s in 2020 (IERS).
+    EXPECT_NEAR(delta_t_s(julian_day({1990, 1, 1, 0.0})), 56.86, 0.5);
+    EXPECT_NEAR(delta_t_s(julian_day({2000, 1, 1, 0.0})), 63.83, 0.5);
+    EXPECT_NEAR(delta_t_s(julian_day({2020, 1, 1, 0.0})), 69.4, 3.0); // the fit was made before, and is 2.2 s long
+}
+
+TEST(Sun, Example25a) {
+    const CelestialPlace sun = sun_place(julian_centuries(2448908.5)); // 1992 October 13, 0 h TD
+    EXPECT_NEAR(degrees(sun.longitude_rad), 199.90895, 1e-4);
+    EXPECT_NEAR(degrees(sun.right_ascension_rad), 198.38083, 2e-4);
+    EXPECT_NEAR(degrees(sun.declination_rad), -7.78507, 1e-4);
+    EXPECT_NEAR(sun.distance_km, 0.99766 * 149597870.7, 1000.0);
+}
+
+TEST(Moon, Examples47aAnd48a) {
+    const CelestialPlace moon = moon_place(julian_centuries(2448724.5)); // 1992 April 12, 0 h TD
+    EXPECT_NEAR(degrees(moon.longitude_rad), 133.167265, 2e-4);
+    EXPECT_NEAR(degrees(moon.latitude_rad), -3.229126, 1e-6);
+    EXPECT_NEAR(moon.distance_km, 368409.7, 0.1);
+    EXPECT_NEAR(degrees(moon.right_ascension_rad), 134.688470, 2e-4);
+    EXPECT_NEAR(degrees(moon.declination_rad), 13.768368, 1e-4);
+    const double t = julian_centuries(2448724.5), phase = phase_angle_rad(sun_place(t), moon_place(t));
+    EXPECT_NEAR(degrees(phase), 69.0756, 0.01);
+    EXPECT_NEAR(illuminated_fraction(phase), 0.6786, 1e-4);
+}
+
+/// 2003 October 17, 12:30:30 at UTC - 7 h; 105.1786 W, 39.742476 N; 820 hPa, 11 C: zenith 50.11162, azimuth 194.34024 degrees.
+TEST(Horizon, ExampleOfTheSolarPositionAlgorithmRefractionAndAzimuth) {
+    const double day = julian_day({2003, 10, 17, 12.0 + 30.5 / 60.0 + 7.0});
+    EXPECT_NEAR(day, 2452930.312847, 1e-6);
+    const double centuries = julian_centuries(day + 67.0 / 86400.0);
+    const Ecliptic ecliptic = ecliptic_at(centuries);
+    const HorizontalPlace sun =
+        horizontal_place(sun_place(centuries), sidereal_time_rad(day, ecliptic.nutation_rad, ecliptic.obliquity_rad),
+                         {radians(39.742476), radians(-105.1786)});
+    EXPECT_NEAR(degrees(sun.azimuth_rad), 194.34024, 0.01); // the accuracy of chapter 25
+    const double apparent = sun.altitude_rad + refraction_rad(sun.altitude_rad, 820.0, 11.0);
+    EXPECT_NEAR(90.0 - degrees(apparent), 50.11162, 0.005);
+    /// Meeus, chapter 16: 28.75 arc minutes at a true altitude of 32.92'; about 34' lift a sun that has set, 1' at 45 degrees.
+    EXPECT_NEAR(degrees(refraction_rad(radians(32.92 / 60.0))) * 60.0, 24.6, 0.2); // 57.86' apparent less 33.1', at 1010 hPa
+    EXPECT_NEAR(degrees(refraction_rad(radians(-0.5667))) * 60.0, 34.0, 1.5);
+    EXPECT_NEAR(degrees(refraction_rad(radians(45.0))) * 60.0, 1.0, 0.05);
+    EXPECT_EQ(refraction_rad(radians(-5.05)), 0.0);
+    EXPECT_EQ(refraction_rad(radians(-90.0)), 0.0);
+    for (double h = -90.0; h < 90.0; h += 0.01) // what is higher is seen higher: no jump turns the order round
+        EXPECT_LE(radians(h) + refraction_rad(radians(h)), radians(h + 0.01) + refraction_rad(radians(h + 0.01))) << h;
+    EXPECT_NEAR(horizon_direction(0.0, 0.0).y, 1.0, 1e-15);
+    EXPECT_NEAR(horizon_direction(pi / 2.0, 0.0).x, 1.0, 1e-15);
+    EXPECT_NEAR(horizon_direction(1.0, pi / 2.0).z, 1.0, 1e-15);
+}
+
+// Extinction of fog, rain and snow against their sources' figures.
+
+TEST(Weather, ExtinctionOfFogRainAndSnow) {
+    EXPECT_NEAR(extinction_of_range_per_m(100.0, 0.02), 0.03912, 1e-6);
+    EXPECT_NEAR(extinction_of_range_per_m(100.0), 0.02996, 5e-6);
+    /// 1.076 R^0.67 dB/km: 1.988 dB/km at 2.5 mm/h, 4.188 at 7.6, 9.300 at 25; 4.343 dB are one neper.
+    EXPECT_NEAR(rain(Intensity::light).extinction_per_m, 1.988 / 4343.0, 1e-6);
+    EXPECT_NEAR(rain(Intensity::moderate).extinction_per_m, 4.188 / 4343.0, 1e-6);
+    EXPECT_NEAR(rain(Intensity::heavy).extinction_per_m, 9.300 / 4343.0, 1e-6);
+    EXPECT_NEAR(snow(Intensity::light).extinction_per_m, 2.996 / 1500.0, 1e-6);
+    EXPECT_GT(snow(Intensity::heavy).extinction_per_m, rain(Intensity::heavy).extinction_per_m);
+    EXPECT_EQ(rain(Intensity::heavy).wetness, 1.0);
+    EXPECT_EQ(snow(Intensity::heavy).wetness, 0.0);
+    const Weather fog{0.03, 1.0, 0.85, 0.0}, dark{0.01, 0.5, 0.0, 0.2}, both = together(fog, dark);
+    EXPECT_DOUBLE_EQ(both.extinction_per_m, 0.04);
+    EXPECT_DOUBLE_EQ(both.scattering_albedo, 0.035 / 0.04);
+    EXPECT_DOUBLE_EQ(both.asymmetry, 0.03 * 0.85 / 0.035);
+    EXPECT_EQ(both.wetness, 0.2);
+    EXPECT_EQ(together(fog, Weather{}), fog);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/place_street_lamps.h"
 #include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -34,7 +35,7 @@ struct LitStraight {
     }
 };
 
-TEST(StreetLamps, StandEveryThirtyMetresWithinWhatIsAskedFor) {
+TEST(StreetLamps, StandEveryThirtyMetresWithTheirAxisDown) {
     const LitStraight lit;
     ASSERT_EQ(lit.moment.other_lamps.size(), 10U); // 10, 40 .. 280 m of 10 .. 310, those within 200 m of 100
     const LitLamp& first = lit.moment.other_lamps[0];
@@ -42,17 +43,14 @@ TEST(StreetLamps, StandEveryThirtyMetresWithinWhatIsAskedFor) {
     const Pose lane = lit.route.pose(10.0, -4.0);
     EXPECT_NEAR(first.pose.position_m.z - lane.position_m.z, 8.0, 1e-9);
     EXPECT_NEAR(glm::dot(first.pose.position_m - lane.position_m, lane.left()), 1.0, 1e-9) << "an arm of 1 m towards the lane";
-}
-
-/// Down, C 0 (lamp space's right) along the road, C 90 (its up) towards the lane, from either side.
-TEST(StreetLamps, HangWithTheirAxisDown) {
+    /// Down, C 0 (lamp space's right) along the road, C 90 (its up) towards the lane, from either side.
     for (const double beside_m : {-4.0, 6.0}) {
-        const LitStraight lit(beside_m);
-        const Pose& pose = lit.moment.other_lamps[0].pose;
-        const Pose lane = lit.route.pose(10.0, 0.0);
+        const LitStraight beside(beside_m);
+        const Pose& pose = beside.moment.other_lamps[0].pose;
+        const Pose along = beside.route.pose(10.0, 0.0);
         EXPECT_NEAR(pose.forward().z, -1.0, 1e-12);
-        EXPECT_NEAR(std::abs(glm::dot(pose.left(), lane.forward())), 1.0, 1e-12);
-        EXPECT_NEAR(glm::dot(pose.up(), lane.left()) * beside_m, -std::abs(beside_m), 1e-9);
+        EXPECT_NEAR(std::abs(glm::dot(pose.left(), along.forward())), 1.0, 1e-12);
+        EXPECT_NEAR(glm::dot(pose.up(), along.left()) * beside_m, -std::abs(beside_m), 1e-9);
         EXPECT_NEAR(glm::dot(glm::cross(pose.forward(), pose.left()), pose.up()), 1.0, 1e-12);
     }
 }
@@ -61,8 +59,7 @@ TEST(StreetLamps, HangWithTheirAxisDown) {
 TEST(StreetLamps, GiveTheRoadItsTwentyLux) {
     const LitStraight lit;
     LitLamp lamp = lit.moment.other_lamps[0];
-    Moment alone;
-    alone.lamps = {lamp};
+    Moment alone{.lamps = {lamp}};
     const glm::dvec3 below = lamp.pose.position_m - glm::dvec3(0.0, 0.0, 8.0), across = lamp.pose.up();
     EXPECT_NEAR(surface_illuminance_lx(alone, below, {0.0, 0.0, 1.0}), 1349.5 / 64.0, 0.01);
     EXPECT_GT(surface_illuminance_lx(alone, below + 8.0 * across, {0.0, 0.0, 1.0}),
@@ -159,7 +156,7 @@ TEST(StreetLamps, OnPolesOfTheRoadAddWhatIsMissing) {
 }
 
 /// A lamp without arm must not stand in its own pole, which would take all of its light.
-TEST(StreetLamps, WithoutArmAreNotInTheirPole) {
+TEST(StreetLamps, StandBesideTheirPoleAndSayWhatStandsThere) {
     LitStraight lit;
     lit.drive.street_lamps[0].arm_m = 0.0;
     Scene scene;
@@ -167,17 +164,9 @@ TEST(StreetLamps, WithoutArmAreNotInTheirPole) {
     for (const Mesh& mesh : scene.meshes)
         for (const Vertex& vertex : mesh.vertices)
             EXPECT_GT(std::abs(static_cast<double>(vertex.position_m.z) - 8.0), 0.015);
-}
-
-TEST(StreetLamps, ThatFindNoObjectSayWhatStandsThere) {
-    try {
-        const LitVillage none("lantern");
-        FAIL();
-    } catch (const InputError& error) {
-        const std::string text = error.what();
-        for (const char* part : {"village.yaml", "street_lamps.posts.on_objects", "village.xodr", "'lamp post'"})
-            EXPECT_NE(text.find(part), std::string::npos) << text;
-    }
+    const std::string text = tests::refusal_of([] { const LitVillage none("lantern"); });
+    for (const char* part : {"village.yaml", "street_lamps.posts.on_objects", "village.xodr", "'lamp post'"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
     LitVillage unknown("lamp post");
     unknown.drive.street_lamps[0].found.reset();
     EXPECT_THROW(unknown.around({}, 100.0), std::logic_error);

@@ -1,36 +1,29 @@
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
+#include "tests/scenarios/drives/yaml_schema_check.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <set>
+#include <tuple>
 #include <unistd.h>
 
 namespace fernlicht {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using testing::ElementsAre, testing::HasSubstr;
 
 const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
 
 class StudyFile : public testing::Test {
   protected:
-    std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) / ("study-" + std::to_string(::getpid()) + ".yaml");
-    void TearDown() override { std::filesystem::remove(file_); }
-
-    Study read(const std::string& text) {
-        std::ofstream(file_) << text;
-        return read_study(file_);
-    }
-    std::string refusal(const std::string& text) {
-        try {
-            read(text);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "not refused";
+    static Study read(const std::string& text) { return read_study(tests::written("study.yaml", text)); }
+    static std::string refusal(const std::string& text) {
+        return tests::refusal_of([&] { read(text); });
     }
     static std::string with(const std::string& more) {
         return "fernlicht_study: 1\nlamps:\n  a: {low: " + library + "lamps/halogen-low.ies}\n  b: {left: " + library +
@@ -102,8 +95,7 @@ TEST_F(StudyFile, MirroredCellsHaveTheRoadInAMirror) {
     const std::vector<StudyCell> cells = cells_of(study);
     ASSERT_EQ(cells.size(), 4U);
     EXPECT_EQ(cells[1].name, "straight_b");
-    EXPECT_EQ(cells[3].name, "straight_b_mirrored");
-    EXPECT_EQ(cells[3].condition, "night, aim -1 %, 13.2 V, mirrored");
+    EXPECT_EQ(std::tuple(cells[3].name, cells[3].condition), std::tuple("straight_b_mirrored", "night, aim -1 %, 13.2 V, mirrored"));
     const Drive plain = cell_drive(study, cells[1]), mirrored = cell_drive(study, cells[3]);
     EXPECT_FALSE(plain.mirrored_road);
     EXPECT_TRUE(mirrored.mirrored_road);
@@ -127,24 +119,120 @@ TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
     EXPECT_THAT(refusal(with("limits: [{reading: x}]\n")), HasSubstr("a limit without a number"));
     EXPECT_THAT(refusal("fernlicht_study: 2\n"), HasSubstr("version of the study file's schema"));
     EXPECT_THAT(refusal(with("lamps: {}\n")), HasSubstr("lamps"));
-}
-
-TEST_F(StudyFile, RefusesMoreCellsThanAnybodyWaitsFor) {
     std::string aims;
     for (int i = 0; i < 90; ++i)
         aims += (i ? ", " : "") + std::to_string(-0.01 * i);
     EXPECT_THAT(refusal(with("conditions: {aim_percent: [" + aims + "], voltage_v: [12, 13, 13.5]}\n")), HasSubstr("540 cells"));
-}
-
-TEST_F(StudyFile, HighBeamsComeWithTheLampOrNotAtAll) {
     std::string text = with("");
     text.replace(text.find("straight.yaml"), 13, "first-light.yaml");
     const Study study = read(text);
-    try {
-        cell_drive(study, cells_of(study).front());
-        FAIL() << "not refused";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("lamps.a: found no high beam"));
+    EXPECT_THAT(tests::refusal_of([&] { cell_drive(study, cells_of(study).front()); }), HasSubstr("lamps.a: found no high beam"));
+}
+
+// study.schema.json says the same as the reader of studies: editors that use it must neither refuse good studies nor pass misspelt keys.
+
+const std::filesystem::path scenarios = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios";
+
+std::string content(const std::filesystem::path& file) {
+    FilesRead opened;
+    return read_file(file, opened);
+}
+
+class StudySchema : public testing::Test {
+  protected:
+    /// Beside the example, so that its relative paths hold.
+    std::filesystem::path file_ = scenarios / fmt::format("study-schema-test-{}.yaml", ::getpid());
+    SchemaCheck check_{json::parse(std::ifstream(scenarios / "study.schema.json"))};
+    void TearDown() override { std::filesystem::remove(file_); }
+
+    std::string violation(const std::string& yaml) { return check_.violation(to_json(parse_yaml(yaml, "test.yaml"))); }
+    std::string refusal(const std::string& yaml) {
+        std::ofstream(file_) << yaml;
+        return tests::refusal_of([&] { read_study(file_); });
+    }
+};
+
+TEST_F(StudySchema, PassesTheExampleAndEveryShippedStudy) {
+    const std::string example = content(scenarios / "study.example.yaml");
+    EXPECT_EQ(violation(example), "");
+    EXPECT_EQ(refusal(example), "not refused");
+    int studies = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(scenarios / "library/studies")) {
+        if (entry.path().extension() != ".yaml")
+            continue;
+        EXPECT_EQ(violation(content(entry.path())), "") << entry.path();
+        ++studies;
+    }
+    EXPECT_GE(studies, 2);
+}
+
+TEST_F(StudySchema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
+    const std::string example = content(scenarios / "study.example.yaml");
+    const std::regex key(R"(\b([a-z_]{3,})(: ?))");
+    std::size_t tried = 0;
+    bool in_measure = false; // whose parts are a drive's, and tested there
+    for (std::sregex_iterator match(example.begin(), example.end(), key), end; match != end; ++match) {
+        const auto at = static_cast<std::size_t>(match->position(1));
+        const std::size_t line = example.rfind('\n', at) + 1;
+        if (example.substr(line, at - line).find('#') != std::string::npos)
+            continue; // a comment
+        const std::string name = match->str(1);
+        in_measure = at == line ? name == "measure" : in_measure;
+        if ((in_measure && at > line + 2) || name == "production" || (name == "new" && example.substr(at - 2, 2) == "  "))
+            continue; // names are the user's
+        std::string misspelt = example;
+        misspelt.insert(at + 2, "q");
+        EXPECT_NE(violation(misspelt), "") << name;
+        EXPECT_THAT(refusal(misspelt), testing::HasSubstr("unknown key")) << name;
+        ++tried;
+    }
+    EXPECT_GT(tried, 25U);
+}
+
+/// What stands in quotes in the reader's lists of known keys stands in the schema and in the example.
+TEST_F(StudySchema, KnowsEveryKeyOfTheReader) {
+    const std::string reader = content(scenarios / "studies/study_file.cpp"), schema = content(scenarios / "study.schema.json"),
+                      example = content(scenarios / "study.example.yaml");
+    const std::regex list(R"((?:\.map\(|keys\(whole, )\{([^}]*)\})"), quoted("\"([a-z_]+)\"");
+    std::set<std::string> known;
+    for (std::sregex_iterator part(reader.begin(), reader.end(), list), end; part != end; ++part) {
+        const std::string keys = part->str(1);
+        for (std::sregex_iterator key(keys.begin(), keys.end(), quoted); key != end; ++key)
+            known.insert(key->str(1));
+    }
+    EXPECT_GT(known.size(), 30U);
+    for (const std::string& key : known) {
+        EXPECT_THAT(schema, testing::HasSubstr("\"" + key + "\": ")) << "not in the schema";
+        EXPECT_THAT(example, testing::HasSubstr(key)) << "not in the example";
+    }
+}
+
+TEST_F(StudySchema, AgreesWithTheReader) {
+    const std::string low = (scenarios / "library/lamps/halogen-low.ies").string(),
+                      study = fmt::format("fernlicht_study: 1\ndrives: [{}]\n", (scenarios / "library/drives/straight.yaml").string()),
+                      lamps = study + fmt::format("lamps: {{a: {{low: {}}}, b: {{low: {}}}}}\n", low, low);
+    ASSERT_EQ(refusal(lamps), "not refused");
+    for (const std::string& ending : tests::each_of(
+             {{"", "title: 5|name: a/b"},
+              {"techniques", "[]|[photometric]"},
+              {"conditions", "{time_of_day: dusk}|{time_of_day: [day, night]}|{aim_percent: [11]}|{aim_percent: []}|{voltage_v: 11}|"
+                             "{voltage_v: [12, 13]}|{mirror: true}|{mirror: [false, true]}|{mirror: []}|{mirror: left}"},
+              {"compare", "[]|[{new: a}]|[{new: b, against: a}]"},
+              {"", "readings: []"},
+              {"limits", "[{at_least: 1}]|[{reading: x_m, at_least: 1}]"},
+              {"pictured_moments", "0|13"},
+              {"resolution_px", "[64]|[64, 48]"},
+              {"lamp_noise_percent", "-1|1"},
+              {"measure", "{visibility: true}|{visibilty: true}"},
+              {"", "nonsense: 1"}})) {
+        const std::string yaml = lamps + ending + "\n", by_reader = refusal(yaml), by_schema = violation(yaml);
+        EXPECT_EQ(by_reader == "not refused", by_schema.empty()) << ending << "\n reader: " << by_reader << "\n schema: " << by_schema;
+    }
+    for (const char* lamp : {"source: xenon", "source: arc", "temperature_k: 30", "temperature_k: 3000", "file_aim_percent: 11",
+                             "file_aim_percent: -1.5", "mirrors: false", "mirrors: maybe", "left: low.ies", "beam: low.ies"}) {
+        const std::string yaml = study + fmt::format("lamps: {{a: {{low: {}, {}}}}}\n", low, lamp), by_reader = refusal(yaml),
+                          by_schema = violation(yaml);
+        EXPECT_EQ(by_reader == "not refused", by_schema.empty()) << lamp << "\n reader: " << by_reader << "\n schema: " << by_schema;
     }
 }
 

@@ -25,8 +25,7 @@ std::vector<double> after(const std::shared_ptr<CarModel>& model, std::vector<do
 }
 
 TEST(CarModel, JacobianIsThatOfDifferences) {
-    CarModel model;
-    model.wish = {0.0, 20.0, -2.0};
+    CarModel model{.wish = {0.0, 20.0, -2.0}};
     for (int k = 0; k < 400; ++k) {
         model.road.slope.push_back(0.05 * std::sin(0.1 * k));
         model.road.curvature_per_m.push_back(0.01 * std::cos(0.07 * k));

@@ -1,9 +1,15 @@
 // The ruler of the solvers: orders, stability and events against closed forms.
 #include "scenarios/values/errors.h"
+#include "scenarios/vehicle/actuator.h"
 #include "scenarios/vehicle/integrator.h"
+#include "scenarios/vehicle/solver_study.h"
+#include "scenarios/vehicle/stability_study.h"
+#include "tests/trial.h"
 
 #include <cmath>
+#include <complex>
 #include <gmock/gmock.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -48,7 +54,7 @@ double error_between(Solver solver, double step_s) {
 }
 
 /// Order seen when the step is halved. Within 0.25 of the method's: the next term of the error is smaller by some h, and h is 0.025 here.
-TEST(OdeIntegrator, HasTheMethodsOrders) {
+TEST(OdeIntegrator, HasTheMethodsOrdersAlsoWithAJacobianByDifferences) {
     const OdeProblem problem = smooth();
     const auto order = [&](Solver solver) { return std::log2(error_at_end(problem, solver, 0.05) / error_at_end(problem, solver, 0.025)); };
     EXPECT_NEAR(order(Solver::dormand_prince), 5.0, 0.25);
@@ -57,12 +63,10 @@ TEST(OdeIntegrator, HasTheMethodsOrders) {
         << "local error of the continuous extension of order 4";
     EXPECT_NEAR(std::log2(error_between(Solver::rosenbrock, 0.1) / error_between(Solver::rosenbrock, 0.05)), 4.0, 0.3)
         << "local error of the continuous extension of order 3";
-}
-
-TEST(OdeIntegrator, AJacobianByDifferencesKeepsTheOrder) {
-    OdeProblem problem = smooth();
-    problem.jacobian = nullptr;
-    EXPECT_NEAR(std::log2(error_at_end(problem, Solver::rosenbrock, 0.1) / error_at_end(problem, Solver::rosenbrock, 0.05)), 4.0, 0.25);
+    OdeProblem other_problem = smooth();
+    other_problem.jacobian = nullptr;
+    EXPECT_NEAR(std::log2(error_at_end(other_problem, Solver::rosenbrock, 0.1) / error_at_end(other_problem, Solver::rosenbrock, 0.05)),
+                4.0, 0.25);
 }
 
 TEST(OdeIntegrator, ErrorFollowsTheTolerance) {
@@ -80,22 +84,17 @@ TEST(OdeIntegrator, ErrorFollowsTheTolerance) {
 
 /// x' = lambda x with n steps of z / |lambda|: how far it is from 0 after that.
 double after_steps(Solver solver, double z, int steps) {
-    OdeProblem problem;
-    problem.derivative = [](double, const double* x, double* dxdt) { dxdt[0] = -x[0]; };
-    problem.scale = {1.0};
+    OdeProblem problem{.derivative = [](double, const double* x, double* dxdt) { dxdt[0] = -x[0]; }, .scale = {1.0}};
     OdeIntegrator integrator(problem, {.solver = solver, .fixed_step_s = z});
     std::vector<double> x{1.0};
     integrator.integrate(0.0, z * steps, x);
     return std::abs(x[0]);
 }
 
-TEST(OdeIntegrator, DormandPrinceIsStableUpTo3Point306) {
+TEST(OdeIntegrator, DormandPrinceIsStableUpTo3Point306AndRosenbrockIsLStable) {
     // The largest z with |R(-z)| = 1 of R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 + z^5/120 + z^6/600.
     EXPECT_LT(after_steps(Solver::dormand_prince, 3.30, 1000), 1.0);
     EXPECT_GT(after_steps(Solver::dormand_prince, 3.31, 1000), 1.0);
-}
-
-TEST(OdeIntegrator, RosenbrockIsLStable) {
     // R(infinity) = 0: one step of any length leaves nothing, up to the rounding of 1 / (gamma h).
     for (const double z : {10.0, 1e3, 1e6, 1e9, 1e12})
         EXPECT_LT(after_steps(Solver::rosenbrock, z, 1), 10.0 / z) << z;
@@ -178,8 +177,7 @@ TEST(OdeIntegrator, ThePathIsTheSolutionWhoeverAsks) {
     OdeIntegrator integrator(problem, {.tolerance = 1e-9});
     std::vector<double> x{1.0, 1.0, 0.0};
     integrator.integrate(0.0, 2.0, x, {}, &path);
-    EXPECT_EQ(path.start_s(), 0.0);
-    EXPECT_EQ(path.end_s(), 2.0);
+    EXPECT_EQ(std::tuple(path.start_s(), path.end_s()), std::tuple(0.0, 2.0));
     EXPECT_EQ(path.at(2.0, 0), x[1]);
     EXPECT_EQ(path.at(3.0, 0), x[1]);
     EXPECT_EQ(path.at(-1.0, 0), 1.0);
@@ -194,15 +192,153 @@ TEST(OdeIntegrator, GivesUpWithASentence) {
     for (const Solver solver : {Solver::automatic, Solver::dormand_prince, Solver::rosenbrock}) {
         OdeIntegrator integrator(problem, {.solver = solver, .most_steps = 20'000});
         std::vector<double> x{1.0};
-        try {
-            integrator.integrate(0.0, 2.0, x);
-            FAIL() << "went through a pole";
-        } catch (const InputError& error) {
-            EXPECT_THAT(error.what(), HasSubstr("step"));
-        }
+        EXPECT_THAT(tests::refusal_of([&] { integrator.integrate(0.0, 2.0, x); }), HasSubstr("step")) << "goes through a pole";
     }
     EXPECT_THROW(OdeIntegrator(problem, {.tolerance = 0.0}), std::invalid_argument);
     EXPECT_THROW(OdeIntegrator(problem, {.solver = Solver::automatic, .fixed_step_s = 0.1}), std::invalid_argument);
+}
+
+// Lamp actuators against the closed forms of a second-order system, and their limits.
+
+/// Answer to a step of 1 at time 0 of x'' = w^2 (1 - x) - 2 z w x', from rest (any textbook of control; complex roots cover every z but 1).
+double step_response(double w, double z, double t_s) {
+    if (t_s <= 0.0)
+        return 0.0;
+    if (z == 1.0)
+        return 1.0 - std::exp(-w * t_s) * (1.0 + w * t_s);
+    const std::complex<double> root = std::sqrt(std::complex<double>(z * z - 1.0)), a = w * (-z + root), b = w * (-z - root);
+    return 1.0 + ((b * std::exp(a * t_s) - a * std::exp(b * t_s)) / (a - b)).real();
+}
+
+constexpr ActuatorParameters unlimited{5.0, 0.7, 1.0e6, -1.0, 1.0, 0.01, 0.0};
+
+/// Commands `to_rad` from tick 1 on.
+ActuatorRun stepped(const ActuatorParameters& actuator, double to_rad, double end_s, const SolverOptions& options = {}) {
+    return run_actuator(
+        actuator, [=](double tick_s) { return tick_s > 0.0 ? to_rad : 0.0; }, {}, end_s, options);
+}
+
+TEST(Actuator, AnswersAStepAsTheClosedFormDoes) {
+    for (const double z : {0.0, 0.3, 0.7, 1.0, 3.0})
+        for (const Solver solver : {Solver::dormand_prince, Solver::rosenbrock, Solver::automatic}) {
+            ActuatorParameters actuator = unlimited;
+            actuator.damping = z;
+            const ActuatorRun run = stepped(actuator, 0.05, 1.0, {.solver = solver, .tolerance = 1e-9});
+            for (double t_s = 0.0; t_s <= 1.0; t_s += 0.003)
+                // A tolerance of 1e-9 of (0.001 rad + |x|) a step, some hundred steps, an oscillator that keeps them; between steps order 3
+                // or 4.
+                ASSERT_NEAR(run.angle_rad(t_s), 0.05 * step_response(actuator.frequency_rad_s(), z, t_s - 0.01), 2e-8)
+                    << z << ' ' << name(solver) << ' ' << t_s;
+        }
+}
+
+TEST(Actuator, StiffnessOverEightDecades) {
+    // 0.1 Hz to 10 MHz; a second is then from a tenth of a period to ten million.
+    for (double hz = 0.1; hz < 2e7; hz *= 10.0) {
+        ActuatorParameters actuator = unlimited;
+        actuator.natural_frequency_hz = hz;
+        actuator.rate_limit_rad_s = 1.0e9;
+        const ActuatorRun run = stepped(actuator, 0.05, 1.0);
+        double worst = 0.0;
+        for (const double t_s : {0.0101, 0.02, 0.1, 0.5, 1.0})
+            worst = std::max(worst, std::abs(run.angle_rad(t_s) - 0.05 * step_response(actuator.frequency_rad_s(), 0.7, t_s - 0.01)));
+        EXPECT_LT(worst, 2e-6) << hz; // 1e-6 * (0.001 + 0.05) a step, and the cubic between steps
+        EXPECT_LT(run.work.dormand_prince.steps + run.work.rosenbrock.steps, 600U) << hz;
+        EXPECT_EQ(run.work.rosenbrock.steps > 0, hz > 50.0) << hz;
+    }
+}
+
+TEST(Actuator, DeadTimeAndRateLimitHold) {
+    ActuatorParameters late = unlimited;
+    late.dead_time_s = 0.0375;
+    const ActuatorRun now = stepped(unlimited, 0.05, 1.0, {.tolerance = 1e-9}), then = stepped(late, 0.05, 1.0, {.tolerance = 1e-9});
+    for (double t_s = 0.1; t_s < 1.0; t_s += 0.01)
+        EXPECT_NEAR(then.angle_rad(t_s), now.angle_rad(t_s - 0.0375), 2e-8);
+    EXPECT_EQ(then.angle_rad(0.0474), 0.0) << "not before the dead time is over";
+    EXPECT_GT(then.angle_rad(0.0476), 0.0);
+    ActuatorParameters slow = unlimited;
+    slow.rate_limit_rad_s = 0.2;
+    const ActuatorRun run = stepped(slow, 0.5, 4.0, {.tolerance = 1e-9});
+    EXPECT_EQ(run.rate_limited, 1U);
+    for (double t_s = 0.0; t_s < 4.0; t_s += 0.001)
+        EXPECT_LT(run.path.at(t_s, 1), 0.2 + 1e-9) << t_s;
+    // On the limit from where v = 0.2 until w^2 (c - x) = 2 z w v: x = c - 2 z v / w; there it is let go.
+    const double w = slow.frequency_rad_s(), let_go_rad = 0.5 - 2.0 * 0.7 * 0.2 / w;
+    double reached_s = 0.0;
+    while (run.path.at(reached_s, 1) < 0.2 - 1e-9)
+        reached_s += 1e-5;
+    const double let_go_s = reached_s + (let_go_rad - run.angle_rad(reached_s)) / 0.2;
+    EXPECT_NEAR(run.path.at(let_go_s - 1e-4, 1), 0.2, 1e-9);
+    EXPECT_LT(run.path.at(let_go_s + 1e-3, 1), 0.2 - 1e-6);
+    EXPECT_NEAR(run.angle_rad(4.0), 0.5, 1e-7);
+}
+
+TEST(Actuator, StopsHoldAndLetGo) {
+    // Under-damped, it would swing beyond; the stop takes its speed, and a command inwards frees it at once.
+    ActuatorParameters swinging = unlimited;
+    swinging.damping = 0.1;
+    swinging.greatest_rad = 0.05;
+    const auto command = [](double tick_s) { return tick_s < 0.005 ? 0.0 : tick_s < 0.495 ? 0.2 : -0.02; };
+    const ActuatorRun run = run_actuator(swinging, command, {}, 2.0, {.tolerance = 1e-9});
+    EXPECT_GE(run.at_stop, 1U);
+    for (double t_s = 0.0; t_s < 2.0; t_s += 0.001)
+        EXPECT_LE(run.angle_rad(t_s), 0.05 + 1e-12) << t_s;
+    EXPECT_NEAR(run.angle_rad(0.3), 0.05, 1e-15); // the rounding of a mean of equal values
+    EXPECT_NEAR(run.angle_rad(0.4999), 0.05, 1e-15);
+    const double w = swinging.frequency_rad_s();
+    EXPECT_NEAR(run.angle_rad(0.55), 0.05 - 0.07 * step_response(w, 0.1, 0.05), 1e-7);
+}
+
+TEST(Actuator, ALampSwitchIsAnsweredAtItsTimeAndNoChangeCostsNothing) {
+    const auto parked_before = [](double tick_s) { return tick_s >= 0.12345 ? 0.05 : 0.0; };
+    const ActuatorRun run = run_actuator(unlimited, parked_before, {0.12345}, 0.5, {.tolerance = 1e-9});
+    EXPECT_EQ(run.angle_rad(0.12345), 0.0);
+    const double w = unlimited.frequency_rad_s();
+    for (const double later_s : {1e-4, 1e-3, 0.02})
+        EXPECT_NEAR(run.angle_rad(0.12345 + later_s), 0.05 * step_response(w, 0.7, later_s), 1e-9)
+            << "not at the next control tick, 0.13 s";
+    const ActuatorRun other_run = run_actuator(
+        unlimited, [](double) { return 0.02; }, {}, 100.0);
+    EXPECT_EQ(other_run.angle_rad(0.0), 0.02);
+    EXPECT_EQ(other_run.angle_rad(100.0), 0.02);
+    EXPECT_LT(other_run.work.derivatives, 100U);
+}
+
+// The studies' figures, which reports show: errors fall as theory says. The extremes are held to their bounds as cases of `fernlicht
+// stability`.
+
+std::vector<SolverRow> rows_of(const std::vector<SolverRow>& all, const std::string& problem, Solver solver, bool by_steps) {
+    std::vector<SolverRow> rows;
+    for (const SolverRow& row : all)
+        if (row.problem == problem && row.solver == solver && (row.step_s > 0.0) == by_steps)
+            rows.push_back(row);
+    return rows;
+}
+
+TEST(SolverStudy, ErrorsFallWithTheWorkAsTheorySays) {
+    const std::vector<SolverRow> all = study_solvers(SolverStudy{.repetitions = 1, .tolerances = {1e-4, 1e-6, 1e-8}});
+    for (const SolverRow& row : all) {
+        EXPECT_EQ(row.not_measured, "") << row.problem;
+        EXPECT_GT(row.seconds, 0.0);
+        EXPECT_GT(row.steps, 0U);
+        EXPECT_LT(row.floor, 1e-10) << row.problem << ": two methods that share nothing agree";
+        const double allowed = row.tolerance > 0.0 ? 5.0 * row.tolerance : 1.0; // the worst: an explicit method at its limit of stability
+        EXPECT_LT(row.error, allowed + 2.0 * row.floor) << row.problem << ' ' << name(row.solver) << ' ' << row.tolerance;
+    }
+    // Order from the second and the last of the steps; local errors between steps, of order 5 and 4, show beside the methods' own.
+    for (const auto& [solver, order] : {std::pair(Solver::dormand_prince, 5.0), std::pair(Solver::rosenbrock, 4.0)}) {
+        const auto rows = rows_of(all, "actuator of 5 Hz", solver, true);
+        ASSERT_EQ(rows.size(), 5U);
+        EXPECT_NEAR(std::log(rows[1].error / rows[4].error) / std::log(rows[1].step_s / rows[4].step_s), order, 0.4) << name(solver);
+    }
+    const auto forced = rows_of(all, "actuator of 50 kHz", Solver::dormand_prince, false);
+    const auto chosen = rows_of(all, "actuator of 50 kHz", Solver::automatic, false);
+    EXPECT_GT(forced[1].steps, 50U * chosen[1].steps) << "the choice saves the steps that stability would ask for";
+    EXPECT_EQ(rows_of(all, "actuator of 5 Hz", Solver::automatic, false)[1].jacobians, 0U) << "and costs nothing where nothing is stiff";
+}
+
+TEST(StabilityStudy, TheoryIsThatOfTheBooks) {
+    EXPECT_NEAR(dormand_prince_limit(0.0), 3.3066, 1e-4); // Hairer & Wanner II, IV.2: 3.3
 }
 
 } // namespace

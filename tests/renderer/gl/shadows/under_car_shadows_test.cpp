@@ -24,10 +24,7 @@ struct StreetAtNight {
     }
 };
 
-class UnderCar : public testing::Test {
-  protected:
-    Device device_ = open_device("auto");
-};
+class UnderCar : public DeviceTest {};
 
 TEST(ConvexHull, GoesRoundTheOutermostPoints) {
     const std::vector<glm::dvec2> square = gl::convex_hull({{1, 1}, {0, 0}, {0.5, 0.2}, {1, 0}, {0, 1}, {0.5, 0.0}, {1, 1}});

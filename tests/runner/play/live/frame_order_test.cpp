@@ -1,15 +1,12 @@
 #include "runner/play/live/frame_order.h"
 
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-CanFrame at(std::int64_t time_ns) {
-    CanFrame frame;
-    frame.time_ns = time_ns;
-    return frame;
-}
+CanFrame at(std::int64_t time_ns) { return {.time_ns = time_ns}; }
 
 std::vector<std::int64_t> stamps(std::span<const CanFrame> frames) {
     std::vector<std::int64_t> stamps;
@@ -45,8 +42,7 @@ TEST(FrameOrder, ALateFrameCountsForTheNextTickAndIsStampedSo) {
     order.add(at(9'999'500), 12'000'000);
     order.add(at(11'000'000), 12'000'000);
     EXPECT_EQ(stamps(order.due(20'000'000)), (Stamps{10'001'000, 10'001'000, 11'000'000}));
-    EXPECT_EQ(order.late(), 2U);
-    EXPECT_EQ(order.latest_ns(), 3'000'000);
+    EXPECT_EQ(std::tuple(order.late(), order.latest_ns()), std::tuple(2U, 3'000'000));
 }
 
 /// What was used, replayed: the same frames at the same ticks.

@@ -7,9 +7,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::ContainsRegex;
-using testing::HasSubstr;
-using testing::Not;
+using testing::ContainsRegex, testing::HasSubstr, testing::Not;
 
 constexpr const char* small_and_quiet = " --quiet --resolution 96x72 --no-accuracy --out ";
 

@@ -1,9 +1,9 @@
 #include "scenarios/drives/edits/mirrored_drive.h"
+#include "tests/trial.h"
 
 #include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
-#include <unistd.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -38,10 +38,7 @@ TEST(MirroredDrive, TwiceIsTheDriveAsItWas) {
 TEST(MirroredDrive, IsWrittenAndReadBack) {
     Drive drive = example();
     mirror_traffic(drive, true);
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / ("mirrored-" + std::to_string(::getpid()) + ".yaml");
-    std::ofstream(file) << write_drive(drive);
-    const Drive back = read_drive(file);
-    std::filesystem::remove(file);
+    const Drive back = read_drive(tests::written("mirrored.yaml", write_drive(drive)));
     EXPECT_EQ(write_drive(back), write_drive(drive));
     EXPECT_TRUE(back.mirrored_road);
     for (std::size_t v = 0; v < back.variants.size(); ++v)
@@ -59,9 +56,7 @@ TEST(MirroredDrive, MirrorsLampsOnlyWhereAsked) {
     EXPECT_EQ(turned.position_m.y, -lamp.position_m.y);
     EXPECT_EQ(turned.yaw_rad, -0.01);
     EXPECT_EQ(turned.file->table, mirrored(lamp.file->table));
-    EXPECT_EQ(kept.name, lamp.name);
-    EXPECT_EQ(kept.file, lamp.file);
-    EXPECT_EQ(kept.position_m, lamp.position_m);
+    EXPECT_EQ(std::tuple(kept.name, kept.file, kept.position_m), std::tuple(lamp.name, lamp.file, lamp.position_m));
     EXPECT_TRUE(road.mirrored_road);
     EXPECT_EQ(road.views[0].position_m.y, -drive.views[0].position_m.y) << "the driver changes seats";
 }

@@ -12,8 +12,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
+using testing::Contains, testing::HasSubstr;
 
 const std::filesystem::path shipped = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives/s-bend-can.yaml";
 
@@ -54,20 +53,21 @@ double swivel_rad(const Moment& moment, std::size_t lamp) {
 
 class BusDriveTest : public DriveFixture {
   protected:
-    Drive scripted() {
-        DriveEdits edits;
-        edits.can_log = std::filesystem::path();
-        return read_drive(shipped, edits);
+    /// A car at 36 km/h on a library road with these keys of `can`.
+    static std::string on(const char* road, const char* duration_s, const std::string& keys) {
+        return fmt::format("fernlicht: 1\nroad: {0}/scenarios/library/roads/{1}.xodr\nspeed_kmh: 36\nduration_s: {2}\nstep_s: 0.1\n"
+                           "variants: {{one: {{file: low.ies}}}}\ncan:\n  databases: {0}/scenarios/library/can/mock-up.dbc\n"
+                           "  log: bus.log\n  inputs: {3}\n",
+                           FERNLICHT_SOURCE_DIR, road, duration_s, keys);
     }
+    Drive scripted() { return read_drive(shipped, DriveEdits{.can_log = std::filesystem::path()}); }
     /// The shipped drive by these frames.
     Drive played_by(const std::vector<CanFrame>& frames, const BusMapping* mapping = nullptr) {
         std::string text;
         for (const CanFrame& frame : frames)
             text += candump_line(frame) + '\n';
         write_file(folder / "bus.log", text);
-        DriveEdits edits;
-        edits.can_log = folder / "bus.log";
-        Drive drive = read_drive(shipped, edits);
+        Drive drive = read_drive(shipped, DriveEdits{.can_log = folder / "bus.log"});
         if (mapping) {
             BusMapping with = *mapping;
             with.log = folder / "bus.log";
@@ -98,8 +98,7 @@ class BusDriveTest : public DriveFixture {
 TEST_F(BusDriveTest, SignalsThatSayTheSameAsTheScriptMakeTheSameMoments) {
     Drive drive = scripted();
     drive.can = std::make_shared<const BusMapping>(exact(drive));
-    const Staged script(drive);
-    const Staged bus(played_by(recording_of(script), script.drive.can.get()));
+    const Staged script(drive), bus(played_by(recording_of(script), script.drive.can.get()));
     ASSERT_TRUE(bus.drive.bus_motion);
     ASSERT_EQ(tick_count(bus.drive), tick_count(script.drive));
     double place_m = 0.0, turn_rad = 0.0;
@@ -118,8 +117,7 @@ TEST_F(BusDriveTest, SignalsThatSayTheSameAsTheScriptMakeTheSameMoments) {
 }
 
 TEST_F(BusDriveTest, QuantisedSignalsMoveThingsAsFarAsTheirSteps) {
-    const Staged script(scripted());
-    const Staged bus(read_drive(shipped));
+    const Staged script(scripted()), bus(read_drive(shipped));
     double place_m = 0.0, turn_rad = 0.0;
     for (int tick = 0; tick < tick_count(script.drive); ++tick) {
         const Moment a = script.at(tick), b = bus.at(tick);
@@ -196,18 +194,7 @@ TEST_F(BusDriveTest, TickByTickIsTheSameAsBeforehand) {
 }
 
 TEST_F(BusDriveTest, APlaceFromTheBusIsWhereTheCarIs) {
-    const std::string yaml = fmt::format(R"(fernlicht: 1
-road: {0}/scenarios/library/roads/straight.xodr
-speed_kmh: 36
-duration_s: 2
-step_s: 0.1
-variants: {{one: {{file: low.ies}}}}
-can:
-  databases: {0}/scenarios/library/can/mock-up.dbc
-  log: bus.log
-  inputs: {{ego.speed_mps: Travel.Speed, ego.distance_m: Travel.Distance}}
-)",
-                                         FERNLICHT_SOURCE_DIR);
+    const std::string yaml = on("straight", "2", "{ego.speed_mps: Travel.Speed, ego.distance_m: Travel.Distance}");
     // 36.00 km/h = 0x0e10; 5.000 m = 0x1388, 7.000 m = 0x1b58 after 1 s, and then nothing: both lost after 60 ms.
     write_file(folder / "bus.log", "(100.000000) can0 110#100E881300000000\n(101.000000) can0 110#100E581B00000000\n");
     const Staged played(read(yaml));
@@ -221,18 +208,7 @@ can:
 }
 
 TEST_F(BusDriveTest, TheRouteEndsTheDrive) {
-    const std::string yaml = fmt::format(R"(fernlicht: 1
-road: {0}/scenarios/library/roads/s-bend.xodr
-speed_kmh: 36
-duration_s: 100
-step_s: 0.1
-variants: {{one: {{file: low.ies}}}}
-can:
-  databases: {0}/scenarios/library/can/mock-up.dbc
-  log: bus.log
-  inputs: {{ego.speed_mps: {{signal: Travel.Speed, stale: hold}}}}
-)",
-                                         FERNLICHT_SOURCE_DIR);
+    const std::string yaml = on("s-bend", "100", "{ego.speed_mps: {signal: Travel.Speed, stale: hold}}");
     write_file(folder / "bus.log", "(0.000000) can0 110#409C000000000000\n"); // 400 km/h = 111.1 m/s
     const Staged before(read(yaml));
     const double room_m = before.route.length_m() - before.drive.bumper_m;
@@ -242,8 +218,7 @@ can:
     live_drive.live = true;
     Staged live(std::move(live_drive));
     BusDrive drive(live.drive, live.route);
-    CanFrame frame = parse_candump_line("(0.000000) can0 110#409C000000000000", {}).frame;
-    drive.take(frame);
+    drive.take(parse_candump_line("(0.000000) can0 110#409C000000000000", {}).frame);
     while (!drive.done())
         drive.step();
     drive.finish();
@@ -253,28 +228,15 @@ can:
 }
 
 TEST_F(BusDriveTest, CommandsLevelsAndMeasuredAnglesReachTheLamps) {
-    const std::string yaml = fmt::format(R"(fernlicht: 1
-road: {0}/scenarios/library/roads/straight.xodr
-speed_kmh: 36
-duration_s: 2
-step_s: 0.1
-variants: {{one: {{file: low.ies}}}}
-can:
-  databases: {0}/scenarios/library/can/mock-up.dbc
-  log: bus.log
-  inputs:
-    lamp.left.swivel_command_rad: {{signal: LampCommand.SwivelLeft, stale: hold}}
-    lamp.left.level: {{signal: LampCommand.LevelLeft, stale: hold}}
-    lamp.right.swivel_rad: {{signal: LampMeasured.SwivelRight, stale: hold}}
-    lamp.*.switch: {{signal: Switches.LowBeam, stale: hold}}
-)",
-                                         FERNLICHT_SOURCE_DIR);
+    const std::string yaml = on("straight", "2",
+                                "{lamp.left.swivel_command_rad: {signal: LampCommand.SwivelLeft, stale: hold}, "
+                                "lamp.left.level: {signal: LampCommand.LevelLeft, stale: hold}, "
+                                "lamp.right.swivel_rad: {signal: LampMeasured.SwivelRight, stale: hold}, "
+                                "'lamp.*.switch': {signal: Switches.LowBeam, stale: hold}}");
     // Left: 10.00 degrees = 0x03e8, level 50 %; right measured at -5.00 = 0xfe0c. The switch goes off at 1.5 s.
     write_file(folder / "bus.log", "(0.500000) can0 200#0003E80000640000\n(0.500000) can0 220#00000CFE\n(0.500000) can0 100#01000000\n"
                                    "(0.000000) can0 100#01000000\n(1.500000) can0 100#00000000\n");
-    DriveEdits edits;
-    edits.can_start_ns = 0;
-    const Staged played(read(yaml, edits));
+    const Staged played(read(yaml, DriveEdits{.can_start_ns = 0}));
     EXPECT_EQ(swivel_rad(played.at(4, 0), 0), 0.0) << "not asked yet";
     EXPECT_NEAR(swivel_rad(played.at(14, 0), 0), radians(10.0), 1e-3) << "an actuator has followed";
     EXPECT_LT(swivel_rad(played.at(5, 0), 0), radians(9.0)) << "which takes its time";

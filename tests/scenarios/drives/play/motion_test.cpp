@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/motion.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/drive_fixture.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -32,13 +33,10 @@ struct Simulated {
 
 double climb_rad(const Pose& pose) { return std::atan2(pose.forward().z, std::hypot(pose.forward().x, pose.forward().y)); }
 
-TEST(Motion, ADriveWithoutAVehicleStaysOnRails) {
+TEST(Motion, RunsOnRailsWithoutAVehicleWhichMustBeSimulatedFirst) {
     const Simulated played(read_drive(shipped_drives / "straight.yaml"));
     EXPECT_EQ(played.drive.variants[0].motion, nullptr);
     EXPECT_EQ(played.at(3.0).ego, ego_pose(played.route, distance_m(played.drive.speed, 3.0), played.drive.wheelbase_m));
-}
-
-TEST(Motion, AVehicleMustBeSimulatedFirst) {
     const Drive drive = read_drive(shipped_drives / "braking.yaml");
     const RoadNetwork network = read_opendrive(drive.road_file);
     EXPECT_THROW(moment_at(start(drive), drive, Route(network, drive.start), drive.variants[0]), std::logic_error);
@@ -137,12 +135,7 @@ std::string refusal(const VehicleParameters& car, std::vector<SpeedPoint> speed 
     drive.vehicle = car;
     if (!speed.empty())
         drive.speed = std::move(speed);
-    try {
-        const Simulated played(std::move(drive));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return tests::refusal_of([&] { const Simulated played(std::move(drive)); }, "");
 }
 
 TEST(Motion, RefusesACarThatLeavesItsModel) {

@@ -2,41 +2,32 @@
 
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/values/pose.h"
+#include "tests/lamps.h"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
 /// The spots' own light over the front half, every 3 degrees.
 CandelaTable table_of(const std::vector<Spot>& spots, double step_deg = 3.0) {
-    CandelaTable table;
-    for (int i = 0; i <= static_cast<int>(std::lround(180.0 / step_deg)); ++i)
-        table.h_deg.push_back(-90.0 + i * step_deg);
-    table.v_deg = table.h_deg;
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg) {
-            table.cd.push_back(0.0);
-            for (const Spot& spot : spots)
-                table.cd.back() += intensity_cd(spot, h, v);
-        }
-    return table;
+    return tests::table_of(tests::steps(-90.0, 90.0, step_deg), tests::steps(-90.0, 90.0, step_deg), [&](double h, double v) {
+        double cd = 0.0;
+        for (const Spot& spot : spots)
+            cd += intensity_cd(spot, h, v);
+        return cd;
+    });
 }
 
 /// A low beam in small: 45 x 29 samples with a cut-off.
 CandelaTable small_beam() {
-    CandelaTable table;
-    for (int i = -22; i <= 22; ++i)
-        table.h_deg.push_back(2.0 * i);
-    for (int i = -20; i <= 8; ++i)
-        table.v_deg.push_back(0.5 * i);
-    for (const double v : table.v_deg)
-        for (const double h : table.h_deg)
-            table.cd.push_back(100.0 + 20000.0 * std::exp(-h * h / 200.0 + std::min(v, 0.0) / 3.0) / (1.0 + std::exp((v + 0.6) / 0.3)));
-    return table;
+    return tests::table_of(tests::steps(-44.0, 44.0, 2.0), tests::steps(-10.0, 4.0, 0.5), [](double h, double v) {
+        return 100.0 + 20000.0 * std::exp(-h * h / 200.0 + std::min(v, 0.0) / 3.0) / (1.0 + std::exp((v + 0.6) / 0.3));
+    });
 }
 
 void expect_legal(const SpotFit& fit) {
@@ -58,16 +49,13 @@ void expect_near(const Spot& found, const Spot& given) {
     EXPECT_NEAR(found.exponent, given.exponent, 0.01);
 }
 
-TEST(Spot, IsACosineToAPowerWithinItsCone) {
+TEST(Spot, IsACosineToAPowerWithTheFluxOfKnownSources) {
     const Spot spot{10.0, 0.0, 1000.0, 2.0, 60.0};
     EXPECT_DOUBLE_EQ(intensity_cd(spot, 10.0, 0.0), 1000.0);
     EXPECT_NEAR(intensity_cd(spot, 55.0, 0.0), 500.0, 1e-9); // cos(45)^2
     EXPECT_NEAR(intensity_cd(spot, 10.0, -59.9), 1000.0 * std::pow(std::cos(radians(59.9)), 2), 1e-9);
     EXPECT_EQ(intensity_cd(spot, 10.0, -60.1), 0.0);
     EXPECT_EQ(intensity_cd({0, 0, 1000.0, 0.0, 90.0}, 180.0, 0.0), 0.0);
-}
-
-TEST(Spot, FluxIsThatOfKnownSources) {
     EXPECT_NEAR(flux_lm(Spot{0, 0, 10.0, 0.0, 90.0}), 20.0 * pi, 1e-12); // half a sphere
     EXPECT_NEAR(flux_lm(Spot{0, 0, 10.0, 1.0, 90.0}), 10.0 * pi, 1e-12); // Lambert
     EXPECT_NEAR(flux_lm(Spot{0, 0, 10.0, 0.0, 60.0}), 10.0 * pi, 1e-12); // a cone of pi sr
@@ -88,7 +76,7 @@ TEST(SpotDirections, CoverTheFrontHalf) {
     }
 }
 
-TEST(SpotFit, FindsASingleSpotAgain) {
+TEST(SpotFit, FindsSpotsAgain) {
     for (const Spot& given :
          {Spot{5.0, -3.0, 12000.0, 20.0, 90.0}, Spot{-31.0, 14.5, 300.0, 1.5, 90.0}, Spot{0.0, 0.0, 5000.0, 110.0, 90.0}}) {
         const SpotFit fit = fit_spots(table_of({given}), 1);
@@ -99,26 +87,20 @@ TEST(SpotFit, FindsASingleSpotAgain) {
         EXPECT_NEAR(fit.flux_lm, flux_lm(given), 1e-3 * fit.flux_lm);
         expect_legal(fit);
     }
-}
-
-TEST(SpotFit, FindsACutOffAgain) {
     const Spot given{10.0, -5.0, 4000.0, 6.0, 22.0};
     const SpotFit fit = fit_spots(table_of({given}), 1);
     ASSERT_EQ(fit.spots.size(), 1u);
     EXPECT_LT(fit.relative_l2, 1e-3);
     EXPECT_NEAR(fit.spots[0].cutoff_deg, 22.0, 1.5); // samples are 3 degrees apart
     EXPECT_NEAR(fit.spots[0].exponent, 6.0, 0.1);
-}
-
-TEST(SpotFit, FindsTwoSpotsAgain) {
     const Spot wide{-20.0, -5.0, 1000.0, 4.0, 90.0}, narrow{25.0, 8.0, 5000.0, 90.0, 90.0};
-    const SpotFit fit = fit_spots(table_of({wide, narrow}), 2);
-    ASSERT_EQ(fit.spots.size(), 2u);
-    EXPECT_LT(fit.relative_l2, 1e-3);
-    const bool swapped = fit.spots[0].exponent > fit.spots[1].exponent;
-    EXPECT_NEAR(fit.spots[swapped].h_deg, wide.h_deg, 0.2);
-    EXPECT_NEAR(fit.spots[!swapped].h_deg, narrow.h_deg, 0.2);
-    EXPECT_NEAR(fit.spots[!swapped].exponent, narrow.exponent, 1.0);
+    const SpotFit other_fit = fit_spots(table_of({wide, narrow}), 2);
+    ASSERT_EQ(other_fit.spots.size(), 2u);
+    EXPECT_LT(other_fit.relative_l2, 1e-3);
+    const bool swapped = other_fit.spots[0].exponent > other_fit.spots[1].exponent;
+    EXPECT_NEAR(other_fit.spots[swapped].h_deg, wide.h_deg, 0.2);
+    EXPECT_NEAR(other_fit.spots[!swapped].h_deg, narrow.h_deg, 0.2);
+    EXPECT_NEAR(other_fit.spots[!swapped].exponent, narrow.exponent, 1.0);
 }
 
 TEST(SpotFit, MoreSpotsNeverFitWorse) {
@@ -158,11 +140,8 @@ TEST(SpotFit, ResidualsAreWhatIsLeftOverOnTheTable) {
 }
 
 TEST(SpotFit, ALoneSampleIsANarrowCone) {
-    CandelaTable table;
-    for (int i = -18; i <= 18; ++i)
-        table.h_deg.push_back(5.0 * i);
-    table.v_deg = table.h_deg;
-    table.cd.assign(37 * 37, 0.0);
+    const std::vector<double> angles = tests::steps(-90.0, 90.0, 5.0);
+    CandelaTable table = tests::table_of(angles, angles, [](double, double) { return 0.0; });
     table.at(18, 18) = 500.0;
     const SpotFit fit = fit_spots(table, 1);
     ASSERT_EQ(fit.spots.size(), 1u);
@@ -190,15 +169,12 @@ TEST(SpotFit, ShippedLowBeamsWithEightSpots) {
     }
 }
 
-TEST(SpotFit, SameTableSameSpots) {
+TEST(SpotFit, SameTableSameSpotsWhichScaleWithIt) {
     const SpotFit a = fit_spots(small_beam(), 4), b = fit_spots(small_beam(), 4);
     ASSERT_EQ(a.spots.size(), b.spots.size());
     for (std::size_t i = 0; i < a.spots.size(); ++i)
         EXPECT_TRUE(a.spots[i].h_deg == b.spots[i].h_deg && a.spots[i].cd == b.spots[i].cd &&
                     a.spots[i].cutoff_deg == b.spots[i].cutoff_deg);
-}
-
-TEST(SpotFit, ScalesWithTheTable) {
     const SpotFit plain = fit_spots(small_beam(), 3);
     for (const double factor : {1e-200, 0.5, 1e200}) { // squares of the extremes would not be numbers
         const SpotFit fit = fit_spots(scaled(small_beam(), factor), 3);
@@ -215,8 +191,7 @@ TEST(SpotFit, DarkAndBackwardTablesHaveNoSpots) {
     for (const CandelaTable& table : {dark, backward}) {
         const SpotFit fit = fit_spots(table, 8);
         EXPECT_TRUE(fit.spots.empty());
-        EXPECT_EQ(fit.flux_lm, 0.0);
-        EXPECT_EQ(fit.relative_l2, 0.0);
+        EXPECT_EQ(std::tuple(fit.flux_lm, fit.relative_l2), std::tuple(0.0, 0.0));
     }
 }
 
@@ -226,15 +201,10 @@ TEST(SpotFit, HostileTablesGiveLegalSpots) {
     lone.cd.assign(lone.cd.size(), 0.0);
     lone.at(3, 40) = 5.0;
     tables.push_back(lone);
-    CandelaTable many{{}, {}, {}, {}, BetweenSamples::linear_cd}; // one sample of very many
-    for (int i = 0; i < 201; ++i) {
-        many.h_deg.push_back(-40.0 + 0.4 * i);
-        many.v_deg.push_back(-20.0 + 0.2 * i);
-    }
-    many.cd.assign(201 * 201, 0.0);
+    CandelaTable many = tests::table_of(tests::steps(-40.0, 40.0, 0.4), tests::steps(-20.0, 20.0, 0.2), [](double, double) { return 0.0; });
     many.at(77, 123) = 1e5;
     tables.push_back(many);
-    tables.push_back({{-180, 180}, {-90, 90}, {1, 1, 1, 1}, {}, BetweenSamples::linear_cd});
+    tables.push_back(tests::even_table(1.0));
     tables.push_back({{-1e-9, 1e-9}, {-1e-9, 1e-9}, {1, 2, 3, 4}, {}, BetweenSamples::log_cd});
     tables.push_back({{89, 90}, {89, 90}, {1, 1, 1, 1}, {}, BetweenSamples::linear_cd});
     tables.push_back({{-10, 0, 10}, {-10, 0, 10}, std::vector<double>(9, 7.0), {1, 1, 1, 1}, BetweenSamples::linear_cd}); // gaps only

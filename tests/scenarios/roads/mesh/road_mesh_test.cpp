@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <set>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -80,9 +81,7 @@ void expect_sound(const RoadNetwork& network, const Scene& scene) {
         EXPECT_EQ(found.crowded_edges, 0U);
         EXPECT_EQ(found.euler, static_cast<std::int64_t>(found.parts)) << "a crack or a T-junction";
         const Faults wrong = faults(surface);
-        EXPECT_EQ(wrong.downward, 0U);
-        EXPECT_EQ(wrong.turned, 0U);
-        EXPECT_EQ(wrong.without_area, 0U);
+        EXPECT_EQ(std::tuple(wrong.downward, wrong.turned, wrong.without_area), std::tuple(0U, 0U, 0U));
     }
 }
 
@@ -128,7 +127,7 @@ double greatest_distance_m(const RoadNetwork& network, const Scene& scene, std::
     return worst;
 }
 
-TEST(RoadMesh, LibraryRoadsKeepTheChordError) {
+TEST(RoadMesh, ChordErrorIsKeptAndFollowsTheOption) {
     for (const auto& file : roads_under(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads")) {
         SCOPED_TRACE(file.filename());
         const RoadNetwork network = read_opendrive(file);
@@ -136,9 +135,6 @@ TEST(RoadMesh, LibraryRoadsKeepTheChordError) {
         EXPECT_LE(greatest_distance_m(network, build_scene(network), samples), 0.005);
         EXPECT_GT(samples, 1000U);
     }
-}
-
-TEST(RoadMesh, ChordErrorFollowsTheOption) {
     const RoadNetwork network = read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads/country.xodr");
     std::size_t samples = 0;
     RoadMeshOptions coarse, fine;
@@ -175,8 +171,7 @@ class PlanIndex {
             const double area = a.x * b.y - a.y * b.x;
             if (std::abs(area) < 1e-9)
                 continue;
-            const double u = (d.x * b.y - d.y * b.x) / area, v = (a.x * d.y - a.y * d.x) / area;
-            const double z = p[0].z + u * a.z + v * b.z;
+            const double u = (d.x * b.y - d.y * b.x) / area, v = (a.x * d.y - a.y * d.x) / area, z = p[0].z + u * a.z + v * b.z;
             if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && z <= ceiling)
                 found = std::max(found, z);
         }

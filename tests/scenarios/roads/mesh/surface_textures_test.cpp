@@ -1,14 +1,18 @@
 // The textures repeat without a seam, keep the means of what they lie on, and give nothing away from afar.
 #include "scenarios/photometry.h"
+#include "scenarios/roads/mesh/mesh_builder.h"
 #include "scenarios/roads/mesh/mesh_materials.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/roads/mesh/surface_textures.h"
-
-#include <gtest/gtest.h>
+#include "tests/scenarios/roads/mesh_checks.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <random>
 #include <set>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -23,8 +27,7 @@ struct Blocks {
 };
 
 Blocks blocks(const SurfaceTexture& texture, std::size_t channel, int block) {
-    Blocks out;
-    out.side = texture.width / block;
+    Blocks out{.side = texture.width / block};
     out.values.assign(static_cast<std::size_t>(out.side) * static_cast<std::size_t>(out.side), 0.0);
     for (int y = 0; y < texture.height; ++y)
         for (int x = 0; x < texture.width; ++x)
@@ -53,13 +56,12 @@ const SurfaceTexture& named(const std::vector<SurfaceTexture>& all, const std::s
 }
 
 Scene textured_materials() {
-    Scene scene;
-    scene.materials = road_materials();
+    Scene scene{.materials = road_materials()};
     add_road_textures(scene, 1);
     return scene;
 }
 
-TEST(TilingNoise, RepeatsAndIsContinuousAcrossItsBorder) {
+TEST(TilingNoise, RepeatsIsContinuousAndBounded) {
     const TilingNoise noise(5, 1);
     for (int i = 0; i < 64; ++i) {
         const double v = (i + 0.3) / 64.0;
@@ -70,10 +72,6 @@ TEST(TilingNoise, RepeatsAndIsContinuousAcrossItsBorder) {
             EXPECT_NEAR(noise.gradient(v, 0.0, cells), noise.gradient(v, 1.0 - 1e-9, cells), 1e-7);
         }
     }
-}
-
-TEST(TilingNoise, GradientNoiseIsZeroOnItsLatticeAndBounded) {
-    const TilingNoise noise(5, 1);
     double greatest = 0.0;
     for (int i = 0; i < 8; ++i)
         EXPECT_EQ(noise.gradient(i / 8.0, 0.375, 8), 0.0);
@@ -100,19 +98,15 @@ TEST(TilingNoise, UniformHasMeanAndVarianceOfItsLaw) {
     EXPECT_NE(noise.uniform(3, 4), TilingNoise(5, 2).uniform(3, 4));
 }
 
-TEST(SurfaceTextures, AllHaveOneSize) {
+TEST(SurfaceTextures, HaveOneSizeAndTheBytesOfTheirSeed) {
     const std::vector<SurfaceTexture> all = road_textures(1);
     std::set<std::string> names;
     for (const SurfaceTexture& texture : all) {
-        EXPECT_EQ(texture.width, 256);
-        EXPECT_EQ(texture.height, 256);
+        EXPECT_EQ(std::tuple(texture.width, texture.height), std::tuple(256, 256));
         EXPECT_EQ(texture.rgba.size(), 4U * 256U * 256U);
         names.insert(texture.name);
     }
     EXPECT_EQ(names, (std::set<std::string>{"asphalt", "concrete", "grass", "paint-wear"}));
-}
-
-TEST(SurfaceTextures, OneSeedGivesTheSameBytesAndAnotherOthers) {
     const std::vector<SurfaceTexture> a = road_textures(7), b = road_textures(7), c = road_textures(8);
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].rgba, b[i].rgba) << a[i].name;
@@ -211,7 +205,7 @@ TEST(SurfaceTextures, MaterialsKeepTheirMeanReflectance) {
     EXPECT_EQ(textured, 7U);
 }
 
-/// The mean over the texels of L / E_perp in EN 1436's geometry, as mesh_materials_test.cpp has it for plain materials.
+/// The mean over the texels of L / E_perp in EN 1436's geometry, as mesh_cross_section_test.cpp has it for plain materials.
 TEST(SurfaceTextures, RoadSurfacesKeepTheirRl) {
     const Scene scene = textured_materials();
     for (const auto& [which, rl_mcd] : {std::pair{RoadMaterial::asphalt, 15.0}, std::pair{RoadMaterial::marking_white, 150.0},
@@ -232,6 +226,93 @@ TEST(SurfaceTextures, RoadSurfacesKeepTheirRl) {
         }
         EXPECT_NEAR(1000.0 * sum / 65536.0, rl_mcd, 1e-4 * rl_mcd) << material.name;
     }
+}
+
+// Where in its texture a vertex lies: by hand, across meshes, and on whole roads.
+
+glm::vec2 at(const glm::dvec3& origin, const glm::vec3& position, const glm::vec3& normal) {
+    return texture_position(origin, {position, normal});
+}
+
+void expect_uv(const glm::vec2& found, float u, float v) { EXPECT_EQ(std::tuple(found.x, found.y), std::tuple(u, v)); }
+
+RoadNetwork shipped_road(const char* name) {
+    return read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads" / name);
+}
+
+/// 0: seen from the side along x, 1: along y, 2: from above.
+int axis_of(const glm::vec3& n) {
+    const glm::vec3 a = glm::abs(n);
+    return a.z >= std::max(a.x, a.y) ? 2 : a.x >= a.y ? 0 : 1;
+}
+
+TEST(TexturePosition, FromAboveAndUprightByHand) {
+    // 8 m a repetition: 100 m is 12 of them and 4 m, -3 m is -1 of them and 5 m.
+    expect_uv(at({100.0, -3.0, 5.0}, {1.5F, 0.25F, 0.0F}, {0.0F, 0.0F, 1.0F}), 5.5F / 8.0F, 5.25F / 8.0F);
+    expect_uv(at({0.0, 0.0, 0.0}, {-2.0F, 12.0F, 0.0F}, {0.1F, 0.2F, 0.97F}), -0.25F, 1.5F);
+    const glm::vec3 p(1.0F, 2.0F, 4.0F);
+    expect_uv(at({}, p, {1.0F, 0.0F, 0.0F}), 0.25F, 0.5F);   // from the east, north is to the right
+    expect_uv(at({}, p, {-1.0F, 0.0F, 0.0F}), -0.25F, 0.5F); // from the west, south
+    expect_uv(at({}, p, {0.0F, 1.0F, 0.0F}), -0.125F, 0.5F); // from the north, west
+    expect_uv(at({}, p, {0.0F, -1.0F, 0.0F}), 0.125F, 0.5F); // from the south, east
+}
+
+TEST(TexturePosition, MeshesAgreeExactlyApartFromWholeRepetitions) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> near(-100.0, 100.0);
+    const std::array<glm::vec3, 3> normals{glm::vec3(0.0F, 0.0F, 1.0F), glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(0.0F, -1.0F, 0.0F)};
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 a(680000.0, 5400000.0, 300.0), b = a + glm::round(glm::dvec3(near(random), near(random), near(random)));
+        const glm::dvec3 world = on_lattice(a + glm::dvec3(near(random), near(random), near(random)));
+        const glm::vec3& normal = normals[static_cast<std::size_t>(i % 3)];
+        const glm::dvec2 uv_a(at(a, glm::vec3(world - a), normal)), uv_b(at(b, glm::vec3(world - b), normal)), apart = uv_a - uv_b;
+        EXPECT_EQ(apart, glm::round(apart));
+    }
+}
+
+TEST(TexturePosition, RoadMeshesHaveTheirTexturesInTrueSize) {
+    RoadMeshOptions options{.textures = true};
+    for (const char* name : {"country.xodr", "village.xodr"}) {
+        SCOPED_TRACE(name);
+        const Scene scene = build_scene(shipped_road(name), options);
+        std::size_t checked = 0;
+        for (const Mesh& mesh : scene.meshes)
+            for (const Batch& batch : mesh.batches) {
+                if (scene.materials[batch.material].texture < 0)
+                    continue;
+                for (std::uint32_t k = batch.first; k < batch.first + batch.count; k += 3)
+                    for (std::uint32_t side = 0; side < 3; ++side) {
+                        const Vertex& a = mesh.vertices[mesh.indices[k + side]];
+                        const Vertex& b = mesh.vertices[mesh.indices[k + (side + 1) % 3]];
+                        ASSERT_EQ(axis_of(a.normal), axis_of(b.normal)) << mesh.name << ": a triangle seen from two sides";
+                        const glm::vec3 d = 0.125F * (b.position_m - a.position_m);
+                        const glm::vec2 uv = b.uv - a.uv;
+                        const int axis = axis_of(a.normal);
+                        ASSERT_EQ(std::abs(uv.x), std::abs(axis == 0 ? d.y : d.x)) << mesh.name;
+                        ASSERT_EQ(std::abs(uv.y), std::abs(axis == 2 ? d.y : d.z)) << mesh.name;
+                        ++checked;
+                    }
+            }
+        EXPECT_GT(checked, 10000U);
+    }
+}
+
+TEST(TexturePosition, RoadsHaveTexturesOnlyWhenAsked) {
+    const RoadNetwork network = shipped_road("village.xodr");
+    RoadMeshOptions with, without;
+    with.textures = true;
+    without.textures = false;
+    const Scene plain = build_scene(network, without), textured = build_scene(network, with);
+    EXPECT_TRUE(plain.textures.empty());
+    EXPECT_EQ(plain.materials, road_materials());
+    for (const Material& material : plain.materials)
+        EXPECT_EQ(material.texture, -1);
+    EXPECT_EQ(textured.textures.size(), 4U);
+    for (const Material& material : textured.materials)
+        EXPECT_LT(material.texture, 4);
+    ASSERT_EQ(plain.meshes.size(), textured.meshes.size());
+    for (std::size_t i = 0; i < plain.meshes.size(); ++i)
+        EXPECT_EQ(plain.meshes[i].indices, textured.meshes[i].indices);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Two pictures that must be the same to the byte.
+// What tests that draw share: the device, all pictures at once, and two that must be the same to the byte.
 #pragma once
 
 #include "renderer/renderer.h"
@@ -7,6 +7,13 @@
 #include <string>
 
 namespace fernlicht {
+
+inline constexpr Wanted all_results{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+
+class DeviceTest : public testing::Test {
+  protected:
+    Device device_ = open_device("auto");
+};
 
 inline void expect_same_frames(const Frame& a, const Frame& b, const std::string& what) {
     EXPECT_EQ(a.colour, b.colour) << what;

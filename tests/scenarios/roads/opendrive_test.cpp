@@ -1,18 +1,21 @@
 // What a file says, as numbers: header, profiles, lanes, marks, objects, signals.
 #include "scenarios/roads/plan.h"
+#include "scenarios/roads/road_network.h"
+#include "scenarios/values/errors.h"
 #include "tests/scenarios/roads/opendrive_text.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include <random>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
 
 using namespace opendrive_text;
-using testing::Contains;
-using testing::HasSubstr;
+using testing::Contains, testing::HasSubstr;
 
 RoadNetwork network_of(const std::string& content) {
     const TemporaryFile written(content);
@@ -21,12 +24,16 @@ RoadNetwork network_of(const std::string& content) {
 
 RoadNetwork network_of(const RoadText& text) { return network_of(file(road(text))); }
 
-TEST(OpenDrive, CleanFileHasNoWarnings) {
+TEST(OpenDrive, CleanFileHasNoWarningsAndGapsAreTold) {
     const RoadNetwork network = network_of(RoadText{});
     EXPECT_TRUE(network.warnings.empty());
     ASSERT_EQ(network.opened.size(), 1U);
     EXPECT_NE(network.find("1"), nullptr);
     EXPECT_EQ(network.find("2"), nullptr);
+    RoadText text{.length = "20", .plan = "\n" + geometry(0.0, 0.0, 0.0, 0.0, 10.0) + "\n" + geometry(10.0, 10.0, 0.25, 0.0, 10.0) + "\n"};
+    const RoadNetwork other_network = network_of(text);
+    ASSERT_EQ(other_network.warnings.size(), 1U);
+    EXPECT_THAT(other_network.warnings[0], HasSubstr(":9: road '1': the reference line jumps by 0.250 m at s = 10"));
 }
 
 TEST(OpenDrive, HeaderOffsetTurnsThenMoves) {
@@ -130,15 +137,11 @@ TEST(OpenDrive, RoadMarks) {
     const RoadNetwork network = network_of(text);
     const auto& marks = network.roads[0].sections[0].lanes[1].marks;
     ASSERT_EQ(marks.size(), 3U);
-    EXPECT_EQ(marks[0].kind, MarkKind::solid_broken);
-    EXPECT_EQ(marks[0].width_m, 0.25);
-    EXPECT_EQ(marks[0].colour, "yellow");
+    EXPECT_EQ(std::tuple(marks[0].kind, marks[0].width_m, marks[0].colour), std::tuple(MarkKind::solid_broken, 0.25, "yellow"));
     ASSERT_EQ(marks[1].stripes.size(), 1U);
     EXPECT_EQ(marks[1].colour, "white");
-    EXPECT_EQ(marks[1].stripes[0].dash_m, 3.0);
-    EXPECT_EQ(marks[1].stripes[0].gap_m, 9.0);
-    EXPECT_EQ(marks[1].stripes[0].t_m, 0.1);
-    EXPECT_EQ(marks[1].stripes[0].width_m, 0.2);
+    EXPECT_EQ(std::tuple(marks[1].stripes[0].dash_m, marks[1].stripes[0].gap_m, marks[1].stripes[0].t_m, marks[1].stripes[0].width_m),
+              std::tuple(3.0, 9.0, 0.1, 0.2));
     ASSERT_EQ(marks[2].stripes.size(), 1U);
     EXPECT_GT(marks[2].stripes[0].gap_m, 1e6); // stands alone
     EXPECT_THAT(network.warnings, Contains(HasSubstr("sway")));
@@ -155,15 +158,13 @@ TEST(OpenDrive, ObjectsOutlinesAndRepeats) {
     const RoadNetwork network = network_of(text);
     const auto& objects = network.roads[0].objects;
     ASSERT_EQ(objects.size(), 3U + 3U + 2U);
-    EXPECT_EQ(objects[1].s_m, 35.0);
-    EXPECT_EQ(objects[1].t_m, 5.5);
+    EXPECT_EQ(std::tuple(objects[1].s_m, objects[1].t_m), std::tuple(35.0, 5.5));
     EXPECT_EQ(objects[2].height_m, 2.0);
     EXPECT_NEAR(objects[3].length_m, 10.0 / 3.0, 1e-12); // continuous: three pieces, end to end
     EXPECT_NEAR(objects[3].s_m, 20.0 + 10.0 / 6.0, 1e-12);
     EXPECT_EQ(objects[3].z_offset_m, 0.1);
     ASSERT_EQ(objects[6].outline_m.size(), 3U);
-    EXPECT_EQ(objects[6].outline_m[1], glm::dvec3(2.0, 0.0, 3.0));
-    EXPECT_EQ(objects[6].outline_base_m[1], 0.5);
+    EXPECT_EQ(std::tuple(objects[6].outline_m[1], objects[6].outline_base_m[1]), std::tuple(glm::dvec3(2.0, 0.0, 3.0), 0.5));
     // corners on the road, seen from an object that is turned to the left by 90 degrees
     EXPECT_NEAR(glm::distance(objects[7].outline_m[1], glm::dvec3(0.0, -2.0, 0.2)), 0.0, 1e-12);
     EXPECT_NEAR(glm::distance(objects[7].outline_m[2], glm::dvec3(1.0, -2.0, 0.2)), 0.0, 1e-12);
@@ -178,20 +179,126 @@ TEST(OpenDrive, Signals) {
     const auto signals = network_of(text).roads[0].signals;
     ASSERT_EQ(signals.size(), 2U);
     EXPECT_FALSE(signals[0].facing_forward);
-    EXPECT_EQ(signals[0].heading_offset_rad, 0.1);
-    EXPECT_EQ(signals[0].subtype, "57");
-    EXPECT_EQ(signals[0].height_m, 0.7);
-    EXPECT_TRUE(signals[1].facing_forward);
-    EXPECT_TRUE(signals[1].dynamic);
+    EXPECT_EQ(std::tuple(signals[0].heading_offset_rad, signals[0].subtype, signals[0].height_m), std::tuple(0.1, "57", 0.7));
+    EXPECT_TRUE(signals[1].facing_forward && signals[1].dynamic);
 }
 
-TEST(OpenDrive, GapsAreToldWithPlaceAndSize) {
+// Input that cannot be meant: one sentence with file and line, never a crash, a hang or a wrong road.
+
+/// The refusal without the file's name; "" when the file is read.
+std::string refusal(const std::string& content) {
+    const TemporaryFile written(content);
+    const std::string sentence = tests::refusal_of([&] { read_opendrive(written.path()); }, "");
+    if (sentence.empty())
+        return sentence;
+    EXPECT_THAT(sentence, testing::StartsWith(written.path().string()));
+    EXPECT_EQ(sentence.find('\n'), std::string::npos);
+    return sentence.substr(written.path().string().size());
+}
+
+std::string road_refusal(const RoadText& text) { return refusal(file(road(text))); }
+std::string plan_refusal(const std::string& plan) { return road_refusal({.plan = plan}); }
+std::string lane_refusal(const std::string& lanes) { return road_refusal({.lanes = lanes}); }
+
+TEST(OpenDriveBadInput, NotAFileAtAll) {
+    EXPECT_THROW(read_opendrive("/nowhere/road.xodr"), InputError);
+    EXPECT_THROW(read_opendrive("/tmp"), InputError);
+    EXPECT_THAT(refusal(""), HasSubstr("is empty"));
+    EXPECT_THAT(refusal(std::string(1000, '\0')), HasSubstr(":1: "));
+    EXPECT_THAT(refusal("\xff\xfe<\0O\0"), HasSubstr("UTF-16"));
+    EXPECT_THAT(refusal("just text\n"), HasSubstr("is not well-formed XML"));
+    EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<Envelope/>"), HasSubstr(":2: found root element 'Envelope', expected 'OpenDRIVE'"));
+    EXPECT_THAT(refusal("<OpenDRIVE/>"), HasSubstr("holds no road"));
+}
+
+TEST(OpenDriveBadInput, TruncatedRandomOrNestedTooDeeply) {
+    const std::string whole = file(road({}));
+    const std::size_t end = whole.find("</OpenDRIVE>");
+    for (std::size_t length = 1; length < end; length += 7)
+        EXPECT_NE(refusal(whole.substr(0, length)), "") << length;
+    std::mt19937 generator(11);
+    for (int i = 0; i < 50; ++i) {
+        std::string bytes(200, ' ');
+        for (char& c : bytes)
+            c = static_cast<char>(generator() % 256);
+        EXPECT_NE(refusal(bytes), "");
+    }
+    std::string deep;
+    for (int i = 0; i < 100'000; ++i)
+        deep += "<a>";
+    for (int i = 0; i < 100'000; ++i)
+        deep += "</a>";
+    EXPECT_THAT(refusal(file(deep)), HasSubstr("nested too deeply"));
+}
+
+TEST(OpenDriveBadInput, NumbersLengthsAndCurvatures) {
+    for (const std::string value : {"nan", "inf", "-inf", "1e999", "1e10", "-99999999999", "ten", "", "1,5", "1.5 m", "0x10", "--1"})
+        EXPECT_THAT(plan_refusal("\n" + fmt::format(R"(<geometry s="0" x="{}" y="0" hdg="0" length="10"><line/></geometry>)", value)),
+                    HasSubstr(fmt::format(":8: geometry@x: found '{}', expected a number", value)));
+    EXPECT_EQ(plan_refusal(R"(<geometry s="0" x=" +1.5e0 " y="1e-400" hdg="-0" length="100"><line/></geometry>)"), "");
+    EXPECT_THAT(plan_refusal(R"(<geometry s="0" y="0" hdg="0" length="10"><line/></geometry>)"), HasSubstr("geometry@x: is missing"));
+    EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, -10.0)), HasSubstr("geometry@length: found -10, expected a length, not below 0"));
+    EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, 0.0)), HasSubstr("has no geometry with a length"));
+    EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, 1e9)), HasSubstr("expected a road of at most 1000000 m"));
+    EXPECT_THAT(plan_refusal(geometry(1e8, 0, 0, 0, 1.0)), HasSubstr("expected a road of at most"));
+    EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, 100.0, R"(<arc curvature="1e6"/>)")),
+                HasSubstr("arc@curvature: found 1000000 over 100 m"));
+    EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, 100.0, R"(<spiral curvStart="0" curvEnd="-1e8"/>)")), HasSubstr("spiral@curvEnd"));
+    EXPECT_THAT(plan_refusal(geometry(0, 0, 0, 0, 100.0, "<userData/>")), HasSubstr("holds no shape"));
+    EXPECT_THAT(
+        plan_refusal(geometry(0, 0, 0, 0, 100.0, R"(<paramPoly3 pRange="some" aU="0" bU="1" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"/>)")),
+        HasSubstr("paramPoly3@pRange: found 'some'"));
+    EXPECT_THAT(plan_refusal(""), HasSubstr("has no geometry"));
+}
+
+TEST(OpenDriveBadInput, AGeometryWithoutLengthAmongOthersIsTold) {
+    RoadText text{.plan = geometry(0, 0, 0, 0, 50.0) + geometry(50.0, 50.0, 0, 0, 0.0) + geometry(50.0, 50.0, 0, 0, 50.0)};
+    const TemporaryFile written(file(road(text)));
+    const RoadNetwork network = read_opendrive(written.path());
+    EXPECT_EQ(network.roads[0].plan.size(), 2U);
+    EXPECT_THAT(network.warnings, testing::ElementsAre(HasSubstr("has no length and is left out")));
+}
+
+TEST(OpenDriveBadInput, LanesAndRolls) {
+    EXPECT_THAT(lane_refusal(section(0.0, "", lane(-1, "1e9"))), HasSubstr("expected at most 1000 m from the reference line"));
+    EXPECT_THAT(lane_refusal(section(0.0, "", R"(<lane id="-1"><width sOffset="0" a="3" b="0" c="0" d="1"/></lane>)")),
+                HasSubstr("at most 1000 m"));
+    EXPECT_THAT(lane_refusal(section(0.0, "", lane(-1) + lane(-1))), HasSubstr("found lane -1 twice"));
+    EXPECT_THAT(lane_refusal(section(0.0, lane(-1), "")), HasSubstr("found lane -1 in 'left', expected an id above 0"));
+    EXPECT_THAT(lane_refusal(section(0.0, "", R"(<lane id="x"/>)")), HasSubstr("lane@id: found 'x'"));
+    EXPECT_THAT(lane_refusal(section(0.0, "", R"(<lane id="-1.5"/>)")), HasSubstr("expected a whole number"));
+    EXPECT_THAT(lane_refusal(section(50.0, "", lane(-1)) + section(0.0, "", lane(-1))),
+                HasSubstr("expected lane sections in ascending order"));
     RoadText text;
-    text.length = "20";
-    text.plan = "\n" + geometry(0.0, 0.0, 0.0, 0.0, 10.0) + "\n" + geometry(10.0, 10.0, 0.25, 0.0, 10.0) + "\n";
-    const RoadNetwork network = network_of(text);
-    ASSERT_EQ(network.warnings.size(), 1U);
-    EXPECT_THAT(network.warnings[0], HasSubstr(":9: road '1': the reference line jumps by 0.250 m at s = 10"));
+    text.profiles = R"(<lateralProfile><superelevation s="0" a="0" b="0.05" c="0" d="0"/></lateralProfile>)";
+    EXPECT_THAT(road_refusal(text), HasSubstr("road '1' rolls by 1.5 rad at s = 30, expected at most 1.4 rad"));
+}
+
+TEST(OpenDriveBadInput, RepeatsWithoutEnd) {
+    RoadText text;
+    text.rest = R"(<objects><object id="1" s="0" t="0" radius="1"><repeat s="0" length="100" distance="1e-8"/></object></objects>)";
+    EXPECT_THAT(road_refusal(text), HasSubstr("repeat@distance: found 1e-08 over 100 m, expected at most 100000 objects"));
+}
+
+TEST(OpenDriveBadInput, RoadsTwiceOrWithoutId) {
+    EXPECT_THAT(refusal(file(road({}) + road({}))), HasSubstr("found a second road '1'"));
+    EXPECT_THAT(refusal(file("<road length=\"1\"/>")), HasSubstr("road@id: is missing"));
+    RoadText text;
+    text.attributes = R"(rule="XHT")";
+    EXPECT_THAT(road_refusal(text), HasSubstr("road@rule: found 'XHT', expected 'RHT' or 'LHT'"));
+}
+
+TEST(OpenDriveBadInput, ManyWarningsAreCounted) {
+    std::string roads;
+    for (int i = 0; i < 1500; ++i) {
+        RoadText text{.id = std::to_string(i)};
+        text.link = R"(<successor elementType="road" elementId="none" contactPoint="start"/>)";
+        roads += road(text);
+    }
+    const TemporaryFile written(file(roads)); // 1500 dead ends, and one remark that 1500 roads claim the same end
+    const RoadNetwork network = read_opendrive(written.path());
+    ASSERT_EQ(network.warnings.size(), 1001U);
+    EXPECT_THAT(network.warnings.back(), HasSubstr("501 further warnings are left out"));
 }
 
 } // namespace
