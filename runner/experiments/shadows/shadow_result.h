@@ -5,6 +5,7 @@
 #include "metrics/shadows/shadow_spots.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
+#include "runner/files/json_file.h"
 #include "runner/findings/document.h"
 #include "scenarios/drives/shadow_settings.h"
 
@@ -79,7 +80,7 @@ Document document(const ShadowResult& result);
 /// All scenes in one table, as docs/shadow-tables.md has it.
 Table shadow_table(const ShadowResult& result);
 /// docs/shadows.md and shadows.schema.json describe it.
-std::string shadow_json(const ShadowResult& result);
+extern const JsonFile<ShadowResult> shadow_json;
 /// RFC 4180: a line for each scene and method.
 std::string shadow_csv(const ShadowResult& result);
 
