@@ -122,7 +122,7 @@ AliasingResult run(const AliasingFlags& flags, const std::vector<std::string>& c
         return folder;
     };
     const auto write = [&folder](const AliasingResult& result) {
-        write_file(folder / "aliasing.json", aliasing_json.text(result));
+        write_file(folder / "aliasing.json", aliasing_json(result));
         write_file(folder / "aliasing.csv", aliasing_csv(result));
         write_document(document(result), result, folder, "aliasing");
     };

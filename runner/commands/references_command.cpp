@@ -60,10 +60,7 @@ int list(const ReferencesFlags& flags) {
     const FolderLock lock(flags.store, FolderLock::For::reading);
     const std::vector<StoredReference> entries = list_references(flags.store);
     if (flags.json) {
-        Json out = Json::array();
-        for (const StoredReference& entry : entries)
-            out.push_back(json_of(entry, stored_members));
-        fmt::print("{}", json_text(out));
+        fmt::print("{}", json_text(json_of(entries, stored_members)));
         return 0;
     }
     if (entries.empty()) {

@@ -1,7 +1,5 @@
 #include "runner/files/described_json.h"
 
-#include "runner/files/json_text.h"
-
 #include <algorithm>
 
 namespace fernlicht {
@@ -124,14 +122,6 @@ std::size_t place_in(const Json& list, const CheckedJson& json) {
     if (found == list.end())
         json.refuse(list.size() == 1 ? list[0].dump() : "one of " + list.dump());
     return static_cast<std::size_t>(found - list.begin());
-}
-
-std::string json_text(JsonMembers members) { return json_text(JsonPart(std::move(members)).write()); }
-
-std::string json_schema(const char* name, JsonMembers members) {
-    Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", name}};
-    schema.update(JsonPart(std::move(members)).schema());
-    return json_text(schema);
 }
 
 } // namespace fernlicht

@@ -8,9 +8,10 @@
 // the area, is derived: copied to be written, and nothing is read back into it.
 #pragma once
 
-#include "runner/files/json_file.h"
+#include "runner/files/json_text.h"
 #include "runner/files/value_json.h"
 
+#include <functional>
 #include <memory>
 #include <type_traits>
 
@@ -34,7 +35,7 @@ struct JsonPart {
     bool may_lack = false; ///< left out where it is not there
 };
 
-JsonPart json_constant(nlohmann::ordered_json value);
+JsonPart json_constant(nlohmann::ordered_json value); ///< all else is refused
 JsonPart json_leaf(bool& value);
 JsonPart json_leaf(int& value);
 JsonPart json_leaf(std::uint64_t& value);
@@ -162,29 +163,15 @@ template <class E, class Name> auto names_of(Name name, int count) {
 template <class T, class... Inner> nlohmann::ordered_json json_of(const T& value, Inner... inner) {
     return json_part(const_cast<T&>(value), inner...).write(); // which only looks at it
 }
+/// Throws InputError for what is no such value, with its place.
 template <class T, class... Inner> T from_json(const CheckedJson& json, Inner... inner) {
     T value{};
     json_part(value, inner...).read(json);
     return value;
 }
-std::string json_text(JsonMembers members);
-std::string json_schema(const char* name, JsonMembers members);
-
-/// "schema" and "schema_version" come first.
-template <class Struct> JsonFile<Struct> json_file(const char* name, int version, JsonMembers (*members)(Struct&)) {
-    const auto all = [=](Struct& whole) {
-        return joined({{"schema", json_constant(name)}, {"schema_version", json_constant(version)}}, members(whole));
-    };
-    return {[all](const Struct& whole) { return json_text(all(const_cast<Struct&>(whole))); }, // only looked at
-            [all](const std::filesystem::path& file) {
-                Struct whole;
-                JsonPart(all(whole)).read(CheckedJson::read(file));
-                return whole;
-            },
-            [all, name] {
-                Struct usual;
-                return json_schema(name, all(usual));
-            }};
+template <class T> std::string json_schema(JsonMembers (*members)(T&)) {
+    T usual;
+    return json_text(JsonPart(members(usual)).schema());
 }
 
 } // namespace fernlicht

@@ -95,6 +95,8 @@ JsonMembers diagram_members(WorkPrecision& diagram) {
 
 JsonMembers accuracy_members(AccuracyResult& result) {
     return {
+        {"schema", json_constant("fernlicht accuracy")},
+        {"schema_version", json_constant(1)},
         {"context", joined(context_members(result.context), JsonMembers{{"cores", result.cores}, {"other_cores", result.others.cores}})},
         {"interrupted", or_null(result.interrupted)},
         {"missing", result.missing},
@@ -105,6 +107,10 @@ JsonMembers accuracy_members(AccuracyResult& result) {
 
 } // namespace
 
-const JsonFile<AccuracyResult> accuracy_json = json_file("fernlicht accuracy", 1, accuracy_members);
+std::string accuracy_json(const AccuracyResult& result) { return json_text(json_of(result, accuracy_members)); }
+std::string accuracy_json_schema() { return json_schema(accuracy_members); }
+AccuracyResult read_accuracy_json(const std::filesystem::path& file) {
+    return from_json<AccuracyResult>(CheckedJson::read(file), accuracy_members);
+}
 
 } // namespace fernlicht

@@ -4,7 +4,6 @@
 #include "metrics/images/pixel_errors.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
-#include "runner/files/json_file.h"
 #include "runner/findings/document.h"
 #include "runner/findings/reach_error.h"
 
@@ -102,7 +101,9 @@ std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
 /// docs/accuracy.md tells how to read it.
 Document document(const AccuracyResult& result);
 /// docs/accuracy.md and accuracy.schema.json describe it.
-extern const JsonFile<AccuracyResult> accuracy_json;
+std::string accuracy_json(const AccuracyResult& result);
+std::string accuracy_json_schema();
+AccuracyResult read_accuracy_json(const std::filesystem::path& file); ///< without pictures; throws InputError
 /// RFC 4180: a line for each row of each diagram.
 std::string accuracy_csv(const AccuracyResult& result);
 

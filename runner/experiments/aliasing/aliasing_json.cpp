@@ -116,7 +116,9 @@ std::vector<std::string> names_by_aliasing(const AliasingResult& result) {
 }
 
 JsonMembers aliasing_members(AliasingResult& result) {
-    return {{"context", context_members(result.context)},
+    return {{"schema", json_constant("fernlicht aliasing")},
+            {"schema_version", json_constant(2)},
+            {"context", context_members(result.context)},
             {"interrupted", or_null(result.interrupted)},
             {"notes", result.notes},
             {"drive", result.drive},
@@ -171,7 +173,11 @@ std::string motion_text(const FollowedByFlow& flow) {
                        2 * flow.followed < flow.started ? "; fewer than half, and flicker is known of those alone" : "");
 }
 
-const JsonFile<AliasingResult> aliasing_json = json_file("fernlicht aliasing", 2, aliasing_members);
+std::string aliasing_json(const AliasingResult& result) { return json_text(json_of(result, aliasing_members)); }
+std::string aliasing_json_schema() { return json_schema(aliasing_members); }
+AliasingResult read_aliasing_json(const std::filesystem::path& file) {
+    return from_json<AliasingResult>(CheckedJson::read(file), aliasing_members);
+}
 
 std::string aliasing_csv(const AliasingResult& result) {
     std::string out = "label,technique,beams,filter,samples,aliasing_thresholds,aliasing_percent,folded_percent,rest_percent,lost_percent,"

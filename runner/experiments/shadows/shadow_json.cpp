@@ -86,7 +86,9 @@ JsonMembers scene_members(ShadowSceneResult& scene) {
 }
 
 JsonMembers shadow_members(ShadowResult& result) {
-    return {{"context", context_members(result.context)},
+    return {{"schema", json_constant("fernlicht shadows")},
+            {"schema_version", json_constant(1)},
+            {"context", context_members(result.context)},
             {"interrupted", or_null(result.interrupted)},
             {"missing", result.missing},
             {"cores", result.cores},
@@ -100,6 +102,10 @@ JsonMembers shadow_members(ShadowResult& result) {
 
 } // namespace
 
-const JsonFile<ShadowResult> shadow_json = json_file("fernlicht shadows", 1, shadow_members);
+std::string shadow_json(const ShadowResult& result) { return json_text(json_of(result, shadow_members)); }
+std::string shadow_json_schema() { return json_schema(shadow_members); }
+ShadowResult read_shadow_json(const std::filesystem::path& file) {
+    return from_json<ShadowResult>(CheckedJson::read(file), shadow_members);
+}
 
 } // namespace fernlicht

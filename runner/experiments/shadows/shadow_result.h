@@ -5,7 +5,6 @@
 #include "metrics/shadows/shadow_spots.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
-#include "runner/files/json_file.h"
 #include "runner/findings/document.h"
 #include "scenarios/drives/shadow_settings.h"
 
@@ -80,7 +79,9 @@ Document document(const ShadowResult& result);
 /// All scenes in one table, as docs/shadow-tables.md has it.
 Table shadow_table(const ShadowResult& result);
 /// docs/shadows.md and shadows.schema.json describe it.
-extern const JsonFile<ShadowResult> shadow_json;
+std::string shadow_json(const ShadowResult& result);
+std::string shadow_json_schema();
+ShadowResult read_shadow_json(const std::filesystem::path& file); ///< without pictures; throws InputError
 /// RFC 4180: a line for each scene and method.
 std::string shadow_csv(const ShadowResult& result);
 

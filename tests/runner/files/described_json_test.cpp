@@ -4,7 +4,6 @@
 #include "runner/experiments/aliasing/aliasing_result.h"
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/files/described_json.h"
-#include "runner/files/json_text.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/schema_check.h"
 
@@ -65,31 +64,37 @@ JsonMembers whole_members(Whole& whole) {
                               {"sum", whole.share + whole.count}});
 }
 
-template <class Struct> void expect_comes_back(const JsonFile<Struct>& file, const Struct& whole) {
-    const std::filesystem::path path = "described.json";
-    std::ofstream(path) << file.text(whole);
-    EXPECT_EQ(file.text(file.read(path)), file.text(whole));
-    EXPECT_THAT(tests::Schema(nlohmann::json::parse(file.schema())).check(nlohmann::json::parse(file.text(whole))), testing::IsEmpty());
-}
+void write_described(const std::string& text) { std::ofstream("described.json") << text; }
+Whole read_described() { return from_json<Whole>(CheckedJson::read("described.json"), whole_members); }
 
 TEST(DescribedJson, ComesBack) {
-    const JsonFile<Whole> file = json_file("whole", 1, whole_members);
-    expect_comes_back(file, {});
     const Part part{"a", 1.5, "", Value::at_least(200.0)};
     const Whole filled{
         7, 30, 1ULL << 63, true, 0.1, Colour::green, "a note", {{"key", "text"}}, {1.0, 2.0}, {part, {"b", {}, "too dark", {}}}, part};
-    expect_comes_back(file, filled);
+    for (const Whole& whole : {Whole{}, filled}) {
+        const std::string text = json_text(json_of(whole, whole_members));
+        write_described(text);
+        EXPECT_EQ(json_text(json_of(read_described(), whole_members)), text);
+        EXPECT_THAT(tests::Schema(nlohmann::json::parse(json_schema(whole_members))).check(nlohmann::json::parse(text)),
+                    testing::IsEmpty());
+    }
     EXPECT_EQ(
-        Json::parse(file.text(filled)).at("parts").dump(),
+        json_of(filled.parts, part_of_whole).dump(),
         R"([{"name":"a","length_m":{"m":1.5},"value":{"at_least":200.0}},{"name":"b","length_m":{"not_measured":"too dark"},"value":null}])");
-    const auto refused = [&](const std::string& from, const std::string& to, const std::string& place) {
-        std::string text = file.text(filled);
-        std::ofstream("described.json") << text.replace(text.find(from), from.size(), to);
-        EXPECT_THAT([&] { file.read("described.json"); }, testing::ThrowsMessage<InputError>(testing::HasSubstr(place)));
+    EXPECT_EQ(
+        json_of(Whole{}, whole_members).dump(),
+        R"({"count":3,"tick":null,"seed":0,"flag":false,"share":0.5,"colour":"red","note":null,"texts":{},"ends":{"from":0.0,"to":0.0},"best":null,"sum":3.5})");
+}
+
+TEST(DescribedJson, SaysWhatIsRefusedWhere) {
+    const auto refused = [](const std::string& from, const std::string& to, const std::string& place) {
+        std::string text = json_text(json_of(Whole{.best = Part{"a", 1.5, "", 2.0}}, whole_members));
+        write_described(text.replace(text.find(from), from.size(), to));
+        EXPECT_THAT(read_described, testing::ThrowsMessage<InputError>(testing::HasSubstr(place)));
     };
-    refused("\"green\"", "\"blue\"", "colour");
-    refused("\"whole\"", "\"half\"", "schema");
-    refused("1.5", "true", "parts[0].length_m.m");
+    refused("\"red\"", "\"blue\"", "colour");
+    refused("1.5", "true", "best.length_m.m");
+    refused("\"flag\"", "\"flags\"", "flag");
 }
 
 /// What stands there in words alone, beside what the descriptions say.
@@ -113,9 +118,9 @@ void expect_schema(const std::string& file, const std::string& described) {
 }
 
 TEST(DescribedJson, IsTheSchema) {
-    expect_schema("accuracy/accuracy.schema.json", accuracy_json.schema());
-    expect_schema("shadows/shadows.schema.json", shadow_json.schema());
-    expect_schema("aliasing/aliasing.schema.json", aliasing_json.schema());
+    expect_schema("accuracy/accuracy.schema.json", accuracy_json_schema());
+    expect_schema("shadows/shadows.schema.json", shadow_json_schema());
+    expect_schema("aliasing/aliasing.schema.json", aliasing_json_schema());
 }
 
 } // namespace

@@ -20,8 +20,8 @@ using testing::Not;
 /// Fits its schema, and comes back as it is.
 json checked(const std::filesystem::path& file) {
     json found = json::parse(content_of(file));
-    EXPECT_THAT(tests::Schema(json::parse(accuracy_json.schema())).check(found), IsEmpty());
-    EXPECT_EQ(json::parse(accuracy_json.text(accuracy_json.read(file))), found);
+    EXPECT_THAT(tests::Schema(json::parse(accuracy_json_schema())).check(found), IsEmpty());
+    EXPECT_EQ(json::parse(accuracy_json(read_accuracy_json(file))), found);
     return found;
 }
 

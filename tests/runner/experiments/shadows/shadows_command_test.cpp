@@ -19,8 +19,8 @@ const std::string small = "shadows --quiet --resolution 96x72 --lamp " + library
 /// Fits its schema, and comes back as it is.
 json checked(const std::filesystem::path& file) {
     json found = json::parse(content_of(file));
-    EXPECT_THAT(tests::Schema(json::parse(shadow_json.schema())).check(found), IsEmpty());
-    EXPECT_EQ(json::parse(shadow_json.text(shadow_json.read(file))), found);
+    EXPECT_THAT(tests::Schema(json::parse(shadow_json_schema())).check(found), IsEmpty());
+    EXPECT_EQ(json::parse(shadow_json(read_shadow_json(file))), found);
     return found;
 }
 
