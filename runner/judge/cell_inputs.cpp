@@ -1,5 +1,7 @@
 #include "runner/judge/cell_inputs.h"
 
+#include "scenarios/drives/keys/drive_texts.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -26,17 +28,15 @@ std::vector<std::pair<std::string, std::string>> cell_inputs(const Drive& drive,
     one.variants = {variant};
     one.title.clear();
     one.limits.clear();
-    one.road_file = "road";
+    one.road_file.clear();
     std::vector<std::pair<std::string, std::string>> lamps;
     for (LampSource& source : one.lamp_sources)
         if (uses(variant, source.file.get())) {
             source.path = fmt::format("lamp file {}", lamps.size() + 1);
             lamps.emplace_back(source.path.string(), hash_of(source.file->opened));
         }
-    std::string text = write_drive(one);
-    text.erase(0, text.find('\n') + 1); // the comment names the program's version
-    text += fmt::format("moments: [{}, {}]\n", first_tick, last_tick);
-    std::vector<std::pair<std::string, std::string>> inputs{{"drive", content_hash(text.data(), text.size())}, {"road", hash_of(road)}};
+    const std::string bits = drive_bits(one) + fmt::format("moments: [{}, {}]\n", first_tick, last_tick);
+    std::vector<std::pair<std::string, std::string>> inputs{{"drive", content_hash(bits.data(), bits.size())}, {"road", hash_of(road)}};
     std::ranges::move(lamps, std::back_inserter(inputs));
     return inputs;
 }

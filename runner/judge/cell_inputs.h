@@ -9,8 +9,9 @@
 
 namespace fernlicht {
 
-/// "drive": the resolved drive with this lamp set alone and the moments first_tick..last_tick, "road", "lamp file 1" ...:
-/// contents. Neither paths nor what changes no result counts: title, limits, comments, other lamp sets, the program's version.
+/// "drive": what is off its defaults in the drive with this lamp set alone (drive_bits), and the moments first_tick..last_tick; "road",
+/// "lamp file 1" ...: contents. Neither paths nor what changes no result counts: title, limits, comments, other lamp sets, names of keys,
+/// keys at their defaults.
 std::vector<std::pair<std::string, std::string>> cell_inputs(const Drive& drive, const Variant& variant, const FilesRead& road,
                                                              int first_tick, int last_tick);
 

@@ -24,14 +24,17 @@ std::string backend_of(const RunContext& context) { return context.gl_renderer.s
 
 } // namespace
 
-ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context,
-                           const std::vector<std::pair<std::string, std::string>>& inputs) {
+std::string hash_of_inputs(const std::vector<std::pair<std::string, std::string>>& inputs) {
     std::map<std::string, std::string> by_name(inputs.begin(), inputs.end()); // files give them in another order
     std::string hashes;
     for (const auto& [name, hash] : by_name)
         hashes += hash + "\n";
-    return {
-        drive, variant, technique, backend_of(context), context.gl_renderer, simd_of(context), content_hash(hashes.data(), hashes.size())};
+    return content_hash(hashes.data(), hashes.size());
+}
+
+ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context,
+                           const std::vector<std::pair<std::string, std::string>>& inputs) {
+    return {drive, variant, technique, backend_of(context), context.gl_renderer, simd_of(context), hash_of_inputs(inputs)};
 }
 
 bool same_but_inputs(const ReferenceKey& a, const ReferenceKey& b) {

@@ -14,6 +14,7 @@ struct ReferenceKey {
     bool operator==(const ReferenceKey&) const = default;
 };
 
+std::string hash_of_inputs(const std::vector<std::pair<std::string, std::string>>& inputs);
 ReferenceKey reference_key(const std::string& drive, const std::string& variant, const std::string& technique, const RunContext& context,
                            const std::vector<std::pair<std::string, std::string>>& inputs);
 

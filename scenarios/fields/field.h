@@ -14,6 +14,7 @@
 
 #include "scenarios/fields/group.h"
 
+#include <filesystem>
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <optional>
@@ -33,6 +34,19 @@ template <class Struct> struct FieldOf : Field {
     FieldOf short_for(std::string_view key_of_group) && { return short_key = key_of_group, std::move(*this); }
     FieldOf short_list_for(std::string_view key_of_group) && { return short_key = key_of_group, short_is_list = true, std::move(*this); }
     FieldOf heard_if(bool (*asks)(const void*)) && { return heard = asks, std::move(*this); }
+    FieldOf read_by(void (*reads)(const YamlEntry&, Struct&)) && {
+        read = [reads](const YamlEntry& entry, void* whole) { reads(entry, *static_cast<Struct*>(whole)); };
+        return std::move(*this);
+    }
+    FieldOf text_by(std::string (*writes)(const Struct&)) && {
+        text = [writes](const void* whole) { return writes(*static_cast<const Struct*>(whole)); };
+        return std::move(*this);
+    }
+    FieldOf bits_by(std::string (*tells)(const Struct&)) && {
+        bits = [tells](const void* whole) { return tells(*static_cast<const Struct*>(whole)); };
+        return std::move(*this);
+    }
+    FieldOf schema_by(std::string_view json) && { return schema = json, std::move(*this); }
 };
 
 /// The description of a struct.
@@ -42,6 +56,8 @@ template <class Struct> struct Fields : Group {
         usual = std::make_shared<const Struct>();
     }
     Fields block() && { return is_block = true, std::move(*this); }
+    /// Where they are not those of a new struct.
+    Fields at_defaults(const Struct& of) && { return usual = std::make_shared<const Struct>(of), std::move(*this); }
     Fields bare() && { return is_bare = true, std::move(*this); }
     /// Refuses what no single key shows, after all of them were read.
     Fields checked(void (*look_at)(const YamlMap&, const Struct&)) && {
@@ -132,6 +148,8 @@ template <class T> constexpr FieldKind kind_of() {
         return FieldKind::flag;
     else if constexpr (std::is_same_v<T, std::string>)
         return FieldKind::text;
+    else if constexpr (std::is_same_v<T, std::filesystem::path>)
+        return FieldKind::path;
     else if constexpr (std::is_same_v<T, std::vector<std::string>>)
         return FieldKind::names;
     else if constexpr (std::is_same_v<T, std::vector<double>>)
@@ -173,7 +191,24 @@ inline FieldRule numbers(std::size_t fewest, std::size_t most, double least, dou
 inline FieldRule words(std::span<const std::string_view> in_order) { return words(std::vector(in_order.begin(), in_order.end())); }
 /// A list of names.
 inline FieldRule names(std::size_t fewest, std::size_t most) { return {0.0, 0.0, fewest, most, {}}; }
-inline FieldRule any() { return {}; } ///< flags and text
+inline FieldRule any() { return {}; } ///< flags, text and paths
+inline FieldRule a_name() {
+    FieldRule rule;
+    rule.kind = FieldKind::name;
+    return rule;
+}
+/// A list of texts.
+inline FieldRule texts(std::size_t fewest, std::size_t most) {
+    FieldRule rule = names(fewest, most);
+    rule.kind = FieldKind::texts;
+    return rule;
+}
+/// The bound itself is not allowed.
+inline FieldRule above(double bound, double greatest) {
+    FieldRule rule = range(bound, greatest);
+    rule.is_above = true;
+    return rule;
+}
 /// `key`_deg or `key`_rad, so far to both sides.
 FieldRule degrees_within(std::string_view key, double limit_deg);
 FieldRule in_radians(std::string_view key, double limit_deg); ///< the same, written in radians
@@ -186,7 +221,7 @@ FieldRule units(FieldUnit first, FieldUnit own);
 template <class Struct, class M>
 FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, FieldRule rule, std::string_view meaning) {
     constexpr FieldKind kind = field_parts::kind_of<typename field_parts::Plain<M>::type>();
-    FieldOf<Struct> made = field_parts::made(key, id, member, kind, meaning);
+    FieldOf<Struct> made = field_parts::made(key, id, member, rule.kind.value_or(kind), meaning);
     made.rule = std::move(rule);
     return made;
 }
@@ -213,7 +248,8 @@ template <class Struct> FieldOf<Struct> section(std::string_view key, int id, co
 }
 
 /// A struct within, whose keys stand among those of the struct that has it.
-template <class Struct, class Inner> FieldOf<Struct> inlined(int id, Inner Struct::*member, const Fields<Inner>& fields) {
+template <class Struct, class M, class Inner> FieldOf<Struct> inlined(int id, M Struct::*member, const Fields<Inner>& fields) {
+    static_assert(std::is_same_v<typename field_parts::Plain<M>::type, Inner>);
     FieldOf<Struct> made = field_parts::made("", id, member, FieldKind::inlined, "");
     made.group = &fields;
     return made;
@@ -239,7 +275,7 @@ template <class Struct, class Inner> FieldOf<Struct> list(std::string_view key, 
     return made;
 }
 
-/// What no kind above fits: read and written by functions, described to editors by JSON.
+/// What no kind above fits: read (unless whoever calls does) and written by functions, described to editors by JSON.
 template <class Struct> FieldOf<Struct> own(std::string_view key, int id, void (*read)(const YamlEntry&, Struct&),
                                             std::string (*text)(const Struct&), std::string_view schema, std::string_view meaning) {
     FieldOf<Struct> made;
@@ -247,10 +283,9 @@ template <class Struct> FieldOf<Struct> own(std::string_view key, int id, void (
     made.id = id;
     made.kind = FieldKind::own;
     made.meaning = meaning;
-    made.read = [read](const YamlEntry& entry, void* whole) { read(entry, *static_cast<Struct*>(whole)); };
-    made.text = [text](const void* whole) { return text(*static_cast<const Struct*>(whole)); };
-    made.schema = schema;
-    return made;
+    if (read)
+        made = std::move(made).read_by(read);
+    return std::move(made).text_by(text).schema_by(schema);
 }
 
 } // namespace fernlicht

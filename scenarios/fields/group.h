@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,7 +33,10 @@ enum class FieldKind {
     whole,    ///< int
     flag,     ///< bool
     text,     ///< std::string, not empty
+    name,     ///< std::string that may be part of a file's name
+    path,     ///< std::filesystem::path; whether it exists is not asked
     names,    ///< std::vector<std::string>, of lamps
+    texts,    ///< std::vector<std::string>, each not empty
     choice,   ///< an enum, by words in the order of its enumerators
     numbers,  ///< std::vector<double>
     position, ///< [x, y, z]
@@ -55,10 +59,15 @@ struct FieldRule {
     double least = 0.0, greatest = 0.0;
     std::size_t fewest = 0, most = 0; ///< elements of lists and maps
     std::vector<std::string_view> words;
-    std::string_view refused_as = {};  ///< what is said to be expected where `greatest` itself is not allowed
-    std::vector<FieldUnit> units = {}; ///< two keys for one number; the second is the struct's own unit
-    bool degrees_where_exact = false;  ///< written in the first unit where that brings the number back
+    std::string_view refused_as = {};   ///< what is said to be expected where `greatest` itself is not allowed
+    std::vector<FieldUnit> units = {};  ///< two keys for one number; the second is the struct's own unit
+    bool degrees_where_exact = false;   ///< written in the first unit where that brings the number back
+    bool is_above = false;              ///< `least` itself is not allowed
+    std::optional<FieldKind> kind = {}; ///< where the member's type leaves it open
 };
+
+/// In place of JSON: that part of the schema is not written from descriptions.
+inline constexpr std::string_view schema_by_hand = "by hand";
 
 struct Field {
     std::string key; ///< of numbers with units: without one
@@ -78,10 +87,11 @@ struct Field {
     bool short_is_list = false;                 ///< or that a list in its place gives
     bool (*heard)(const void* whole) = nullptr; ///< nullptr: always; else a key that is given unheard is refused
 
-    // kind own
+    // kind own has no more than these; of other kinds each takes the place of what follows from the rest
     std::function<void(const YamlEntry&, void* whole)> read = {};
     std::function<std::string(const void* whole)> text = {}; ///< on one line, or lines that each begin with their end; "": not written
     std::string_view schema = {};                            ///< JSON
+    std::function<std::string(const void* whole)> bits = {}; ///< what hashes are taken over in place of `text` (field_bits.h)
 };
 
 /// A struct's fields, in the order in which they are written.

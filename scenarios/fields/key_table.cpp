@@ -12,13 +12,20 @@ std::string allowed(const Field& field) {
     const FieldRule& rule = field.rule;
     switch (field.kind) {
     case FieldKind::number:
-        return fmt::format("{} to {}{}", rule.least, rule.refused_as.empty() ? "" : "below ", rule.greatest);
+        return fmt::format("{}{} to {}{}", rule.is_above ? "above " : "", rule.least, rule.refused_as.empty() ? "" : "below ",
+                           rule.greatest);
     case FieldKind::whole:
         return fmt::format("whole, {} to {}", rule.least, rule.greatest);
     case FieldKind::flag:
         return "true, false";
     case FieldKind::text:
         return "text";
+    case FieldKind::name:
+        return "a name";
+    case FieldKind::path:
+        return "a file";
+    case FieldKind::texts:
+        return fmt::format("{} to {} texts", rule.fewest, rule.most);
     case FieldKind::names:
         return fmt::format("{} to {} names", rule.fewest, rule.most);
     case FieldKind::choice:

@@ -14,7 +14,7 @@ template <class T> T& as(void* value) { return *static_cast<T*>(value); }
 
 double number(const FieldRule& rule, const YamlEntry& entry) {
     if (rule.refused_as.empty())
-        return entry.number(rule.least, rule.greatest);
+        return rule.is_above ? entry.number_above(rule.least, rule.greatest) : entry.number(rule.least, rule.greatest);
     const double value = entry.number(-HUGE_VAL, HUGE_VAL);
     if (!(value >= rule.least && value < rule.greatest))
         entry.refuse(std::string(rule.refused_as));
@@ -52,6 +52,8 @@ void read_inner(const Field& field, const YamlEntry& entry, void* whole) {
 
 void read_value(const Field& field, const YamlEntry& entry, void* whole) {
     const FieldRule& rule = field.rule;
+    if (field.read)
+        return field.read(entry, whole);
     switch (field.kind) {
     case FieldKind::number: {
         const double value = number(rule, entry); // refused before an optional one is there
@@ -71,6 +73,16 @@ void read_value(const Field& field, const YamlEntry& entry, void* whole) {
     }
     case FieldKind::text:
         as<std::string>(field.member->make(whole)) = entry.text();
+        break;
+    case FieldKind::name:
+        as<std::string>(field.member->make(whole)) = entry.name();
+        break;
+    case FieldKind::path:
+        as<std::filesystem::path>(field.member->make(whole)) = entry.path();
+        break;
+    case FieldKind::texts:
+        for (const YamlEntry& text : entry.list(rule.fewest, rule.most))
+            as<std::vector<std::string>>(field.member->make(whole)).push_back(text.text());
         break;
     case FieldKind::names:
         for (const YamlEntry& name : entry.list(rule.fewest, rule.most))
@@ -96,8 +108,6 @@ void read_value(const Field& field, const YamlEntry& entry, void* whole) {
             read_group(*field.group, element, field.member->append(whole));
         break;
     case FieldKind::own:
-        field.read(entry, whole);
-        break;
     case FieldKind::inlined:
         break; // has no value of its own
     }

@@ -9,6 +9,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr const char* name_pattern = "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$";
+
 ordered_json of_group(const Group& group);
 
 /// 3 rather than 3.0.
@@ -26,6 +28,8 @@ ordered_json of_number(const FieldRule& rule) {
     ordered_json json = of_range("number", rule.least, rule.greatest);
     if (!rule.refused_as.empty())
         json["exclusiveMaximum"] = of_bound(rule.greatest), json.erase("maximum");
+    if (rule.is_above)
+        json["exclusiveMinimum"] = of_bound(rule.least), json.erase("minimum");
     return json;
 }
 
@@ -60,6 +64,8 @@ ordered_json of_inner(const Field& field) {
 
 ordered_json of_value(const Field& field) {
     const FieldRule& rule = field.rule;
+    if (!field.schema.empty())
+        return ordered_json::parse(field.schema);
     switch (field.kind) {
     case FieldKind::number:
         return of_number(rule);
@@ -69,7 +75,12 @@ ordered_json of_value(const Field& field) {
         return {{"type", "boolean"}};
     case FieldKind::text:
         return {{"type", {"string", "number"}}, {"minLength", 1}};
+    case FieldKind::name:
+        return {{"type", "string"}, {"pattern", name_pattern}};
+    case FieldKind::path:
+        return {{"type", "string"}, {"minLength", 1}};
     case FieldKind::names:
+    case FieldKind::texts:
         return of_array(rule, {{"type", {"string", "number"}}, {"minLength", 1}});
     case FieldKind::choice:
         return {{"enum", rule.words}};
@@ -84,12 +95,12 @@ ordered_json of_value(const Field& field) {
         return {{"type", "object"},
                 {"minProperties", rule.fewest},
                 {"maxProperties", rule.most},
-                {"propertyNames", {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$"}}},
+                {"propertyNames", {{"type", "string"}, {"pattern", name_pattern}}},
                 {"additionalProperties", of_element(*field.group)}};
     case FieldKind::list:
         return of_array(rule, of_element(*field.group));
     case FieldKind::own:
-        return ordered_json::parse(field.schema);
+        break;
     case FieldKind::group:
     case FieldKind::inlined:
         return of_inner(field);
@@ -103,6 +114,8 @@ void add_properties(const Group& group, ordered_json& object) {
             add_properties(*field.group, object);
             continue;
         }
+        if (field.schema == schema_by_hand)
+            continue;
         const std::vector<FieldUnit>& units = field.rule.units;
         ordered_json value = units.empty() ? of_value(field) : ordered_json{};
         for (std::size_t i = 0; i < std::max<std::size_t>(1, units.size()); ++i) {

@@ -3,6 +3,7 @@
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/vec3.hpp>
@@ -29,8 +30,12 @@ std::string text_of(const Field& field, const void* value) {
         return std::string(field.rule.words[static_cast<std::size_t>(chosen)]);
     }
     case FieldKind::text:
+    case FieldKind::name:
         return fernlicht::quoted(*static_cast<const std::string*>(value));
-    case FieldKind::names: {
+    case FieldKind::path:
+        return fernlicht::quoted(static_cast<const std::filesystem::path*>(value)->string());
+    case FieldKind::names:
+    case FieldKind::texts: {
         std::vector<std::string> names;
         for (const std::string& name : *static_cast<const std::vector<std::string>*>(value))
             names.push_back(fernlicht::quoted(name));
@@ -56,7 +61,7 @@ bool is_list(const Field& field) { return field.kind == FieldKind::named || fiel
 /// "key: value"; "" for what is not written.
 std::string entry_text(const Field& field, const void* whole) {
     if (field.kind == FieldKind::inlined)
-        return flow_text(*field.group, look(field, whole));
+        return look(field, whole) ? flow_text(*field.group, look(field, whole)) : "";
     const std::string value = value_text(field, whole);
     if (value.empty())
         return "";
@@ -73,19 +78,23 @@ std::string lines_of_list(const Field& field, const void* whole, std::size_t dep
         void* const one = element(field, whole, i);
         const std::string start =
             field.kind == FieldKind::list ? indent + "  -" : fmt::format("{}  {}:", indent, fernlicht::quoted(*field.member->name_of(one)));
-        lines += field.group->is_block ? start + "\n" + block_text(*field.group, one, depth + 2)
-                                       : fmt::format("{} {}\n", start, element_text(*field.group, one));
+        if (!field.group->is_block)
+            lines += fmt::format("{} {}\n", start, element_text(*field.group, one));
+        else if (field.kind == FieldKind::list)
+            lines += start + block_text(*field.group, one, depth + 2).substr(start.size());
+        else
+            lines += start + "\n" + block_text(*field.group, one, depth + 2);
     }
     return lines;
 }
 
 std::string lines_of(const Field& field, const void* whole, std::size_t depth) {
     if (field.kind == FieldKind::inlined)
-        return block_text(*field.group, look(field, whole), depth);
+        return look(field, whole) ? block_text(*field.group, look(field, whole), depth) : "";
     if (is_list(field) && size(field, whole) > 0)
         return lines_of_list(field, whole, depth);
     const std::string indent(2 * depth, ' ');
-    if (field.kind == FieldKind::group && field.group->is_block && look(field, whole))
+    if (field.kind == FieldKind::group && field.group->is_block && !field.text && look(field, whole))
         return fmt::format("{}{}:\n{}", indent, field.key, block_text(*field.group, look(field, whole), depth + 1));
     const std::string entry = entry_text(field, whole);
     return entry.empty() ? "" : indent + entry + "\n";
@@ -102,7 +111,7 @@ bool is_written(const Group& group, const Field& field, const void* whole) {
 } // namespace
 
 std::string value_text(const Field& field, const void* whole) {
-    if (field.kind == FieldKind::own)
+    if (field.text)
         return field.text(whole);
     if (is_list(field)) {
         std::vector<std::string> elements;
@@ -124,7 +133,8 @@ std::string flow_text(const Group& group, const void* whole) {
 }
 
 std::string lines_of(const Group& group, std::string_view key, const void* whole, std::size_t depth) {
-    return lines_of(field_named(group, key), whole, depth);
+    const Field& field = field_named(group, key);
+    return is_written(group, field, whole) ? lines_of(field, whole, depth) : "";
 }
 
 std::string block_text(const Group& group, const void* whole, std::size_t depth) {

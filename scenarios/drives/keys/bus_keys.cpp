@@ -3,6 +3,7 @@
 #include "scenarios/can/bus_mapping.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/control/signals.h"
+#include "scenarios/drives/keys/drive_texts.h"
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/drives/play/bus_play.h"
 #include "scenarios/values/errors.h"
@@ -270,22 +271,22 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
     bus_period_s(drive);
 }
 
-std::string write_can(const Drive& drive) {
+std::string can_text(const Drive& drive) {
     if (!drive.can)
         return "";
     const BusMapping& mapping = *drive.can;
-    std::string text = "can:\n  databases:\n";
+    std::string text = "\n  databases:";
     for (const std::filesystem::path& path : mapping.databases)
-        text += fmt::format("    - {}\n", quoted(path.string()));
+        text += fmt::format("\n    - {}", quoted(path.string()));
     if (!mapping.channel.empty())
-        text += fmt::format("  channel: {}\n", quoted(mapping.channel));
+        text += fmt::format("\n  channel: {}", quoted(mapping.channel));
     if (mapping.scripted || mapping.log)
-        text += fmt::format("  log: {}\n", mapping.scripted ? "none" : quoted(mapping.log->string()));
+        text += fmt::format("\n  log: {}", mapping.scripted ? "none" : quoted(mapping.log->string()));
     if (mapping.start_ns && mapping.log)
-        text += fmt::format("  start: {}\n", stamp_text(*mapping.start_ns));
-    text += mapping.inputs.empty() ? "" : "  inputs:\n";
+        text += fmt::format("\n  start: {}", stamp_text(*mapping.start_ns));
+    text += mapping.inputs.empty() ? "" : "\n  inputs:";
     for (const BusInput& input : mapping.inputs) {
-        text += fmt::format("    {}: {{signal: {}{}", quoted(input.name), quoted(input.source.text()), scale_text(input));
+        text += fmt::format("\n    {}: {{signal: {}{}", quoted(input.name), quoted(input.source.text()), scale_text(input));
         if (input.also)
             text += fmt::format(", also: {}, tolerance: {}, contradictory: {}", quoted(input.also->text()), input.tolerance,
                                 name_of(input.policy(BusState::contradictory)));
@@ -295,11 +296,11 @@ std::string write_can(const Drive& drive) {
             text += fmt::format(", {}: {}", name_of(state), name_of(input.policy(state)));
         if (input.fallback)
             text += fmt::format(", default: {}", *input.fallback);
-        text += "}\n";
+        text += "}";
     }
-    text += mapping.outputs.empty() ? "" : "  outputs:\n";
+    text += mapping.outputs.empty() ? "" : "\n  outputs:";
     for (const BusOutput& output : mapping.outputs)
-        text += fmt::format("    {}: {{signal: {}{}{}}}\n", quoted(output.target.text()), quoted(output.name), scale_text(output),
+        text += fmt::format("\n    {}: {{signal: {}{}{}}}", quoted(output.target.text()), quoted(output.name), scale_text(output),
                             output.cycle_s ? fmt::format(", cycle_s: {}", *output.cycle_s) : "");
     return text;
 }

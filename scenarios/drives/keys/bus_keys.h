@@ -12,9 +12,6 @@ struct SignalKind;
 /// Variants without control get one that has no laws, so that switches and commands from the bus reach their lamps.
 void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive);
 
-/// YAML of it that read_can reads back to the same; "" without.
-std::string write_can(const Drive& drive);
-
 /// Whether a bus may give it: all but the laws' own signals and what follows from others. Commands, levels and measured angles of lamps
 /// may.
 bool may_come_from_bus(const SignalKind& kind);

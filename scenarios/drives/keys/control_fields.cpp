@@ -2,7 +2,12 @@
 
 #include "scenarios/drives/keys/lamp_sets.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
-#include "scenarios/yaml/yaml_tree.h"
+#include "scenarios/fields/field_bits.h"
+#include "scenarios/fields/write_fields.h"
+#include "scenarios/yaml/yaml_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -35,6 +40,49 @@ const Fields<StuckSwivelParameters>& stuck_swivel_fields() {
 double from_kg(double kg) { return 9.81 * kg; }
 double from_n(double n) { return n; }
 FieldRule load_of(const std::string& axle) { return units({axle + "_kg", from_kg, -2000.0, 5000.0}, {axle + "_n", from_n, -2.0e4, 5.0e4}); }
+
+std::string windows_text(const GlareFreeParameters& of) {
+    std::string text;
+    for (const SegmentedLamp& lamp : of.lamps) {
+        std::vector<std::string> windows;
+        for (const auto& [from, to] : lamp.windows_deg)
+            windows.push_back(fmt::format("[{}, {}]", from, to));
+        text += fmt::format("\n          \"{}\": [{}]", lamp.name, fmt::join(windows, ", "));
+    }
+    return text;
+}
+
+std::string levelling_text(const ControlParameters& control) {
+    if (!control.levelling)
+        return "";
+    return fmt::format("{{control: {}, {}}}", control.levelling->control == LevellingControl::slow ? "static" : "dynamic",
+                       flow_text(law_actuator_fields(), &control.levelling->actuator));
+}
+
+std::string levelling_bits(const ControlParameters& control) {
+    return control.levelling ? "there\n" + field_bits(levelling_fields(), &*control.levelling) : "";
+}
+
+std::string failures_text(const ControlParameters& control) {
+    static constexpr const char* kinds[] = {"stuck_swivel", "stuck_levelling", "lost_signal"};
+    std::string text;
+    for (const ControlFailure& failure : control.failures)
+        text += fmt::format("\n        - {{at_s: {}{}, {}: \"{}\"}}", failure.at_s,
+                            failure.until_s < 1.0e7 ? fmt::format(", until_s: {}", failure.until_s) : "",
+                            kinds[static_cast<std::size_t>(failure.kind)], failure.what);
+    return text;
+}
+
+std::string inputs_text(const ControlParameters& control) {
+    std::string text;
+    for (const ScriptedSignal& input : control.inputs) {
+        std::vector<std::string> values;
+        for (const auto& [at_s, value] : input.values)
+            values.push_back(fmt::format("{{at_s: {}, value: {}}}", at_s, value));
+        text += fmt::format("\n        \"{}\": [{}]", input.name, fmt::join(values, ", "));
+    }
+    return text;
+}
 
 const Fields<AxleLoad>& load_fields() {
     static const Fields<AxleLoad> fields{
@@ -134,6 +182,7 @@ const Fields<GlareFreeParameters>& glare_free_fields() {
     using GlareFree = GlareFreeParameters;
     static const Fields<GlareFree> fields =
         Fields<GlareFree>{
+            own<GlareFree>("windows_deg", 4, nullptr, windows_text, schema_by_hand, "of each lamp: edges from left to right"),
             field("margin", 1, &GlareFree::margin_rad, in_radians("margin", 20.0), "to each side of others"),
             field("mask_delay_s", 2, &GlareFree::mask_delay_s, range(0.0, 100.0), "until a window goes dark"),
             field("relight_delay_s", 3, &GlareFree::relight_delay_s, range(0.0, 100.0), "until it is lit again"),
@@ -163,10 +212,20 @@ const Fields<ControlParameters>& law_fields() {
     using Control = ControlParameters;
     static const Fields<Control> fields{
         field("period_s", 1, &Control::period_s, range(shortest_period_s, 10.0), "of the laws"),
+        field("bend", 5, &Control::bend, bend_fields(), "lamps follow the bend").schema_by(schema_by_hand),
+        own<Control>("levelling", 6, nullptr, levelling_text, schema_by_hand, "lamps follow the body's pitch").bits_by(levelling_bits),
+        field("cornering", 7, &Control::cornering, cornering_fields(), "light into tight bends").schema_by(schema_by_hand),
         field("load", 2, &Control::load, load_fields(), "weight added").written_off_default(),
+        field("high_beam", 8, &Control::high_beam, high_beam_fields(), "automatic").schema_by(schema_by_hand),
+        field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where others are").schema_by(schema_by_hand),
+        list("plugins", 10, &Control::plugins, 0, most_plugins, plugin_fields(), "laws in shared libraries")
+            .written_off_default()
+            .schema_by(schema_by_hand),
         field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0), "of lamps whose levelling has lost its signal"),
         field("stuck_swivel", 4, &Control::stuck_swivel, stuck_swivel_fields(), "when a swivel is found stuck, and what then")
             .or_absent("none"),
+        own<Control>("failures", 11, nullptr, failures_text, schema_by_hand, "what is wrong from when to when"),
+        own<Control>("inputs", 12, nullptr, inputs_text, schema_by_hand, "signals that the drive writes"),
     };
     return fields;
 }

@@ -14,7 +14,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_failures = 1000, most_inputs = 100, most_input_values = 100'000, most_plugins = 16, most_windows = 256;
+constexpr std::size_t most_failures = 1000, most_inputs = 100, most_input_values = 100'000, most_windows = 256;
 
 std::vector<std::string> names_of(const Variant& variant) {
     std::vector<std::string> names;
@@ -179,7 +179,7 @@ std::vector<std::pair<double, double>> read_windows(const YamlEntry& given) {
 }
 
 GlareFreeParameters read_glare_free(const YamlEntry& given, const Variant& variant) {
-    const YamlMap of = given.map(with({"windows_deg"}, keys_of(glare_free_fields()), {}));
+    const YamlMap of = given.map(keys_of(glare_free_fields()));
     GlareFreeParameters glare_free;
     for (const auto& [name, entry] : of.require("windows_deg").named(most_control_lamps)) {
         YamlValue key;

@@ -11,5 +11,7 @@ void read_control(const YamlMap& drive, const YamlMap* keys, Variant& variant, L
 
 /// YAML of it, as a block below a variant, that read_control reads back to the same; "" without control.
 std::string write_control(const Drive& drive, const Variant& variant);
+/// What hashes of it are taken over (fields/field_bits.h).
+std::string control_bits(const Drive& drive, const Variant& variant);
 
 } // namespace fernlicht

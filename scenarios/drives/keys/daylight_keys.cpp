@@ -1,8 +1,9 @@
 #include "scenarios/drives/keys/daylight_keys.h"
 
 #include "scenarios/drives/keys/lamp_keys.h"
-#include "scenarios/sky/ephemeris.h"
-#include "scenarios/yaml/yaml_tree.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/read_fields.h"
+#include "scenarios/sky/calendar.h"
 
 #include <array>
 #include <charconv>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t most_lamp_rows = 32, most_object_words = 32;
 constexpr double brightest_lx = 150'000.0, fastest_rate = 86'400.0;
+constexpr std::string_view intensities[] = {"light", "moderate", "heavy"};
 constexpr double lowest_shining_rad = radians(-1.0); ///< of a disc whose upper edge refraction still lifts over the horizon
 
 /// Whole numbers with a sign between them and as many digits as `digits` says, such as 2026-06-21.
@@ -51,98 +53,126 @@ void read_time_of_day(const YamlEntry& entry, SkyClock& clock) {
     clock.seconds_of_day = 3600 * hours + 60 * minutes + seconds;
 }
 
+std::string date_text(const SkyClock& clock) { return fmt::format("\"{:04}-{:02}-{:02}\"", clock.year, clock.month, clock.day); }
+
+std::string time_text(const SkyClock& clock) {
+    const int s = clock.seconds_of_day;
+    return fmt::format("\"{:02}:{:02}:{:02}\"", s / 3600, s / 60 % 60, s % 60);
+}
+
+const Fields<SkyClock>& clock_fields() {
+    using Clock = SkyClock;
+    static const Fields<Clock> fields{
+        own("date", 1, read_date, date_text, schema_by_hand, "as 2026-06-21, 1800 to 2199").required(),
+        own("time", 2, read_time_of_day, time_text, schema_by_hand, "local, as 21:30 or 21:30:15").required(),
+        field("utc_offset_h", 3, &Clock::utc_offset_h, range(-14.0, 14.0), "of that time").required(),
+        field("latitude_deg", 4, &Clock::latitude_deg, range(-90.0, 90.0), "north positive").required(),
+        field("longitude_deg", 5, &Clock::longitude_deg, range(-180.0, 180.0), "east positive").required(),
+        field("sky", 6, &Clock::cover, words({"clear", "partly-cloudy", "overcast"}), "its clouds"),
+        field("rate", 7, &Clock::rate, range(0.0, fastest_rate), "seconds of the sky for a second of the drive; runs: true is 1"),
+    };
+    return fields;
+}
+
 SkyClock read_clock(const YamlMap& keys) {
-    static constexpr SkyCover covers[] = {SkyCover::clear, SkyCover::partly_cloudy, SkyCover::overcast};
     for (const std::string_view key : {"horizontal_illuminance_lx", "sun", "moon"})
         if (const auto given = keys.find(key))
             given->refuse(fmt::format("{} beside a date", key), "one of them: with a date the light is computed");
     SkyClock clock;
-    read_date(keys.require("date"), clock);
-    read_time_of_day(keys.require("time"), clock);
-    clock.utc_offset_h = keys.require("utc_offset_h").number(-14.0, 14.0);
-    clock.latitude_deg = keys.require("latitude_deg").number(-90.0, 90.0);
-    clock.longitude_deg = keys.require("longitude_deg").number(-180.0, 180.0);
-    if (const auto sky = keys.find("sky"))
-        clock.cover = covers[sky->choice({"clear", "partly-cloudy", "overcast"})];
-    if (const auto pace = keys.one_of({"runs", "rate"}))
-        clock.rate = pace->first == "rate" ? pace->second.number(0.0, fastest_rate) : pace->second.flag() ? 1.0 : 0.0;
+    read_group(clock_fields(), keys, &clock);
+    if (const auto pace = keys.one_of({"runs", "rate"}); pace && pace->first == "runs")
+        clock.rate = pace->second.flag() ? 1.0 : 0.0;
     return clock;
 }
 
-DirectLight read_direct(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"azimuth_deg", "azimuth_rad", "elevation_deg", "elevation_rad", "illuminance_lx"});
-    DirectLight light;
-    const auto azimuth = keys.angle_rad("azimuth", 360.0), elevation = keys.angle_rad("elevation", 90.0);
-    if (!azimuth)
+void check_direct(const YamlMap& keys, const DirectLight& light) {
+    if (!keys.find("azimuth_deg") && !keys.find("azimuth_rad"))
         keys.refuse_missing("azimuth_deg", "azimuth_deg, from north over east");
-    if (!elevation)
+    if (!keys.find("elevation_deg") && !keys.find("elevation_rad"))
         keys.refuse_missing("elevation_deg", "elevation_deg above the horizon");
-    light.azimuth_rad = *azimuth;
-    light.elevation_rad = *elevation;
-    light.illuminance_lx = keys.require("illuminance_lx").number(0.0, brightest_lx);
+    keys.require("illuminance_lx");
     if (light.illuminance_lx > 0.0 && light.elevation_rad < lowest_shining_rad)
-        entry.refuse(fmt::format("light of {:g} lx from {:g} degrees of elevation", light.illuminance_lx, degrees(light.elevation_rad)),
-                     "-1 degree or higher, or an illuminance of 0");
-    return light;
+        keys.entry().refuse(
+            fmt::format("light of {:g} lx from {:g} degrees of elevation", light.illuminance_lx, degrees(light.elevation_rad)),
+            "-1 degree or higher, or an illuminance of 0");
 }
+
+const Fields<DirectLight>& direct_fields() {
+    using Light = DirectLight;
+    static const Fields<Light> fields =
+        Fields<Light>{
+            field("azimuth", 1, &Light::azimuth_rad, degrees_within("azimuth", 360.0), "from north over east"),
+            field("elevation", 2, &Light::elevation_rad, degrees_within("elevation", 90.0), "above the horizon, as it is seen"),
+            field("illuminance_lx", 3, &Light::illuminance_lx, range(0.0, brightest_lx), "on a plane perpendicular to it"),
+        }
+            .checked(check_direct);
+    return fields;
+}
+
+bool has_no_clock(const void* daylight) { return !static_cast<const Daylight*>(daylight)->clock; }
 
 /// Sky, sun and moon in figures.
 void read_figures(const YamlMap& keys, Daylight& daylight) {
     for (const std::string_view key : {"time", "utc_offset_h", "latitude_deg", "longitude_deg", "sky", "runs", "rate"})
         if (const auto given = keys.find(key))
             given->refuse(fmt::format("{} without a date", key), "date beside it");
-    daylight.horizontal_illuminance_lx = keys.require("horizontal_illuminance_lx").number(0.0, brightest_lx);
-    if (const auto sun = keys.find("sun"))
-        daylight.sun = read_direct(*sun);
-    if (const auto moon = keys.find("moon"))
-        daylight.moon = read_direct(*moon);
+    for (const char* const key : {"horizontal_illuminance_lx", "sun", "moon"})
+        read_field(daylight_fields(), key, keys, &daylight);
     if (daylight.sun.illuminance_lx > 0.0 && daylight.moon.illuminance_lx > 0.0)
         keys.require("moon").refuse("a shining moon beside a shining sun",
                                     "one of them; the other's light belongs to horizontal_illuminance_lx");
 }
 
-/// Degrees where they give exactly these radians, as everywhere in a written drive.
-std::string written(std::string_view key, const DirectLight& light) {
-    if (light == DirectLight{})
-        return "";
-    return fmt::format(", {}: {{{}, {}, illuminance_lx: {}}}", key, angle_entry("azimuth", light.azimuth_rad),
-                       angle_entry("elevation", light.elevation_rad), light.illuminance_lx);
-}
-
 } // namespace
 
-Daylight read_daylight(const YamlMap& drive) {
-    const auto given = drive.find("daylight");
-    if (!given)
-        return {};
-    if (given->is_scalar()) {
+const Fields<Daylight>& daylight_fields() {
+    static const Fields<Daylight> fields{
+        field("name", 1, &Daylight::name, a_name(), "of this light, in reports"),
+        field("horizontal_illuminance_lx", 2, &Daylight::horizontal_illuminance_lx, range(0.0, brightest_lx), "diffuse, of a uniform sky")
+            .required()
+            .heard_if(has_no_clock),
+        field("sun", 3, &Daylight::sun, direct_fields(), "its light").written_off_default().heard_if(has_no_clock),
+        field("moon", 4, &Daylight::moon, direct_fields(), "its light").written_off_default().heard_if(has_no_clock),
+        inlined(5, &Daylight::clock, clock_fields()),
+    };
+    return fields;
+}
+
+void read_daylight(const YamlEntry& given, Drive& drive) {
+    Daylight& daylight = drive.daylight;
+    if (given.is_scalar()) {
         // Night: no moon, no sky; the full moon would be 0.2 lx. Twilight: clear sky at the end of civil twilight, sun 6 degrees down,
         // 2 to 3.5 lx (AMS Glossary of Meteorology). Day: overcast to bright daylight without direct sun, 27 000 lx.
         static const Daylight known[] = {{"night", 0.0}, {"twilight", 3.4}, {"day", 27000.0}};
-        return known[given->choice({"night", "twilight", "day"})];
+        daylight = known[given.choice({"night", "twilight", "day"})];
+        return;
     }
-    const YamlMap keys = given->map({"name", "horizontal_illuminance_lx", "sun", "moon", "date", "time", "utc_offset_h", "latitude_deg",
-                                     "longitude_deg", "sky", "runs", "rate"});
-    Daylight daylight;
-    const auto name = keys.find("name");
-    daylight.name = name ? name->name() : "custom";
-    if (keys.find("date")) {
-        daylight.clock = read_clock(keys);
-        return daylight_at(daylight, 0.0);
-    }
-    read_figures(keys, daylight);
-    return daylight;
+    std::vector<std::string_view> known = keys_of(daylight_fields());
+    known.push_back("runs");
+    const YamlMap keys = given.map(known);
+    daylight.name = "custom";
+    read_field(daylight_fields(), "name", keys, &daylight);
+    if (!keys.find("date"))
+        return read_figures(keys, daylight);
+    daylight.clock = read_clock(keys);
+    daylight = daylight_at(daylight, 0.0);
 }
 
-Weather read_weather(const YamlMap& drive) {
-    static constexpr Intensity classes[] = {Intensity::light, Intensity::moderate, Intensity::heavy};
-    Weather weather;
-    const auto given = drive.find("weather");
-    if (!given)
-        return weather;
-    const YamlMap keys = given->map({"fog", "rain", "snow", "extinction_per_m", "scattering_albedo", "asymmetry", "wetness"});
-    weather.extinction_per_m = keys.number_or("extinction_per_m", 0.0, 0.0, 10.0);
+const Fields<Weather>& weather_fields() {
+    static const Fields<Weather> fields{
+        field("extinction_per_m", 1, &Weather::extinction_per_m, range(0.0, 10.0), "share of light lost per metre, in place of fog"),
+        field("scattering_albedo", 2, &Weather::scattering_albedo, range(0.0, 1.0), "share of that which is scattered"),
+        field("asymmetry", 3, &Weather::asymmetry, range(0.0, 0.9), "g of Henyey-Greenstein"),
+        field("wetness", 4, &Weather::wetness, range(0.0, 1.0), "of the road"),
+    };
+    return fields;
+}
+
+void read_weather(const YamlEntry& given, Drive& drive) {
+    const YamlMap keys = given.map({"fog", "rain", "snow", "extinction_per_m", "scattering_albedo", "asymmetry", "wetness"});
+    Weather& weather = drive.weather;
     if (const auto fog = keys.find("fog")) {
+        read_field(weather_fields(), "extinction_per_m", keys, &weather);
         if (keys.find("extinction_per_m"))
             fog->refuse("fog beside extinction_per_m", "one of them");
         const YamlMap range = fog->map({"visibility_m", "contrast"});
@@ -150,14 +180,12 @@ Weather read_weather(const YamlMap& drive) {
             extinction_of_range_per_m(range.require("visibility_m").number(1.0, 1.0e6), range.number_or("contrast", 0.05, 0.001, 0.5));
         weather.asymmetry = fog_asymmetry;
     }
-    weather.scattering_albedo = keys.number_or("scattering_albedo", weather.scattering_albedo, 0.0, 1.0);
-    weather.asymmetry = keys.number_or("asymmetry", weather.asymmetry, 0.0, 0.9);
+    read_group(weather_fields(), keys, &weather);
     if (const auto falls = keys.find("rain"))
-        weather = together(weather, rain(classes[falls->choice({"light", "moderate", "heavy"})]));
+        weather = together(weather, rain(static_cast<Intensity>(falls->choice(intensities))));
     if (const auto falls = keys.find("snow"))
-        weather = together(weather, snow(classes[falls->choice({"light", "moderate", "heavy"})]));
-    weather.wetness = keys.number_or("wetness", weather.wetness, 0.0, 1.0);
-    return weather;
+        weather = together(weather, snow(static_cast<Intensity>(falls->choice(intensities))));
+    read_field(weather_fields(), "wetness", keys, &weather); // as given, whatever falls
 }
 
 std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampShelf& shelf) {
@@ -196,26 +224,6 @@ std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampShelf& sh
         rows.push_back(row);
     }
     return rows;
-}
-
-std::string write_daylight(const Daylight& daylight) {
-    if (!daylight.clock)
-        return fmt::format("daylight: {{name: \"{}\", horizontal_illuminance_lx: {}{}{}}}\n", daylight.name,
-                           daylight.horizontal_illuminance_lx, written("sun", daylight.sun), written("moon", daylight.moon));
-    const SkyClock& c = *daylight.clock;
-    static constexpr std::string_view covers[] = {"clear", "partly-cloudy", "overcast"};
-    return fmt::format(
-        "daylight: {{name: \"{}\", date: \"{:04}-{:02}-{:02}\", time: \"{:02}:{:02}:{:02}\", utc_offset_h: {}, latitude_deg: {}, "
-        "longitude_deg: {}, sky: {}, rate: {}}}\n",
-        daylight.name, c.year, c.month, c.day, c.seconds_of_day / 3600, c.seconds_of_day / 60 % 60, c.seconds_of_day % 60, c.utc_offset_h,
-        c.latitude_deg, c.longitude_deg, covers[static_cast<std::size_t>(c.cover)], c.rate);
-}
-
-std::string write_weather(const Weather& weather) {
-    if (weather == Weather{})
-        return "";
-    return fmt::format("weather: {{extinction_per_m: {}, scattering_albedo: {}, asymmetry: {}, wetness: {}}}\n", weather.extinction_per_m,
-                       weather.scattering_albedo, weather.asymmetry, weather.wetness);
 }
 
 } // namespace fernlicht

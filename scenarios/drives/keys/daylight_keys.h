@@ -5,15 +5,15 @@
 
 namespace fernlicht {
 
-/// `daylight`: "night", "twilight", "day"; figures of the sky, sun and moon; or date, time and place.
-Daylight read_daylight(const YamlMap& drive);
-/// `weather`: fog, rain and snow by name, or the medium's figures; wetness.
-Weather read_weather(const YamlMap& drive);
+template <class Struct> struct Fields;
+
+const Fields<Daylight>& daylight_fields();
+/// "night", "twilight", "day"; figures of the sky, sun and moon; or date, time and place.
+void read_daylight(const YamlEntry& given, Drive& drive);
+const Fields<Weather>& weather_fields();
+/// Fog, rain and snow by name, or the medium's figures; wetness.
+void read_weather(const YamlEntry& given, Drive& drive);
 /// `street_lamps`: rows by name.
 std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampShelf& shelf);
-
-/// YAML that is read back to the same; one line each, with its end. Nothing for clear and dry weather.
-std::string write_daylight(const Daylight& daylight);
-std::string write_weather(const Weather& weather);
 
 } // namespace fernlicht

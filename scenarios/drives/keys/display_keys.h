@@ -6,13 +6,13 @@
 
 namespace fernlicht {
 
-/// `tone_mapper`: a kind, or a map with the keys that its kind uses.
-ToneMapper read_tone_mapper(const YamlMap& drive);
-/// `display`: a profile's file, or a map. `opened` gets the file.
-DisplaySettings read_display(const YamlMap& drive, FilesRead& opened);
+template <class Struct> struct Fields;
 
-/// YAML that is read back to the same; "" for what was not asked for.
-std::string write_tone_mapper(const ToneMapper& mapper);
-std::string write_display(const DisplaySettings& display);
+const Fields<ToneMapper>& tone_mapper_fields();
+/// A kind, or a map with the keys that its kind uses.
+void read_tone_mapper(const YamlEntry& given, ToneMapper& mapper);
+const Fields<DisplaySettings>& display_fields();
+/// A profile's file, which is opened, or a map.
+void read_display(const YamlEntry& given, Drive& drive);
 
 } // namespace fernlicht

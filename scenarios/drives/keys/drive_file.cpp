@@ -3,10 +3,8 @@
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/keys/bus_keys.h"
 #include "scenarios/drives/keys/daylight_keys.h"
-#include "scenarios/drives/keys/display_keys.h"
 #include "scenarios/drives/keys/drive_edits.h"
 #include "scenarios/drives/keys/drive_keys.h"
-#include "scenarios/drives/keys/scenery_keys.h"
 #include "scenarios/drives/keys/story_drive.h"
 #include "scenarios/drives/keys/storyboard_keys.h"
 #include "scenarios/drives/keys/traffic_keys.h"
@@ -24,41 +22,13 @@ constexpr int schema_version = 1;
 constexpr std::size_t most_bytes = std::size_t{4} << 20;
 constexpr double most_ticks = 1.0e7;
 
-void read_route(const YamlMap& keys, Drive& drive) {
-    const auto given = keys.find("route");
-    if (!given)
-        return;
-    const YamlMap route = given->map({"road", "lane", "s_m", "via"});
-    if (const auto road = route.find("road"))
-        drive.start.road = road->text();
-    if (const auto lane = route.find("lane"))
-        drive.start.lane = lane->whole(-1000, 1000);
-    drive.start.s_m = route.number_or("s_m", 0.0, 0.0, 1.0e6);
-    if (const auto via = route.find("via"))
-        for (const YamlEntry& road : via->list(0, 10'000))
-            drive.via.push_back(road.text());
-}
-
-/// float, eight-bit, or size and depth.
-std::optional<BeamTexels> read_beams(const YamlEntry& given) {
-    if (given.is_scalar())
-        return given.choice({"float", "eight-bit"}) == 1 ? std::optional(eight_bit_texels) : std::nullopt;
-    const YamlMap keys = given.map({"width", "height", "bits"});
-    const YamlEntry bits = keys.require("bits");
-    BeamTexels texels{keys.require("width").whole(least_beam_texels, most_beam_texels),
-                      keys.require("height").whole(least_beam_texels, most_beam_texels), bits.whole(0, 1000)};
-    if (texels.bits != 8 && texels.bits != 16 && texels.bits != 32)
-        bits.refuse("8, 16 or 32");
-    return texels;
-}
-
 void read_time(const YamlMap& keys, Drive& drive) {
     drive.step_s = read_step_s(keys);
     if (drive.storyboard)
         return;
     drive.speed = read_speed(keys);
     const YamlEntry duration = keys.require("duration_s");
-    drive.duration_s = duration.number_above(0.0, 1.0e6);
+    read_field(drive_fields(), "duration_s", keys, &drive);
     if (drive.duration_s / drive.step_s > most_ticks)
         duration.refuse(fmt::format("{:.0f} steps of {} s", drive.duration_s / drive.step_s, drive.step_s),
                         fmt::format("at most {:.0f}", most_ticks));
@@ -77,10 +47,15 @@ void note_plugin_libraries(Drive& drive) {
 
 Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const DriveEdits& edits, LampShelf& shelf) {
     Drive drive;
+    const auto read = [&](std::initializer_list<const char*> described) {
+        for (const char* const key : described)
+            read_field(drive_fields(), key, keys, &drive);
+    };
     drive.file = path;
-    const auto name = keys.find("name"), title = keys.find("title");
-    drive.name = name ? name->name() : name_from(path);
-    drive.title = title ? title->text() : drive.name;
+    drive.name = name_from(path);
+    read({"name"});
+    drive.title = drive.name;
+    read({"title"});
     drive.storyboard = read_storyboard_keys(keys, edits, drive);
     if (const auto road = keys.find("road"); road || !drive.storyboard) {
         const YamlEntry given = keys.require("road");
@@ -89,48 +64,24 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     }
     if (drive.road_file.empty() && !edits.road)
         keys.require("storyboard").refuse("a scenario that names no road", "road: the OpenDRIVE file, or --road FILE");
-    drive.mirrored_road = keys.flag_or("mirrored_road", drive.mirrored_road);
-    read_route(keys, drive);
+    read({"mirrored_road", "route"});
     read_time(keys, drive);
     if (drive.storyboard) {
         drive.storyboard->own_daylight = keys.find("daylight").has_value();
         drive.storyboard->own_weather = keys.find("weather").has_value();
     }
-    drive.daylight = read_daylight(keys);
-    drive.weather = read_weather(keys);
+    read({"daylight", "weather"});
     drive.street_lamps = read_street_lamps(keys, shelf);
-    const Car car = read_car(keys);
-    drive.bumper_m = car.bumper_m;
-    drive.wheelbase_m = car.wheelbase_m;
-    drive.own_car = car.model;
-    if (car.model) {
-        drive.opened.insert(drive.opened.end(), car.model->model->opened.begin(), car.model->model->opened.end());
-        for (const std::string& note : car.model->model->notes)
-            drive.notes.push_back(fmt::format("model {}: {}", car.model->model->name, note));
-    }
-    read_field(drive_fields(), "vehicle", keys, &drive);
+    const Car car = read_car(keys, drive);
+    read({"vehicle"});
     drive.variants = read_variants(keys, car, shelf);
     note_plugin_libraries(drive);
     read_can(keys, edits, drive);
     read_traffic(keys, shelf, drive);
     check_entities(keys, drive);
     drive.views = read_views(keys, drive.opened);
-    read_field(drive_fields(), "capture", keys, &drive);
-    drive.tone_mapper = read_tone_mapper(keys);
-    drive.display = read_display(keys, drive.opened);
-    if (const auto technique = keys.find("technique"))
-        drive.technique = technique->name();
-    read_scenery(keys, drive);
     drive.extent = ExtentParameters{};
-    read_field(drive_fields(), "measure", keys, &drive);
-    read_field(drive_fields(), "limits", keys, &drive);
-    read_field(drive_fields(), "shadows", keys, &drive);
-    if (const auto beams = keys.find("beams"))
-        drive.beams = read_beams(*beams);
-    if (const auto textures = keys.find("textures"))
-        drive.textured = textures->choice({"none", "shipped"}) == 1;
-    if (const auto seed = keys.find("seed"))
-        drive.seed = seed->count();
+    read({"capture", "tone_mapper", "display", "technique", "scenery", "measure", "limits", "shadows", "beams", "textures", "seed"});
     return drive;
 }
 

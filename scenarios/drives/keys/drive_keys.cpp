@@ -1,28 +1,106 @@
 #include "scenarios/drives/keys/drive_keys.h"
 
+#include "scenarios/drives/keys/daylight_keys.h"
+#include "scenarios/drives/keys/display_keys.h"
+#include "scenarios/drives/keys/drive_texts.h"
+#include "scenarios/drives/keys/lamp_sets.h"
+#include "scenarios/drives/keys/scenery_keys.h"
 #include "scenarios/drives/keys/seeing_keys.h"
 #include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/field.h"
+#include "scenarios/fields/field_bits.h"
+#include "scenarios/fields/read_fields.h"
+#include "scenarios/fields/write_fields.h"
 
 #include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
 
-constexpr double fastest_mps = 150.0;
-constexpr double kmh_in_mps = 1.0 / 3.6;
 constexpr double longest_s = 1.0e6;
+constexpr std::size_t most_speed_points = 10'000;
 
-double speed_mps(std::string_view key, const YamlEntry& entry) {
-    return key == "speed_kmh" ? entry.number(0.0, fastest_mps / kmh_in_mps) / 3.6 : entry.number(0.0, fastest_mps);
+bool has_no_storyboard(const void* drive) { return !static_cast<const Drive*>(drive)->storyboard; }
+bool says_daylight(const void* drive) { return has_no_storyboard(drive) || static_cast<const Drive*>(drive)->storyboard->own_daylight; }
+bool says_weather(const void* drive) { return has_no_storyboard(drive) || static_cast<const Drive*>(drive)->storyboard->own_weather; }
+bool has_traffic(const void* drive) { return !static_cast<const Drive*>(drive)->traffic_rows.empty(); }
+
+/// Dry weather goes without saying, unless it is there against a storyboard's.
+std::string weather_text(const Drive& drive) {
+    if (drive.weather == Weather{})
+        return drive.storyboard ? "{wetness: 0}" : "";
+    return "{" + flow_text(weather_fields(), &drive.weather) + "}";
 }
 
-double speed_of_point(const YamlMap& point) {
-    const auto given = point.one_of({"speed_kmh", "speed_mps"});
-    if (!given)
-        point.refuse_missing("speed_kmh", "speed_kmh or speed_mps");
-    return speed_mps(given->first, given->second);
+void check_speed_point(const YamlMap& keys, const SpeedPoint&) {
+    if (!keys.find("speed_kmh") && !keys.find("speed_mps"))
+        keys.refuse_missing("speed_kmh", "speed_kmh or speed_mps");
+}
+
+const Fields<SpeedPoint>& speed_point_fields() {
+    static const Fields<SpeedPoint> fields =
+        Fields<SpeedPoint>{
+            field("at_s", 1, &SpeedPoint::time_s, range(0.0, longest_s), "times ascend").required(),
+            field("speed", 2, &SpeedPoint::speed_mps, speed("speed"), "linear between points, constant before and after"),
+        }
+            .checked(check_speed_point)
+            .in_schema(R"({"oneOf": [{"required": ["speed_kmh"]}, {"required": ["speed_mps"]}]})");
+    return fields;
+}
+
+const Fields<Route::Start>& start_fields() {
+    using Start = Route::Start;
+    static const Fields<Start> fields{
+        field("road", 1, &Start::road, any(), "its id; the first with driving lanes by default").written_off_default(),
+        field("lane", 2, &Start::lane, range(-1000.0, 1000.0), "0: outermost driving lane in the direction of traffic"),
+        field("s_m", 3, &Start::s_m, range(0.0, 1.0e6), "along the road"),
+    };
+    return fields;
+}
+
+const Fields<Drive>& route_fields() {
+    static const Fields<Drive> fields =
+        Fields<Drive>{
+            inlined(1, &Drive::start, start_fields()),
+            field("via", 2, &Drive::via, texts(0, 10'000), "road ids in order"),
+        }
+            .block();
+    return fields;
+}
+
+const Fields<Drive>& traffic_light_fields() {
+    static const Fields<Drive> fields{
+        field("least_lx", 1, &Drive::least_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
+    };
+    return fields;
+}
+
+const Fields<BeamTexels>& beam_fields() {
+    const FieldRule sides = range(least_beam_texels, most_beam_texels);
+    static const Fields<BeamTexels> fields{
+        field("width", 1, &BeamTexels::width, sides, "texels").required(),
+        field("height", 2, &BeamTexels::height, sides, "texels").required(),
+        field("bits", 3, &BeamTexels::bits, range(0.0, 1000.0), "of a texel: 8, 16 or 32").required(),
+    };
+    return fields;
+}
+
+/// float, eight-bit, or size and depth.
+void read_beams(const YamlEntry& given, Drive& drive) {
+    if (given.is_scalar()) {
+        drive.beams = given.choice({"float", "eight-bit"}) == 1 ? std::optional(eight_bit_texels) : std::nullopt;
+        return;
+    }
+    drive.beams = read_fields(beam_fields(), given);
+    if (const int bits = drive.beams->bits; bits != 8 && bits != 16 && bits != 32)
+        given.map(keys_of(beam_fields())).require("bits").refuse("8, 16 or 32");
+}
+
+std::string beams_text(const Drive& drive) {
+    if (!drive.beams || *drive.beams == eight_bit_texels)
+        return drive.beams ? "eight-bit" : "float";
+    return "{" + flow_text(beam_fields(), &*drive.beams) + "}";
 }
 
 void check_limit(const YamlMap& keys, const Limit& limit) {
@@ -112,17 +190,18 @@ std::vector<SpeedPoint> read_speed(const YamlMap& drive) {
     const auto given = drive.one_of({"speed_kmh", "speed_mps", "speed"});
     if (!given)
         drive.refuse_missing("speed_kmh", "speed_kmh, speed_mps or speed (a list of {at_s, speed_kmh})");
-    if (given->first != "speed")
-        return {{0.0, speed_mps(given->first, given->second)}};
+    std::vector<SpeedPoint> points;
+    if (given->first != "speed") {
+        read_field(speed_point_fields(), "speed", drive, &points.emplace_back());
+        return points;
+    }
     if (given->second.is_scalar())
         given->second.refuse("a list of {at_s, speed_kmh}; one speed for all of the drive is speed_kmh or speed_mps");
-    std::vector<SpeedPoint> points;
-    for (const YamlEntry& entry : given->second.list(1, 10'000)) {
-        const YamlMap keys = entry.map({"at_s", "speed_kmh", "speed_mps"});
-        const double time_s = keys.require("at_s").number(0.0, longest_s);
-        if (!points.empty() && time_s <= points.back().time_s)
-            entry.refuse(fmt::format("at_s {} after {}", time_s, points.back().time_s), "times that ascend");
-        points.push_back({time_s, speed_of_point(keys)});
+    for (const YamlEntry& entry : given->second.list(1, most_speed_points)) {
+        const SpeedPoint point = read_fields(speed_point_fields(), entry);
+        if (!points.empty() && point.time_s <= points.back().time_s)
+            entry.refuse(fmt::format("at_s {} after {}", point.time_s, points.back().time_s), "times that ascend");
+        points.push_back(point);
     }
     return points;
 }
@@ -134,19 +213,77 @@ double read_step_s(const YamlMap& drive) {
     return given->first == "step_s" ? given->second.number_above(0.0, 3600.0) : 1.0 / given->second.number_above(0.0, 1.0e6);
 }
 
+/// What asks for lamp files, for a bus or for a storyboard is read and written by functions of its own (drive_texts.h).
 const Group& drive_fields() {
     static const std::string shadows = shadows_schema();
     static const Fields<Drive> fields{
+        field("name", 1, &Drive::name, a_name(), "of the drive, in reports and names of files; the file's by default"),
+        field("title", 2, &Drive::title, any(), "for people; the name by default"),
+        field("road", 3, &Drive::road_file, any(), "OpenDRIVE file; relative to the drive file"),
+        field("mirrored_road", 4, &Drive::mirrored_road, any(), "the road in a mirror: left-hand traffic from a right-hand road")
+            .written_off_default(),
+        own<Drive>("storyboard", 5, nullptr, storyboard_text, schema_by_hand, "an OpenSCENARIO file in place of route and speed")
+            .bits_by(storyboard_bits),
+        section("route", 6, route_fields(), "where the drive begins, and by which roads it goes").heard_if(has_no_storyboard),
+        list("speed", 7, &Drive::speed, 1, most_speed_points, speed_point_fields(), "or speed_kmh or speed_mps for all of the drive")
+            .heard_if(has_no_storyboard),
+        field("step_s", 8, &Drive::step_s, above(0.0, 3600.0), "from one moment to the next, or rate_hz; 1/30 by default"),
+        field("duration_s", 9, &Drive::duration_s, above(0.0, longest_s), "of the drive; must be given without a storyboard"),
+        field("daylight", 10, &Drive::daylight, daylight_fields(), "night, twilight, day; figures; or date, time and place")
+            .read_by(read_daylight)
+            .schema_by(schema_by_hand)
+            .heard_if(says_daylight),
+        field("weather", 11, &Drive::weather, weather_fields(), "clear and dry by default; fog, rain and snow by name, too")
+            .read_by(read_weather)
+            .text_by(weather_text)
+            .schema_by(schema_by_hand)
+            .heard_if(says_weather),
+        own<Drive>("street_lamps", 12, nullptr, street_lamps_text, schema_by_hand, "rows of lamps on poles beside the route"),
+        section("car", 13, car_fields(), "the own car: its size, body, lamps and their places").schema_by(schema_by_hand),
         field("vehicle", 17, &Drive::vehicle, vehicle_fields(),
               "a car on springs and tyres instead of one that follows its lane as on rails; docs/vehicle.md")
             .or_word("single-track"),
+        own<Drive>("variants", 18, nullptr, variants_text, schema_by_hand, "lamp sets; the drive is played with each")
+            .bits_by(variants_bits),
+        own<Drive>("can", 19, nullptr, can_text, schema_by_hand, "signals from and to a bus; docs/can.md"),
+        section("traffic_light", 20, traffic_light_fields(), "of other road users").heard_if(has_traffic),
+        own<Drive>("traffic", 21, nullptr, traffic_text, schema_by_hand, "other road users; docs/traffic.md"),
+        named("views", 22, &Drive::views, most_views, view_fields(), "what is drawn; the driver's view and a map by default"),
+        list("scenery", 23, &Drive::scenery, 0, most_models, scenery_fields(), "models with their places")
+            .read_by(read_scenery)
+            .written_off_default(),
         field("capture", 28, &Drive::capture, capture_fields(), "which moments are stored; every moment is measured"),
+        field("tone_mapper", 29, &Drive::tone_mapper, tone_mapper_fields(), "from luminances to what a display can show")
+            .read_by([](const YamlEntry& entry, Drive& drive) { read_tone_mapper(entry, drive.tone_mapper); })
+            .schema_by(schema_by_hand),
+        field("display", 30, &Drive::display, display_fields(), "windscreen, eye and display between the light and its pictures")
+            .read_by(read_display)
+            .short_for("profile")
+            .written_off_default(),
+        field("technique", 31, &Drive::technique, a_name(), "how it is drawn"),
         section("measure", 36, measure_fields(), "what is measured"),
         list("limits", 37, &Drive::limits, 0, 1000, limit_fields(), "beyond these the run fails"),
+        field("shadows", 38, &Drive::shadows, shadow_fields(),
+              "how they are drawn (docs/shadows.md): on or off, the method alone, or it and what it uses")
+            .read_by([](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); })
+            .text_by([](const Drive& drive) { return shadows_text(drive.shadows); })
+            .schema_by(shadows)
+            .bits_by([](const Drive& drive) {
+                return (drive.shadows.things_cast ? "" : "nothing casts\n") + field_bits(shadow_fields(), &drive.shadows);
+            }),
+        own<Drive>("beams", 39, read_beams, beams_text, schema_by_hand, "how fine beam textures are: float, eight-bit, or size and depth")
+            .bits_by([](const Drive& drive) { return drive.beams ? "there\n" + field_bits(beam_fields(), &*drive.beams) : ""; }),
         own<Drive>(
-            "shadows", 38, [](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); },
-            [](const Drive& drive) { return shadows_text(drive.shadows); }, shadows,
-            "how they are drawn (docs/shadows.md): on or off, the method alone, or it and what it uses"),
+            "textures", 40,
+            [](const YamlEntry& entry, Drive& drive) {
+                drive.textured = entry.choice({"none", "shipped"}) == 1;
+            },
+            [](const Drive& drive) { return std::string(drive.textured ? "shipped" : "none"); }, R"({"enum": ["none", "shipped"]})",
+            "pictures on surfaces"),
+        own<Drive>(
+            "seed", 41, [](const YamlEntry& entry, Drive& drive) { drive.seed = entry.count(); },
+            [](const Drive& drive) { return fmt::format("{}", drive.seed); }, R"({"type": "integer", "minimum": 0})",
+            "of all that is random"),
     };
     return fields;
 }

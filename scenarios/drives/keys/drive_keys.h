@@ -7,6 +7,9 @@
 
 namespace fernlicht {
 
+template <class Struct> struct Fields;
+
+inline constexpr std::size_t most_views = 64;
 inline constexpr int largest_view_px = 16384; ///< to a side; the least that OpenGL 4.5 promises
 
 /// `speed_kmh`, `speed_mps` or `speed` (a list of {at_s, speed_kmh or speed_mps}, times ascending).
@@ -16,7 +19,8 @@ double read_step_s(const YamlMap& drive);
 /// `view_set`, a file of views, and named `views` that come after it or take the place of its own; a map where neither has one; a
 /// driver's view and a map by default. `opened` gets the file.
 std::vector<View> read_views(const YamlMap& drive, FilesRead& opened);
-/// The drive's own keys, as far as they are described (fields/field.h).
+const Fields<View>& view_fields();
+/// The drive's own keys (fields/field.h), in the order of resolved drives.
 const Group& drive_fields();
 
 /// Position from [x, y, z], each within 100 m of the car's origin.

@@ -3,7 +3,10 @@
 #include "scenarios/drives/keys/control_keys.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/lamp_keys.h"
+#include "scenarios/drives/keys/scenery_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -183,28 +186,44 @@ Variant read_lamp_set(const std::string& name, const YamlMap& keys, const Car& c
     return variant;
 }
 
-Car read_car(const YamlMap& drive) {
+const Fields<Drive>& car_fields() {
+    static const Fields<Drive> fields{
+        field("bumper_x_m", 1, &Drive::bumper_m, range(-20.0, 20.0), "of the front bumper, from which reach is measured"),
+        field("wheelbase_m", 2, &Drive::wheelbase_m, range(0.5, 20.0), "from the rear axle to the front axle"),
+        inlined(3, &Drive::own_car, body_fields()),
+    };
+    return fields;
+}
+
+Car read_car(const YamlMap& drive_keys, Drive& drive) {
     Car car;
     // A compact car: lamps 1.2 m apart, 0.65 m above the road, 0.2 m behind the bumper.
     car.mounts = {{"left", {3.4, 0.6, 0.65}, {}}, {"right", {3.4, -0.6, 0.65}, {}}};
-    const auto given = drive.find("car");
+    drive.bumper_m = 3.6;
+    const auto given = drive_keys.find("car");
     if (!given)
         return car;
-    const YamlMap keys = given->map({"bumper_x_m", "wheelbase_m", "model", "yaw_deg", "yaw_rad", "scale", "mounts", "lamps"});
-    car.model = read_car_model(keys);
-    if (car.model) {
-        car.bumper_m = turned_box_m(*car.model).second.x;
-        if (std::vector<LampMount> own = lamp_mounts(turned_mounts(*car.model->model, car.model->yaw_rad, car.model->scale));
+    std::vector<std::string_view> known = keys_of(car_fields());
+    known.insert(known.end(), {"mounts", "lamps"});
+    const YamlMap keys = given->map(known);
+    drive.own_car = read_car_model(keys);
+    if (drive.own_car) {
+        const Model& model = *drive.own_car->model;
+        drive.bumper_m = turned_box_m(*drive.own_car).second.x;
+        if (std::vector<LampMount> own = lamp_mounts(turned_mounts(model, drive.own_car->yaw_rad, drive.own_car->scale));
             std::ranges::any_of(own, &LampMount::usual))
             car.mounts = std::move(own);
         else
             car.mounts.insert(car.mounts.end(), own.begin(), own.end());
+        drive.opened.insert(drive.opened.end(), model.opened.begin(), model.opened.end());
+        for (const std::string& note : model.notes)
+            drive.notes.push_back(fmt::format("model {}: {}", model.name, note));
     }
-    car.bumper_m = keys.number_or("bumper_x_m", car.bumper_m, -20.0, 20.0);
-    car.wheelbase_m = keys.number_or("wheelbase_m", car.wheelbase_m, 0.5, 20.0);
+    for (const char* const key : {"bumper_x_m", "wheelbase_m"})
+        read_field(car_fields(), key, keys, &drive);
     car.lamps = keys.find("lamps");
     if (const auto mounts = keys.find("mounts")) {
-        if (!car.model)
+        if (!drive.own_car)
             car.mounts.clear();
         for (const auto& [name, place] : mounts->named(most_lamps_of_a_variant)) {
             std::erase_if(car.mounts, [&](const LampMount& mount) { return mount.name == name; });

@@ -30,16 +30,17 @@ class LampShelf {
 void check_file(const std::filesystem::path& path, const YamlEntry& asked_by);
 
 struct Car {
-    double bumper_m = 3.6, wheelbase_m = 2.7;
-    std::optional<PlacedModel> model; ///< the car's body and, where `mounts` does not name them, its lamps' places
-    std::vector<LampMount> mounts;
+    std::vector<LampMount> mounts;  ///< of its body where `mounts` does not name them
     std::optional<YamlEntry> lamps; ///< `car.lamps`: the one lamp set of a drive without variants
 };
 
 /// `lamps`, or one lamp on each mount with the `file` of `keys`; then their `changes`, sorted by time.
 Variant read_lamp_set(const std::string& name, const YamlMap& keys, const Car& car, LampShelf& shelf);
 
-Car read_car(const YamlMap& drive);
+template <class Struct> struct Fields;
+const Fields<Drive>& car_fields(); ///< without its lamps and their places
+/// Bumper, wheelbase and body become the drive's own.
+Car read_car(const YamlMap& drive_keys, Drive& drive);
 /// `variants`, or `car.lamps` as the one variant; then `changes`, of the drive first and of each variant after it, sorted by time.
 std::vector<Variant> read_variants(const YamlMap& drive, const Car& car, LampShelf& shelf);
 

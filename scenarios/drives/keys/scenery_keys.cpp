@@ -1,35 +1,30 @@
 #include "scenarios/drives/keys/scenery_keys.h"
 
-#include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/lamp_sets.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/read_fields.h"
 
 #include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_models = 10'000, most_triangles = 8'000'000;
+constexpr std::size_t most_triangles = 8'000'000;
 constexpr double farthest_place_m = 1.0e7;
 
-void read_place(PlacedModel& placed, const YamlMap& keys) {
-    const auto place = keys.one_of({"position_m", "along"});
-    if (!place)
-        keys.refuse_missing("position_m", "position_m in the world, or along the route");
-    placed.along_route = place->first == "along";
-    if (placed.along_route) {
-        const YamlMap along = place->second.map({"distance_m", "left_m", "above_m"});
-        placed.position_m = {along.require("distance_m").number(0.0, farthest_place_m), along.number_or("left_m", 0.0, -2000.0, 2000.0),
-                             along.number_or("above_m", 0.0, -2000.0, 2000.0)};
-    } else {
-        const std::vector<double> xyz = place->second.numbers(3, 3, -farthest_place_m, farthest_place_m);
-        placed.position_m = {xyz[0], xyz[1], xyz[2]};
-    }
-    placed.yaw_rad = keys.angle_rad("yaw", 360.0).value_or(0.0);
-    placed.pitch_rad = keys.angle_rad("pitch", 90.0).value_or(0.0);
-    placed.roll_rad = keys.angle_rad("roll", 360.0).value_or(0.0);
-    placed.scale = keys.number_or("scale", 1.0, 1.0e-4, 1.0e4);
-    placed.ground = keys.flag_or("ground", false);
+void read_along(const YamlEntry& entry, PlacedModel& placed) {
+    const YamlMap along = entry.map({"distance_m", "left_m", "above_m"});
+    placed.position_m = {along.require("distance_m").number(0.0, farthest_place_m), along.number_or("left_m", 0.0, -2000.0, 2000.0),
+                         along.number_or("above_m", 0.0, -2000.0, 2000.0)};
 }
+
+std::string along_text(const PlacedModel& placed) {
+    const glm::dvec3& p = placed.position_m;
+    return fmt::format("{{distance_m: {}, left_m: {}, above_m: {}}}", p.x, p.y, p.z);
+}
+
+bool stands_along(const void* placed) { return static_cast<const PlacedModel*>(placed)->along_route; }
+bool stands_in_world(const void* placed) { return !stands_along(placed); }
 
 std::shared_ptr<const Model> model_of(const YamlEntry& asked_by, Drive& drive) {
     const std::filesystem::path path = asked_by.path();
@@ -46,19 +41,55 @@ std::shared_ptr<const Model> model_of(const YamlEntry& asked_by, Drive& drive) {
 
 } // namespace
 
-void read_scenery(const YamlMap& keys, Drive& drive) {
-    const auto given = keys.find("scenery");
-    if (!given)
-        return;
+const Fields<PlacedModel>& body_fields() {
+    using Placed = PlacedModel;
+    static const Fields<Placed> fields{
+        field("model", 1, &Placed::file, any(), "glTF or OpenFlight; relative to the drive file"),
+        field("yaw", 2, &Placed::yaw_rad, degrees_within("yaw", 360.0), "how the model is turned"),
+        field("scale", 3, &Placed::scale, range(1.0e-4, 1.0e4), "how much larger"),
+    };
+    return fields;
+}
+
+const Fields<PlacedModel>& scenery_fields() {
+    using Placed = PlacedModel;
+    static const Fields<Placed> fields =
+        Fields<Placed>{
+            field("model", 1, &Placed::file, any(), "glTF or OpenFlight; relative to the drive file").required(),
+            field("position_m", 2, &Placed::position_m, range(-farthest_place_m, farthest_place_m), "x, y, z in the road's coordinates")
+                .heard_if(stands_in_world),
+            own("along", 3, read_along, along_text, R"({"type": "object", "additionalProperties": false, "required": ["distance_m"],
+                "properties": {"distance_m": {"type": "number", "minimum": 0, "maximum": 10000000},
+                "left_m": {"type": "number", "minimum": -2000, "maximum": 2000},
+                "above_m": {"type": "number", "minimum": -2000, "maximum": 2000}}})",
+                "the route: distance_m from its start, left_m of the own lane's centre, above_m the surface")
+                .bits_by([](const PlacedModel& placed) {
+                    const glm::dvec3& p = placed.position_m;
+                    return placed.along_route ? fmt::format("along {} {} {}", p.x, p.y, p.z) : "";
+                })
+                .heard_if(stands_along),
+            field("yaw", 4, &Placed::yaw_rad, degrees_within("yaw", 360.0), "against the world's axes, or the route's there"),
+            field("pitch", 5, &Placed::pitch_rad, degrees_within("pitch", 90.0), "upwards"),
+            field("roll", 6, &Placed::roll_rad, degrees_within("roll", 360.0), "lifts the left side"),
+            field("scale", 7, &Placed::scale, range(1.0e-4, 1.0e4), "how much larger"),
+            field("ground", 8, &Placed::ground, any(), "it is ground, and stands in maps"),
+        }
+            .block()
+            .in_schema(R"({"oneOf": [{"required": ["position_m"]}, {"required": ["along"]}]})");
+    return fields;
+}
+
+void read_scenery(const YamlEntry& given, Drive& drive) {
     std::size_t triangles = 0;
-    for (const YamlEntry& entry : given->list(0, most_models)) {
-        const YamlMap one = entry.map(
-            {"model", "position_m", "along", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad", "scale", "ground"});
+    for (const YamlEntry& entry : given.list(0, most_models)) {
+        const YamlMap keys = entry.map(keys_of(scenery_fields()));
         PlacedModel placed;
-        const YamlEntry file = one.require("model");
-        placed.file = file.path();
-        placed.model = model_of(file, drive);
-        read_place(placed, one);
+        placed.model = model_of(keys.require("model"), drive);
+        const auto place = keys.one_of({"position_m", "along"});
+        if (!place)
+            keys.refuse_missing("position_m", "position_m in the world, or along the route");
+        placed.along_route = place->first == "along";
+        read_group(scenery_fields(), keys, &placed);
         triangles += placed.model->triangles();
         if (triangles > most_triangles)
             entry.refuse(fmt::format("{} triangles of scenery so far", triangles), fmt::format("at most {}", most_triangles));

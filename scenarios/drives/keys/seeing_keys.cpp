@@ -1,6 +1,7 @@
 #include "scenarios/drives/keys/seeing_keys.h"
 
 #include "scenarios/fields/field.h"
+#include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/fields/write_fields.h"
@@ -180,6 +181,13 @@ std::string targets_text(const VisibilityParameters& visibility) {
     return text;
 }
 
+std::string targets_bits(const VisibilityParameters& visibility) {
+    std::string bits;
+    for (const VisibilityTarget& target : visibility.targets)
+        bits += fmt::format("{}\n{}", target.name, field_bits(target_fields(), &target));
+    return bits;
+}
+
 const Fields<VisibilityParameters>& visibility_fields() {
     static const std::string targets_schema = fmt::format(
         R"({{"anyOf": [{{"type": "array", "minItems": 1, "maxItems": 3, "items": {{"enum": ["card", "pedestrian-dark", "pedestrian-light"]}}}},
@@ -190,7 +198,8 @@ const Fields<VisibilityParameters>& visibility_fields() {
     static const Fields<VisibilityParameters> fields =
         Fields<VisibilityParameters>{
             own("targets", 1, read_targets, targets_text, targets_schema,
-                "the usual ones by name, or a map: true behind a usual one's name, a map behind a name of the drive's own"),
+                "the usual ones by name, or a map: true behind a usual one's name, a map behind a name of the drive's own")
+                .bits_by(targets_bits),
             field("dark_cdm2", 2, &VisibilityParameters::dark_cdm2, range(0.0, 1.0e3),
                   "luminance of what is not road behind a target, without daylight"),
             field("age_years", 3, &VisibilityParameters::age_years, range(23.0, 75.0), "of who looks"),

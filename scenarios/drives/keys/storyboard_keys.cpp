@@ -1,7 +1,8 @@
 #include "scenarios/drives/keys/storyboard_keys.h"
-#include "scenarios/yaml/yaml_tree.h"
 
+#include "scenarios/drives/keys/drive_texts.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/yaml/yaml_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -108,22 +109,29 @@ void check_entities(const YamlMap& keys, const Drive& drive) {
     }
 }
 
-std::string write_storyboard(const StoryboardSource& source) {
-    std::string out = fmt::format("storyboard:\n  file: {}\n  ego: {}\n  lenient: {}\n", quoted(source.file.string()), quoted(source.ego),
-                                  source.options.lenient);
+std::string storyboard_text(const Drive& drive) {
+    if (!drive.storyboard)
+        return "";
+    const StoryboardSource& source = *drive.storyboard;
     std::string folders;
     for (const auto& folder : source.options.road_folders)
         folders += fmt::format("{}{}", folders.empty() ? "" : ", ", quoted(folder.string()));
-    out += fmt::format("  road_folders: [{}]\n", folders);
+    std::string out = fmt::format("\n  file: {}\n  ego: {}\n  lenient: {}\n  road_folders: [{}]", quoted(source.file.string()),
+                                  quoted(source.ego), source.options.lenient, folders);
     if (const auto& site = source.site)
-        out += fmt::format("  place: {{latitude_deg: {}, longitude_deg: {}{}}}\n", site->latitude_deg, site->longitude_deg,
+        out += fmt::format("\n  place: {{latitude_deg: {}, longitude_deg: {}{}}}", site->latitude_deg, site->longitude_deg,
                            site->utc_offset_h ? fmt::format(", utc_offset_h: {}", *site->utc_offset_h) : "");
-    out += fmt::format("  day_rate: {}\n", source.day_rate);
+    out += fmt::format("\n  day_rate: {}", source.day_rate);
     if (!source.options.parameters.empty())
-        out += "  parameters:\n";
+        out += "\n  parameters:";
     for (const auto& [name, value] : source.options.parameters)
-        out += fmt::format("    {}: {}\n", quoted(name), quoted(value));
+        out += fmt::format("\n    {}: {}", quoted(name), quoted(value));
     return out;
+}
+
+std::string storyboard_bits(const Drive& drive) {
+    return storyboard_text(drive) + (drive.storyboard && drive.storyboard->own_daylight ? "\nown daylight" : "") +
+           (drive.storyboard && drive.storyboard->own_weather ? "\nown weather" : "");
 }
 
 } // namespace fernlicht

@@ -1,6 +1,7 @@
 #include "scenarios/drives/keys/vehicle_keys.h"
 
 #include "scenarios/fields/field.h"
+#include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/fields/write_fields.h"
@@ -144,7 +145,10 @@ const Group& actuators_fields() {
                 [](const Variant& variant) {
                     return variant.levelling ? "{" + flow_text(levelling_fields(), &*variant.levelling) + "}" : "";
                 },
-                schema, "against the body's pitch"),
+                schema, "against the body's pitch")
+                .bits_by([](const Variant& variant) {
+                    return variant.levelling ? "there\n" + field_bits(levelling_fields(), &*variant.levelling) : "";
+                }),
             field("swivel", 2, &Variant::swivel, swivel_fields(), "bend lighting: all lamps turn").or_flag(),
         }
             .block();

@@ -11,6 +11,7 @@ template <class Struct> struct Fields;
 
 const Fields<VehicleParameters>& vehicle_fields();
 const Fields<ActuatorParameters>& actuator_fields();
+const Fields<LevellingParameters>& levelling_fields();
 /// Of a variant: levelling and swivel.
 const Group& actuators_fields();
 

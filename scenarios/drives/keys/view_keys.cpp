@@ -1,6 +1,9 @@
 #include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/drives/keys/lamp_sets.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/field_bits.h"
+#include "scenarios/fields/read_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +13,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double map_px_per_m = 4.0, least_fov_deg = 0.01, most_fov_deg = 179.0;
-constexpr std::size_t most_views = 64, most_set_bytes = std::size_t{1} << 20;
+constexpr std::size_t most_set_bytes = std::size_t{1} << 20;
 
 View driver_view() {
     View view;
@@ -40,52 +43,63 @@ View map_view() {
     return view;
 }
 
-void read_map(View& view, const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"ahead_m", "behind_m", "left_m", "right_m"});
-    const View standard = map_view();
-    view.projection = Projection::map;
-    view.map_ahead_m = keys.number_or("ahead_m", standard.map_ahead_m, -2000.0, 2000.0);
-    view.map_behind_m = keys.number_or("behind_m", standard.map_behind_m, -2000.0, 2000.0);
-    view.map_left_m = keys.number_or("left_m", standard.map_left_m, -500.0, 500.0);
-    view.map_right_m = keys.number_or("right_m", standard.map_right_m, -500.0, 500.0);
-    if (view.map_ahead_m + view.map_behind_m < 0.1 || view.map_left_m + view.map_right_m < 0.1)
-        entry.refuse("a map without area", "ahead_m + behind_m and left_m + right_m of at least 0.1");
-    fit_map_pixels(view);
+/// Camera and map at their defaults.
+View usual_view() {
+    View view = driver_view();
+    const View map = map_view();
+    view.map_ahead_m = map.map_ahead_m, view.map_behind_m = map.map_behind_m;
+    view.map_left_m = map.map_left_m, view.map_right_m = map.map_right_m;
+    return view;
 }
 
-void read_perspective(View& view, const YamlMap& keys) {
-    const View standard = driver_view();
-    const auto position = keys.find("position_m");
-    view.position_m = position ? read_position(*position) : standard.position_m;
-    view.yaw_rad = keys.angle_rad("yaw", 360.0).value_or(0.0);
-    view.pitch_rad = keys.angle_rad("pitch", 90.0).value_or(0.0);
-    view.roll_rad = keys.angle_rad("roll", 360.0).value_or(0.0);
-    view.mirrored = keys.flag_or("mirrored", false);
-    view.vertical_fov_rad = standard.vertical_fov_rad;
-    if (const auto given = keys.one_of({"vertical_fov_deg", "vertical_fov_rad"}))
-        view.vertical_fov_rad = given->first == "vertical_fov_deg" ? radians(given->second.number(least_fov_deg, most_fov_deg))
-                                                                   : given->second.number(radians(least_fov_deg), radians(most_fov_deg));
+void check_map(const YamlMap& keys, const View& view) {
+    if (view.map_ahead_m + view.map_behind_m < 0.1 || view.map_left_m + view.map_right_m < 0.1)
+        keys.entry().refuse("a map without area", "ahead_m + behind_m and left_m + right_m of at least 0.1");
+}
+
+const Fields<View>& map_fields() {
+    static const Fields<View> fields =
+        Fields<View>{
+            field("ahead_m", 1, &View::map_ahead_m, range(-2000.0, 2000.0), "of the car's origin"),
+            field("behind_m", 2, &View::map_behind_m, range(-2000.0, 2000.0), "of the car's origin"),
+            field("left_m", 3, &View::map_left_m, range(-500.0, 500.0), "of the car's origin"),
+            field("right_m", 4, &View::map_right_m, range(-500.0, 500.0), "of the car's origin"),
+        }
+            .checked(check_map);
+    return fields;
+}
+
+bool is_map(const void* view) { return static_cast<const View*>(view)->projection == Projection::map; }
+bool is_camera(const void* view) { return !is_map(view); }
+
+void read_resolution(const YamlEntry& entry, View& view) {
+    const std::vector<YamlEntry> sides = entry.list(2, 2);
+    view.width_px = sides[0].whole(1, largest_view_px);
+    view.height_px = sides[1].whole(1, largest_view_px);
+}
+
+std::string resolution_text(const View& view) { return fmt::format("[{}, {}]", view.width_px, view.height_px); }
+
+FieldRule field_of_view() {
+    FieldRule rule = degrees_within("vertical_fov", most_fov_deg);
+    rule.units[0].least = least_fov_deg;
+    rule.units[1].least = radians(least_fov_deg);
+    return rule;
 }
 
 View read_view(const std::string& name, const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"position_m", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad",
-                                    "vertical_fov_deg", "vertical_fov_rad", "resolution_px", "map", "mirrored"});
-    View view;
-    view.name = name;
-    if (const auto map = keys.find("map")) {
-        for (const std::string_view key : {"position_m", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad",
-                                           "vertical_fov_deg", "vertical_fov_rad", "mirrored"})
-            if (const auto camera = keys.find(key))
+    const YamlMap keys = entry.map(keys_of(view_fields()));
+    const bool map = keys.find("map").has_value();
+    if (map)
+        for (const std::string_view key : keys_of(view_fields()))
+            if (const auto camera = keys.find(key); camera && key != "map" && key != "resolution_px")
                 camera->refuse("a camera's key in a map", "only map and resolution_px here");
-        read_map(view, *map);
-    } else {
-        read_perspective(view, keys);
-    }
-    if (const auto resolution = keys.find("resolution_px")) {
-        const std::vector<YamlEntry> sides = resolution->list(2, 2);
-        view.width_px = sides[0].whole(1, largest_view_px);
-        view.height_px = sides[1].whole(1, largest_view_px);
-    }
+    View view = map ? map_view() : driver_view();
+    view.name = name;
+    read_field(view_fields(), "map", keys, &view);
+    if (map)
+        fit_map_pixels(view);
+    read_group(view_fields(), keys, &view);
     return view;
 }
 
@@ -103,6 +117,31 @@ std::vector<View> read_view_set(const YamlEntry& set, FilesRead& opened) {
 }
 
 } // namespace
+
+const Fields<View>& view_fields() {
+    static const Fields<View> fields =
+        Fields<View>{
+            field("position_m", 1, &View::position_m, range(-100.0, 100.0), "x forward, y left, z up from the road under the rear axle")
+                .heard_if(is_camera),
+            field("yaw", 2, &View::yaw_rad, degrees_within("yaw", 360.0), "to the left").heard_if(is_camera),
+            field("pitch", 3, &View::pitch_rad, degrees_within("pitch", 90.0), "upwards").heard_if(is_camera),
+            field("roll", 4, &View::roll_rad, degrees_within("roll", 360.0), "lifts the left side").heard_if(is_camera),
+            field("vertical_fov", 5, &View::vertical_fov_rad, field_of_view(), "from the picture's lower to its upper edge")
+                .heard_if(is_camera),
+            field("mirrored", 6, &View::mirrored, any(), "left and right exchanged, as a mirror shows it; of a camera only")
+                .written_off_default()
+                .heard_if(is_camera),
+            section("map", 7, map_fields(), "bird's eye instead of a camera, travel upwards")
+                .bits_by([](const View& view) { return is_map(&view) ? "map\n" + field_bits(map_fields(), &view) : ""; })
+                .heard_if(is_map),
+            own("resolution_px", 8, read_resolution, resolution_text, R"({"type": "array", "minItems": 2, "maxItems": 2,
+                "items": {"type": "integer", "minimum": 1, "maximum": 16384}})",
+                "width, height; of a map 4 a metre by default"),
+        }
+            .block()
+            .at_defaults(usual_view());
+    return fields;
+}
 
 glm::dvec3 read_position(const YamlEntry& entry) {
     const std::vector<double> xyz = entry.numbers(3, 3, -100.0, 100.0);

@@ -1,13 +1,10 @@
-#include "scenarios/drives/drive.h"
+#include "scenarios/drives/keys/drive_texts.h"
 
-#include "scenarios/drives/keys/bus_keys.h"
 #include "scenarios/drives/keys/control_keys.h"
-#include "scenarios/drives/keys/daylight_keys.h"
-#include "scenarios/drives/keys/display_keys.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/flow_list.h"
-#include "scenarios/drives/keys/storyboard_keys.h"
 #include "scenarios/drives/keys/vehicle_keys.h"
+#include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/write_fields.h"
 #include "scenarios/yaml/yaml_tree.h"
 
@@ -20,15 +17,19 @@
 namespace fernlicht {
 namespace {
 
-/// Writes lines at a depth of two spaces each.
+/// Lines at a depth of two spaces each, as they follow a key: each begins with the end of the one before.
 class Lines {
   public:
     template <class... Args> void add(int depth, fmt::format_string<Args...> format, Args&&... args) {
+        text_ += '\n';
         text_.append(static_cast<std::size_t>(2 * depth), ' ');
         fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
-        text_ += '\n';
     }
-    void add_all(const std::string& lines) { text_ += lines; }
+    /// Whole lines, each with its end.
+    void add_all(std::string_view lines) {
+        if (!lines.empty())
+            text_ += fmt::format("\n{}", lines.substr(0, lines.size() - 1));
+    }
     std::string take() { return std::move(text_); }
 
   private:
@@ -86,32 +87,6 @@ void write_lamp_keys(Lines& out, const Drive& drive, const MountedLamp& lamp) {
     out.add(4, "photometric_distance_m: {}", lamp.photometric_distance_m);
 }
 
-void write_street_lamps(Lines& out, const Drive& drive) {
-    if (drive.street_lamps.empty())
-        return;
-    out.add(0, "street_lamps:");
-    for (const StreetLampRow& row : drive.street_lamps) {
-        out.add(1, "{}:", quoted(row.name));
-        write_file_keys(out, 2, drive, row.file);
-        if (row.on_objects.empty()) {
-            out.add(2, "first_m: {}", row.first_m);
-            out.add(2, "last_m: {}", row.last_m);
-            out.add(2, "every_m: {}", row.every_m);
-            out.add(2, "beside_m: {}", row.beside_m);
-        } else {
-            out.add(2, "on_objects:");
-            for (const std::string& word : row.on_objects)
-                out.add(3, "- {}", quoted(word));
-        }
-        if (row.on_objects.empty() || row.height_m > 0.0)
-            out.add(2, "height_m: {}", row.height_m);
-        out.add(2, "arm_m: {}", row.arm_m);
-        out.add(2, "{}", angle_entry("tilt", row.tilt_rad));
-        out.add(2, "level: {}", row.level);
-        write_colour(out, 2, row.colour);
-    }
-}
-
 void write_change(Lines& out, const Drive& drive, const LampChange& change) {
     out.add(3, "- at_s: {}", change.time_s);
     out.add(4, "lamp: {}", quoted(change.lamp));
@@ -134,20 +109,14 @@ void write_change(Lines& out, const Drive& drive, const LampChange& change) {
         write_colour(out, 4, *change.colour);
 }
 
-void write_variants(Lines& out, const Drive& drive) {
-    out.add(0, "variants:");
-    for (const Variant& variant : drive.variants) {
-        out.add(1, "{}:", quoted(variant.name));
-        out.add(2, "lamps:");
-        for (const MountedLamp& lamp : variant.lamps)
-            write_lamp_keys(out, drive, lamp);
-        out.add(2, "changes:{}", variant.changes.empty() ? " []" : "");
-        for (const LampChange& change : variant.changes)
-            write_change(out, drive, change);
-        if (variant.levelling || variant.swivel)
-            out.add_all("    actuators:\n" + block_text(actuators_fields(), &variant, 3));
-        out.add_all(write_control(drive, variant));
-    }
+void write_lamp_set(Lines& out, const Drive& drive, const Variant& variant) {
+    out.add(1, "{}:", quoted(variant.name));
+    out.add(2, "lamps:");
+    for (const MountedLamp& lamp : variant.lamps)
+        write_lamp_keys(out, drive, lamp);
+    out.add(2, "changes:{}", variant.changes.empty() ? " []" : "");
+    for (const LampChange& change : variant.changes)
+        write_change(out, drive, change);
 }
 
 std::string traffic_place(const TrafficRow& row) {
@@ -163,11 +132,56 @@ std::string traffic_place(const TrafficRow& row) {
     return fmt::format("{}: {{gap_m: {}}}", row.place == TrafficPlace::ahead ? "ahead" : "oncoming", row.gap_m);
 }
 
-void write_traffic(Lines& out, const Drive& drive) {
-    if (drive.traffic_rows.empty())
-        return;
-    out.add(0, "traffic_light: {{least_lx: {}}}", drive.least_traffic_lx);
-    out.add(0, "traffic:");
+} // namespace
+
+std::string street_lamps_text(const Drive& drive) {
+    Lines out;
+    for (const StreetLampRow& row : drive.street_lamps) {
+        out.add(1, "{}:", quoted(row.name));
+        write_file_keys(out, 2, drive, row.file);
+        if (row.on_objects.empty()) {
+            out.add(2, "first_m: {}", row.first_m);
+            out.add(2, "last_m: {}", row.last_m);
+            out.add(2, "every_m: {}", row.every_m);
+            out.add(2, "beside_m: {}", row.beside_m);
+        } else {
+            out.add(2, "on_objects:");
+            for (const std::string& word : row.on_objects)
+                out.add(3, "- {}", quoted(word));
+        }
+        if (row.on_objects.empty() || row.height_m > 0.0)
+            out.add(2, "height_m: {}", row.height_m);
+        out.add(2, "arm_m: {}", row.arm_m);
+        out.add(2, "{}", angle_entry("tilt", row.tilt_rad));
+        out.add(2, "level: {}", row.level);
+        write_colour(out, 2, row.colour);
+    }
+    return out.take();
+}
+
+std::string variants_text(const Drive& drive) {
+    Lines out;
+    for (const Variant& variant : drive.variants) {
+        write_lamp_set(out, drive, variant);
+        if (variant.levelling || variant.swivel)
+            out.add_all("    actuators:\n" + block_text(actuators_fields(), &variant, 3));
+        out.add_all(write_control(drive, variant));
+    }
+    return out.take();
+}
+
+std::string variants_bits(const Drive& drive) {
+    Lines out;
+    for (const Variant& variant : drive.variants) {
+        write_lamp_set(out, drive, variant);
+        out.add_all(field_bits(actuators_fields(), &variant));
+        out.add_all(control_bits(drive, variant));
+    }
+    return out.take();
+}
+
+std::string traffic_text(const Drive& drive) {
+    Lines out;
     for (const TrafficRow& row : drive.traffic_rows) {
         out.add(1, "{}:", quoted(row.name));
         out.add(2, "kind: {}", road_user_kinds[static_cast<std::size_t>(row.kind)]);
@@ -198,118 +212,14 @@ void write_traffic(Lines& out, const Drive& drive) {
         if (row.place != TrafficPlace::storyboard)
             out.add(2, "repeat: {{count: {}, every_m: {}}}", row.count, row.every_m);
     }
-}
-
-void write_views(Lines& out, const Drive& drive) {
-    out.add(0, "views:");
-    for (const View& view : drive.views) {
-        out.add(1, "{}:", quoted(view.name));
-        if (view.projection == Projection::map) {
-            out.add(2, "map: {{ahead_m: {}, behind_m: {}, left_m: {}, right_m: {}}}", view.map_ahead_m, view.map_behind_m, view.map_left_m,
-                    view.map_right_m);
-        } else {
-            out.add(2, "position_m: {}", flow_list(view.position_m));
-            out.add(2, "{}", angle_entry("yaw", view.yaw_rad));
-            out.add(2, "{}", angle_entry("pitch", view.pitch_rad));
-            out.add(2, "{}", angle_entry("roll", view.roll_rad));
-            out.add(2, "{}", angle_entry("vertical_fov", view.vertical_fov_rad));
-            if (view.mirrored)
-                out.add(2, "mirrored: true");
-        }
-        out.add(2, "resolution_px: [{}, {}]", view.width_px, view.height_px);
-    }
-}
-
-void write_scenery(Lines& out, const Drive& drive) {
-    if (!drive.scenery.empty())
-        out.add(0, "scenery:");
-    for (const PlacedModel& placed : drive.scenery) {
-        const glm::dvec3& p = placed.position_m;
-        out.add(1, "- model: {}", quoted(placed.file.string()));
-        if (placed.along_route)
-            out.add(2, "along: {{distance_m: {}, left_m: {}, above_m: {}}}", p.x, p.y, p.z);
-        else
-            out.add(2, "position_m: {}", flow_list(p));
-        for (const auto& [key, value] :
-             {std::pair("yaw", placed.yaw_rad), std::pair("pitch", placed.pitch_rad), std::pair("roll", placed.roll_rad)})
-            out.add(2, "{}", angle_entry(key, value));
-        out.add(2, "scale: {}", placed.scale);
-        out.add(2, "ground: {}", placed.ground);
-    }
-}
-
-void write_route(Lines& out, const Drive& drive) {
-    out.add(0, "road: {}", quoted(drive.road_file.string()));
-    if (drive.mirrored_road)
-        out.add(0, "mirrored_road: true");
-    if (drive.storyboard) { // says the route
-        out.add_all(write_storyboard(*drive.storyboard));
-        return;
-    }
-    out.add(0, "route:");
-    if (!drive.start.road.empty())
-        out.add(1, "road: {}", quoted(drive.start.road));
-    out.add(1, "lane: {}", drive.start.lane);
-    out.add(1, "s_m: {}", drive.start.s_m);
-    std::vector<std::string> via;
-    for (const std::string& road : drive.via)
-        via.push_back(quoted(road));
-    out.add(1, "via: [{}]", fmt::join(via, ", "));
-}
-
-void write_time(Lines& out, const Drive& drive) {
-    if (!drive.storyboard)
-        out.add(0, "speed:");
-    for (const SpeedPoint& point : drive.storyboard ? std::vector<SpeedPoint>{} : drive.speed)
-        out.add(1, "- {{at_s: {}, speed_mps: {}}}", point.time_s, point.speed_mps);
-    out.add(0, "step_s: {}", drive.step_s);
-    out.add(0, "duration_s: {}", drive.duration_s);
-}
-
-/// Of a drive with a storyboard only what the drive itself says: the storyboard's environments are told again.
-void write_sky(Lines& out, const Drive& drive) {
-    if (!drive.storyboard || drive.storyboard->own_daylight)
-        out.add_all(write_daylight(drive.daylight));
-    const std::string weather = !drive.storyboard || drive.storyboard->own_weather ? write_weather(drive.weather) : "";
-    out.add_all(weather.empty() && drive.storyboard && drive.storyboard->own_weather ? "weather: {wetness: 0}\n" : weather);
-}
-
-} // namespace
-
-std::string write_drive(const Drive& drive) {
-    Lines out;
-    out.add(0, "# The resolved drive, written by fernlicht {}: running it again gives the same results.", FERNLICHT_VERSION);
-    out.add(0, "fernlicht: 1");
-    out.add(0, "name: {}", quoted(drive.name));
-    out.add(0, "title: {}", quoted(drive.title));
-    write_route(out, drive);
-    write_time(out, drive);
-    write_sky(out, drive);
-    write_street_lamps(out, drive);
-    const std::string body = drive.own_car ? fmt::format(", model: {}, {}, scale: {}", quoted(drive.own_car->file.string()),
-                                                         angle_entry("yaw", drive.own_car->yaw_rad), drive.own_car->scale)
-                                           : "";
-    out.add(0, "car: {{bumper_x_m: {}, wheelbase_m: {}{}}}", drive.bumper_m, drive.wheelbase_m, body);
-    out.add_all(lines_of(drive_fields(), "vehicle", &drive, 0));
-    write_variants(out, drive);
-    out.add_all(write_can(drive));
-    write_traffic(out, drive);
-    write_views(out, drive);
-    write_scenery(out, drive);
-    out.add_all(lines_of(drive_fields(), "capture", &drive, 0));
-    out.add_all(write_tone_mapper(drive.tone_mapper));
-    out.add_all(write_display(drive.display));
-    out.add(0, "technique: {}", quoted(drive.technique));
-    out.add_all(lines_of(drive_fields(), "measure", &drive, 0));
-    out.add_all(lines_of(drive_fields(), "limits", &drive, 0));
-    out.add_all(lines_of(drive_fields(), "shadows", &drive, 0));
-    if (drive.beams && *drive.beams != eight_bit_texels)
-        out.add(0, "beams: {{width: {}, height: {}, bits: {}}}", drive.beams->width, drive.beams->height, drive.beams->bits);
-    else
-        out.add(0, "beams: {}", drive.beams ? "eight-bit" : "float");
-    out.add(0, "textures: {}", drive.textured ? "shipped" : "none");
-    out.add(0, "seed: {}", drive.seed);
     return out.take();
 }
+
+std::string write_drive(const Drive& drive) {
+    return fmt::format("# The resolved drive, written by fernlicht {}: running it again gives the same results.\nfernlicht: 1\n{}",
+                       FERNLICHT_VERSION, block_text(drive_fields(), &drive, 0));
+}
+
+std::string drive_bits(const Drive& drive) { return field_bits(drive_fields(), &drive); }
 
 } // namespace fernlicht

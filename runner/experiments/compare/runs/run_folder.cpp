@@ -46,7 +46,8 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
     drop_unused_s(part);
     const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "display", "speed", "step_s"});
     drive.views = read_views(keys, ignored);
-    drive.tone_mapper = read_tone_mapper(keys);
+    if (const auto tone_mapper = keys.find("tone_mapper"))
+        read_tone_mapper(*tone_mapper, drive.tone_mapper);
     if (member_of(drive.resolved, "step_s"))
         drive.step_s = read_step_s(keys);
     if (member_of(drive.resolved, "speed"))
