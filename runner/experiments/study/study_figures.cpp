@@ -1,7 +1,7 @@
 #include "metrics/readings/reading_words.h"
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/runs/lux_ratio.h"
-#include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/run/run_plots.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/output_folder.h"
