@@ -1,6 +1,6 @@
 #include "scenarios/fields/field_bits.h"
 
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
 #include <bit>

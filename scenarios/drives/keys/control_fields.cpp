@@ -4,7 +4,7 @@
 #include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/write_fields.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,7 +3,7 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/read_fields.h"
-#include "scenarios/sky/calendar.h"
+#include "scenarios/sky/ephemeris.h"
 
 #include <array>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "scenarios/drives/keys/display_keys.h"
 
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"

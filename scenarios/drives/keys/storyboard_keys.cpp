@@ -2,7 +2,7 @@
 
 #include "scenarios/drives/keys/drive_texts.h"
 #include "scenarios/values/errors.h"
-#include "scenarios/yaml/yaml_text.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
 #include <fmt/format.h>
