@@ -141,8 +141,7 @@ TEST(BeamTexture, SaysWhatItCosts) {
         CandelaTable table{{-1.0, 1.0}, {0.0, cut, cut + 1e-5, 2.0}, {}, {}, BetweenSamples::linear_cd};
         for (const double cd : {1000.0, 1000.0, 1.0, 1.0})
             table.cd.insert(table.cd.end(), {cd, cd});
-        const BeamTexture texture = make_beam_texture(table);
-        EXPECT_NEAR(texture.worst_error_of_peak, std::max(at, 1.0 - at), 2e-3) << at;
+        EXPECT_NEAR(make_beam_texture(table).worst_error_of_peak, std::max(at, 1.0 - at), 2e-3) << at;
     }
     const CandelaTable table = table_on({-90, -45, 0, 45, 90}, {-90, -30, 0, 30, 90}, 3);
     const BeamTexture other_texture = make_beam_texture(table, 100'000);

@@ -15,6 +15,12 @@ Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) { return {.lamps = {lam
 
 Mesh thing(const glm::dvec3& origin, const char* name = "thing") { return {name, origin, {}, {}, {}}; }
 
+Mesh box(const glm::dvec3& origin, const glm::vec3& low, const glm::vec3& high, const char* name = "thing") {
+    Mesh mesh = thing(origin, name);
+    add_box(mesh, 1, low, high);
+    return mesh;
+}
+
 class ShadowVolumesTest : public DeviceTest {
   protected:
     /// No pixel wrong but within one pixel of an edge, and there is shadow to see.
@@ -32,9 +38,7 @@ class ShadowVolumesTest : public DeviceTest {
 TEST_F(ShadowVolumesTest, PostsNearAndFar) {
     for (const double ahead : {5.0, 20.0, 80.0}) {
         Scene scene = level_road_for_shadows();
-        Mesh post = thing({3.5 + ahead, 0.3, 0.0});
-        add_box(post, 1, {-0.05F, -0.05F, 0.0F}, {0.05F, 0.05F, 1.0F});
-        scene.meshes.push_back(post);
+        scene.meshes.push_back(box({3.5 + ahead, 0.3, 0.0}, {-0.05F, -0.05F, 0.0F}, {0.05F, 0.05F, 1.0F}));
         View view = driver_for_shadows();
         if (ahead > 50.0) { // a picture of where it stands
             view.vertical_fov_rad = radians(4.0);
@@ -55,9 +59,7 @@ TEST_F(ShadowVolumesTest, AFenceOfOpenSheets) {
             add_flat(fence, 1, {0, y, 0}, {0, y + 0.1F, 0}, {0, y + 0.1F, 1.2F}, {0, y, 1.2F});
     }
     scene.meshes.push_back(fence);
-    Mesh wall = thing({25.0, 0.0, 0.0}, "wall");
-    add_box(wall, 1, {0, -12, 0}, {0.3F, 12, 3});
-    scene.meshes.push_back(wall);
+    scene.meshes.push_back(box({25.0, 0.0, 0.0}, {0, -12, 0}, {0.3F, 12, 3}, "wall"));
     expect_as_rays(scene, one_lamp(), driver_for_shadows(), "fence", 1000);
 }
 
@@ -68,9 +70,7 @@ TEST_F(ShadowVolumesTest, ABodyThatMovesCloseBeforeTheLampAndAsItTurns) {
     add_box(car, 1, {-1.0F, -0.9F, 0.2F}, {3.0F, 0.9F, 0.8F});
     add_box(car, 1, {0.0F, -0.8F, 0.8F}, {2.0F, 0.8F, 1.4F});
     scene.meshes.push_back(car);
-    Mesh wall = thing({40.0, 0.0, 0.0}, "wall");
-    add_box(wall, 1, {0, -25, 0}, {0.3F, 25, 6});
-    scene.meshes.push_back(wall);
+    scene.meshes.push_back(box({40.0, 0.0, 0.0}, {0, -25, 0}, {0.3F, 25, 6}, "wall"));
     for (const double ahead : {4.6, 6.0, 15.0})
         for (const double yaw : {0.0, 0.7}) {
             Moment moment = one_lamp();
@@ -81,9 +81,7 @@ TEST_F(ShadowVolumesTest, ABodyThatMovesCloseBeforeTheLampAndAsItTurns) {
 
 TEST_F(ShadowVolumesTest, TheCameraInAShadowAndTheLampInABody) {
     Scene scene = level_road_for_shadows();
-    Mesh slab = thing({8.0, 0.0, 0.0}, "slab");
-    add_box(slab, 1, {0, -1.5F, 0.0F}, {0.4F, 1.5F, 1.0F});
-    scene.meshes.push_back(slab);
+    scene.meshes.push_back(box({8.0, 0.0, 0.0}, {0, -1.5F, 0.0F}, {0.4F, 1.5F, 1.0F}, "slab"));
     View behind = driver_for_shadows();
     behind.position_m = {11.0, 0.3, 0.7}; // beyond the slab, within its shadow
     behind.yaw_rad = radians(25.0);
@@ -160,12 +158,8 @@ TEST_F(ShadowVolumesTest, CrestsShadeWhatLiesBehindAndNotThemselves) {
 
 TEST_F(ShadowVolumesTest, MapsAndTargetsAboveTheRoad) {
     Scene scene = level_road_for_shadows();
-    Mesh low = thing({12.0, 0.5, 0.0}, "low");
-    add_box(low, 1, {0, -0.8F, 0}, {0.3F, 0.8F, 0.4F});
-    scene.meshes.push_back(low);
-    Mesh gantry = thing({20.0, 0.0, 0.0}, "gantry"); // shades nothing on the ground
-    add_box(gantry, 1, {0, -5, 5}, {0.5F, 5, 6});
-    scene.meshes.push_back(gantry);
+    scene.meshes.push_back(box({12.0, 0.5, 0.0}, {0, -0.8F, 0}, {0.3F, 0.8F, 0.4F}, "low"));
+    scene.meshes.push_back(box({20.0, 0.0, 0.0}, {0, -5, 5}, {0.5F, 5, 6}, "gantry")); // shades nothing on the ground
     const Moment moment = one_lamp();
     const View map = map_for_shadows(60.0, 12.0, 5);
     expect_as_rays(scene, moment, map, "map", 1000);

@@ -65,6 +65,8 @@ View driver(int width = 240, int height = 160, double fov_deg = 30.0) {
 class Traffic : public DeviceTest {
   protected:
     RendererSettings settings(const char* technique = "photometric") { return {.technique = technique}; }
+    RendererSettings without_shadows() { return {.technique = "photometric", .traffic_shadows = false}; }
+    RendererSettings without_levels() { return {.technique = "photometric", .traffic_levels = false}; }
     Frame draw(const Street& street, const Moment& moment, const View& view, const RendererSettings& s) {
         Renderer renderer(device_, street.scene, s);
         return renderer.draw(moment, view, all_results);
@@ -78,15 +80,24 @@ double most_difference(const Image<float>& a, const Image<float>& b) {
     return most;
 }
 
-TEST_F(Traffic, PrunedAndUnprunedGiveTheSameBytes) {
-    for (const char* road : {"s-bend"}) {
-        const Street street(oncoming(30.0, 4, 15.0), road);
-        Renderer pruned(device_, street.scene, settings()), unpruned(device_, street.scene, settings("photometric-unpruned"));
-        for (const double time_s : {0.0, 1.3, 3.0}) {
-            const Moment moment = street.at(time_s);
-            const Frame a = pruned.draw(moment, driver(), all_results), b = unpruned.draw(moment, driver(), all_results);
-            expect_same_frames(a, b, road + std::to_string(time_s));
+/// Least and most of what is hidden up to so many pixels around one.
+template <class Hidden> std::pair<double, double> range_around(int x, int y, int pixels, const Hidden& hidden) {
+    double least = 2.0, most = -2.0;
+    for (int v = y - pixels; v <= y + pixels; ++v)
+        for (int u = x - pixels; u <= x + pixels; ++u) {
+            least = std::min(least, hidden(u, v));
+            most = std::max(most, hidden(u, v));
         }
+    return {least, most};
+}
+
+TEST_F(Traffic, PrunedAndUnprunedGiveTheSameBytes) {
+    const Street street(oncoming(30.0, 4, 15.0), "s-bend");
+    Renderer pruned(device_, street.scene, settings()), unpruned(device_, street.scene, settings("photometric-unpruned"));
+    for (const double time_s : {0.0, 1.3, 3.0}) {
+        const Moment moment = street.at(time_s);
+        expect_same_frames(pruned.draw(moment, driver(), all_results), unpruned.draw(moment, driver(), all_results),
+                           std::to_string(time_s));
     }
 }
 
@@ -172,9 +183,7 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     moment.least_traffic_lx = 0.005;
     const View view = driver(96, 64, 24.0);
     const Frame frame = draw(street, moment, view, settings());
-    RendererSettings none = settings();
-    none.traffic_shadows = false;
-    const Frame bright = draw(street, moment, view, none);
+    const Frame bright = draw(street, moment, view, without_shadows());
     const Twin shaded(street.scene, true), unshaded(street.scene, false);
     Image<double> hidden(view.width_px, view.height_px), lx(view.width_px, view.height_px), bound(view.width_px, view.height_px);
     for (int y = 0; y < view.height_px; ++y)
@@ -190,11 +199,7 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     const double allowed = (worst_traffic_error + 2.0) * moment.least_traffic_lx;
     for (int y = 2; y + 2 < view.height_px; ++y)
         for (int x = 2; x + 2 < view.width_px; ++x) {
-            double least = 2.0, most = -2.0;
-            for (int k = 0; k < 25; ++k) {
-                least = std::min(least, hidden.at(x + k % 5 - 2, y + k / 5 - 2));
-                most = std::max(most, hidden.at(x + k % 5 - 2, y + k / 5 - 2));
-            }
+            const auto [least, most] = range_around(x, y, 2, [&](int u, int v) { return hidden.at(u, v); });
             if (least < 0.0 || most - least > 0.1)
                 continue;
             ++compared;
@@ -229,9 +234,7 @@ TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
     const View view = driver(240, 160, 40.0);
     Renderer renderer(device_, scene, settings());
     const Frame frame = renderer.draw(moment, view, all_results);
-    RendererSettings none = settings();
-    none.traffic_shadows = false;
-    Renderer without(device_, scene, none);
+    Renderer without(device_, scene, without_shadows());
     const Frame lit = without.draw(moment, view, all_results);
     ReferenceSettings rays, through;
     rays.footprint = through.footprint = Footprint::centre;
@@ -247,11 +250,7 @@ TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
     int compared = 0, in_shadow = 0, off = 0, off_before = 0;
     for (int y = 1; y + 1 < view.height_px; ++y)
         for (int x = 1; x + 1 < view.width_px; ++x) {
-            double least = 2.0, most = -2.0;
-            for (int k = 0; k < 9; ++k) {
-                least = std::min(least, hidden(x + k % 3 - 1, y + k / 3 - 1));
-                most = std::max(most, hidden(x + k % 3 - 1, y + k / 3 - 1));
-            }
+            const auto [least, most] = range_around(x, y, 1, hidden);
             const double truth = static_cast<double>(dark.illuminance_lx.mean.at(x, y));
             if (least < 0.0 || most - least > 0.1 || truth < 0.02)
                 continue;
@@ -325,9 +324,7 @@ TEST_F(Traffic, ShadowsOfOthersCostNothingWhereThereAreNone) {
 /// Maps go to the pairs with most light on what may be in shadow; what is faint has none.
 TEST_F(Traffic, TheStrongestLampsHaveMaps) {
     const Street street(oncoming(30.0, 12, 14.0, ", tail_cd: 0, brake_cd: 0"));
-    RendererSettings none = settings();
-    none.traffic_shadows = false;
-    Renderer renderer(device_, street.scene, settings()), without(device_, street.scene, none);
+    Renderer renderer(device_, street.scene, settings()), without(device_, street.scene, without_shadows());
     const auto maps = [&](const Moment& moment) { return renderer.count(moment, driver(), {.illuminance = true}).shadow_maps; };
     const auto shadow_lx = [&](const Moment& moment) { // most that is taken away anywhere
         return most_difference(renderer.draw(moment, driver(), {.illuminance = true}).illuminance_lx,
@@ -355,9 +352,7 @@ TEST_F(Traffic, TheStrongestLampsHaveMaps) {
 /// the picture changes steadily.
 TEST_F(Traffic, ShadowsDoNotPop) {
     const Street street(oncoming(25.0, 11, 14.0, ", tail_cd: 0, brake_cd: 0"));
-    RendererSettings none = settings();
-    none.traffic_shadows = false;
-    Renderer renderer(device_, street.scene, settings()), without(device_, street.scene, none);
+    Renderer renderer(device_, street.scene, settings()), without(device_, street.scene, without_shadows());
     double before = 0.0, most = 0.0;
     for (int i = 0; i < 16; ++i) {
         Moment moment = street.at(0.0);
@@ -406,9 +401,7 @@ TEST_F(Traffic, LevelsStayWithinTheirBound) {
     const Street street(oncoming(30.0, 8, 40.0));
     Moment moment = street.at(0.3);
     moment.least_traffic_lx = 0.3;
-    RendererSettings all = settings();
-    all.traffic_levels = false;
-    Renderer coarse(device_, street.scene, settings()), fine(device_, street.scene, all);
+    Renderer coarse(device_, street.scene, settings()), fine(device_, street.scene, without_levels());
     const Frame a = coarse.draw(moment, driver(), all_results), b = fine.draw(moment, driver(), all_results);
     const double worst = most_difference(a.illuminance_lx, b.illuminance_lx);
     EXPECT_GT(worst, 0.0) << "levels are in use";
@@ -423,10 +416,7 @@ TEST_F(Traffic, LevelsStayWithinTheirBound) {
 /// A car that comes nearer by 1 cm a frame changes no pixel by more than its light does and what the levels may be off.
 TEST_F(Traffic, NothingPops) {
     const Street street(oncoming(90.0));
-    Renderer renderer(device_, street.scene, settings());
-    RendererSettings all = settings();
-    all.traffic_levels = false;
-    Renderer fine(device_, street.scene, all);
+    Renderer renderer(device_, street.scene, settings()), fine(device_, street.scene, without_levels());
     Image<float> before, fine_before;
     double most = 0.0;
     for (int i = 0; i < 12; ++i) {
@@ -457,11 +447,9 @@ TEST_F(Traffic, NothingPopsOnTheShippedDrive) {
     place_traffic(drive, network, route);
     Scene scene = build_scene(network, {.textures = false});
     add_road_users(scene, drive.traffic, drive.opened);
-    RendererSettings levels = settings();
-    levels.traffic_shadows = false; // their edges move
-    RendererSettings all = levels;
+    RendererSettings all = without_shadows(); // their edges move
     all.traffic_levels = false;
-    Renderer renderer(device_, scene, levels), fine(device_, scene, all);
+    Renderer renderer(device_, scene, without_shadows()), fine(device_, scene, all);
     double most = 0.0;
     int in_use = 0;
     for (const double from_s : {0.5, 2.0, 3.5}) {

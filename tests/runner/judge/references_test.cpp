@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -434,7 +435,7 @@ TEST_F(References, AKilledAcceptanceLeavesOneOfTheTwoRunsWhole) {
         ::waitpid(child, &status, 0);
         const bool holds_old = all_pass(run.judged(store)), holds_new = all_pass(brighter.judged(store));
         ASSERT_NE(holds_old, holds_new) << "round " << round;
-        for (const StoredRun* whole : {&run, &brighter})
+        for (const StoredRun* whole : {&run, &std::as_const(brighter)})
             ASSERT_EQ(
                 all_pass(judge_against_references(whole->report.played[1], whole->report.context, whole->folder, store, "photometric")),
                 whole == &run ? holds_old : holds_new)
