@@ -71,6 +71,12 @@ int CheckedJson::whole() const {
     return value_->get<int>();
 }
 
+std::uint64_t CheckedJson::count() const {
+    if (!value_->is_number_unsigned())
+        refuse("a whole number of at least 0");
+    return value_->get<std::uint64_t>();
+}
+
 bool CheckedJson::truth() const {
     if (!value_->is_boolean())
         refuse("true or false");

@@ -25,6 +25,7 @@ class CheckedJson {
     double number() const;
     std::optional<double> number_or_null() const;
     int whole() const; ///< a number without fraction that fits an int
+    std::uint64_t count() const;
     bool truth() const;
     /// Refuses a file that says it is something else.
     void expect_schema(const std::string& name, int version) const;

@@ -2,27 +2,17 @@
 
 namespace fernlicht {
 
-using Json = nlohmann::ordered_json;
-
-Json versions_json(const RunContext& context) {
-    Json versions = Json::object();
-    for (const auto& [name, version] : context.versions)
-        versions[name] = version;
-    return versions;
+JsonMembers file_members(FileRead& file) {
+    const auto path = through([&] { return file.path.string(); }, [&](const std::string& text) { file.path = text; });
+    return {{"path", path}, {"bytes", file.bytes}, {"xxh128", file.xxh128}};
 }
 
-Json inputs_json(const RunContext& context) {
-    Json inputs = Json::array();
-    for (const FileRead& file : context.inputs)
-        inputs.push_back({{"path", file.path.string()}, {"bytes", file.bytes}, {"xxh128", file.xxh128}});
-    return inputs;
-}
+JsonMembers moment_members(std::pair<int, double>& moment) { return {{"frame", moment.first}, {"time_s", moment.second}}; }
 
-Json context_json(const RunContext& context) {
-    return {
-        {"command", context.command},         {"started_utc", context.started_utc}, {"seed", context.seed}, {"backend", context.backend},
-        {"gl_renderer", context.gl_renderer}, {"gl_version", context.gl_version},   {"cpu", context.cpu},   {"os", context.os},
-        {"versions", versions_json(context)}, {"inputs", inputs_json(context)}};
+JsonMembers context_members(RunContext& context) {
+    return {{"command", context.command},         {"started_utc", context.started_utc}, {"seed", context.seed}, {"backend", context.backend},
+            {"gl_renderer", context.gl_renderer}, {"gl_version", context.gl_version},   {"cpu", context.cpu},   {"os", context.os},
+            {"versions", context.versions},       {"inputs", context.inputs, file_members}};
 }
 
 } // namespace fernlicht

@@ -1,17 +1,20 @@
-// What results were made with, as a part of every JSON that holds some.
+// What results were made with, and the moments they are of, as parts of every JSON that holds some.
 #pragma once
 
-#include "runner/findings/report.h"
-
-#include <nlohmann/json.hpp>
+#include "runner/files/described_json.h"
+#include "runner/findings/findings.h"
 
 namespace fernlicht {
 
-/// Of fernlicht, its compiler and its libraries, by name.
-nlohmann::ordered_json versions_json(const RunContext& context);
-/// Path, size and hash of every file that was opened.
-nlohmann::ordered_json inputs_json(const RunContext& context);
 /// Command, time, seed, backend and driver, CPU, system, versions and inputs.
-nlohmann::ordered_json context_json(const RunContext& context);
+JsonMembers context_members(RunContext& context);
+/// Path, size and hash of a file that was opened.
+JsonMembers file_members(FileRead& file);
+/// Tick and time of a moment.
+JsonMembers moment_members(std::pair<int, double>& moment);
+
+inline nlohmann::ordered_json context_json(const RunContext& context) { return json_of(context, context_members); }
+inline nlohmann::ordered_json versions_json(const RunContext& context) { return json_of(context.versions); }
+inline nlohmann::ordered_json inputs_json(const RunContext& context) { return json_of(context.inputs, file_members); }
 
 } // namespace fernlicht

@@ -1,0 +1,127 @@
+#include "runner/files/described_json.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T> JsonPart leaf(T& value, const char* type, T (CheckedJson::*read)() const) {
+    return {[&value] { return Json(value); }, [&value, read](const CheckedJson& json) { value = (json.*read)(); },
+            [type] {
+                return Json{{"type", type}};
+            }};
+}
+
+} // namespace
+
+JsonPart json_leaf(bool& value) { return leaf(value, "boolean", &CheckedJson::truth); }
+JsonPart json_leaf(int& value) { return leaf(value, "integer", &CheckedJson::whole); }
+JsonPart json_leaf(std::uint64_t& value) { return leaf(value, "integer", &CheckedJson::count); }
+JsonPart json_leaf(double& value) { return leaf(value, "number", &CheckedJson::number); }
+JsonPart json_leaf(std::string& value) { return leaf(value, "string", &CheckedJson::text); }
+
+JsonPart json_leaf(Value& value) {
+    return {[&value] { return value_json(value); }, [&value](const CheckedJson& json) { value = value_in(json); },
+            [] {
+                const Json bound{{"type", "number"}};
+                return Json{{"type", {"number", "object", "null"}},
+                            {"additionalProperties", false},
+                            {"properties", {{"at_least", bound}, {"at_most", bound}}}};
+            }};
+}
+
+JsonPart json_leaf(ReadingKey& value) {
+    return {[&value] { return Json(name_of(value)); }, [&value](const CheckedJson& json) { value = key_in(json); },
+            [] {
+                return Json{{"type", "string"}};
+            }};
+}
+
+JsonPart json_leaf(JsonTexts& value) {
+    return {[&value] {
+                Json texts = Json::object();
+                for (const auto& [name, text] : value)
+                    texts[name] = text;
+                return texts;
+            },
+            [&value](const CheckedJson& json) { value = json.texts(); },
+            [] {
+                return Json{{"type", "object"}, {"additionalProperties", {{"type", "string"}}}};
+            }};
+}
+
+JsonPart json_constant(Json value) {
+    return {[value] { return value; }, [value](const CheckedJson& json) { place_in(Json::array({value}), json); },
+            [value] {
+                return Json{{"const", value}};
+            }};
+}
+
+JsonPart::JsonPart(JsonMembers members)
+    : JsonPart(
+          [members] {
+              Json object = Json::object();
+              for (const JsonMember& member : members)
+                  if (member.part.is_there)
+                      object[member.key] = member.part.write();
+              return object;
+          },
+          [members](const CheckedJson& json) {
+              for (const JsonMember& member : members)
+                  if (member.part.read && (!member.part.may_lack || json.has(member.key)))
+                      member.part.read(json.at(member.key));
+          },
+          [members] {
+              Json required = Json::array(), properties = Json::object();
+              for (const JsonMember& member : members) {
+                  properties[member.key] = member.part.schema();
+                  if (!member.part.may_lack)
+                      required.push_back(member.key);
+              }
+              return Json{{"type", "object"}, {"additionalProperties", false}, {"required", required}, {"properties", properties}};
+          }) {}
+
+JsonMembers when(bool there, JsonMembers members) {
+    for (JsonMember& member : members)
+        member.part.is_there = there, member.part.may_lack = true;
+    return members;
+}
+
+Json nullable(Json schema) {
+    if (schema.contains("enum"))
+        schema["enum"].push_back(nullptr);
+    else
+        schema["type"] = Json::array({schema["type"], "null"});
+    return schema;
+}
+
+JsonPart or_why(JsonPart optional, const std::string& why, std::string* back) {
+    return {[=] {
+                const Json value = optional.write();
+                return value.is_null() ? Json{{"not_measured", why}} : value;
+            },
+            [=](const CheckedJson& json) {
+                if (!json.has("not_measured"))
+                    optional.read(json);
+                else if (back)
+                    *back = json.at("not_measured").text();
+            },
+            [=] {
+                Json schema = optional.schema();
+                schema["type"] = "object";
+                schema["properties"]["not_measured"]["type"] = "string";
+                schema.erase("required");
+                return schema;
+            }};
+}
+
+std::size_t place_in(const Json& list, const CheckedJson& json) {
+    const auto found = std::ranges::find(list, json.dump(), [](const Json& one) { return one.dump(-1, ' ', true); });
+    if (found == list.end())
+        json.refuse(list.size() == 1 ? list[0].dump() : "one of " + list.dump());
+    return static_cast<std::size_t>(found - list.begin());
+}
+
+} // namespace fernlicht
