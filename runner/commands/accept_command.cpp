@@ -1,10 +1,10 @@
 #include "runner/commands/accept_command.h"
 
-#include "runner/files/checked_json.h"
 #include "runner/files/output_folder.h"
-#include "runner/files/value_json.h"
+#include "runner/findings/context_json.h"
 #include "runner/findings/summary.h"
 #include "runner/judge/ray_results.h"
+#include "runner/judge/verdict_json.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -14,19 +14,6 @@
 
 namespace fernlicht {
 namespace {
-
-RunContext context_of(const CheckedJson& report) {
-    const CheckedJson json = report.at("context");
-    RunContext context;
-    context.versions = json.at("versions").texts();
-    context.backend = json.at("backend").text();
-    context.gl_renderer = json.at("gl_renderer").text();
-    context.gl_version = json.at("gl_version").text();
-    context.cpu = json.at("cpu").text();
-    context.os = json.at("os").text();
-    context.started_utc = json.at("started_utc").text();
-    return context;
-}
 
 AcceptedReading reading_of(const CheckedJson& row, int count) {
     const CheckedJson frame = row.at("frame");
@@ -61,17 +48,13 @@ AcceptedReference reference_of(const CheckedJson& played, const RunContext& cont
 
 /// Mean and variance in place of the first play's value where the repeats differ.
 void add_spread(AcceptedReference& reference, const CheckedJson& repeats) {
-    for (const CheckedJson& spread : repeats.at("spread").items()) {
-        const CheckedJson frame = spread.at("frame");
-        const int tick = frame.is_null() ? -1 : frame.whole();
-        const ReadingKey key = key_in(spread.at("name"));
+    for (const ReadingSpread& spread : from_json<Repeats>(repeats, repeats_members).spread)
         for (AcceptedReading& reading : reference.readings)
-            if (reading.key == key && reading.tick == tick) {
-                reading.mean = spread.at("mean").number();
-                reading.count = spread.at("count").whole();
-                reading.variance = spread.at("variance").number();
+            if (reading.key == spread.key && reading.tick == spread.tick) {
+                reading.mean = spread.mean;
+                reading.count = spread.count;
+                reading.variance = spread.variance;
             }
-    }
 }
 
 /// Rows tell drive and lamp set by name.
@@ -154,7 +137,7 @@ RunResults read_run(const std::filesystem::path& run_folder) {
     report.expect_schema("fernlicht report", 1);
     if (const CheckedJson complete = report.at("complete"); !complete.truth())
         complete.refuse("a complete run");
-    const RunContext context = context_of(report);
+    const RunContext context = from_json<RunContext>(report.at("context"), context_members);
     RunResults results;
     results.started_utc = context.started_utc;
     for (const CheckedJson& played : report.at("drives").items()) {

@@ -48,17 +48,6 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
     return text;
 }
 
-Json entry_json(const StoredReference& entry) {
-    return {{"id", entry.id}, {"key", key_json(entry.key)}, {"note", entry.note}, {"played_utc", entry.played_utc}};
-}
-
-Json texts_json(const std::vector<std::pair<std::string, std::string>>& texts) {
-    Json json = Json::object();
-    for (const auto& [name, text] : texts)
-        json[name] = text;
-    return json;
-}
-
 /// A folder without references is one without; a folder that is none was misspelt.
 void refuse_missing(const std::string& store) {
     std::error_code ignored;
@@ -71,10 +60,7 @@ int list(const ReferencesFlags& flags) {
     const FolderLock lock(flags.store, FolderLock::For::reading);
     const std::vector<StoredReference> entries = list_references(flags.store);
     if (flags.json) {
-        Json out = Json::array();
-        for (const StoredReference& entry : entries)
-            out.push_back(entry_json(entry));
-        fmt::print("{}", json_text(out));
+        fmt::print("{}", json_text(json_of(entries, stored_members)));
         return 0;
     }
     if (entries.empty()) {
@@ -94,7 +80,7 @@ std::string figure_of(const AcceptedReading& reading) {
 }
 
 Json reference_json(const StoredReference& entry, const AcceptedReference& reference) {
-    Json out = entry_json(entry), readings = Json::array(), frames = Json::array();
+    Json out = json_of(entry, stored_members), readings = Json::array(), frames = Json::array();
     for (const AcceptedReading& reading : reference.readings)
         readings.push_back({{"name", name_of(reading.key)},
                             {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
@@ -104,11 +90,7 @@ Json reference_json(const StoredReference& entry, const AcceptedReference& refer
                             {"variance", reading.variance}});
     for (const ReferenceFrame& frame : reference.frames)
         frames.push_back({{"frame", frame.tick}, {"view", frame.view}, {"xxh128", frame.xxh128}, {"file", frame.exr.string()}});
-    out["producer"] = {{"versions", texts_json(reference.producer.versions)},
-                       {"gl_version", reference.producer.gl_version},
-                       {"cpu", reference.producer.cpu},
-                       {"os", reference.producer.os},
-                       {"inputs", texts_json(reference.producer.inputs)}};
+    out["producer"] = json_of(reference.producer, producer_members);
     out["readings"] = readings;
     out["frames"] = reference.frames_left_out ? Json(nullptr) : frames;
     return out;

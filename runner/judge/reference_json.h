@@ -1,14 +1,15 @@
-// Keys and hashes of accepted results in JSON, the same in every file that holds them.
+// Keys, producers and hashes of accepted results in JSON, the same in every file that holds them.
 #pragma once
 
-#include "runner/files/checked_json.h"
-#include "runner/judge/reference_key.h"
+#include "runner/files/described_json.h"
+#include "runner/judge/reference_store.h"
 
 namespace fernlicht {
 
-nlohmann::ordered_json key_json(const ReferenceKey& key);
-/// Throw InputError with the place of what is missing or of another kind.
-ReferenceKey read_key(const CheckedJson& json);
-std::string read_hash(const CheckedJson& json);
+JsonMembers key_members(ReferenceKey& key);
+JsonMembers producer_members(Producer& producer);
+JsonMembers stored_members(StoredReference& entry);
+/// Refuses what is no hash.
+JsonPart hash_part(std::string& hash);
 
 } // namespace fernlicht

@@ -63,10 +63,7 @@ void check_version(const CheckedJson& index, const fs::path& store) {
 }
 
 std::string index_text(const std::vector<StoredReference>& entries) {
-    Json references = Json::array();
-    for (const StoredReference& entry : entries)
-        references.push_back({{"id", entry.id}, {"key", key_json(entry.key)}, {"note", entry.note}, {"played_utc", entry.played_utc}});
-    const Json index{{"schema", index_schema}, {"schema_version", index_version}, {"references", references}};
+    const Json index{{"schema", index_schema}, {"schema_version", index_version}, {"references", json_of(entries, stored_members)}};
     return index.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -178,18 +175,19 @@ Stored place(const fs::path& store, std::vector<StoredReference>& entries, Store
 
 } // namespace
 
+JsonMembers stored_members(StoredReference& entry) {
+    return {{"id", hash_part(entry.id)}, {"key", entry.key, key_members}, {"note", entry.note}, {"played_utc", entry.played_utc}};
+}
+
 std::string short_id(const std::string& id) { return id.substr(0, 12); }
 
 std::vector<StoredReference> list_references(const fs::path& store) {
-    std::vector<StoredReference> entries;
     std::error_code error;
     if (!fs::exists(store / "index.json", error) && !error)
-        return entries;
+        return {};
     const CheckedJson index = CheckedJson::read(store / "index.json");
     check_version(index, store);
-    for (const CheckedJson& entry : index.at("references").items())
-        entries.push_back({read_hash(entry.at("id")), read_key(entry.at("key")), entry.at("note").text(), entry.at("played_utc").text()});
-    return entries;
+    return from_json<std::vector<StoredReference>>(index.at("references"), stored_members);
 }
 
 AcceptedReference load_reference(const fs::path& store, const StoredReference& entry) {
