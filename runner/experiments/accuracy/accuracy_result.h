@@ -102,6 +102,8 @@ std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
 Document document(const AccuracyResult& result);
 /// docs/accuracy.md and accuracy.schema.json describe it.
 std::string accuracy_json(const AccuracyResult& result);
+std::string accuracy_json_schema();
+AccuracyResult read_accuracy_json(const std::filesystem::path& file); ///< without pictures; throws InputError
 /// RFC 4180: a line for each row of each diagram.
 std::string accuracy_csv(const AccuracyResult& result);
 

@@ -1,58 +1,73 @@
 #include "runner/experiments/accuracy/errors_json.h"
 
+#include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/findings/extent_keys.h"
+
+#include <cstdio>
 
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
+JsonMembers quantile_members(ErrorQuantiles& q) { return {{"median", q.median}, {"p95", q.p95}, {"p99", q.p99}}; }
 
-Json quantiles_json(const ErrorQuantiles& q) { return {{"median", q.median}, {"p95", q.p95}, {"p99", q.p99}}; }
-
-Json worst_json(const WorstPixel& worst, const std::vector<int>& frames) {
-    return {{"error", worst.error},
-            {"tested", worst.tested},
-            {"reference", worst.reference},
-            {"frame", frames.at(static_cast<std::size_t>(worst.picture))},
-            {"x_px", worst.x},
-            {"y_px", worst.y}};
-}
+JsonMembers beyond_members(std::array<double, 3>& percent) { return {{"1", percent[0]}, {"5", percent[1]}, {"20", percent[2]}}; }
 
 } // namespace
 
-Json errors_json(const std::optional<PixelErrors>& errors, const std::string& why_not, const std::vector<int>& frames) {
-    if (!errors)
-        return {{"not_measured", why_not.empty() ? "no pixel was compared" : why_not}};
-    Json out{{"pixels", errors->pixels}, {"dark_pixels", errors->dark_pixels}};
-    if (errors->pixels > 0) {
-        out["relative"] = quantiles_json(errors->error);
-        out["relative_floor"] = quantiles_json(errors->floor);
-        out["mean"] = errors->mean;
-        out["worst"] = worst_json(errors->worst, frames);
-        if (errors->area_m2)
-            out["area_m2"] = *errors->area_m2;
-        out[errors->area_m2 ? "percent_of_area_beyond" : "percent_of_pixels_beyond"] = {
-            {"1", errors->percent_beyond[0]}, {"5", errors->percent_beyond[1]}, {"20", errors->percent_beyond[2]}};
-    }
-    if (errors->dark_pixels > 0) {
-        out["dark"] = quantiles_json(errors->dark_error);
-        out["dark_floor"] = quantiles_json(errors->dark_floor);
-        out["dark_worst"] = worst_json(errors->dark_worst, frames);
-    }
-    return out;
+Ticks ticks_of(const std::vector<std::pair<int, double>>& moments) {
+    return [&moments] {
+        std::vector<int> ticks;
+        for (const auto& [tick, time_s] : moments)
+            ticks.push_back(tick);
+        return ticks;
+    };
 }
 
-nlohmann::ordered_json reach_json(const std::vector<ReachError>& reach) {
-    Json out = Json::array();
-    for (const ReachError& error : reach) {
-        Json entry{{"plane", plane_name(error.plane)}, {"limit_lx", error.limit_lx}, {"moments", error.moments}};
-        if (error.why_not.empty())
-            entry.update({{"median_m", error.median_m}, {"worst_m", error.worst_m}});
-        else
-            entry["not_measured"] = error.why_not;
-        out.push_back(std::move(entry));
-    }
-    return out;
+JsonPart shadow_method_part(ShadowMethod& method) {
+    return one_of(method, names_of<ShadowMethod>([](ShadowMethod one) { return name(one); }, 10));
 }
+
+JsonPart beams_part(std::optional<BeamTexels>& beams) {
+    return through([&] { return beams_text(beams); },
+                   [&](const std::string& text) {
+                       BeamTexels t;
+                       beams = std::sscanf(text.c_str(), "%dx%dx%d", &t.width, &t.height, &t.bits) == 3 ? std::optional(t) : std::nullopt;
+                   });
+}
+
+JsonPart errors_part(std::optional<PixelErrors>& errors, const std::string& why_not, std::string* back, const Ticks& frames) {
+    const auto worst = [frames](WorstPixel& w) -> JsonMembers {
+        return {{"error", w.error}, {"tested", w.tested}, {"reference", w.reference}, {"frame", one_of(w.picture, frames)},
+                {"x_px", w.x},      {"y_px", w.y}};
+    };
+    const auto members = [worst](PixelErrors& e) {
+        const bool lit = e.pixels > 0, dark = e.dark_pixels > 0;
+        const auto area = through([&e] { return e.area_m2.value_or(0.0); }, [&e](double m2) { e.area_m2 = m2; });
+        return joined({{"pixels", e.pixels}, {"dark_pixels", e.dark_pixels}},
+                      when(lit, {{"relative", e.error, quantile_members},
+                                 {"relative_floor", e.floor, quantile_members},
+                                 {"mean", e.mean},
+                                 {"worst", e.worst, worst}}),
+                      when(lit && e.area_m2, {{"area_m2", area}, {"percent_of_area_beyond", e.percent_beyond, beyond_members}}),
+                      when(lit && !e.area_m2, {{"percent_of_pixels_beyond", e.percent_beyond, beyond_members}}),
+                      when(dark, {{"dark", e.dark_error, quantile_members},
+                                  {"dark_floor", e.dark_floor, quantile_members},
+                                  {"dark_worst", e.dark_worst, worst}}));
+    };
+    return or_why(json_part(errors, members), why_not.empty() ? "no pixel was compared" : why_not, back);
+}
+
+JsonMembers reach_members(ReachError& error) {
+    return joined(
+        {{"plane", one_of(error.plane, names_of<ExtentPlane>(plane_name, 2))}, {"limit_lx", error.limit_lx}, {"moments", error.moments}},
+        when(error.why_not.empty(), {{"median_m", error.median_m}, {"worst_m", error.worst_m}}),
+        when(!error.why_not.empty(), {{"not_measured", error.why_not}}));
+}
+
+nlohmann::ordered_json errors_json(const std::optional<PixelErrors>& errors, const std::string& why_not, const std::vector<int>& frames) {
+    return errors_part(const_cast<std::optional<PixelErrors>&>(errors), why_not, nullptr, [&] { return frames; }).write();
+}
+
+nlohmann::ordered_json reach_json(const std::vector<ReachError>& reach) { return json_of(reach, reach_members); }
 
 } // namespace fernlicht

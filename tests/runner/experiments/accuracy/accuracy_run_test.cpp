@@ -1,4 +1,5 @@
 // Accuracy through the program: a real drive in, files out; and what it says of pictures that are wrong by a known amount.
+#include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/experiments/accuracy/picture_errors.h"
 #include "runner/experiments/accuracy/technique_sweep.h"
 #include "scenarios/values/errors.h"
@@ -16,6 +17,14 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
+/// Fits its schema, and comes back as it is.
+json checked(const std::filesystem::path& file) {
+    json found = json::parse(content_of(file));
+    EXPECT_THAT(tests::Schema(json::parse(accuracy_json_schema())).check(found), IsEmpty());
+    EXPECT_EQ(json::parse(accuracy_json(read_accuracy_json(file))), found);
+    return found;
+}
+
 const json& row_of(const json& rows, const std::string& label) {
     for (const json& row : rows)
         if (row.at("label") == label)
@@ -30,9 +39,7 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
         "--techniques plain,full,light-map-2d,photometric --out " +
         (folder / "out ") + library_file("drives/straight.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/accuracy/accuracy.schema.json")));
-    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    const json accuracy = checked(folder / "out/accuracy.json");
     const json& all = accuracy.at("drives").at(0).at("configurations");
     ASSERT_EQ(all.size(), 8U); // four techniques, two of them at another resolution and with other beams
     const json &ours = row_of(all, "photometric"), &full = row_of(all, "full");
@@ -91,9 +98,7 @@ TEST(AccuracyRun, NamesTheShadowMethodThatAutoChose) {
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const std::string choice = "auto chose none: nothing stands in a beam in any of 2 moments";
     EXPECT_THAT(run.output, HasSubstr("Shadows where no method is named: " + choice));
-    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/accuracy/accuracy.schema.json")));
-    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    const json accuracy = checked(folder / "out/accuracy.json");
     const json& drive = accuracy.at("drives").at(0);
     EXPECT_EQ(drive.at("shadow_choice"), choice);
     EXPECT_EQ(row_of(drive.at("configurations"), "photometric").at("shadows"), "none");
@@ -113,9 +118,7 @@ TEST(AccuracyRun, ShadowMethodsStandBesideTheTechniques) {
                     "--techniques photometric,light-map-2d --shadow-maps 256x128 --out " +
                     (folder / "out ") + library_file("drives/shelter.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/accuracy/accuracy.schema.json")));
-    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    const json accuracy = checked(folder / "out/accuracy.json");
     const json& rows = accuracy.at("diagrams").at(0).at("rows");
     EXPECT_EQ(rows.size(), 1 + shadow_method_names().size()); // light-map-2d; photometric by the drive's own and each other method
     EXPECT_EQ(row_of(rows, "photometric, shadows none").at("parameters").at("shadows"), "none");
@@ -160,9 +163,7 @@ json interrupted(const TemporaryFolder& folder, const std::string& flags, const 
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("missing: drive straight-1: "));
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
-    json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/accuracy/accuracy.schema.json")));
-    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    json accuracy = checked(folder / "out/accuracy.json");
     EXPECT_EQ(accuracy.at("interrupted"), "interrupted by the user");
     EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr(accuracy.at("missing").at(0).get<std::string>()));
     return accuracy;
@@ -199,9 +200,7 @@ TEST(AccuracyRun, StudiesWhatIsNoTechnique) {
     const Outcome run = run_program("accuracy --quiet --diagrams extent,metrics,reference --out " + (folder / "out ") +
                                     library_file("drives/straight.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/accuracy/accuracy.schema.json")));
-    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    const json accuracy = checked(folder / "out/accuracy.json");
     EXPECT_THAT(accuracy.at("drives"), IsEmpty());
     const json& diagrams = accuracy.at("diagrams");
     ASSERT_EQ(diagrams.size(), 4U); // the reference's two ways, grid, comparisons
@@ -227,9 +226,7 @@ TEST(AccuracyRun, WeighsWhatIsInTheAirAndOnTheRoad) {
                        << ", first_m: 40, last_m: 60}}\n";
     const Outcome run = run_program("accuracy --quiet --diagrams weather --out " + (folder / "out ") + foggy + " " + lit);
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/accuracy/accuracy.schema.json")));
-    EXPECT_THAT(schema.check(accuracy), IsEmpty());
+    const json accuracy = checked(folder / "out/accuracy.json");
     const json& diagrams = accuracy.at("diagrams");
     ASSERT_EQ(diagrams.size(), 3U);
     const auto error = [&](std::size_t diagram, std::size_t row) {
