@@ -1,19 +1,16 @@
 #include "metrics/statistics/statistics.h"
-#include "runner/experiments/accuracy/accuracy_result.h"
+#include "runner/experiments/accuracy/errors_json.h"
 #include "runner/experiments/shadows/shadow_result.h"
-#include "runner/files/json_text.h"
 #include "runner/findings/context_json.h"
+#include "runner/findings/figures.h"
+#include "scenarios/values/pose.h"
 
-#include <fmt/format.h>
+#include <cmath>
 
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number_or_null(const auto& value) { return value ? Json(*value) : Json(nullptr); }
-
-Json area_json(const ShadowArea& area) {
+JsonMembers area_members(ShadowArea& area) {
     return {{"counted", area.counted},
             {"shadowed", area.shadowed},
             {"wrongly_lit", area.wrongly_lit},
@@ -21,84 +18,94 @@ Json area_json(const ShadowArea& area) {
             {"wrong_share", area.wrong_share()}};
 }
 
-Json time_interval_json(const std::optional<Interval>& time) {
-    return time ? Json{{"median", time->value}, {"low", time->low}, {"high", time->high}, {"interval", interval_name(*time)}}
-                : Json(nullptr);
+/// How often it was taken is not told: two stand for more than one.
+JsonMembers time_interval_members(Interval& time) {
+    const auto interval = through([&] { return interval_name(time); },
+                                  [&](const std::string& name) {
+                                      time.samples = name.empty() ? 0 : name == "one timing" ? 1 : 2;
+                                      time.of_median = name.starts_with("95");
+                                  });
+    return {{"median", time.value}, {"low", time.low}, {"high", time.high}, {"interval", interval}};
 }
 
-Json shadow_row_json(const ShadowRow& row) {
-    Json out{{"shadows", name(row.method)}, {"not_measured", measured(row) ? Json(nullptr) : Json(row.why_not)}};
-    if (!measured(row))
-        return out;
-    Json edges = Json::array(), passes = Json::array();
-    for (std::size_t d = 0; d < row.edges.size(); ++d)
-        edges.push_back({{"distance_m", edge_distances_m[d]},
-                         {"edges", row.edges[d].edges},
-                         {"lost", row.edges[d].lost},
-                         {"invented", row.edges[d].invented},
-                         {"rms_cm", number_or_null(row.edges[d].rms_cm)},
-                         {"worst_cm", number_or_null(row.edges[d].worst_cm)}});
-    for (const auto& [pass, time] : row.pass_s)
-        passes.push_back({{"name", pass}, {"seconds", time_interval_json(time)}});
-    Json crawl{{"cm", number_or_null(row.crawl_cm)}, {"not_measured", row.crawl_cm ? Json(nullptr) : Json(row.no_crawl)}};
-    Json work(nullptr);
-    if (const auto counted = typical_work(row.work))
-        work = {{"passes", counted->passes},     {"draws", counted->draws},         {"calls", counted->calls},
-                {"samplers", counted->samplers}, {"triangles", counted->triangles}, {"fragments", counted->fragments}};
-    out.update({{"ground_m2", area_json(row.ground_m2)},
-                {"wrong_share_by_moment", row.wrong_by_moment},
-                {"view_px", area_json(row.view_px)},
-                {"discs_px", row.discs_px ? area_json(*row.discs_px) : Json(nullptr)},
-                {"spots",
-                 {{"acne", row.spots.acne},
-                  {"acne_px", row.spots.acne_px},
-                  {"leaks", row.spots.leaks},
-                  {"leaks_px", row.spots.leaks_px},
-                  {"sure_px", row.spots.sure_px}}},
-                {"edges", edges},
-                {"crawl", crawl},
-                {"frame", time_interval_json(frame_time(row))},
-                {"frame_s", row.samples.frame_s},
-                {"cpu_s", row.samples.cpu_s},
-                {"passes", passes},
-                {"texture_bytes", number_or_null(row.texture_bytes)},
-                {"work", work}});
-    return out;
+JsonMembers pass_members(std::pair<std::string, Interval>& pass) {
+    return {{"name", pass.first}, {"seconds", pass.second, time_interval_members}};
 }
 
-Json scene_json(const ShadowSceneResult& scene) {
-    Json moments = Json::array(), rows = Json::array();
-    for (const auto& [tick, time_s] : scene.moments)
-        moments.push_back({{"frame", tick}, {"time_s", time_s}});
-    for (const ShadowRow& row : scene.rows)
-        rows.push_back(shadow_row_json(row));
+JsonMembers work_members(Work& work) {
+    return {{"passes", work.passes},     {"draws", work.draws},         {"calls", work.calls},
+            {"samplers", work.samplers}, {"triangles", work.triangles}, {"fragments", work.fragments}};
+}
+
+JsonMembers shadow_row_members(ShadowRow& row) {
+    const auto edge_members = [&row](EdgeError& edge) -> JsonMembers {
+        const auto place = static_cast<std::size_t>(&edge - row.edges.data()); // one to be described stands elsewhere
+        return {{"distance_m", place < row.edges.size() ? edge_distances_m[place] : 0.0},
+                {"edges", edge.edges},
+                {"lost", edge.lost},
+                {"invented", edge.invented},
+                {"rms_cm", edge.rms_cm},
+                {"worst_cm", edge.worst_cm}};
+    };
+    ShadowSpots& spots = row.spots;
+    return joined({{"shadows", shadow_method_part(row.method)}, {"not_measured", or_null(row.why_not)}},
+                  when(measured(row), {{"ground_m2", row.ground_m2, area_members},
+                                       {"wrong_share_by_moment", row.wrong_by_moment},
+                                       {"view_px", row.view_px, area_members},
+                                       {"discs_px", row.discs_px, area_members},
+                                       {"spots",
+                                        {{"acne", spots.acne},
+                                         {"acne_px", spots.acne_px},
+                                         {"leaks", spots.leaks},
+                                         {"leaks_px", spots.leaks_px},
+                                         {"sure_px", spots.sure_px}}},
+                                       {"edges", row.edges, edge_members},
+                                       {"crawl", {{"cm", row.crawl_cm}, {"not_measured", or_null(row.no_crawl)}}},
+                                       {"frame", frame_time(row), time_interval_members},
+                                       {"frame_s", row.samples.frame_s},
+                                       {"cpu_s", row.samples.cpu_s},
+                                       {"passes", row.pass_s, pass_members},
+                                       {"texture_bytes", row.texture_bytes},
+                                       {"work", typical_work_part(row.work, work_members)}}));
+}
+
+JsonMembers scene_members(ShadowSceneResult& scene) {
+    const auto fov = through([&] { return degrees(scene.vertical_fov_rad); },
+                             [&](double deg) {
+                                 double& rad = scene.vertical_fov_rad; // of which degrees() makes the same again
+                                 for (rad = std::nextafter(radians(deg), 0.0); degrees(rad) < deg;)
+                                     rad = std::nextafter(rad, 4.0);
+                             });
     return {{"name", scene.name},
             {"title", scene.title},
             {"of_drive", scene.of_drive},
-            {"moments", moments},
-            {"vertical_fov_deg", degrees(scene.vertical_fov_rad)},
+            {"moments", scene.moments, moment_members},
+            {"vertical_fov_deg", fov},
             {"timed_px", {{"width", scene.width_px}, {"height", scene.height_px}}},
-            {"rows", rows}};
+            {"rows", scene.rows, shadow_row_members}};
+}
+
+JsonMembers shadow_members(ShadowResult& result) {
+    return {{"schema", json_constant("fernlicht shadows")},
+            {"schema_version", json_constant(1)},
+            {"context", context_members(result.context)},
+            {"interrupted", or_null(result.interrupted)},
+            {"missing", result.missing},
+            {"cores", result.cores},
+            {"cores_used_by_others", result.others.cores},
+            {"rounds", result.rounds},
+            {"map_texels", {{"width", result.map_width}, {"height", result.map_height}}},
+            {"lamp_radius_m", result.lamp_radius_m},
+            {"floor_lx", result.floor_lx},
+            {"scenes", result.scenes, scene_members}};
 }
 
 } // namespace
 
-std::string shadow_json(const ShadowResult& result) {
-    Json scenes = Json::array();
-    for (const ShadowSceneResult& scene : result.scenes)
-        scenes.push_back(scene_json(scene));
-    return json_text(Json{{"schema", "fernlicht shadows"},
-                          {"schema_version", 1},
-                          {"context", context_json(result.context)},
-                          {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
-                          {"missing", result.missing},
-                          {"cores", result.cores},
-                          {"cores_used_by_others", number_or_null(result.others.cores)},
-                          {"rounds", result.rounds},
-                          {"map_texels", {{"width", result.map_width}, {"height", result.map_height}}},
-                          {"lamp_radius_m", result.lamp_radius_m},
-                          {"floor_lx", result.floor_lx},
-                          {"scenes", scenes}});
+std::string shadow_json(const ShadowResult& result) { return json_text(json_of(result, shadow_members)); }
+std::string shadow_json_schema() { return json_schema(shadow_members); }
+ShadowResult read_shadow_json(const std::filesystem::path& file) {
+    return from_json<ShadowResult>(CheckedJson::read(file), shadow_members);
 }
 
 } // namespace fernlicht

@@ -80,6 +80,8 @@ Document document(const ShadowResult& result);
 Table shadow_table(const ShadowResult& result);
 /// docs/shadows.md and shadows.schema.json describe it.
 std::string shadow_json(const ShadowResult& result);
+std::string shadow_json_schema();
+ShadowResult read_shadow_json(const std::filesystem::path& file); ///< without pictures; throws InputError
 /// RFC 4180: a line for each scene and method.
 std::string shadow_csv(const ShadowResult& result);
 

@@ -1,4 +1,5 @@
 // `fernlicht shadows` through the program: scenes in, a table of methods out.
+#include "runner/experiments/shadows/shadow_result.h"
 #include "scenarios/drives/shadow_settings.h"
 #include "tests/runner/experiments/shadows/short_drive.h"
 #include "tests/runner/schema_check.h"
@@ -15,6 +16,14 @@ using ::testing::Not;
 
 const std::string small = "shadows --quiet --resolution 96x72 --lamp " + library_file("lamps/xenon-low.ies") + " ";
 
+/// Fits its schema, and comes back as it is.
+json checked(const std::filesystem::path& file) {
+    json found = json::parse(content_of(file));
+    EXPECT_THAT(tests::Schema(json::parse(shadow_json_schema())).check(found), IsEmpty());
+    EXPECT_EQ(json::parse(shadow_json(read_shadow_json(file))), found);
+    return found;
+}
+
 const json& row_of(const json& scene, const std::string& method) {
     for (const json& row : scene.at("rows"))
         if (row.at("shadows") == method)
@@ -29,9 +38,7 @@ TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
                     (folder / "out ") + library_file("drives/straight.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, HasSubstr("   30 m "));
-    const json found = json::parse(content_of(folder / "out/shadows.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/shadows/shadows.schema.json")));
-    EXPECT_THAT(schema.check(found), IsEmpty());
+    const json found = checked(folder / "out/shadows.json");
     ASSERT_EQ(found.at("scenes").size(), 3U);
     const json &post = found.at("scenes").at(0), &none = row_of(post, "none"), &map = row_of(post, "map");
     EXPECT_EQ(post.at("name"), "post-5");
@@ -125,9 +132,7 @@ TEST(ShadowsCommand, TakesEveryMethodThereIs) {
     const TemporaryFolder folder;
     const Outcome run = run_program(small + "--rounds 1 --lamp-radius 0 --scenes crest --out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json found = json::parse(content_of(folder / "out/shadows.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/shadows/shadows.schema.json")));
-    EXPECT_THAT(schema.check(found), IsEmpty());
+    const json found = checked(folder / "out/shadows.json");
     const json& scene = found.at("scenes").at(0);
     EXPECT_EQ(scene.at("rows").size(), shadow_method_names().size());
     for (const ShadowMethodName& method : shadow_method_names()) {
