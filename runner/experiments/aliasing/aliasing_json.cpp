@@ -1,112 +1,143 @@
+#include "runner/experiments/accuracy/errors_json.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
 #include "runner/files/clean_text.h"
-#include "runner/files/json_text.h"
 #include "runner/findings/context_json.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json part_json(const AliasingPart& part) {
+JsonMembers part_members(AliasingPart& part) {
     return {{"rms_cdm2", part.rms}, {"contrast_percent", part.contrast_percent}, {"thresholds", part.visible}};
 }
 
-Json bands_json(const AliasingResult& result, const SpatialAliasing& spatial) {
-    Json bands = Json::array();
-    for (const AliasingBand& band : spatial.bands)
-        bands.push_back({{"from_cycles_per_px", band.from},
-                         {"to_cycles_per_px", band.to},
-                         {"from_cycles_per_degree", band.from * result.pixels_per_degree},
-                         {"to_cycles_per_degree", band.to * result.pixels_per_degree},
-                         {"aliasing", part_json(band.aliasing)},
-                         {"lost", part_json(band.lost)}});
-    return bands;
+JsonMembers edge_members(EdgeJaggedness& edge) {
+    return {{"rms_px", edge.found.rms_px}, {"standard_error_px", edge.found.standard_error_px},
+            {"floor_px", edge.floor_px},   {"worst_px", edge.found.worst_px},
+            {"points", edge.found.points}, {"without_partner", edge.found.without}};
 }
 
-Json edge_json(const std::optional<EdgeJaggedness>& edge, const std::string& why_not) {
-    if (!edge)
-        return {{"not_measured", why_not}};
-    return {{"rms_px", edge->found.rms_px}, {"standard_error_px", edge->found.standard_error_px},
-            {"floor_px", edge->floor_px},   {"worst_px", edge->found.worst_px},
-            {"points", edge->found.points}, {"without_partner", edge->found.without}};
-}
+JsonMembers flicker_members(FlickerBand& band) { return {{"hertz", band.hertz}, {"contrast_percent", band.contrast_percent}}; }
 
-Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-Json found_json(const TemporalAliasing& temporal) {
-    Json spectrum = Json::array();
-    for (const FlickerBand& band : temporal.spectrum)
-        spectrum.push_back({{"hertz", band.hertz}, {"contrast_percent", band.contrast_percent}});
+JsonMembers found_members(TemporalAliasing& temporal) {
     return {{"tracks", temporal.tracks},
-            {"crawl_percent", optional_json(temporal.crawl_percent)},
+            {"crawl_percent", temporal.crawl_percent},
             {"flicker_percent", temporal.flicker_percent},
-            {"standing_percent", optional_json(temporal.standing_percent)},
+            {"standing_percent", temporal.standing_percent},
             {"thresholds", temporal.visible},
-            {"spectrum", spectrum}};
+            {"spectrum", temporal.spectrum, flicker_members}};
 }
 
-Json temporal_json(const AliasingRow& row) {
-    if (!row.temporal)
-        return {{"not_measured", row.no_temporal}};
-    Json found = found_json(*row.temporal);
-    found["motion"] = row.by_flow ? Json{{"by", "optical flow"},
-                                         {"started", row.by_flow->started},
-                                         {"followed", row.by_flow->followed},
-                                         {"without_contrast", row.by_flow->flat},
-                                         {"median_motion_px", row.by_flow->median_motion_px},
-                                         {"median_return_px", row.by_flow->median_return_px}}
-                                  : Json{{"by", "depth and the car's path"}};
-    return found;
+JsonMembers motion_members(std::pair<bool, FollowedByFlow>& motion) {
+    FollowedByFlow& flow = motion.second;
+    return joined({{"by", one_of(motion.first,
+                                 [] {
+                                     return std::vector<std::string>{"depth and the car's path", "optical flow"};
+                                 })}},
+                  when(motion.first, {{"started", flow.started},
+                                      {"followed", flow.followed},
+                                      {"without_contrast", flow.flat},
+                                      {"median_motion_px", flow.median_motion_px},
+                                      {"median_return_px", flow.median_return_px}}));
 }
 
-Json flows_json(const AliasingResult& result) {
-    Json flows = Json::array();
-    for (const FlowComparison& flow : result.flows)
-        flows.push_back({{"pictures", flow.pictures},
-                         {"method", method_name(flow.method)},
-                         {"points", flow.error.points},
-                         {"known_motion_px", flow.error.known_motion_px},
-                         {"left_out_percent", flow.error.left_out_percent},
-                         {"mean_error_px", flow.error.mean_px},
-                         {"median_error_px", flow.error.median_px},
-                         {"off_by_half_a_pixel_percent", flow.error.far_percent},
-                         {"temporal", flow.temporal ? found_json(*flow.temporal) : Json(nullptr)},
-                         {"temporal_by_known_motion", flow.known ? found_json(*flow.known) : Json(nullptr)}});
-    return flows;
+JsonMembers flow_members(FlowComparison& flow) {
+    return {{"pictures", flow.pictures},
+            {"method", one_of(flow.method, names_of<FlowMethod>(method_name, 2))},
+            {"points", flow.error.points},
+            {"known_motion_px", flow.error.known_motion_px},
+            {"left_out_percent", flow.error.left_out_percent},
+            {"mean_error_px", flow.error.mean_px},
+            {"median_error_px", flow.error.median_px},
+            {"off_by_half_a_pixel_percent", flow.error.far_percent},
+            {"temporal", flow.temporal, found_members},
+            {"temporal_by_known_motion", flow.known, found_members}};
 }
 
-Json row_json(const AliasingResult& result, const AliasingRow& row) {
-    const AliasingConfiguration& c = row.configuration;
-    const bool ours = c.others.empty();
-    const std::string beams = c.beams ? fmt::format("{}x{}x{}", c.beams->width, c.beams->height, c.beams->bits) : "float";
-    Json out{{"label", name_of(c)},
-             {"technique", ours ? Json(c.technique) : Json(nullptr)},
-             {"beams", ours ? Json(beams) : Json(nullptr)},
-             {"filter", ours ? Json(filter_name(c.filter)) : Json(nullptr)},
-             {"samples", ours ? Json(c.samples) : Json(nullptr)},
-             {"varied", c.varied.empty() ? Json(nullptr) : Json(c.varied)}};
-    if (!row.why_not.empty()) {
-        out["not_measured"] = row.why_not;
-        return out;
-    }
-    const SpatialAliasing& s = row.spatial;
-    if (measured_over_space(row))
-        out.update({{"aliasing", part_json(s.aliasing)},
-                    {"folded", part_json(s.folded)},
-                    {"rest", part_json(s.rest)},
-                    {"lost", part_json(s.lost)},
-                    {"bands", bands_json(result, s)},
-                    {"worst", {{"thresholds", s.worst_visible}, {"x_px", s.worst_x}, {"y_px", s.worst_y}}}});
-    else
-        out["aliasing"] = {{"not_measured", row.no_spatial}};
-    out.update({{"jaggedness", {{"cut_off", edge_json(row.cut_off, row.no_cut_off)}, {"marks", edge_json(row.marks, row.no_marks)}}},
-                {"temporal", temporal_json(row)}});
-    return out;
+/// A label is taken for the name of pictures of others until something is known of how they were drawn.
+JsonMembers configuration_members(AliasingConfiguration& c) {
+    const auto if_ours = [&c](auto& value, auto... inner) {
+        using Plain = std::remove_cvref_t<decltype(value)>;
+        return through([&c, &value] { return c.others.empty() ? std::optional<Plain>(value) : std::nullopt; },
+                       [&c, &value](const std::optional<Plain>& given) {
+                           if (given)
+                               value = *given, c.others.clear();
+                       },
+                       inner...);
+    };
+    const auto filter_part = [](SurfaceFilter& filter) { return one_of(filter, names_of<SurfaceFilter>(filter_name, 3)); };
+    return {{"label", through([&c] { return name_of(c); }, [&c](const std::string& name) { c.others = name; })},
+            {"technique", if_ours(c.technique)},
+            {"beams", if_ours(c.beams, beams_part)},
+            {"filter", if_ours(c.filter, filter_part)},
+            {"samples", if_ours(c.samples)},
+            {"varied", or_null(c.varied)}};
+}
+
+JsonMembers row_members(AliasingRow& row, const AliasingResult& result) {
+    SpatialAliasing& s = row.spatial;
+    const bool any = row.why_not.empty(), spatial = measured_over_space(row);
+    const auto band_members = [&result](AliasingBand& band) -> JsonMembers {
+        return {{"from_cycles_per_px", band.from},
+                {"to_cycles_per_px", band.to},
+                {"from_cycles_per_degree", band.from * result.pixels_per_degree},
+                {"to_cycles_per_degree", band.to * result.pixels_per_degree},
+                {"aliasing", band.aliasing, part_members},
+                {"lost", band.lost, part_members}};
+    };
+    const auto temporal_members = [&row](TemporalAliasing& temporal) {
+        const auto motion =
+            through([&row] { return std::pair(row.by_flow.has_value(), row.by_flow.value_or(FollowedByFlow{})); },
+                    [&row](const std::pair<bool, FollowedByFlow>& by) { row.by_flow = by.first ? std::optional(by.second) : std::nullopt; },
+                    motion_members);
+        return joined(found_members(temporal), JsonMembers{{"motion", motion}});
+    };
+    return joined(
+        configuration_members(row.configuration), when(!any, {{"not_measured", row.why_not}}),
+        when(any, {{"aliasing", joined(when(spatial, part_members(s.aliasing)), when(!spatial, {{"not_measured", row.no_spatial}}))}}),
+        when(spatial, {{"folded", s.folded, part_members},
+                       {"rest", s.rest, part_members},
+                       {"lost", s.lost, part_members},
+                       {"bands", s.bands, band_members},
+                       {"worst", {{"thresholds", s.worst_visible}, {"x_px", s.worst_x}, {"y_px", s.worst_y}}}}),
+        when(any, {{"jaggedness",
+                    {{"cut_off", or_why(json_part(row.cut_off, edge_members), row.no_cut_off, &row.no_cut_off)},
+                     {"marks", or_why(json_part(row.marks, edge_members), row.no_marks, &row.no_marks)}}},
+                   {"temporal", or_why(json_part(row.temporal, temporal_members), row.no_temporal, &row.no_temporal)}}));
+}
+
+std::vector<std::string> names_by_aliasing(const AliasingResult& result) {
+    std::vector<std::string> names;
+    for (const std::size_t i : ranked(result))
+        names.push_back(name_of(result.rows[i].configuration));
+    return names;
+}
+
+JsonMembers aliasing_members(AliasingResult& result) {
+    return {{"schema", json_constant("fernlicht aliasing")},
+            {"schema_version", json_constant(2)},
+            {"context", context_members(result.context)},
+            {"interrupted", or_null(result.interrupted)},
+            {"notes", result.notes},
+            {"drive", result.drive},
+            {"title", result.title},
+            {"variant", result.variant},
+            {"width_px", result.view.width_px},
+            {"height_px", result.view.height_px},
+            {"pixels_per_degree", result.pixels_per_degree},
+            {"supersample", or_null(result.supersample)},
+            {"picture", one_of(result.displayed,
+                               [] {
+                                   return std::vector<std::string>{"luminance", "display"};
+                               })},
+            {"level_lx", or_null(result.level_lx)},
+            {"moments", result.moments, moment_members},
+            {"shown_frame", one_of(result.shown, ticks_of(result.moments))},
+            {"rows", result.rows, [&result](AliasingRow& row) { return row_members(row, result); }},
+            {"optical_flow", result.flows, flow_members},
+            {"least_to_most", names_by_aliasing(result)}};
 }
 
 } // namespace
@@ -142,33 +173,10 @@ std::string motion_text(const FollowedByFlow& flow) {
                        2 * flow.followed < flow.started ? "; fewer than half, and flicker is known of those alone" : "");
 }
 
-std::string aliasing_json(const AliasingResult& result) {
-    Json moments = Json::array(), rows = Json::array(), order = Json::array();
-    for (const auto& [tick, time_s] : result.moments)
-        moments.push_back({{"frame", tick}, {"time_s", time_s}});
-    for (const AliasingRow& row : result.rows)
-        rows.push_back(row_json(result, row));
-    for (const std::size_t i : ranked(result))
-        order.push_back(name_of(result.rows[i].configuration));
-    return json_text(Json{{"schema", "fernlicht aliasing"},
-                          {"schema_version", 2},
-                          {"context", context_json(result.context)},
-                          {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
-                          {"notes", result.notes},
-                          {"drive", result.drive},
-                          {"title", result.title},
-                          {"variant", result.variant},
-                          {"width_px", result.view.width_px},
-                          {"height_px", result.view.height_px},
-                          {"pixels_per_degree", result.pixels_per_degree},
-                          {"supersample", result.supersample == 0 ? Json(nullptr) : Json(result.supersample)},
-                          {"picture", result.displayed ? "display" : "luminance"},
-                          {"level_lx", result.level_lx > 0.0 ? Json(result.level_lx) : Json(nullptr)},
-                          {"moments", moments},
-                          {"shown_frame", result.moments.at(result.shown).first},
-                          {"rows", rows},
-                          {"optical_flow", flows_json(result)},
-                          {"least_to_most", order}});
+std::string aliasing_json(const AliasingResult& result) { return json_text(json_of(result, aliasing_members)); }
+std::string aliasing_json_schema() { return json_schema(aliasing_members); }
+AliasingResult read_aliasing_json(const std::filesystem::path& file) {
+    return from_json<AliasingResult>(CheckedJson::read(file), aliasing_members);
 }
 
 std::string aliasing_csv(const AliasingResult& result) {

@@ -83,6 +83,8 @@ float displayed_cdm2(const Rgb8& pixel);
 /// docs/aliasing.md tells how to read it.
 Document document(const AliasingResult& result);
 std::string aliasing_json(const AliasingResult& result);
+std::string aliasing_json_schema();
+AliasingResult read_aliasing_json(const std::filesystem::path& file); ///< without pictures; throws InputError
 std::string aliasing_csv(const AliasingResult& result);
 bool measured_over_space(const AliasingRow& row);
 /// Rows measured over space, by what an eye sees of them, least first.

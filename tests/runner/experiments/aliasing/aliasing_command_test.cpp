@@ -1,3 +1,4 @@
+#include "runner/experiments/aliasing/aliasing_result.h"
 #include "runner/files/icc_profile.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/display/display_profile.h"
@@ -17,6 +18,14 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+/// Fits its schema, and comes back as it is.
+json checked(const std::filesystem::path& file) {
+    json found = json::parse(content_of(file));
+    EXPECT_THAT(tests::Schema(json::parse(aliasing_json_schema())).check(found), IsEmpty());
+    EXPECT_EQ(json::parse(aliasing_json(read_aliasing_json(file))), found);
+    return found;
+}
+
 /// The row that was drawn so; the test fails without it.
 const json& row_with(const json& found, const std::string& beams, const std::string& filter, int samples) {
     for (const json& row : found.at("rows"))
@@ -35,9 +44,7 @@ TEST(AliasingCommand, RanksWhatIsKnown) {
                     "--filter trilinear,none --out " +
                     (folder / "out") + " " + library_file("drives/first-light.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json found = json::parse(content_of(folder / "out/aliasing.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/aliasing/aliasing.schema.json")));
-    EXPECT_THAT(schema.check(found), IsEmpty());
+    const json found = checked(folder / "out/aliasing.json");
     const json& fine = row_with(found, "float", "trilinear", 1);
     const json& eight_bit = row_with(found, "512x128x8", "trilinear", 1);
     const json& unfiltered = row_with(found, "float", "none", 1);
@@ -163,9 +170,7 @@ void write_ring(const std::string& folder, int frames, int k, bool png, double r
 json sequence_found(const TemporaryFolder& folder, const std::string& flags, const std::string& out, int exit_code = 0) {
     const Outcome run = run_program("aliasing --quiet --rate 30 --ppd 20 " + flags + " --out " + (folder / out));
     EXPECT_EQ(run.exit_code, exit_code) << run.output;
-    const json found = json::parse(content_of(folder / (out + "/aliasing.json")));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/aliasing/aliasing.schema.json")));
-    EXPECT_THAT(schema.check(found), IsEmpty());
+    const json found = checked(folder / (out + "/aliasing.json"));
     EXPECT_TRUE(std::filesystem::exists(folder / (out + "/aliasing.html")));
     return found.at("rows").at(0);
 }
