@@ -63,8 +63,11 @@ JsonMembers interval_members(Interval& i) { return {{"value", i.value}, {"low", 
 
 /// A time: what its interval is depends on how often it was taken.
 JsonMembers time_members(Interval& time) {
-    const auto interval = through([&] { return interval_name(time).empty() ? std::nullopt : std::optional(interval_name(time)); },
-                                  [&](const std::optional<std::string>& name) { time.of_median = name && name->starts_with("95"); });
+    JsonPart interval = through([&] { return interval_name(time).empty() ? std::nullopt : std::optional(interval_name(time)); },
+                                [&](const std::optional<std::string>& name) { time.of_median = name && name->starts_with("95"); });
+    interval.schema = [] {
+        return nlohmann::ordered_json{{"enum", {"95 % interval of the median", "least to most", "one timing", nullptr}}};
+    };
     return joined(interval_members(time), JsonMembers{{"timings", time.samples}, {"interval", interval}});
 }
 

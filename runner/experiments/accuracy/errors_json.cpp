@@ -42,12 +42,13 @@ JsonPart errors_part(std::optional<PixelErrors>& errors, const std::string& why_
     };
     const auto members = [worst](PixelErrors& e) {
         const bool lit = e.pixels > 0, dark = e.dark_pixels > 0;
+        const auto area = through([&e] { return e.area_m2.value_or(0.0); }, [&e](double m2) { e.area_m2 = m2; });
         return joined({{"pixels", e.pixels}, {"dark_pixels", e.dark_pixels}},
                       when(lit, {{"relative", e.error, quantile_members},
                                  {"relative_floor", e.floor, quantile_members},
                                  {"mean", e.mean},
                                  {"worst", e.worst, worst}}),
-                      when(lit && e.area_m2, {{"area_m2", e.area_m2}, {"percent_of_area_beyond", e.percent_beyond, beyond_members}}),
+                      when(lit && e.area_m2, {{"area_m2", area}, {"percent_of_area_beyond", e.percent_beyond, beyond_members}}),
                       when(lit && !e.area_m2, {{"percent_of_pixels_beyond", e.percent_beyond, beyond_members}}),
                       when(dark, {{"dark", e.dark_error, quantile_members},
                                   {"dark_floor", e.dark_floor, quantile_members},
