@@ -1,5 +1,4 @@
 #include "runner/experiments/aliasing/aliasing_result.h"
-#include "runner/files/icc_profile.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/display/display_profile.h"
 #include "tests/runner/program.h"
