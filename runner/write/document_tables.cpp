@@ -43,6 +43,9 @@ std::string latex_text(const std::string& words) {
                                                                {"\u2260", "$\\ne$"},
                                                                {"\u2032", "$'$"},
                                                                {"\u2009", "\\,"},
+                                                               {"²", "$^2$"},
+                                                               {"±", "$\\pm$"},
+                                                               {"°", "$^\\circ$"},
                                                                {"\ufffd", "?"}};
     const std::string clean = clean_text(words);
     std::string out;

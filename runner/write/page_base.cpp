@@ -10,11 +10,6 @@ namespace fernlicht {
 
 using kainjow::mustache::data;
 
-const char* variant_colour(std::size_t index) {
-    constexpr std::array<const char*, 6> colours{"#c24e00", "#0068a8", "#00795a", "#a8407f", "#8a6a00", "#4a4a4a"};
-    return colours[index % colours.size()];
-}
-
 data context_part(const RunContext& context) {
     data part;
     part.set("command", clean_text(context.command));
@@ -51,7 +46,7 @@ data context_part(const RunContext& context) {
 }
 
 std::string page_of(const char* template_name, data page) {
-    page.set("style", std::string(report_file("report.css")));
+    page.set("style", std::string(report_file("report.css")) + std::string(report_file("document.css")));
     page.set("document_sections", std::string(report_file("document_sections.mustache")));
     kainjow::mustache::mustache page_template{std::string(report_file(template_name))};
     std::string html = page_template.render(page);

@@ -110,11 +110,11 @@ Document document(const LampPairComparison& lamps) {
              {rows_table(lamps), fmt::format("verdict  A {}, B {}; no approval", verdict(lamps.before), verdict(lamps.now))}});
     }
     document.sections.push_back({"Figures of both", {facts_table(lamps)}});
-    Section& beams = document.sections.emplace_back(Section{"The beams", {}, true});
+    Section& beams = document.sections.emplace_back(Section{"The beams", {}, 2, true});
     for (const ComparedFigure& drawn : lamps.figures)
         beams.blocks.emplace_back(drawn.plot());
     if (!lamps.difference.zones.empty())
-        document.sections.push_back({"Zones that differ", {zones_table(lamps.difference)}, true});
+        document.sections.push_back({"Zones that differ", {zones_table(lamps.difference)}, 2, true});
     Table files{"files", "", {{.head = "", .words = true}, {.head = "name", .words = true}, {.head = "format", .words = true}}, {}};
     files.columns.push_back({.head = "file", .words = true});
     for (const auto& [side, lamp] : {std::pair("A, old", &lamps.before), std::pair("B, new", &lamps.now)})
