@@ -64,6 +64,10 @@ struct Table {
 struct Listing {
     std::vector<Cell> items;
     std::string caption = {}; ///< "" for none
+
+    Listing() = default;
+    Listing(std::vector<Cell> cells, std::string above = {}) : items(std::move(cells)), caption(std::move(above)) {}
+    explicit Listing(const std::vector<std::string>& sentences) : items(sentences.begin(), sentences.end()) {}
 };
 
 /// One of the few figures that matter most, to be seen from afar.

@@ -143,7 +143,7 @@ void add_details(const ComparedDrive& drive, Sections& sections) {
     add_readings(drive, sections);
     sections.push_back({"Lamps, notes, what was left out", {lamps_table(drive)}, 3});
     if (std::vector<std::string> notes = merged(drive, &PlayedVariant::notes); !notes.empty())
-        sections.push_back({"Notes", {Listing{std::move(notes)}}, 4});
+        sections.push_back({"Notes", {Listing(notes)}, 4});
     if (Table left_out = left_out_table(drive); !left_out.rows.empty())
         sections.push_back({"Left out because the scene does not need it", {std::move(left_out)}, 4});
     add_savings_of(drive, sections);

@@ -82,7 +82,7 @@ void add_shown_by(const DrawnBy& drawn, Sections& sections) {
     }
     const bool seen_first = drawn.display.windscreen || drawn.display.veil || drawn.display.night_colours || drawn.display.night_sharpness;
     const char* const at_first = adapts ? " at first" : "";
-    Listing stages{display_stages(drawn)};
+    Listing stages(display_stages(drawn));
     stages.items.push_back(fmt::format("Tone mapper `{}`{}, white at {:.4g} cd/m²{}", name(mapper.kind),
                                        has_s ? fmt::format(", s = {:.3g}", mapper.s) : "", mapper.l_max_cdm2, at_first));
     stages.items.push_back(fmt::format("Display `{}`{}: peak {:.4g} cd/m², black {:.3g} cd/m², {} bits; colours that it does not hold {}",

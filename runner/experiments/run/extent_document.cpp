@@ -146,8 +146,10 @@ Listing reaches_at_a_glance(const ComparedDrive& drive) {
             const Value reach = found->reach.quantile(0.5), by_aim = found->per_tenth_degree.quantile(0.5);
             const Value change = i == 0 ? Value() : difference(reach, first, "");
             first = i == 0 ? reach : first;
-            std::string& words = reaches.items.emplace_back(
-                fmt::format("{}: reach at {:g} lx {} m", lamp_cell(drive, i).text, limit_lx, value_cell(reach, 1).text));
+            std::string& words =
+                reaches.items
+                    .emplace_back(fmt::format("{}: reach at {:g} lx {} m", lamp_cell(drive, i).text, limit_lx, value_cell(reach, 1).text))
+                    .text;
             if (change.measured())
                 words += fmt::format(" ({} m)", with_bound(change, signed_figure(*change.figure(), 1)));
             if (by_aim.measured())

@@ -160,7 +160,7 @@ Section verdict_section(const Report& report) {
             "{} of {} verdicts are green: limits, and references and repeats where they were asked for.", counts.pass, counts.all()));
     for (Table* const table : {&failures, &flakes, &gaps, &known, &passes}) {
         if (table == &passes && !report.warnings.empty())
-            section.blocks.emplace_back(Listing{report.warnings});
+            section.blocks.emplace_back(Listing(report.warnings));
         for (std::size_t row = table->rows.size(); table != &passes && row-- > 1;) // the same command once
             if (!table->rows[row].back().text.empty() && table->rows[row].back().text == table->rows[row - 1].back().text)
                 table->rows[row].back().text = "as above";

@@ -178,7 +178,7 @@ std::string verdict_words(const StudyResult& result) {
 }
 
 Section verdict_section(const StudyResult& result) {
-    Section section{verdict_words(result), {}, was_judged(result) ? verdict_name(overall(result)) : "none"};
+    Section section{verdict_words(result), {}, 2, false, was_judged(result) ? verdict_name(overall(result)) : "none"};
     if (!result.interrupted.empty())
         section.blocks.emplace_back("The study did not end; --resume goes on.");
     section.blocks.emplace_back(study_sentence(result));
