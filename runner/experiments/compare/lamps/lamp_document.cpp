@@ -99,7 +99,7 @@ Document document(const LampPairComparison& lamps) {
     Document document{short_text(name_beside(b, a), 80) + " against " + short_text(name_beside(a, b), 80), {}};
     Table told{"difference", "", {{.head = "", .words = true}, {.head = "B against A", .words = true}}, {}};
     for (const auto& [what, text] : difference_lines(b, a, lamps.difference))
-        told.rows.push_back({what.empty() ? " " : what, text}); // goes on
+        told.rows.push_back({what.empty() ? " " : what, text});
     document.sections.push_back({lamps.difference.any() ? "The lamps differ" : "No difference beyond noise", {told}});
     if (lamps.regulation) {
         const auto verdict = [](const ComparedLamp& lamp) {
