@@ -60,7 +60,7 @@ int list(const ReferencesFlags& flags) {
     const FolderLock lock(flags.store, FolderLock::For::reading);
     const std::vector<StoredReference> entries = list_references(flags.store);
     if (flags.json) {
-        fmt::print("{}", json_text(json_of(entries, stored_members)));
+        fmt::print("{}", json_text(as_json(entries, stored_members)));
         return 0;
     }
     if (entries.empty()) {
@@ -80,7 +80,7 @@ std::string figure_of(const AcceptedReading& reading) {
 }
 
 Json reference_json(const StoredReference& entry, const AcceptedReference& reference) {
-    Json out = json_of(entry, stored_members), readings = Json::array(), frames = Json::array();
+    Json out = as_json(entry, stored_members), readings = Json::array(), frames = Json::array();
     for (const AcceptedReading& reading : reference.readings)
         readings.push_back({{"name", name_of(reading.key)},
                             {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
@@ -90,7 +90,7 @@ Json reference_json(const StoredReference& entry, const AcceptedReference& refer
                             {"variance", reading.variance}});
     for (const ReferenceFrame& frame : reference.frames)
         frames.push_back({{"frame", frame.tick}, {"view", frame.view}, {"xxh128", frame.xxh128}, {"file", frame.exr.string()}});
-    out["producer"] = json_of(reference.producer, producer_members);
+    out["producer"] = as_json(reference.producer, producer_members);
     out["readings"] = readings;
     out["frames"] = reference.frames_left_out ? Json(nullptr) : frames;
     return out;

@@ -160,7 +160,7 @@ template <class E, class Name> auto names_of(Name name, int count) {
     };
 }
 
-template <class T, class... Inner> nlohmann::ordered_json json_of(const T& value, Inner... inner) {
+template <class T, class... Inner> nlohmann::ordered_json as_json(const T& value, Inner... inner) {
     return json_part(const_cast<T&>(value), inner...).write(); // which only looks at it
 }
 /// Throws InputError for what is no such value, with its place.

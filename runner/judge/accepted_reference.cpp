@@ -71,12 +71,12 @@ bool same_results(const AcceptedReference& a, const AcceptedReference& b) {
 }
 
 std::string reference_object(const AcceptedReference& reference) {
-    const Json frames = reference.frames_left_out ? Json(nullptr) : json_of(reference.frames, frame_members);
+    const Json frames = reference.frames_left_out ? Json(nullptr) : as_json(reference.frames, frame_members);
     std::string text = fmt::format(
         "{{\"schema\": {},\n\"schema_version\": 1,\n\"key\": {},\n\"producer\": {},\n\"frames\": {},\n\"readings\": [", line_of(schema),
-        line_of(json_of(reference.key, key_members)), line_of(json_of(reference.producer, producer_members)), line_of(frames));
+        line_of(as_json(reference.key, key_members)), line_of(as_json(reference.producer, producer_members)), line_of(frames));
     for (std::size_t i = 0; i < reference.readings.size(); ++i) // one a line, so that version control shows which differ
-        text += (i == 0 ? "\n" : ",\n") + line_of(json_of(reference.readings[i], reading_members));
+        text += (i == 0 ? "\n" : ",\n") + line_of(as_json(reference.readings[i], reading_members));
     return text + "\n]}\n";
 }
 

@@ -63,7 +63,7 @@ void check_version(const CheckedJson& index, const fs::path& store) {
 }
 
 std::string index_text(const std::vector<StoredReference>& entries) {
-    const Json index{{"schema", index_schema}, {"schema_version", index_version}, {"references", json_of(entries, stored_members)}};
+    const Json index{{"schema", index_schema}, {"schema_version", index_version}, {"references", as_json(entries, stored_members)}};
     return index.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

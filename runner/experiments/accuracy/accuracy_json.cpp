@@ -110,7 +110,7 @@ JsonMembers accuracy_members(AccuracyResult& result) {
 
 } // namespace
 
-std::string accuracy_json(const AccuracyResult& result) { return json_text(json_of(result, accuracy_members)); }
+std::string accuracy_json(const AccuracyResult& result) { return json_text(as_json(result, accuracy_members)); }
 std::string accuracy_json_schema() { return json_schema(accuracy_members); }
 AccuracyResult read_accuracy_json(const std::filesystem::path& file) {
     return from_json<AccuracyResult>(CheckedJson::read(file), accuracy_members);

@@ -68,6 +68,6 @@ nlohmann::ordered_json errors_json(const std::optional<PixelErrors>& errors, con
     return errors_part(const_cast<std::optional<PixelErrors>&>(errors), why_not, nullptr, [&] { return frames; }).write();
 }
 
-nlohmann::ordered_json reach_json(const std::vector<ReachError>& reach) { return json_of(reach, reach_members); }
+nlohmann::ordered_json reach_json(const std::vector<ReachError>& reach) { return as_json(reach, reach_members); }
 
 } // namespace fernlicht

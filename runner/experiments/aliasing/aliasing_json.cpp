@@ -173,7 +173,7 @@ std::string motion_text(const FollowedByFlow& flow) {
                        2 * flow.followed < flow.started ? "; fewer than half, and flicker is known of those alone" : "");
 }
 
-std::string aliasing_json(const AliasingResult& result) { return json_text(json_of(result, aliasing_members)); }
+std::string aliasing_json(const AliasingResult& result) { return json_text(as_json(result, aliasing_members)); }
 std::string aliasing_json_schema() { return json_schema(aliasing_members); }
 AliasingResult read_aliasing_json(const std::filesystem::path& file) {
     return from_json<AliasingResult>(CheckedJson::read(file), aliasing_members);

@@ -102,7 +102,7 @@ JsonMembers shadow_members(ShadowResult& result) {
 
 } // namespace
 
-std::string shadow_json(const ShadowResult& result) { return json_text(json_of(result, shadow_members)); }
+std::string shadow_json(const ShadowResult& result) { return json_text(as_json(result, shadow_members)); }
 std::string shadow_json_schema() { return json_schema(shadow_members); }
 ShadowResult read_shadow_json(const std::filesystem::path& file) {
     return from_json<ShadowResult>(CheckedJson::read(file), shadow_members);

@@ -72,23 +72,23 @@ TEST(DescribedJson, ComesBack) {
     const Whole filled{
         7, 30, 1ULL << 63, true, 0.1, Colour::green, "a note", {{"key", "text"}}, {1.0, 2.0}, {part, {"b", {}, "too dark", {}}}, part};
     for (const Whole& whole : {Whole{}, filled}) {
-        const std::string text = json_text(json_of(whole, whole_members));
+        const std::string text = json_text(as_json(whole, whole_members));
         write_described(text);
-        EXPECT_EQ(json_text(json_of(read_described(), whole_members)), text);
+        EXPECT_EQ(json_text(as_json(read_described(), whole_members)), text);
         EXPECT_THAT(tests::Schema(nlohmann::json::parse(json_schema(whole_members))).check(nlohmann::json::parse(text)),
                     testing::IsEmpty());
     }
     EXPECT_EQ(
-        json_of(filled.parts, part_of_whole).dump(),
+        as_json(filled.parts, part_of_whole).dump(),
         R"([{"name":"a","length_m":{"m":1.5},"value":{"at_least":200.0}},{"name":"b","length_m":{"not_measured":"too dark"},"value":null}])");
     EXPECT_EQ(
-        json_of(Whole{}, whole_members).dump(),
+        as_json(Whole{}, whole_members).dump(),
         R"({"count":3,"tick":null,"seed":0,"flag":false,"share":0.5,"colour":"red","note":null,"texts":{},"ends":{"from":0.0,"to":0.0},"best":null,"sum":3.5})");
 }
 
 TEST(DescribedJson, SaysWhatIsRefusedWhere) {
     const auto refused = [](const std::string& from, const std::string& to, const std::string& place) {
-        std::string text = json_text(json_of(Whole{.best = Part{"a", 1.5, "", 2.0}}, whole_members));
+        std::string text = json_text(as_json(Whole{.best = Part{"a", 1.5, "", 2.0}}, whole_members));
         write_described(text.replace(text.find(from), from.size(), to));
         EXPECT_THAT(read_described, testing::ThrowsMessage<InputError>(testing::HasSubstr(place)));
     };
