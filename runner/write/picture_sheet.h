@@ -1,7 +1,7 @@
 // Pictures beside each other with captions, lines over them and one legend: a sheet, drawn as SVG or PNG.
 #pragma once
 
-#include "runner/write/plots/axes.h"
+#include "runner/findings/plots/axes.h"
 #include "runner/write/plots/canvas.h"
 #include "scenarios/values/image.h"
 

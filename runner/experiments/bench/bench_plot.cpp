@@ -1,5 +1,5 @@
 #include "runner/experiments/bench/bench_result.h"
-#include "runner/write/plots/axes.h"
+#include "runner/findings/plots/axes.h"
 #include "runner/write/plots/canvas.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // The marks that a plot is made of, as SVG text. Coordinates in pixels, y downwards.
 #pragma once
 
-#include "runner/write/plots/colour.h"
-#include "runner/write/plots/isolines.h"
+#include "runner/findings/plots/colour.h"
+#include "runner/findings/plots/isolines.h"
 #include "scenarios/values/image.h"
 
 #include <string>

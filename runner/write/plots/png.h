@@ -1,7 +1,7 @@
 // Pixels and drawings to PNG bytes, in memory.
 #pragma once
 
-#include "runner/write/plots/colour.h"
+#include "runner/findings/plots/colour.h"
 #include "scenarios/values/image.h"
 
 #include <string>

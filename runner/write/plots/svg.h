@@ -2,9 +2,9 @@
 // resources, all text escaped; the same figure gives the same bytes. Several may be put into one HTML page: there are no ids to clash.
 #pragma once
 
-#include "runner/write/plots/axes.h"
-#include "runner/write/plots/colour.h"
-#include "runner/write/plots/isolines.h"
+#include "runner/findings/plots/axes.h"
+#include "runner/findings/plots/colour.h"
+#include "runner/findings/plots/isolines.h"
 #include "scenarios/values/image.h"
 
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "metrics/statistics/statistics.h"
 #include "runner/findings/figures.h"
-#include "runner/write/plots/axes.h"
+#include "runner/findings/plots/axes.h"
 #include "runner/write/plots/canvas.h"
 
 #include <algorithm>

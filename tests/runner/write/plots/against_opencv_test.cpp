@@ -1,5 +1,5 @@
-#include "runner/write/plots/colour.h"
-#include "runner/write/plots/isolines.h"
+#include "runner/findings/plots/colour.h"
+#include "runner/findings/plots/isolines.h"
 
 #include <algorithm>
 #include <array>

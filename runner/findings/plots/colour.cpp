@@ -1,4 +1,4 @@
-#include "runner/write/plots/colour.h"
+#include "runner/findings/plots/colour.h"
 
 #include "scenarios/photometry.h"
 #include "scenarios/values/pose.h"

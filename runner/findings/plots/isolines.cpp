@@ -1,4 +1,4 @@
-#include "runner/write/plots/isolines.h"
+#include "runner/findings/plots/isolines.h"
 
 #include <array>
 #include <cmath>

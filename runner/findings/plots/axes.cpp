@@ -1,4 +1,4 @@
-#include "runner/write/plots/axes.h"
+#include "runner/findings/plots/axes.h"
 
 #include <algorithm>
 #include <cmath>
