@@ -5,7 +5,7 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
 #include "runner/files/json_text.h"
-#include "runner/write/plots/isocandela.h"
+#include "runner/findings/plots/isocandela.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/values/errors.h"

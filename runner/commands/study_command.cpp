@@ -3,10 +3,11 @@
 #include "renderer/device.h"
 #include "runner/commands/judging_flags.h"
 #include "runner/commands/run_command.h"
+#include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
-#include "runner/experiments/study/study_writers.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -30,6 +31,18 @@ int list_cells(const Study& study) {
     return 0;
 }
 
+/// The page last: a disk that fills up takes it before it takes the numbers.
+void write_study(const StudyResult& result, const std::filesystem::path& folder) {
+    const Document paper = study_paper(result);
+    write_file(folder / "study.json", study_json(result));
+    write_file(folder / "study.csv", study_csv(result));
+    write_file(folder / "study.md", document_markdown(paper));
+    write_file(folder / "study.tex", document_latex(paper));
+    write_file(folder / "junit.xml", study_junit(result));
+    write_file(folder / "study.yaml", result.study.text);
+    write_document(document(result), result, folder, "report");
+}
+
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     const Study study = read_study(flags.file);
     if (flags.list)
@@ -46,8 +59,9 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.run.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options.run);
     options.run.command = command;
+    options.write = [&](const StudyResult& result) { write_study(result, options.folder); };
     const StudyResult result = run_study(study, options);
-    fmt::print("{}{}\n", study_text(result), (options.folder / "report.html").string());
+    fmt::print("{}{}\n", document_text(study_summary(result)), (options.folder / "report.html").string());
     return overall(result) == VerdictKind::pass ? 0 : 1;
 }
 

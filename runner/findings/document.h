@@ -2,7 +2,9 @@
 #pragma once
 
 #include "metrics/statistics/work_precision.h"
+#include "runner/findings/plots/figure.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -14,16 +16,28 @@ namespace fernlicht {
 struct Cell {
     std::string text;
     std::optional<double> value = {}; ///< what the figure was rounded from
+    std::string link = {};            ///< where it leads: a file below the document's folder, "#c3" for a row of that name; "" nowhere
+    std::string hint = {};            ///< seen on a page where one points at it
 
     Cell(std::string words) : text(std::move(words)) {}
     Cell(const char* words) : text(words) {}
     Cell(std::string rounded, double of) : text(std::move(rounded)), value(of) {}
+
+    Cell linked(std::string to) && {
+        link = std::move(to);
+        return std::move(*this);
+    }
+    Cell hinted(std::string what) && {
+        hint = std::move(what);
+        return std::move(*this);
+    }
 };
 
 struct Column {
     std::string head, unit = {}; ///< "%", "cm, r.m.s. / worst"
     std::string group = {};      ///< a heading over this column and its neighbours of the same group
     bool words = false;          ///< read from the left; figures stand to the right
+    bool code = false;           ///< commands, to be pasted
 };
 
 struct Table {
@@ -31,6 +45,26 @@ struct Table {
     std::vector<Column> columns;
     std::vector<std::vector<Cell>> rows; ///< the first cell names the row; where cells are missing, the last one takes their place
     bool aside = false;                  ///< says in figures what a plot shows: folded away on a page, left out on a terminal
+    bool sortable = false;               ///< its columns sort on a page, and its rows can be led to by their first cell
+    std::vector<std::size_t> quiet = {}; ///< rows in grey
+};
+
+struct Bullets {
+    std::string caption; ///< "" for none
+    std::vector<Cell> items;
+};
+
+/// One of the few figures that matter most, to be seen from afar.
+struct Card {
+    std::string what, figure, unit, beside, detail;
+    Cell place;
+};
+using Cards = std::vector<Card>;
+
+/// Two pictures of one thing, one over the other with a slider between them.
+struct PicturePair {
+    std::string title;
+    std::array<std::string, 2> names, paths; ///< the one that lies over the other first; PNGs below the document's folder
 };
 
 /// A picture in SVG that the experiment drew itself.
@@ -39,17 +73,19 @@ struct Drawing {
 };
 
 struct Plot {
-    std::string name; ///< of its files, without extension: "methods-kerb"
-    std::variant<WorkPrecision, Drawing> figure;
-    std::vector<std::string> captions; ///< one sentence each, without full stop
-    double scale = 1.0;                ///< pixels of its PNG for one of the SVG
+    std::string name; ///< of its files, without extension: "methods-kerb"; with a folder before it, "figures/reach", taken as it is
+    std::variant<WorkPrecision, Drawing, plots::Figure> figure;
+    std::vector<std::string> captions = {}; ///< one sentence each, without full stop
+    double scale = 1.0;                     ///< pixels of its PNG for one of the SVG
+    bool small = false;                     ///< stands beside others
 };
 
-using DocumentPart = std::variant<std::string, Table, Plot>; ///< a string is a paragraph
+using DocumentPart = std::variant<std::string, Table, Plot, Bullets, Cards, PicturePair>; ///< a string is a paragraph
 
 struct Section {
     std::string title; ///< "" for what stands before the first heading
     std::vector<DocumentPart> blocks;
+    std::string verdict = {}; ///< of what says how it went: "pass", "fail", "flaky", "not_measured", "none" where nothing was judged
 };
 
 struct Document {

@@ -5,6 +5,21 @@
 
 namespace fernlicht {
 
+std::string figure(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-')
+        text.erase(0, 1); // minus nothing
+    if (text.front() == '-')
+        text.replace(0, 1, "\u2212");
+    return text;
+}
+
+std::string signed_figure(double value, int decimals) {
+    const std::string text = figure(value, decimals);
+    const bool negative = text.starts_with("\u2212"), nothing = text.find_first_not_of("0.") == std::string::npos;
+    return negative || nothing ? text : "+" + text;
+}
+
 std::string two_digits(double value) {
     const double size = std::abs(value);
     if (size == 0.0)

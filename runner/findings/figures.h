@@ -1,4 +1,4 @@
-// Figures of the accuracy's tables and plots as text.
+// Figures of tables and plots as text.
 #pragma once
 
 #include "metrics/statistics/work_precision.h"
@@ -7,6 +7,9 @@
 
 namespace fernlicht {
 
+/// Numbers for people: fixed decimals with U+2212 as minus sign; a difference always carries its sign.
+std::string figure(double value, int decimals);
+std::string signed_figure(double value, int decimals);
 /// Two significant digits without an exponent from 0.001 on: "0.053", "12", "1.2e-05"; "0".
 std::string two_digits(double value);
 /// "0.053 %"; "< 0.02 %" for an error below the floor; "not measured".

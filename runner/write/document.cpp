@@ -4,11 +4,13 @@
 #include "runner/files/output_folder.h"
 #include "runner/write/aligned_table.h"
 #include "runner/write/plots/png.h"
+#include "runner/write/plots/svg.h"
 #include "runner/write/plots/work_precision_plot.h"
 #include "scenarios/values/files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <system_error>
 
 namespace fernlicht {
 namespace {
@@ -28,6 +30,8 @@ std::string markdown_cell(const std::string& text) {
 
 /// Heads in up to three lines: group, head, unit.
 std::string text_of(const Table& table) {
+    if (table.aside)
+        return "";
     std::string alignment, after;
     std::vector<std::vector<std::string>> lines;
     for (const auto part : {&Column::group, &Column::head, &Column::unit})
@@ -47,7 +51,67 @@ std::string text_of(const Table& table) {
         for (const Cell& cell : row)
             line.push_back(clean_text(cell.text.empty() ? "-" : cell.text));
     }
-    return table.caption + "\n" + aligned_table(alignment, lines.front(), {lines.begin() + 1, lines.end()}) + after;
+    return (table.caption.empty() ? "" : table.caption + "\n") + aligned_table(alignment, lines.front(), {lines.begin() + 1, lines.end()}) + after;
+}
+
+std::string text_of(const std::string& paragraph) { return clean_text(paragraph) + "\n"; }
+
+std::string text_of(const Plot& plot) {
+    std::string text;
+    for (const std::string& caption : plot.captions)
+        text += "  " + clean_text(caption) + "\n";
+    return text;
+}
+
+std::string text_of(const Bullets& bullets) {
+    std::string text = bullets.caption.empty() ? "" : clean_text(bullets.caption) + "\n";
+    for (const Cell& item : bullets.items)
+        text += "  " + clean_text(item.text) + "\n";
+    return text;
+}
+
+std::string text_of(const Cards& cards) {
+    std::string text;
+    for (const Card& card : cards)
+        text += clean_text(fmt::format("{}: {} {}{}{}; {}; {}", card.what, card.figure, card.unit, card.beside.empty() ? "" : " ",
+                                       card.beside, card.detail, card.place.text)) +
+                "\n";
+    return text;
+}
+
+std::string text_of(const PicturePair&) { return ""; }
+
+/// Signs that LaTeX gives a meaning, and our own units beyond ASCII.
+std::string latex_text(const std::string& text) {
+    std::string out;
+    for (const char c : clean_text(text))
+        out += c == '~'    ? std::string("\\textasciitilde{}")
+               : c == '^'  ? std::string("\\textasciicircum{}")
+               : c == '\\' ? std::string("\\textbackslash{}")
+                           : std::string(std::string_view("_%&#${}").find(c) == std::string_view::npos ? "" : "\\") + c;
+    for (const auto& [from, to] : {std::pair("²", "$^2$"), std::pair("±", "$\\pm$"), std::pair("°", "$^\\circ$")})
+        for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at))
+            out.replace(at, std::string_view(from).size(), to);
+    return out;
+}
+
+std::string latex_of(const Table& table) {
+    std::string alignment, lines;
+    const auto join = [](const auto& row, const auto& text_of_one) {
+        std::string line;
+        for (const auto& one : row)
+            line += (&one == row.data() ? "" : " & ") + text_of_one(one);
+        return line + " \\\\\n";
+    };
+    for (const Column& column : table.columns)
+        alignment += column.words ? 'l' : 'r';
+    for (const std::vector<Cell>& row : table.rows)
+        lines += join(row, [](const Cell& cell) {
+            return cell.text.empty() ? "--" : cell.value ? "$" + latex_text(cell.text) + "$" : latex_text(cell.text);
+        });
+    return "\\resizebox{\\linewidth}{!}{%\n\\begin{tabular}{" + alignment + "}\n\\toprule\n" +
+           join(table.columns, [](const Column& column) { return latex_text(head_of(column)); }) + "\\midrule\n" + lines +
+           "\\bottomrule\n\\end{tabular}}\n";
 }
 
 } // namespace
@@ -55,21 +119,19 @@ std::string text_of(const Table& table) {
 std::string plot_svg(const Plot& plot) {
     if (const auto* diagram = std::get_if<WorkPrecision>(&plot.figure))
         return work_precision_svg(*diagram);
+    if (const auto* figure = std::get_if<plots::Figure>(&plot.figure))
+        return plots::svg_of(*figure);
     return std::get<Drawing>(plot.figure).svg;
 }
+
+std::string place_of(const Plot& plot) { return plot.name.find('/') == std::string::npos ? file_name_of(plot.name) : plot.name; }
 
 std::string document_text(const Document& document) {
     std::string text;
     for (const Section& section : document.sections) {
         text += section.title.empty() ? "" : "\n" + clean_text(section.title) + "\n";
         for (const DocumentPart& block : section.blocks)
-            if (const auto* paragraph = std::get_if<std::string>(&block))
-                text += clean_text(*paragraph) + "\n";
-            else if (const auto* table = std::get_if<Table>(&block))
-                text += table->aside ? "" : text_of(*table);
-            else
-                for (const std::string& caption : std::get<Plot>(block).captions)
-                    text += "  " + clean_text(caption) + "\n";
+            text += std::visit([](const auto& part) { return text_of(part); }, block);
     }
     return text;
 }
@@ -90,15 +152,41 @@ std::string table_markdown(const Table& table) {
     return out;
 }
 
+std::string document_markdown(const Document& document) {
+    std::string text = "# " + markdown_cell(clean_text(document.title)) + "\n";
+    for (const Section& section : document.sections) {
+        text += section.title.empty() ? "" : "\n## " + markdown_cell(clean_text(section.title)) + "\n";
+        for (const DocumentPart& block : section.blocks)
+            if (const auto* table = std::get_if<Table>(&block))
+                text += "\n" + table_markdown(*table);
+            else if (const auto* paragraph = std::get_if<std::string>(&block))
+                text += "\n" + clean_text(*paragraph) + "\n";
+    }
+    return text;
+}
+
+std::string document_latex(const Document& document) {
+    std::string out = "% \\usepackage{booktabs,graphicx}; the table is as wide as the text\n";
+    for (const Section& section : document.sections)
+        for (const DocumentPart& block : section.blocks)
+            if (const auto* table = std::get_if<Table>(&block))
+                out += latex_of(*table);
+            else if (const auto* paragraph = std::get_if<std::string>(&block))
+                out += "% " + clean_text(*paragraph) + "\n";
+    return out;
+}
+
 void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem) {
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
             if (const auto* plot = std::get_if<Plot>(&block)) {
-                const std::string svg = plot_svg(*plot), name = file_name_of(plot->name);
-                write_file(folder / (name + ".svg"), svg);
-                write_file(folder / (name + ".png"), plots::png_of_svg(svg, plot->scale));
+                const std::string svg = plot_svg(*plot), place = (folder / place_of(*plot)).string();
+                std::error_code ignored; // a folder that cannot be made shows in the first file below it
+                std::filesystem::create_directories(std::filesystem::path(place).parent_path(), ignored);
+                write_file(place + ".svg", svg);
+                write_file(place + ".png", plots::png_of_svg(svg, plot->scale));
             }
-    write_file(folder / (stem + ".html"), document_html(document, findings));
+    write_file(folder / (stem + ".html"), document_html(document, findings, folder));
 }
 
 } // namespace fernlicht

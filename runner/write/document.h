@@ -9,12 +9,19 @@
 namespace fernlicht {
 
 std::string plot_svg(const Plot& plot);
-/// One self-contained page, without scripts; plots stand in it as SVG.
-std::string document_html(const Document& document, const Findings& findings);
+/// Where its files lie below the document's folder, without extension.
+std::string place_of(const Plot& plot);
+/// One self-contained page; plots stand in it as SVG, pictures are read below `folder`. It has a script only where something sorts or
+/// slides.
+std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder = {});
 /// For a terminal: paragraphs, tables in columns, captions of plots. Lines end with a newline.
 std::string document_text(const Document& document);
 /// A table in Markdown's pipes.
 std::string table_markdown(const Table& table);
+/// Title, tables and paragraphs.
+std::string document_markdown(const Document& document);
+/// Its tables for LaTeX with booktabs, as wide as the text; paragraphs are comments.
+std::string document_latex(const Document& document);
 
 /// STEM.html, and each plot as SVG and PNG, each as a whole or not at all. Figures for programs are the caller's, and come first.
 void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem);

@@ -14,21 +14,6 @@ const char* variant_colour(std::size_t index) {
     return colours[index % colours.size()];
 }
 
-std::string figure(double value, int decimals) {
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-')
-        text.erase(0, 1); // minus nothing
-    if (text.front() == '-')
-        text.replace(0, 1, "\u2212");
-    return text;
-}
-
-std::string signed_figure(double value, int decimals) {
-    const std::string text = figure(value, decimals);
-    const bool negative = text.starts_with("\u2212"), nothing = text.find_first_not_of("0.") == std::string::npos;
-    return negative || nothing ? text : "+" + text;
-}
-
 data context_part(const RunContext& context) {
     data part;
     part.set("command", clean_text(context.command));

@@ -1,6 +1,6 @@
 #include "runner/experiments/regulation/cut_off_figure.h"
 
-#include "runner/write/plots/isocandela.h"
+#include "runner/findings/plots/isocandela.h"
 
 #include <fmt/format.h>
 #include <limits>

@@ -1,5 +1,6 @@
-#include "runner/experiments/study/lamp_verdict.h"
+#include "runner/experiments/study/study_document.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -22,31 +22,12 @@ double noise_between(const StudyResult& result, const std::string& tested, const
 Change change_of(const StudyResult& result, std::size_t tested, std::size_t against, const ReadingKey& key) {
     Change change;
     const CellResult &now = result.cells[tested], &before = result.cells[against];
-    const double noise = noise_between(result, result.study.lamps[now.cell.lamp].name, result.study.lamps[before.cell.lamp].name);
+    const double noise = noise_between(result, result.lamp_of(tested), result.lamp_of(against));
     static_cast<ReadingChange&>(change) = change_of_reading(key, now, before, noise);
     change.tested = tested;
     change.against = against;
     change.decides = is_named(key, result.study.readings);
     return change;
-}
-
-/// Cells of everything but the lamp alike.
-bool is_same_place(const StudyCell& a, const StudyCell& b) {
-    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage &&
-           a.mirror == b.mirror;
-}
-
-void compare_pair(StudyResult& result, const StudyComparison& comparison) {
-    const auto lamp_of = [&](const CellResult& cell) { return result.study.lamps[cell.cell.lamp].name; };
-    for (std::size_t i = 0; i < result.cells.size(); ++i)
-        for (std::size_t k = 0; k < result.cells.size(); ++k) {
-            const CellResult &a = result.cells[i], &b = result.cells[k];
-            if (lamp_of(a) != comparison.tested || lamp_of(b) != comparison.against || !is_same_place(a.cell, b.cell))
-                continue;
-            for (const auto& [key, reading] : a.readings)
-                if (!says_how_exact(key) && !is_time(key) && b.readings.contains(key))
-                    result.changes.push_back(change_of(result, i, k, key));
-        }
 }
 
 /// Of each deciding reading its largest real change, and of these the three largest.
@@ -150,13 +131,30 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
 
 } // namespace
 
+bool is_same_place(const StudyCell& a, const StudyCell& b) {
+    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage &&
+           a.mirror == b.mirror;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> StudyResult::pairs_of(const StudyComparison& comparison) const {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            if (lamp_of(i) == comparison.tested && lamp_of(k) == comparison.against && is_same_place(cells[i].cell, cells[k].cell))
+                pairs.emplace_back(i, k);
+    return pairs;
+}
+
 bool StudyResult::complete() const {
     return interrupted.empty() && std::ranges::all_of(cells, [](const CellResult& cell) { return cell.failed.empty(); });
 }
 
 void compare_cells(StudyResult& result) {
     for (const StudyComparison& comparison : result.study.comparisons)
-        compare_pair(result, comparison);
+        for (const auto& [tested, against] : result.pairs_of(comparison))
+            for (const auto& [key, reading] : result.cells[tested].readings)
+                if (!says_how_exact(key) && !is_time(key) && result.cells[against].readings.contains(key))
+                    result.changes.push_back(change_of(result, tested, against, key));
     rank(result);
     judge_deciding(result);
     for (const StudyLimit& limit : result.study.limits)

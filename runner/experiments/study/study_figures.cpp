@@ -2,9 +2,8 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/runs/lux_ratio.h"
 #include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_maps.h"
-#include "runner/experiments/study/study_words.h"
-#include "runner/experiments/study/study_writers.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/extent_keys.h"
@@ -14,37 +13,30 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace fernlicht {
 namespace {
 
-/// Cells that differ in nothing but the lamp.
-bool is_beside(const StudyCell& a, const StudyCell& b) {
-    return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage &&
-           a.mirror == b.mirror;
-}
-
-/// Groups of such cells, in order; cells that were not played are left out, and groups without any.
+/// Groups of cells that differ in nothing but the lamp, in order; those that were not played are left out, and groups without any.
 std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < result.cells.size(); ++i) {
         if (!result.cells[i].failed.empty())
             continue;
-        if (groups.empty() || !is_beside(result.cells[groups.back().front()].cell, result.cells[i].cell))
+        if (groups.empty() || !is_same_place(result.cells[groups.back().front()].cell, result.cells[i].cell))
             groups.emplace_back();
         groups.back().push_back(i);
     }
     return groups;
 }
 
-plots::Colour colour_of(const StudyResult& result, std::size_t cell) { return plots::series_colour(result.cells[cell].cell.lamp); }
-
 /// "straight_twilight": the group's cells' common name.
 std::string group_name(const StudyResult& result, const std::vector<std::size_t>& group) {
     std::string name = result.cells[group.front()].cell.name;
-    if (const std::size_t at = name.find("_" + lamp_of(result, group.front())); at != std::string::npos)
-        name.erase(at, 1 + lamp_of(result, group.front()).size());
+    if (const std::size_t at = name.find("_" + result.lamp_of(group.front())); at != std::string::npos)
+        name.erase(at, 1 + result.lamp_of(group.front()).size());
     return name;
 }
 
@@ -52,6 +44,40 @@ std::string place_of(const StudyResult& result, const std::vector<std::size_t>& 
     const CellResult& cell = result.cells[group.front()];
     return short_text(cell.title, 60) + "; " + cell.cell.condition;
 }
+
+StudyFigure with_files(const std::string& name, const std::string& title, decltype(Plot::figure) figure, std::vector<std::size_t> cells) {
+    return {{.name = "figures/" + name, .figure = std::move(figure), .scale = 2.0}, title, std::move(cells)};
+}
+
+StudyFigure small_figure(const std::string& name, plots::Figure figure, const std::vector<std::size_t>& cells) {
+    const std::string title = figure.title + ": " + figure.subtitle;
+    StudyFigure small = with_files(name, title, std::move(figure), cells);
+    small.plot.small = true;
+    return small;
+}
+
+/// A plot with a line a lamp of a group, and all values of its axes.
+struct GroupLines {
+    const StudyResult& result;
+    plots::Figure figure;
+    std::vector<double> xs = {}, ys = {};
+
+    GroupLines(const StudyResult& of, const std::vector<std::size_t>& group, std::string title) : result(of) {
+        figure.title = std::move(title);
+        figure.subtitle = place_of(result, group);
+        figure.width_px = 560.0;
+        figure.height_px = 300.0;
+    }
+    void add(std::size_t cell, const std::vector<double>& x, const std::vector<double>& y) {
+        plots::Series line{
+            short_text(result.lamp_of(cell), 24), {}, plots::series_colour(result.cells[cell].cell.lamp), 1.6, "", y.size() == 1};
+        for (std::size_t i = 0; i < y.size(); ++i)
+            line.points.push_back({x[i], y[i]});
+        xs.insert(xs.end(), x.begin(), x.end());
+        ys.insert(ys.end(), y.begin(), y.end());
+        figure.series.push_back(std::move(line));
+    }
+};
 
 /// The reach plotted of what the deciding readings ask for: on a target and on the road, at the limits that they name.
 std::set<std::pair<ExtentPlane, double>> plotted_reaches(const StudyResult& result) {
@@ -66,81 +92,54 @@ std::set<std::pair<ExtentPlane, double>> plotted_reaches(const StudyResult& resu
 
 void add_reach(const StudyResult& result, const std::vector<std::size_t>& group, ExtentPlane plane, double limit_lx,
                std::vector<StudyFigure>& figures) {
-    plots::Figure figure;
-    figure.title = fmt::format("Reach at {:g} lx {}, own lane", limit_lx, plane == ExtentPlane::road ? "on the road" : "on a target");
-    figure.subtitle = place_of(result, group);
-    figure.width_px = 560.0;
-    figure.height_px = 300.0;
-    std::vector<double> xs, ys;
+    GroupLines lines(result, group,
+                     fmt::format("Reach at {:g} lx {}, own lane", limit_lx, plane == ExtentPlane::road ? "on the road" : "on a target"));
     for (const std::size_t cell : group)
-        for (const ReachOverDrive& reach : result.cells[cell].reaches) {
-            if (reach.plane != plane || reach.limit_lx != limit_lx)
-                continue;
-            plots::Series line{short_text(lamp_of(result, cell), 24), {}, colour_of(result, cell), 1.6, "", reach.reach_m.size() == 1};
-            for (std::size_t i = 0; i < reach.reach_m.size(); ++i)
-                line.points.push_back({reach.distance_m[i], reach.reach_m[i]});
-            xs.insert(xs.end(), reach.distance_m.begin(), reach.distance_m.end());
-            ys.insert(ys.end(), reach.reach_m.begin(), reach.reach_m.end());
-            figure.series.push_back(std::move(line));
-        }
-    if (figure.series.empty())
+        for (const ReachOverDrive& reach : result.cells[cell].reaches)
+            if (reach.plane == plane && reach.limit_lx == limit_lx)
+                lines.add(cell, reach.distance_m, reach.reach_m);
+    if (lines.figure.series.empty())
         return;
-    figure.x = plots::axis_around("along the route", "m", xs);
-    figure.y = plots::axis_around("reach", "m", ys, plots::Scale::linear, true);
-    figures.push_back({fmt::format("reach-{:g}lx-{}_{}", limit_lx, plane_name(plane), group_name(result, group)),
-                       figure.title + ": " + figure.subtitle, plots::svg_of(figure), group});
+    lines.figure.x = plots::axis_around("along the route", "m", lines.xs);
+    lines.figure.y = plots::axis_around("reach", "m", lines.ys, plots::Scale::linear, true);
+    figures.push_back(small_figure(fmt::format("reach-{:g}lx-{}_{}", limit_lx, plane_name(plane), group_name(result, group)),
+                                   std::move(lines.figure), group));
 }
 
 /// A line a lamp for each eye that the drive has.
 void add_glares(const StudyResult& result, const std::vector<std::size_t>& group, std::vector<StudyFigure>& figures) {
     for (const GlareOverDrive& first : result.cells[group.front()].glares) {
-        plots::Figure figure;
-        figure.title = "Glare: " + short_text(eyes_in_words(first.eye), 50);
-        figure.subtitle = place_of(result, group);
-        figure.width_px = 560.0;
-        figure.height_px = 300.0;
-        std::vector<double> xs, ys;
+        GroupLines lines(result, group, "Glare: " + short_text(eyes_in_words(first.eye), 50));
         for (const std::size_t cell : group)
-            for (const GlareOverDrive& glare : result.cells[cell].glares) {
-                if (glare.eye != first.eye)
-                    continue;
-                plots::Series line{short_text(lamp_of(result, cell), 24), {}, colour_of(result, cell), 1.6, "", glare.at_m.size() == 1};
-                for (std::size_t i = 0; i < glare.at_m.size(); ++i)
-                    line.points.push_back({glare.at_m[i], glare.facing_lx[i]});
-                xs.insert(xs.end(), glare.at_m.begin(), glare.at_m.end());
-                ys.insert(ys.end(), glare.facing_lx.begin(), glare.facing_lx.end());
-                figure.series.push_back(std::move(line));
-            }
-        figure.x = plots::axis_around(first.over, "m", xs);
-        figure.y = plots::axis_around("illuminance facing the lamps", "lx", ys, plots::Scale::logarithmic);
-        figures.push_back({fmt::format("glare-{}_{}", file_name_of(eye_name(first.eye)), group_name(result, group)),
-                           figure.title + ": " + figure.subtitle, plots::svg_of(figure), group});
+            for (const GlareOverDrive& glare : result.cells[cell].glares)
+                if (glare.eye == first.eye)
+                    lines.add(cell, glare.at_m, glare.facing_lx);
+        lines.figure.x = plots::axis_around(first.over, "m", lines.xs);
+        lines.figure.y = plots::axis_around("illuminance facing the lamps", "lx", lines.ys, plots::Scale::logarithmic);
+        figures.push_back(small_figure(fmt::format("glare-{}_{}", file_name_of(eye_name(first.eye)), group_name(result, group)),
+                                       std::move(lines.figure), group));
     }
 }
 
 void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, const std::filesystem::path& folder,
               std::vector<StudyFigure>& figures) {
-    std::vector<std::optional<LuxMap>> maps;
-    for (const std::size_t cell : group) {
-        maps.push_back(map_of(result.cells[cell], folder));
-        if (maps.back())
-            figures.push_back({fmt::format("lux_{}", result.cells[cell].cell.name),
-                               fmt::format("{}: {}", lamp_of(result, cell), place_of(result, group)),
-                               lux_map_svg(*maps.back(), lamp_of(result, cell) + ", " + place_of(result, group)),
-                               {cell}});
-    }
+    std::map<std::size_t, LuxMap> maps; // by cell
+    for (const std::size_t cell : group)
+        if (std::optional<LuxMap> map = map_of(result.cells[cell], folder)) {
+            const std::string place = place_of(result, group), &lamp = result.lamp_of(cell);
+            figures.push_back(with_files("lux_" + result.cells[cell].cell.name, lamp + ": " + place,
+                                         Drawing{lux_map_svg(*map, lamp + ", " + place)}, {cell}));
+            maps.emplace(cell, std::move(*map));
+        }
     for (const StudyComparison& pair : result.study.comparisons)
-        for (std::size_t a = 0; a < group.size(); ++a)
-            for (std::size_t b = 0; b < group.size(); ++b) {
-                if (lamp_of(result, group[a]) != pair.tested || lamp_of(result, group[b]) != pair.against || !maps[a] || !maps[b])
-                    continue;
-                const std::string title = fmt::format("{} over {}, {}", pair.tested, pair.against, place_of(result, group));
-                if (std::string svg = lux_ratio_svg(*maps[a], *maps[b], title); !svg.empty())
-                    figures.push_back({fmt::format("lux-difference_{}_{}-{}", group_name(result, group), pair.tested, pair.against),
-                                       title,
-                                       std::move(svg),
-                                       {group[a], group[b]}});
-            }
+        for (const auto& [a, b] : result.pairs_of(pair)) {
+            if (!maps.contains(a) || !maps.contains(b))
+                continue;
+            const std::string title = fmt::format("{} over {}, {}", pair.tested, pair.against, place_of(result, group));
+            if (std::string svg = lux_ratio_svg(maps.at(a), maps.at(b), title); !svg.empty())
+                figures.push_back(with_files(fmt::format("lux-difference_{}_{}-{}", group_name(result, group), pair.tested, pair.against),
+                                             title, Drawing{std::move(svg)}, {a, b}));
+        }
 }
 
 /// Error against the reference over the time of a driver's view, one point a cell.
@@ -176,17 +175,17 @@ void add_work_precision(const StudyResult& result, std::vector<StudyFigure>& fig
         return;
     figure.x = plots::axis_around("time a frame", "ms", xs, plots::Scale::logarithmic);
     figure.y = plots::axis_around("error", "%", ys, plots::Scale::logarithmic);
-    figures.push_back({"work-precision", figure.title, plots::svg_of(figure), cells});
+    figures.push_back(with_files("work-precision", figure.title, figure, cells));
+    figures.back().plot.small = true;
 }
 
 void add_lamp_differences(const StudyResult& result, std::vector<StudyFigure>& figures) {
     for (const LampComparison& lamps : result.lamps) {
         plots::Figure figure = difference_figure(read_lamp(lamps.file), read_lamp(lamps.other_file), lamps.difference);
         figure.title = fmt::format("{} over {} ({})", lamps.tested, lamps.against, lamps.side);
-        figures.push_back({fmt::format("lamps_{}-{}{}", lamps.tested, lamps.against, lamps.side == "right" ? "_right" : ""),
-                           figure.title,
-                           plots::svg_of(figure),
-                           {}});
+        const std::string title = figure.title;
+        figures.push_back(with_files(fmt::format("lamps_{}-{}{}", lamps.tested, lamps.against, lamps.side == "right" ? "_right" : ""),
+                                     title, std::move(figure), {}));
     }
 }
 

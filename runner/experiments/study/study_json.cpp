@@ -1,7 +1,5 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
-#include "runner/experiments/study/lamp_verdict.h"
-#include "runner/experiments/study/study_words.h"
-#include "runner/experiments/study/study_writers.h"
+#include "runner/experiments/study/study_document.h"
 #include "runner/files/json_text.h"
 #include "runner/files/value_json.h"
 #include "runner/findings/extent_keys.h"
@@ -109,10 +107,8 @@ std::string study_json(const StudyResult& result) {
         Json names = Json::array();
         for (const std::size_t cell : figure.cells)
             names.push_back(result.cells[cell].cell.name);
-        figures.push_back({{"svg", "figures/" + figure.name + ".svg"},
-                           {"png", "figures/" + figure.name + ".png"},
-                           {"title", figure.title},
-                           {"cells", names}});
+        figures.push_back(
+            {{"svg", figure.plot.name + ".svg"}, {"png", figure.plot.name + ".png"}, {"title", figure.title}, {"cells", names}});
     }
     const std::string part = played_in_part(result);
     return json_text({{"schema", "fernlicht study"},

@@ -14,8 +14,7 @@ const View* view_of(const CellResult& cell, const StoredFrame& frame) {
     return found == cell.maps.end() ? nullptr : &*found;
 }
 
-} // namespace
-
+/// The middle one of those from above; nullptr where there is none.
 const StoredFrame* map_frame(const CellResult& cell) {
     std::vector<const StoredFrame*> maps;
     for (const StoredFrame& frame : cell.frames)
@@ -23,6 +22,8 @@ const StoredFrame* map_frame(const CellResult& cell) {
             maps.push_back(&frame);
     return maps.empty() ? nullptr : maps[maps.size() / 2];
 }
+
+} // namespace
 
 std::optional<LuxMap> map_of(const CellResult& cell, const std::filesystem::path& folder) {
     const StoredFrame* frame = map_frame(cell);

@@ -5,10 +5,8 @@
 
 namespace fernlicht {
 
-/// The stored frame of a view from above that is shown: the middle one. nullptr where there is none.
-const StoredFrame* map_frame(const CellResult& cell);
-
-/// Its lux with the cell's `map_edges`, read below `folder`. nullopt where there is no such frame, or no lux in it.
+/// Lux of the middle one of the stored frames from above, with the cell's `map_edges`, read below `folder`. nullopt where there is no such
+/// frame, or no lux in it.
 std::optional<LuxMap> map_of(const CellResult& cell, const std::filesystem::path& folder);
 
 /// Lanes and car on the shown maps of cells that are played over the same road from the same drive; `drive` is one of theirs.

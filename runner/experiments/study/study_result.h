@@ -4,6 +4,7 @@
 #include "metrics/beam/lamp_difference.h"
 #include "metrics/readings/significance.h"
 #include "runner/experiments/compare/runs/played_report.h"
+#include "runner/findings/document.h"
 #include "runner/judge/known_failures.h"
 #include "scenarios/studies/study.h"
 
@@ -34,15 +35,13 @@ struct LampComparison {
 };
 
 struct StudyFigure {
-    std::string name;  ///< of its files below figures/, without extension
-    std::string title; ///< for people
-    std::string svg;
+    Plot plot;                      ///< its files lie below figures/
+    std::string title;              ///< for people
     std::vector<std::size_t> cells; ///< whose reports it was drawn from
 };
 
-struct StudyResult {
+struct StudyResult : Findings {
     Study study;
-    RunContext context; ///< of this call
     std::string frames; ///< "0:8": the moments asked for; "" for all
     std::vector<CellResult> cells;
     std::vector<LampComparison> lamps;
@@ -51,9 +50,16 @@ struct StudyResult {
     std::vector<Verdict> verdicts;    ///< the study's own limits
     std::vector<StudyFigure> figures;
     std::vector<std::string> warnings; ///< of the list of known failures
-    std::string interrupted;           ///< why not all cells were tried; "" when they were
-    bool complete() const;
+
+    bool complete() const; ///< all cells were tried and played
+    /// What the study calls the lamps of one of its cells.
+    const std::string& lamp_of(std::size_t cell) const { return study.lamps[cells[cell].cell.lamp].name; }
+    /// Cells that differ in nothing but the lamp: of the tested one and of the other.
+    std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const StudyComparison& comparison) const;
 };
+
+/// Cells of everything but the lamp alike.
+bool is_same_place(const StudyCell& a, const StudyCell& b);
 
 /// As of a run (report.h): fail if a limit or a reference was exceeded, flaky, not_measured if anything is missing (a cell that failed,
 /// too), else pass.
@@ -61,9 +67,6 @@ VerdictKind overall(const StudyResult& result);
 
 /// As of a run, over all cells (known_failures.h); a cell's own report does not know of it.
 void apply_known_failures(StudyResult& result, const KnownFailures& known, const std::string& today);
-
-/// Fills a cell's result from the report in its folder. Throws InputError when that is no complete report of one drive.
-void read_cell_report(const std::filesystem::path& study_folder, CellResult& cell);
 
 /// The comparisons, ranking and limits of what was played.
 void compare_cells(StudyResult& result);

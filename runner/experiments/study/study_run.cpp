@@ -1,6 +1,7 @@
 #include "runner/experiments/study/study_run.h"
 
 #include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_maps.h"
 #include "runner/files/checked_json.h"
 #include "runner/files/output_folder.h"
@@ -154,6 +155,21 @@ std::string repeating(const StudyOptions& options, const fs::path& folder, const
     return shell_quoted(words);
 }
 
+/// Fills a cell's result from the report in its folder. Throws InputError when that is no complete report of one drive.
+void read_cell_report(const fs::path& study_folder, CellResult& cell) {
+    const std::string folder = "cells/" + cell.cell.name;
+    const CheckedJson report = CheckedJson::read(study_folder / folder / "report.json");
+    report.expect_schema("fernlicht report", 1);
+    if (const CheckedJson complete = report.at("complete"); !complete.truth())
+        complete.refuse("a complete run");
+    const std::vector<CheckedJson> drives = report.at("drives").items();
+    if (drives.size() != 1)
+        report.at("drives").refuse("one drive with one lamp set");
+    PlayedResult played = read_played(report, drives.front(), folder);
+    static_cast<Steps&>(played) = cell; // the drive's, not the report's
+    static_cast<PlayedResult&>(cell) = std::move(played);
+}
+
 /// Plays the cell or takes it as it lies there; false when the user stopped it.
 bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& result, RunContext& context) {
     const fs::path folder = options.folder / "cells" / planned.cell.name;
@@ -216,9 +232,10 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         if (result.interrupted.empty() && !options.run.quiet)
             fmt::print(stderr, "cell {} of {}: {}\n", i + 1, planned.size(), cell.cell.name);
         try {
-            if (!result.interrupted.empty())
+            if (!result.interrupted.empty()) {
                 cell.failed = "not reached";
-            else if (!play_cell(planned[i], options, cell, result.context) || Interruption::asked())
+                result.missing.push_back("cell " + cell.cell.name);
+            } else if (!play_cell(planned[i], options, cell, result.context) || Interruption::asked())
                 result.interrupted = "interrupted by the user";
         } catch (const InputError& error) {
             if (error.where().key == "--resume")
@@ -233,7 +250,8 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     compare_cells(result);
     if (options.known)
         apply_known_failures(result, *options.known, options.run.today);
-    write_study(result, options.folder);
+    result.figures = study_figures(result, options.folder);
+    options.write(result);
     if (result.complete())
         folder.finish();
     return result;

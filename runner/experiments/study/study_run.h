@@ -4,6 +4,8 @@
 #include "runner/experiments/run/run_drives.h"
 #include "runner/experiments/study/study_result.h"
 
+#include <functional>
+
 namespace fernlicht {
 
 struct StudyOptions {
@@ -12,15 +14,12 @@ struct StudyOptions {
     std::optional<KnownFailures> known; ///< over all cells
     bool resume = false;                ///< go on in the study's folder; finished cells are kept, the report is written anew
     RunOptions run; ///< backend, moments, references, repeats, day, quiet, accuracy, command; the folder is each cell's own
+    std::function<void(const StudyResult&)> write; ///< into the folder, before it is marked as complete
 };
 
 /// Reads all drives and lamps first, plays the cells in the order of cells_of, reads their reports back, compares. A cell that fails is
 /// noted and the next one played; SIGINT ends the study after the moment at hand. Throws InputError and DeviceError where nothing can be
 /// played, or where a folder to go on in holds cells of another study.
 StudyResult run_study(const Study& study, const StudyOptions& options);
-
-/// Writes study.json, study.csv, study.md, study.tex, junit.xml, figures/ and report.html below `folder`; pictures are read from the cells
-/// there.
-void write_study(StudyResult& result, const std::filesystem::path& folder);
 
 } // namespace fernlicht

@@ -1,6 +1,7 @@
-#include "runner/experiments/study/study_result.h"
+#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/study/study_document.h"
 
-#include "runner/experiments/run/run_drives.h"
+#include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
@@ -40,6 +41,27 @@ void apply_known_failures(StudyResult& result, const KnownFailures& known, const
         result.verdicts.push_back(std::move(listed));
     }
     result.warnings = std::move(report.warnings);
+}
+
+std::string study_junit(const StudyResult& result) {
+    Report report = as_report(result);
+    for (std::size_t i = 0; i < result.cells.size(); ++i) {
+        const CellResult& cell = result.cells[i];
+        const std::string moments = cell.moments < cell.moments_of_drive
+                                        ? fmt::format("{} of {} moments (--frames {})", cell.moments, cell.moments_of_drive, result.frames)
+                                        : "all moments";
+        PlayedVariant& suite = report.played[i];
+        suite.drive = cell.cell.name;
+        suite.variant = cell.cell.condition;
+        suite.verdicts.insert(suite.verdicts.begin(), cell.failed.empty()
+                                                          ? Verdict{VerdictKind::pass, "played", moments, cell.command}
+                                                          : Verdict{VerdictKind::not_measured, "played", cell.failed, cell.command});
+    }
+    report.played.back().variant = "limits of the study";
+    report.played.back().technique = "photometric";
+    report.complete = result.interrupted.empty();
+    report.interrupted = result.interrupted;
+    return report_junit(report);
 }
 
 } // namespace fernlicht

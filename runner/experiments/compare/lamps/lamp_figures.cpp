@@ -4,7 +4,7 @@
 #include "runner/files/clean_text.h"
 #include "runner/write/picture_sheet.h"
 #include "runner/write/plots/canvas.h"
-#include "runner/write/plots/isocandela.h"
+#include "runner/findings/plots/isocandela.h"
 #include "runner/write/plots/svg.h"
 
 #include <algorithm>

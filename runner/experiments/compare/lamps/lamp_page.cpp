@@ -140,8 +140,8 @@ std::string lamps_html(const LampPairComparison& lamps) {
     page.set("title", short_text(name_beside(lamps.now.file, lamps.before.file), 80) + " against " +
                           short_text(name_beside(lamps.before.file, lamps.now.file), 80));
     page.set("style",
-             std::string(report_file("report.css")) + std::string(report_file("study.css")) + std::string(report_file("compare.css")));
-    page.set("script", std::string(report_file("study.js")));
+             std::string(report_file("report.css")) + std::string(report_file("document.css")) + std::string(report_file("compare.css")));
+    page.set("script", std::string(report_file("document.js")));
     page.set("verdict", verdict_part(lamps));
     page.set("facts", facts);
     page.set("rows", rows);

@@ -267,8 +267,8 @@ std::string runs_html(const RunComparison& runs, const fs::path& folder) {
     both.push_back(run_part("B, new", runs.now));
     page.set("title", short_text(runs.now.folder.filename().string() + " against " + runs.before.folder.filename().string(), 160));
     page.set("style",
-             std::string(report_file("report.css")) + std::string(report_file("study.css")) + std::string(report_file("compare.css")));
-    page.set("script", std::string(report_file("study.js")));
+             std::string(report_file("report.css")) + std::string(report_file("document.css")) + std::string(report_file("compare.css")));
+    page.set("script", std::string(report_file("document.js")));
     page.set("verdict", verdict_part(runs));
     page.set("largest", largest);
     page.set("has_largest", !runs.largest.empty());

@@ -1,6 +1,6 @@
 // What counts as a change, by hand-made cells.
-#include "runner/experiments/study/study_result.h"
-#include "runner/experiments/study/study_writers.h"
+#include "runner/experiments/study/study_document.h"
+#include "runner/write/document.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -209,7 +209,7 @@ TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
     EXPECT_EQ(result.verdicts[2].kind, VerdictKind::not_measured);
     EXPECT_EQ(overall(result), VerdictKind::fail);
     EXPECT_THAT(study_junit(result), HasSubstr("<failure"));
-    EXPECT_THAT(study_text(result), HasSubstr("FAIL one_new: change of reach_5lx_target_own_m: 10 m, limit at most 9 m"));
+    EXPECT_THAT(document_text(study_summary(result)), HasSubstr("FAIL one_new: change of reach_5lx_target_own_m: 10 m, limit at most 9 m"));
 }
 
 TEST(StudyCompare, ADecidingReadingThatNothingHasIsNotMeasured) {
@@ -221,7 +221,8 @@ TEST(StudyCompare, ADecidingReadingThatNothingHasIsNotMeasured) {
     result.study.limits[0].at_least = result.study.limits[1].change_at_least = 0.0;
     compare_cells(result);
     EXPECT_EQ(overall(result), VerdictKind::not_measured);
-    const std::string text = study_text(result), nearest = "there is no reading of this name; the nearest name is reach_5lx_target_own_m";
+    const std::string text = document_text(study_summary(result)),
+                      nearest = "there is no reading of this name; the nearest name is reach_5lx_target_own_m";
     EXPECT_THAT(text, HasSubstr("NOT MEASURED deciding reading reach_5lx_tarket_own_m: " + nearest));
     EXPECT_THAT(text, HasSubstr("NOT MEASURED deciding reading reach_5lx_target_own_grid_error_m: no two cells were compared by it"));
     EXPECT_THAT(text, HasSubstr("NOT MEASURED one_new: reach_5lx_tarket_own_m: " + nearest));
@@ -237,23 +238,23 @@ TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
         cell.readings.clear();
     }
     compare_cells(result);
-    for (const std::string& text : {study_text(result), study_json(result), study_html(result, {})}) {
+    for (const std::string& text : {document_text(study_summary(result)), study_json(result), document_html(document(result), result)}) {
         EXPECT_THAT(text, HasSubstr("Nothing could be compared: of no two lamps was the same cell played."));
         EXPECT_THAT(text, Not(HasSubstr("deciding reading changed")));
     }
     StudyResult same = two_cells(40.0, 40.0);
     compare_cells(same);
-    EXPECT_THAT(study_text(same), HasSubstr("no deciding reading changed"));
-    EXPECT_THAT(study_html(same, {}), HasSubstr("No deciding reading changed"));
+    EXPECT_THAT(document_text(study_summary(same)), HasSubstr("no deciding reading changed"));
+    EXPECT_THAT(document_html(document(same), same), HasSubstr("No deciding reading changed"));
 }
 
 TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     StudyResult result = two_cells(40.0, 50.0);
     compare_cells(result);
-    EXPECT_THAT(study_text(result), HasSubstr("by hand: no limits were set\n"));
-    EXPECT_THAT(study_html(result, {}), AllOf(HasSubstr("No limits were set"), Not(HasSubstr("Within limits"))));
+    EXPECT_THAT(document_text(study_summary(result)), HasSubstr("by hand: no limits were set\n"));
+    EXPECT_THAT(document_html(document(result), result), AllOf(HasSubstr("No limits were set"), Not(HasSubstr("Within limits"))));
     EXPECT_THAT(study_junit(result), HasSubstr("all moments"));
-    EXPECT_THAT(study_markdown(result), Not(HasSubstr("--frames")));
+    EXPECT_THAT(document_markdown(study_paper(result)), Not(HasSubstr("--frames")));
     for (CellResult& cell : result.cells) {
         cell.moments = 9;
         cell.moments_of_drive = 660;
@@ -264,13 +265,13 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     result.study.limits[0].at_least = 1.0;
     compare_cells(result);
     const std::string part = "9 of 660 moments of each drive were played (--frames 0:8)";
-    for (const std::string& text :
-         {study_text(result), study_json(result), study_markdown(result), study_latex(result), study_html(result, {})})
+    for (const std::string& text : {document_text(study_summary(result)), study_json(result), document_markdown(study_paper(result)),
+                                    document_latex(study_paper(result)), document_html(document(result), result)})
         EXPECT_THAT(text, HasSubstr(part));
     EXPECT_THAT(study_junit(result), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
-    EXPECT_THAT(study_html(result, {}), HasSubstr("Within limits"));
+    EXPECT_THAT(document_html(document(result), result), HasSubstr("Within limits"));
     result.cells[1].moments_of_drive = 900;
-    EXPECT_THAT(study_text(result), HasSubstr("9 of 660 to 900 moments of each drive"));
+    EXPECT_THAT(document_text(study_summary(result)), HasSubstr("9 of 660 to 900 moments of each drive"));
 }
 
 TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
@@ -286,17 +287,18 @@ TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
     StudyResult result = two_cells(40.0, 50.0);
     result.study.lamps[1].name = result.study.comparisons[0].tested = "a_b|c%";
     compare_cells(result);
-    EXPECT_THAT(study_latex(result), HasSubstr("a\\_b|c\\% / old"));
-    EXPECT_THAT(study_latex(result), HasSubstr("$40.00$ & $50.00$ & $+10.00$ & $0.57$"));
-    EXPECT_THAT(study_markdown(result), HasSubstr("a_b\\|c% / old"));
+    EXPECT_THAT(document_latex(study_paper(result)), HasSubstr("a\\_b|c\\% / old"));
+    EXPECT_THAT(document_latex(study_paper(result)), HasSubstr("$40.00$ & $50.00$ & $+10.00$ & $0.57$"));
+    EXPECT_THAT(document_markdown(study_paper(result)), HasSubstr("a_b\\|c% / old"));
     EXPECT_THAT(study_csv(result), HasSubstr("c0,a_b|c%,old,one-1"));
     for (CellResult& cell : result.cells)
         put(cell, "area_1lx_road_all_m2", cell.cell.lamp == 0 ? 10.0 : 90.0);
     result.study.readings = {"area_1lx_road_all_m2"};
     result.changes.clear();
     compare_cells(result);
-    EXPECT_THAT(study_latex(result), AllOf(HasSubstr("& m$^2$ &"), HasSubstr("\\resizebox{\\linewidth}"), Not(HasSubstr("²"))));
-    EXPECT_THAT(study_markdown(result), HasSubstr("| m² |"));
+    EXPECT_THAT(document_latex(study_paper(result)),
+                AllOf(HasSubstr("& m$^2$ &"), HasSubstr("\\resizebox{\\linewidth}"), Not(HasSubstr("²"))));
+    EXPECT_THAT(document_markdown(study_paper(result)), HasSubstr("| m² |"));
     EXPECT_THAT(study_csv(result), HasSubstr(",m2,"));
 }
 

@@ -74,7 +74,7 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     EXPECT_EQ(deciding, 6U);
     ASSERT_EQ(study.at("largest_changes").size(), 3U);
     for (const json& id : study.at("largest_changes"))
-        EXPECT_THAT(page, HasSubstr("data-row=\"" + id.get<std::string>() + "\""));
+        EXPECT_THAT(page, HasSubstr("<a href=\"#" + id.get<std::string>() + "\">"));
     for (const json& figure : study.at("figures"))
         for (const char* form : {"svg", "png"})
             EXPECT_GT(std::filesystem::file_size(folder / ("out/" + figure.at(form).get<std::string>())), 500U) << figure;

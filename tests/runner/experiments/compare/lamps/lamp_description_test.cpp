@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/lamps/lamp_description.h"
 
-#include "runner/write/plots/isocandela.h"
+#include "runner/findings/plots/isocandela.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/values/pose.h"

@@ -1,7 +1,7 @@
 // The isocandela diagram of a lamp: its intensity as lux on a target 25 m ahead that faces it, over H and V.
 #pragma once
 
-#include "runner/write/plots/svg.h"
+#include "runner/findings/plots/figure.h"
 #include "scenarios/lamps/candela_table.h"
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include "runner/write/plots/isocandela.h"
+#include "runner/findings/plots/isocandela.h"
 
 #include <algorithm>
 #include <cmath>

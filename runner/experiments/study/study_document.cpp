@@ -1,0 +1,408 @@
+#include "runner/experiments/study/study_document.h"
+#include "metrics/readings/reading_words.h"
+#include "metrics/readings/unit_words.h"
+#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/files/clean_text.h"
+#include "runner/findings/extent_keys.h"
+#include "runner/findings/figures.h"
+#include "runner/judge/verdict_line.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fernlicht {
+namespace {
+
+/// "9", or "9 to 30" where cells differ.
+std::string range_over(const std::vector<CellResult>& cells, int CellResult::*count) {
+    const auto [least, most] = std::ranges::minmax_element(cells, {}, count);
+    return (*least).*count == (*most).*count ? fmt::format("{}", (*most).*count) : fmt::format("{} to {}", (*least).*count, (*most).*count);
+}
+
+std::size_t count_deciding(const StudyResult& result, std::optional<ChangeKind> kind = {}) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(result.changes, [&](const Change& change) { return change.decides && (!kind || change.kind == *kind); }));
+}
+
+/// Whether anything was held against a limit, a reference or a repeat, or is missing.
+bool was_judged(const StudyResult& result) {
+    return !result.complete() || !result.verdicts.empty() ||
+           std::ranges::any_of(result.cells, [](const CellResult& cell) { return !cell.verdicts.empty(); });
+}
+
+/// Why no deciding reading could be compared, as a sentence; "" where at least one could, and where nothing was to be compared.
+std::string nothing_compared(const StudyResult& result) {
+    const std::size_t deciding = count_deciding(result);
+    if (result.study.comparisons.empty() || deciding > count_deciding(result, ChangeKind::unknown))
+        return "";
+    if (deciding > 0)
+        return fmt::format("Nothing could be compared: of none of {} changes of deciding readings is it known how exact they are.",
+                           deciding);
+    return result.changes.empty() ? "Nothing could be compared: of no two lamps was the same cell played."
+                                  : "Nothing could be compared: no deciding reading is in two cells that are compared.";
+}
+
+std::string lamps_of(const StudyResult& result, const Change& change) {
+    return result.lamp_of(change.tested) + " / " + result.lamp_of(change.against);
+}
+
+Cell cell_of(const Value& value, const std::string& rounded) {
+    return value.measured() ? Cell(with_bound(value, rounded), *value.figure()) : Cell("not measured");
+}
+Cell two_decimals(const Value& value) { return cell_of(value, figure(value.figure().value_or(0.0), 2)); }
+Cell change_cell(const Value& value) { return value.measured() ? cell_of(value, signed_figure(*value.figure(), 2)) : Cell(""); }
+Cell open_cell(const std::optional<double>& value) { return value ? Cell(fmt::format("{:.2g}", *value), *value) : Cell(""); }
+
+std::string with_unit(const Value& value, const std::string& unit) {
+    return value.measured() ? with_bound(value, fmt::format("{:.4g} {}", *value.figure(), unit_in_words(unit))) : "not measured";
+}
+
+/// "reach at 5 lx ...: 40 m -> 50 m, +10.00 m (+25.0 %) ±0.57; new against old on straight-1 (night)"
+std::string change_sentence(const StudyResult& result, const Change& change) {
+    const Value found = change.change();
+    const CellResult& cell = result.cells[change.tested];
+    return fmt::format("{}: {} -> {}, {} {}{} ±{:.2g}; {} against {} on {} ({})", reading_in_words(change.reading),
+                       with_unit(change.old_value, change.unit()), with_unit(change.new_value, change.unit()),
+                       with_bound(found, fmt::format("{:+.2f}", found.figure().value_or(0.0))), unit_in_words(change.unit()),
+                       change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "", change.uncertainty.value_or(0.0),
+                       result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive, cell.cell.condition);
+}
+
+Card card_of(const StudyResult& result, std::size_t index) {
+    const Change& change = result.changes[index];
+    const std::string unit = unit_in_words(change.unit());
+    std::string detail =
+        fmt::format("{} {} {} → {} {} {}; ±{} {} by calculation", result.lamp_of(change.against), two_decimals(change.old_value).text, unit,
+                    result.lamp_of(change.tested), two_decimals(change.new_value).text, unit, open_cell(change.uncertainty).text, unit);
+    if (change.by_noise.value_or(0.0) > 0.0)
+        detail += fmt::format(", ±{} {} by noise", open_cell(change.by_noise).text, unit);
+    if (change.by_aim)
+        detail += fmt::format(", ±{} {} by 0.1° of aim", figure(*change.by_aim, 2), unit);
+    const CellResult& cell = result.cells[change.tested];
+    return {reading_in_words(change.reading),
+            change_cell(change.change()).text,
+            unit,
+            change.relative() ? fmt::format("({} %)", signed_figure(100.0 * *change.relative(), 1)) : "",
+            detail,
+            Cell(cell.drive + ", " + cell.cell.condition).linked(fmt::format("#c{}", index))};
+}
+
+/// Of the page. What all rows have alike stands over it.
+Table readings_table(const StudyResult& result) {
+    const bool several_lamps = result.study.comparisons.size() > 1;
+    const bool several_conditions = std::ranges::any_of(
+        result.cells, [&](const CellResult& cell) { return cell.cell.condition != result.cells.front().cell.condition; });
+    Table table{.name = "readings", .caption = "", .columns = {{"row"}}, .rows = {}, .sortable = true};
+    if (!several_lamps && !result.study.comparisons.empty())
+        table.caption = fmt::format("new: {}; old: {}", result.study.comparisons.front().tested, result.study.comparisons.front().against);
+    const auto words = [&](const char* head) { table.columns.push_back({.head = head, .words = true}); };
+    if (several_lamps)
+        words("new / old");
+    words("drive");
+    if (several_conditions)
+        words("condition");
+    words("reading");
+    for (const char* head : {"old", "new", "change", "%", "± calc.", "± noise", "± aim"})
+        table.columns.push_back({head});
+    words("unit");
+    words("is");
+    for (std::size_t i = 0; i < result.changes.size(); ++i) {
+        const Change& change = result.changes[i];
+        if (!change.decides)
+            continue;
+        const CellResult& cell = result.cells[change.tested];
+        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{{fmt::format("c{}", i), static_cast<double>(i)}});
+        if (several_lamps)
+            cells.emplace_back(lamps_of(result, change));
+        cells.emplace_back(cell.drive);
+        if (several_conditions)
+            cells.emplace_back(cell.cell.condition);
+        const std::optional<double> share = change.relative();
+        cells.insert(cells.end(), {Cell(reading_in_words(change.reading)).hinted(name_of(change.reading)), two_decimals(change.old_value),
+                                   two_decimals(change.new_value), change_cell(change.change()),
+                                   share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""), open_cell(change.uncertainty),
+                                   open_cell(change.by_noise), change.by_aim ? Cell(figure(*change.by_aim, 2), *change.by_aim) : Cell(""),
+                                   unit_in_words(change.unit()), change_name(change.kind)});
+        if (change.kind != ChangeKind::real)
+            table.quiet.push_back(table.rows.size() - 1);
+    }
+    return table;
+}
+
+/// What is red or known, and cells that were not played.
+Table failures_table(const StudyResult& result) {
+    Table table{"failures",
+                "Outside limits or references, or not measured",
+                {{.head = "what", .words = true},
+                 {.head = "where", .words = true},
+                 {.head = "found", .words = true},
+                 {.head = "repeat with", .words = true, .code = true}},
+                {}};
+    const auto add = [&](const std::string& where, const Verdict& verdict) {
+        if (verdict.kind != VerdictKind::pass || is_red(verdict))
+            table.rows.push_back(
+                {verdict.name, where, verdict.known.empty() ? verdict.text : verdict.text + "; " + verdict.known, verdict.rerun});
+    };
+    for (const Verdict& verdict : result.verdicts)
+        add("study", verdict);
+    for (const CellResult& cell : result.cells) {
+        if (!cell.failed.empty())
+            add(cell.cell.name, {VerdictKind::not_measured, "not played", cell.failed, cell.command});
+        for (const Verdict& verdict : cell.verdicts)
+            add(cell.cell.name, verdict);
+    }
+    return table;
+}
+
+/// The verdict as people say it.
+std::string verdict_words(const StudyResult& result) {
+    if (!was_judged(result))
+        return "No limits were set";
+    const auto exceeds = [](const std::vector<Verdict>& verdicts) {
+        return std::ranges::any_of(verdicts,
+                                   [](const Verdict& one) { return one.kind == VerdictKind::fail && !one.name.starts_with("reference"); });
+    };
+    switch (overall(result)) {
+    case VerdictKind::pass:
+        return "Within limits";
+    case VerdictKind::fail:
+        return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts)
+                   ? "Limits exceeded"
+                   : "Differs from the references";
+    case VerdictKind::flaky:
+        return "Flaky";
+    case VerdictKind::not_measured:
+        break;
+    }
+    return "Not all was measured";
+}
+
+Section verdict_section(const StudyResult& result) {
+    Section section{verdict_words(result), {}, was_judged(result) ? verdict_name(overall(result)) : "none"};
+    if (!result.interrupted.empty())
+        section.blocks.emplace_back("The study did not end; --resume goes on.");
+    section.blocks.emplace_back(study_sentence(result));
+    if (const std::string part = played_in_part(result); !part.empty())
+        section.blocks.emplace_back(part + ".");
+    Bullets lamps;
+    for (const LampComparison& pair : result.lamps)
+        lamps.items.emplace_back(lamp_verdict(pair));
+    if (!lamps.items.empty())
+        section.blocks.emplace_back(std::move(lamps));
+    if (Table failures = failures_table(result); !failures.rows.empty())
+        section.blocks.emplace_back(std::move(failures));
+    return section;
+}
+
+Section largest_section(const StudyResult& result) {
+    const std::string nothing = nothing_compared(result);
+    if (result.largest.empty())
+        return {"The largest changes",
+                {nothing.empty()
+                     ? "No deciding reading changed beyond what calculation, noise of the lamps' tables and 0.1° of aim leave open."
+                     : nothing}};
+    Cards cards;
+    for (const std::size_t i : result.largest)
+        cards.push_back(card_of(result, i));
+    return {
+        "The largest changes",
+        {std::move(cards),
+         "Of each deciding reading its largest real change, then the largest of these; size is the change over the larger of both "
+         "values. Real is what exceeds what calculation and the noise of the lamps' tables leave open, and what 0.1° of aim would do."}};
+}
+
+Section lamps_section(const StudyResult& result) {
+    Section section{"The lamps themselves", {}};
+    constexpr std::size_t most = 5;
+    for (const LampComparison& pair : result.lamps) {
+        const std::vector<std::string> all = sentences_of(pair.difference);
+        Bullets told{fmt::format("{} against {} ({})", pair.tested, pair.against, pair.side), {}};
+        told.items.insert(told.items.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(most, all.size())));
+        if (all.size() > most)
+            told.items.emplace_back(fmt::format("and {} more zones, all in study.json", all.size() - most));
+        section.blocks.emplace_back(std::move(told));
+    }
+    return section;
+}
+
+/// Driver's views of the same moment with two lamps.
+Section views_section(const StudyResult& result) {
+    Section section{"What the driver sees", {}};
+    for (const StudyComparison& pair : result.study.comparisons)
+        for (const auto& [tested, against] : result.pairs_of(pair))
+            for (const StoredFrame& now : result.cells[tested].frames)
+                for (const StoredFrame& before : result.cells[against].frames)
+                    if (now.tick == before.tick && now.view == before.view && !now.png.empty() && !before.png.empty())
+                        section.blocks.emplace_back(PicturePair{fmt::format("{}, after {:.1f} s ({})", result.cells[tested].title,
+                                                                            now.time_s, result.cells[tested].cell.condition),
+                                                                {pair.tested, pair.against},
+                                                                {now.png, before.png}});
+    return section;
+}
+
+Table cells_table(const StudyResult& result) {
+    Table table{"cells",
+                "",
+                {{.head = "cell", .words = true},
+                 {.head = "condition", .words = true},
+                 {"95 % of the road within", "%"},
+                 {"frame", "ms"},
+                 {.head = "repeat with", .words = true, .code = true}},
+                {}};
+    const auto figure_of = [](const std::optional<double>& value, double scale, int decimals) {
+        return value ? Cell(figure(scale * *value, decimals), scale * *value) : Cell("not measured");
+    };
+    for (const CellResult& cell : result.cells)
+        if (cell.failed.empty())
+            table.rows.push_back({Cell(cell.cell.name).linked("cells/" + cell.cell.name + "/report.html"), cell.cell.condition,
+                                  figure_of(cell.error_share, 100.0, 2), figure_of(cell.frame_s, 1e3, 1), cell.command});
+        else
+            table.rows.push_back({cell.cell.name, cell.cell.condition, "", "not played: " + cell.failed, cell.command});
+    return table;
+}
+
+} // namespace
+
+std::string study_sentence(const StudyResult& result) {
+    if (result.study.comparisons.empty())
+        return "Nothing was to be compared.";
+    if (const std::string nothing = nothing_compared(result); !nothing.empty())
+        return nothing;
+    const std::size_t unknown = count_deciding(result, ChangeKind::unknown);
+    return fmt::format("Of {} deciding readings {} changed for real, {} by less than 0.1° of aim would do{}.", count_deciding(result),
+                       count_deciding(result, ChangeKind::real), count_deciding(result, ChangeKind::within_aim),
+                       unknown > 0 ? fmt::format("; of {} it is not known", unknown) : "");
+}
+
+std::string played_in_part(const StudyResult& result) {
+    if (std::ranges::none_of(result.cells, [](const CellResult& cell) { return cell.moments < cell.moments_of_drive; }))
+        return "";
+    return fmt::format("{} of {} moments of each drive were played (--frames {})", range_over(result.cells, &CellResult::moments),
+                       range_over(result.cells, &CellResult::moments_of_drive), result.frames);
+}
+
+Document document(const StudyResult& result) {
+    Section lamps = lamps_section(result), reach{"Reach over the drive", {}}, glare{"Glare over the drive", {}},
+            maps{"Lux from above", {"All maps in one scale, 0.1 to 100 lx; below each pair the ratio of new to old."}}, cells{"Cells", {}};
+    for (const StudyFigure& figure : result.figures)
+        for (const auto& [beginning, section] : {std::pair("figures/lamps_", &lamps),
+                                                 {"figures/reach-", &reach},
+                                                 {"figures/glare-", &glare},
+                                                 {"figures/lux", &maps},
+                                                 {"figures/work-precision", &cells}})
+            if (figure.plot.name.starts_with(beginning))
+                section->blocks.emplace_back(figure.plot);
+    cells.blocks.emplace_back(cells_table(result));
+    const Section readings{
+        "Readings that decide",
+        {"A heading sorts, again the other way round. ± calc. is what calculation leaves open of the change, ± noise what three standard "
+         "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is the row of its number in "
+         "study.json and study.csv, which have all other readings too.",
+         Bullets{"",
+                 {Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv"),
+                  Cell("for papers: study.md").linked("study.md"), Cell("study.tex").linked("study.tex")}},
+         readings_table(result)}};
+    Document document{short_text(result.study.title, 160), {verdict_section(result), largest_section(result)}};
+    for (const Section& section : {lamps, reach, glare, readings, views_section(result), maps, cells})
+        if (!section.blocks.empty())
+            document.sections.push_back(section);
+    return document;
+}
+
+Document study_summary(const StudyResult& result) {
+    Section section;
+    const auto say = [&](std::string line) {
+        if (!line.empty())
+            section.blocks.emplace_back(std::move(line));
+    };
+    const auto judge = [&](const std::string& where, const std::vector<Verdict>& verdicts) {
+        for (const Verdict& verdict : verdicts) {
+            const std::string line = verdict_line(verdict, where);
+            say(line.substr(0, line.find_last_not_of('\n') + 1));
+        }
+    };
+    say(result.study.title + ": " + (was_judged(result) ? verdict_name(overall(result)) : "no limits were set"));
+    say(played_in_part(result));
+    say(result.interrupted.empty() ? "" : "incomplete: " + result.interrupted);
+    for (const CellResult& cell : result.cells)
+        say(cell.failed.empty() ? "" : fmt::format("NOT PLAYED {}: {}", cell.cell.name, cell.failed));
+    judge("", result.verdicts);
+    for (const CellResult& cell : result.cells)
+        judge(cell.cell.name + ": ", cell.verdicts);
+    for (const std::string& warning : result.warnings)
+        say("warning: " + warning);
+    for (const LampComparison& lamps : result.lamps)
+        say(lamp_verdict(lamps));
+    const std::string nothing = nothing_compared(result);
+    if (nothing.empty() && result.largest.empty())
+        say("no deciding reading changed beyond what calculation, the tables' noise and 0.1 degrees of aim leave open");
+    say(nothing);
+    for (const std::size_t i : result.largest)
+        say(change_sentence(result, result.changes[i]));
+    return {result.study.title, {section}};
+}
+
+Document study_paper(const StudyResult& result) {
+    Table table{"readings", "", {}, {}};
+    for (const char* head : {"new / old", "drive", "condition", "reading"})
+        table.columns.push_back({.head = head, .words = true});
+    for (const char* head : {"old", "new", "change", "±"})
+        table.columns.push_back({head});
+    for (const char* head : {"unit", "is"})
+        table.columns.push_back({.head = head, .words = true});
+    const auto rounded = [](const Value& value, bool is_change) {
+        return value.measured() ? cell_of(value, fmt::format(fmt::runtime(is_change ? "{:+.2f}" : "{:.2f}"), *value.figure())) : Cell("");
+    };
+    for (const Change& change : result.changes)
+        if (change.decides)
+            table.rows.push_back({lamps_of(result, change), result.cells[change.tested].drive, result.cells[change.tested].cell.condition,
+                                  reading_in_words(change.reading), rounded(change.old_value, false), rounded(change.new_value, false),
+                                  rounded(change.change(), true),
+                                  change.uncertainty ? Cell(fmt::format("{:.2f}", change.unsure()), change.unsure()) : Cell(""),
+                                  unit_in_words(change.unit()), change_name(change.kind)});
+    Section section{"", {std::move(table)}};
+    if (const std::string part = played_in_part(result); !part.empty())
+        section.blocks.emplace_back(part + ".");
+    section.blocks.emplace_back(
+        "Medians over what was played of the drive unless said otherwise. ± is what calculation and the noise of the lamps' tables leave "
+        "open of the change; within aim means that 0.1° of aim would do as much.");
+    return {result.study.title, {section}};
+}
+
+std::string study_csv(const StudyResult& result) {
+    std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
+                      "noise,kind,decides,"
+                      "new_cell,old_cell,why_not,old_bound,new_bound,change_bound\r\n";
+    const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); };
+    for (std::size_t i = 0; i < result.changes.size(); ++i) {
+        const Change& c = result.changes[i];
+        const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
+        const std::vector<std::string> fields{fmt::format("c{}", i),
+                                              csv_text(result.study.lamps[now.cell.lamp].name),
+                                              csv_text(result.study.lamps[before.cell.lamp].name),
+                                              csv_text(now.drive),
+                                              csv_text(result.study.techniques[now.cell.technique]),
+                                              csv_text(now.cell.condition),
+                                              csv_text(name_of(c.reading)),
+                                              csv_text(c.unit()),
+                                              number(c.old_value.figure()),
+                                              number(c.new_value.figure()),
+                                              number(c.change().figure()),
+                                              number(c.uncertainty),
+                                              number(c.by_aim),
+                                              number(c.by_noise),
+                                              change_name(c.kind),
+                                              c.decides ? "yes" : "no",
+                                              csv_text(now.cell.name),
+                                              csv_text(before.cell.name),
+                                              csv_text(c.why_not),
+                                              bound_name(c.old_value),
+                                              bound_name(c.new_value),
+                                              bound_name(c.change())};
+        csv += fmt::format("{}\r\n", fmt::join(fields, ","));
+    }
+    return csv;
+}
+
+} // namespace fernlicht

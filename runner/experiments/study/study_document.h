@@ -1,0 +1,33 @@
+// What a study tells of its result: documents for people, tables for programs, pictures.
+#pragma once
+
+#include "runner/experiments/study/study_result.h"
+
+namespace fernlicht {
+
+/// The page: verdict, largest changes, lamps, plots, all deciding readings, pictures, cells.
+Document document(const StudyResult& result);
+/// For a terminal: verdict, what differs between the lamps, the largest changes, what failed.
+Document study_summary(const StudyResult& result);
+/// The table of the deciding readings, for papers.
+Document study_paper(const StudyResult& result);
+
+/// study.schema.json describes it. What differs from call to call stands under `context` and each cell's `times`.
+std::string study_json(const StudyResult& result);
+/// RFC 4180: one line a change.
+std::string study_csv(const StudyResult& result);
+/// One test suite a cell, and one of the study's own limits.
+std::string study_junit(const StudyResult& result);
+
+/// Reach over each drive, lux from above and its difference, error over time, the lamps' difference. EXR files are read below `folder`.
+std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder);
+
+/// "dimmer against production: 5.0 % dimmer at 8.2 to 2.9 degrees left and 4.2 to 1.5 degrees down. Nothing else differs
+/// beyond the noise of the tables, 0.82 %." Zones beyond the clearest three are counted. Angles are the goniometer's.
+std::string lamp_verdict(const LampComparison& lamps);
+/// How many deciding readings changed, or why that is not known.
+std::string study_sentence(const StudyResult& result);
+/// "9 of 660 moments of each drive were played (--frames 0:8)"; "" where all were.
+std::string played_in_part(const StudyResult& result);
+
+} // namespace fernlicht
