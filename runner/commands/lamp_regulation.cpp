@@ -1,7 +1,7 @@
 #include "runner/commands/lamp_regulation.h"
 
-#include "runner/experiments/regulation/cut_off_figure.h"
-#include "runner/experiments/regulation/regulation_report.h"
+#include "runner/experiments/regulation/regulation_result.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
 
@@ -15,11 +15,9 @@ namespace {
 std::optional<AimRule> aim_rule(const std::string& word) {
     if (word.empty())
         return std::nullopt;
-    static const std::vector<std::pair<std::string, AimRule>> rules{
-        {"auto", AimRule::automatic}, {"as-is", AimRule::as_is}, {"cut-off", AimRule::cut_off}, {"cut-off-line", AimRule::cut_off_by_line},
-        {"elbow", AimRule::elbow},    {"vol", AimRule::vol},     {"vor", AimRule::vor},         {"maximum", AimRule::maximum}};
-    for (const auto& [name, rule] : rules)
-        if (name == word)
+    using enum AimRule;
+    for (const AimRule rule : {automatic, as_is, cut_off, cut_off_by_line, elbow, vol, vor, maximum})
+        if (name_of(rule) == word)
             return rule;
     throw InputError({{}, 0, 0, "--aim"}, "found '" + printable(word) + "'",
                      "auto, as-is, cut-off, cut-off-line, elbow, vol, vor or maximum");
@@ -54,7 +52,7 @@ std::vector<LampFile> lamps_of(const LampRequest& request, const Regulation& r) 
 
 int lamp_regulation(const LampRequest& request) {
     if (request.regulation == "list") {
-        fmt::print("{}", request.json ? regulation_list_json() : regulation_list_text());
+        fmt::print("{}", request.json ? regulation_list_json() : document_text(regulation_list()));
         return 0;
     }
     refuse_other_work(request, "--regulation");
@@ -79,9 +77,9 @@ int lamp_regulation(const LampRequest& request) {
         aim_by = read_lamp(request.aim_by, request.reading);
         options.aim_by = &aim_by->table;
     }
-    const RegulationCheck check = check_regulation(r, tables, options);
-    fmt::print("{}", request.json ? json_of(r, check, names) : text_of(r, check, names));
-    return check.verdict == RowVerdict::pass ? 0 : 1;
+    const RegulationFound found{r, names, check_regulation(r, tables, options)};
+    fmt::print("{}", request.json ? regulation_json(found) : document_text(document(found)));
+    return found.check.verdict == RowVerdict::pass ? 0 : 1;
 }
 
 int lamp_cut_off(const LampRequest& request) {
@@ -91,12 +89,10 @@ int lamp_cut_off(const LampRequest& request) {
     const LampFile lamp = lamp_of(request);
     const CutOffOptions options{request.sharpness, degrees(std::atan(request.detector_mm / 25000.0))};
     const CandelaTable table = request.left_hand_traffic ? mirrored(lamp.table) : lamp.table;
-    const CutOffFigures cut_off = measure_cut_off({&table, {}}, options);
-    const CutOffElbow elbow = fit_elbow({&table, {}});
+    const CutOffFound found{lamp, options, request.left_hand_traffic, measure_cut_off({&table, {}}, options), fit_elbow({&table, {}})};
     if (!request.picture.empty())
-        write_lamp_picture(cut_off_figure(lamp, cut_off, elbow, request.left_hand_traffic), request);
-    fmt::print("{}", request.json ? json_of(cut_off, elbow, lamp.name, options, request.left_hand_traffic)
-                                  : text_of(cut_off, elbow, lamp.name, options, request.left_hand_traffic));
+        write_lamp_picture(cut_off_figure(found), request);
+    fmt::print("{}", request.json ? cut_off_json(found) : document_text(document(found)));
     return 0;
 }
 

@@ -5,6 +5,8 @@
 #include "runner/experiments/reference/reference_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/write/document.h"
+#include "runner/write/plots/png.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -119,8 +121,12 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
     request.resume = flags.resume;
     request.quiet = flags.quiet;
     request.command = command;
+    request.write = [&request](const ReferenceResult& found) {
+        for (const Plot& plot : false_colours(found))
+            write_file(request.folder / (plot.name + ".png"), plots::png_of_svg(plot_svg(plot), plot.scale));
+    };
     const ReferenceResult result = run_reference(request);
-    fmt::print("{}", reference_text(result));
+    fmt::print("{}", document_text(document(result)));
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}; the same command with --resume --out {} goes on\n", result.interrupted,
                    shell_quoted({request.folder.string()}));

@@ -2,7 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
-#include "runner/experiments/stability/stability_text.h"
+#include "runner/experiments/stability/stability_document.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 
@@ -82,21 +82,22 @@ int try_cases(const StabilityFlags& flags) {
     StabilityBench bench(flags.backend, folder.path(), flags.thorough);
     if (flags.backend != "auto")
         bench.device(); // what cannot be drawn with is no case that fails
-    std::vector<StabilityRow> rows;
+    StabilityResult result;
     for (const StabilityCase* one : cases) {
-        rows.push_back(judge(*one, bench));
+        result.rows.push_back(judge(*one, bench));
         if (!flags.json && !flags.markdown) {
-            fmt::print("{}", stability_text(rows.back()));
+            fmt::print("{}", document_text(document(result.rows.back())));
             std::fflush(stdout);
         }
     }
+    result.device = bench.drew() ? bench.device().info().gl_renderer : "";
     if (flags.json)
-        fmt::print("{}", stability_json(rows, bench.drew() ? bench.device().info().gl_renderer : ""));
+        fmt::print("{}", stability_json(result));
     else if (flags.markdown)
-        fmt::print("{}", table_markdown(stability_table(rows)));
+        fmt::print("{}", document_markdown(document(result)));
     else
-        fmt::print("\n{}", stability_summary(rows));
-    return std::ranges::any_of(rows, [](const StabilityRow& row) { return row.verdict == Judgement::fail; }) ? 1 : 0;
+        fmt::print("\n{}", document_text(document(result)));
+    return std::ranges::any_of(result.rows, [](const StabilityRow& row) { return row.verdict == Judgement::fail; }) ? 1 : 0;
 }
 
 } // namespace

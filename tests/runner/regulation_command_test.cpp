@@ -12,6 +12,7 @@ namespace {
 
 using nlohmann::json;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -22,7 +23,7 @@ TEST(RegulationCommand, PrintsRowsVerdictAndTheNarrowest) {
     EXPECT_EQ(o.exit_code, 0) << o.output;
     EXPECT_THAT(o.output,
                 AllOf(HasSubstr("per our table of UN R112"), HasSubstr("two published transcriptions"), HasSubstr("set to 0.57 D"),
-                      HasSubstr("narrowest    75R +27."), HasSubstr("pass: meets all 18 rows of our table; no approval")));
+                      ContainsRegex("\nnarrowest +75R \\+27\\."), HasSubstr("pass: meets all 18 rows of our table; no approval")));
     EXPECT_LT(o.output.find("\nB50L "), o.output.find("\nzone III ")); // in the regulation's order
     EXPECT_LT(o.output.find("\nzone III "), o.output.find("\n75R "));
 }
@@ -41,9 +42,9 @@ TEST(RegulationCommand, EachRowHasItsUnit) {
         const std::size_t at = text.find("\n" + id);
         return text.substr(at + 1, text.find('\n', at + 1) - at - 1);
     };
-    EXPECT_THAT(row("cut-off sharpness G"), HasSubstr(" 0.13 to 0.4 1 "));
-    EXPECT_THAT(row("cut-off linearity"), HasSubstr(" <= 0.2 deg "));
-    EXPECT_THAT(row("B50L"), HasSubstr(" <= 350 cd "));
+    EXPECT_THAT(row("cut-off sharpness G"), HasSubstr(" 0.13 to 0.4  1 "));
+    EXPECT_THAT(row("cut-off linearity"), HasSubstr(" <= 0.2  deg "));
+    EXPECT_THAT(row("B50L"), HasSubstr(" <= 350  cd "));
     EXPECT_THAT(text, AllOf(Not(HasSubstr("limit in cd")), Not(HasSubstr("\nmounted "))));
 }
 
@@ -63,7 +64,7 @@ TEST(RegulationCommand, AMisaimedLampIsNamed) {
     raised.close();
     const Outcome o = run_program("lamp " + (folder / "raised.csv") + " --regulation r112-b");
     EXPECT_EQ(o.exit_code, 0) << o.output;
-    EXPECT_THAT(o.output, HasSubstr("\nmounted      as the file has it, the cut-off lies 0.29 degrees too high\n"));
+    EXPECT_THAT(o.output, ContainsRegex("\nmounted +as the file has it, the cut-off lies 0.29 degrees too high\n"));
 }
 
 TEST(RegulationCommand, AFailedRowIsExitCode1AndNamed) {
@@ -90,8 +91,8 @@ TEST(RegulationCommand, TheAimTellsItsRuleItsBoundAndWhatItChanged) {
     EXPECT_EQ(j["as_filed"]["verdict"], "fail");
     EXPECT_EQ(j["as_filed"]["rows_changed"][0]["id"], "zone I");
     const Outcome text = run_program(lamp("halogen-low") + "--regulation r112-a");
-    EXPECT_THAT(text.output, AllOf(HasSubstr("\nas filed, where the aim changes the verdict\nzone I "),
-                                   HasSubstr("\nas filed     fail: the aim changes the verdict\n")));
+    EXPECT_THAT(text.output, AllOf(ContainsRegex("\nAs filed, where the aim changes the verdict\nrow .*\nzone I "),
+                                   ContainsRegex("\nas filed +fail: the aim changes the verdict\n")));
 }
 
 TEST(RegulationCommand, LeftHandTrafficIsTheMirrorImage) {
@@ -152,7 +153,7 @@ TEST(RegulationCommand, ListNamesEveryTableAndItsRows) {
 TEST(RegulationCommand, CutOffTellsItsFigures) {
     const Outcome text = run_program(lamp("xenon-low") + "--cut-off");
     EXPECT_EQ(text.exit_code, 0);
-    EXPECT_THAT(text.output, AllOf(HasSubstr("detector 30 mm at 25 m"), HasSubstr("kink         H -0.0"), HasSubstr("rise         14.")));
+    EXPECT_THAT(text.output, AllOf(HasSubstr("detector 30 mm at 25 m"), ContainsRegex("\nkink +H -0.0"), ContainsRegex("\nrise +14.")));
     const json j = json::parse(run_program(lamp("xenon-low") + "--cut-off --json --detector 0 --sharpness at-inflection").output);
     EXPECT_LT(j["level"][1]["sharpness_g"].get<double>(), 0.345);
     EXPECT_NEAR(j["level"][1]["inflection_v_deg"].get<double>(), -0.57, 0.02);

@@ -2,8 +2,6 @@
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/context_json.h"
-#include "runner/write/plots/png.h"
-#include "runner/write/plots/svg.h"
 #include "scenarios/display/tone_curve.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/files.h"
@@ -56,32 +54,6 @@ Image<Rgb8> grey_picture(const Image<float>& cdm2, const ToneMapper& mapper) {
         const auto level = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(shown, 0.0, 1.0)));
         out.pixels()[i] = {level, level, level};
     }
-    return out;
-}
-
-plots::Axis pixel_axis(const char* label, double from, double to) { return {.label = label, .unit = "px", .from = from, .to = to}; }
-
-/// A picture in false colours with its key.
-std::string false_colours(const Image<float>& values, const plots::Axis& axis, const std::string& title, const std::string& subtitle) {
-    plots::Figure figure;
-    figure.title = title;
-    figure.subtitle = subtitle;
-    const double width = values.width(), height = values.height();
-    figure.width_px = 1000.0;
-    figure.height_px = std::clamp(140.0 + 800.0 * height / width, 320.0, 1600.0);
-    figure.x = pixel_axis("column", 0.0, width);
-    figure.y = pixel_axis("row", height, 0.0);
-    figure.equal_units = true;
-    figure.grid = false;
-    figure.rasters = {{plots::heat_map(values, axis), 0.0, width, 0.0, height}};
-    figure.colour_bar = plots::ColourBar{axis};
-    return plots::svg_of(figure);
-}
-
-Image<float> relative_error_percent(const Estimate& estimate, double floor) {
-    Image<float> out = estimate.standard_error;
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out.pixels()[i] *= 100.0F / std::max(estimate.mean.pixels()[i], static_cast<float>(floor));
     return out;
 }
 
@@ -172,7 +144,6 @@ Json reference_json(const ReferenceResult& r) {
 } // namespace
 
 void write_reference(const ReferenceResult& r, const ToneMapper& tone_mapper, const std::filesystem::path& folder) {
-    const std::string where = fmt::format("{}, {}, after {:.3f} s", r.title.empty() ? r.drive : r.title, r.variant, r.moment.time_s);
     write_channels(channels_of(r.image), r.moment, r.view,
                    {{"fernlicht:drive", r.drive},
                     {"fernlicht:variant", r.variant},
@@ -184,14 +155,6 @@ void write_reference(const ReferenceResult& r, const ToneMapper& tone_mapper, co
                    folder / "reference.exr");
     if (!r.image.luminance_cdm2.mean.empty())
         write_png(grey_picture(r.image.luminance_cdm2.mean, tone_mapper), folder / "reference.png");
-    const plots::Axis lux{.label = "illuminance", .unit = "lx", .from = 0.1, .to = 100.0, .scale = plots::Scale::logarithmic},
-        percent{.label = "standard error", .unit = "%", .from = 0.001, .to = 10.0, .scale = plots::Scale::logarithmic};
-    write_file(folder / "illuminance.png",
-               plots::png_of_svg(false_colours(r.image.illuminance_lx.mean, lux, "Illuminance on the surfaces seen", where)));
-    write_file(folder / "error.png",
-               plots::png_of_svg(false_colours(relative_error_percent(r.image.illuminance_lx, r.settings.floor_lx), percent,
-                                               "Standard error of the illuminance",
-                                               where + fmt::format("; of the mean or of {} lx", r.settings.floor_lx))));
     write_file(folder / "reference.json", json_text(reference_json(r)));
 }
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "renderer/reference/reference.h"
-#include "runner/findings/report.h"
+#include "runner/findings/document.h"
+#include "runner/findings/findings.h"
 
 #include <optional>
 
@@ -18,8 +19,8 @@ struct ErrorReached {
 /// nullopt where the result was not wanted or no pixel that is drawn is lit.
 std::optional<ErrorReached> error_reached(const Estimate& estimate, const Image<std::uint32_t>& samples, double target_error, double floor);
 
-struct ReferenceResult {
-    RunContext context; ///< without a device: no backend
+/// Its context has no device: no backend.
+struct ReferenceResult : Findings {
     std::string drive, title, variant;
     Moment moment;
     View view;
@@ -29,7 +30,6 @@ struct ReferenceResult {
     std::size_t triangles = 0;
     std::string inputs;      ///< everything that decides the picture (checkpoint.h)
     std::string inputs_hash; ///< 32 hexadecimal digits over them
-    std::string interrupted; ///< "" where all is drawn
 
     std::optional<ErrorReached> illuminance() const;
     std::optional<ErrorReached> target() const;
@@ -40,11 +40,12 @@ std::string integrator_name(Integrator integrator);
 /// nullopt for a name that no integrator has.
 std::optional<Integrator> integrator_of(const std::string& name);
 
-/// reference.exr (mean and variance), reference.json, and for eyes reference.png (perspective views), illuminance.png and error.png.
-/// Throws DeviceError.
+/// reference.exr (mean and variance), reference.json, and of perspective views reference.png for eyes. Throws DeviceError.
 void write_reference(const ReferenceResult& result, const ToneMapper& tone_mapper, const std::filesystem::path& folder);
 
-/// Some lines for the terminal.
-std::string reference_text(const ReferenceResult& result);
+/// How exact it is and what it took.
+Document document(const ReferenceResult& result);
+/// Illuminance and its standard error.
+std::vector<Plot> false_colours(const ReferenceResult& result);
 
 } // namespace fernlicht

@@ -142,6 +142,7 @@ ReferenceResult run_reference(const ReferenceRequest& request) {
     OutputFolder folder = request.resume ? OutputFolder::left_incomplete(request.folder) : OutputFolder(request.folder);
     draw(result, stage, request, std::move(from));
     write_reference(result, stage.drive.tone_mapper, request.folder);
+    request.write(result);
     if (result.image.complete) {
         std::filesystem::remove(checkpoint_file(request.folder));
         folder.finish();

@@ -3,6 +3,8 @@
 
 #include "runner/experiments/reference/reference_result.h"
 
+#include <functional>
+
 namespace fernlicht {
 
 struct ReferenceRequest {
@@ -14,6 +16,7 @@ struct ReferenceRequest {
     bool resolution_asked = false; ///< for the view, which a map has none of
     bool resume = false, quiet = false;
     std::vector<std::string> command;
+    std::function<void(const ReferenceResult&)> write; ///< its plots into the folder, before that is marked as complete
 };
 
 /// Throws InputError (no such view or lamp set, a moment outside the drive, a resolution for a map, a folder that is not empty, a

@@ -1,4 +1,4 @@
-#include "runner/experiments/regulation/cut_off_figure.h"
+#include "runner/experiments/regulation/regulation_result.h"
 
 #include "runner/findings/plots/isocandela.h"
 
@@ -7,7 +7,8 @@
 
 namespace fernlicht {
 
-plots::Figure cut_off_figure(const LampFile& lamp, const CutOffFigures& c, const CutOffElbow& elbow, bool mirrored) {
+plots::Figure cut_off_figure(const CutOffFound& measured) {
+    const auto& [lamp, options, mirrored, c, elbow] = measured;
     const double sign = mirrored ? -1.0 : 1.0;
     const double middle = c.level.inflection_deg.value_or(-0.5);
     constexpr double beside_deg = 6.0, below_deg = 2.0, above_deg = 3.0;

@@ -45,6 +45,16 @@ Document document(const TossResult& result) {
     return {"Coins", {section}};
 }
 
+/// What a page sorts, slides and shows large.
+Document full_document() {
+    Table table{.name = "sides", .caption = "", .columns = {{"row"}, {.head = "side", .words = true}, {"share"}}, .rows = {}};
+    table.rows = {{{"c0", 0.0}, Cell("50 % heads").hinted("the eagle"), {"37.5", 37.5}}, {{"c1", 1.0}, "tails", ""}};
+    table.sortable = true;
+    table.quiet = {1};
+    const Card card{"share of heads", "+12.5", "%", "(more)", "by chance", Cell("a coin").linked("#c0")};
+    return {"Coins & notes", {{"Unfair", {Bullets{"Seen", {Cell("all").linked("all tosses.csv")}}, Cards{card}, table, "Often."}, "fail"}}};
+}
+
 class ToyExperiment : public testing::Test {
   protected:
     TossResult result = [] {
@@ -81,6 +91,23 @@ TEST_F(ToyExperiment, BecomesMarkdown) {
     EXPECT_EQ(table_markdown(std::get<Table>(document(result).sections[0].blocks.back())),
               "| side | of all share, % | of all count |\n|---|--:|--:|\n| heads \\| tails | 37.5 | - |\n| edge | not measured, it never "
               "stood | |\n");
+}
+
+TEST_F(ToyExperiment, SortsAndLinksOnAPage) {
+    const std::string page = document_html(full_document(), result);
+    for (const char* part :
+         {"<section class=\"verdict fail\">", "✗</span> Unfair</h2>", "<h3>Seen</h3>", "<li><a href=\"./all%20tosses.csv\">all</a></li>",
+          "<span class=\"big\">+12.5<small> %</small></span> <span>(more)</span>", "<a href=\"#c0\">a coin</a>", "<tr id=\"c0\">",
+          "<td class=\"text\" title=\"the eagle\">50 % heads</td><td class=\"n\" data-key=\"37.5\">37.5</td>",
+          "<tr id=\"c1\" class=\"quiet\">", "<td class=\"n\" data-key=\"\"></td>", "<script>"})
+        EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST_F(ToyExperiment, BecomesAPaper) {
+    EXPECT_THAT(document_markdown(full_document()),
+                HasSubstr("# Coins & notes\n\n## Unfair\n\n| row | side | share |\n|--:|---|--:|\n| c0 | 50 % heads | 37.5 |\n"));
+    EXPECT_THAT(document_latex(full_document()),
+                HasSubstr("{rlr}\n\\toprule\nrow & side & share \\\\\n\\midrule\n$c0$ & 50 \\% heads & $37.5$ \\\\\n$c1$ & tails & -- "));
 }
 
 TEST_F(ToyExperiment, LeavesAPageAndItsPlots) {

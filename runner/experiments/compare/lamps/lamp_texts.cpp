@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
-#include "runner/experiments/regulation/regulation_report.h"
+#include "runner/experiments/regulation/regulation_result.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/json_text.h"
 #include "runner/write/aligned_table.h"
@@ -36,7 +36,7 @@ Json lamp_json(const ComparedLamp& lamp) {
     return {{"file", lamp.path.string()},
             {"name", lamp.file.name},
             {"format", lamp.file.format},
-            {"cut_off", Json::parse(json_of(lamp.cut_off, fit_elbow({&lamp.file.table, {}}), lamp.file.name, {}, false))}};
+            {"cut_off", Json::parse(cut_off_json({lamp.file, {}, false, lamp.cut_off, fit_elbow({&lamp.file.table, {}})}))}};
 }
 
 Json regulation_json(const LampPairComparison& lamps) {
@@ -55,8 +55,8 @@ Json regulation_json(const LampPairComparison& lamps) {
     return {{"id", lamps.regulation->id},
             {"edition", lamps.regulation->edition},
             {"rows", rows},
-            {"old", Json::parse(json_of(*lamps.regulation, *lamps.before.check, {lamps.before.file.name}))},
-            {"new", Json::parse(json_of(*lamps.regulation, *lamps.now.check, {lamps.now.file.name}))}};
+            {"old", Json::parse(regulation_json({*lamps.regulation, {lamps.before.file.name}, *lamps.before.check}))},
+            {"new", Json::parse(regulation_json({*lamps.regulation, {lamps.now.file.name}, *lamps.now.check}))}};
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // Every case of `fernlicht stability`, judged as the command judges it; and the judging itself.
 #include "runner/experiments/stability/equations.h"
-#include "runner/experiments/stability/stability_case.h"
-#include "runner/experiments/stability/stability_text.h"
+#include "runner/experiments/stability/stability_document.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
 
@@ -35,7 +35,7 @@ TEST_P(Stability, HoldsItsBound) {
     const TemporaryFolder folder;
     StabilityBench bench("auto", folder.path(), false);
     const StabilityRow row = judge(*GetParam(), bench);
-    EXPECT_EQ(row.verdict, Judgement::pass) << stability_text(row);
+    EXPECT_EQ(row.verdict, Judgement::pass) << document_text(document(row));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Stability, testing::ValuesIn(all_cases()), test_name);
@@ -74,7 +74,9 @@ TEST(StabilityJudging, NotMeasuredIsNoPass) {
         return result;
     });
     EXPECT_EQ(row.verdict, Judgement::not_measured);
-    EXPECT_THAT(stability_summary({row}), testing::HasSubstr("0 pass, 0 fail, 1 not_measured: trial/case"));
+    StabilityResult result;
+    result.rows = {row};
+    EXPECT_THAT(document_text(document(result)), testing::HasSubstr("0 pass, 0 fail, 1 not_measured: trial/case"));
 }
 
 TEST(StabilityJudging, TheWorstTrialStays) {

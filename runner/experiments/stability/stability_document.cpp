@@ -1,4 +1,4 @@
-#include "runner/experiments/stability/stability_text.h"
+#include "runner/experiments/stability/stability_document.h"
 
 #include "runner/files/json_text.h"
 #include "runner/findings/figures.h"
@@ -24,16 +24,8 @@ std::string where(const StabilityRow& row) {
     return row.found.error == 0.0 && row.found.trials > 1 ? fmt::format("none in {} trials", row.found.trials) : row.found.where;
 }
 
-} // namespace
-
-std::string stability_text(const StabilityRow& row) {
-    const StabilityCase& of = *row.of;
-    return fmt::format("{:<12} {:<32} {} {} (bound {:g}), {:.1f} s\n    breaks:  {}\n    bound:   {}\n    worst:   {}\n",
-                       judgement_name(row.verdict), of.full_name(), measured(row), of.unit, of.bound, row.seconds, of.could_break,
-                       of.reason, where(row));
-}
-
-std::string stability_summary(const std::vector<StabilityRow>& rows) {
+/// "51 cases: 50 pass, 1 not_measured (road/x: reason)"
+std::string summary_of(const std::vector<StabilityRow>& rows) {
     std::size_t passed = 0, failed = 0, unmeasured = 0;
     std::string names;
     for (const StabilityRow& row : rows) {
@@ -43,22 +35,32 @@ std::string stability_summary(const std::vector<StabilityRow>& rows) {
         if (row.verdict != Judgement::pass)
             names += fmt::format("{}{} ({})", names.empty() ? ": " : ", ", row.of->full_name(), judgement_name(row.verdict));
     }
-    return fmt::format("{}: {} pass, {} fail, {} not_measured{}\n", counted(rows.size(), "case"), passed, failed, unmeasured, names);
+    return fmt::format("{}: {} pass, {} fail, {} not_measured{}", counted(rows.size(), "case"), passed, failed, unmeasured, names);
 }
 
-Table stability_table(const std::vector<StabilityRow>& rows) {
-    Table table{"stability", "", {}, {}};
+} // namespace
+
+Document document(const StabilityRow& row) {
+    const StabilityCase& of = *row.of;
+    return {of.full_name(),
+            {{fmt::format("{:<12} {:<32} {} {} (bound {:g}), {:.1f} s", judgement_name(row.verdict), of.full_name(), measured(row), of.unit,
+                          of.bound, row.seconds),
+              {Bullets{"", {"breaks:  " + of.could_break, "bound:   " + of.reason, "worst:   " + where(row)}}}}}};
+}
+
+Document document(const StabilityResult& result) {
+    Table table{"stability", "", {}, {}, true};
     for (const char* head : {"case", "what could break", "worst error", "bound", "reason of the bound", "verdict"})
         table.columns.push_back({.head = head, .words = true});
-    for (const StabilityRow& row : rows)
+    for (const StabilityRow& row : result.rows)
         table.rows.push_back({row.of->full_name(), row.of->could_break, fmt::format("{} ({})", measured(row), where(row)),
                               fmt::format("{:g} {}", row.of->bound, row.of->unit), row.of->reason, judgement_name(row.verdict)});
-    return table;
+    return {"Extreme and degenerate inputs", {{"", {table, summary_of(result.rows)}}}};
 }
 
-std::string stability_json(const std::vector<StabilityRow>& rows, const std::string& device) {
+std::string stability_json(const StabilityResult& result) {
     Json list = Json::array();
-    for (const StabilityRow& row : rows) {
+    for (const StabilityRow& row : result.rows) {
         const bool has = row.verdict != Judgement::not_measured && std::isfinite(row.found.error);
         list.push_back({{"case", row.of->full_name()},
                         {"could_break", row.of->could_break},
@@ -74,7 +76,7 @@ std::string stability_json(const std::vector<StabilityRow>& rows, const std::str
     return json_text(Json{{"schema", "fernlicht stability"},
                           {"schema_version", 1},
                           {"fernlicht", FERNLICHT_VERSION},
-                          {"device", device.empty() ? Json(nullptr) : Json(device)},
+                          {"device", result.device.empty() ? Json(nullptr) : Json(result.device)},
                           {"rows", list}});
 }
 
