@@ -72,6 +72,17 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
     for (const char* bad : {"0", "-1", "nan", ".inf", "1e7", "'3'", "three", "3 s", "[3]", "~"})
         EXPECT_THAT(with_duration(fmt::format("duration_s: {}\n", bad)), StartsWith("drive.yaml:5:13: duration_s: found")) << bad;
     EXPECT_THAT(with_duration("duration_s: 100\nstep_s: 1e-6\n"), HasSubstr("100000000 steps"));
+    for (const char* bad : {"1.0e-7", "1.0e-320", ".nan"})
+        EXPECT_NE(with_duration(fmt::format("duration_s: 10\nstep_s: {}\n", bad)), "not refused") << bad;
+    for (const char* good :
+         {"duration_s: 10\nstep_s: 1.0e-6\n", "duration_s: 10\nstep_s: 10\n", "duration_s: 1.0e-300\nstep_s: 1.0e-300\n"})
+        EXPECT_EQ(with_duration(good), "not refused") << good;
+    EXPECT_NE(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1.0e+9\nduration_s: 1\nvariants: {a: {file: low.ies}}\n"), "not refused");
+    for (const char* good :
+         {"tone_mapper: {s: 1.0e+6}", "tone_mapper: {s: 1}", "tone_mapper: {l_max_cdm2: 1.0e-6}", "tone_mapper: {l_max_cdm2: 1.0e+9}",
+          "views: {v: {resolution_px: [1, 1]}}", "views: {v: {resolution_px: [16384, 16]}}", "views: {v: {vertical_fov_deg: 0.1}}",
+          "views: {v: {vertical_fov_deg: 179}}"})
+        EXPECT_EQ(refusal(minimal + good + "\n"), "not refused") << good;
     for (const char* bad : {"step_s: 0",
                             "step_s: -0.1",
                             "rate_hz: 0",
@@ -84,12 +95,18 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
                             "views: {v: {resolution_px: [10.5, 10]}}",
                             "views: {v: {resolution_px: [10]}}",
                             "views: {v: {position_m: [0, 0, nan]}}",
+                            "views: {v: {position_m: [1.0e+300, 0, 0]}}",
+                            "views: {v: {pitch_deg: .inf}}",
+                            "views: {v: {vertical_fov_deg: .nan}}",
                             "views: {v: {map: {}, yaw_deg: 3}}",
                             "views: {v: {map: {ahead_m: 5, behind_m: -5}}}",
                             "views: {}",
                             "views: []",
                             "daylight: dawn",
                             "daylight: {horizontal_illuminance_lx: -1}",
+                            "daylight: {horizontal_illuminance_lx: .nan}",
+                            "daylight: {horizontal_illuminance_lx: -.inf}",
+                            "daylight: {horizontal_illuminance_lx: 1.0e+999}",
                             "daylight: {date: 2026-02-29, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}",
                             "daylight: {date: 2026-02-28, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0, sun: {}}",
                             "daylight: {date: 2026-02-28, time: -1:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}",
@@ -107,8 +124,15 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
                             "textures: true",
                             "textures: mine.png",
                             "tone_mapper: {s: 0.5}",
+                            "tone_mapper: {s: 0}",
+                            "tone_mapper: {s: 0.999}",
+                            "tone_mapper: {s: .inf}",
+                            "tone_mapper: {s: .nan}",
+                            "tone_mapper: {s: 1.0e+39}",
                             "tone_mapper: {l_max_cdm2: 0}",
                             "tone_mapper: {l_max_cdm2: 1.0e-42}",
+                            "tone_mapper: {l_max_cdm2: 1.0e+300}",
+                            "tone_mapper: {l_max_cdm2: .nan}",
                             "tone_mapper: {kind: linear, s: 3}",
                             "tone_mapper: {kind: histogram, s: 20}",
                             "tone_mapper: {kind: logarithmic, s: fitted}",

@@ -137,6 +137,8 @@ TEST_F(BeamMatrix, MessagesNameLineAndCell) {
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n"), HasSubstr("the file ends before the matrix"));
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1\n"), HasSubstr("x.csv:3: found 2 cells, expected 3"));
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1,2\n1,3,nan\n"), HasSubstr("x.csv:4: column 3: found 'nan'"));
+    for (const char* bad : {"inf", "-inf", "1e999", "1e13"})
+        EXPECT_THAT(complaint(fmt::format("# unit: cd\nV\\H,0,1\n0,1,2\n1,3,{}\n", bad)), HasSubstr("x.csv")) << bad;
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1,2\n1,3,\n"), HasSubstr("x.csv:4: found 2 cells"));
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0,one\n0,1,2\n1,3,4\n"), HasSubstr("x.csv:2: horizontal angle: found 'one'"));
     EXPECT_THAT(complaint("# unit: cd\nV\\H,0,1\n0,1,2\n95,3,4\n"), HasSubstr("x.csv:3: vertical angles: found 95"));

@@ -1,6 +1,5 @@
 // Cameras and pictures at the ends of what a view may ask for, and numbers on their way into files.
 #include "runner/experiments/stability/trial.h"
-#include "runner/experiments/stability/trial_files.h"
 #include "runner/files/picture_file.h"
 
 #include <algorithm>
@@ -47,22 +46,6 @@ Found sizes(StabilityBench& bench) {
 /// 16384 x 16 pixels across 90 degrees: every pixel is finite, and those of a coarse grid are right.
 Found widest(StabilityBench& bench) { return against_a_street(bench, {{0.112, 16384, 16}}); }
 
-/// What a view must not ask for.
-Found refused_images(StabilityBench& bench) {
-    Found worst;
-    const std::pair<const char*, bool> views[] = {
-        {"vertical_fov_deg: 0.1", true},  {"vertical_fov_deg: 179", true},        {"vertical_fov_deg: 0", false},
-        {"vertical_fov_deg: 180", false}, {"vertical_fov_deg: .nan", false},      {"resolution_px: [1, 1]", true},
-        {"resolution_px: [0, 1]", false}, {"resolution_px: [16384, 16]", true},   {"resolution_px: [16385, 16]", false},
-        {"pitch_deg: .inf", false},       {"position_m: [1.0e+300, 0, 0]", false}};
-    for (const auto& [keys, good] : views) {
-        const std::filesystem::path path = write_drive_file(bench, "view.yaml", fmt::format("views: {{driver: {{{}}}}}", keys));
-        const std::string said = refusal([&] { read_drive(path); });
-        worst.add(said.empty() == good ? 0.0 : 1.0, fmt::format("{}: {}", keys, said.empty() ? "taken" : said));
-    }
-    return worst;
-}
-
 /// What is stored in EXR comes back to the bit. Beside it what half floats would have made of it.
 Found stored(StabilityBench& bench) {
     Frame frame;
@@ -105,8 +88,6 @@ std::vector<StabilityCase> image_cases() {
         {"image", "sizes", "1 x 1, one row, one column, 16384 to a side", 1.0, of_bound, "a pixel does not know of its neighbours", sizes},
         {"image", "16384x16", "the widest picture that OpenGL 4.5 promises", 1.0, of_bound, "a pixel does not know of its neighbours",
          widest},
-        {"image", "refused", "views without a picture: 0 or 180 degrees, 0 or 16385 pixels, places that are no numbers", 0.0,
-         "inputs not judged rightly", "0.01 to 179 degrees and 1 to 16384 pixels are taken, all else is refused", refused_images},
         {"image", "stored", "numbers on their way into EXR: 1e5 lx, denormals, the largest float", 0.0, "values changed",
          "channels are 32-bit floats; half floats end at 65504 lx and keep 11 bits", stored},
     };

@@ -97,32 +97,6 @@ Found brightest(StabilityBench& bench) {
     return worst;
 }
 
-/// NaN and infinity in lamps, roads and drives.
-Found refused_numbers(StabilityBench& bench) {
-    Found worst;
-    for (const char* bad : {"nan", "inf", "-inf", "1e999", "1e13", "-1"}) {
-        const std::filesystem::path lamp_path = bench.write("bad.csv", fmt::format("# unit: cd\nV\\H,-1,1\n-1,1,2\n1,3,{}\n", bad));
-        const std::string lamp_said = refusal([&] { read_lamp(lamp_path); });
-        worst.add(lamp_said.find("bad.csv") != std::string::npos ? 0.0 : 1.0,
-                  lamp_said.empty() ? fmt::format("{} cd was taken", bad) : lamp_said);
-    }
-    for (const char* bad : {"nan", "inf", "1e999"}) {
-        const std::string plan = fmt::format(R"(<geometry s="0" x="{}" y="0" hdg="0" length="600"><line/></geometry>)", bad);
-        const std::filesystem::path road = bench.write("bad.xodr", road_text(600.0, plan, lane_text(-1, 3.5)));
-        const std::string road_said = refusal([&] { read_opendrive(road); });
-        worst.add(road_said.find("bad.xodr") != std::string::npos ? 0.0 : 1.0,
-                  road_said.empty() ? fmt::format("a road at x = {} was taken", bad) : road_said);
-    }
-    for (const char* bad : {".nan", ".inf", "-.inf", "1.0e+999"}) {
-        const std::filesystem::path drive =
-            write_drive_file(bench, "bad.yaml", fmt::format("daylight: {{horizontal_illuminance_lx: {}}}", bad));
-        const std::string drive_said = refusal([&] { read_drive(drive); });
-        worst.add(drive_said.find("bad.yaml") != std::string::npos ? 0.0 : 1.0,
-                  drive_said.empty() ? fmt::format("a sky of {} lx was taken", bad) : drive_said);
-    }
-    return worst;
-}
-
 std::string content_of(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     std::ostringstream text;
@@ -226,8 +200,6 @@ std::vector<StabilityCase> number_cases() {
         {"number", "brightest", "eight lamps of 1e12 cd at 1 mm: 1e18 lx each, luminances, tone mapping", 1.0,
          "of the pixel's rounding bound", "the largest intensity a file may hold over the square of a millimetre is far below 3e38",
          brightest},
-        {"number", "refused", "NaN, infinity and what no lamp can be, in lamp, road and drive files", 0.0, "inputs not refused",
-         "a number that is none is refused where it stands, with the file's name", refused_numbers},
         {"number", "reports", "a dark lamp, one of 1e12 cd, a probe right at the lamp: whole runs", 0.0, "values that are not finite",
          "what could not be measured is not_measured, never NaN or infinity", reports},
         {"number", "near-field", "1 mm from a lamp that was measured from 10 m: a point source no more", 0.0, "readings not marked rightly",

@@ -65,19 +65,6 @@ double not_numbers(const CandelaTable& table) {
                                                                                                                                      : 0.0;
 }
 
-Found one_by_one(StabilityBench& bench) {
-    Found worst;
-    const std::string ies = "IESNA:LM-63-2002\n[TEST] 1\nTILT=NONE\n1 -1 1 1 1 3 2 0 0 0\n1 1 10\n0\n0\n100\n";
-    const std::pair<std::string, std::string> files[] = {{"one.csv", "# unit: cd\n# angles: goniometer\nV\\H,0\n0,100\n"},
-                                                         {"one.ies", ies}};
-    for (const auto& [name, text] : files) {
-        const std::filesystem::path path = bench.write(name, text);
-        const std::string said = refusal([&] { read_lamp(path); });
-        worst.add(said.find(name) != std::string::npos ? 0.0 : 1.0, said.empty() ? name + " was taken" : said);
-    }
-    return worst;
-}
-
 Found two_by_two(StabilityBench& bench) {
     return found_on_a_wall(bench, through_a_file(bench, "two", {{-30.0, 30.0}, {-30.0, 30.0}, {1.0, 1e5, 10.0, 0.0}, {}, {}}));
 }
@@ -228,8 +215,6 @@ std::vector<StabilityCase> table_cases() {
     const std::string of_bound = "of the pixel's rounding bound";
     const std::string interpolation = "bilinear by hand in float: no look-up may weigh with a texture unit's 8 bits";
     return {
-        {"table", "1x1", "no cell to interpolate in", 0.0, "files not refused",
-         "one sample says nothing of directions: refused with the file's name", one_by_one},
         {"table", "2x2", "one cell over 60 degrees, corners from 0 to 1e5 cd", 1.0, of_bound, interpolation, two_by_two},
         {"table", "4000x4000", "16 million samples: reader, memory, the GPU's texture of 4 M texels", 1.0, "of the error announced",
          "the texture is coarser than the table; `beam_error` must say by how much", four_thousand},

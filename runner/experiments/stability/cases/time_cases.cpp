@@ -52,38 +52,12 @@ Found time_steps(StabilityBench& bench) {
     return worst;
 }
 
-Found refused_times(StabilityBench& bench) {
-    const std::pair<const char*, bool> times[] = {{"speed_kmh: 60\nstep_s: 1.0e-6\nduration_s: 10", true},
-                                                  {"speed_kmh: 60\nstep_s: 10\nduration_s: 10", true},
-                                                  {"speed_kmh: 0\nstep_s: 0.1\nduration_s: 1", true},
-                                                  {"speed_kmh: 60\nstep_s: 1.0e-7\nduration_s: 10", false},
-                                                  {"speed_kmh: 60\nstep_s: 1.0e-300\nduration_s: 1.0e-300", true},
-                                                  {"speed_kmh: 60\nstep_s: 1.0e-320\nduration_s: 10", false},
-                                                  {"speed_kmh: 60\nstep_s: 0\nduration_s: 10", false},
-                                                  {"speed_kmh: 60\nstep_s: -0.1\nduration_s: 10", false},
-                                                  {"speed_kmh: 60\nstep_s: .nan\nduration_s: 10", false},
-                                                  {"speed_kmh: 60\nstep_s: 0.1\nduration_s: .inf", false},
-                                                  {"speed_kmh: 60\nstep_s: 0.1\nduration_s: 0", false},
-                                                  {"speed_mps: 1.0e+9\nstep_s: 0.1\nduration_s: 1", false}};
-    Found worst;
-    for (const auto& [keys, good] : times) {
-        const std::filesystem::path path = write_drive_file(bench, "time.yaml", "", keys);
-        const std::string said = refusal([&] { read_drive(path); });
-        std::string shown = keys;
-        std::ranges::replace(shown, '\n', ',');
-        worst.add(said.empty() == good ? 0.0 : 1.0, fmt::format("{}: {}", shown, said.empty() ? "taken" : said));
-    }
-    return worst;
-}
-
 } // namespace
 
 std::vector<StabilityCase> time_cases() {
     return {
         {"time", "steps", "steps of 1e-6 and 10 s: drift over a million steps, changes that fall between", 1e-12, "of the distance driven",
          "a state is a function of its tick; the integral of the speed is exact but for 20 roundings of a double", time_steps},
-        {"time", "refused", "more than ten million steps, steps and durations that are none", 0.0, "inputs not judged rightly",
-         "up to ten million steps above 0 s are taken, all else is refused", refused_times},
     };
 }
 

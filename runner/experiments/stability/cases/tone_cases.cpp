@@ -1,6 +1,5 @@
 // Tone mappers at the ends of their domain, in pictures and in drive files.
 #include "runner/experiments/stability/trial.h"
-#include "runner/experiments/stability/trial_files.h"
 #include "scenarios/display/tone_curve.h"
 #include "scenarios/photometry.h"
 
@@ -43,24 +42,6 @@ Found pictures(StabilityBench& bench) {
     return worst;
 }
 
-/// s -> 0 and L_max -> 0 have no picture: the drive file is refused, with what was expected.
-Found refused_tones(StabilityBench& bench) {
-    Found worst;
-    for (const char* keys :
-         {"s: 0", "s: 1.0e-30", "s: 0.999", "s: -1", "s: .inf", "s: 1.0e+39", "s: .nan", "l_max_cdm2: 0", "l_max_cdm2: -1",
-          "l_max_cdm2: 1.0e-300", "l_max_cdm2: 1.0e-42", "l_max_cdm2: .inf", "l_max_cdm2: 1.0e+300", "l_max_cdm2: .nan"}) {
-        const std::filesystem::path path = write_drive_file(bench, "tone.yaml", fmt::format("tone_mapper: {{{}}}", keys));
-        const std::string said = refusal([&] { read_drive(path); });
-        worst.add(said.find("expected") != std::string::npos ? 0.0 : 1.0, said.empty() ? fmt::format("{} was taken", keys) : said);
-    }
-    for (const char* keys : {"s: 1", "s: 1.0e+6", "l_max_cdm2: 1.0e-6", "l_max_cdm2: 1.0e+9"}) {
-        const std::filesystem::path path = write_drive_file(bench, "tone.yaml", fmt::format("tone_mapper: {{{}}}", keys));
-        const std::string said = refusal([&] { read_drive(path); });
-        worst.add(said.empty() ? 0.0 : 1.0, fmt::format("{}: {}", keys, said));
-    }
-    return worst;
-}
-
 } // namespace
 
 std::vector<StabilityCase> tone_cases() {
@@ -68,9 +49,6 @@ std::vector<StabilityCase> tone_cases() {
         {"tone", "pictures",
          "s = 1, just above it, and 1e6; L = 0, denormal, L_max and far above; L_max from 1e-6 to 1e9: 0/0 and overflow", 0.52,
          "8-bit steps", "half a step by rounding to 8 bits, 0.01 by the polynomial in place of the sRGB power, 0.01 by floats", pictures},
-        {"tone", "refused", "s -> 0 is black everywhere and 0/0 at L_max; L_max = 0 divides by 0; what a float cannot hold", 0.0,
-         "inputs not judged rightly",
-         "s from 1 to 1e6 and L_max from 1e-6 to 1e9 cd/m2 are taken, all else is refused with what was expected", refused_tones},
     };
 }
 
