@@ -1,8 +1,5 @@
 #include "runner/experiments/stability/stability_case.h"
 
-#include "runner/experiments/stability/shadow_method_cases.h"
-#include "runner/experiments/stability/traffic_cases.h"
-
 #include "scenarios/values/errors.h"
 
 #include <chrono>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "renderer/device.h"
+#include "runner/findings/document.h"
+#include "runner/findings/findings.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -80,20 +82,20 @@ StabilityRow judge(const StabilityCase& one, StabilityBench& bench);
 /// All cases, families in the order of docs/accuracy.md.
 const std::vector<StabilityCase>& stability_cases();
 
+struct StabilityResult : Findings {
+    std::vector<StabilityRow> rows;
+    std::string device; ///< "" when nothing was drawn
+};
+
+/// One case, as soon as it is judged.
+Document document(const StabilityRow& row);
+/// The table of docs/accuracy.md, and how many passed. No times: the same on every run of one machine.
+Document document(const StabilityResult& result);
+std::string stability_json(const StabilityResult& result);
+
 // The families, one file each.
-std::vector<StabilityCase> lamp_cases();
-std::vector<StabilityCase> camera_cases();
-std::vector<StabilityCase> table_cases();
-std::vector<StabilityCase> tone_cases();
-std::vector<StabilityCase> motion_cases();
-std::vector<StabilityCase> geometry_cases();
-std::vector<StabilityCase> shadow_cases();
-std::vector<StabilityCase> road_cases();
-std::vector<StabilityCase> image_cases();
-std::vector<StabilityCase> comparison_cases();
-std::vector<StabilityCase> time_cases();
-std::vector<StabilityCase> number_cases();
-std::vector<StabilityCase> weather_cases();
-std::vector<StabilityCase> equation_cases();
+std::vector<StabilityCase> lamp_cases(), camera_cases(), table_cases(), tone_cases(), geometry_cases(), shadow_cases(),
+    shadow_plane_cases(), shadow_map_cases(), shadow_volume_cases(), road_cases(), image_cases(), comparison_cases(), time_cases(),
+    number_cases(), motion_cases(), weather_cases(), traffic_cases(), equation_cases();
 
 } // namespace fernlicht

@@ -1,4 +1,4 @@
-#include "runner/experiments/stability/stability_document.h"
+#include "runner/experiments/stability/stability_case.h"
 
 #include "runner/files/json_text.h"
 #include "runner/findings/figures.h"

@@ -1,5 +1,3 @@
-#include "runner/experiments/stability/traffic_cases.h"
-
 #include "renderer/traffic_levels.h"
 #include "runner/experiments/stability/trial.h"
 

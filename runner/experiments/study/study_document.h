@@ -22,6 +22,9 @@ std::string study_junit(const StudyResult& result);
 /// Reach over each drive, lux from above and its difference, error over time, the lamps' difference. EXR files are read below `folder`.
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder);
 
+/// Lanes and car on the shown maps of cells that are played over the same road from the same drive; `drive` is one of theirs.
+void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
+
 /// "dimmer against production: 5.0 % dimmer at 8.2 to 2.9 degrees left and 4.2 to 1.5 degrees down. Nothing else differs
 /// beyond the noise of the tables, 0.82 %." Zones beyond the clearest three are counted. Angles are the goniometer's.
 std::string lamp_verdict(const LampComparison& lamps);

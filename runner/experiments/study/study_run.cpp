@@ -2,7 +2,6 @@
 
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/study/study_document.h"
-#include "runner/experiments/study/study_maps.h"
 #include "runner/files/checked_json.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"

@@ -3,7 +3,6 @@
 #include "runner/experiments/run/run_drives.h"
 #include "runner/experiments/stability/float_habits.h"
 #include "runner/experiments/stability/trial.h"
-#include "runner/experiments/stability/trial_files.h"
 #include "runner/files/picture_file.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // Roads at the limits of geometry, read from OpenDRIVE as a user's are.
 #include "runner/experiments/stability/trial.h"
-#include "runner/experiments/stability/trial_files.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 
 #include <cmath>

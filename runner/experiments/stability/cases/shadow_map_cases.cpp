@@ -1,6 +1,6 @@
 // Methods that draw maps against rays: texels, lamps and eyes in hard places.
-#include "runner/experiments/stability/shadow_method_cases.h"
 #include "runner/experiments/stability/shadow_trial.h"
+#include "runner/experiments/stability/stability_case.h"
 
 #include "renderer/camera.h"
 

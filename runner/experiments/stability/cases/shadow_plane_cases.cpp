@@ -1,6 +1,6 @@
 // Shadows on a plane and polygons under cars, and what all shadow methods have in common: light that grazes, places far from the origin.
-#include "runner/experiments/stability/shadow_method_cases.h"
 #include "runner/experiments/stability/shadow_trial.h"
+#include "runner/experiments/stability/stability_case.h"
 
 #include "renderer/camera.h"
 

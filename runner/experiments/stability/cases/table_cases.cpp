@@ -2,7 +2,6 @@
 #include "renderer/beam_texture.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
 #include "runner/experiments/stability/trial.h"
-#include "runner/experiments/stability/trial_files.h"
 #include "scenarios/light/light.h"
 
 #include <algorithm>

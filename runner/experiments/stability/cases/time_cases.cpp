@@ -1,5 +1,5 @@
 // Steps of time from a millionth of a second to ten seconds.
-#include "runner/experiments/stability/trial_files.h"
+#include "runner/experiments/stability/trial.h"
 #include "scenarios/drives/play/advance.h"
 
 #include <algorithm>

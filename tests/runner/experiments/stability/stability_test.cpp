@@ -1,6 +1,6 @@
 // Every case of `fernlicht stability`, judged as the command judges it; and the judging itself.
 #include "runner/experiments/stability/equations.h"
-#include "runner/experiments/stability/stability_document.h"
+#include "runner/experiments/stability/stability_case.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
