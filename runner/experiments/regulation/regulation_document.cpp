@@ -138,36 +138,20 @@ std::string scan_text(const CutOffScan& s, const char* axis) {
 } // namespace
 
 const char* name_of(RowVerdict verdict) {
-    switch (verdict) {
-    case RowVerdict::pass:
-        return "pass";
-    case RowVerdict::fail:
-        return "fail";
-    case RowVerdict::not_measured:
-        break;
-    }
-    return "not_measured";
+    return verdict == RowVerdict::pass ? "pass" : verdict == RowVerdict::fail ? "fail" : "not_measured";
 }
 
 const char* name_of(AimRule rule) {
-    switch (rule) {
-    case AimRule::automatic:
-        return "auto";
-    case AimRule::cut_off:
-        return "cut-off";
-    case AimRule::cut_off_by_line:
-        return "cut-off-line";
-    case AimRule::elbow:
-        return "elbow";
-    case AimRule::vol:
-        return "vol";
-    case AimRule::vor:
-        return "vor";
-    case AimRule::maximum:
-        return "maximum";
-    case AimRule::as_is:
-        break;
-    }
+    using enum AimRule;
+    for (const auto& [one, name] : {std::pair(automatic, "auto"),
+                                    {cut_off, "cut-off"},
+                                    {cut_off_by_line, "cut-off-line"},
+                                    {elbow, "elbow"},
+                                    {vol, "vol"},
+                                    {vor, "vor"},
+                                    {maximum, "maximum"}})
+        if (one == rule)
+            return name;
     return "as-is";
 }
 

@@ -27,7 +27,7 @@ std::optional<double> margin_in(const RowResult* row) {
 }
 
 std::string verdict_in(const RowResult* row) {
-    return !row ? "" : row->verdict == RowVerdict::pass ? "pass" : row->verdict == RowVerdict::fail ? "fail" : "not_measured";
+    return row ? name_of(row->verdict) : "";
 }
 
 std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:+.1f} %", 100.0 * *share) : "-"; }
