@@ -3,8 +3,16 @@
 #include "metrics/statistics/statistics.h"
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 namespace fernlicht {
+
+static constexpr std::pair<Integrator, std::string_view> integrators[]{{Integrator::direct, "direct"},
+                                                                       {Integrator::path, "path"},
+                                                                       {Integrator::whitted, "whitted"},
+                                                                       {Integrator::radiosity, "radiosity"},
+                                                                       {Integrator::photon_map, "photon-map"}};
 
 std::optional<ErrorReached> error_reached(const Estimate& estimate, const Image<std::uint32_t>& samples, double target_error,
                                           double floor) {
@@ -38,27 +46,12 @@ std::optional<ErrorReached> ReferenceResult::luminance() const {
 }
 
 std::string integrator_name(Integrator integrator) {
-    switch (integrator) {
-    case Integrator::direct:
-        return "direct";
-    case Integrator::path:
-        return "path";
-    case Integrator::whitted:
-        return "whitted";
-    case Integrator::radiosity:
-        return "radiosity";
-    case Integrator::photon_map:
-        return "photon-map";
-    }
-    return "unknown";
+    return std::string(std::ranges::find(integrators, integrator, [](const auto& one) { return one.first; })->second);
 }
 
 std::optional<Integrator> integrator_of(const std::string& name) {
-    for (const Integrator integrator :
-         {Integrator::direct, Integrator::path, Integrator::whitted, Integrator::radiosity, Integrator::photon_map})
-        if (integrator_name(integrator) == name)
-            return integrator;
-    return std::nullopt;
+    const auto found = std::ranges::find(integrators, name, [](const auto& one) { return one.second; });
+    return found == std::end(integrators) ? std::nullopt : std::optional(found->first);
 }
 
 } // namespace fernlicht
