@@ -77,7 +77,7 @@ struct Plot {
     std::variant<WorkPrecision, Drawing, plots::Figure> figure;
     std::vector<std::string> captions = {}; ///< one sentence each, without full stop
     double scale = 1.0;                     ///< pixels of its PNG for one of the SVG
-    bool small = false;                     ///< stands beside others
+    bool beside = false;                    ///< small enough that others stand beside it
 };
 
 using DocumentPart = std::variant<std::string, Table, Plot, Bullets, Cards, PicturePair>; ///< a string is a paragraph

@@ -114,7 +114,7 @@ data part_of(const Plot& plot, const std::filesystem::path&, std::size_t&) {
         captions.push_back(capitalised(clean_text(caption)));
     part.set("is_plot", true);
     part.set("svg", plot_svg(plot));
-    part.set("small", plot.small);
+    part.set("beside", plot.beside);
     part.set("link", relative_link(place_of(plot)));
     part.set("captions", captions);
     return part;

@@ -67,7 +67,7 @@ StudyFigure with_files(const std::string& name, const std::string& title, declty
 StudyFigure small_figure(const std::string& name, plots::Figure figure, const std::vector<std::size_t>& cells) {
     const std::string title = figure.title + ": " + figure.subtitle;
     StudyFigure small = with_files(name, title, std::move(figure), cells);
-    small.plot.small = true;
+    small.plot.beside = true;
     return small;
 }
 
@@ -202,7 +202,7 @@ void add_work_precision(const StudyResult& result, std::vector<StudyFigure>& fig
     figure.x = plots::axis_around("time a frame", "ms", xs, plots::Scale::logarithmic);
     figure.y = plots::axis_around("error", "%", ys, plots::Scale::logarithmic);
     figures.push_back(with_files("work-precision", figure.title, figure, cells));
-    figures.back().plot.small = true;
+    figures.back().plot.beside = true;
 }
 
 void add_lamp_differences(const StudyResult& result, std::vector<StudyFigure>& figures) {
