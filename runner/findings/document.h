@@ -62,7 +62,7 @@ struct Card {
 using Cards = std::vector<Card>;
 
 /// Two pictures of one thing, one over the other with a slider between them.
-struct PicturePair {
+struct PictureOverlay {
     std::string title;
     std::array<std::string, 2> names, paths; ///< the one that lies over the other first; PNGs below the document's folder
 };
@@ -80,7 +80,7 @@ struct Plot {
     bool beside = false;                    ///< small enough that others stand beside it
 };
 
-using DocumentPart = std::variant<std::string, Table, Plot, Bullets, Cards, PicturePair>; ///< a string is a paragraph
+using DocumentPart = std::variant<std::string, Table, Plot, Bullets, Cards, PictureOverlay>; ///< a string is a paragraph
 
 struct Section {
     std::string title; ///< "" for what stands before the first heading

@@ -51,7 +51,8 @@ std::string text_of(const Table& table) {
         for (const Cell& cell : row)
             line.push_back(clean_text(cell.text.empty() ? "-" : cell.text));
     }
-    return (table.caption.empty() ? "" : table.caption + "\n") + aligned_table(alignment, lines.front(), {lines.begin() + 1, lines.end()}) + after;
+    return (table.caption.empty() ? "" : table.caption + "\n") + aligned_table(alignment, lines.front(), {lines.begin() + 1, lines.end()}) +
+           after;
 }
 
 std::string text_of(const std::string& paragraph) { return clean_text(paragraph) + "\n"; }
@@ -79,7 +80,7 @@ std::string text_of(const Cards& cards) {
     return text;
 }
 
-std::string text_of(const PicturePair&) { return ""; }
+std::string text_of(const PictureOverlay&) { return ""; }
 
 /// Signs that LaTeX gives a meaning, and our own units beyond ASCII.
 std::string latex_text(const std::string& text) {

@@ -150,7 +150,7 @@ data part_of(const Cards& cards, const std::filesystem::path&, std::size_t&) {
 }
 
 /// Nothing where the page would grow too large.
-data part_of(const PicturePair& pair, const std::filesystem::path& folder, std::size_t& bytes_left) {
+data part_of(const PictureOverlay& pair, const std::filesystem::path& folder, std::size_t& bytes_left) {
     FilesRead ignored;
     const std::string over = read_file(folder / pair.paths[0], ignored), under = read_file(folder / pair.paths[1], ignored);
     data part;
@@ -174,7 +174,7 @@ const char* mark_of(const std::string& verdict) {
 
 bool needs_script(const DocumentPart& block) {
     const auto* table = std::get_if<Table>(&block);
-    return (table && table->sortable) || std::holds_alternative<PicturePair>(block);
+    return (table && table->sortable) || std::holds_alternative<PictureOverlay>(block);
 }
 
 } // namespace

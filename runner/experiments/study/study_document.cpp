@@ -234,10 +234,10 @@ Section views_section(const StudyResult& result) {
             for (const StoredFrame& now : result.cells[tested].frames)
                 for (const StoredFrame& before : result.cells[against].frames)
                     if (now.tick == before.tick && now.view == before.view && !now.png.empty() && !before.png.empty())
-                        section.blocks.emplace_back(PicturePair{fmt::format("{}, after {:.1f} s ({})", result.cells[tested].title,
-                                                                            now.time_s, result.cells[tested].cell.condition),
-                                                                {pair.tested, pair.against},
-                                                                {now.png, before.png}});
+                        section.blocks.emplace_back(PictureOverlay{fmt::format("{}, after {:.1f} s ({})", result.cells[tested].title,
+                                                                               now.time_s, result.cells[tested].cell.condition),
+                                                                   {pair.tested, pair.against},
+                                                                   {now.png, before.png}});
     return section;
 }
 

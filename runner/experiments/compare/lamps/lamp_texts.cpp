@@ -26,9 +26,7 @@ std::optional<double> margin_in(const RowResult* row) {
     return row && row->verdict != RowVerdict::not_measured ? std::optional(row->margin) : std::nullopt;
 }
 
-std::string verdict_in(const RowResult* row) {
-    return row ? name_of(row->verdict) : "";
-}
+std::string verdict_in(const RowResult* row) { return row ? name_of(row->verdict) : ""; }
 
 std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:+.1f} %", 100.0 * *share) : "-"; }
 
@@ -55,8 +53,8 @@ Json regulation_json(const LampPairComparison& lamps) {
     return {{"id", lamps.regulation->id},
             {"edition", lamps.regulation->edition},
             {"rows", rows},
-            {"old", Json::parse(regulation_json({*lamps.regulation, {lamps.before.file.name}, *lamps.before.check}))},
-            {"new", Json::parse(regulation_json({*lamps.regulation, {lamps.now.file.name}, *lamps.now.check}))}};
+            {"old", Json::parse(fernlicht::regulation_json({*lamps.regulation, {lamps.before.file.name}, *lamps.before.check}))},
+            {"new", Json::parse(fernlicht::regulation_json({*lamps.regulation, {lamps.now.file.name}, *lamps.now.check}))}};
 }
 
 } // namespace
