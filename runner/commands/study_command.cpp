@@ -2,7 +2,6 @@
 
 #include "renderer/device.h"
 #include "runner/commands/judging_flags.h"
-#include "runner/commands/run_command.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
 #include "runner/files/output_folder.h"

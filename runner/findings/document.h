@@ -18,11 +18,17 @@ struct Cell {
     std::optional<double> value = {}; ///< what the figure was rounded from
     std::string link = {};            ///< where it leads: a file below the document's folder, "#c3" for a row of that name; "" nowhere
     std::string hint = {};            ///< seen on a page where one points at it
+    std::optional<std::size_t> series = {}; ///< names what the series of this number shows in plots: stands beside its colour
 
     Cell(std::string words) : text(std::move(words)) {}
     Cell(const char* words) : text(words) {}
     Cell(std::string rounded, double of) : text(std::move(rounded)), value(of) {}
 
+    static Cell of_series(std::string words, std::size_t number) {
+        Cell cell(std::move(words));
+        cell.series = number;
+        return cell;
+    }
     Cell linked(std::string to) && {
         link = std::move(to);
         return std::move(*this);
@@ -34,10 +40,11 @@ struct Cell {
 };
 
 struct Column {
-    std::string head, unit = {}; ///< "%", "cm, r.m.s. / worst"
-    std::string group = {};      ///< a heading over this column and its neighbours of the same group
-    bool words = false;          ///< read from the left; figures stand to the right
-    bool code = false;           ///< commands, to be pasted
+    std::string head, unit = {};            ///< "%", "cm, r.m.s. / worst"
+    std::string group = {};                 ///< a heading over this column and its neighbours of the same group
+    bool words = false;                     ///< read from the left; figures stand to the right
+    bool code = false;                      ///< words as they are typed: names of readings, commands
+    std::optional<std::size_t> series = {}; ///< as a cell's
 };
 
 /// Of a line: "lamp<|all drawing: share [%]|command`". After what is read from the left stands a <, after what is typed a backtick, before
@@ -53,9 +60,14 @@ struct Table {
     std::vector<std::size_t> quiet = {}; ///< rows in grey
 };
 
-struct Bullets {
-    std::string caption; ///< "" for none
+/// Sentences one below the other, without full stops.
+struct Listing {
     std::vector<Cell> items;
+    std::string caption = {}; ///< "" for none
+
+    Listing() = default;
+    Listing(std::vector<Cell> cells, std::string above = {}) : items(std::move(cells)), caption(std::move(above)) {}
+    explicit Listing(const std::vector<std::string>& sentences) : items(sentences.begin(), sentences.end()) {}
 };
 
 /// One of the few figures that matter most, to be seen from afar.
@@ -84,12 +96,25 @@ struct Plot {
     bool beside = false;                    ///< small enough that others stand beside it
 };
 
-using DocumentPart = std::variant<std::string, Table, Plot, Bullets, Cards, PictureOverlay>; ///< a string is a paragraph
+struct Picture {
+    std::string file; ///< PNG, below the document's folder or absolute
+    std::string caption;
+};
+/// Pictures on disk that belong beside each other.
+struct PictureStrip {
+    std::string title;
+    std::vector<Picture> pictures;
+};
+
+/// A string is a paragraph; in it and in a listing, what stands between backticks is meant as it is typed.
+using DocumentPart = std::variant<std::string, Table, Plot, Listing, Cards, PictureOverlay, PictureStrip>;
 
 struct Section {
     std::string title; ///< "" for what stands before the first heading
     std::vector<DocumentPart> blocks;
-    std::string verdict = {}; ///< of what says how it went: "pass", "fail", "flaky", "not_measured", "none" where nothing was judged
+    int level = 2;              ///< of its heading; 3 and more: a part of the section before
+    bool on_page_alone = false; ///< too long for a terminal
+    std::string verdict = {};   ///< of what says how it went: "pass", "fail", "flaky", "not_measured", "none" where nothing was judged
 };
 
 struct Document {

@@ -61,66 +61,6 @@ std::string text_of(const Plot& plot) {
     return text;
 }
 
-std::string text_of(const Bullets& bullets) {
-    std::string text = bullets.caption.empty() ? "" : clean_text(bullets.caption) + "\n";
-    for (const Cell& item : bullets.items)
-        text += "  " + clean_text(item.text) + "\n";
-    return text;
-}
-
-std::string text_of(const Cards& cards) {
-    std::string text;
-    for (const Card& card : cards)
-        text += clean_text(fmt::format("{}: {} {}{}{}; {}; {}", card.what, card.figure, card.unit, card.beside.empty() ? "" : " ",
-                                       card.beside, card.detail, card.place.text)) +
-                "\n";
-    return text;
-}
-
-std::string text_of(const PictureOverlay&) { return ""; }
-
-/// Signs that LaTeX gives a meaning, and our own units beyond ASCII.
-std::string latex_text(const std::string& text) {
-    std::string out;
-    for (const char c : clean_text(text))
-        out += c == '~'    ? std::string("\\textasciitilde{}")
-               : c == '^'  ? std::string("\\textasciicircum{}")
-               : c == '\\' ? std::string("\\textbackslash{}")
-                           : std::string(std::string_view("_%&#${}").find(c) == std::string_view::npos ? "" : "\\") + c;
-    for (const auto& [from, to] : {std::pair("²", "$^2$"), std::pair("±", "$\\pm$"), std::pair("°", "$^\\circ$")})
-        for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at))
-            out.replace(at, std::string_view(from).size(), to);
-    return out;
-}
-
-std::string latex_of(const Table& table) {
-    std::string alignment, lines;
-    const auto join = [](const auto& row, const auto& text_of_one) {
-        std::string line;
-        for (const auto& one : row)
-            line += (&one == row.data() ? "" : " & ") + text_of_one(one);
-        return line + " \\\\\n";
-    };
-    for (const Column& column : table.columns)
-        alignment += column.words ? 'l' : 'r';
-    for (const std::vector<Cell>& row : table.rows)
-        lines += join(row, [](const Cell& cell) {
-            return cell.text.empty() ? "--" : cell.value ? "$" + latex_text(cell.text) + "$" : latex_text(cell.text);
-        });
-    return "\\resizebox{\\linewidth}{!}{%\n\\begin{tabular}{" + alignment + "}\n\\toprule\n" +
-           join(table.columns, [](const Column& column) { return latex_text(head_of(column)); }) + "\\midrule\n" + lines +
-           "\\bottomrule\n\\end{tabular}}\n";
-}
-
-std::string text_of(const std::string& paragraph) { return clean_text(paragraph) + "\n"; }
-
-std::string text_of(const Plot& plot) {
-    std::string text;
-    for (const std::string& caption : plot.captions)
-        text += "  " + clean_text(caption) + "\n";
-    return text;
-}
-
 std::string text_of(const Listing& listing) {
     std::string text = listing.caption.empty() ? "" : clean_text(listing.caption) + "\n";
     for (const Cell& item : listing.items)
@@ -204,13 +144,14 @@ std::string document_latex(const Document& document) {
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
             if (const auto* table = std::get_if<Table>(&block))
-                out += latex_of(*table);
+                out += "\\resizebox{\\linewidth}{!}{%\n" + table_latex(*table) + "}\n";
             else if (const auto* paragraph = std::get_if<std::string>(&block))
                 out += "% " + clean_text(*paragraph) + "\n";
     return out;
 }
 
-void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem) {
+void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem,
+                    TableFormat tables) {
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
             if (const auto* plot = std::get_if<Plot>(&block)) {
@@ -220,6 +161,7 @@ void write_document(const Document& document, const Findings& findings, const st
                 write_file(place + ".svg", svg);
                 write_file(place + ".png", plots::png_of_svg(svg, plot->scale));
             }
+    write_tables(document, folder, tables);
     write_file(folder / (stem + ".html"), document_html(document, findings, folder));
 }
 

@@ -22,8 +22,12 @@ std::string document_text(const Document& document);
 std::string table_markdown(const Table& table);
 /// Title, tables and paragraphs.
 std::string document_markdown(const Document& document);
-/// Its tables for LaTeX with booktabs, as wide as the text; paragraphs are comments.
+/// Its tables for LaTeX, as wide as the text; paragraphs are comments.
 std::string document_latex(const Document& document);
+/// As LaTeX's `tabular` with the rules of booktabs, for \input; the caption is a comment above it.
+std::string table_latex(const Table& table);
+/// RFC 4180 with one line of heads. Figures are those that are shown, with a plain minus sign.
+std::string table_csv(const Table& table);
 
 enum class TableFormat { none, csv, tex };
 /// Each table as tables/NAME.csv or .tex, those that a page folds away too.

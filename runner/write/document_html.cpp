@@ -38,20 +38,43 @@ data groups_of(const Table& table) {
     return groups;
 }
 
-/// The words of a cell, as the page has them.
-std::string html_of(const Cell& cell, bool is_code = false) {
-    std::string html = xml_text(cell.text);
-    if (is_code)
-        html = "<code class=\"command\">" + html + "</code>";
-    if (!cell.link.empty())
-        html = fmt::format("<a href=\"{}\">{}</a>", cell.link.front() == '#' ? xml_text(cell.link) : relative_link(cell.link), html);
-    return html;
+/// As markup, with what stands between backticks as code.
+std::string sentence_html(const std::string& text) {
+    const std::string safe = xml_text(text);
+    std::string out;
+    for (std::size_t at = 0; at < safe.size();) {
+        const std::size_t open = safe.find('`', at), close = open == std::string::npos ? open : safe.find('`', open + 1);
+        if (close == std::string::npos)
+            return out + safe.substr(at);
+        out += safe.substr(at, open - at) + "<code>" + safe.substr(open + 1, close - open - 1) + "</code>";
+        at = close + 1;
+    }
+    return out;
 }
 
-/// Class, hint, width, and for the browser's sorting a number or nothing.
-std::string attributes_of(const Cell& cell, const Column& column, std::size_t width, bool sorts) {
-    std::string text = column.words || width > 1 ? " class=\"text\"" : " class=\"n\"";
-    if (sorts && !column.words)
+std::string swatch(const std::optional<std::size_t>& series) {
+    return series ? fmt::format("<span class=\"swatch\" style=\"background:{}\"></span>", plots::css(plots::lamp_colour(*series))) : "";
+}
+
+std::string linked_html(const Cell& cell, const std::string& html) {
+    if (cell.link.empty())
+        return html;
+    return fmt::format("<a href=\"{}\">{}</a>", cell.link.front() == '#' ? xml_text(cell.link) : relative_link(cell.link), html);
+}
+
+/// Class, hint, width, and for the browser's sorting a number or nothing. Long words wrap, figures do not.
+std::string attributes_of(const std::vector<Cell>& row, std::size_t i, const Table& table) {
+    constexpr std::size_t longest_on_a_line = 30;
+    const Cell& cell = row[i];
+    const Column& column = table.columns[i];
+    const std::size_t width = i > 0 && i + 1 == row.size() ? table.columns.size() - i : 1; // the last of few takes the others' place
+    const bool wraps = column.code || (!cell.value && cell.text.size() > longest_on_a_line);
+    const bool is_text = width > 1 || (table.sortable ? column.words : wraps && i > 0);
+    std::string text = fmt::format(" class=\"{}\"", is_text                    ? "text"
+                                                    : wraps && !table.sortable ? "reading"
+                                                    : column.words || i == 0   ? "words"
+                                                                               : "n");
+    if (table.sortable && !column.words)
         text += cell.value ? fmt::format(" data-key=\"{}\"", *cell.value) : " data-key=\"\"";
     if (!cell.hint.empty())
         text += " title=\"" + xml_text(cell.hint) + "\"";
@@ -61,12 +84,13 @@ std::string attributes_of(const Cell& cell, const Column& column, std::size_t wi
 data row_of(const std::vector<Cell>& row, const Table& table, bool is_quiet) {
     data part, cells{List::list};
     for (std::size_t i = 0; i < row.size(); ++i) {
+        const bool is_code = table.columns[i].code && !row[i].text.empty() && (i + 1 < row.size() || row.size() == table.columns.size());
         data cell;
-        const std::size_t width = i > 0 && i + 1 == row.size() ? table.columns.size() - i : 1; // the last of few takes the others' place
-        cell.set("html", html_of(row[i], table.columns[i].code));
+        cell.set("html", swatch(row[i].series) +
+                             linked_html(row[i], is_code ? "<code>" + xml_text(row[i].text) + "</code>" : xml_text(row[i].text)));
         cell.set("tag", i == 0 ? "th scope=\"row\"" : "td");
         cell.set("end", i == 0 ? "th" : "td");
-        cell.set("attributes", i == 0 && !table.sortable ? "" : attributes_of(row[i], table.columns[i], width, table.sortable));
+        cell.set("attributes", attributes_of(row, i, table));
         cells.push_back(cell);
     }
     part.set("attributes", (table.sortable ? " id=\"" + xml_text(row.front().text) + "\"" : "") +
@@ -78,7 +102,7 @@ data row_of(const std::vector<Cell>& row, const Table& table, bool is_quiet) {
 data part_of(const std::string& paragraph, const std::filesystem::path&, std::size_t&) {
     data part;
     part.set("is_paragraph", true);
-    part.set("text", clean_text(paragraph));
+    part.set("html", sentence_html(paragraph));
     return part;
 }
 
@@ -87,7 +111,8 @@ data part_of(const Table& table, const std::filesystem::path&, std::size_t&) {
     bool has_groups = false;
     for (const Column& column : table.columns) {
         data head;
-        head.set("text", table.sortable ? clean_text(column.head) : capitalised(clean_text(column.head)));
+        head.set("text", table.sortable || column.series ? clean_text(column.head) : capitalised(clean_text(column.head)));
+        head.set("swatch", swatch(column.series));
         head.set("unit", clean_text(column.unit));
         head.set("has_unit", !column.unit.empty());
         head.set("words", column.words);
@@ -108,25 +133,26 @@ data part_of(const Table& table, const std::filesystem::path&, std::size_t&) {
     return part;
 }
 
-data part_of(const Plot& plot, const std::filesystem::path&, std::size_t&) {
+data part_of(const Plot& plot, const std::filesystem::path& folder, std::size_t&) {
     data part, captions{List::list};
     for (const std::string& caption : plot.captions)
         captions.push_back(capitalised(clean_text(caption)));
     part.set("is_plot", true);
     part.set("svg", plot_svg(plot));
     part.set("beside", plot.beside);
+    part.set("has_files", !folder.empty());
     part.set("link", relative_link(place_of(plot)));
     part.set("captions", captions);
     return part;
 }
 
-data part_of(const Bullets& bullets, const std::filesystem::path&, std::size_t&) {
+data part_of(const Listing& listing, const std::filesystem::path&, std::size_t&) {
     data part, items{List::list};
-    for (const Cell& item : bullets.items)
-        items.push_back(html_of(item));
-    part.set("is_bullets", true);
-    part.set("caption", clean_text(bullets.caption));
-    part.set("has_caption", !bullets.caption.empty());
+    for (const Cell& item : listing.items)
+        items.push_back(linked_html(item, sentence_html(item.text)));
+    part.set("is_listing", true);
+    part.set("caption", clean_text(listing.caption));
+    part.set("has_caption", !listing.caption.empty());
     part.set("items", items);
     return part;
 }
@@ -141,7 +167,7 @@ data part_of(const Cards& cards, const std::filesystem::path&, std::size_t&) {
                                          {"beside", &card.beside},
                                          {"detail", &card.detail}})
             one.set(name, clean_text(*text));
-        one.set("place", html_of(card.place));
+        one.set("place", linked_html(card.place, xml_text(card.place.text)));
         list.push_back(one);
     }
     part.set("is_cards", true);
@@ -168,6 +194,29 @@ data part_of(const PictureOverlay& pair, const std::filesystem::path& folder, st
     return part;
 }
 
+/// Pictures below `folder` are links, too; those that do not fit into the page any more are links alone.
+data part_of(const PictureStrip& strip, const std::filesystem::path& folder, std::size_t& bytes_left) {
+    data part, pictures{List::list};
+    for (const Picture& picture : strip.pictures) {
+        FilesRead ignored;
+        const std::string bytes = read_file(folder / picture.file, ignored);
+        data row;
+        row.set("is_embedded", bytes.size() <= bytes_left);
+        if (bytes.size() <= bytes_left) {
+            bytes_left -= bytes.size();
+            row.set("bytes", plots::base64(bytes));
+        }
+        row.set("caption", clean_text(picture.caption));
+        row.set("is_link", std::filesystem::path(picture.file).is_relative());
+        row.set("link", relative_link(picture.file));
+        pictures.push_back(row);
+    }
+    part.set("is_strip", true);
+    part.set("title", clean_text(strip.title));
+    part.set("pictures", pictures);
+    return part;
+}
+
 const char* mark_of(const std::string& verdict) {
     return verdict == "none" ? "–" : verdict == "pass" ? "✓" : verdict == "fail" ? "✗" : "?";
 }
@@ -179,11 +228,11 @@ bool needs_script(const DocumentPart& block) {
 
 } // namespace
 
-std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder) {
-    data page, sections{List::list}, missing{List::list};
+data sections_part(const std::vector<Section>& all, const std::filesystem::path& folder) {
+    data page, sections{List::list};
     bool has_script = false;
     std::size_t bytes_left = embedded_bytes;
-    for (const Section& section : document.sections) {
+    for (const Section& section : all) {
         data part, blocks{List::list};
         for (const DocumentPart& block : section.blocks) {
             blocks.push_back(std::visit([&](const auto& one) { return part_of(one, folder, bytes_left); }, block));
@@ -207,10 +256,9 @@ std::string document_html(const Document& document, const Findings& findings, co
     data page = sections_part(document.sections, folder), missing{List::list};
     for (const std::string& what : findings.missing)
         missing.push_back(clean_text(what));
-    page.set("style", std::string(report_file("report.css")) + std::string(report_file("document.css")));
-    page.set("has_script", has_script);
     page.set("script", std::string(report_file("document.js")));
-    page.set("title", document.title);
+    page.set("title", clean_text(document.title));
+    page.set("has_started", !findings.context.started_utc.empty());
     page.set("started", clean_text(findings.context.started_utc));
     page.set("is_interrupted", !findings.interrupted.empty());
     page.set("interrupted", clean_text(findings.interrupted));

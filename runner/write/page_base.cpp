@@ -10,11 +10,6 @@ namespace fernlicht {
 
 using kainjow::mustache::data;
 
-const char* variant_colour(std::size_t index) {
-    constexpr std::array<const char*, 6> colours{"#c24e00", "#0068a8", "#00795a", "#a8407f", "#8a6a00", "#4a4a4a"};
-    return colours[index % colours.size()];
-}
-
 data context_part(const RunContext& context) {
     data part;
     part.set("command", clean_text(context.command));

@@ -2,7 +2,7 @@
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/context_json.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/files.h"
 

@@ -1,6 +1,5 @@
 #include "runner/experiments/study/study_document.h"
 #include "metrics/readings/reading_words.h"
-#include "metrics/readings/unit_words.h"
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"

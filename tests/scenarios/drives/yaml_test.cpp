@@ -197,13 +197,26 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
     for (const char* bad : {"0", "-1", "nan", ".inf", "1e7", "'3'", "three", "3 s", "[3]", "~"})
         EXPECT_THAT(with_duration(fmt::format("duration_s: {}\n", bad)), StartsWith("drive.yaml:5:13: duration_s: found")) << bad;
     EXPECT_THAT(with_duration("duration_s: 100\nstep_s: 1e-6\n"), HasSubstr("100000000 steps"));
+    for (const char* bad : {"1.0e-7", "1.0e-320", ".nan"})
+        EXPECT_NE(with_duration(fmt::format("duration_s: 10\nstep_s: {}\n", bad)), "not refused") << bad;
+    for (const char* good :
+         {"duration_s: 10\nstep_s: 1.0e-6\n", "duration_s: 10\nstep_s: 10\n", "duration_s: 1.0e-300\nstep_s: 1.0e-300\n"})
+        EXPECT_EQ(with_duration(good), "not refused") << good;
+    EXPECT_NE(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1.0e+9\nduration_s: 1\nvariants: {a: {file: low.ies}}\n"), "not refused");
+    for (const std::string& good : tests::each_of({{"tone_mapper", "{s: 1.0e+6}|{s: 1}|{l_max_cdm2: 1.0e-6}|{l_max_cdm2: 1.0e+9}"},
+                                                   {"views", "{v: {resolution_px: [1, 1]}}|{v: {resolution_px: [16384, 16]}}|"
+                                                             "{v: {vertical_fov_deg: 0.1}}|{v: {vertical_fov_deg: 179}}"}}))
+        EXPECT_EQ(refusal(minimal + good + "\n"), "not refused") << good;
     for (const std::string& bad : tests::each_of(
              {{"step_s", "0|-0.1"},
               {"", "rate_hz: 0|speed_mps: 3|step_s: 1\nrate_hz: 1"},
-              {"views", "{v: {vertical_fov_deg: 180}}|{v: {vertical_fov_deg: 0}}|{v: {resolution_px: [0, 10]}}|"
-                        "{v: {resolution_px: [16385, 10]}}|{v: {resolution_px: [10.5, 10]}}|{v: {resolution_px: [10]}}|"
-                        "{v: {position_m: [0, 0, nan]}}|{v: {map: {}, yaw_deg: 3}}|{v: {map: {ahead_m: 5, behind_m: -5}}}|{}|[]"},
-              {"daylight", "dawn|{horizontal_illuminance_lx: -1}|"
+              {"views",
+               "{v: {vertical_fov_deg: 180}}|{v: {vertical_fov_deg: 0}}|{v: {resolution_px: [0, 10]}}|"
+               "{v: {resolution_px: [16385, 10]}}|{v: {resolution_px: [10.5, 10]}}|{v: {resolution_px: [10]}}|"
+               "{v: {position_m: [0, 0, nan]}}|{v: {position_m: [1.0e+300, 0, 0]}}|{v: {pitch_deg: .inf}}|{v: {vertical_fov_deg: .nan}}|"
+               "{v: {map: {}, yaw_deg: 3}}|{v: {map: {ahead_m: 5, behind_m: -5}}}|{}|[]"},
+              {"daylight", "dawn|{horizontal_illuminance_lx: -1}|{horizontal_illuminance_lx: .nan}|{horizontal_illuminance_lx: -.inf}|"
+                           "{horizontal_illuminance_lx: 1.0e+999}|"
                            "{date: 2026-02-29, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}|"
                            "{date: 2026-02-28, time: 12:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0, sun: {}}|"
                            "{date: 2026-02-28, time: -1:00, utc_offset_h: 0, latitude_deg: 0, longitude_deg: 0}|"
@@ -215,7 +228,9 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
               {"seed", "-1|18446744073709551616"},
               {"", "shadows: yes|beams: 8"},
               {"textures", "true|mine.png"},
-              {"tone_mapper", "{s: 0.5}|{l_max_cdm2: 0}|{l_max_cdm2: 1.0e-42}|{kind: linear, s: 3}|{kind: histogram, s: 20}|"
+              {"tone_mapper", "{s: 0.5}|{s: 0}|{s: 0.999}|{s: .inf}|{s: .nan}|{s: 1.0e+39}|{l_max_cdm2: 0}|{l_max_cdm2: "
+                              "1.0e-42}|{l_max_cdm2: 1.0e+300}|{l_max_cdm2: .nan}|"
+                              "{kind: linear, s: 3}|{kind: histogram, s: 20}|"
                               "{kind: logarithmic, s: fitted}|{curve: [[0, -1], [1, 0]]}|"
                               "{kind: histogram, l_max_cdm2: 100, curve: [[-4.6, -5.3], [0, -1.6], [3.0, 0]]}|"
                               "{kind: histogram, l_max_cdm2: all, curve: [[-4.6, -5.3], [3.0, 0]]}|"

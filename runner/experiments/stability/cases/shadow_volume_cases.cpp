@@ -1,7 +1,7 @@
 // Shadow volumes against rays: bodies of all kinds, lamps and cameras in all places.
 #include "runner/experiments/stability/shadow_trial.h"
 #include "runner/experiments/stability/stability_case.h"
-#include "runner/play/map_of.h"
+#include "runner/play/lux_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Tone mappers at the ends of their domain, in pictures and in drive files.
 #include "runner/experiments/stability/trial.h"
-#include "scenarios/display/tone_curve.h"
+#include "scenarios/display/tone_mapper.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>
