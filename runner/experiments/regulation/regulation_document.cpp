@@ -237,8 +237,8 @@ Document regulation_list() {
     Document document{"Tables of regulations", {}};
     for (const Regulation& r : regulations()) {
         if (document.sections.empty() || document.sections.back().title != r.edition)
-            document.sections.push_back({r.edition, {"source: " + r.source, Bullets{}}});
-        std::get<Bullets>(document.sections.back().blocks.back())
+            document.sections.push_back({r.edition, {"source: " + r.source, Listing{}}});
+        std::get<Listing>(document.sections.back().blocks.back())
             .items.emplace_back(fmt::format("{:<26} {}: {} rows in the text, aim {}", r.id, r.title, r.rows.size(), name_of(r.aim)));
     }
     document.sections.push_back(

@@ -178,13 +178,13 @@ std::string verdict_words(const StudyResult& result) {
 }
 
 Section verdict_section(const StudyResult& result) {
-    Section section{verdict_words(result), {}, was_judged(result) ? verdict_name(overall(result)) : "none"};
+    Section section{verdict_words(result), {}, 2, false, was_judged(result) ? verdict_name(overall(result)) : "none"};
     if (!result.interrupted.empty())
         section.blocks.emplace_back("The study did not end; --resume goes on.");
     section.blocks.emplace_back(study_sentence(result));
     if (const std::string part = played_in_part(result); !part.empty())
         section.blocks.emplace_back(part + ".");
-    Bullets lamps;
+    Listing lamps;
     for (const LampComparison& pair : result.lamps)
         lamps.items.emplace_back(lamp_verdict(pair));
     if (!lamps.items.empty())
@@ -216,7 +216,7 @@ Section lamps_section(const StudyResult& result) {
     constexpr std::size_t most = 5;
     for (const LampComparison& pair : result.lamps) {
         const std::vector<std::string> all = sentences_of(pair.difference);
-        Bullets told{fmt::format("{} against {} ({})", pair.tested, pair.against, pair.side), {}};
+        Listing told{{}, fmt::format("{} against {} ({})", pair.tested, pair.against, pair.side)};
         told.items.insert(told.items.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(most, all.size())));
         if (all.size() > most)
             told.items.emplace_back(fmt::format("and {} more zones, all in study.json", all.size() - most));
@@ -298,8 +298,7 @@ Document document(const StudyResult& result) {
         {"A heading sorts, again the other way round. ± calc. is what calculation leaves open of the change, ± noise what three standard "
          "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is the row of its number in "
          "study.json and study.csv, which have all other readings too.",
-         Bullets{"",
-                 {Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv"),
+         Listing{{Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv"),
                   Cell("for papers: study.md").linked("study.md"), Cell("study.tex").linked("study.tex")}},
          readings_table(result)}};
     Document document{short_text(result.study.title, 160), {verdict_section(result), largest_section(result)}};

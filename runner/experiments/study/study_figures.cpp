@@ -1,7 +1,8 @@
 #include "metrics/readings/reading_words.h"
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/runs/lux_ratio.h"
-#include "runner/experiments/run/page_plots.h"
+#include "runner/experiments/run/run_plots.h"
+#include "runner/write/plots/lux_map.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/output_folder.h"
@@ -154,7 +155,7 @@ void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, 
         if (std::optional<LuxMap> map = map_of(result.cells[cell], folder)) {
             const std::string place = place_of(result, group), &lamp = result.lamp_of(cell);
             figures.push_back(with_files("lux_" + result.cells[cell].cell.name, lamp + ": " + place,
-                                         Drawing{lux_map_svg(*map, lamp + ", " + place)}, {cell}));
+                                         Drawing{plots::lux_map_svg(*map, lamp + ", " + place)}, {cell}));
             maps.emplace(cell, std::move(*map));
         }
     for (const StudyComparison& pair : result.study.comparisons)
