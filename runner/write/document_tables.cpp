@@ -60,6 +60,14 @@ std::string latex_text(const std::string& words) {
     return out;
 }
 
+/// Figures as formulas, which set a minus sign as one.
+std::string latex_cell(const Cell& cell) {
+    if (cell.text.empty())
+        return "--";
+    const std::string plain = cell.text.starts_with("\u2212") ? "-" + cell.text.substr(3) : cell.text;
+    return cell.value ? "$" + latex_text(plain) + "$" : latex_text(cell.text);
+}
+
 /// A line of heads over neighbouring columns of one group, with a rule below each.
 std::string latex_groups(const std::vector<Column>& columns) {
     std::string heads, rules;
@@ -84,7 +92,7 @@ std::string table_latex(const Table& table) {
     out += "}\n\\toprule\n" + latex_groups(table.columns) + heads + " \\\\\n\\midrule\n";
     for (const std::vector<Cell>& row : table.rows) {
         for (std::size_t i = 0; i < row.size(); ++i) {
-            const std::string text = latex_text(row[i].text);
+            const std::string text = latex_cell(row[i]);
             const bool last_of_few = i + 1 == row.size() && row.size() < table.columns.size();
             out += (i == 0 ? "" : " & ") +
                    (last_of_few ? fmt::format("\\multicolumn{{{}}}{{l}}{{{}}}", table.columns.size() - i, text) : text);

@@ -45,7 +45,7 @@ Document document(const StabilityRow& row) {
     return {of.full_name(),
             {{fmt::format("{:<12} {:<32} {} {} (bound {:g}), {:.1f} s", judgement_name(row.verdict), of.full_name(), measured(row), of.unit,
                           of.bound, row.seconds),
-              {Listing{{"breaks:  " + of.could_break, "bound:   " + of.reason, "worst:   " + where(row)}}}}}};
+              {Listing{std::vector<Cell>{"breaks:  " + of.could_break, "bound:   " + of.reason, "worst:   " + where(row)}}}}}};
 }
 
 Document document(const StabilityResult& result) {

@@ -54,7 +54,8 @@ Document full_document() {
     table.sortable = true;
     table.quiet = {1};
     const Card card{"share of heads", "+12.5", "%", "(more)", "by chance", Cell("a coin").linked("#c0")};
-    return {"Coins & notes", {{"Unfair", {Bullets{"Seen", {Cell("all").linked("all tosses.csv")}}, Cards{card}, table, "Often."}, "fail"}}};
+    return {"Coins & notes",
+            {{"Unfair", {Listing{{Cell("all").linked("all tosses.csv")}, "Seen"}, Cards{card}, table, "Often."}, 2, false, "fail"}}};
 }
 
 class ToyExperiment : public testing::Test {
@@ -124,7 +125,7 @@ TEST_F(ToyExperiment, LeavesAPageAndItsPlots) {
 TEST(DocumentPictures, StandInThePageAndLinkToFilesBelowIt) {
     const TemporaryFolder folder;
     write_png(Image<Rgb8>(2, 2), folder / "a.png");
-    const Document document{"Seen", {{"Beside", {PictureStrip{"One moment", {{"a.png", "old"}, {folder / "a.png", "new"}}}}, true}}};
+    const Document document{"Seen", {{"Beside", {PictureStrip{"One moment", {{"a.png", "old"}, {folder / "a.png", "new"}}}}, 2, true}}};
     EXPECT_THAT(document_html(document, {}, folder.path()),
                 AllOf(HasSubstr("<h3>One moment</h3>"), HasSubstr("<img alt=\"old\" src=\"data:image/png;base64,iVBOR"),
                       HasSubstr("<a href=\"./a.png\">old</a>"), HasSubstr("<figcaption>new</figcaption>")));
