@@ -7,6 +7,7 @@
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/write/document.h"
+#include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -37,7 +38,7 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder)
     write_file(folder / "study.csv", study_csv(result));
     write_file(folder / "study.md", document_markdown(paper));
     write_file(folder / "study.tex", document_latex(paper));
-    write_file(folder / "junit.xml", study_junit(result));
+    write_file(folder / "junit.xml", report_junit(suites_of(result)));
     write_file(folder / "study.yaml", result.study.text);
     write_document(document(result), result, folder, "report");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runner/experiments/study/study_result.h"
+#include "runner/findings/report.h"
 
 namespace fernlicht {
 
@@ -16,8 +17,8 @@ Document study_paper(const StudyResult& result);
 std::string study_json(const StudyResult& result);
 /// RFC 4180: one line a change.
 std::string study_csv(const StudyResult& result);
-/// One test suite a cell, and one of the study's own limits.
-std::string study_junit(const StudyResult& result);
+/// The verdicts as those of a run: one suite a cell, and one of the study's own limits.
+Report suites_of(const StudyResult& result);
 
 /// Reach over each drive, lux from above and its difference, error over time, the lamps' difference. EXR files are read below `folder`.
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder);

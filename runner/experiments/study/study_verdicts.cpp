@@ -1,4 +1,3 @@
-#include "runner/experiments/run/report_writers.h"
 #include "runner/experiments/study/study_document.h"
 
 #include <fmt/format.h>
@@ -43,7 +42,7 @@ void apply_known_failures(StudyResult& result, const KnownFailures& known, const
     result.warnings = std::move(report.warnings);
 }
 
-std::string study_junit(const StudyResult& result) {
+Report suites_of(const StudyResult& result) {
     Report report = as_report(result);
     for (std::size_t i = 0; i < result.cells.size(); ++i) {
         const CellResult& cell = result.cells[i];
@@ -61,7 +60,7 @@ std::string study_junit(const StudyResult& result) {
     report.played.back().technique = "photometric";
     report.complete = result.interrupted.empty();
     report.interrupted = result.interrupted;
-    return report_junit(report);
+    return report;
 }
 
 } // namespace fernlicht

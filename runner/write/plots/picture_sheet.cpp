@@ -12,7 +12,7 @@ namespace {
 using plots::Canvas;
 using plots::Colour;
 
-constexpr Colour ink{24, 24, 32}, faint{100, 100, 108};
+constexpr Colour sheet_ink{24, 24, 32}, sheet_faint{100, 100, 108};
 constexpr double edge_px = 16.0, gap_px = 12.0, caption_px = 26.0, head_px = 54.0, key_px = 22.0, legend_px = 112.0;
 /// Letters grow with wide panels: such sheets are shown smaller than they are.
 constexpr double plain_letters_px = 560.0, largest_letters = 1.8;
@@ -54,7 +54,7 @@ void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top
         if (!line.label.empty() && !line.points.empty())
             draw_label(canvas, line, scale, width, letters);
     canvas.end_window();
-    canvas.text(left, top + height + 17.0 * letters, panel.caption, {.size_px = 13.0 * letters, .colour = ink});
+    canvas.text(left, top + height + 17.0 * letters, panel.caption, {.size_px = 13.0 * letters, .colour = sheet_ink});
 }
 
 void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double top, double height, double letters) {
@@ -63,16 +63,16 @@ void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double 
     for (int i = 0; i < steps; ++i)
         bar.at(0, i) = legend.colour(1.0 - (i + 0.5) / steps);
     canvas.picture(left, top, 14.0, height, bar);
-    canvas.rectangle(left, top, 14.0, height, {.stroke = css(ink)});
+    canvas.rectangle(left, top, 14.0, height, {.stroke = css(sheet_ink)});
     double widest = 0.0;
     for (const auto& [position, text] : legend.ticks) {
         const double y = top + height * (1.0 - position);
-        canvas.line({{left + 14.0, y}, {left + (text.empty() ? 16.0 : 18.0), y}}, {.colour = ink});
-        canvas.text(left + 21.0, y + 4.0 * letters, text, {.size_px = 11.0 * letters, .colour = ink});
+        canvas.line({{left + 14.0, y}, {left + (text.empty() ? 16.0 : 18.0), y}}, {.colour = sheet_ink});
+        canvas.text(left + 21.0, y + 4.0 * letters, text, {.size_px = 11.0 * letters, .colour = sheet_ink});
         widest = std::max(widest, plots::text_width(text, 11.0 * letters));
     }
     canvas.text(left + 30.0 + 16.0 * letters + widest, top + 0.5 * height, legend.label,
-                {.size_px = 12.0 * letters, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
+                {.size_px = 12.0 * letters, .colour = sheet_ink, .anchor = "middle", .turn_deg = -90.0});
 }
 
 } // namespace
@@ -89,14 +89,14 @@ std::string svg_of_sheet(const Sheet& sheet) {
     const double heading = std::max(plots::text_width(sheet.title, 16.0 * letters), plots::text_width(sheet.subtitle, 12.0 * letters));
     Canvas canvas(2.0 * edge_px + std::max(across + (sheet.legend ? legend_px * letters : 0.0), heading),
                   top + height + letters * caption_px + 8.0, sheet.title);
-    canvas.text(edge_px, 24.0 * letters, sheet.title, {.size_px = 16.0 * letters, .colour = ink, .bold = true});
-    canvas.text(edge_px, 42.0 * letters, sheet.subtitle, {.size_px = 12.0 * letters, .colour = faint});
+    canvas.text(edge_px, 24.0 * letters, sheet.title, {.size_px = 16.0 * letters, .colour = sheet_ink, .bold = true});
+    canvas.text(edge_px, 42.0 * letters, sheet.subtitle, {.size_px = 12.0 * letters, .colour = sheet_faint});
     double at = edge_px;
     for (const auto& [name, line] : sheet.key) {
         const double middle = letters * (head_px + 7.0), sample = 30.0 * letters;
         canvas.rectangle(at, middle - 6.0 * letters, sample, 12.0 * letters, {.fill = "#333333"});
         canvas.line({{at, middle}, {at + sample, middle}}, {.colour = line.colour, .width_px = 2.0 * letters, .dash = line.dash});
-        canvas.text(at + sample + 6.0, middle + 5.0 * letters, name, {.size_px = 12.0 * letters, .colour = ink});
+        canvas.text(at + sample + 6.0, middle + 5.0 * letters, name, {.size_px = 12.0 * letters, .colour = sheet_ink});
         at += sample + 24.0 + plots::text_width(name, 12.0 * letters);
     }
     for (std::size_t i = 0; i < sheet.panels.size(); ++i)

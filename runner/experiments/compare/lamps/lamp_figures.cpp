@@ -1,8 +1,9 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
 #include "runner/files/clean_text.h"
-#include "runner/write/plots/canvas.h"
 #include "runner/findings/plots/isocandela.h"
+#include "runner/write/plots/canvas.h"
+#include "runner/write/plots/picture_sheet.h"
 #include "runner/write/plots/svg.h"
 
 #include <algorithm>

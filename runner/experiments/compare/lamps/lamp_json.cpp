@@ -23,7 +23,7 @@ std::optional<double> margin_in(const std::optional<RowResult>& row) {
     return row && row->verdict != RowVerdict::not_measured ? std::optional(row->margin) : std::nullopt;
 }
 
-std::string verdict_in(const RowResult* row) { return row ? name_of(row->verdict) : ""; }
+std::string verdict_in(const std::optional<RowResult>& row) { return row ? name_of(row->verdict) : ""; }
 
 std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:+.1f} %", 100.0 * *share) : "-"; }
 

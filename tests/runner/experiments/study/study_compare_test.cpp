@@ -1,6 +1,7 @@
 // What counts as a change, by hand-made cells.
 #include "runner/experiments/study/study_document.h"
 #include "runner/write/document.h"
+#include "runner/write/report_texts.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -208,7 +209,7 @@ TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
     EXPECT_EQ(result.verdicts[1].kind, VerdictKind::fail);
     EXPECT_EQ(result.verdicts[2].kind, VerdictKind::not_measured);
     EXPECT_EQ(overall(result), VerdictKind::fail);
-    EXPECT_THAT(study_junit(result), HasSubstr("<failure"));
+    EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("<failure"));
     EXPECT_THAT(document_text(study_summary(result)), HasSubstr("FAIL one_new: change of reach_5lx_target_own_m: 10 m, limit at most 9 m"));
 }
 
@@ -253,7 +254,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     compare_cells(result);
     EXPECT_THAT(document_text(study_summary(result)), HasSubstr("by hand: no limits were set\n"));
     EXPECT_THAT(document_html(document(result), result), AllOf(HasSubstr("No limits were set"), Not(HasSubstr("Within limits"))));
-    EXPECT_THAT(study_junit(result), HasSubstr("all moments"));
+    EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("all moments"));
     EXPECT_THAT(document_markdown(study_paper(result)), Not(HasSubstr("--frames")));
     for (CellResult& cell : result.cells) {
         cell.moments = 9;
@@ -268,7 +269,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     for (const std::string& text : {document_text(study_summary(result)), study_json(result), document_markdown(study_paper(result)),
                                     document_latex(study_paper(result)), document_html(document(result), result)})
         EXPECT_THAT(text, HasSubstr(part));
-    EXPECT_THAT(study_junit(result), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
+    EXPECT_THAT(report_junit(suites_of(result)), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
     EXPECT_THAT(document_html(document(result), result), HasSubstr("Within limits"));
     result.cells[1].moments_of_drive = 900;
     EXPECT_THAT(document_text(study_summary(result)), HasSubstr("9 of 660 to 900 moments of each drive"));
@@ -280,7 +281,7 @@ TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
     EXPECT_EQ(overall(result), VerdictKind::pass);
     result.cells[1].failed = "the disk is full";
     EXPECT_EQ(overall(result), VerdictKind::not_measured);
-    EXPECT_THAT(study_junit(result), HasSubstr("the disk is full"));
+    EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("the disk is full"));
 }
 
 TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
