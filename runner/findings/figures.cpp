@@ -69,19 +69,4 @@ std::string standing_text(const Standing& standing) {
     return standing.dominated_by ? fmt::format("{} by {}", standing.surely ? "beaten" : "perhaps", *standing.dominated_by + 1) : "";
 }
 
-std::string figure(double value, int decimals) {
-    std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-')
-        text.erase(0, 1); // minus nothing
-    if (text.front() == '-')
-        text.replace(0, 1, "\u2212");
-    return text;
-}
-
-std::string signed_figure(double value, int decimals) {
-    const std::string text = figure(value, decimals);
-    const bool negative = text.starts_with("\u2212"), nothing = text.find_first_not_of("0.") == std::string::npos;
-    return negative || nothing ? text : "+" + text;
-}
-
 } // namespace fernlicht
