@@ -28,8 +28,4 @@ std::string counted(std::size_t count, const std::string& what);
 /// "front", "beaten by 3" (numbers from 1), "perhaps by 3" where that is not sure, "".
 std::string standing_text(const Standing& standing);
 
-/// Numbers for people: fixed decimals with U+2212 as minus sign; a difference always carries its sign.
-std::string figure(double value, int decimals);
-std::string signed_figure(double value, int decimals);
-
 } // namespace fernlicht
