@@ -25,8 +25,6 @@ std::optional<double> margin_in(const std::optional<RowResult>& row) {
 
 std::string verdict_in(const std::optional<RowResult>& row) { return row ? name_of(row->verdict) : ""; }
 
-std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:+.1f} %", 100.0 * *share) : "-"; }
-
 Json lamp_json(const ComparedLamp& lamp) {
     return {{"file", lamp.path.string()},
             {"name", lamp.file.name},
