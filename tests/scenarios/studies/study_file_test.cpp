@@ -191,7 +191,7 @@ TEST_F(StudySchema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
 
 /// What stands in quotes in the reader's lists of known keys stands in the schema and in the example.
 TEST_F(StudySchema, KnowsEveryKeyOfTheReader) {
-    const std::string reader = content(scenarios / "studies/study_file.cpp"), schema = content(scenarios / "study.schema.json"),
+    const std::string reader = content(scenarios / "studies/study.cpp"), schema = content(scenarios / "study.schema.json"),
                       example = content(scenarios / "study.example.yaml");
     const std::regex list(R"((?:\.map\(|keys\(whole, )\{([^}]*)\})"), quoted("\"([a-z_]+)\"");
     std::set<std::string> known;
