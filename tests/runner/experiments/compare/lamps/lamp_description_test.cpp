@@ -2,6 +2,7 @@
 
 #include "runner/findings/plots/isocandela.h"
 #include "runner/write/plots/png.h"
+#include "runner/write/plots/svg.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/values/pose.h"
 
