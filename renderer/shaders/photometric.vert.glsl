@@ -128,15 +128,16 @@ void main() {
     PRECISE vec2 ahead_left = vec2(p.x * traffic_grid.x + p.y * traffic_grid.y, p.y * traffic_grid.x - p.x * traffic_grid.y);
     v_traffic_cell = (ahead_left - traffic_grid.zw) * TRAFFIC_CELLS_A_METRE;
     PRECISE vec4 by_vertex = vec4(0.0);
-    uint k = 0u;
-    if (traffic_lists.w > 0u) do {
+    // Lanes without a vertex hold anything on llvmpipe of Mesa 25, and would go on for minutes.
+    uint k = 0u, end = min(traffic_lists.w, uint(textureSize(traffic_entries)));
+    if (end > 0u) do {
         vec4 entry = texelFetch(traffic_entries, int(traffic_lists.z + k));
         TrafficUnit unit = traffic_unit(int(entry.x));
         float e_perp, whole;
         float e = traffic_lx(unit, entry, 2, p - traffic_place(unit, 2), normalize(n), e_perp, whole);
         by_vertex += vec4(unit.colour.rgb * e, e);
         ++k;
-    } while (k < traffic_lists.w);
+    } while (k < end);
     v_traffic_light = by_vertex;
 #endif
     gl_Position = clip_from_ego * vec4(p, 1.0);
