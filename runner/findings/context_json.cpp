@@ -10,9 +10,10 @@ JsonMembers file_members(FileRead& file) {
 JsonMembers moment_members(std::pair<int, double>& moment) { return {{"frame", moment.first}, {"time_s", moment.second}}; }
 
 JsonMembers context_members(RunContext& context) {
-    return {{"command", context.command},         {"started_utc", context.started_utc}, {"seed", context.seed}, {"backend", context.backend},
-            {"gl_renderer", context.gl_renderer}, {"gl_version", context.gl_version},   {"cpu", context.cpu},   {"os", context.os},
-            {"versions", context.versions},       {"inputs", context.inputs, file_members}};
+    return {
+        {"command", context.command},         {"started_utc", context.started_utc},    {"seed", context.seed}, {"backend", context.backend},
+        {"gl_renderer", context.gl_renderer}, {"gl_version", context.gl_version},      {"cpu", context.cpu},   {"os", context.os},
+        {"versions", context.versions},       {"inputs", context.inputs, file_members}};
 }
 
 } // namespace fernlicht

@@ -1,8 +1,8 @@
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
-#include "runner/findings/shadow_figures.h"
 #include "runner/findings/plots/colour.h"
+#include "runner/findings/shadow_figures.h"
 #include "runner/write/tile_sheet.h"
 #include "scenarios/photometry.h"
 

@@ -2,13 +2,13 @@
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/runs/lux_ratio.h"
 #include "runner/experiments/run/run_plots.h"
-#include "runner/write/plots/lux_map.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/play/lux_map.h"
 #include "runner/play/stage.h"
+#include "runner/write/plots/lux_map.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
