@@ -97,7 +97,8 @@ TEST(ReferencePath, RetroLobeIsReciprocalAndReturnsNoMoreThanItSays) {
 }
 
 TEST(ReferencePath, PlatesThatFaceEachOtherExchangeTheViewFactor) {
-    const Reference reference(plates(0.0, 0.0, 100.0));
+    const Scene scene = plates(0.0, 0.0, 100.0);
+    const Reference reference(scene);
     EXPECT_NEAR(plates_factor, 0.19982, 1e-5); // the tabulated value
     const ReferenceImage whole = reference.render({}, map_about({0, 0}, 0.5, 1), lux, paths(0.002));
     expect_estimate(whole.illuminance_lx, pi * 100.0 * plates_factor);

@@ -301,7 +301,7 @@ TEST_F(RunCompare, ThePageHasEveryRowAndItsLinksLeadSomewhere) {
     for (const json& id : found.at("largest_changes"))
         EXPECT_THAT(page, HasSubstr(", row " + id.get<std::string>() + "<"));
     for (const json& change : found.at("drives").at(0).at("changes"))
-        ASSERT_THAT(page, HasSubstr("<td class=\"text\">" + change.at("id").get<std::string>() + "</td>"));
+        ASSERT_THAT(page, HasSubstr(">" + change.at("id").get<std::string>() + "</td>"));
     std::size_t drawn = 0;
     for (const json& frame : found.at("drives").at(0).at("frames"))
         for (const json& file : frame.at("pictures")) {
