@@ -288,7 +288,7 @@ TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
     StudyResult result = two_cells(40.0, 50.0);
     result.study.lamps[1].name = result.study.comparisons[0].tested = "a_b|c%";
     compare_cells(result);
-    EXPECT_THAT(document_latex(study_paper(result)), HasSubstr("a\\_b|c\\% / old"));
+    EXPECT_THAT(document_latex(study_paper(result)), HasSubstr("a\\_b\\textbar{}c\\% / old"));
     EXPECT_THAT(document_latex(study_paper(result)), HasSubstr("$40.00$ & $50.00$ & $+10.00$ & $0.57$"));
     EXPECT_THAT(document_markdown(study_paper(result)), HasSubstr("a_b\\|c% / old"));
     EXPECT_THAT(study_csv(result), HasSubstr("c0,a_b|c%,old,one-1"));
