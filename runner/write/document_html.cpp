@@ -167,7 +167,7 @@ data part_of(const Cards& cards, const std::filesystem::path&, std::size_t&) {
                                          {"beside", &card.beside},
                                          {"detail", &card.detail}})
             one.set(name, clean_text(*text));
-        one.set("place", linked_html(card.place, xml_text(card.place.text)));
+        one.set("place", swatch(card.place.series) + linked_html(card.place, xml_text(card.place.text)));
         list.push_back(one);
     }
     part.set("is_cards", true);

@@ -97,7 +97,7 @@ Document document(const PicturesFound& found) {
         if (name.ends_with(".png"))
             drawn.pictures.push_back({name, name.substr(0, name.size() - 4)});
     if (!drawn.pictures.empty())
-        document.sections.push_back({"", {drawn}, true});
+        document.sections.push_back({"", {drawn}, 2, true});
     return document;
 }
 

@@ -133,9 +133,9 @@ Table extent_table(const ComparedDrive& drive, const Axes& axes, ExtentPlane pla
     return table;
 }
 
-/// "halogen: 61.2 m at 5 lx; xenon: ...", of the own lane on the road at 1 and 5 lx.
-Listing reaches_at_a_glance(const ComparedDrive& drive) {
-    Listing reaches;
+/// Reach in the own lane on the road at 1 and 5 lx.
+Cards reaches_at_a_glance(const ComparedDrive& drive) {
+    Cards reaches;
     for (const double limit_lx : {1.0, 5.0}) {
         Value first;
         for (std::size_t i = 0; i < drive.variants.size(); ++i) {
@@ -146,14 +146,10 @@ Listing reaches_at_a_glance(const ComparedDrive& drive) {
             const Value reach = found->reach.quantile(0.5), by_aim = found->per_tenth_degree.quantile(0.5);
             const Value change = i == 0 ? Value() : difference(reach, first, "");
             first = i == 0 ? reach : first;
-            std::string& words =
-                reaches.items
-                    .emplace_back(fmt::format("{}: reach at {:g} lx {} m", lamp_cell(drive, i).text, limit_lx, value_cell(reach, 1).text))
-                    .text;
-            if (change.measured())
-                words += fmt::format(" ({} m)", with_bound(change, signed_figure(*change.figure(), 1)));
-            if (by_aim.measured())
-                words += fmt::format(", {} m per 0.1° of aim", value_cell(by_aim, 1).text);
+            reaches.push_back({fmt::format("reach at {:g} lx", limit_lx), value_cell(reach, 1).text, "m",
+                               change.measured() ? fmt::format("({} m)", with_bound(change, signed_figure(*change.figure(), 1))) : "",
+                               by_aim.measured() ? fmt::format("{} m per 0.1° of aim", value_cell(by_aim, 1).text) : "",
+                               lamp_cell(drive, i)});
         }
     }
     return reaches;
@@ -165,7 +161,7 @@ void add_extents(const ComparedDrive& drive, Sections& sections) {
     const Axes axes = axes_of(drive);
     if (axes.places.empty())
         return;
-    if (Listing reaches = reaches_at_a_glance(drive); !reaches.items.empty())
+    if (Cards reaches = reaches_at_a_glance(drive); !reaches.empty())
         sections.push_back({"At a glance", {"Own lane, on the road’s surface, median over the drive.", std::move(reaches)}, 3});
     Section& section = sections.emplace_back(Section{"Reach and width", {}, 3});
     section.blocks.emplace_back(fmt::format("Medians over the drive, from the rendered lux image. Reach runs from the bumper along the "

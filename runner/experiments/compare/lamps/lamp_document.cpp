@@ -100,7 +100,8 @@ Document document(const LampPairComparison& lamps) {
     Table told{"difference", "", {{.head = "", .words = true}, {.head = "B against A", .words = true}}, {}};
     for (const auto& [what, text] : difference_lines(b, a, lamps.difference))
         told.rows.push_back({what.empty() ? " " : what, text});
-    document.sections.push_back({lamps.difference.any() ? "The lamps differ" : "No difference beyond noise", {told}});
+    document.sections.push_back(
+        {lamps.difference.any() ? "The lamps differ" : "No difference beyond noise", {told}, 2, false, lamps.passed() ? "none" : "fail"});
     if (lamps.regulation) {
         const auto verdict = [](const ComparedLamp& lamp) {
             return lamp.check->verdict == RowVerdict::pass ? "pass" : lamp.check->verdict == RowVerdict::fail ? "fail" : "not measured";
@@ -119,7 +120,7 @@ Document document(const LampPairComparison& lamps) {
     files.columns.push_back({.head = "file", .words = true});
     for (const auto& [side, lamp] : {std::pair("A, old", &lamps.before), std::pair("B, new", &lamps.now)})
         files.rows.push_back({side, lamp->file.name, lamp->file.format, lamp->path.string()});
-    document.sections.push_back({"The files", {files}, true});
+    document.sections.push_back({"The files", {files}, 2, true});
     return document;
 }
 

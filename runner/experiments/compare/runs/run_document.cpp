@@ -45,37 +45,22 @@ std::string drive_words(const DriveComparison& drive) {
 }
 
 Table changes_table(const std::string& name, const std::string& caption) {
-    return {name,
-            caption,
-            {{.head = "reading", .words = true},
-             {"old"},
-             {"new"},
-             {"change"},
-             {"%"},
-             {"± calc."},
-             {"± noise"},
-             {"± aim"},
-             {.head = "unit", .words = true},
-             {.head = "is", .words = true},
-             {.head = "row", .words = true},
-             {.head = "drive", .words = true}},
-            {}};
+    return {.name = name,
+            .caption = caption,
+            .columns = columns_of("row<|drive<|reading<|old|new|change|%|± calc.|± noise|± aim|unit<|is<"),
+            .rows = {},
+            .sortable = true};
 }
 
-std::vector<Cell> change_cells(const DriveComparison& drive, const ReadingChange& change, const std::string& id) {
+void add_change(Table& table, const DriveComparison& drive, const ReadingChange& change, const std::string& id) {
     const double percent = 100.0 * change.relative().value_or(0.0);
-    return {reading_in_words(change.reading),
-            value_cell(change.old_value),
-            value_cell(change.new_value),
-            change_cell(change.change()),
-            change.relative() ? Cell(signed_figure(percent, 1), percent) : Cell(""),
-            number_cell(change.uncertainty),
-            number_cell(change.by_noise),
-            number_cell(change.by_aim),
-            unit_in_words(change.unit()),
-            change_name(change.kind) + (change.why_not.empty() ? "" : ": " + change.why_not),
-            id,
-            drive_words(drive)};
+    if (change.kind != ChangeKind::real)
+        table.quiet.push_back(table.rows.size());
+    table.rows.push_back({id, drive_words(drive), reading_in_words(change.reading), value_cell(change.old_value),
+                          value_cell(change.new_value), change_cell(change.change()),
+                          change.relative() ? Cell(signed_figure(percent, 1), percent) : Cell(""), number_cell(change.uncertainty),
+                          number_cell(change.by_noise), number_cell(change.by_aim), unit_in_words(change.unit()),
+                          Cell(change_name(change.kind)).hinted(change.why_not)});
 }
 
 /// "reach at 1 lx on the road, own lane: 29.35 -> 33.27 m, +3.923 (+13.4 %), ±0.095".
@@ -107,8 +92,17 @@ std::string runs_sentence(const RunComparison& runs) {
 }
 
 Section first_section(const RunComparison& runs) {
+    const std::size_t real = runs.count(ChangeKind::real);
+    const bool is_judged = !runs.strictness_name.empty();
     Section section{
-        "", {"old A  " + runs.before.folder.string(), "new B  " + runs.now.folder.string(), "differences are B - A", runs_sentence(runs)}};
+        is_judged ? fmt::format("{}: {}", runs.strictness_name, runs.passed() ? "kept" : "not kept")
+                  : (real == 0 ? "No" : fmt::format("{}", real)) + (real == 1 ? " real change" : " real changes"),
+        {"old A  " + runs.before.folder.string(), "new B  " + runs.now.folder.string(), "differences are B - A", runs_sentence(runs)},
+        2,
+        false,
+        !is_judged      ? "none"
+        : runs.passed() ? "pass"
+                        : "fail"};
     for (const std::string& sentence : runs.left_out)
         section.blocks.emplace_back("left out: " + sentence);
     if (runs.strictness_name.empty())
@@ -138,15 +132,17 @@ Section readings_section(const RunComparison& runs) {
     for (std::size_t d = 0; d < runs.drives.size(); ++d)
         for (std::size_t i = 0; i < runs.drives[d].changes.size(); ++i) {
             const ReadingChange& change = runs.drives[d].changes[i];
-            (runs.drives[d].decides(change.reading) ? deciding : others).rows.push_back(change_cells(runs.drives[d], change, row_id(d, i)));
+            add_change(runs.drives[d].decides(change.reading) ? deciding : others, runs.drives[d], change, row_id(d, i));
         }
     others.caption = fmt::format("All other readings ({}): other lanes, edges, limits, percentiles", others.rows.size());
     others.aside = true;
     return {"Readings",
-            {"± calc. is what calculation (and where a run has them, repeats) leaves open of the change, ± noise what three standard "
-             "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is a row of compare.json "
-             "and compare.csv.",
-             deciding, others},
+            {"A heading sorts, again the other way round. ± calc. is what calculation (and where a run has them, repeats) leaves open of "
+             "the change, ± noise what three standard "
+             "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is the row of its id in "
+             "compare.json and compare.csv.",
+             Listing{{Cell("compare.json").linked("compare.json"), Cell("compare.csv").linked("compare.csv")}}, deciding, others},
+            2,
             true};
 }
 
@@ -290,7 +286,7 @@ Table frames_table(const DriveComparison& drive) {
 
 /// What takes a page to show.
 Section pictures_section(const RunComparison& runs, const DriveComparison& drive) {
-    Section section{drive.now.title + ", drawn", {}, true};
+    Section section{drive.now.title + ", drawn", {}, 2, true};
     const auto add_plots = [&](bool of_light) { // lamps and what goes over the way stand before the moments, light from above after them
         for (const ComparedFigure& drawn : drive.figures)
             if (drawn.name.starts_with("lux") == of_light)
@@ -307,7 +303,7 @@ Section pictures_section(const RunComparison& runs, const DriveComparison& drive
                                     "frames. The runs are two sittings, and what else the machine did counts, too: fernlicht bench times "
                                     "in turns");
         for (const TimeChange& time : drive.times)
-            times.rows.push_back(change_cells(drive, time, ""));
+            add_change(times, drive, time, name_of(time.reading));
         section.blocks.emplace_back(std::move(times));
     }
     if (!drive.frames.empty()) {
@@ -330,7 +326,7 @@ Document document(const RunComparison& runs) {
     for (const auto& [label, run] : {std::pair("A, old", &runs.before), std::pair("B, new", &runs.now)})
         folders.rows.push_back({label, run->folder.string(), run->started_utc,
                                 run->version + ", " + run->backend + ", " + run->gl_renderer + ", " + run->cpu, run->command});
-    document.sections.push_back({"The runs", {folders}, true});
+    document.sections.push_back({"The runs", {folders}, 2, true});
     return document;
 }
 
