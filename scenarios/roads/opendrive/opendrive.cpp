@@ -1,4 +1,5 @@
 #include "scenarios/roads/opendrive/opendrive_parts.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -8,7 +9,7 @@ namespace {
 
 using namespace opendrive;
 
-void read_header(OpenDriveXml& xml, RoadNetwork& network) {
+void read_header(XmlFile& xml, RoadNetwork& network) {
     const pugi::xml_node header = xml.root().child("header");
     if (!header) {
         xml.warn(xml.root(), "the header is missing; the file is read as OpenDRIVE 1.8");
@@ -27,14 +28,14 @@ void read_header(OpenDriveXml& xml, RoadNetwork& network) {
     }
 }
 
-std::optional<RoadLink> read_road_link(OpenDriveXml& xml, pugi::xml_node node) {
+std::optional<RoadLink> read_road_link(XmlFile& xml, pugi::xml_node node) {
     if (!node)
         return {};
     return RoadLink{xml.text(node, "elementType", "road") == "junction", xml.text(node, "elementId"),
                     xml.text(node, "contactPoint", "start") != "end"};
 }
 
-Road read_road(OpenDriveXml& xml, pugi::xml_node node, const RoadNetwork& network) {
+Road read_road(XmlFile& xml, pugi::xml_node node, const RoadNetwork& network) {
     Road road;
     road.id = xml.text(node, "id");
     if (road.id.empty())
@@ -58,36 +59,7 @@ Road read_road(OpenDriveXml& xml, pugi::xml_node node, const RoadNetwork& networ
     return road;
 }
 
-} // namespace
-
-RoadNetwork read_opendrive(const std::filesystem::path& path) {
-    RoadNetwork network;
-    OpenDriveXml xml(path, network.opened);
-    read_header(xml, network);
-    for (const pugi::xml_node node : xml.root().children("road")) {
-        Road road = read_road(xml, node, network);
-        if (network.find(road.id))
-            xml.refuse(node, "id", fmt::format("found a second {}", named("road", road.id)), "each id once");
-        network.roads.push_back(std::move(road));
-    }
-    if (network.roads.empty())
-        xml.refuse(xml.root(), {}, "holds no road", "at least one road");
-    read_junctions(xml, network);
-    check_links(xml, network);
-    network.warnings = xml.take_warnings();
-    return network;
-}
-
-const Road* RoadNetwork::find(const std::string& road_id) const {
-    const auto road = std::find_if(roads.begin(), roads.end(), [&](const Road& r) { return r.id == road_id; });
-    return road == roads.end() ? nullptr : &*road;
-}
-
-} // namespace fernlicht
-
-namespace fernlicht::opendrive {
-
-void read_junctions(OpenDriveXml& xml, RoadNetwork& network) {
+void read_junctions(XmlFile& xml, RoadNetwork& network) {
     for (const pugi::xml_node node : xml.root().children("junction")) {
         Junction junction;
         junction.id = xml.text(node, "id");
@@ -105,4 +77,31 @@ void read_junctions(OpenDriveXml& xml, RoadNetwork& network) {
     }
 }
 
-} // namespace fernlicht::opendrive
+} // namespace
+
+RoadNetwork read_opendrive(const std::filesystem::path& path) {
+    RoadNetwork network;
+    XmlFile xml(path, network.opened, "OpenDRIVE", "an OpenDRIVE file");
+    read_header(xml, network);
+    for (const pugi::xml_node node : xml.root().children("road")) {
+        Road road = read_road(xml, node, network);
+        if (network.find(road.id))
+            xml.refuse(node, "id", fmt::format("found a second {}", named("road", road.id)), "each id once");
+        network.roads.push_back(std::move(road));
+    }
+    if (network.roads.empty())
+        xml.refuse(xml.root(), {}, "holds no road", "at least one road");
+    read_junctions(xml, network);
+    check_links(xml, network);
+    network.warnings = xml.take_warnings();
+    return network;
+}
+
+const Road* RoadNetwork::find(const std::string& road_id) const {
+    const auto road = std::ranges::find(roads, road_id, &Road::id);
+    return road == roads.end() ? nullptr : &*road;
+}
+
+std::string opendrive::named(std::string_view element, const std::string& id) { return fmt::format("{} '{}'", element, printable(id)); }
+
+} // namespace fernlicht

@@ -1,6 +1,7 @@
-#include "scenarios/roads/opendrive/opendrive_checks.h"
-
+// Rules of OpenDRIVE that span several parts of a file. What breaks them is played all the same: each breach is a warning.
+#include "scenarios/roads/opendrive/opendrive_parts.h"
 #include "scenarios/roads/plan.h"
+#include "scenarios/roads/route_links.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,41 @@
 
 namespace fernlicht::opendrive {
 namespace {
+
+constexpr double no_width_m = 0.001;
+
+std::vector<pugi::xml_node> children(pugi::xml_node parent, const char* name) {
+    const auto all = parent.children(name);
+    return {all.begin(), all.end()};
+}
+
+/// The lane's element within its laneSection; the section itself when there is none.
+pugi::xml_node lane_node(pugi::xml_node section, int id) {
+    for (const pugi::xml_node part : section.children())
+        for (const pugi::xml_node lane : part.children("lane"))
+            if (lane.attribute("id").as_int() == id)
+                return lane;
+    return section;
+}
+
+/// All predecessors or successors that the file names; the values keep the first only.
+std::vector<int> lane_links(pugi::xml_node lane, const char* name) {
+    std::vector<int> ids;
+    for (const pugi::xml_node link : lane.child("link").children(name))
+        ids.push_back(link.attribute("id").as_int());
+    return ids;
+}
+
+/// An end of a road, at which its lanes meet others.
+struct RoadEnd {
+    const Road& road;
+    bool start = true;
+};
+
+/// "the start of road '1'"
+std::string name_of(const RoadEnd& end) { return fmt::format("the {} of {}", end.start ? "start" : "end", named("road", end.road.id)); }
+
+const LaneSection& section_of(const RoadEnd& end) { return end.start ? end.road.sections.front() : end.road.sections.back(); }
 
 double end_s(const RoadEnd& end) { return end.start ? 0.0 : end.road.length_m; }
 
@@ -27,6 +63,22 @@ Edges edge_points(const RoadNetwork& network, const RoadEnd& end, int lane) {
             surface_pose(network, end.road, s, std::min(edges.inner_t_m, edges.outer_t_m)).position_m};
 }
 
+/// How two lanes meet that are said to be one: by how much their edges part.
+struct LaneMeeting {
+    bool without_width = false; ///< one of them has none there
+    double gap_m = 0.0;
+};
+
+LaneMeeting meet(const RoadNetwork& network, const RoadEnd& from, int from_lane, const RoadEnd& to, int to_lane) {
+    const Edges here = edge_points(network, from, from_lane);
+    Edges there = edge_points(network, to, to_lane);
+    if (from.start == to.start) // the roads run against each other: left is right
+        std::swap(there.a_m, there.b_m);
+    if (glm::distance(here.a_m, here.b_m) < no_width_m || glm::distance(there.a_m, there.b_m) < no_width_m)
+        return {true, 0.0};
+    return {false, std::max(glm::distance(here.a_m, there.a_m), glm::distance(here.b_m, there.b_m))};
+}
+
 struct Meeting {
     const RoadNetwork& network;
     RoadEnd from, to;
@@ -35,7 +87,7 @@ struct Meeting {
 };
 
 /// All lanes that the first road links across this meeting.
-void check_lanes(OpenDriveXml& xml, const Meeting& m) {
+void check_lanes(XmlFile& xml, const Meeting& m) {
     double worst = 0.0;
     int worst_lane = 0;
     for (const Lane& lane : section_of(m.from).lanes) {
@@ -63,7 +115,7 @@ void check_lanes(OpenDriveXml& xml, const Meeting& m) {
         xml.warn(m.node, fmt::format("lane {} jumps by {:.3f} m from {} to {}", worst_lane, worst, name_of(m.from), name_of(m.to)));
 }
 
-void check_meeting(OpenDriveXml& xml, const Meeting& m) {
+void check_meeting(XmlFile& xml, const Meeting& m) {
     const PlanPoint here = plan_point(m.from.road, end_s(m.from)), there = plan_point(m.to.road, end_s(m.to));
     const bool plain = m.from.road.junction == "-1" && m.to.road.junction == "-1"; // through junctions reference lines may part
     if (const double gap = std::hypot(here.x_m - there.x_m, here.y_m - there.y_m); plain && gap > told_gap_m)
@@ -76,11 +128,7 @@ void check_meeting(OpenDriveXml& xml, const Meeting& m) {
     check_lanes(xml, m);
 }
 
-bool has_junction(const RoadNetwork& network, const std::string& id) {
-    return std::any_of(network.junctions.begin(), network.junctions.end(), [&](const Junction& junction) { return junction.id == id; });
-}
-
-void check_link(OpenDriveXml& xml, const RoadNetwork& network, const RoadEnd& end, pugi::xml_node road_node) {
+void check_link(XmlFile& xml, const RoadNetwork& network, const RoadEnd& end, pugi::xml_node road_node) {
     const std::optional<RoadLink>& link = end.start ? end.road.predecessor : end.road.successor;
     const pugi::xml_node node = road_node.child("link").child(end.start ? "predecessor" : "successor");
     if (!link) {
@@ -91,14 +139,12 @@ void check_link(OpenDriveXml& xml, const RoadNetwork& network, const RoadEnd& en
         return;
     }
     if (link->is_junction) {
-        if (!has_junction(network, link->id))
+        if (std::ranges::find(network.junctions, link->id, &Junction::id) == network.junctions.end())
             xml.warn(node,
                      fmt::format("{} leads to {}, which does not exist; the road ends there", name_of(end), named("junction", link->id)));
         return;
     }
-    std::vector<pugi::xml_node> sections;
-    for (const pugi::xml_node section : road_node.child("lanes").children("laneSection"))
-        sections.push_back(section);
+    const std::vector<pugi::xml_node> sections = children(road_node.child("lanes"), "laneSection");
     const std::size_t last = std::min(end.road.sections.size(), sections.size()); // sections beyond the road's end were left out
     const pugi::xml_node section = last == 0 ? pugi::xml_node() : sections[end.start ? 0 : last - 1];
     if (const Road* to = network.find(link->id))
@@ -108,7 +154,7 @@ void check_link(OpenDriveXml& xml, const RoadNetwork& network, const RoadEnd& en
 }
 
 /// Where several roads go on from one end, a junction must say which is taken.
-void check_forks(OpenDriveXml& xml, const RoadNetwork& network, const std::vector<pugi::xml_node>& road_nodes) {
+void check_forks(XmlFile& xml, const RoadNetwork& network, const std::vector<pugi::xml_node>& road_nodes) {
     std::map<std::pair<std::string, bool>, std::vector<std::size_t>> comers;
     for (std::size_t i = 0; i < network.roads.size(); ++i)
         for (const auto& link : {network.roads[i].predecessor, network.roads[i].successor})
@@ -120,41 +166,6 @@ void check_forks(OpenDriveXml& xml, const RoadNetwork& network, const std::vecto
                      fmt::format("{} roads are linked to the {} of {} without a junction; the one that it names is taken", roads.size(),
                                  end.second ? "start" : "end", named("road", end.first)));
 }
-
-} // namespace
-
-std::string name_of(const RoadEnd& end) { return fmt::format("the {} of {}", end.start ? "start" : "end", named("road", end.road.id)); }
-
-const LaneSection& section_of(const RoadEnd& end) { return end.start ? end.road.sections.front() : end.road.sections.back(); }
-
-LaneMeeting meet(const RoadNetwork& network, const RoadEnd& from, int from_lane, const RoadEnd& to, int to_lane) {
-    const Edges here = edge_points(network, from, from_lane);
-    Edges there = edge_points(network, to, to_lane);
-    if (from.start == to.start) // the roads run against each other: left is right
-        std::swap(there.a_m, there.b_m);
-    if (glm::distance(here.a_m, here.b_m) < no_width_m || glm::distance(there.a_m, there.b_m) < no_width_m)
-        return {true, 0.0};
-    return {false, std::max(glm::distance(here.a_m, there.a_m), glm::distance(here.b_m, there.b_m))};
-}
-
-void check_roads(OpenDriveXml& xml, const RoadNetwork& network, const std::vector<pugi::xml_node>& road_nodes) {
-    for (std::size_t i = 0; i < network.roads.size(); ++i)
-        for (const bool start : {true, false})
-            check_link(xml, network, {network.roads[i], start}, road_nodes[i]);
-    check_forks(xml, network, road_nodes);
-}
-
-void check_links(OpenDriveXml& xml, const RoadNetwork& network) {
-    std::vector<pugi::xml_node> road_nodes;
-    for (const pugi::xml_node node : xml.root().children("road"))
-        road_nodes.push_back(node);
-    for (std::size_t i = 0; i < network.roads.size(); ++i)
-        check_sections(xml, network.roads[i], road_nodes[i]);
-    check_roads(xml, network, road_nodes);
-    check_junctions(xml, network);
-}
-
-namespace {
 
 struct Side {
     const Road& road;
@@ -183,12 +194,11 @@ Span span_of(const Side& side, const std::vector<int>& lanes) {
 }
 
 /// A lane that splits, or lanes that join, cover the same width before and after.
-void check_joint(OpenDriveXml& xml, const Side& before, const Side& after, const Lane& lane, const std::vector<int>& targets) {
+void check_joint(XmlFile& xml, const Side& before, const Side& after, const Lane& lane, const std::vector<int>& targets) {
     std::vector<int> sources;
     for (const Lane& other : before.section.lanes) {
         const std::vector<int> reached = lane_links(lane_node(before.node, other.id), "successor");
-        if (std::any_of(reached.begin(), reached.end(),
-                        [&](int id) { return std::find(targets.begin(), targets.end(), id) != targets.end(); }))
+        if (std::ranges::find_first_of(reached, targets) != reached.end())
             sources.push_back(other.id);
     }
     const Span a = span_of(before, sources), b = span_of(after, targets);
@@ -198,7 +208,7 @@ void check_joint(OpenDriveXml& xml, const Side& before, const Side& after, const
                  fmt::format("{}: the edges of lane {} jump by {:.3f} m at s = {}", named("road", before.road.id), lane.id, gap, before.s));
 }
 
-void check_lane(OpenDriveXml& xml, const Side& before, const Side& after, const Lane& lane) {
+void check_lane(XmlFile& xml, const Side& before, const Side& after, const Lane& lane) {
     const pugi::xml_node node = lane_node(before.node, lane.id);
     const std::string road_name = named("road", before.road.id);
     std::vector<int> targets = lane_links(node, "successor");
@@ -217,7 +227,7 @@ void check_lane(OpenDriveXml& xml, const Side& before, const Side& after, const 
             continue;
         }
         const std::vector<int> back = lane_links(lane_node(after.node, target), "predecessor");
-        if (std::find(back.begin(), back.end(), lane.id) == back.end())
+        if (std::ranges::find(back, lane.id) == back.end())
             xml.warn(node,
                      fmt::format("{}: lane {} leads to lane {} at s = {}, which does not lead back", road_name, lane.id, target, before.s));
         if (width_of(before, lane.id) < no_width_m || width_of(after, target) < no_width_m)
@@ -229,7 +239,7 @@ void check_lane(OpenDriveXml& xml, const Side& before, const Side& after, const 
         check_joint(xml, before, after, lane, targets);
 }
 
-void check_back(OpenDriveXml& xml, const Side& before, const Side& after, const Lane& lane) {
+void check_back(XmlFile& xml, const Side& before, const Side& after, const Lane& lane) {
     const pugi::xml_node node = lane_node(after.node, lane.id);
     for (const int source : lane_links(node, "predecessor"))
         if (!lane_of(before.section, source))
@@ -237,27 +247,8 @@ void check_back(OpenDriveXml& xml, const Side& before, const Side& after, const 
                                        named("road", after.road.id), lane.id, source, after.s));
 }
 
-} // namespace
-
-pugi::xml_node lane_node(pugi::xml_node section, int id) {
-    for (const pugi::xml_node part : section.children())
-        for (const pugi::xml_node lane : part.children("lane"))
-            if (lane.attribute("id").as_int() == id)
-                return lane;
-    return section;
-}
-
-std::vector<int> lane_links(pugi::xml_node lane, const char* name) {
-    std::vector<int> ids;
-    for (const pugi::xml_node link : lane.child("link").children(name))
-        ids.push_back(link.attribute("id").as_int());
-    return ids;
-}
-
-void check_sections(OpenDriveXml& xml, const Road& road, pugi::xml_node road_node) {
-    std::vector<pugi::xml_node> nodes;
-    for (const pugi::xml_node node : road_node.child("lanes").children("laneSection"))
-        nodes.push_back(node);
+void check_sections(XmlFile& xml, const Road& road, pugi::xml_node road_node) {
+    const std::vector<pugi::xml_node> nodes = children(road_node.child("lanes"), "laneSection");
     for (std::size_t i = 1; i < road.sections.size() && i < nodes.size(); ++i) {
         const double s = road.sections[i].s_m;
         const Side before{road, road.sections[i - 1], nodes[i - 1], s}, after{road, road.sections[i], nodes[i], s};
@@ -269,8 +260,6 @@ void check_sections(OpenDriveXml& xml, const Road& road, pugi::xml_node road_nod
                 check_back(xml, before, after, lane);
     }
 }
-
-namespace {
 
 struct Crossing {
     const RoadNetwork& network;
@@ -286,7 +275,7 @@ std::string through(const Crossing& c) {
 }
 
 /// A connection that begins at a connecting road's start must come from the road which that names as its predecessor.
-void check_contact(OpenDriveXml& xml, const Crossing& c, const Road& connecting) {
+void check_contact(XmlFile& xml, const Crossing& c, const Road& connecting) {
     const std::optional<RoadLink>& link = c.connection.contact_start ? connecting.predecessor : connecting.successor;
     if (!link || link->is_junction || link->id != c.connection.incoming_road)
         xml.warn(c.node, fmt::format("{}: the {} of the connecting road does not lead to the incoming road", through(c),
@@ -307,7 +296,7 @@ LaneMeeting meet_incoming(const Crossing& c, const Road& incoming, int from, con
     return best;
 }
 
-void check_lane_links(OpenDriveXml& xml, const Crossing& c, const Road* incoming, const RoadEnd& to) {
+void check_lane_links(XmlFile& xml, const Crossing& c, const Road* incoming, const RoadEnd& to) {
     double worst = 0.0;
     int worst_lane = 0;
     for (const auto& [from, to_lane] : c.connection.lane_links) {
@@ -331,7 +320,7 @@ void check_lane_links(OpenDriveXml& xml, const Crossing& c, const Road* incoming
         xml.warn(c.node, fmt::format("{}: lane {} jumps by {:.3f} m", through(c), worst_lane, worst));
 }
 
-void check_connection(OpenDriveXml& xml, const Crossing& c) {
+void check_connection(XmlFile& xml, const Crossing& c) {
     const Road* incoming = c.network.find(c.connection.incoming_road);
     const Road* connecting = c.network.find(c.connection.connecting_road);
     if (!incoming && c.kind != "virtual")
@@ -348,9 +337,7 @@ void check_connection(OpenDriveXml& xml, const Crossing& c) {
     check_lane_links(xml, c, incoming, {*connecting, c.connection.contact_start});
 }
 
-} // namespace
-
-void check_junctions(OpenDriveXml& xml, const RoadNetwork& network) {
+void check_junctions(XmlFile& xml, const RoadNetwork& network) {
     auto junction = network.junctions.begin();
     for (const pugi::xml_node node : xml.root().children("junction")) {
         std::set<std::pair<std::string, std::string>> pairs;
@@ -364,6 +351,19 @@ void check_junctions(OpenDriveXml& xml, const RoadNetwork& network) {
         }
         ++junction;
     }
+}
+
+} // namespace
+
+void check_links(XmlFile& xml, const RoadNetwork& network) {
+    const std::vector<pugi::xml_node> road_nodes = children(xml.root(), "road");
+    for (std::size_t i = 0; i < network.roads.size(); ++i)
+        check_sections(xml, network.roads[i], road_nodes[i]);
+    for (std::size_t i = 0; i < network.roads.size(); ++i)
+        for (const bool start : {true, false})
+            check_link(xml, network, {network.roads[i], start}, road_nodes[i]);
+    check_forks(xml, network, road_nodes);
+    check_junctions(xml, network);
 }
 
 } // namespace fernlicht::opendrive

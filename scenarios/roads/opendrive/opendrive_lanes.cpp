@@ -13,12 +13,12 @@ namespace {
 /// No lane edge lies further from the reference line; beyond, a number is mistyped.
 constexpr double widest_m = 1000.0;
 
-std::optional<int> read_link(OpenDriveXml& xml, pugi::xml_node lane_node, const char* name) {
+std::optional<int> read_link(XmlFile& xml, pugi::xml_node lane_node, const char* name) {
     const pugi::xml_node link = lane_node.child("link").child(name);
     return link ? std::optional(xml.integer(link, "id")) : std::nullopt;
 }
 
-Lane read_lane(OpenDriveXml& xml, pugi::xml_node node) {
+Lane read_lane(XmlFile& xml, pugi::xml_node node) {
     Lane lane;
     lane.id = xml.integer(node, "id");
     lane.type = xml.text(node, "type", "none");
@@ -42,27 +42,23 @@ Lane read_lane(OpenDriveXml& xml, pugi::xml_node node) {
     return lane;
 }
 
-void read_side(OpenDriveXml& xml, pugi::xml_node side, int sign, LaneSection& section) {
+template <class Belongs>
+void read_side(XmlFile& xml, pugi::xml_node side, LaneSection& section, const char* expected, const Belongs& belongs) {
     for (const pugi::xml_node node : side.children("lane")) {
-        Lane lane = read_lane(xml, node);
-        const int lane_sign = lane.id > 0 ? 1 : lane.id < 0 ? -1 : 0;
-        if (lane_sign != sign)
-            xml.refuse(node, "id", fmt::format("found lane {} in '{}'", lane.id, side.name()),
-                       sign > 0   ? "an id above 0"
-                       : sign < 0 ? "an id below 0"
-                                  : "the id 0");
-        section.lanes.push_back(std::move(lane));
+        section.lanes.push_back(read_lane(xml, node));
+        if (const int id = section.lanes.back().id; !belongs(id))
+            xml.refuse(node, "id", fmt::format("found lane {} in '{}'", id, side.name()), expected);
     }
 }
 
-LaneSection read_section(OpenDriveXml& xml, pugi::xml_node node, const std::string& road_name) {
+LaneSection read_section(XmlFile& xml, pugi::xml_node node, const std::string& road_name) {
     LaneSection section;
     section.s_m = xml.length(node, "s");
     const std::string single = xml.text(node, "singleSide", "false");
     section.single_side = single == "true" || single == "1";
-    read_side(xml, node.child("left"), 1, section);
-    read_side(xml, node.child("center"), 0, section);
-    read_side(xml, node.child("right"), -1, section);
+    read_side(xml, node.child("left"), section, "an id above 0", [](int id) { return id > 0; });
+    read_side(xml, node.child("center"), section, "the id 0", [](int id) { return id == 0; });
+    read_side(xml, node.child("right"), section, "an id below 0", [](int id) { return id < 0; });
     auto& lanes = section.lanes;
     if (std::none_of(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.id == 0; }))
         lanes.push_back({});
@@ -84,7 +80,7 @@ bool has_roll(const Road& road) {
 }
 
 /// Edges in steps over the section: cubics may run away, or cross, between the values that look sane.
-void check_edges(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const LaneSection& section) {
+void check_edges(XmlFile& xml, pugi::xml_node node, const Road& road, const LaneSection& section) {
     constexpr int samples = 20;
     constexpr double told_overlap_m = 0.001;
     const std::string road_name = named("road", road.id);
@@ -121,7 +117,7 @@ void check_edges(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const
 
 } // namespace
 
-void read_lanes(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+void read_lanes(XmlFile& xml, pugi::xml_node road_node, Road& road) {
     const pugi::xml_node lanes = road_node.child("lanes");
     const std::string road_name = named("road", road.id);
     road.lane_offset = read_cubics(xml, lanes, "laneOffset", "s");
@@ -144,10 +140,9 @@ void read_lanes(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
         road.sections.push_back({0.0, road.length_m, false, {Lane{}}});
         nodes.push_back(road_node);
     }
-    if (road.sections.front().s_m > 0.0) {
+    if (road.sections.front().s_m > 0.0)
         xml.warn(nodes.front(), fmt::format("{}: the first lane section begins at s = {}; it is extended back to 0", road_name,
                                             road.sections.front().s_m));
-    }
     for (std::size_t i = 0; i < road.sections.size(); ++i) {
         road.sections[i].end_m = i + 1 < road.sections.size() ? road.sections[i + 1].s_m : road.length_m;
         check_edges(xml, nodes[i], road, road.sections[i]);
@@ -159,20 +154,21 @@ namespace {
 constexpr double standard_width_m = 0.12, bold_width_m = 0.25, widest_mark_m = 10.0;
 constexpr double once_m = 1e9; ///< the gap after a line that is not repeated
 
-MarkKind mark_kind(OpenDriveXml& xml, pugi::xml_node node) {
-    static constexpr std::array<std::pair<std::string_view, MarkKind>, 13> kinds{{{"none", MarkKind::none},
-                                                                                  {"solid", MarkKind::solid},
-                                                                                  {"broken", MarkKind::broken},
-                                                                                  {"solid solid", MarkKind::solid_solid},
-                                                                                  {"solid broken", MarkKind::solid_broken},
-                                                                                  {"broken solid", MarkKind::broken_solid},
-                                                                                  {"broken broken", MarkKind::broken_broken},
-                                                                                  {"botts dots", MarkKind::botts_dots},
-                                                                                  {"curb", MarkKind::curb},
-                                                                                  {"custom", MarkKind::other},
-                                                                                  {"edge", MarkKind::none}, // where nothing is painted
-                                                                                  {"grass", MarkKind::none},
-                                                                                  {"", MarkKind::none}}};
+MarkKind mark_kind(XmlFile& xml, pugi::xml_node node) {
+    using enum MarkKind;
+    static constexpr std::pair<std::string_view, MarkKind> kinds[]{{"none", none},
+                                                                   {"solid", solid},
+                                                                   {"broken", broken},
+                                                                   {"solid solid", solid_solid},
+                                                                   {"solid broken", solid_broken},
+                                                                   {"broken solid", broken_solid},
+                                                                   {"broken broken", broken_broken},
+                                                                   {"botts dots", botts_dots},
+                                                                   {"curb", curb},
+                                                                   {"custom", other},
+                                                                   {"edge", none}, // where nothing is painted
+                                                                   {"grass", none},
+                                                                   {"", none}};
     const std::string name = xml.text(node, "type");
     for (const auto& [word, kind] : kinds)
         if (name == word)
@@ -182,7 +178,7 @@ MarkKind mark_kind(OpenDriveXml& xml, pugi::xml_node node) {
     return MarkKind::other;
 }
 
-double mark_width(OpenDriveXml& xml, pugi::xml_node node, const char* attribute, double fallback) {
+double mark_width(XmlFile& xml, pugi::xml_node node, const char* attribute, double fallback) {
     const double width = xml.number(node, attribute, fallback);
     if (width <= 0.0 || width > widest_mark_m) {
         xml.warn_once(node, "mark width", fmt::format("the road mark's width of {} m is taken as {} m", width, fallback));
@@ -192,7 +188,7 @@ double mark_width(OpenDriveXml& xml, pugi::xml_node node, const char* attribute,
 }
 
 /// `type/line`: a pattern that repeats; `explicit/line`: lines that stand alone.
-void read_stripes(OpenDriveXml& xml, pugi::xml_node node, RoadMark& mark) {
+void read_stripes(XmlFile& xml, pugi::xml_node node, RoadMark& mark) {
     for (const pugi::xml_node type : node.children("type")) {
         const double width = mark_width(xml, type, "width", mark.width_m);
         for (const pugi::xml_node line : type.children("line"))
@@ -206,7 +202,7 @@ void read_stripes(OpenDriveXml& xml, pugi::xml_node node, RoadMark& mark) {
 
 } // namespace
 
-std::vector<RoadMark> read_marks(OpenDriveXml& xml, pugi::xml_node lane_node) {
+std::vector<RoadMark> read_marks(XmlFile& xml, pugi::xml_node lane_node) {
     std::vector<RoadMark> marks;
     for (const pugi::xml_node node : lane_node.children("roadMark")) {
         RoadMark mark;

@@ -11,6 +11,19 @@ constexpr double widest_object_m = 2000.0; ///< of one object
 constexpr double most_repeats = 100'000.0;
 constexpr double longest_piece_m = 4.0; ///< of a continuous object: 5 mm of sagitta at a radius of 400 m
 
+/// Refuses what measures too much.
+void check_sizes(XmlFile& xml, pugi::xml_node node, const std::string& name, std::initializer_list<double> sizes) {
+    for (const double size : sizes)
+        if (size > widest_object_m)
+            xml.refuse(node, {}, fmt::format("{} measures {} m", name, size), fmt::format("at most {} m", widest_object_m));
+}
+
+void check_place(XmlFile& xml, pugi::xml_node node, const std::string& name, double s_m, const Road& road) {
+    if (s_m < 0.0 || s_m > road.length_m + 0.01)
+        xml.warn(node, fmt::format("{} stands at s = {}, beyond {} of {} m; it is moved to the end", name, s_m, named("road", road.id),
+                                   road.length_m));
+}
+
 /// The object's own frame on the road.
 Pose object_frame(const Road& road, const RoadObject& object) {
     const Pose surface = surface_pose({}, road, object.s_m, object.t_m);
@@ -18,7 +31,7 @@ Pose object_frame(const Road& road, const RoadObject& object) {
     return compose(surface, stand);
 }
 
-void add_corner(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const Pose& frame, RoadObject& object) {
+void add_corner(XmlFile& xml, pugi::xml_node node, const Road& road, const Pose& frame, RoadObject& object) {
     const double height = xml.number(node, "height", 0.0);
     glm::dvec3 base;
     if (std::string_view(node.name()) == "cornerLocal") {
@@ -32,7 +45,7 @@ void add_corner(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const 
 }
 
 /// One object for each outer outline that has corners enough.
-std::vector<RoadObject> with_outlines(OpenDriveXml& xml, pugi::xml_node node, const Road& road, const RoadObject& object) {
+std::vector<RoadObject> with_outlines(XmlFile& xml, pugi::xml_node node, const Road& road, const RoadObject& object) {
     std::vector<pugi::xml_node> outlines;
     for (const pugi::xml_node parent : {node, node.child("outlines")}) // 1.4 has the outline in the object itself
         for (const pugi::xml_node outline : parent.children("outline"))
@@ -68,13 +81,12 @@ struct Ramp {
 };
 
 /// `nameStart` and `nameEnd` of a repeat, else the object's own value.
-Ramp ramp(const OpenDriveXml& xml, pugi::xml_node repeat, const std::string& name, double own) {
+Ramp ramp(const XmlFile& xml, pugi::xml_node repeat, const std::string& name, double own) {
     const double from = xml.number(repeat, (name + "Start").c_str(), own);
     return {from, xml.number(repeat, (name + "End").c_str(), from)};
 }
 
-void append_repeats(OpenDriveXml& xml, pugi::xml_node repeat, const RoadObject& object, const Road& road,
-                    std::vector<RoadObject>& objects) {
+void append_repeats(XmlFile& xml, pugi::xml_node repeat, const RoadObject& object, const Road& road, std::vector<RoadObject>& objects) {
     const double start = xml.number(repeat, "s", object.s_m), distance = xml.length(repeat, "distance", 0.0);
     const double length = std::clamp(xml.length(repeat, "length", 0.0), 0.0, std::max(0.0, road.length_m - start));
     const Ramp t = ramp(xml, repeat, "t", object.t_m), z = ramp(xml, repeat, "zOffset", object.z_offset_m);
@@ -104,7 +116,7 @@ void append_repeats(OpenDriveXml& xml, pugi::xml_node repeat, const RoadObject& 
     }
 }
 
-RoadObject read_object(OpenDriveXml& xml, pugi::xml_node node) {
+RoadObject read_object(XmlFile& xml, pugi::xml_node node) {
     RoadObject object;
     object.id = xml.text(node, "id"), object.name = xml.text(node, "name"), object.type = xml.text(node, "type", "none");
     object.s_m = xml.number(node, "s"), object.t_m = xml.number(node, "t");
@@ -113,10 +125,7 @@ RoadObject read_object(OpenDriveXml& xml, pugi::xml_node node) {
     object.pitch_rad = xml.number(node, "pitch", 0.0), object.roll_rad = xml.number(node, "roll", 0.0);
     object.length_m = xml.length(node, "length", 0.0), object.width_m = xml.length(node, "width", 0.0);
     object.height_m = xml.length(node, "height", 0.0), object.radius_m = xml.length(node, "radius", 0.0);
-    for (const double size : {object.length_m, object.width_m, object.height_m, object.radius_m})
-        if (size > widest_object_m)
-            xml.refuse(node, {}, fmt::format("{} measures {} m", named("object", object.id), size),
-                       fmt::format("at most {} m", widest_object_m));
+    check_sizes(xml, node, named("object", object.id), {object.length_m, object.width_m, object.height_m, object.radius_m});
     return object;
 }
 
@@ -126,20 +135,16 @@ bool has_size(const RoadObject& object) {
 
 } // namespace
 
-void read_objects(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+void read_objects(XmlFile& xml, pugi::xml_node road_node, Road& road) {
     for (const pugi::xml_node node : road_node.child("objects").children("object")) {
         const RoadObject object = read_object(xml, node);
-        if (object.s_m < 0.0 || object.s_m > road.length_m + 0.01)
-            xml.warn(node, fmt::format("{} stands at s = {}, beyond {} of {} m; it is moved to the end", named("object", object.id),
-                                       object.s_m, named("road", road.id), road.length_m));
-        if (node.child("skeleton"))
-            xml.warn_once(node, "skeleton", fmt::format("{}: its skeleton is left out", named("object", object.id)));
-        for (const char* part : {"markings", "borders"})
+        const std::string name = named("object", object.id);
+        check_place(xml, node, name, object.s_m, road);
+        for (const auto& [part, are] : {std::pair("skeleton", "is"), std::pair("markings", "are"), std::pair("borders", "are")})
             if (node.child(part))
-                xml.warn_once(node, part, fmt::format("{}: its {} are left out", named("object", object.id), part));
+                xml.warn_once(node, part, fmt::format("{}: its {} {} left out", name, part, are));
         if (object.radius_m > 0.0 && (object.length_m > 0.0 || object.width_m > 0.0))
-            xml.warn_once(node, "radius and length",
-                          fmt::format("{} has a radius beside length or width; the radius holds", named("object", object.id)));
+            xml.warn_once(node, "radius and length", name + " has a radius beside length or width; the radius holds");
         std::vector<RoadObject> shaped = with_outlines(xml, node, road, object);
         if (shaped.empty())
             shaped.push_back(object);
@@ -150,12 +155,12 @@ void read_objects(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
             if (road.objects.size() == before)
                 road.objects.push_back(one);
             if (!has_size(road.objects.back()))
-                xml.warn_once(node, "no size", fmt::format("{} has no size: it is not drawn", named("object", object.id)));
+                xml.warn_once(node, "no size", name + " has no size: it is not drawn");
         }
     }
 }
 
-void read_signals(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+void read_signals(XmlFile& xml, pugi::xml_node road_node, Road& road) {
     for (const pugi::xml_node node : road_node.child("signals").children("signal")) {
         RoadSignal signal;
         signal.id = xml.text(node, "id"), signal.name = xml.text(node, "name");
@@ -164,18 +169,13 @@ void read_signals(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
         signal.z_offset_m = xml.number(node, "zOffset", 0.0);
         signal.heading_offset_rad = xml.number(node, "hOffset", 0.0);
         signal.width_m = xml.length(node, "width", 0.0), signal.height_m = xml.length(node, "height", 0.0);
-        for (const double size : {signal.width_m, signal.height_m})
-            if (size > widest_object_m)
-                xml.refuse(node, {}, fmt::format("{} measures {} m", named("signal", signal.id), size),
-                           fmt::format("at most {} m", widest_object_m));
+        const std::string name = named("signal", signal.id);
+        check_sizes(xml, node, name, {signal.width_m, signal.height_m});
         signal.facing_forward = xml.text(node, "orientation", "+") != "-";
         signal.dynamic = xml.text(node, "dynamic", "no") == "yes";
-        if (signal.s_m < 0.0 || signal.s_m > road.length_m + 0.01)
-            xml.warn(node, fmt::format("{} stands at s = {}, beyond {} of {} m; it is moved to the end", named("signal", signal.id),
-                                       signal.s_m, named("road", road.id), road.length_m));
+        check_place(xml, node, name, signal.s_m, road);
         if (node.child("positionInertial") || node.child("positionRoad"))
-            xml.warn_once(node, "physical position",
-                          fmt::format("{}: its physical position is left out; it stands at its s and t", named("signal", signal.id)));
+            xml.warn_once(node, "physical position", name + ": its physical position is left out; it stands at its s and t");
         road.signals.push_back(std::move(signal));
     }
 }

@@ -9,8 +9,8 @@
 namespace fernlicht::opendrive {
 namespace {
 
-/// Larger steps of the reference line are told. Exporters write positions to the centimetre and headings to 1e-4.
-constexpr double told_gap_m = 0.01, told_kink_rad = 0.01, told_length_m = 0.01;
+/// Exporters write headings to 1e-4.
+constexpr double told_kink_rad = 0.01, told_length_m = 0.01;
 
 /// Beyond, a number is mistyped, and everything that walks along the road would take too long.
 constexpr double longest_road_m = 1e6;
@@ -20,7 +20,7 @@ struct ElementNode {
     PlanElement element;
 };
 
-ParamPoly3 read_param_poly3(const OpenDriveXml& xml, pugi::xml_node shape) {
+ParamPoly3 read_param_poly3(const XmlFile& xml, pugi::xml_node shape) {
     ParamPoly3 poly;
     poly.au = xml.number(shape, "aU"), poly.bu = xml.number(shape, "bU");
     poly.cu = xml.number(shape, "cU"), poly.du = xml.number(shape, "dU");
@@ -33,7 +33,7 @@ ParamPoly3 read_param_poly3(const OpenDriveXml& xml, pugi::xml_node shape) {
     return poly;
 }
 
-void read_shape(const OpenDriveXml& xml, pugi::xml_node node, PlanElement& element) {
+void read_shape(const XmlFile& xml, pugi::xml_node node, PlanElement& element) {
     const auto bounded = [&](pugi::xml_node shape, const char* key) {
         const double curvature = xml.number(shape, key);
         if (std::abs(curvature) * element.length_m > max_spiral_turn_rad)
@@ -60,7 +60,7 @@ void read_shape(const OpenDriveXml& xml, pugi::xml_node node, PlanElement& eleme
     xml.refuse(node, {}, "holds no shape", "line, spiral, arc, poly3 or paramPoly3");
 }
 
-std::optional<ElementNode> read_element(OpenDriveXml& xml, pugi::xml_node node, const std::string& road_name) {
+std::optional<ElementNode> read_element(XmlFile& xml, pugi::xml_node node, const std::string& road_name) {
     ElementNode read{node, {}};
     PlanElement& element = read.element;
     element.s_m = xml.length(node, "s");
@@ -91,7 +91,7 @@ std::pair<double, double> speeds(const PlanElement& element) {
     return range;
 }
 
-void check_parameters(OpenDriveXml& xml, const ElementNode& read, const std::string& road_name) {
+void check_parameters(XmlFile& xml, const ElementNode& read, const std::string& road_name) {
     const auto* poly = std::get_if<ParamPoly3>(&read.element.shape);
     if (!poly)
         return;
@@ -119,7 +119,7 @@ void check_parameters(OpenDriveXml& xml, const ElementNode& read, const std::str
 
 double heading_difference(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * pi)); }
 
-void check_join(OpenDriveXml& xml, const ElementNode& from, const ElementNode& to, const std::string& road_name) {
+void check_join(XmlFile& xml, const ElementNode& from, const ElementNode& to, const std::string& road_name) {
     const PlanElement &a = from.element, &b = to.element;
     const double step = b.s_m - (a.s_m + a.length_m);
     if (std::abs(step) > told_length_m)
@@ -134,7 +134,7 @@ void check_join(OpenDriveXml& xml, const ElementNode& from, const ElementNode& t
 
 } // namespace
 
-void read_plan(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+void read_plan(XmlFile& xml, pugi::xml_node road_node, Road& road) {
     const std::string road_name = named("road", road.id);
     std::vector<ElementNode> read;
     for (const pugi::xml_node node : road_node.child("planView").children("geometry"))

@@ -6,7 +6,7 @@
 
 namespace fernlicht::opendrive {
 
-std::vector<Cubic> read_cubics(OpenDriveXml& xml, pugi::xml_node parent, const char* element, const char* start) {
+std::vector<Cubic> read_cubics(XmlFile& xml, pugi::xml_node parent, const char* element, const char* start) {
     std::vector<Cubic> pieces;
     for (const pugi::xml_node node : parent.children(element))
         pieces.push_back(
@@ -22,13 +22,13 @@ std::vector<Cubic> read_cubics(OpenDriveXml& xml, pugi::xml_node parent, const c
 namespace {
 
 /// Before its first piece a profile is zero by the standard: a step there is told.
-void check_beginning(OpenDriveXml& xml, pugi::xml_node parent, const char* element, const std::vector<Cubic>& pieces) {
+void check_beginning(XmlFile& xml, pugi::xml_node parent, const char* element, const std::vector<Cubic>& pieces) {
     if (!pieces.empty() && pieces.front().s0 > 0.01 && pieces.front().a != 0.0)
         xml.warn(parent.child(element), fmt::format("the first {} begins at s = {}; before it, zero holds", element, pieces.front().s0));
 }
 
 /// A road that leans by more than 80 degrees is mistyped, most likely in degrees instead of radians.
-void check_roll(OpenDriveXml& xml, pugi::xml_node lateral, const Road& road) {
+void check_roll(XmlFile& xml, pugi::xml_node lateral, const Road& road) {
     constexpr double steepest_rad = 1.4;
     constexpr int samples = 20;
     for (std::size_t i = 0; i < road.superelevation.size(); ++i) {
@@ -44,23 +44,18 @@ void check_roll(OpenDriveXml& xml, pugi::xml_node lateral, const Road& road) {
     }
 }
 
-std::vector<ShapeProfile> read_shapes(OpenDriveXml& xml, pugi::xml_node lateral) {
-    std::vector<ShapeProfile> profiles;
-    struct Entry {
-        double s;
-        Cubic cubic;
-    };
-    std::vector<Entry> entries;
+std::vector<ShapeProfile> read_shapes(XmlFile& xml, pugi::xml_node lateral) {
+    std::vector<std::pair<double, Cubic>> entries; // by s
     for (const pugi::xml_node node : lateral.children("shape"))
         entries.push_back(
             {xml.number(node, "s"),
              {xml.number(node, "t"), xml.number(node, "a"), xml.number(node, "b"), xml.number(node, "c"), xml.number(node, "d")}});
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return a.s != b.s ? a.s < b.s : a.cubic.s0 < b.cubic.s0; });
-    for (const Entry& entry : entries) {
-        if (profiles.empty() || profiles.back().s_m != entry.s)
-            profiles.push_back({entry.s, {}});
-        profiles.back().over_t.push_back(entry.cubic);
+    std::ranges::stable_sort(entries, {}, [](const auto& entry) { return std::pair(entry.first, entry.second.s0); });
+    std::vector<ShapeProfile> profiles;
+    for (const auto& [s, cubic] : entries) {
+        if (profiles.empty() || profiles.back().s_m != s)
+            profiles.push_back({s, {}});
+        profiles.back().over_t.push_back(cubic);
     }
     return profiles;
 }
@@ -83,7 +78,7 @@ void end_shapes(Road& road) {
     }
 }
 
-void read_profiles(OpenDriveXml& xml, pugi::xml_node road_node, Road& road) {
+void read_profiles(XmlFile& xml, pugi::xml_node road_node, Road& road) {
     const pugi::xml_node elevation = road_node.child("elevationProfile"), lateral = road_node.child("lateralProfile");
     road.elevation = read_cubics(xml, elevation, "elevation", "s");
     road.superelevation = read_cubics(xml, lateral, "superelevation", "s");
