@@ -6,32 +6,26 @@
 namespace fernlicht {
 namespace {
 
-struct Heights {
-    double inner_m = 0.0, outer_m = 0.0;
-};
-
 /// Straight between the records: a kerb goes down as a ramp, and the surface has no hole where a record begins.
-Heights heights_at(const Lane& lane, double ds) {
+Lane::Height heights_at(const Lane& lane, double ds) {
     const auto& all = lane.heights;
     if (all.empty())
         return {};
-    const auto next = std::find_if(all.begin(), all.end(), [ds](const Lane::Height& h) { return h.s_m > ds; });
+    const auto next = std::ranges::find_if(all, [ds](const Lane::Height& h) { return h.s_m > ds; });
     if (next == all.begin())
-        return {next->inner_m, next->outer_m};
+        return *next;
     const Lane::Height& a = *(next - 1);
     if (next == all.end())
-        return {a.inner_m, a.outer_m};
+        return a;
     const double f = (ds - a.s_m) / (next->s_m - a.s_m);
-    return {a.inner_m + f * (next->inner_m - a.inner_m), a.outer_m + f * (next->outer_m - a.outer_m)};
+    return {ds, a.inner_m + f * (next->inner_m - a.inner_m), a.outer_m + f * (next->outer_m - a.outer_m)};
 }
 
-bool same_surface(const Strip& a, const Strip& b) { return a.material == b.material && a.paved == b.paved && !a.kerb_face && !b.kerb_face; }
-
-/// Joins neighbours of one material. Only where no lane has heights: there is no kink between them then.
+/// Joins neighbours of one material. Only where no lane has heights: there are neither kinks nor kerbs between them then.
 std::vector<Strip> joined(const std::vector<Strip>& strips) {
     std::vector<Strip> out;
     for (const Strip& strip : strips) {
-        if (!out.empty() && same_surface(out.back(), strip))
+        if (!out.empty() && out.back().material == strip.material && out.back().paved == strip.paved)
             out.back().left_t_m = strip.left_t_m;
         else
             out.push_back(strip);
@@ -43,26 +37,14 @@ std::vector<Strip> joined(const std::vector<Strip>& strips) {
 std::vector<Strip> with_kerb_faces(const std::vector<Strip>& strips) {
     std::vector<Strip> out;
     for (const Strip& strip : strips) {
-        if (!out.empty()) {
-            Strip face;
-            face.right_t_m = face.left_t_m = strip.right_t_m;
-            face.right_h_m = out.back().left_h_m;
-            face.left_h_m = strip.right_h_m;
-            face.material = RoadMaterial::kerb;
-            face.kerb_face = true;
-            out.push_back(face);
-        }
+        if (!out.empty())
+            out.push_back({strip.right_t_m, strip.right_t_m, out.back().left_h_m, strip.right_h_m, RoadMaterial::kerb, true, false});
         out.push_back(strip);
     }
     return out;
 }
 
 } // namespace
-
-bool is_paved(const std::string& lane_type) {
-    const RoadMaterial material = lane_material(lane_type);
-    return material == RoadMaterial::asphalt && lane_type != "border";
-}
 
 double Strip::height_at(double t_m) const {
     const double width = left_t_m - right_t_m;
@@ -125,15 +107,16 @@ SectionProfile::Span SectionProfile::span(const Lane& lane, double s_m) const {
 
 Strip SectionProfile::whole_lane(const Lane& lane, double s_m) const {
     const Span edges = span(lane, s_m);
-    const Heights heights = heights_at(lane, s_m - section_->s_m);
-    Strip strip;
-    strip.right_t_m = edges.right_t_m;
-    strip.left_t_m = edges.left_t_m;
-    strip.right_h_m = lane.id > 0 ? heights.inner_m : heights.outer_m;
-    strip.left_h_m = lane.id > 0 ? heights.outer_m : heights.inner_m;
-    strip.material = lane_material(lane.type);
-    strip.paved = is_paved(lane.type);
-    return strip;
+    const Lane::Height heights = heights_at(lane, s_m - section_->s_m);
+    const bool left = lane.id > 0;
+    const RoadMaterial material = lane_material(lane.type);
+    return {edges.right_t_m,
+            edges.left_t_m,
+            left ? heights.inner_m : heights.outer_m,
+            left ? heights.outer_m : heights.inner_m,
+            material,
+            false,
+            material == RoadMaterial::asphalt && lane.type != "border"};
 }
 
 std::vector<SectionProfile::Paint> SectionProfile::paint(const Edge& edge, double layout_s_m, double s_m) const {
@@ -188,23 +171,13 @@ std::vector<Strip> SectionProfile::strips(double layout_s_m, double s_m) const {
     std::vector<Strip> out;
     if (edges_.empty())
         return out;
-    if (!has_heights_) {
-        std::vector<Paint> right = paint(edges_.front(), layout_s_m, s_m);
-        for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
-            std::vector<Paint> left = paint(edges_[i + 1], layout_s_m, s_m);
-            append_lane(out, *edges_[i].left, right, left, s_m);
-            right = std::move(left);
-        }
-        return joined(out);
-    }
-    std::vector<Strip> lanes;
-    std::vector<Strip> all;
+    std::vector<Paint> right = paint(edges_.front(), layout_s_m, s_m);
     for (std::size_t i = 0; i + 1 < edges_.size(); ++i) {
-        lanes.clear();
-        append_lane(lanes, *edges_[i].left, paint(edges_[i], layout_s_m, s_m), paint(edges_[i + 1], layout_s_m, s_m), s_m);
-        all.insert(all.end(), lanes.begin(), lanes.end());
+        std::vector<Paint> left = paint(edges_[i + 1], layout_s_m, s_m);
+        append_lane(out, *edges_[i].left, right, left, s_m);
+        right = std::move(left);
     }
-    return with_kerb_faces(all);
+    return has_heights_ ? with_kerb_faces(out) : joined(out);
 }
 
 void SectionProfile::append_stations(std::vector<double>& stations) const {
@@ -241,25 +214,11 @@ std::vector<Explicit> stripes_by_kind(MarkKind kind, double width, bool left_sid
         return Explicit{width, broken ? dash_of_broken_m : 0.0, broken ? gap_of_broken_m : 0.0, t, 0.0};
     };
     const double inner = left_side ? -width : width;
-    switch (kind) {
-    case MarkKind::solid:
-        return {line(false, 0.0)};
-    case MarkKind::broken:
-        return {line(true, 0.0)};
-    case MarkKind::solid_solid:
-        return {line(false, inner), line(false, -inner)};
-    case MarkKind::solid_broken:
-        return {line(false, inner), line(true, -inner)};
-    case MarkKind::broken_solid:
-        return {line(true, inner), line(false, -inner)};
-    case MarkKind::broken_broken:
-        return {line(true, inner), line(true, -inner)};
-    case MarkKind::none:
-    case MarkKind::botts_dots:
-    case MarkKind::curb:
-    case MarkKind::other:
-        return {};
-    }
+    using enum MarkKind;
+    if (kind == solid || kind == broken)
+        return {line(kind == broken, 0.0)};
+    if (kind == solid_solid || kind == solid_broken || kind == broken_solid || kind == broken_broken)
+        return {line(kind == broken_solid || kind == broken_broken, inner), line(kind == solid_broken || kind == broken_broken, -inner)};
     return {};
 }
 

@@ -34,7 +34,7 @@ struct Strip {
     double right_h_m = 0.0, left_h_m = 0.0;
     RoadMaterial material = RoadMaterial::asphalt;
     bool kerb_face = false; ///< vertical: both t are equal, the heights differ
-    bool paved = false;     ///< part of what vehicles may drive on
+    bool paved = false;     ///< driving lanes and what vehicles may use beside them
 
     double height_at(double t_m) const;
 };
@@ -82,8 +82,5 @@ class SectionProfile {
     std::vector<Edge> edges_;
     bool has_heights_ = false;
 };
-
-/// Driving lanes and what vehicles may use beside them.
-bool is_paved(const std::string& lane_type);
 
 } // namespace fernlicht

@@ -1,4 +1,4 @@
-#include "scenarios/roads/mesh/mesh_footprint.h"
+#include "scenarios/roads/mesh/mesh_terrain.h"
 
 #include <glm/geometric.hpp>
 
@@ -67,16 +67,11 @@ struct Extent {
 };
 
 Extent paved_extent(const std::vector<Strip>& strips) {
-    Extent extent{0.0, 0.0};
-    bool any = false;
-    for (const Strip& strip : strips) {
-        if (!strip.paved)
-            continue;
-        extent.right_t = any ? extent.right_t : strip.right_t_m;
-        extent.left_t = strip.left_t_m;
-        any = true;
-    }
-    return extent;
+    std::optional<Extent> extent;
+    for (const Strip& strip : strips)
+        if (strip.paved)
+            extent = {extent ? extent->right_t : strip.right_t_m, strip.left_t_m};
+    return extent.value_or(Extent{});
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "scenarios/roads/mesh/mesh_row.h"
+#include "scenarios/roads/mesh/mesh_surface.h"
 
 #include <glm/geometric.hpp>
 
@@ -116,9 +116,7 @@ void append_triangle(MeshBuilder& builder, std::uint32_t material, std::array<St
 
 /// The first and the last point at t.
 Range points_at(const Row& row, double t) {
-    std::size_t nearest = 0;
-    const auto next = std::lower_bound(row.points.begin(), row.points.end(), t, [](const RowPoint& p, double v) { return p.t_m < v; });
-    nearest = static_cast<std::size_t>(next - row.points.begin());
+    auto nearest = static_cast<std::size_t>(std::ranges::lower_bound(row.points, t, {}, &RowPoint::t_m) - row.points.begin());
     if (nearest == row.points.size() || (nearest > 0 && t - row.points[nearest - 1].t_m < row.points[nearest].t_m - t))
         --nearest;
     Range range{nearest, nearest};

@@ -1,7 +1,5 @@
 #include "scenarios/roads/mesh/mesh_terrain.h"
 
-#include "scenarios/roads/mesh/road_mesh.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,219 +61,199 @@ class Side {
         place(verge_width);
     }
 
-    void fit(const Footprints& footprints);
-    void append(Scene& scene) const;
+    void fit(const Footprints& footprints) {
+        for (std::size_t i = 0; i + 1 < ribs_.size(); ++i) {
+            if (ribs_[i + 1].begins)
+                continue;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double cap = allowed(footprints, i, k, open_[i][k]);
+                if (cap == unlimited)
+                    continue;
+                for (std::size_t rib : {i, i + 1})
+                    for (std::size_t column : {k, k + 1})
+                        ribs_[rib].cap_m[column] = std::min(ribs_[rib].cap_m[column], cap);
+                if (k == 0)
+                    for (std::size_t e = ribs_[i].edge; e <= ribs_[i + 1].edge; ++e)
+                        edge_[e].cap_m = std::min(edge_[e].cap_m, cap);
+            }
+        }
+    }
+
+    void append(Scene& scene) const {
+        std::optional<MeshBuilder> builder;
+        for (std::size_t i = 0; i + 1 < ribs_.size(); ++i) {
+            if (ribs_[i + 1].begins)
+                continue;
+            if (!builder || ribs_[i].begins || ribs_[i + 1].chunk != ribs_[i].chunk) {
+                if (builder)
+                    std::move(*builder).add_to(scene);
+                const auto stretch = std::find_if(plan_.stretches.begin(), plan_.stretches.end(),
+                                                  [&](const RoadStretch& s) { return s.chunk == ribs_[i + 1].chunk; });
+                builder.emplace(chunk_name(left_ ? "left of road" : "right of road", plan_,
+                                           static_cast<std::size_t>(stretch - plan_.stretches.begin())),
+                                ribs_[i].points_m[0]);
+            }
+            for (std::size_t k = 0; k < 4; ++k)
+                if (!open_[i][k])
+                    append_cell(*builder, i, k);
+        }
+        if (builder)
+            std::move(*builder).add_to(scene);
+    }
 
   private:
-    void follow(const SurfaceRows& surface, std::size_t i);
-    void append_step(const Row& row, std::size_t before, std::size_t after);
     bool is_wider(std::size_t a, std::size_t b) const { return left_ ? a > b : a < b; }
-    void add_edge(const Row& row, const RowPoint& point);
-    void add_rib(const Row& row, const RowPoint& point, std::size_t chunk, bool always);
-    void place(double verge_width);
     /// The point of the road's edge in a row, as a stretch beside it has it.
     std::size_t outermost(const std::vector<Range>& strips) const { return left_ ? strips.back().last : strips.front().first; }
-    PlanQuad cell(std::size_t rib, std::size_t column) const;
-    double allowed(const Footprints& footprints, std::size_t rib, std::size_t column, bool& open) const;
-    void append_cell(MeshBuilder& builder, std::size_t rib, std::size_t column) const;
-    glm::dvec3 normal(const Rib& rib, std::size_t column) const;
-    void triangle(MeshBuilder& builder, std::uint32_t material, const std::array<glm::dvec3, 3>& p,
-                  const std::array<glm::dvec3, 3>& n) const;
     glm::dvec3 lowered(const glm::dvec3& p, double cap) const { return {p.x, p.y, std::min(p.z, cap)}; }
 
-    const SurfacePlan& plan_;
-    std::size_t road_index_;
-    bool left_;
-    std::vector<EdgePoint> edge_;
-    std::vector<Rib> ribs_;
-    std::vector<std::array<bool, 4>> open_; ///< cells that are left out
-};
-
-void Side::add_edge(const Row& row, const RowPoint& point) {
-    if (edge_.empty() || edge_.back().position_m != point.pose.position_m)
-        edge_.push_back({row.s_m, point.pose.position_m, unlimited});
-}
-
-void Side::add_rib(const Row& row, const RowPoint& point, std::size_t chunk, bool always) {
-    Rib rib;
-    rib.edge = edge_.size() - 1;
-    rib.s_m = row.s_m;
-    rib.t_m = point.t_m;
-    rib.chunk = chunk;
-    const glm::dvec3 forward = point.pose.forward();
-    const double level = std::hypot(forward.x, forward.y);
-    rib.grade = level > 1e-6 ? forward.z / level : 0.0;
-    const double heading = std::atan2(forward.y, forward.x);
-    rib.forward = {std::cos(heading), std::sin(heading), 0.0};
-    rib.outward = (left_ ? 1.0 : -1.0) * glm::dvec3(-rib.forward.y, rib.forward.x, 0.0);
-    const bool far = ribs_.empty() || rib.s_m - ribs_.back().s_m >= longest_terrain_cell_m ||
-                     glm::dot(rib.forward, ribs_.back().forward) < std::cos(widest_turn_rad);
-    if (always || far)
-        ribs_.push_back(rib);
-}
-
-/// Walks along the edge; where the road gets wider or narrower at a station, along the row's own points. The rib of such a station
-/// starts at the wider of both, so that the ground joins the end of the wider row as well.
-void Side::follow(const SurfaceRows& surface, std::size_t i) {
-    const Row& from = surface.rows[i];
-    const Row& to = surface.rows[i + 1];
-    const std::size_t edge_from = outermost(surface.ends[i].from), edge_to = outermost(surface.ends[i].to);
-    const std::size_t chunk = plan_.stretches[i].chunk;
-    if (i == 0 || surface.empty(i - 1)) {
-        add_edge(from, from.points[edge_from]);
-        add_rib(from, from.points[edge_from], chunk, true);
-        ribs_.back().begins = true;
-    } else {
-        const std::size_t before = outermost(surface.ends[i - 1].to);
-        append_step(from, before, edge_from);
-        if (is_wider(edge_from, before))
-            add_rib(from, from.points[edge_from], plan_.stretches[i - 1].chunk, true);
+    void add_edge(const Row& row, const RowPoint& point) {
+        if (edge_.empty() || edge_.back().position_m != point.pose.position_m)
+            edge_.push_back({row.s_m, point.pose.position_m, unlimited});
     }
-    add_edge(to, to.points[edge_to]);
-    const bool last = i + 1 == plan_.stretches.size() || surface.empty(i + 1);
-    const std::size_t after = last ? edge_to : outermost(surface.ends[i + 1].from);
-    if (!is_wider(after, edge_to))
-        add_rib(to, to.points[edge_to], chunk, last || plan_.stretches[i + 1].chunk != chunk || after != edge_to);
-}
 
-/// The points of a row from the edge before it to the edge after it.
-void Side::append_step(const Row& row, std::size_t before, std::size_t after) {
-    for (std::size_t k = before; k < after; ++k)
-        add_edge(row, row.points[k + 1]);
-    for (std::size_t k = before; k > after; --k)
-        add_edge(row, row.points[k - 1]);
-}
-
-void Side::place(double verge_width) {
-    const Road& road = *plan_.road;
-    for (Rib& rib : ribs_) {
-        const double a = std::max(0.0, rib.s_m - 0.5), b = std::min(road.length_m, rib.s_m + 0.5);
-        const glm::dvec3 before = plan_pose(road, a).forward(), after = plan_pose(road, b).forward();
-        const double turn = std::atan2(before.x * after.y - before.y * after.x, before.x * after.x + before.y * after.y);
-        const double curvature = b > a ? turn / (b - a) : 0.0; // left positive
-        const double towards = left_ ? curvature : -curvature;
-        rib.width_m = verge_width;
-        if (towards > 1e-6)
-            rib.width_m = std::clamp(inside_of_radius / towards - (left_ ? rib.t_m : -rib.t_m), 0.0, verge_width);
+    void add_rib(const Row& row, const RowPoint& point, std::size_t chunk, bool always) {
+        Rib rib;
+        rib.edge = edge_.size() - 1;
+        rib.s_m = row.s_m;
+        rib.t_m = point.t_m;
+        rib.chunk = chunk;
+        const glm::dvec3 forward = point.pose.forward();
+        const double level = std::hypot(forward.x, forward.y);
+        rib.grade = level > 1e-6 ? forward.z / level : 0.0;
+        const double heading = std::atan2(forward.y, forward.x);
+        rib.forward = {std::cos(heading), std::sin(heading), 0.0};
+        rib.outward = (left_ ? 1.0 : -1.0) * glm::dvec3(-rib.forward.y, rib.forward.x, 0.0);
+        const bool far = ribs_.empty() || rib.s_m - ribs_.back().s_m >= longest_terrain_cell_m ||
+                         glm::dot(rib.forward, ribs_.back().forward) < std::cos(widest_turn_rad);
+        if (always || far)
+            ribs_.push_back(rib);
     }
-    for (std::size_t i = 1; i < ribs_.size(); ++i)
-        ribs_[i].width_m = std::min(ribs_[i].width_m, ribs_[i - 1].width_m + widening_per_m * (ribs_[i].s_m - ribs_[i - 1].s_m));
-    for (std::size_t i = ribs_.size(); i-- > 1;)
-        ribs_[i - 1].width_m = std::min(ribs_[i - 1].width_m, ribs_[i].width_m + widening_per_m * (ribs_[i].s_m - ribs_[i - 1].s_m));
-    for (Rib& rib : ribs_) {
+
+    /// Walks along the edge; where the road gets wider or narrower at a station, along the row's own points. The rib of such a station
+    /// starts at the wider of both, so that the ground joins the end of the wider row as well.
+    void follow(const SurfaceRows& surface, std::size_t i) {
+        const Row& from = surface.rows[i];
+        const Row& to = surface.rows[i + 1];
+        const std::size_t edge_from = outermost(surface.ends[i].from), edge_to = outermost(surface.ends[i].to);
+        const std::size_t chunk = plan_.stretches[i].chunk;
+        if (i == 0 || surface.empty(i - 1)) {
+            add_edge(from, from.points[edge_from]);
+            add_rib(from, from.points[edge_from], chunk, true);
+            ribs_.back().begins = true;
+        } else {
+            const std::size_t before = outermost(surface.ends[i - 1].to);
+            append_step(from, before, edge_from);
+            if (is_wider(edge_from, before))
+                add_rib(from, from.points[edge_from], plan_.stretches[i - 1].chunk, true);
+        }
+        add_edge(to, to.points[edge_to]);
+        const bool last = i + 1 == plan_.stretches.size() || surface.empty(i + 1);
+        const std::size_t after = last ? edge_to : outermost(surface.ends[i + 1].from);
+        if (!is_wider(after, edge_to))
+            add_rib(to, to.points[edge_to], chunk, last || plan_.stretches[i + 1].chunk != chunk || after != edge_to);
+    }
+
+    /// The points of a row from the edge before it to the edge after it.
+    void append_step(const Row& row, std::size_t before, std::size_t after) {
+        for (std::size_t k = before; k < after; ++k)
+            add_edge(row, row.points[k + 1]);
+        for (std::size_t k = before; k > after; --k)
+            add_edge(row, row.points[k - 1]);
+    }
+
+    void place(double verge_width) {
+        const Road& road = *plan_.road;
+        for (Rib& rib : ribs_) {
+            const double a = std::max(0.0, rib.s_m - 0.5), b = std::min(road.length_m, rib.s_m + 0.5);
+            const glm::dvec3 before = plan_pose(road, a).forward(), after = plan_pose(road, b).forward();
+            const double turn = std::atan2(before.x * after.y - before.y * after.x, before.x * after.x + before.y * after.y);
+            const double curvature = b > a ? turn / (b - a) : 0.0; // left positive
+            const double towards = left_ ? curvature : -curvature;
+            rib.width_m = verge_width;
+            if (towards > 1e-6)
+                rib.width_m = std::clamp(inside_of_radius / towards - (left_ ? rib.t_m : -rib.t_m), 0.0, verge_width);
+        }
+        for (std::size_t i = 1; i < ribs_.size(); ++i)
+            ribs_[i].width_m = std::min(ribs_[i].width_m, ribs_[i - 1].width_m + widening_per_m * (ribs_[i].s_m - ribs_[i - 1].s_m));
+        for (std::size_t i = ribs_.size(); i-- > 1;)
+            ribs_[i - 1].width_m = std::min(ribs_[i - 1].width_m, ribs_[i].width_m + widening_per_m * (ribs_[i].s_m - ribs_[i - 1].s_m));
+        for (Rib& rib : ribs_) {
+            const std::array<Column, 5> all = columns(rib.width_m);
+            for (std::size_t k = 0; k < 5; ++k)
+                rib.points_m[k] =
+                    edge_[rib.edge].position_m + all[k].out_m * rib.outward - glm::dvec3(0.0, 0.0, k == 0 ? 0.0 : all[k].drop_m);
+        }
+        open_.assign(ribs_.size(), {false, false, false, false});
+    }
+
+    PlanQuad cell(std::size_t rib, std::size_t column) const {
+        const Rib& a = ribs_[rib];
+        const Rib& b = ribs_[rib + 1];
+        return ground_between({a.points_m[column], b.points_m[column], b.points_m[column + 1], a.points_m[column + 1]});
+    }
+
+    /// The height that keeps the cell below every other road it lies under or over; `open` if one passes far below.
+    double allowed(const Footprints& footprints, std::size_t rib, std::size_t column, bool& open) const {
+        const PlanQuad ground = cell(rib, column);
+        double cap = unlimited;
+        footprints.near(ground, [&](const RoadFootprint& other) {
+            if (other.all.lowest_m > ground.highest_m + below_road_m ||
+                footprints.continues(road_index_, ribs_[rib].s_m, ribs_[rib + 1].s_m, other) || !overlap(ground, other.all, 0.01))
+                return;
+            if (other.all.highest_m < ground.lowest_m - storey_m)
+                open = true;
+            else
+                cap = std::min(cap, other.all.lowest_m - below_road_m);
+        });
+        return cap;
+    }
+
+    glm::dvec3 normal(const Rib& rib, std::size_t column) const {
         const std::array<Column, 5> all = columns(rib.width_m);
-        for (std::size_t k = 0; k < 5; ++k)
-            rib.points_m[k] = edge_[rib.edge].position_m + all[k].out_m * rib.outward - glm::dvec3(0.0, 0.0, k == 0 ? 0.0 : all[k].drop_m);
+        const std::size_t inner = column == 0 ? 0 : column - 1, outer = column == 0 ? 1 : column;
+        const double width = all[outer].out_m - all[inner].out_m;
+        const double fall = width > 0.01 ? (all[outer].drop_m - all[inner].drop_m) / width : 0.0;
+        return glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + fall * rib.outward - rib.grade * rib.forward);
     }
-    open_.assign(ribs_.size(), {false, false, false, false});
-}
 
-PlanQuad Side::cell(std::size_t rib, std::size_t column) const {
-    const Rib& a = ribs_[rib];
-    const Rib& b = ribs_[rib + 1];
-    return ground_between({a.points_m[column], b.points_m[column], b.points_m[column + 1], a.points_m[column + 1]});
-}
-
-/// The height that keeps the cell below every other road it lies under or over; `open` if one passes far below.
-double Side::allowed(const Footprints& footprints, std::size_t rib, std::size_t column, bool& open) const {
-    const PlanQuad ground = cell(rib, column);
-    double cap = unlimited;
-    footprints.near(ground, [&](const RoadFootprint& other) {
-        if (other.all.lowest_m > ground.highest_m + below_road_m ||
-            footprints.continues(road_index_, ribs_[rib].s_m, ribs_[rib + 1].s_m, other) || !overlap(ground, other.all, 0.01))
+    /// Counter-clockwise for the left side, turned round for the right. What would lie upside down (a fold) is left out.
+    void triangle(MeshBuilder& builder, std::uint32_t material, const std::array<glm::dvec3, 3>& p,
+                  const std::array<glm::dvec3, 3>& n) const {
+        const glm::dvec3 normal = (left_ ? 1.0 : -1.0) * glm::cross(p[1] - p[0], p[2] - p[0]);
+        if (normal.z <= 1e-6)
             return;
-        if (other.all.highest_m < ground.lowest_m - storey_m)
-            open = true;
+        std::array<std::uint32_t, 3> v{};
+        for (std::size_t i = 0; i < 3; ++i)
+            v[i] = builder.vertex(p[i], n[i]);
+        if (left_)
+            builder.triangle(material, v[0], v[1], v[2]);
         else
-            cap = std::min(cap, other.all.lowest_m - below_road_m);
-    });
-    return cap;
-}
+            builder.triangle(material, v[0], v[2], v[1]);
+    }
 
-void Side::fit(const Footprints& footprints) {
-    for (std::size_t i = 0; i + 1 < ribs_.size(); ++i) {
-        if (ribs_[i + 1].begins)
-            continue;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const double cap = allowed(footprints, i, k, open_[i][k]);
-            if (cap == unlimited)
-                continue;
-            for (std::size_t rib : {i, i + 1})
-                for (std::size_t column : {k, k + 1})
-                    ribs_[rib].cap_m[column] = std::min(ribs_[rib].cap_m[column], cap);
-            if (k == 0)
-                for (std::size_t e = ribs_[i].edge; e <= ribs_[i + 1].edge; ++e)
-                    edge_[e].cap_m = std::min(edge_[e].cap_m, cap);
+    void append_cell(MeshBuilder& builder, std::size_t i, std::size_t k) const {
+        const Rib& a = ribs_[i];
+        const Rib& b = ribs_[i + 1];
+        const std::uint32_t material = index_of(k == 0 ? RoadMaterial::verge : RoadMaterial::terrain);
+        const glm::dvec3 a_out = lowered(a.points_m[k + 1], a.cap_m[k + 1]), b_out = lowered(b.points_m[k + 1], b.cap_m[k + 1]);
+        const glm::dvec3 na = normal(a, k), nb = normal(b, k), na_out = normal(a, k + 1), nb_out = normal(b, k + 1);
+        if (k > 0) {
+            const glm::dvec3 a_in = lowered(a.points_m[k], a.cap_m[k]), b_in = lowered(b.points_m[k], b.cap_m[k]);
+            triangle(builder, material, {a_in, b_in, a_out}, {na, nb, na_out});
+            triangle(builder, material, {b_in, b_out, a_out}, {nb, nb_out, na_out});
+            return;
         }
+        // The verge meets every vertex of the road's edge: a fan to the near rib's point up to the middle, then to the far one's.
+        const std::size_t middle = a.edge + (b.edge - a.edge + 1) / 2;
+        const auto edge = [&](std::size_t e) { return lowered(edge_[e].position_m, edge_[e].cap_m); };
+        for (std::size_t e = a.edge; e < middle; ++e)
+            triangle(builder, material, {edge(e), edge(e + 1), a_out}, {na, e + 1 == b.edge ? nb : na, na_out});
+        triangle(builder, material, {edge(middle), b_out, a_out}, {middle == b.edge ? nb : na, nb_out, na_out});
+        for (std::size_t e = middle; e < b.edge; ++e)
+            triangle(builder, material, {edge(e), edge(e + 1), b_out}, {na, nb, nb_out});
     }
-}
-
-glm::dvec3 Side::normal(const Rib& rib, std::size_t column) const {
-    const std::array<Column, 5> all = columns(rib.width_m);
-    const std::size_t inner = column == 0 ? 0 : column - 1, outer = column == 0 ? 1 : column;
-    const double width = all[outer].out_m - all[inner].out_m;
-    const double fall = width > 0.01 ? (all[outer].drop_m - all[inner].drop_m) / width : 0.0;
-    return glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + fall * rib.outward - rib.grade * rib.forward);
-}
-
-/// Counter-clockwise for the left side, turned round for the right. What would lie upside down (a fold) is left out.
-void Side::triangle(MeshBuilder& builder, std::uint32_t material, const std::array<glm::dvec3, 3>& p,
-                    const std::array<glm::dvec3, 3>& n) const {
-    const glm::dvec3 normal = (left_ ? 1.0 : -1.0) * glm::cross(p[1] - p[0], p[2] - p[0]);
-    if (normal.z <= 1e-6)
-        return;
-    std::array<std::uint32_t, 3> v{};
-    for (std::size_t i = 0; i < 3; ++i)
-        v[i] = builder.vertex(p[i], n[i]);
-    if (left_)
-        builder.triangle(material, v[0], v[1], v[2]);
-    else
-        builder.triangle(material, v[0], v[2], v[1]);
-}
-
-void Side::append_cell(MeshBuilder& builder, std::size_t i, std::size_t k) const {
-    const Rib& a = ribs_[i];
-    const Rib& b = ribs_[i + 1];
-    const std::uint32_t material = index_of(k == 0 ? RoadMaterial::verge : RoadMaterial::terrain);
-    const glm::dvec3 a_out = lowered(a.points_m[k + 1], a.cap_m[k + 1]), b_out = lowered(b.points_m[k + 1], b.cap_m[k + 1]);
-    const glm::dvec3 na = normal(a, k), nb = normal(b, k), na_out = normal(a, k + 1), nb_out = normal(b, k + 1);
-    if (k > 0) {
-        const glm::dvec3 a_in = lowered(a.points_m[k], a.cap_m[k]), b_in = lowered(b.points_m[k], b.cap_m[k]);
-        triangle(builder, material, {a_in, b_in, a_out}, {na, nb, na_out});
-        triangle(builder, material, {b_in, b_out, a_out}, {nb, nb_out, na_out});
-        return;
-    }
-    // The verge meets every vertex of the road's edge: a fan to the near rib's point up to the middle, then to the far one's.
-    const std::size_t middle = a.edge + (b.edge - a.edge + 1) / 2;
-    const auto edge = [&](std::size_t e) { return lowered(edge_[e].position_m, edge_[e].cap_m); };
-    for (std::size_t e = a.edge; e < middle; ++e)
-        triangle(builder, material, {edge(e), edge(e + 1), a_out}, {na, e + 1 == b.edge ? nb : na, na_out});
-    triangle(builder, material, {edge(middle), b_out, a_out}, {middle == b.edge ? nb : na, nb_out, na_out});
-    for (std::size_t e = middle; e < b.edge; ++e)
-        triangle(builder, material, {edge(e), edge(e + 1), b_out}, {na, nb, nb_out});
-}
-
-void Side::append(Scene& scene) const {
-    std::optional<MeshBuilder> builder;
-    for (std::size_t i = 0; i + 1 < ribs_.size(); ++i) {
-        if (ribs_[i + 1].begins)
-            continue;
-        if (!builder || ribs_[i].begins || ribs_[i + 1].chunk != ribs_[i].chunk) {
-            if (builder)
-                std::move(*builder).add_to(scene);
-            const auto stretch = std::find_if(plan_.stretches.begin(), plan_.stretches.end(),
-                                              [&](const RoadStretch& s) { return s.chunk == ribs_[i + 1].chunk; });
-            builder.emplace(
-                chunk_name(left_ ? "left of road" : "right of road", plan_, static_cast<std::size_t>(stretch - plan_.stretches.begin())),
-                ribs_[i].points_m[0]);
-        }
-        for (std::size_t k = 0; k < 4; ++k)
-            if (!open_[i][k])
-                append_cell(*builder, i, k);
-    }
-    if (builder)
-        std::move(*builder).add_to(scene);
-}
+};
 
 } // namespace
 
