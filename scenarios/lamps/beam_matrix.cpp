@@ -2,7 +2,6 @@
 
 #include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/lamp_text.h"
-#include "scenarios/lamps/written_gaps.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
@@ -21,8 +20,6 @@ struct MatrixHeader {
     std::size_t gaps_line = 0;
 };
 
-constexpr std::array<const char*, 7> known_keys{"unit", "distance_m", "angles", "screen", "name", "flux_lm", "gaps_deg"};
-
 /// The key of `# key: value` when it is one lower-case word; "" for comments.
 std::string_view key_of(std::string_view line) {
     line = trimmed(line.substr(line.find_first_not_of('#')));
@@ -36,13 +33,6 @@ bool one_of_two(std::string_view value, const char* no, const char* yes, const I
     if (value == no || value == yes)
         return value == yes;
     throw InputError(where, fmt::format("found '{}'", printable(std::string(value.substr(0, 200)))), fmt::format("{} or {}", no, yes));
-}
-
-double above_zero(std::string_view value, const InputError::Where& where) {
-    const double number = finite_number(value, where);
-    if (!(number > 0.0))
-        throw InputError(where, fmt::format("found {}", number), "a number above 0");
-    return number;
 }
 
 void take_header_line(std::string_view line, const InputError::Where& at, MatrixHeader& header, LampFile& lamp) {
@@ -63,7 +53,7 @@ void take_header_line(std::string_view line, const InputError::Where& at, Matrix
         header.lux = one_of_two(value, "cd", "lx", where);
         header.unit_given = true;
     } else if (key == "distance_m") {
-        header.distance_m = above_zero(value, where);
+        header.distance_m = number_above_zero(value, where);
     } else if (key == "angles") {
         header.flat_angles = one_of_two(value, "goniometer", "screen", where);
     } else if (key == "screen") {
@@ -71,12 +61,13 @@ void take_header_line(std::string_view line, const InputError::Where& at, Matrix
     } else if (key == "name") {
         lamp.name = value;
     } else if (key == "flux_lm") {
-        lamp.declared_flux_lm = above_zero(value, where);
+        lamp.declared_flux_lm = number_above_zero(value, where);
     } else if (key == "gaps_deg") {
         header.gaps = value;
         header.gaps_line = at.line;
     } else {
-        const std::string nearest = nearest_name(std::string(key.substr(0, 40)), known_keys);
+        const std::array known{"unit", "distance_m", "angles", "screen", "name", "flux_lm", "gaps_deg"};
+        const std::string nearest = nearest_name(std::string(key.substr(0, 40)), known);
         throw InputError(where, "is no key of a beam matrix", nearest.empty() ? "one of unit, distance_m, angles, screen" : nearest);
     }
 }
@@ -91,7 +82,7 @@ class Cells {
 
     std::vector<std::string_view> of(std::string_view line) const {
         std::vector<std::string_view> cells;
-        line = trimmed_but_tabs(line);
+        line = separator_ == '\t' ? line : trimmed(line);
         for (;;) {
             const std::size_t end = line.find(separator_);
             cells.push_back(unquoted(line.substr(0, end)));
@@ -114,7 +105,6 @@ class Cells {
     }
 
   private:
-    std::string_view trimmed_but_tabs(std::string_view line) const { return separator_ == '\t' ? line : trimmed(line); }
     static std::string_view unquoted(std::string_view cell) {
         cell = trimmed(cell);
         return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
@@ -172,14 +162,10 @@ double cd_per_lux(const MatrixHeader& header, double h_deg, double v_deg) {
     return facing / (cosine * cosine * cosine);
 }
 
-struct Matrix {
+/// `row_lines` gets the line of each row.
+MeasuredGrid read_matrix(const std::filesystem::path& path, std::string_view text, MatrixHeader& header, LampFile& lamp,
+                         std::vector<std::size_t>& row_lines) {
     MeasuredGrid grid;
-    std::vector<std::size_t> lines; ///< of the rows
-};
-
-Matrix read_matrix(const std::filesystem::path& path, std::string_view text, MatrixHeader& header, LampFile& lamp) {
-    Matrix matrix;
-    MeasuredGrid& grid = matrix.grid;
     LineReader lines(text);
     std::string_view line;
     std::optional<Cells> cells;
@@ -194,7 +180,7 @@ Matrix read_matrix(const std::filesystem::path& path, std::string_view text, Mat
         try {
             if (cells) {
                 take_row(line, *cells, at, grid);
-                matrix.lines.push_back(lines.number());
+                row_lines.push_back(lines.number());
             } else {
                 cells.emplace(line);
                 take_first_row(line, *cells, at, grid);
@@ -208,8 +194,8 @@ Matrix read_matrix(const std::filesystem::path& path, std::string_view text, Mat
         throw InputError({path, lines.number(), 0, "unit"}, "is not given", "a line '# unit: lx' or '# unit: cd'");
     if (!cells || grid.v_deg.empty())
         throw InputError({path, lines.number(), 0, {}}, "the file ends before the matrix", "horizontal angles, then rows");
-    grid.v_line = matrix.lines.front();
-    return matrix;
+    grid.v_line = row_lines.front();
+    return grid;
 }
 
 } // namespace
@@ -233,15 +219,15 @@ LampFile read_beam_matrix(const std::filesystem::path& path, std::string_view te
     lamp.format = "beam matrix";
     lamp.name = path.stem().string();
     MatrixHeader header;
-    Matrix matrix = read_matrix(path, text, header, lamp);
-    MeasuredGrid& grid = matrix.grid;
+    std::vector<std::size_t> row_lines;
+    MeasuredGrid grid = read_matrix(path, text, header, lamp, row_lines);
     check_angles(grid, header, path);
     if (header.lux)
         for (std::size_t v = 0; v < grid.v_deg.size(); ++v)
             for (std::size_t h = 0; h < grid.h_deg.size(); ++h)
                 grid.cd[v * grid.h_deg.size() + h] *= cd_per_lux(header, grid.h_deg[h], grid.v_deg[v]);
     refuse_negative(
-        grid, path, [&](std::size_t at) { return matrix.lines[at / grid.h_deg.size()]; }, lamp.notes);
+        grid, path, [&](std::size_t at) { return row_lines[at / grid.h_deg.size()]; }, lamp.notes);
     put_in_order(grid, path, lamp.notes);
     CandelaTable table{grid.h_deg, grid.v_deg, grid.cd, {}, options.rule};
     check_angles(grid, header, path); // repeated angles may have left a single one
@@ -257,11 +243,6 @@ LampFile read_beam_matrix(const std::filesystem::path& path, std::string_view te
 }
 
 std::string beam_matrix_text(const LampFile& lamp) {
-    const auto on_one_line = [](std::string text) {
-        std::replace_if(
-            text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
-        return text;
-    };
     const CandelaTable& table = lamp.table;
     std::string out = "# unit: cd\n# angles: goniometer\n";
     out += fmt::format("# name: {}\n# gaps_deg: {}\n", on_one_line(lamp.name), gaps_text(table));

@@ -2,7 +2,6 @@
 
 #include "scenarios/lamps/lamp_text.h"
 #include "scenarios/lamps/measured_grid.h"
-#include "scenarios/lamps/written_gaps.h"
 #include "scenarios/values/picture_decoding.h"
 
 #include <algorithm>
@@ -112,10 +111,7 @@ struct EvenAxis {
 };
 
 EvenAxis even_axis(const std::vector<double>& axis) {
-    double finest = axis.back() - axis.front();
-    for (std::size_t i = 1; i < axis.size(); ++i)
-        finest = std::min(finest, axis[i] - axis[i - 1]);
-    const double range = axis.back() - axis.front();
+    const double finest = finest_step(axis), range = axis.back() - axis.front();
     for (const double part : {1.0, 2.0, 3.0, 4.0, 5.0}) {
         const double intervals = std::round(range * part / finest);
         if (intervals + 1.0 > static_cast<double>(longest_side))

@@ -1,5 +1,3 @@
-#include "scenarios/lamps/c_planes.h"
-
 #include "scenarios/lamps/goniometer.h"
 #include "scenarios/values/pose.h"
 
@@ -139,9 +137,8 @@ glm::dvec3 mean_direction(const CandelaTable& table) {
             for (int j = 0; j < nv; ++j)
                 for (int i = 0; i < nh; ++i) {
                     const double h = table.h_deg[x] + width * (i + 0.5) / nh, v = table.v_deg[y] + height * (j + 0.5) / nv;
-                    const double hr = radians(h), vr = radians(v);
-                    const double light = intensity_cd(table, h, v) * std::cos(vr) * width * height / (nh * nv);
-                    sum += light * glm::dvec3(std::cos(vr) * std::sin(hr), std::sin(vr), std::cos(vr) * std::cos(hr));
+                    const double light = intensity_cd(table, h, v) * std::cos(radians(v)) * width * height / (nh * nv);
+                    sum += light * direction_of(h, v);
                     total += light;
                 }
         }

@@ -31,19 +31,12 @@ bool is_gap(const CandelaTable& table, std::size_t v, std::size_t h) {
 
 /// Gaps are open: a direction on the border of a gap belongs to the neighbouring cell that has data, if there is one.
 bool leave_gap(const CandelaTable& table, Place& v, Place& h) {
-    const bool lower = v.fraction == 0.0 && v.cell > 0;
-    const bool left = h.fraction == 0.0 && h.cell > 0;
-    if (left && !is_gap(table, v.cell, h.cell - 1)) {
-        h = {h.cell - 1, 1.0};
-        return true;
-    }
-    if (lower && !is_gap(table, v.cell - 1, h.cell)) {
-        v = {v.cell - 1, 1.0};
-        return true;
-    }
-    if (lower && left && !is_gap(table, v.cell - 1, h.cell - 1)) {
-        h = {h.cell - 1, 1.0};
-        v = {v.cell - 1, 1.0};
+    const bool lower = v.fraction == 0.0 && v.cell > 0, left = h.fraction == 0.0 && h.cell > 0;
+    for (const auto& [down, aside] : {std::pair(false, true), std::pair(true, false), std::pair(true, true)}) {
+        if ((down && !lower) || (aside && !left) || is_gap(table, v.cell - down, h.cell - aside))
+            continue;
+        v = down ? Place{v.cell - 1, 1.0} : v;
+        h = aside ? Place{h.cell - 1, 1.0} : h;
         return true;
     }
     return false;
@@ -223,21 +216,15 @@ namespace {
 /// (0.01 degrees), wide beside the rounding of 180 in double (3e-14).
 constexpr double jump_deg = 1e-9;
 
-bool starts_gap(const CandelaTable& t, bool vertical, std::size_t border, std::size_t other) {
-    const auto gap = [&](std::size_t cell) {
-        const std::size_t columns = t.h_deg.size() - 1;
-        return t.gaps[vertical ? cell * columns + other : other * columns + cell] != 0;
-    };
-    const std::size_t cells = (vertical ? t.v_deg.size() : t.h_deg.size()) - 1;
-    return border > 0 && border < cells && gap(border - 1) != gap(border);
-}
-
 bool borders_gap(const CandelaTable& table, bool vertical, std::size_t sample) {
-    if (table.gaps.empty())
+    const std::size_t rows = table.v_deg.size() - 1, columns = table.h_deg.size() - 1;
+    if (table.gaps.empty() || sample == 0 || sample >= (vertical ? rows : columns))
         return false;
-    const std::size_t others = (vertical ? table.h_deg.size() : table.v_deg.size()) - 1;
-    for (std::size_t other = 0; other < others; ++other)
-        if (starts_gap(table, vertical, sample, other))
+    const auto gap = [&](std::size_t cell, std::size_t other) {
+        return vertical ? is_gap(table, cell, other) : is_gap(table, other, cell);
+    };
+    for (std::size_t other = 0; other < (vertical ? columns : rows); ++other)
+        if (gap(sample - 1, other) != gap(sample, other))
             return true;
     return false;
 }
@@ -259,8 +246,7 @@ std::vector<double> union_axis(const CandelaTable& a, const CandelaTable& b, boo
     std::vector<double> axis;
     add_samples(a, vertical, axis);
     add_samples(b, vertical, axis);
-    const auto& first = vertical ? a.v_deg : a.h_deg;
-    const auto& second = vertical ? b.v_deg : b.h_deg;
+    const auto &first = vertical ? a.v_deg : a.h_deg, &second = vertical ? b.v_deg : b.h_deg;
     const double low = std::min(first.front(), second.front()), high = std::max(first.back(), second.back());
     std::erase_if(axis, [&](double angle) { return angle < low || angle > high; });
     std::sort(axis.begin(), axis.end());

@@ -1,6 +1,6 @@
 #include "scenarios/lamps/eulumdat.h"
 
-#include "scenarios/lamps/c_planes.h"
+#include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/lamp_text.h"
 
 #include <algorithm>

@@ -16,16 +16,7 @@ constexpr double split_above = 4e-4;
 constexpr double finest_deg = 1e-3;
 constexpr double finest_border_deg = 0.1;
 
-struct Vector {
-    double x, y, z; ///< right, up, forward
-};
-
-Vector un_vector(double h_deg, double v_deg) {
-    const double h = radians(h_deg), v = radians(v_deg);
-    return {std::cos(v) * std::sin(h), std::sin(v), std::cos(v) * std::cos(h)};
-}
-
-TwoAngles un_angles(const Vector& d) { return {degrees(std::atan2(d.x, d.z)), degrees(std::atan2(d.y, std::hypot(d.x, d.z)))}; }
+TwoAngles un_angles(const glm::dvec3& d) { return {degrees(std::atan2(d.x, d.z)), degrees(std::atan2(d.y, std::hypot(d.x, d.z)))}; }
 
 /// The native table as a function of H and V; rounding at its edges does not throw a direction out.
 struct Native {
@@ -65,10 +56,6 @@ struct Axes {
     std::vector<double> h, v;
 };
 
-struct IntervalErrors {
-    std::vector<double> h, v; ///< cd, one per interval
-};
-
 std::vector<double> with_middles(const std::vector<double>& axis) {
     std::vector<double> out;
     for (std::size_t i = 0; i + 1 < axis.size(); ++i) {
@@ -79,9 +66,10 @@ std::vector<double> with_middles(const std::vector<double>& axis) {
     return out;
 }
 
-IntervalErrors interval_errors(const Native& native, const Axes& axes) {
+/// In cd, one per interval.
+Axes interval_errors(const Native& native, const Axes& axes) {
     const std::vector<double> h = with_middles(axes.h), v = with_middles(axes.v);
-    IntervalErrors errors{std::vector<double>(axes.h.size() - 1), std::vector<double>(axes.v.size() - 1)};
+    Axes errors{std::vector<double>(axes.h.size() - 1), std::vector<double>(axes.v.size() - 1)};
     std::vector<Native::Sample> rows[3];
     for (auto& row : rows)
         row.resize(h.size());
@@ -101,7 +89,7 @@ IntervalErrors interval_errors(const Native& native, const Axes& axes) {
 }
 
 /// Splits the worst intervals first, as far as the budget goes. False when none needed it or none could be.
-bool split_worst(Axes& axes, const IntervalErrors& errors, double tolerance_cd) {
+bool split_worst(Axes& axes, const Axes& errors, double tolerance_cd) {
     struct Interval {
         double error;
         bool along_h;
@@ -283,10 +271,15 @@ double worst_difference_cd(const Native& native, const CandelaTable& table) {
 
 } // namespace
 
+glm::dvec3 direction_of(double h_deg, double v_deg) {
+    const double h = radians(h_deg), v = radians(v_deg);
+    return {std::sin(h) * std::cos(v), std::sin(v), std::cos(h) * std::cos(v)};
+}
+
 AngleSystem type_b() {
     return {"type B",
             [](double h, double v) {
-                const Vector d = un_vector(h, v);
+                const glm::dvec3 d = direction_of(h, v);
                 return TwoAngles{degrees(std::atan2(d.x, std::hypot(d.y, d.z))), degrees(std::atan2(d.y, d.z))};
             },
             [](double h_deg, double v_deg) {
@@ -299,7 +292,7 @@ AngleSystem type_b() {
 AngleSystem flat_screen() {
     return {"flat screen",
             [](double h, double v) {
-                const Vector d = un_vector(h, v);
+                const glm::dvec3 d = direction_of(h, v);
                 // Behind the lamp there is no screen: 180 lies outside every screen's angles.
                 return d.z > 0.0 ? TwoAngles{h, degrees(std::atan2(d.y, d.z))} : TwoAngles{180.0, 90.0};
             },
@@ -312,7 +305,7 @@ AngleSystem flat_screen() {
 AngleSystem beam_along_nadir() {
     return {"C planes about the beam",
             [](double h, double v) {
-                const Vector d = un_vector(h, v);
+                const glm::dvec3 d = direction_of(h, v);
                 const double gamma = degrees(std::atan2(std::hypot(d.x, d.y), d.z));
                 const double c = d.x == 0.0 && d.y == 0.0 ? 0.0 : degrees(std::atan2(d.y, d.x));
                 return TwoAngles{-c, gamma - 90.0};

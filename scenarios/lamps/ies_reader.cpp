@@ -1,15 +1,108 @@
 #include "scenarios/lamps/ies.h"
 
-#include "scenarios/lamps/c_planes.h"
 #include "scenarios/lamps/goniometer.h"
-#include "scenarios/lamps/ies_header.h"
-#include "scenarios/lamps/written_gaps.h"
+#include "scenarios/lamps/lamp_text.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
+
+/// The year that ends the header, two or four digits; 0: none.
+int year_at_end(std::string_view header) {
+    const std::size_t end = header.find_last_of("0123456789");
+    if (end == std::string_view::npos)
+        return 0;
+    const std::size_t before = header.substr(0, end + 1).find_last_not_of("0123456789");
+    const std::string_view digits = header.substr(before + 1, end - before);
+    int year = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), year);
+    if (digits.size() == 2)
+        return year < 50 ? 2000 + year : 1900 + year;
+    return digits.size() == 4 ? year : 0;
+}
+
+/// What stands before the numbers of an LM-63 file.
+struct IesHeader {
+    int edition = 1986; ///< 1986, 1991, 1995, 2002 or 2019
+    std::string tilt;   ///< "NONE", "INCLUDE" or a file name
+    std::size_t tilt_line = 0;
+    std::vector<std::pair<std::string, std::string>> labels;
+};
+
+void add_keyword(std::string_view line, IesHeader& header) {
+    const std::size_t close = line.find(']');
+    if (!line.starts_with('[') || close == std::string_view::npos) {
+        header.labels.emplace_back("text", line);
+        return;
+    }
+    const std::string key = uppercase(trimmed(line.substr(1, close - 1)));
+    const std::string_view value = trimmed(line.substr(close + 1));
+    if (key == "MORE" && !header.labels.empty())
+        header.labels.back().second += fmt::format("{}{}", header.labels.back().second.empty() ? "" : " ", value);
+    else
+        header.labels.emplace_back(key, value);
+}
+
+/// The edition that a header line names ("IESNA91", "IESNA: LM-63-1995", "IES:LM-63-2019"); nullopt: not a header line.
+/// An LM-63 line without a year that we know counts as the last edition not after it, with a note.
+std::optional<int> ies_edition(std::string_view line, Notes& notes) {
+    std::string header = uppercase(line.substr(0, 200));
+    std::erase_if(header, [](char c) { return c == ' ' || c == '\t'; });
+    const bool names_lm63 = header.find("LM-63") != std::string::npos || header.find("LM63") != std::string::npos;
+    if (!header.starts_with("IES") || !(names_lm63 || header.starts_with("IESNA")))
+        return std::nullopt;
+    const int year = year_at_end(header); // 1963 for a header that ends with LM-63
+    for (const int edition : {2019, 2002, 1995, 1991, 1986})
+        if (year >= edition) {
+            if (year != edition)
+                notes.push_back(fmt::format("The header names an edition of {}, which we do not know: read as LM-63-{}.", year, edition));
+            return edition;
+        }
+    notes.push_back("The header names no edition that we know: read as LM-63-2002.");
+    return 2002;
+}
+
+/// Is this `TILT = ...`? Then what follows the equals sign.
+std::optional<std::string_view> tilt_of(std::string_view line) {
+    line = trimmed(line);
+    if (uppercase(line.substr(0, 4)) != "TILT")
+        return std::nullopt;
+    line = trimmed(line.substr(4));
+    if (!line.starts_with('='))
+        return std::nullopt;
+    return trimmed(line.substr(1));
+}
+
+/// Reads up to and including the TILT line. Throws InputError when there is none.
+IesHeader read_ies_header(LineReader& lines, const std::filesystem::path& path, Notes& notes) {
+    IesHeader header;
+    bool seen_first = false;
+    std::string_view line;
+    while (lines.next(line)) {
+        line = trimmed(line);
+        if (const auto tilt = tilt_of(line)) {
+            const std::string upper = uppercase(*tilt);
+            header.tilt = upper == "NONE" || upper == "INCLUDE" ? upper : std::string(*tilt);
+            header.tilt_line = lines.number();
+            return header;
+        }
+        if (line.empty())
+            continue;
+        const auto edition = seen_first ? std::nullopt : ies_edition(line, notes);
+        seen_first = true;
+        if (header.labels.size() >= max_lamp_labels)
+            throw InputError({path, lines.number(), 0, "TILT"}, fmt::format("does not come within {} lines of text", max_lamp_labels),
+                             "a line TILT=NONE, TILT=INCLUDE or TILT=<file>");
+        if (edition)
+            header.edition = *edition;
+        else
+            add_keyword(line, header);
+    }
+    throw InputError({path, lines.number(), 0, "TILT"}, "the file ends before it", "a line TILT=NONE, TILT=INCLUDE or TILT=<file>");
+}
 
 constexpr std::string_view separators{" \t\v\f,\0", 6};
 
@@ -23,10 +116,8 @@ class IesNumbers {
         return finite_number(text, where(name));
     }
     double above_zero(const char* name) {
-        const double value = number(name);
-        if (!(value > 0.0))
-            throw InputError(where(name), fmt::format("found {}", value), "a number above 0");
-        return value;
+        const std::string_view text = token(name);
+        return number_above_zero(text, where(name));
     }
     long whole(const char* name, long least, long most) {
         const std::string_view text = token(name);
@@ -219,17 +310,14 @@ PlaneSymmetry symmetry_of(const std::vector<double>& c_deg) {
 /// H 0..x stands for -x..x in types A and B.
 MeasuredGrid laterally_completed(const MeasuredGrid& half, Notes& notes) {
     notes.push_back("The horizontal angles begin at 0, which is lateral symmetry: mirrored.");
-    MeasuredGrid whole;
-    const std::size_t n = half.h_deg.size();
-    for (std::size_t i = n - 1; i > 0; --i)
-        whole.h_deg.push_back(-half.h_deg[i]);
+    MeasuredGrid whole{{}, half.v_deg, {}};
+    std::transform(half.h_deg.rbegin(), half.h_deg.rend() - 1, std::back_inserter(whole.h_deg), std::negate<>());
     whole.h_deg.insert(whole.h_deg.end(), half.h_deg.begin(), half.h_deg.end());
-    whole.v_deg = half.v_deg;
-    for (std::size_t v = 0; v < half.v_deg.size(); ++v) {
-        for (std::size_t i = n - 1; i > 0; --i)
-            whole.cd.push_back(half.cd[v * n + i]);
-        for (std::size_t i = 0; i < n; ++i)
-            whole.cd.push_back(half.cd[v * n + i]);
+    const std::size_t n = half.h_deg.size();
+    for (auto row = half.cd.begin(); row != half.cd.end(); row += static_cast<std::ptrdiff_t>(n)) {
+        const auto end = row + static_cast<std::ptrdiff_t>(n);
+        whole.cd.insert(whole.cd.end(), std::make_reverse_iterator(end), std::make_reverse_iterator(row + 1));
+        whole.cd.insert(whole.cd.end(), row, end);
     }
     return whole;
 }

@@ -1,6 +1,8 @@
 #include "scenarios/lamps/ies.h"
-#include "scenarios/lamps/written_gaps.h"
+#include "scenarios/lamps/lamp_text.h"
+#include "scenarios/lamps/measured_grid.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -8,14 +10,6 @@ namespace {
 
 constexpr std::size_t text_width = 200; ///< LM-63-2002 allows 256 characters a line
 constexpr std::size_t number_width = 120;
-
-/// One line of text: control characters would end it.
-std::string on_one_line(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            c = ' ';
-    return text;
-}
 
 /// `[KEY] text`, continued by [MORE] at blanks.
 void append_keyword(std::string& out, const std::string& key, const std::string& value) {
@@ -57,15 +51,11 @@ class NumberLines {
 /// LM-63 keywords, our own and those of other formats as user keywords; the four that 2002 requires come first.
 void append_keywords(std::string& out, const LampFile& lamp) {
     const auto has = [&](const char* key) {
-        for (const auto& label : lamp.labels)
-            if (label.first == key)
-                return true;
-        return false;
+        return std::ranges::any_of(lamp.labels, [&](const auto& label) { return label.first == key; });
     };
-    for (const auto& [key, value] :
-         {std::pair<const char*, const char*>{"TEST", "unknown"}, {"TESTLAB", "unknown"}, {"ISSUEDATE", "unknown"}, {"MANUFAC", "unknown"}})
+    for (const char* key : {"TEST", "TESTLAB", "ISSUEDATE", "MANUFAC"})
         if (!has(key))
-            append_keyword(out, key, value);
+            append_keyword(out, key, "unknown");
     if (!has("LUMCAT"))
         append_keyword(out, "LUMCAT", lamp.name);
     for (const auto& [key, value] : lamp.labels)

@@ -6,47 +6,40 @@
 #include "scenarios/lamps/ies.h"
 #include "scenarios/lamps/lamp_text.h"
 
-#include <stdexcept>
+#include <algorithm>
 
 namespace fernlicht {
-
 namespace {
 
 LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions& options) {
+    struct Format {
+        bool (*looks_so)(std::string_view);
+        const char* extension;
+        LampFile (*read)(const std::filesystem::path&, std::string_view, const LampReadOptions&, FilesRead);
+    };
+    static constexpr Format formats[]{{looks_like_ies, ".IES", read_ies},
+                                      {looks_like_beam_matrix, ".CSV", read_beam_matrix},
+                                      {looks_like_eulumdat, ".LDT", read_eulumdat}};
     FilesRead opened;
     const std::string bytes = read_file(path, opened, max_lamp_text_bytes);
-    LampFile lamp;
-    if (looks_like_beam_texture(bytes)) {
-        lamp = read_beam_texture(path, bytes, options, std::move(opened));
-        check_invariants(lamp.table);
-        return lamp;
-    }
+    if (looks_like_beam_texture(bytes))
+        return read_beam_texture(path, bytes, options, std::move(opened));
     const std::string text = lamp_text(bytes, path);
-    const std::string extension = uppercase(path.extension().string());
     // By content first; a file whose content says nothing is what its name says, so that its reader can tell what is wrong with it.
-    if (looks_like_ies(text))
-        lamp = read_ies(path, text, options, std::move(opened));
-    else if (looks_like_beam_matrix(text))
-        lamp = read_beam_matrix(path, text, options, std::move(opened));
-    else if (looks_like_eulumdat(text))
-        lamp = read_eulumdat(path, text, options, std::move(opened));
-    else if (extension == ".IES")
-        lamp = read_ies(path, text, options, std::move(opened));
-    else if (extension == ".CSV")
-        lamp = read_beam_matrix(path, text, options, std::move(opened));
-    else if (extension == ".LDT")
-        lamp = read_eulumdat(path, text, options, std::move(opened));
-    else
+    const auto* format = std::ranges::find_if(formats, [&](const Format& f) { return f.looks_so(text); });
+    if (format == std::end(formats))
+        format = std::ranges::find(formats, uppercase(path.extension().string()), &Format::extension);
+    if (format == std::end(formats))
         throw InputError({path, 0, 0, {}}, "is no lamp file that we know",
                          "IES LM-63, EULUMDAT, a beam matrix or a beam texture (PNG, EXR)");
-    check_invariants(lamp.table);
-    return lamp;
+    return format->read(path, text, options, std::move(opened));
 }
 
 } // namespace
 
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options) {
     LampFile lamp = read_as_it_is(path, options);
+    check_invariants(lamp.table);
     if (options.mirrored)
         mirror(lamp);
     return lamp;

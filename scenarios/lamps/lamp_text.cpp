@@ -52,6 +52,12 @@ std::string uppercase(std::string_view text) {
     return out;
 }
 
+std::string on_one_line(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+    return text;
+}
+
 std::optional<double> number_in(std::string_view text) {
     text = trimmed(text);
     if (text.starts_with('+') && !text.starts_with("+-"))
@@ -81,6 +87,13 @@ double finite_number(std::string_view text, const InputError::Where& where) {
     if (!value || !std::isfinite(*value))
         throw InputError(where, fmt::format("found '{}'", printable(std::string(trimmed(text.substr(0, 200))))), "a finite number");
     return *value;
+}
+
+double number_above_zero(std::string_view text, const InputError::Where& where) {
+    const double number = finite_number(text, where);
+    if (!(number > 0.0))
+        throw InputError(where, fmt::format("found {}", number), "a number above 0");
+    return number;
 }
 
 long whole_number(std::string_view text, long least, long most, const InputError::Where& where) {

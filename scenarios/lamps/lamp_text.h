@@ -36,6 +36,8 @@ std::string lamp_text(const std::string& bytes, const std::filesystem::path& pat
 
 std::string_view trimmed(std::string_view text);
 std::string uppercase(std::string_view text);
+/// Control characters, which would end the line, as blanks.
+std::string on_one_line(std::string text);
 
 /// The whole of `text`, blanks around it apart, as a decimal number: no hexadecimal, a leading plus is fine; "nan" and "inf" are numbers
 /// here.
@@ -46,6 +48,7 @@ std::optional<std::string> with_point(std::string_view text);
 
 /// Throws InputError unless `text` is a finite number; one with a decimal comma is called that.
 double finite_number(std::string_view text, const InputError::Where& where);
+double number_above_zero(std::string_view text, const InputError::Where& where);
 /// Throws InputError unless `text` is a whole number within the bounds.
 long whole_number(std::string_view text, long least, long most, const InputError::Where& where);
 

@@ -1,7 +1,7 @@
 // Intensities as a file lists them, on the file's own two axes, and how they become a well-formed table.
 #pragma once
 
-#include "scenarios/lamps/candela_table.h"
+#include "scenarios/lamps/lamp_file.h"
 #include "scenarios/values/errors.h"
 
 #include <functional>
@@ -32,5 +32,17 @@ void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, cons
 /// ending in zeros all along (a goniometer's range of -5..7 degrees, say, closed by zeros at -90 and 90). Light does not fade over such
 /// a width: nothing was measured there. Eight, because real files close 5-degree steps at 45 degrees with zeros at 90.
 void mark_padding(CandelaTable& table, Notes& notes);
+
+/// How our writers keep a table's gaps: rectangles in degrees, as text, in whatever place a format has for texts.
+inline constexpr const char* gaps_key = "_GAPS_DEG";
+
+/// "none", or "h0 h1 v0 v1; h0 h1 v0 v1; ...": the cells between these angles have no data.
+std::string gaps_text(const CandelaTable& table);
+
+/// Marks the cells between the angles that `text` names. Throws InputError when it does not read as gaps_text writes it.
+void mark_written_gaps(const std::string& text, CandelaTable& table, const InputError::Where& where);
+
+/// Takes the label `gaps_key`, if there is one, out of the labels and marks what it says. False: the file does not say.
+bool take_written_gaps(std::vector<std::pair<std::string, std::string>>& labels, CandelaTable& table, const std::filesystem::path& path);
 
 } // namespace fernlicht

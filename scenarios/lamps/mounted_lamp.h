@@ -25,7 +25,8 @@ struct LampColour {
 
 /// Planck's law between 1000 and 25 000 K.
 LampColour colour_of_temperature(double kelvin);
-/// CSV with wavelength in nm and relative power per line. Throws InputError.
+/// CSV: wavelength in nm and relative power per line; separators comma, semicolon, tab or blanks; lines beginning with # and one line
+/// of column names are skipped. Needs 400 to 700 nm covered in steps of at most 20 nm. Throws InputError.
 LampColour read_spectrum(const std::filesystem::path& path, FilesRead& opened);
 
 /// Yaw, pitch, roll as axes_from_angles has them.

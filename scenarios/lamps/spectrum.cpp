@@ -200,8 +200,6 @@ void check_coverage(const Spectrum& s, const std::filesystem::path& path) {
                              "steps of at most 20 nm");
 }
 
-} // namespace
-
 Spectrum read_spectrum_file(const std::filesystem::path& path, FilesRead& opened) {
     const std::string content = lamp_text(read_file(path, opened, std::size_t{16} << 20), path);
     Spectrum s;
@@ -222,6 +220,8 @@ Spectrum read_spectrum_file(const std::filesystem::path& path, FilesRead& opened
         throw InputError({path, 0, 0, {}}, "found a power of 0 at every wavelength", "a lamp that gives light");
     return s;
 }
+
+} // namespace
 
 LampColour read_spectrum(const std::filesystem::path& path, FilesRead& opened) {
     const Spectrum spectrum = read_spectrum_file(path, opened);

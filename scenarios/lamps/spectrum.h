@@ -27,8 +27,4 @@ VisualIntegrals visual_integrals(const Spectrum& spectrum);
 /// light.
 LampColour colour_of_spectrum(const Spectrum& spectrum);
 
-/// CSV: wavelength in nm and relative power per line; separators comma, semicolon, tab or blanks; lines beginning with # and one line
-/// of column names are skipped. Needs 400 to 700 nm covered in steps of at most 20 nm. Throws InputError.
-Spectrum read_spectrum_file(const std::filesystem::path& path, FilesRead& opened);
-
 } // namespace fernlicht

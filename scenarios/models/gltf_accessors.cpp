@@ -1,4 +1,4 @@
-#include "scenarios/models/gltf_accessors.h"
+#include "scenarios/models/gltf_materials.h"
 
 #include <cmath>
 #include <cstring>

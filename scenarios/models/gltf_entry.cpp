@@ -1,10 +1,9 @@
-#include "scenarios/models/gltf_entry.h"
+#include "scenarios/models/gltf_file.h"
 
 #include "scenarios/values/errors.h"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {

@@ -79,23 +79,14 @@ std::string from_base64(std::string_view text, const GltfEntry& asked_by) {
     out.reserve(text.size() / 4 * 3);
     std::uint32_t bits = 0;
     int count = 0;
+    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (const char c : text) {
-        std::uint32_t value = 0;
-        if (c >= 'A' && c <= 'Z')
-            value = static_cast<std::uint32_t>(c - 'A');
-        else if (c >= 'a' && c <= 'z')
-            value = static_cast<std::uint32_t>(c - 'a') + 26;
-        else if (c >= '0' && c <= '9')
-            value = static_cast<std::uint32_t>(c - '0') + 52;
-        else if (c == '+' || c == '-')
-            value = 62;
-        else if (c == '/' || c == '_')
-            value = 63;
-        else if (c == '=')
+        if (c == '=')
             break;
-        else
+        const std::size_t value = c == '-' ? 62 : c == '_' ? 63 : alphabet.find(c);
+        if (value == std::string_view::npos)
             asked_by.refuse(fmt::format("found '{}' in base64", printable(std::string(1, c))), "base64");
-        bits = bits << 6 | value;
+        bits = bits << 6 | static_cast<std::uint32_t>(value);
         count += 6;
         if (count >= 8) {
             count -= 8;

@@ -28,21 +28,22 @@ Json listed(const GltfEntry& root, const char* kind, Indices& indices) {
 }
 
 /// Puts an index where a name stands. A name that is not known becomes an index that does not exist, which is refused in its turn.
-void by_index(Json& object, const char* key, const Indices& indices) {
-    if (!object.is_object() || !object.contains(key) || !object[key].is_string())
+void to_index(Json& name, const Indices& indices) {
+    if (!name.is_string())
         return;
-    const auto known = indices.find(object[key].get<std::string>());
-    object[key] = known == indices.end() ? indices.size() : known->second;
+    const auto known = indices.find(name.get<std::string>());
+    name = known == indices.end() ? indices.size() : known->second;
+}
+
+void by_index(Json& object, const char* key, const Indices& indices) {
+    if (object.is_object() && object.contains(key))
+        to_index(object[key], indices);
 }
 
 void all_by_index(Json& object, const char* key, const Indices& indices) {
-    if (!object.is_object() || !object.contains(key) || !object[key].is_array())
-        return;
-    for (Json& name : object[key])
-        if (name.is_string()) {
-            const auto known = indices.find(name.get<std::string>());
-            name = known == indices.end() ? indices.size() : known->second;
-        }
+    if (object.is_object() && object.contains(key) && object[key].is_array())
+        for (Json& name : object[key])
+            to_index(name, indices);
 }
 
 /// The diffuse colour or texture of a technique's values, or of KHR_materials_common.
@@ -72,51 +73,44 @@ Json upgraded_material(const Json& old, const Indices& textures) {
 
 nlohmann::json upgraded_gltf1(const nlohmann::json& old, const std::filesystem::path& file, std::vector<std::string>& notes) {
     const GltfEntry root(old, file, "");
-    Indices buffers, views, accessors, images, samplers, textures, materials, meshes, nodes, scenes;
+    std::map<std::string, Indices> named;
     Json fresh = {{"asset", {{"version", "2.0"}}}};
-    fresh["buffers"] = listed(root, "buffers", buffers);
-    fresh["bufferViews"] = listed(root, "bufferViews", views);
-    fresh["accessors"] = listed(root, "accessors", accessors);
-    fresh["images"] = listed(root, "images", images);
-    fresh["samplers"] = listed(root, "samplers", samplers);
-    fresh["textures"] = listed(root, "textures", textures);
-    fresh["materials"] = listed(root, "materials", materials);
-    fresh["meshes"] = listed(root, "meshes", meshes);
-    fresh["nodes"] = listed(root, "nodes", nodes);
-    fresh["scenes"] = listed(root, "scenes", scenes);
+    for (const char* kind :
+         {"buffers", "bufferViews", "accessors", "images", "samplers", "textures", "materials", "meshes", "nodes", "scenes"})
+        fresh[kind] = listed(root, kind, named[kind]);
     for (Json& view : fresh["bufferViews"])
-        by_index(view, "buffer", buffers);
+        by_index(view, "buffer", named["buffers"]);
     for (Json& accessor : fresh["accessors"]) {
-        by_index(accessor, "bufferView", views);
+        by_index(accessor, "bufferView", named["bufferViews"]);
         if (accessor.is_object() && accessor.contains("byteStride")) { // of the accessor in 1.0, of the buffer view in 2.0
             accessor["stride1"] = accessor["byteStride"];
             accessor.erase("byteStride");
         }
     }
     for (Json& texture : fresh["textures"]) {
-        by_index(texture, "source", images);
-        by_index(texture, "sampler", samplers);
+        by_index(texture, "source", named["images"]);
+        by_index(texture, "sampler", named["samplers"]);
     }
     for (Json& material : fresh["materials"])
-        material = upgraded_material(material, textures);
+        material = upgraded_material(material, named["textures"]);
     for (Json& mesh : fresh["meshes"])
         if (mesh.is_object() && mesh.contains("primitives") && mesh["primitives"].is_array())
             for (Json& primitive : mesh["primitives"]) {
-                by_index(primitive, "indices", accessors);
-                by_index(primitive, "material", materials);
+                by_index(primitive, "indices", named["accessors"]);
+                by_index(primitive, "material", named["materials"]);
                 if (primitive.is_object() && primitive.contains("attributes") && primitive["attributes"].is_object())
-                    for (auto& [name, attribute] : primitive["attributes"].items())
-                        by_index(primitive["attributes"], name.c_str(), accessors);
+                    for (Json& attribute : primitive["attributes"])
+                        to_index(attribute, named["accessors"]);
             }
     for (Json& node : fresh["nodes"]) {
-        all_by_index(node, "children", nodes);
-        all_by_index(node, "meshes", meshes); // several in 1.0; read as they are
+        all_by_index(node, "children", named["nodes"]);
+        all_by_index(node, "meshes", named["meshes"]); // several in 1.0; read as they are
     }
     for (Json& scene : fresh["scenes"])
-        all_by_index(scene, "nodes", nodes);
+        all_by_index(scene, "nodes", named["nodes"]);
     if (old.contains("scene"))
         fresh["scene"] = old["scene"];
-    by_index(fresh, "scene", scenes);
+    by_index(fresh, "scene", named["scenes"]);
     for (const char* kind : {"animations", "skins", "cameras"})
         if (old.contains(kind) && old[kind].is_object() && !old[kind].empty())
             fresh[kind] = Json::array({Json::object()});

@@ -5,34 +5,25 @@
 namespace fernlicht {
 namespace {
 
-void flip(double& value) { value = 0.0 - value; } // not -value: no negative zeros
+void flip(auto&... values) { ((values = 0.0 - values), ...); } // not -value: no negative zeros
 
 void flip(std::vector<Cubic>& pieces) {
     for (Cubic& piece : pieces)
-        for (double* coefficient : {&piece.a, &piece.b, &piece.c, &piece.d})
-            flip(*coefficient);
+        flip(piece.a, piece.b, piece.c, piece.d);
 }
 
 void mirror(Line&) {}
 void mirror(Arc& arc) { flip(arc.curvature_per_m); }
 void mirror(Spiral& spiral) {
-    flip(spiral.start_per_m);
-    flip(spiral.end_per_m);
+    flip(spiral.start_per_m, spiral.end_per_m);
     for (glm::dvec2& step : spiral.steps_m)
         flip(step.y);
 }
-void mirror(Poly3& curve) { // its knots tell arc length against u, which stays
-    for (double* coefficient : {&curve.a, &curve.b, &curve.c, &curve.d})
-        flip(*coefficient);
-}
-void mirror(ParamPoly3& curve) {
-    for (double* coefficient : {&curve.av, &curve.bv, &curve.cv, &curve.dv})
-        flip(*coefficient);
-}
+void mirror(Poly3& curve) { flip(curve.a, curve.b, curve.c, curve.d); } // its knots tell arc length against u, which stays
+void mirror(ParamPoly3& curve) { flip(curve.av, curve.bv, curve.cv, curve.dv); }
 
 void mirror(PlanElement& element) {
-    flip(element.y_m);
-    flip(element.heading_rad);
+    flip(element.y_m, element.heading_rad);
     std::visit([](auto& shape) { mirror(shape); }, element.shape);
 }
 
@@ -75,8 +66,7 @@ void mirror(Lane& lane) {
 }
 
 void mirror(RoadObject& object) {
-    for (double* value : {&object.t_m, &object.heading_rad, &object.roll_rad})
-        flip(*value);
+    flip(object.t_m, object.heading_rad, object.roll_rad);
     for (glm::dvec3& corner : object.outline_m)
         flip(corner.y);
     std::ranges::reverse(object.outline_m); // round it the same way as before
@@ -98,25 +88,20 @@ void mirror(Road& road) {
     }
     for (RoadObject& object : road.objects)
         mirror(object);
-    for (RoadSignal& signal : road.signals) {
-        flip(signal.t_m);
-        flip(signal.heading_offset_rad);
-    }
+    for (RoadSignal& signal : road.signals)
+        flip(signal.t_m, signal.heading_offset_rad);
 }
 
 } // namespace
 
 RoadNetwork mirrored(RoadNetwork network) {
-    flip(network.offset_m.y);
-    flip(network.offset_heading_rad);
+    flip(network.offset_m.y, network.offset_heading_rad);
     for (Road& road : network.roads)
         mirror(road);
     for (Junction& junction : network.junctions)
         for (Junction::Connection& connection : junction.connections)
-            for (auto& [from, to] : connection.lane_links) {
-                from = -from;
-                to = -to;
-            }
+            for (auto& [from, to] : connection.lane_links)
+                from = -from, to = -to;
     return network;
 }
 

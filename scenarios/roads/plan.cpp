@@ -50,8 +50,7 @@ PlanPoint plan_point(const PlanElement& element, double ds_m) {
 }
 
 const PlanElement& element_at(const Road& road, double s_m) {
-    const auto after =
-        std::upper_bound(road.plan.begin(), road.plan.end(), s_m, [](double s, const PlanElement& element) { return s < element.s_m; });
+    const auto after = std::ranges::upper_bound(road.plan, s_m, {}, &PlanElement::s_m);
     return after == road.plan.begin() ? *after : *(after - 1);
 }
 

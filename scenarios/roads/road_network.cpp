@@ -6,11 +6,6 @@
 namespace fernlicht {
 namespace {
 
-const LaneSection& empty_section() {
-    static const LaneSection empty{};
-    return empty;
-}
-
 /// t of the outer edge of a lane whose inner edge lies at `inner_t`. A width below zero counts as zero.
 double outer_edge(const Lane& lane, double inner_t, double offset, double ds) {
     const double side = lane.id > 0 ? 1.0 : -1.0;
@@ -30,37 +25,30 @@ bool travels_with_s(const Road& road, const Lane& lane) {
 }
 
 const LaneSection& section_at(const Road& road, double s_m) {
+    static const LaneSection none{};
     if (road.sections.empty())
-        return empty_section();
-    const auto after = std::upper_bound(road.sections.begin(), road.sections.end(), s_m,
-                                        [](double s, const LaneSection& section) { return s < section.s_m; });
+        return none;
+    const auto after = std::ranges::upper_bound(road.sections, s_m, {}, &LaneSection::s_m);
     return after == road.sections.begin() ? *after : *(after - 1);
 }
 
 LaneEdges lane_edges(const Road& road, const LaneSection& section, int lane_id, double s_m) {
-    const auto& lanes = section.lanes;
     const double offset = value_at(road.lane_offset, s_m), ds = s_m - section.s_m;
-    double inner = offset, outer = offset;
+    LaneEdges edges{offset, offset};
     if (lane_id == 0)
-        return {offset, offset};
+        return edges;
     // Lanes run from the leftmost to the rightmost: left ones are met from the end of their part, right ones from its beginning.
-    if (lane_id > 0) {
-        auto lane = std::find_if(lanes.rbegin(), lanes.rend(), [](const Lane& l) { return l.id > 0; });
-        for (; lane != lanes.rend() && lane->id <= lane_id; ++lane) {
-            inner = outer;
-            outer = outer_edge(*lane, inner, offset, ds);
-            if (lane->id == lane_id)
-                return {inner, outer};
-        }
-    } else {
-        auto lane = std::find_if(lanes.begin(), lanes.end(), [](const Lane& l) { return l.id < 0; });
-        for (; lane != lanes.end() && lane->id >= lane_id; ++lane) {
-            inner = outer;
-            outer = outer_edge(*lane, inner, offset, ds);
-            if (lane->id == lane_id)
-                return {inner, outer};
-        }
-    }
+    const auto found = [&](auto lane, auto end) { // outwards from the centre
+        for (; lane != end; ++lane)
+            if ((lane_id > 0 && lane->id > 0 && lane->id <= lane_id) || (lane_id < 0 && lane->id < 0 && lane->id >= lane_id)) {
+                edges = {edges.outer_t_m, outer_edge(*lane, edges.outer_t_m, offset, ds)};
+                if (lane->id == lane_id)
+                    return true;
+            }
+        return false;
+    };
+    if (lane_id > 0 ? found(section.lanes.rbegin(), section.lanes.rend()) : found(section.lanes.begin(), section.lanes.end()))
+        return edges;
     throw std::out_of_range(fmt::format("road '{}' has no lane {} at s = {}", road.id, lane_id, s_m));
 }
 

@@ -1,5 +1,4 @@
 // A road network as geometry: arc length to pose, lanes, marks, objects. Plain values, read from OpenDRIVE.
-// Piecewise cubics over arc length or over t: the piece that holds, and its value.
 #pragma once
 
 #include "scenarios/values/files.h"
@@ -85,7 +84,6 @@ struct Lane {
 
 struct LaneSection {
     double s_m = 0.0, end_m = 0.0;
-    bool single_side = false;
     std::vector<Lane> lanes; ///< sorted by id, descending (leftmost first), id 0 included
 };
 
@@ -99,7 +97,7 @@ struct RoadObject {
 };
 
 struct RoadSignal {
-    std::string id, name, type, subtype, country;
+    std::string id;
     double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0, heading_offset_rad = 0.0;
     double width_m = 0.0, height_m = 0.0; ///< 0: by type, else 0.6
     bool facing_forward = true;           ///< orientation "+": valid for traffic in +s, so its face looks towards -s
@@ -172,7 +170,7 @@ LaneEdges lane_edges(const Road& road, const LaneSection& section, int lane_id, 
 inline const Cubic* piece_at(const std::vector<Cubic>& pieces, double s) {
     if (pieces.size() == 1)
         return s >= pieces.front().s0 ? &pieces.front() : nullptr;
-    const auto after = std::upper_bound(pieces.begin(), pieces.end(), s, [](double at, const Cubic& piece) { return at < piece.s0; });
+    const auto after = std::ranges::upper_bound(pieces, s, {}, &Cubic::s0);
     return after == pieces.begin() ? nullptr : &*(after - 1);
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double longest_route_m = 5e6;
 
-[[noreturn]] void refuse(const RoadNetwork& network, const std::string& key, const std::string& found, const std::string& expected) {
-    throw InputError({network.opened.empty() ? std::filesystem::path() : network.opened.front().path, 0, 0, key}, found, expected);
+[[noreturn]] void refuse(const RoadNetwork& network, const std::string& found, const std::string& expected) {
+    throw InputError({network.opened.empty() ? std::filesystem::path() : network.opened.front().path, 0, 0, "route"}, found, expected);
 }
 
 std::string road_list(const RoadNetwork& network) {
@@ -62,8 +62,8 @@ std::size_t start_road(const RoadNetwork& network, const std::string& id) {
             return i;
     }
     if (id.empty())
-        refuse(network, "route", "the network has no road with driving lanes", "at least one");
-    refuse(network, "route", fmt::format("found no road '{}'", printable(id)), road_list(network));
+        refuse(network, "the network has no road with driving lanes", "at least one");
+    refuse(network, fmt::format("found no road '{}'", printable(id)), road_list(network));
 }
 
 LanePlace start_place(const RoadNetwork& network, const Route::Start& start) {
@@ -71,7 +71,7 @@ LanePlace start_place(const RoadNetwork& network, const Route::Start& start) {
     place.road = start_road(network, start.road);
     const Road& road = network.roads[place.road];
     if (!(start.s_m >= 0.0 && start.s_m <= road.length_m))
-        refuse(network, "route", fmt::format("the start s = {} m lies outside road '{}'", start.s_m, road.id),
+        refuse(network, fmt::format("the start s = {} m lies outside road '{}'", start.s_m, road.id),
                fmt::format("a station from 0 to {} m", road.length_m));
     const LaneSection& section = section_at(road, start.s_m);
     place.section = static_cast<std::size_t>(&section - road.sections.data());
@@ -85,7 +85,7 @@ LanePlace start_place(const RoadNetwork& network, const Route::Start& start) {
         if (lane.id != 0)
             ids.push_back(lane.id);
     }
-    refuse(network, "route",
+    refuse(network,
            fmt::format("found no {} at s = {} m of road '{}'", place.lane == 0 ? "driving lane" : fmt::format("lane {}", place.lane),
                        start.s_m, road.id),
            ids.empty() ? "a road with lanes" : fmt::format("one of the lanes {}", fmt::join(ids, ", ")));
@@ -107,110 +107,8 @@ bool paved(const std::string& type) {
     static constexpr std::array<std::string_view, 19> types{
         "driving",  "shoulder",      "stop", "parking", "biking", "entry",    "exit",    "onRamp",     "offRamp",  "connectingRamp",
         "slipLane", "bidirectional", "bus",  "taxi",    "HOV",    "mwyEntry", "mwyExit", "restricted", "roadWorks"};
-    return std::find(types.begin(), types.end(), type) != types.end();
+    return std::ranges::find(types, type) != types.end();
 }
-
-} // namespace
-
-Route::Route(const RoadNetwork& network, Start start, const std::vector<std::string>& via) : network_(&network) {
-    struct Visit {
-        LanePlace place;
-        std::size_t met; ///< how many of `via`
-        bool operator==(const Visit&) const = default;
-    };
-    std::vector<Visit> visits;
-    LanePlace place = start_place(network, start);
-    for (std::size_t met = 0;;) {
-        if (met < via.size() && network.roads[place.road].id == via[met])
-            ++met;
-        if (std::find(visits.begin(), visits.end(), Visit{place, met}) != visits.end())
-            break; // once round
-        visits.push_back({place, met});
-        const LaneSection& section = network.roads[place.road].sections[place.section];
-        const double begin = place.with_s ? section.s_m : section.end_m, end = place.with_s ? section.end_m : section.s_m;
-        legs_.push_back({place.road, place.lane, place.with_s, visits.size() == 1 ? start.s_m : begin, end, length_m_, place.section});
-        add_cells(legs_.size() - 1);
-        if (length_m_ > longest_route_m)
-            refuse(
-                network, "route",
-                fmt::format("the way from road '{}' is longer than {} km", network.roads[legs_.front().road].id, longest_route_m / 1000.0),
-                "a shorter one");
-        const std::vector<LanePlace> next = next_places(network, place);
-        if (next.empty()) {
-            if (met < via.size())
-                refuse(
-                    network, "route",
-                    fmt::format("the way does not meet road '{}': it ends on road '{}'", printable(via[met]), network.roads[place.road].id),
-                    "roads that follow one another");
-            break;
-        }
-        place = choose(network, next, met < via.size() ? &via[met] : nullptr);
-    }
-    if (visits.back().met < via.size())
-        refuse(network, "route", fmt::format("the way does not meet road '{}'", printable(via[visits.back().met])),
-               "roads that follow one another");
-    if (!(length_m_ > 0.0))
-        refuse(network, "route",
-               fmt::format("lane {} of road '{}' ends at the start s = {} m: traffic on it moves towards {} s", legs_.front().lane,
-                           network.roads[legs_.front().road].id, start.s_m, legs_.front().with_s ? "growing" : "falling"),
-               "a start from which there is a way to go");
-}
-
-Pose Route::pose(double distance_m, double offset_left_m) const {
-    Pose pose;
-    poses(distance_m, {&offset_left_m, 1}, {&pose, 1});
-    return pose;
-}
-
-void Route::poses(double distance_m, std::span<const double> offsets_left_m, std::span<Pose> poses) const {
-    const Cell& cell = cell_at(distance_m);
-    const double s = s_at(cell, distance_m), side = cell.to_s_m >= cell.from_s_m ? 1.0 : -1.0;
-    const double centre = cell.centre.at(s), slope = cell.centre.slope(s);
-    const SurfaceCut cut = cut_at(cell.strip, s);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        const SurfacePoint point = surface_point(cut, centre + side * offsets_left_m[i]);
-        poses[i] = pose_along(point, side * (point.by_s + slope * point.by_t));
-    }
-}
-
-std::pair<std::string, double> Route::place(double distance_m) const {
-    const Cell& cell = cell_at(distance_m);
-    return {network_->roads[legs_[cell.leg].road].id, s_at(cell, distance_m)};
-}
-
-CrossSection Route::cross_section(double distance_m) const {
-    const Cell& cell = cell_at(distance_m);
-    const Leg& leg = legs_[cell.leg];
-    const Road& road = network_->roads[leg.road];
-    const LaneSection& section = road.sections[leg.section];
-    const double s = s_at(cell, distance_m), centre = cell.centre.at(s), side = leg.with_s ? 1.0 : -1.0;
-    CrossSection cross;
-    for (const Lane& lane : section.lanes) {
-        if (lane.id == 0)
-            continue;
-        const LaneEdges edges = lane_edges(road, section, lane.id, s);
-        const double a = side * (edges.inner_t_m - centre), b = side * (edges.outer_t_m - centre);
-        constexpr double narrowest_m = 0.001;
-        if (lane.id != leg.lane && std::abs(a - b) < narrowest_m)
-            continue;
-        cross.lanes.push_back({"", lane.type, lane.id, travels_with_s(road, lane) == leg.with_s, std::max(a, b), std::min(a, b)});
-    }
-    if (!leg.with_s)
-        std::reverse(cross.lanes.begin(), cross.lanes.end());
-    const auto own =
-        std::find_if(cross.lanes.begin(), cross.lanes.end(), [&](const RouteLane& lane) { return lane.road_lane_id == leg.lane; });
-    for (auto lane = cross.lanes.begin(); lane != cross.lanes.end(); ++lane) {
-        const auto steps = lane - own;
-        lane->name = steps == 0 ? "own" : fmt::format("{} {}", steps < 0 ? "left" : "right", std::abs(steps));
-        if (steps == 0 || paved(lane->type)) {
-            cross.paved_left_m = std::max(cross.paved_left_m, lane->left_m);
-            cross.paved_right_m = std::min(cross.paved_right_m, lane->right_m);
-        }
-    }
-    return cross;
-}
-
-namespace {
 
 constexpr double longest_cell_m = 5.0;
 constexpr double shortest_cell_m = 1e-9; ///< what lies between two borders that are the same but for rounding
@@ -259,6 +157,102 @@ double stretch(const SurfaceStrip& strip, const Cubic& centre, double s) {
 
 } // namespace
 
+Route::Route(const RoadNetwork& network, Start start, const std::vector<std::string>& via) : network_(&network) {
+    struct Visit {
+        LanePlace place;
+        std::size_t met; ///< how many of `via`
+        bool operator==(const Visit&) const = default;
+    };
+    std::vector<Visit> visits;
+    LanePlace place = start_place(network, start);
+    for (std::size_t met = 0;;) {
+        if (met < via.size() && network.roads[place.road].id == via[met])
+            ++met;
+        if (std::ranges::find(visits, Visit{place, met}) != visits.end())
+            break; // once round
+        visits.push_back({place, met});
+        const LaneSection& section = network.roads[place.road].sections[place.section];
+        const double begin = place.with_s ? section.s_m : section.end_m, end = place.with_s ? section.end_m : section.s_m;
+        legs_.push_back({place.road, place.lane, place.with_s, visits.size() == 1 ? start.s_m : begin, end, length_m_, place.section});
+        add_cells(legs_.size() - 1);
+        if (length_m_ > longest_route_m)
+            refuse(
+                network,
+                fmt::format("the way from road '{}' is longer than {} km", network.roads[legs_.front().road].id, longest_route_m / 1000.0),
+                "a shorter one");
+        const std::vector<LanePlace> next = next_places(network, place);
+        if (next.empty()) {
+            if (met < via.size())
+                refuse(
+                    network,
+                    fmt::format("the way does not meet road '{}': it ends on road '{}'", printable(via[met]), network.roads[place.road].id),
+                    "roads that follow one another");
+            break;
+        }
+        place = choose(network, next, met < via.size() ? &via[met] : nullptr);
+    }
+    if (visits.back().met < via.size())
+        refuse(network, fmt::format("the way does not meet road '{}'", printable(via[visits.back().met])), "roads that follow one another");
+    if (!(length_m_ > 0.0))
+        refuse(network,
+               fmt::format("lane {} of road '{}' ends at the start s = {} m: traffic on it moves towards {} s", legs_.front().lane,
+                           network.roads[legs_.front().road].id, start.s_m, legs_.front().with_s ? "growing" : "falling"),
+               "a start from which there is a way to go");
+}
+
+Pose Route::pose(double distance_m, double offset_left_m) const {
+    Pose pose;
+    poses(distance_m, {&offset_left_m, 1}, {&pose, 1});
+    return pose;
+}
+
+void Route::poses(double distance_m, std::span<const double> offsets_left_m, std::span<Pose> poses) const {
+    const Cell& cell = cell_at(distance_m);
+    const double s = s_at(cell, distance_m), side = cell.to_s_m >= cell.from_s_m ? 1.0 : -1.0;
+    const double centre = cell.centre.at(s), slope = cell.centre.slope(s);
+    const SurfaceCut cut = cut_at(cell.strip, s);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const SurfacePoint point = surface_point(cut, centre + side * offsets_left_m[i]);
+        poses[i] = pose_along(point, side * (point.by_s + slope * point.by_t));
+    }
+}
+
+std::pair<std::string, double> Route::place(double distance_m) const {
+    const Cell& cell = cell_at(distance_m);
+    return {network_->roads[legs_[cell.leg].road].id, s_at(cell, distance_m)};
+}
+
+CrossSection Route::cross_section(double distance_m) const {
+    const Cell& cell = cell_at(distance_m);
+    const Leg& leg = legs_[cell.leg];
+    const Road& road = network_->roads[leg.road];
+    const LaneSection& section = road.sections[leg.section];
+    const double s = s_at(cell, distance_m), centre = cell.centre.at(s), side = leg.with_s ? 1.0 : -1.0;
+    CrossSection cross;
+    for (const Lane& lane : section.lanes) {
+        if (lane.id == 0)
+            continue;
+        const LaneEdges edges = lane_edges(road, section, lane.id, s);
+        const double a = side * (edges.inner_t_m - centre), b = side * (edges.outer_t_m - centre);
+        constexpr double narrowest_m = 0.001;
+        if (lane.id != leg.lane && std::abs(a - b) < narrowest_m)
+            continue;
+        cross.lanes.push_back({"", lane.type, lane.id, travels_with_s(road, lane) == leg.with_s, std::max(a, b), std::min(a, b)});
+    }
+    if (!leg.with_s)
+        std::reverse(cross.lanes.begin(), cross.lanes.end());
+    const auto own = std::ranges::find(cross.lanes, leg.lane, &RouteLane::road_lane_id);
+    for (auto lane = cross.lanes.begin(); lane != cross.lanes.end(); ++lane) {
+        const auto steps = lane - own;
+        lane->name = steps == 0 ? "own" : fmt::format("{} {}", steps < 0 ? "left" : "right", std::abs(steps));
+        if (steps == 0 || paved(lane->type)) {
+            cross.paved_left_m = std::max(cross.paved_left_m, lane->left_m);
+            cross.paved_right_m = std::min(cross.paved_right_m, lane->right_m);
+        }
+    }
+    return cross;
+}
+
 void Route::add_cells(std::size_t leg_index) {
     const Leg leg = legs_[leg_index];
     const Road& road = network_->roads[leg.road];
@@ -292,8 +286,7 @@ void Route::add_cells(std::size_t leg_index) {
 }
 
 const Route::Cell& Route::cell_at(double distance_m) const {
-    const auto after =
-        std::upper_bound(cells_.begin(), cells_.end(), distance_m, [](double d, const Cell& cell) { return d < cell.start_m; });
+    const auto after = std::ranges::upper_bound(cells_, distance_m, {}, &Cell::start_m);
     return after == cells_.begin() ? *after : *(after - 1);
 }
 

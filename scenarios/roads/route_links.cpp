@@ -48,17 +48,13 @@ std::optional<LanePlace> enter(const RoadNetwork& network, const LanePlace& from
     return best;
 }
 
-std::optional<std::size_t> road_index(const RoadNetwork& network, const std::string& id) {
-    const Road* road = network.find(id);
-    return road ? std::optional(static_cast<std::size_t>(road - network.roads.data())) : std::nullopt;
-}
-
 std::optional<LanePlace> enter_road(const RoadNetwork& network, const LanePlace& from, const std::string& id, bool contact_start,
                                     std::optional<int> lane_id) {
-    const auto road = road_index(network, id);
+    const Road* road = network.find(id);
     if (!road)
         return {};
-    return enter(network, from, *road, contact_start ? 0 : network.roads[*road].sections.size() - 1, contact_start, lane_id);
+    return enter(network, from, static_cast<std::size_t>(road - network.roads.data()), contact_start ? 0 : road->sections.size() - 1,
+                 contact_start, lane_id);
 }
 
 std::vector<LanePlace> through_junction(const RoadNetwork& network, const LanePlace& from, const std::string& id) {
@@ -101,7 +97,7 @@ double turn(const RoadNetwork& network, const LanePlace& from, const LanePlace& 
 } // namespace
 
 const Lane* lane_of(const LaneSection& section, int id) {
-    const auto lane = std::find_if(section.lanes.begin(), section.lanes.end(), [&](const Lane& l) { return l.id == id; });
+    const auto lane = std::ranges::find(section.lanes, id, &Lane::id);
     return lane == section.lanes.end() || id == 0 ? nullptr : &*lane;
 }
 
@@ -112,15 +108,12 @@ std::vector<LanePlace> next_places(const RoadNetwork& network, const LanePlace& 
         return {};
     const std::optional<int> link = from.with_s ? lane->successor : lane->predecessor;
     const bool last = from.with_s ? from.section + 1 == road.sections.size() : from.section == 0;
-    if (!last) {
-        const auto place = enter(network, from, from.road, from.with_s ? from.section + 1 : from.section - 1, from.with_s, link);
-        return place ? std::vector{*place} : std::vector<LanePlace>{};
-    }
     const std::optional<RoadLink>& road_link = from.with_s ? road.successor : road.predecessor;
-    if (!road_link)
+    if (last && !road_link)
         return {};
-    if (!road_link->is_junction) {
-        const auto place = enter_road(network, from, road_link->id, road_link->contact_start, link);
+    if (!last || !road_link->is_junction) {
+        const auto place = !last ? enter(network, from, from.road, from.with_s ? from.section + 1 : from.section - 1, from.with_s, link)
+                                 : enter_road(network, from, road_link->id, road_link->contact_start, link);
         return place ? std::vector{*place} : std::vector<LanePlace>{};
     }
     std::vector<LanePlace> places = through_junction(network, from, road_link->id);

@@ -35,8 +35,7 @@ Height height_over(const ShapeProfile& profile, double t) {
 
 /// Between two profiles the height is linear in s; before the first and after the last it stays.
 Height shape_height(const std::vector<ShapeProfile>& shapes, double s, double t) {
-    const auto after =
-        std::upper_bound(shapes.begin(), shapes.end(), s, [](double at, const ShapeProfile& profile) { return at < profile.s_m; });
+    const auto after = std::ranges::upper_bound(shapes, s, {}, &ShapeProfile::s_m);
     if (after == shapes.begin())
         return height_over(*after, t);
     const Height here = height_over(*(after - 1), t);

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
+#include <memory>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -15,6 +15,11 @@
 
 namespace fernlicht {
 namespace {
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -68,26 +73,13 @@ std::string read_file(const std::filesystem::path& path, FilesRead& opened, std:
         throw InputError({path, 0, 0, {}}, S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file", "a file");
     if (static_cast<std::size_t>(status.st_size) > max_bytes)
         throw InputError({path, 0, 0, {}}, fmt::format("has {} bytes", status.st_size), fmt::format("at most {} bytes", max_bytes));
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0)
+    const File file(std::fopen(path.c_str(), "rbe"));
+    if (!file)
         throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(errno), "a readable file");
     std::string content(static_cast<std::size_t>(status.st_size), '\0');
-    std::size_t done = 0;
-    while (done < content.size()) {
-        const ssize_t got = ::read(file, content.data() + done, content.size() - done);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0) {
-            const int error = errno;
-            ::close(file);
-            throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(error), "a readable file");
-        }
-        if (got == 0)
-            break;
-        done += static_cast<std::size_t>(got);
-    }
-    ::close(file);
-    content.resize(done);
+    content.resize(std::fread(content.data(), 1, content.size(), file.get()));
+    if (std::ferror(file.get()))
+        throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(errno), "a readable file");
     if (content.empty() && !may_be_empty)
         throw InputError({path, 0, 0, {}}, "is empty", "content");
     opened.push_back({path, content.size(), content_hash(content.data(), content.size())});
@@ -100,22 +92,8 @@ void write_file(const std::filesystem::path& path, const std::string& content) {
         ::unlink(part.c_str());
         throw DeviceError(path.string() + ": cannot be written: " + reason(error));
     };
-    const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0)
-        fail(errno);
-    std::size_t done = 0;
-    while (done < content.size()) {
-        const ssize_t put = ::write(file, content.data() + done, content.size() - done);
-        if (put < 0 && errno == EINTR)
-            continue;
-        if (put < 0) {
-            const int error = errno;
-            ::close(file);
-            fail(error);
-        }
-        done += static_cast<std::size_t>(put);
-    }
-    if (::close(file) != 0)
+    File file(std::fopen(part.c_str(), "wbe"));
+    if (!file || std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() || std::fclose(file.release()) != 0)
         fail(errno);
     if (::rename(part.c_str(), path.c_str()) != 0)
         fail(errno);

@@ -20,6 +20,12 @@ std::string_view trimmed(std::string_view text) {
     return first == std::string_view::npos ? std::string_view{} : text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
+/// The element's name without its namespace prefix.
+const char* local_name(const char* name) {
+    const char* colon = std::find(name, name + std::char_traits<char>::length(name), ':');
+    return *colon == ':' ? colon + 1 : name;
+}
+
 } // namespace
 
 std::optional<double> to_number(std::string_view text) {
@@ -34,16 +40,6 @@ std::optional<double> to_number(std::string_view text) {
         return text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos ? std::optional(0.0) : std::nullopt;
     return error == std::errc() && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
-
-namespace {
-
-/// The element's name without its namespace prefix.
-const char* local_name(const char* name) {
-    const char* colon = std::find(name, name + std::char_traits<char>::length(name), ':');
-    return *colon == ':' ? colon + 1 : name;
-}
-
-} // namespace
 
 XmlFile::XmlFile(const std::filesystem::path& path, FilesRead& opened, std::string_view root, std::string_view format) : path_(path) {
     const std::string bytes = read_file(path, opened);
@@ -61,16 +57,10 @@ XmlFile::XmlFile(const std::filesystem::path& path, FilesRead& opened, std::stri
 void XmlFile::parse(std::string_view root, std::string_view format) {
     // The text was made UTF-8 above, whatever its XML declaration says.
     const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
-    const auto line_at = [&](std::ptrdiff_t offset) {
-        const auto at = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
-        return static_cast<std::size_t>(std::upper_bound(line_starts_.begin(), line_starts_.end(), at) - line_starts_.begin());
-    };
     if (!result)
-        throw InputError({path_, line_at(result.offset), 0, {}}, fmt::format("is not well-formed XML: {}", result.description()),
-                         std::string(format));
-    for (const pugi::xml_node node : document_.children())
-        if (node.type() == pugi::node_element && !root_)
-            root_ = node;
+        throw InputError({path_, line_at(std::max<std::ptrdiff_t>(result.offset, 0)), 0, {}},
+                         fmt::format("is not well-formed XML: {}", result.description()), std::string(format));
+    root_ = document_.document_element();
     if (!root_)
         throw InputError({path_, 1, 0, {}}, "holds no XML element", std::string(format));
     if (std::string_view(local_name(root_.name())) != root)
@@ -100,17 +90,15 @@ void XmlFile::simplify() {
 
 std::size_t XmlFile::line(pugi::xml_node node) const {
     const std::ptrdiff_t offset = node.offset_debug();
-    if (offset < 0)
-        return 0;
-    const auto at = static_cast<std::size_t>(offset);
-    return static_cast<std::size_t>(std::upper_bound(line_starts_.begin(), line_starts_.end(), at) - line_starts_.begin());
+    return offset < 0 ? 0 : line_at(offset);
+}
+
+std::size_t XmlFile::line_at(std::ptrdiff_t offset) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(line_starts_, static_cast<std::size_t>(offset)) - line_starts_.begin());
 }
 
 void XmlFile::refuse(pugi::xml_node node, std::string_view attribute, const std::string& found, const std::string& expected) const {
-    std::string key = node.name();
-    if (!attribute.empty())
-        key += fmt::format("@{}", attribute);
-    throw InputError({path_, line(node), 0, key}, found, expected);
+    throw InputError({path_, line(node), 0, fmt::format("{}{}{}", node.name(), attribute.empty() ? "" : "@", attribute)}, found, expected);
 }
 
 void XmlFile::warn(pugi::xml_node node, const std::string& what) {
@@ -171,8 +159,7 @@ int XmlFile::integer(pugi::xml_node node, const char* attribute, std::optional<i
 }
 
 std::string XmlFile::text(pugi::xml_node node, const char* attribute, const std::string& fallback) const {
-    const pugi::xml_attribute found = node.attribute(attribute);
-    return found ? std::string(found.value()) : fallback;
+    return node.attribute(attribute).as_string(fallback.c_str());
 }
 
 } // namespace fernlicht

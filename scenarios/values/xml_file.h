@@ -46,6 +46,7 @@ class XmlFile {
   private:
     void parse(std::string_view root, std::string_view format);
     void simplify();
+    std::size_t line_at(std::ptrdiff_t offset) const;
 
     std::filesystem::path path_;
     std::string text_;

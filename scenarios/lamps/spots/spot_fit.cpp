@@ -1,5 +1,6 @@
 #include "scenarios/lamps/spots/spot_fit.h"
 
+#include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/spots/spot_refinement.h"
 #include "scenarios/values/pose.h"
 
@@ -269,11 +270,6 @@ void add_group(SpotDirections& out, const Samples& s, Range rows, Range columns)
 }
 
 } // namespace
-
-glm::dvec3 direction_of(double h_deg, double v_deg) {
-    const double h = radians(h_deg), v = radians(v_deg);
-    return {std::sin(h) * std::cos(v), std::sin(v), std::cos(h) * std::cos(v)};
-}
 
 SpotDirections spot_directions(const CandelaTable& table, std::size_t most) {
     const Samples s = samples_of(table);

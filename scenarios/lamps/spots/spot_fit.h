@@ -1,5 +1,4 @@
 // A beam as a few spot lights of OpenGL 1.x, which is what per-vertex lighting had for it: the least-squares fit, and what is left over.
-// The directions over which spot lights are fitted to a beam: weighted samples of the front half.
 #pragma once
 
 #include "scenarios/lamps/candela_table.h"
@@ -38,7 +37,8 @@ constexpr int most_spots = 8; // of OpenGL 1.x
 /// table, same spots. Throws std::invalid_argument for another count.
 SpotFit fit_spots(const CandelaTable& table, int count);
 
-/// Structure of arrays, one entry a direction.
+/// The directions over which spot lights are fitted to a beam, weighted samples of the front half: structure of arrays, one entry a
+/// direction.
 struct SpotDirections {
     std::vector<double> x, y, z;   ///< unit, lamp space
     std::vector<double> cd;        ///< mean of the table over the direction's solid angle
@@ -53,8 +53,5 @@ struct SpotDirections {
 /// At most about `most` directions: the table's own samples, closed up with dark ones where it does not reach, or means over
 /// neighbouring samples where they are more.
 SpotDirections spot_directions(const CandelaTable& table, std::size_t most);
-
-/// Unit vector of an axis: x right, y up, z forward.
-glm::dvec3 direction_of(double h_deg, double v_deg);
 
 } // namespace fernlicht

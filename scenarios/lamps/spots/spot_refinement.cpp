@@ -1,5 +1,6 @@
 #include "scenarios/lamps/spots/spot_refinement.h"
 
+#include "scenarios/lamps/goniometer.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>

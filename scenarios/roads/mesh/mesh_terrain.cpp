@@ -87,8 +87,7 @@ class Side {
             if (!builder || ribs_[i].begins || ribs_[i + 1].chunk != ribs_[i].chunk) {
                 if (builder)
                     std::move(*builder).add_to(scene);
-                const auto stretch = std::find_if(plan_.stretches.begin(), plan_.stretches.end(),
-                                                  [&](const RoadStretch& s) { return s.chunk == ribs_[i + 1].chunk; });
+                const auto stretch = std::ranges::find(plan_.stretches, ribs_[i + 1].chunk, &RoadStretch::chunk);
                 builder.emplace(chunk_name(left_ ? "left of road" : "right of road", plan_,
                                            static_cast<std::size_t>(stretch - plan_.stretches.begin())),
                                 ribs_[i].points_m[0]);
@@ -253,6 +252,13 @@ class Side {
         for (std::size_t e = middle; e < b.edge; ++e)
             triangle(builder, material, {edge(e), edge(e + 1), b_out}, {na, nb, nb_out});
     }
+
+    const SurfacePlan& plan_;
+    std::size_t road_index_;
+    bool left_;
+    std::vector<EdgePoint> edge_;
+    std::vector<Rib> ribs_;
+    std::vector<std::array<bool, 4>> open_; ///< cells that are left out
 };
 
 } // namespace

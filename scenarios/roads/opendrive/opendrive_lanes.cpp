@@ -54,8 +54,6 @@ void read_side(XmlFile& xml, pugi::xml_node side, LaneSection& section, const ch
 LaneSection read_section(XmlFile& xml, pugi::xml_node node, const std::string& road_name) {
     LaneSection section;
     section.s_m = xml.length(node, "s");
-    const std::string single = xml.text(node, "singleSide", "false");
-    section.single_side = single == "true" || single == "1";
     read_side(xml, node.child("left"), section, "an id above 0", [](int id) { return id > 0; });
     read_side(xml, node.child("center"), section, "the id 0", [](int id) { return id == 0; });
     read_side(xml, node.child("right"), section, "an id below 0", [](int id) { return id < 0; });
@@ -137,7 +135,7 @@ void read_lanes(XmlFile& xml, pugi::xml_node road_node, Road& road) {
     }
     if (road.sections.empty()) {
         xml.warn(road_node, fmt::format("{} has no lane section: it is a reference line without surface", road_name));
-        road.sections.push_back({0.0, road.length_m, false, {Lane{}}});
+        road.sections.push_back({0.0, road.length_m, {Lane{}}});
         nodes.push_back(road_node);
     }
     if (road.sections.front().s_m > 0.0)

@@ -8,15 +8,9 @@
 namespace fernlicht {
 namespace {
 
-std::filesystem::path write_profile(const std::string& text) {
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "profile.yaml";
-    write_file(path, text);
-    return path;
-}
-
 DisplayProfile profile_of(const std::string& text) {
     FilesRead opened;
-    return read_display_profile(write_profile(text), opened);
+    return read_display_profile(tests::written("profile.yaml", text), opened);
 }
 
 // A device whose row Y is (0.09, 0.18, 0.033) in W/(sr m2): L = 683 (0.09 r + 0.18 g + 0.033 b), so white is 683 * 0.303 = 206.9 cd/m2 and
@@ -123,55 +117,43 @@ TEST(DisplayProfile, WhereItIsSeenFromMayBeUnknown) {
     EXPECT_NEAR(profile_of(lines + "pixel_pitch_mm: 0.3\nviewing_distance_m: 1\n").pixel_deg().value(), 0.0171887, 1.0e-6);
 }
 
-struct Refusal {
-    const char *name, *text, *says;
-};
-class DisplayRefusals : public testing::TestWithParam<Refusal> {};
-
-TEST_P(DisplayRefusals, NameTheirPlace) {
-    EXPECT_THAT(tests::refusal_of([] { profile_of(GetParam().text); }),
-                testing::AllOf(testing::HasSubstr(GetParam().says), testing::HasSubstr("profile.yaml:")));
+TEST(DisplayProfile, RefusalsNameTheirPlace) {
+    const auto primaries = [](const std::string& red, const std::string& blue, const std::string& white, const std::string& rest = {}) {
+        return "fernlicht_display: 1\nprimaries: {red: " + red + ", green: [0.3, 0.6], blue: " + blue + ", white: " + white + "}\n" +
+               (rest.empty() ? "transfer: srgb\npeak_cdm2: 80\n" : rest);
+    };
+    const auto srgb = [&](const std::string& rest) { return primaries("[0.64, 0.33]", "[0.15, 0.06]", "[0.3127, 0.329]", rest); };
+    const auto matrix = [](const std::string& rows, const std::string& transfer = "srgb") {
+        return "fernlicht_display: 1\nrgb_to_xyz: " + rows + "\ntransfer: " + transfer + "\n";
+    };
+    const std::string one = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
+    const std::pair<std::string, const char*> cases[]{
+        {"fernlicht_display: 2\n", "fernlicht_display"},
+        {"fernlicht_display: 1\ntransfer: srgb\n", "rgb_to_xyz"},
+        {srgb("transfer: srgb\n"), "peak_cdm2"},
+        {srgb("transfer: srgb\npeak_cdm2: 80\nbits: 10\n"), "8 or 16"},
+        {srgb("transfer: srgb\npeak_cdm2: 1\nblack_cdm2: 2\n"), "peak_cdm2"},
+        {srgb("transfer: srgb\npeak_cdm2: 80\nblak_cdm2: 2\n"), "black_cdm2"},
+        {srgb("transfer: srgb\npeak_cdm2: 80\nunit: W/(sr m2)\n"), "profile.yaml:5:7: unit: a unit beside primaries"},
+        {srgb("peak_cdm2: 20000\ntransfer: pq\n"), "profile.yaml:3:12: peak_cdm2: a peak of 20000 cd/m2 with transfer: pq"},
+        {"fernlicht_display: 1\ntransfer: pq\nrgb_to_xyz: [[1, 0, 0], [0, 10001, 0], [0, 0, 1]]\n",
+         "profile.yaml:3:13: rgb_to_xyz: a peak of 10001 cd/m2"},
+        {primaries("[0.8, 0.8]", "[0.15, 0.06]", "[0.3127, 0.329]"),
+         "profile.yaml:2:18: primaries.red: found [0.8, 0.8], a chromaticity that no light has, expected x, y with x at least 0, y above 0 "
+         "and x + y at most 1"},
+        {primaries("[0.64, 0.33]", "[-0.1, 0.06]", "[0.3127, 0.329]"),
+         "primaries.blue: found [-0.1, 0.06], a chromaticity that no light has"},
+        {primaries("[0.64, 0.33]", "[0.15, 0.06]", "[0.3127, 0]"), "primaries.white: found [0.3127, 0], a chromaticity that no light has"},
+        {matrix("[[1, 2, 3], [2, 4, 6], [1, 1, 1]]"), "inverse"},
+        {matrix("[[0.4, 0.36, 0.18], [0.21, 0.72, 0.07], [0.02, -0.2, 0.95]]"),
+         "profile.yaml:2:13: rgb_to_xyz: found a green channel with Z = -0.2, which no light has"},
+        {matrix("[[1, 2, 3], [2, 4, 6]]"), "rgb_to_xyz"},
+        {matrix(one, "{gamma: 0}"), "gamma"},
+        {matrix(one, "rec709"), "linear"}};
+    for (const auto& [text, says] : cases)
+        EXPECT_THAT(tests::refusal_of([&profile = text] { profile_of(profile); }),
+                    testing::AllOf(testing::HasSubstr(says), testing::HasSubstr("profile.yaml:")));
 }
-
-constexpr const char* srgb_lines = "primaries: {red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329]}\n";
-std::string with_primaries(const std::string& red, const std::string& blue, const std::string& white) {
-    return "fernlicht_display: 1\nprimaries: {red: " + red + ", green: [0.3, 0.6], blue: " + blue + ", white: " + white +
-           "}\ntransfer: srgb\npeak_cdm2: 80\n";
-}
-const std::string beyond_light = with_primaries("[0.8, 0.8]", "[0.15, 0.06]", "[0.3127, 0.329]");
-const std::string negative_x = with_primaries("[0.64, 0.33]", "[-0.1, 0.06]", "[0.3127, 0.329]");
-const std::string no_y = with_primaries("[0.64, 0.33]", "[0.15, 0.06]", "[0.3127, 0]");
-const std::string no_peak = std::string("fernlicht_display: 1\n") + srgb_lines + "transfer: srgb\n";
-const std::string bad_bits = no_peak + "peak_cdm2: 80\nbits: 10\n";
-const std::string dark_white = no_peak + "peak_cdm2: 1\nblack_cdm2: 2\n";
-const std::string beyond_pq = std::string("fernlicht_display: 1\n") + srgb_lines + "peak_cdm2: 20000\ntransfer: pq\n";
-const std::string unit_of_primaries = no_peak + "peak_cdm2: 80\nunit: W/(sr m2)\n";
-const std::string typo = no_peak + "peak_cdm2: 80\nblak_cdm2: 2\n";
-
-INSTANTIATE_TEST_SUITE_P(
-    , DisplayRefusals,
-    testing::Values(
-        Refusal{"Version", "fernlicht_display: 2\n", "fernlicht_display"},
-        Refusal{"NoColours", "fernlicht_display: 1\ntransfer: srgb\n", "rgb_to_xyz"}, Refusal{"NoPeak", no_peak.c_str(), "peak_cdm2"},
-        Refusal{"Bits", bad_bits.c_str(), "8 or 16"}, Refusal{"BlackAboveWhite", dark_white.c_str(), "peak_cdm2"},
-        Refusal{"UnknownKey", typo.c_str(), "black_cdm2"},
-        Refusal{"NoInverse", "fernlicht_display: 1\nrgb_to_xyz: [[1, 2, 3], [2, 4, 6], [1, 1, 1]]\ntransfer: srgb\n", "inverse"},
-        Refusal{"PeakBeyondPq", beyond_pq.c_str(), "profile.yaml:3:12: peak_cdm2: a peak of 20000 cd/m2 with transfer: pq"},
-        Refusal{"MatrixBeyondPq", "fernlicht_display: 1\ntransfer: pq\nrgb_to_xyz: [[1, 0, 0], [0, 10001, 0], [0, 0, 1]]\n",
-                "profile.yaml:3:13: rgb_to_xyz: a peak of 10001 cd/m2"},
-        Refusal{"RedBeyondLight", beyond_light.c_str(),
-                "profile.yaml:2:18: primaries.red: found [0.8, 0.8], a chromaticity that no light has, expected x, y with x at least 0, "
-                "y above 0 and x + y at most 1"},
-        Refusal{"NegativeX", negative_x.c_str(), "primaries.blue: found [-0.1, 0.06], a chromaticity that no light has"},
-        Refusal{"NoY", no_y.c_str(), "primaries.white: found [0.3127, 0], a chromaticity that no light has"},
-        Refusal{"NegativeZ",
-                "fernlicht_display: 1\nrgb_to_xyz: [[0.4, 0.36, 0.18], [0.21, 0.72, 0.07], [0.02, -0.2, 0.95]]\ntransfer: srgb\n",
-                "profile.yaml:2:13: rgb_to_xyz: found a green channel with Z = -0.2, which no light has"},
-        Refusal{"UnitOfPrimaries", unit_of_primaries.c_str(), "profile.yaml:5:7: unit: a unit beside primaries"},
-        Refusal{"TwoRows", "fernlicht_display: 1\nrgb_to_xyz: [[1, 2, 3], [2, 4, 6]]\ntransfer: srgb\n", "rgb_to_xyz"},
-        Refusal{"Gamma", "fernlicht_display: 1\nrgb_to_xyz: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntransfer: {gamma: 0}\n", "gamma"},
-        Refusal{"Transfer", "fernlicht_display: 1\nrgb_to_xyz: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntransfer: rec709\n", "linear"}),
-    [](const auto& test) { return test.param.name; });
 
 } // namespace
 } // namespace fernlicht

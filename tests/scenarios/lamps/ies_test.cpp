@@ -348,24 +348,9 @@ TEST_F(IesFile, NoPrefixOfAGoodFileIsReadAndNothingMakesItFallOver) {
 }
 
 TEST_F(IesFile, RoundTripsLoseNothing) {
-    for (unsigned seed = 0; seed < 40; ++seed) {
-        LampFile lamp{
-            .name = "round trip",
-            .table = random_lamp_table(seed),
-            .labels = {{"MANUFAC", "Büch\ner"}, {"MORE THAN ENOUGH", std::string(700, 'x') + " " + std::string(150, 'y') + " z"}}};
-        if (seed % 2 == 0)
-            lamp.declared_flux_lm = 1234.5678901234567;
-        const auto path = folder_ / "trip.ies";
-        write_lamp(lamp, path);
-        const LampFile back = read_lamp(path);
-        EXPECT_EQ(back.table, lamp.table) << seed;
-        EXPECT_EQ(back.declared_flux_lm, lamp.declared_flux_lm);
-        EXPECT_EQ(std::tuple(back.name, back.format), std::tuple(lamp.name, "IES LM-63-2002, type A"));
-        EXPECT_THAT(back.notes, testing::IsEmpty());
-        // Once more: what we write of what we read is the same file.
-        write_lamp(back, folder_ / "again.ies");
-        EXPECT_EQ(read_lamp(folder_ / "again.ies").table, lamp.table);
-    }
+    const std::string long_text = std::string(700, 'x') + " " + std::string(150, 'y') + " z";
+    must_come_back("trip.ies", {.name = "round trip", .labels = {{"MANUFAC", "Büch\ner"}, {"MORE THAN ENOUGH", long_text}}},
+                   "IES LM-63-2002, type A");
     LampFile lamp{.table = {{0.0, 5.0, 10.0}, {-1.0, 0.0}, {1, 2, 3, 4, 5, 6}, {}, BetweenSamples::linear_cd}};
     write_lamp(lamp, folder_ / "zero.ies");
     const LampFile back = read_lamp(folder_ / "zero.ies");

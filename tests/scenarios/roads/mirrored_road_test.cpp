@@ -2,9 +2,9 @@
 // those of others where they are.
 #include "scenarios/roads/mirrored_road.h"
 
-#include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/values/errors.h"
+#include "tests/scenarios/roads/mesh_checks.h"
 #include "tests/scenarios/roads/opendrive_text.h"
 
 #include <algorithm>
@@ -13,6 +13,8 @@
 
 namespace fernlicht {
 namespace {
+
+using namespace opendrive_text;
 
 /// Numbers only change their sign; where shapes are written anew, heights of metres are rounded at 1e-16 of 1000 m.
 constexpr double rounding_m = 1e-9;
@@ -76,15 +78,15 @@ void expect_same_way(const RoadNetwork& network, const RoadNetwork& other, const
 }
 
 TEST(MirroredRoad, OfOurRoadsIsTheirImage) {
-    for (const auto& entry : std::filesystem::directory_iterator(FERNLICHT_SOURCE_DIR "/scenarios/library/roads")) {
-        const RoadNetwork network = read_opendrive(entry.path()), other = mirrored(network);
-        expect_mirrored(network, other, entry.path().filename());
-        expect_same_way(network, other, entry.path().filename());
+    for (const auto& file : road_files(library_roads)) {
+        const RoadNetwork network = read_opendrive(file), other = mirrored(network);
+        expect_mirrored(network, other, file.filename());
+        expect_same_way(network, other, file.filename());
     }
 }
 
 TEST(MirroredRoad, OfEveryKindOfGeometryIsItsImage) {
-    const opendrive_text::TemporaryFile file(opendrive_text::file(R"(<road id="1" length="100" junction="-1"><planView>
+    const RoadNetwork network = network_of(file(R"(<road id="1" length="100" junction="-1"><planView>
         <geometry s="0" x="0" y="0" hdg="0.3" length="20"><line/></geometry>
         <geometry s="20" x="19.1" y="5.9" hdg="0.3" length="20"><arc curvature="0.01"/></geometry>
         <geometry s="40" x="37.4" y="14" hdg="0.5" length="20"><spiral curvStart="0.01" curvEnd="-0.02"/></geometry>
@@ -99,7 +101,7 @@ TEST(MirroredRoad, OfEveryKindOfGeometryIsItsImage) {
         <center><lane id="0" type="none"><roadMark sOffset="0" type="solid broken" width="0.12"/></lane></center>
         <right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></right>
         </laneSection></lanes></road>)"));
-    const RoadNetwork network = read_opendrive(file.path()), other = mirrored(network);
+    const RoadNetwork other = mirrored(network);
     ASSERT_FALSE(network.roads[0].shapes.empty());
     expect_mirrored(network, other, "every kind");
     EXPECT_EQ(other.roads[0].sections[0].lanes[1].marks[0].kind, MarkKind::broken_solid);
@@ -111,16 +113,15 @@ TEST(MirroredRoad, OfEveryKindOfGeometryIsItsImage) {
 }
 
 TEST(MirroredRoad, OfOthersRoadsIsTheirImage) {
-    const std::filesystem::path folder = std::filesystem::path(FERNLICHT_SHARED_DATA) / "roads";
-    if (!std::filesystem::is_directory(folder))
-        GTEST_SKIP() << "no folder " << folder;
+    if (!std::filesystem::is_directory(shared_roads))
+        GTEST_SKIP() << "no folder " << shared_roads;
     std::size_t read = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        if (entry.path().extension() != ".xodr" || entry.file_size() > 300'000)
+    for (const auto& file : road_files(shared_roads)) {
+        if (std::filesystem::file_size(file) > 300'000)
             continue;
         try {
-            const RoadNetwork network = read_opendrive(entry.path());
-            expect_mirrored(network, mirrored(network), entry.path().filename());
+            const RoadNetwork network = read_opendrive(file);
+            expect_mirrored(network, mirrored(network), file.filename());
             ++read;
         } catch (const InputError&) { // not ours to judge here
         }
@@ -136,20 +137,15 @@ TEST(MirroredRoad, IsMeshedToTheImageOfTheMesh) {
     };
     const auto covers = [](const Scene& scene) {
         std::map<std::string, Cover> all;
-        for (const Mesh& mesh : scene.meshes)
-            for (const Batch& batch : mesh.batches)
-                for (std::size_t i = batch.first; i + 2 < batch.first + batch.count; i += 3) {
-                    const glm::dvec3 a = mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[i]].position_m),
-                                     b = mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[i + 1]].position_m),
-                                     c = mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[i + 2]].position_m);
-                    Cover& cover = all[scene.materials[batch.material].name];
-                    const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-                    cover.area_m2 += area;
-                    cover.moment += area / 3.0 * (a + b + c);
-                }
+        for (const mesh_checks::Triangle& triangle : mesh_checks::triangles(scene, "")) {
+            const auto& [a, b, c] = triangle.corners;
+            Cover& cover = all[scene.materials[triangle.material].name];
+            cover.area_m2 += triangle.area();
+            cover.moment += triangle.area() / 3.0 * (a + b + c);
+        }
         return all;
     };
-    const RoadNetwork network = read_opendrive(FERNLICHT_SOURCE_DIR "/scenarios/library/roads/village.xodr");
+    const RoadNetwork network = library_road("village.xodr");
     const auto original = covers(build_scene(network, {.textures = false})),
                other = covers(build_scene(mirrored(network), {.textures = false}));
     ASSERT_EQ(original.size(), other.size());

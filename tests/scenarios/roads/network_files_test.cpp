@@ -3,6 +3,7 @@
 #include "scenarios/roads/road_network.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/values/errors.h"
+#include "tests/scenarios/roads/opendrive_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +15,7 @@
 namespace fernlicht {
 namespace {
 
-std::vector<std::filesystem::path> road_files(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> files;
-    if (std::filesystem::is_directory(folder))
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-            if (entry.path().extension() == ".xodr")
-                files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
+using namespace opendrive_text;
 
 bool finite(const Pose& pose) {
     bool all = true;
@@ -74,9 +67,9 @@ bool has_driving_lane(const RoadNetwork& network) {
 bool may_be_refused(const std::filesystem::path& file) { return file.string().find("qc-opendrive") != std::string::npos; }
 
 TEST(NetworkFiles, EachIsFiniteEverywhereAndCanBeDriven) {
-    const auto files = road_files(std::filesystem::path(FERNLICHT_SHARED_DATA) / "roads");
+    const auto files = road_files(shared_roads);
     if (files.empty())
-        GTEST_SKIP() << "no road files in " << FERNLICHT_SHARED_DATA;
+        GTEST_SKIP() << "no road files in " << shared_roads;
     int read = 0;
     for (const auto& file : files) {
         SCOPED_TRACE(file.string());
@@ -111,40 +104,36 @@ PlanPoint clothoid_reference(double start_per_m, double end_per_m, double length
 
 PlanElement element_of(double length_m, decltype(PlanElement::shape) shape) { return {.length_m = length_m, .shape = std::move(shape)}; }
 
-struct Clothoid {
-    double start_per_m, end_per_m, length_m;
-};
-
-class NetworkClothoid : public testing::TestWithParam<Clothoid> {};
-
-TEST_P(NetworkClothoid, AgreesWithIntegration) {
-    const auto [start, end, length] = GetParam();
-    PlanElement element = element_of(length, Spiral{start, end});
-    const PlanElement bare = element;
-    prepare(element);
-    for (const double part : {0.1, 0.5, 0.77, 1.0}) {
-        const PlanPoint expected = clothoid_reference(start, end, length, part * length);
-        const PlanPoint cached = plan_point(element, part * length), computed = plan_point(bare, part * length);
-        // The reference itself: order 4 with steps of length/40000; the worst turn here is 50 rad, so (50/40000)^4/4320 = 6e-16.
-        EXPECT_NEAR(cached.x_m, expected.x_m, 1e-12 * length) << part;
-        EXPECT_NEAR(cached.y_m, expected.y_m, 1e-12 * length) << part;
-        EXPECT_NEAR(cached.heading_rad, expected.heading_rad, 1e-12 * (1.0 + std::abs(expected.heading_rad)));
-        EXPECT_EQ(std::tuple(cached.x_m, cached.y_m), std::tuple(computed.x_m, computed.y_m));
+TEST(NetworkPlan, ClothoidOfEveryCurvatureAgreesWithIntegration) {
+    struct Clothoid {
+        double start_per_m, end_per_m, length_m;
+    };
+    for (const auto& [start, end, length] : {Clothoid{0.0, 0.0, 100.0},                 // straight
+                                             Clothoid{0.0, 1e-12, 100.0},               // nearly straight
+                                             Clothoid{1e-9, -1e-9, 5000.0},             //
+                                             Clothoid{0.0, 1.0 / 150.0, 60.0},          // a country road's
+                                             Clothoid{1.0 / 150.0, -1.0 / 250.0, 90.0}, // sign change
+                                             Clothoid{0.01, 0.01, 300.0},               // an arc in disguise
+                                             Clothoid{0.02, 0.020000001, 80.0},         //
+                                             Clothoid{-0.2, 0.5, 12.0},                 // a corner
+                                             Clothoid{0.0, 2.0, 25.0},                  // tightly wound: 25 rad
+                                             Clothoid{5.0, -5.0, 10.0},                 // wound both ways
+                                             Clothoid{1e-6, 1e-3, 1e4}}) {
+        SCOPED_TRACE(fmt::format("{} to {} over {} m", start, end, length));
+        PlanElement element = element_of(length, Spiral{start, end});
+        const PlanElement bare = element;
+        prepare(element);
+        for (const double part : {0.1, 0.5, 0.77, 1.0}) {
+            const PlanPoint expected = clothoid_reference(start, end, length, part * length);
+            const PlanPoint cached = plan_point(element, part * length), computed = plan_point(bare, part * length);
+            // The reference itself: order 4 with steps of length/40000; the worst turn here is 50 rad, so (50/40000)^4/4320 = 6e-16.
+            EXPECT_NEAR(cached.x_m, expected.x_m, 1e-12 * length) << part;
+            EXPECT_NEAR(cached.y_m, expected.y_m, 1e-12 * length) << part;
+            EXPECT_NEAR(cached.heading_rad, expected.heading_rad, 1e-12 * (1.0 + std::abs(expected.heading_rad)));
+            EXPECT_EQ(std::tuple(cached.x_m, cached.y_m), std::tuple(computed.x_m, computed.y_m));
+        }
     }
 }
-
-INSTANTIATE_TEST_SUITE_P(OfEveryCurvature, NetworkClothoid,
-                         testing::Values(Clothoid{0.0, 0.0, 100.0},                 // straight
-                                         Clothoid{0.0, 1e-12, 100.0},               // nearly straight
-                                         Clothoid{1e-9, -1e-9, 5000.0},             //
-                                         Clothoid{0.0, 1.0 / 150.0, 60.0},          // a country road's
-                                         Clothoid{1.0 / 150.0, -1.0 / 250.0, 90.0}, // sign change
-                                         Clothoid{0.01, 0.01, 300.0},               // an arc in disguise
-                                         Clothoid{0.02, 0.020000001, 80.0},         //
-                                         Clothoid{-0.2, 0.5, 12.0},                 // a corner
-                                         Clothoid{0.0, 2.0, 25.0},                  // tightly wound: 25 rad
-                                         Clothoid{5.0, -5.0, 10.0},                 // wound both ways
-                                         Clothoid{1e-6, 1e-3, 1e4}));
 
 TEST(NetworkPlan, ArcOfAnyCurvatureIsPlacedAndTurned) {
     for (const double curvature : {0.0, 1e-300, 1e-15, 1e-6, -1e-4, 0.001, 0.00999, 0.01001, -0.5, 3.0}) {
@@ -235,46 +224,31 @@ TEST(NetworkPlan, HeadingAndCurvatureAreDerivatives) {
 
 // Our own roads are what their headers say: lengths, radii, continuous lines and grades.
 
-RoadNetwork library_road(const char* name) {
-    return read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads" / name);
-}
-
-class LibraryRoads : public testing::TestWithParam<std::pair<const char*, const char*>> {};
-
-TEST_P(LibraryRoads, AreNamedAndReadWithoutWarning) {
-    const RoadNetwork network = library_road(GetParam().first);
-    EXPECT_EQ(network.name, GetParam().second);
-    EXPECT_TRUE(network.warnings.empty());
-}
-
-TEST_P(LibraryRoads, ContinueFromRecordToRecord) {
-    for (const Road& road : library_road(GetParam().first).roads) {
-        const RoadNetwork alone;
-        for (const PlanElement& element : road.plan) {
-            if (element.s_m == 0.0)
-                continue;
-            const Pose before = plan_pose(road, element.s_m - 1e-7), after = plan_pose(road, element.s_m);
-            EXPECT_LT(glm::distance(before.position_m, after.position_m), 1e-6) << "road " << road.id << " at " << element.s_m;
-            EXPECT_LT(glm::distance(before.forward(), after.forward()), 1e-6) << "road " << road.id << " at " << element.s_m;
-        }
-        for (const Cubic& grade : road.elevation) {
-            if (grade.s0 == 0.0)
-                continue;
-            const Pose before = surface_pose(alone, road, grade.s0 - 1e-7, 0.0), after = surface_pose(alone, road, grade.s0, 0.0);
-            EXPECT_LT(std::abs(before.position_m.z - after.position_m.z), 1e-6) << "height at " << grade.s0;
-            EXPECT_LT(std::abs(before.forward().z - after.forward().z), 1e-6) << "grade at " << grade.s0;
+TEST(LibraryRoads, AreNamedReadWithoutWarningAndContinueFromRecordToRecord) {
+    for (const std::filesystem::path& file : road_files(library_roads)) {
+        SCOPED_TRACE(file);
+        const RoadNetwork network = read_opendrive(file);
+        EXPECT_EQ(network.name, "fernlicht " + file.stem().string() + (file.stem() == "country" ? " road" : ""));
+        EXPECT_TRUE(network.warnings.empty());
+        for (const Road& road : network.roads) {
+            for (const PlanElement& element : road.plan) {
+                if (element.s_m == 0.0)
+                    continue;
+                const Pose before = plan_pose(road, element.s_m - 1e-7), after = plan_pose(road, element.s_m);
+                EXPECT_LT(glm::distance(before.position_m, after.position_m), 1e-6) << "road " << road.id << " at " << element.s_m;
+                EXPECT_LT(glm::distance(before.forward(), after.forward()), 1e-6) << "road " << road.id << " at " << element.s_m;
+            }
+            for (const Cubic& grade : road.elevation) {
+                if (grade.s0 == 0.0)
+                    continue;
+                const Pose before = surface_pose({}, road, grade.s0 - 1e-7, 0.0), after = surface_pose({}, road, grade.s0, 0.0);
+                EXPECT_LT(std::abs(before.position_m.z - after.position_m.z), 1e-6) << "height at " << grade.s0;
+                EXPECT_LT(std::abs(before.forward().z - after.forward().z), 1e-6) << "grade at " << grade.s0;
+            }
         }
     }
+    EXPECT_EQ(road_files(library_roads).size(), 10U);
 }
-
-INSTANTIATE_TEST_SUITE_P(All, LibraryRoads,
-                         testing::Values(std::pair("bench.xodr", "fernlicht bench"), std::pair("straight.xodr", "fernlicht straight"),
-                                         std::pair("s-bend.xodr", "fernlicht s-bend"), std::pair("country.xodr", "fernlicht country road"),
-                                         std::pair("iihs-left-150.xodr", "fernlicht iihs-left-150"),
-                                         std::pair("iihs-right-150.xodr", "fernlicht iihs-right-150"),
-                                         std::pair("iihs-left-250.xodr", "fernlicht iihs-left-250"),
-                                         std::pair("iihs-right-250.xodr", "fernlicht iihs-right-250"),
-                                         std::pair("motorway.xodr", "fernlicht motorway"), std::pair("village.xodr", "fernlicht village")));
 
 /// Signed radius of the reference line, left positive, from three of its points.
 double radius_m(const Road& road, double s) {

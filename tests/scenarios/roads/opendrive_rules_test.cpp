@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
-#include <set>
 #include <sstream>
 
 namespace fernlicht {
@@ -19,7 +18,7 @@ using testing::Contains, testing::HasSubstr;
 enum class Verdict { refused, warned, none };
 
 struct Case {
-    std::string_view file; ///< without ".xodr"
+    std::string_view files; ///< how their names begin
     Verdict verdict;
     std::string_view says; ///< part of the refusal or of a warning
 };
@@ -28,95 +27,59 @@ struct Case {
 constexpr auto cases = std::to_array<Case>({
     {"fileheader_is_present/negative", Verdict::warned, "the header is missing"},
     {"junction_connection_linkage/junction_connection_linkage_invalid", Verdict::warned, "does not lead to the incoming road"},
-    {"junctions_connection_connect_road_no_incoming_road/junctions_connection_connect_road_no_incoming_road_invalid", Verdict::warned, "is itself a connecting road"},
-    {"junctions_connection_one_connection_element/junctions_connection_one_connection_element_invalid", Verdict::warned, "does not lead to the incoming road"},
-    {"junctions_connection_one_link_to_incoming/Ex_Bidirectional_Junction_invalid", Verdict::warned, "against its direction"},
-    {"junctions_connection_one_link_to_incoming/junctions_connection_one_link_to_incoming_invalid", Verdict::warned, "against its direction"},
-    {"junctions_connection_one_link_to_incoming/junctions_connection_one_link_to_incoming_invalid_LHT", Verdict::warned, "against its direction"},
-    {"not_implemented_yet/rule_104_road_lanes_lane_offset_no_offset_if_border_defined_invalid", Verdict::warned, "has borders although the road has a lane offset"},
-    {"not_implemented_yet/rule_178_junctions_priority_high_and_low_attrib_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_242_road_object_orientation_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_247_road_object_outline_outline_followed_by_corner_invalid", Verdict::warned, "an outline of 0 corners"},
-    {"not_implemented_yet/rule_253_road_corner_road_element_min_amount_invalid", Verdict::warned, "an outline of 1 corners"},
-    {"not_implemented_yet/rule_255_road_corner_local_element_min_amount_invalid", Verdict::warned, "an outline of 1 corners"},
-    {"not_implemented_yet/rule_257_road_object_skeleton_polyline_followed_by_vertex_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_263_road_object_skeleton_vertex_road_element_min_amount_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_267_road_object_skeleton_vertex_local_element_min_amount_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_284_road_object_no_cornerreference_if_no_outline_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_285_road_object_border_useCompleteOutline_true_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_286_road_object_border_useCompleteOutline_false_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_barrier_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_building_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_crosswalk_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_gantry_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_obstacle_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_parkingSpace_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_pole_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_roadMark_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_roadSurface_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_trafficIsland_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_tree_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_305_road.object.attributes_vegetation_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_325_road_signal_reference_used_for_signals_only_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_341_road_signal_boards_multi_board_have_sub_boards_no_static_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_341_road_signal_boards_multi_board_have_sub_boards_no_vms_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_343_road_signal_boards_multi_board_use_dynamic_true_invalid", Verdict::none, ""},
-    {"not_implemented_yet/rule_371_general_optional_param_used_invalid", Verdict::warned, "a radius beside length or width"},
-    {"not_implemented_yet/rule_64_road_cross_section_surface_no_shape_superelevation_invalid", Verdict::warned, "must not stand beside it"},
-    {"performance_avoid_redundant_info/performance_avoid_redundant_info_elevation_invalid_1", Verdict::none, ""},
-    {"performance_avoid_redundant_info/performance_avoid_redundant_info_elevation_invalid_2", Verdict::none, ""},
-    {"performance_avoid_redundant_info/performance_avoid_redundant_info_lane_border_invalid", Verdict::none, ""},
-    {"performance_avoid_redundant_info/performance_avoid_redundant_info_lane_offset_invalid_1", Verdict::none, ""},
-    {"performance_avoid_redundant_info/performance_avoid_redundant_info_lane_offset_invalid_2", Verdict::none, ""},
-    {"performance_avoid_redundant_info/performance_avoid_redundant_info_lane_width_invalid", Verdict::none, ""},
-    {"performance_avoid_redundant_info/performance_avoid_redundant_info_line_geometry_invalid", Verdict::none, ""},
-    {"performance_avoid_redundant_info/performance_avoid_redundant_info_superelevation_invalid", Verdict::none, ""},
-    {"road_geometry_contact_point/invalid", Verdict::warned, "lies 3.500 m from the start of road '2'"},
-    {"road_geometry_contact_point/invalid_2", Verdict::warned, "lies 50.000 m from the end of road '2'"},
+    {"junctions_connection_connect_road_no_incoming_road/", Verdict::warned, "is itself a connecting road"},
+    {"junctions_connection_one_connection_element/", Verdict::warned, "does not lead to the incoming road"},
+    {"junctions_connection_one_link_to_incoming/", Verdict::warned, "against its direction"},
+    {"not_implemented_yet/rule_104_", Verdict::warned, "has borders although the road has a lane offset"},
+    {"not_implemented_yet/rule_178_", Verdict::none, ""},
+    {"not_implemented_yet/rule_242_", Verdict::none, ""},
+    {"not_implemented_yet/rule_247_", Verdict::warned, "an outline of 0 corners"},
+    {"not_implemented_yet/rule_253_", Verdict::warned, "an outline of 1 corners"},
+    {"not_implemented_yet/rule_255_", Verdict::warned, "an outline of 1 corners"},
+    {"not_implemented_yet/rule_257_", Verdict::none, ""},
+    {"not_implemented_yet/rule_263_", Verdict::none, ""},
+    {"not_implemented_yet/rule_267_", Verdict::none, ""},
+    {"not_implemented_yet/rule_284_", Verdict::none, ""},
+    {"not_implemented_yet/rule_285_", Verdict::none, ""},
+    {"not_implemented_yet/rule_286_", Verdict::none, ""},
+    {"not_implemented_yet/rule_305_", Verdict::none, ""},
+    {"not_implemented_yet/rule_325_", Verdict::none, ""},
+    {"not_implemented_yet/rule_341_", Verdict::none, ""},
+    {"not_implemented_yet/rule_343_", Verdict::none, ""},
+    {"not_implemented_yet/rule_371_", Verdict::warned, "a radius beside length or width"},
+    {"not_implemented_yet/rule_64_", Verdict::warned, "must not stand beside it"},
+    {"performance_avoid_redundant_info/", Verdict::none, ""},
+    {"road_geometry_contact_point/invalid.", Verdict::warned, "lies 3.500 m from the start of road '2'"},
+    {"road_geometry_contact_point/invalid_2.", Verdict::warned, "lies 50.000 m from the end of road '2'"},
     {"road_geometry_elem_asc_order/invalid", Verdict::warned, "not in ascending order"},
-    {"road_geometry_param_poly3_length_match/road_geometry_param_poly3_length_match_invalid", Verdict::warned, "541.8765 m long, its length says 540.8765"},
-    {"road_geometry_param_poly3_length_match/road_geometry_param_poly3_length_match_invalid_multiple_cases", Verdict::warned, "541.8765 m long"},
-    {"road_geometry_parampoly3_arclength_range/road_geometry_parampoly3_arclength_range_invalid", Verdict::warned, "7.5523 m long, its length says 7.5553"},
-    {"road_geometry_parampoly3_valid_parameters/aU_invalid", Verdict::warned, "does not start at its own origin and heading"},
-    {"road_geometry_parampoly3_valid_parameters/aV_invalid", Verdict::warned, "does not start at its own origin and heading"},
-    {"road_geometry_parampoly3_valid_parameters/bU_invalid", Verdict::warned, "does not start at its own origin and heading"},
-    {"road_geometry_parampoly3_valid_parameters/bV_invalid", Verdict::warned, "does not start at its own origin and heading"},
-    {"road_lane_access_no_mix_of_deny_or_allow/close_match_multiple_issue", Verdict::none, ""},
-    {"road_lane_access_no_mix_of_deny_or_allow/close_match_single_issue", Verdict::none, ""},
-    {"road_lane_access_no_mix_of_deny_or_allow/road_lane_access_no_mix_of_deny_or_allow_17_invalid", Verdict::none, ""},
-    {"road_lane_access_no_mix_of_deny_or_allow/road_lane_access_no_mix_of_deny_or_allow_17_invalid_older_schema_version", Verdict::none, ""},
-    {"road_lane_access_no_mix_of_deny_or_allow/road_lane_access_no_mix_of_deny_or_allow_18_invalid", Verdict::none, ""},
-    {"road_lane_border_overlap_with_inner_lanes/road_lane_border_overlap_with_inner_lanes_invalid", Verdict::warned, "overlaps its inner neighbour by 1.000 m"},
-    {"road_lane_border_overlap_with_inner_lanes/road_lane_border_overlap_with_inner_lanes_invalid_1", Verdict::none, ""},
-    {"road_lane_level_true_one_side/road_lane_level_true_one_side_invalid", Verdict::none, ""},
-    {"road_lane_level_true_one_side/road_lane_level_true_one_side_invalid_older_schema_version", Verdict::none, ""},
-    {"road_lane_level_true_one_side_junction/road_lane_level_true_one_side_junction_invalid_incoming", Verdict::none, ""},
-    {"road_lane_level_true_one_side_lanesection/road_lane_level_true_one_side_lanesection_invalid", Verdict::none, ""},
-    {"road_lane_level_true_one_side_lanesection/road_lane_level_true_one_side_lanesection_invalid_wrong_predecessor", Verdict::none, ""},
-    {"road_lane_level_true_one_side_road/road_lane_level_true_one_side_road_invalid", Verdict::none, ""},
+    {"road_geometry_param_poly3_length_match/road_geometry_param_poly3_length_match_invalid.", Verdict::warned, "541.8765 m long, its length says 540.8765"},
+    {"road_geometry_param_poly3_length_match/road_geometry_param_poly3_length_match_invalid_multiple", Verdict::warned, "541.8765 m long"},
+    {"road_geometry_parampoly3_arclength_range/", Verdict::warned, "7.5523 m long, its length says 7.5553"},
+    {"road_geometry_parampoly3_valid_parameters/", Verdict::warned, "does not start at its own origin and heading"},
+    {"road_lane_access_no_mix_of_deny_or_allow/", Verdict::none, ""},
+    {"road_lane_border_overlap_with_inner_lanes/road_lane_border_overlap_with_inner_lanes_invalid.", Verdict::warned, "overlaps its inner neighbour by 1.000 m"},
+    {"road_lane_border_overlap_with_inner_lanes/road_lane_border_overlap_with_inner_lanes_invalid_1.", Verdict::none, ""},
+    {"road_lane_level_true_one_side/", Verdict::none, ""},
+    {"road_lane_level_true_one_side_junction/", Verdict::none, ""},
+    {"road_lane_level_true_one_side_lanesection/", Verdict::none, ""},
+    {"road_lane_level_true_one_side_road/", Verdict::none, ""},
     {"road_lane_link_lanes_across_lane_sections/road_lane_link_lanes_across_lane_sections_invalid_no_predecessor_road", Verdict::warned, "lane -1 has no link over s = 50"},
     {"road_lane_link_lanes_across_lane_sections/road_lane_link_lanes_across_lane_sections_invalid_non_existing_lanes", Verdict::warned, "comes from lane 4, which the section before"},
     {"road_lane_link_lanes_across_lane_sections/road_lane_link_lanes_across_lane_sections_invalid_wrong_id", Verdict::warned, "lane -3 leads to lane -2 at s = 50, which does not lead back"},
-    {"road_lane_link_new_lane_appear/road_lane_link_new_lane_appear_both_start_contact_point_invalid", Verdict::warned, "has no width"},
-    {"road_lane_link_new_lane_appear/road_lane_link_new_lane_appear_end_contact_point_invalid", Verdict::warned, "has no width"},
-    {"road_lane_link_new_lane_appear/road_lane_link_new_lane_appear_inside_junction_invalid", Verdict::warned, "has no width"},
-    {"road_lane_link_new_lane_appear/road_lane_link_new_lane_appear_inside_junction_invalid_2", Verdict::warned, "has no width"},
-    {"road_lane_link_new_lane_appear/road_lane_link_new_lane_appear_invalid", Verdict::warned, "has no width"},
-    {"road_lane_link_new_lane_appear/road_lane_link_new_lane_appear_junction_invalid", Verdict::warned, "has no width"},
-    {"road_linkage_is_junction_needed/road_linkage_is_junction_needed_invalid", Verdict::warned, "linked to the end of road '1' without a junction"},
+    {"road_lane_link_new_lane_appear/", Verdict::warned, "has no width"},
+    {"road_linkage_is_junction_needed/road_linkage_is_junction_needed_invalid.", Verdict::warned, "linked to the end of road '1' without a junction"},
     {"road_linkage_is_junction_needed/road_linkage_is_junction_needed_invalid_converge", Verdict::warned, "linked to the start of road '1' without a junction"},
     {"root_tag_is_opendrive/negative", Verdict::refused, "found root element 'ODrive'"},
     {"smoothness_example/junction_invalid_conn_smoothness", Verdict::warned, "lane -1 jumps by 0.950 m"},
     {"smoothness_example/many_invalid", Verdict::warned, "the reference line jumps by 0.100 m"},
     {"smoothness_example/multiple_successor_invalid", Verdict::warned, "the edges of lane -1 jump by 1.000 m"},
-    {"valid_schema/negative16", Verdict::refused, "has no geometry"},
-    {"valid_schema/negative17", Verdict::refused, "has no geometry"},
-    {"valid_schema/negative18", Verdict::refused, "has no geometry"},
+    {"valid_schema/negative", Verdict::refused, "has no geometry"},
     {"valid_schema/unsupported_schema", Verdict::warned, "the version 0.8"},
     {"valid_xml_document/xml.valid_xml_document.negative", Verdict::refused, "is not well-formed XML"},
     {"version_is_defined/negative_no_attr", Verdict::warned, "the version is missing"},
     {"version_is_defined/negative_no_type", Verdict::refused, "found 'seven'"},
 });
+constexpr std::size_t known_breaches = 90; ///< files that break a rule, as the folder has them
 // clang-format on
 
 std::filesystem::path checker_folder() {
@@ -131,49 +94,41 @@ bool named_invalid(const std::string& name) {
     return false;
 }
 
-class OpenDriveRules : public testing::Test {
-  protected:
-    void SetUp() override {
-        if (!std::filesystem::is_directory(checker_folder()))
-            GTEST_SKIP() << "no checker cases in " << checker_folder();
-    }
-};
-
-TEST_F(OpenDriveRules, EachBreachIsJudgedAsListed) {
-    for (const Case& one : cases) {
-        SCOPED_TRACE(std::string(one.file));
-        const std::filesystem::path file = checker_folder() / (std::string(one.file) + ".xodr");
-        const std::string says(one.says);
+TEST(OpenDriveRules, EachBreachIsJudgedAsListedAndWhatIsValidIsPlayed) {
+    if (!std::filesystem::is_directory(checker_folder()))
+        GTEST_SKIP() << "no checker cases in " << checker_folder();
+    std::size_t breaches = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(checker_folder())) {
+        const std::filesystem::path& file = entry.path();
+        if (file.extension() != ".xodr")
+            continue;
+        SCOPED_TRACE(file);
+        if (!named_invalid(file.filename().string())) {
+            EXPECT_NO_THROW(read_opendrive(file));
+            continue;
+        }
+        ++breaches;
+        const std::string name = std::filesystem::relative(file, checker_folder()).string();
+        const auto one = std::ranges::find_if(cases, [&](const Case& row) { return name.starts_with(row.files); });
+        ASSERT_NE(one, cases.end()) << "not listed";
+        const std::string says(one->says);
         try {
             const RoadNetwork network = read_opendrive(file);
-            EXPECT_NE(one.verdict, Verdict::refused);
+            EXPECT_NE(one->verdict, Verdict::refused);
             EXPECT_FALSE(network.roads.empty());
-            if (one.verdict == Verdict::warned) {
+            if (one->verdict == Verdict::warned) {
                 EXPECT_THAT(network.warnings, Contains(HasSubstr(says)));
             }
             for (const std::string& warning : network.warnings)
                 EXPECT_THAT(warning, testing::StartsWith(file.string() + ":"));
         } catch (const InputError& error) {
-            EXPECT_EQ(one.verdict, Verdict::refused) << error.what();
+            EXPECT_EQ(one->verdict, Verdict::refused) << error.what();
             EXPECT_THAT(error.what(), HasSubstr(says));
             EXPECT_GT(error.where().line, 0U);
             EXPECT_EQ(error.where().file, file);
         }
     }
-}
-
-TEST_F(OpenDriveRules, NoBreachIsForgottenAndWhatIsValidIsPlayed) {
-    std::set<std::string> listed;
-    for (const Case& one : cases)
-        listed.insert(std::string(one.file) + ".xodr");
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(checker_folder()))
-        if (entry.path().extension() == ".xodr" && named_invalid(entry.path().filename().string())) {
-            EXPECT_TRUE(listed.contains(std::filesystem::relative(entry.path(), checker_folder()).string())) << entry.path();
-        }
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(checker_folder()))
-        if (entry.path().extension() == ".xodr" && !named_invalid(entry.path().filename().string())) {
-            EXPECT_NO_THROW(read_opendrive(entry.path())) << entry.path();
-        }
+    EXPECT_EQ(breaches, known_breaches);
 }
 
 /// The rule a file is about: its folder, or "rule_104" among those that the checker itself does not know yet.
@@ -189,7 +144,7 @@ TEST(OpenDriveRulesText, EachRuleIsInTheDocument) {
     std::stringstream text;
     text << stream.rdbuf();
     for (const Case& one : cases)
-        EXPECT_THAT(text.str(), HasSubstr("| " + rule_of(one.file) + " |")) << one.file;
+        EXPECT_THAT(text.str(), HasSubstr("| " + rule_of(one.files) + " |")) << one.files;
 }
 
 } // namespace

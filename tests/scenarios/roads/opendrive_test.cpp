@@ -17,11 +17,7 @@ namespace {
 using namespace opendrive_text;
 using testing::Contains, testing::HasSubstr;
 
-RoadNetwork network_of(const std::string& content) {
-    const TemporaryFile written(content);
-    return read_opendrive(written.path());
-}
-
+using opendrive_text::network_of;
 RoadNetwork network_of(const RoadText& text) { return network_of(file(road(text))); }
 
 TEST(OpenDrive, CleanFileHasNoWarningsAndGapsAreTold) {
@@ -179,7 +175,7 @@ TEST(OpenDrive, Signals) {
     const auto signals = network_of(text).roads[0].signals;
     ASSERT_EQ(signals.size(), 2U);
     EXPECT_FALSE(signals[0].facing_forward);
-    EXPECT_EQ(std::tuple(signals[0].heading_offset_rad, signals[0].subtype, signals[0].height_m), std::tuple(0.1, "57", 0.7));
+    EXPECT_EQ(std::tuple(signals[0].heading_offset_rad, signals[0].width_m, signals[0].height_m), std::tuple(0.1, 0.6, 0.7));
     EXPECT_TRUE(signals[1].facing_forward && signals[1].dynamic);
 }
 
@@ -187,13 +183,13 @@ TEST(OpenDrive, Signals) {
 
 /// The refusal without the file's name; "" when the file is read.
 std::string refusal(const std::string& content) {
-    const TemporaryFile written(content);
-    const std::string sentence = tests::refusal_of([&] { read_opendrive(written.path()); }, "");
+    const std::filesystem::path file = tests::written("road.xodr", content);
+    const std::string sentence = tests::refusal_of([&] { read_opendrive(file); }, "");
     if (sentence.empty())
         return sentence;
-    EXPECT_THAT(sentence, testing::StartsWith(written.path().string()));
+    EXPECT_THAT(sentence, testing::StartsWith(file.string()));
     EXPECT_EQ(sentence.find('\n'), std::string::npos);
-    return sentence.substr(written.path().string().size());
+    return sentence.substr(file.string().size());
 }
 
 std::string road_refusal(const RoadText& text) { return refusal(file(road(text))); }
@@ -253,8 +249,7 @@ TEST(OpenDriveBadInput, NumbersLengthsAndCurvatures) {
 
 TEST(OpenDriveBadInput, AGeometryWithoutLengthAmongOthersIsTold) {
     RoadText text{.plan = geometry(0, 0, 0, 0, 50.0) + geometry(50.0, 50.0, 0, 0, 0.0) + geometry(50.0, 50.0, 0, 0, 50.0)};
-    const TemporaryFile written(file(road(text)));
-    const RoadNetwork network = read_opendrive(written.path());
+    const RoadNetwork network = network_of(text);
     EXPECT_EQ(network.roads[0].plan.size(), 2U);
     EXPECT_THAT(network.warnings, testing::ElementsAre(HasSubstr("has no length and is left out")));
 }
@@ -295,8 +290,7 @@ TEST(OpenDriveBadInput, ManyWarningsAreCounted) {
         text.link = R"(<successor elementType="road" elementId="none" contactPoint="start"/>)";
         roads += road(text);
     }
-    const TemporaryFile written(file(roads)); // 1500 dead ends, and one remark that 1500 roads claim the same end
-    const RoadNetwork network = read_opendrive(written.path());
+    const RoadNetwork network = network_of(file(roads)); // 1500 dead ends, and one remark that 1500 roads claim the same end
     ASSERT_EQ(network.warnings.size(), 1001U);
     EXPECT_THAT(network.warnings.back(), HasSubstr("501 further warnings are left out"));
 }

@@ -1,20 +1,31 @@
-// Small OpenDRIVE files for tests, written into a folder of their own.
+// Small OpenDRIVE files for tests, written into a folder of their own; our roads, and those of others.
 #pragma once
 
+#include "scenarios/roads/road_network.h"
 #include "tests/trial.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace fernlicht::opendrive_text {
 
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const std::string& content) : path_(tests::written("road.xodr", content)) {}
-    const std::filesystem::path& path() const { return path_; }
+inline const std::filesystem::path library_roads = FERNLICHT_SOURCE_DIR "/scenarios/library/roads";
+inline const std::filesystem::path shared_roads = FERNLICHT_SHARED_DATA "/roads";
 
-  private:
-    std::filesystem::path path_;
-};
+inline RoadNetwork library_road(const char* name) { return read_opendrive(library_roads / name); }
+
+/// All road files below a folder, by name; none where it does not exist.
+inline std::vector<std::filesystem::path> road_files(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    if (std::filesystem::is_directory(folder))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            if (entry.path().extension() == ".xodr")
+                files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+inline RoadNetwork network_of(const std::string& content) { return read_opendrive(tests::written("road.xodr", content)); }
 
 inline std::string file(const std::string& roads, const std::string& header = R"(<header revMajor="1" revMinor="7"/>)") {
     return R"(<?xml version="1.0" encoding="UTF-8"?>)"

@@ -15,10 +15,7 @@ namespace {
 using namespace opendrive_text;
 using testing::HasSubstr;
 
-RoadNetwork network_with(const std::string& roads) {
-    const TemporaryFile written(file(roads));
-    return read_opendrive(written.path());
-}
+RoadNetwork network_with(const std::string& roads) { return network_of(file(roads)); }
 
 std::string refusal(const RoadNetwork& network, const Route::Start& start, const std::vector<std::string>& via = {}) {
     return tests::refusal_of([&] { const Route route(network, start, via); }, "");

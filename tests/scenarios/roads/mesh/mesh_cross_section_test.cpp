@@ -10,7 +10,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 namespace fernlicht {
@@ -31,8 +30,7 @@ RoadMark mark(MarkKind kind, const char* colour = "white") { return {.kind = kin
 Road road_with(MarkKind centre, MarkKind edge) {
     Road road;
     road.length_m = 100.0;
-    PlanElement element{.length_m = 100.0};
-    road.plan.push_back(element);
+    road.plan.push_back({.length_m = 100.0});
     LaneSection section{.end_m = 100.0,
                         .lanes = {lane_across(1, "driving", 3.0), lane_across(0, "none", 0.0), lane_across(-1, "driving", 3.0)}};
     section.lanes[1].marks.push_back(mark(centre));
@@ -136,22 +134,17 @@ TEST(MeshCrossSection, RaisedSidewalkHasAKerbFace) {
 
 /// L / E_perp in mcd/m2/lx, light at 1.24 degrees and eye at 2.29 degrees above the surface, both in one vertical plane.
 double total_rl_mcd(const Material& material) {
-    const double incidence_rad = 1.24 * 3.14159265358979323846 / 180.0, view_rad = 2.29 * 3.14159265358979323846 / 180.0;
+    const double incidence_rad = 1.24 * pi / 180.0, view_rad = 2.29 * pi / 180.0;
     const double y = 0.2126 * static_cast<double>(material.albedo.r) + 0.7152 * static_cast<double>(material.albedo.g) +
                      0.0722 * static_cast<double>(material.albedo.b);
-    const double diffuse = y * std::sin(incidence_rad) / 3.14159265358979323846;
+    const double diffuse = y * std::sin(incidence_rad) / pi;
     const double retro =
         static_cast<double>(material.retro_rl) * std::exp((static_cast<double>(material.retro_reference_rad) - (view_rad - incidence_rad)) /
                                                           static_cast<double>(material.retro_falloff_rad));
     return 1000.0 * (diffuse + retro);
 }
 
-const Material& named(const std::vector<Material>& all, const std::string& name) {
-    for (const Material& material : all)
-        if (material.name == name)
-            return material;
-    throw std::out_of_range(name);
-}
+const Material& named(const std::vector<Material>& all, const std::string& name) { return *std::ranges::find(all, name, &Material::name); }
 
 TEST(MeshMaterials, RoadSurfacesHaveTheirRlAndBoardsTheirRa) {
     const std::vector<Material> all = road_materials();
@@ -164,7 +157,7 @@ TEST(MeshMaterials, RoadSurfacesHaveTheirRlAndBoardsTheirRa) {
     const Material board = named(road_materials(), "board");
     EXPECT_EQ(board.kind, SurfaceKind::board);
     EXPECT_FLOAT_EQ(board.retro_rl, 180.0F);
-    EXPECT_NEAR(static_cast<double>(board.retro_reference_rad), 0.33 * 3.14159265358979323846 / 180.0, 1e-7);
+    EXPECT_NEAR(static_cast<double>(board.retro_reference_rad), 0.33 * pi / 180.0, 1e-7);
 }
 
 TEST(MeshMaterials, AllAreNamedPhysicalAndChosenByLaneType) {
@@ -189,21 +182,8 @@ TEST(MeshMaterials, AllAreNamedPhysicalAndChosenByLaneType) {
 
 /// A straight level road of 100 m to the east.
 RoadNetwork plain_road() {
-    Road road;
-    road.id = "1";
-    road.length_m = 100.0;
-    PlanElement element{.length_m = 100.0};
-    road.plan.push_back(element);
-    LaneSection section{.end_m = 100.0};
-    for (const int id : {1, 0, -1}) {
-        Lane lane{.id = id};
-        if (id != 0)
-            lane.widths.push_back({0.0, 3.0, 0.0, 0.0, 0.0});
-        section.lanes.push_back(lane);
-    }
-    road.sections.push_back(section);
-    RoadNetwork network;
-    network.roads.push_back(road);
+    RoadNetwork network{.roads = {road_with(MarkKind::none, MarkKind::none)}};
+    network.roads[0].id = "1";
     return network;
 }
 

@@ -2,6 +2,7 @@
 #include "scenarios/roads/mesh/mesh_builder.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/roads/mesh_distance.h"
+#include "tests/scenarios/roads/opendrive_text.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -14,16 +15,7 @@ namespace fernlicht {
 namespace {
 
 using namespace mesh_checks;
-
-std::vector<std::filesystem::path> roads_under(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> files;
-    if (std::filesystem::exists(folder))
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-            if (entry.path().extension() == ".xodr")
-                files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
+using namespace opendrive_text;
 
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -86,7 +78,7 @@ void expect_sound(const RoadNetwork& network, const Scene& scene) {
 }
 
 TEST(RoadMesh, LibraryRoadsAreSound) {
-    const auto files = roads_under(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads");
+    const auto files = road_files(library_roads);
     ASSERT_GE(files.size(), 5U);
     for (const auto& file : files) {
         SCOPED_TRACE(file.filename());
@@ -128,14 +120,14 @@ double greatest_distance_m(const RoadNetwork& network, const Scene& scene, std::
 }
 
 TEST(RoadMesh, ChordErrorIsKeptAndFollowsTheOption) {
-    for (const auto& file : roads_under(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads")) {
+    for (const auto& file : road_files(library_roads)) {
         SCOPED_TRACE(file.filename());
         const RoadNetwork network = read_opendrive(file);
         std::size_t samples = 0;
         EXPECT_LE(greatest_distance_m(network, build_scene(network), samples), 0.005);
         EXPECT_GT(samples, 1000U);
     }
-    const RoadNetwork network = read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads/country.xodr");
+    const RoadNetwork network = library_road("country.xodr");
     std::size_t samples = 0;
     RoadMeshOptions coarse, fine;
     coarse.chord_error_m = 0.05;
@@ -200,7 +192,7 @@ std::size_t buried_points(const Scene& scene, std::size_t& points) {
 }
 
 TEST(RoadMesh, GroundLiesBelowEveryRoad) {
-    for (const auto& file : roads_under(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads")) {
+    for (const auto& file : road_files(library_roads)) {
         SCOPED_TRACE(file.filename());
         std::size_t points = 0;
         EXPECT_EQ(buried_points(build_scene(read_opendrive(file)), points), 0U);
@@ -215,7 +207,7 @@ constexpr bool sanitized = false;
 #endif
 
 std::vector<std::filesystem::path> valid_shared_roads() {
-    std::vector<std::filesystem::path> files = roads_under(std::filesystem::path(FERNLICHT_SHARED_DATA) / "roads");
+    std::vector<std::filesystem::path> files = road_files(shared_roads);
     std::erase_if(files, [](const auto& file) { return meant_to_fail(file) || (sanitized && std::filesystem::file_size(file) > 100'000); });
     return files;
 }
@@ -235,7 +227,7 @@ class RealRoads : public testing::TestWithParam<std::size_t> {};
 TEST_P(RealRoads, AreSoundKeepTheChordErrorAndStandAboveTheGround) {
     const auto files = valid_shared_roads();
     if (files.empty())
-        GTEST_SKIP() << "no roads in " << FERNLICHT_SHARED_DATA;
+        GTEST_SKIP() << "no roads in " << shared_roads;
     for (std::size_t i = GetParam(); i < files.size(); i += sanitized ? 12 : 4) {
         SCOPED_TRACE(files[i].filename());
         RoadNetwork network;
@@ -261,7 +253,7 @@ TEST_P(RealRoads, AreSoundKeepTheChordErrorAndStandAboveTheGround) {
 INSTANTIATE_TEST_SUITE_P(Shared, RealRoads, testing::Range<std::size_t>(0, 4));
 
 TEST(RoadMesh, FarFromTheOriginNothingChanges) {
-    RoadNetwork here = read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads/country.xodr");
+    RoadNetwork here = library_road("country.xodr");
     RoadNetwork there = here;
     const glm::dvec3 moved(680000.0, 5400000.0, 0.0); // UTM
     for (Road& road : there.roads)

@@ -5,10 +5,10 @@
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/roads/mesh/surface_textures.h"
 #include "tests/scenarios/roads/mesh_checks.h"
+#include "tests/scenarios/roads/opendrive_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <random>
 #include <set>
@@ -16,8 +16,6 @@
 
 namespace fernlicht {
 namespace {
-
-constexpr double pi_value = 3.14159265358979323846;
 
 /// Averages of one channel over blocks of `block` x `block` texels, 0..255.
 struct Blocks {
@@ -49,10 +47,7 @@ double step(const Blocks& b, int left, int right, bool rows) {
 std::size_t varying_channel(const SurfaceTexture& texture) { return texture.name == "paint-wear" ? 3 : 1; }
 
 const SurfaceTexture& named(const std::vector<SurfaceTexture>& all, const std::string& name) {
-    for (const SurfaceTexture& texture : all)
-        if (texture.name == name)
-            return texture;
-    throw std::out_of_range(name);
+    return *std::ranges::find(all, name, &SurfaceTexture::name);
 }
 
 Scene textured_materials() {
@@ -221,8 +216,7 @@ TEST(SurfaceTextures, RoadSurfacesKeepTheirRl) {
             for (glm::length_t c = 0; c < 3; ++c)
                 ASSERT_TRUE(reflectance[c] >= 0.0 && reflectance[c] <= 1.0) << material.name;
             const double y = 0.2126 * reflectance.r + 0.7152 * reflectance.g + 0.0722 * reflectance.b;
-            sum += y * std::sin(1.24 * pi_value / 180.0) / pi_value +
-                   photometry::textured_rl(static_cast<double>(material.retro_rl), own, reflectance);
+            sum += y * std::sin(1.24 * pi / 180.0) / pi + photometry::textured_rl(static_cast<double>(material.retro_rl), own, reflectance);
         }
         EXPECT_NEAR(1000.0 * sum / 65536.0, rl_mcd, 1e-4 * rl_mcd) << material.name;
     }
@@ -235,10 +229,6 @@ glm::vec2 at(const glm::dvec3& origin, const glm::vec3& position, const glm::vec
 }
 
 void expect_uv(const glm::vec2& found, float u, float v) { EXPECT_EQ(std::tuple(found.x, found.y), std::tuple(u, v)); }
-
-RoadNetwork shipped_road(const char* name) {
-    return read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads" / name);
-}
 
 /// 0: seen from the side along x, 1: along y, 2: from above.
 int axis_of(const glm::vec3& n) {
@@ -271,10 +261,9 @@ TEST(TexturePosition, MeshesAgreeExactlyApartFromWholeRepetitions) {
 }
 
 TEST(TexturePosition, RoadMeshesHaveTheirTexturesInTrueSize) {
-    RoadMeshOptions options{.textures = true};
     for (const char* name : {"country.xodr", "village.xodr"}) {
         SCOPED_TRACE(name);
-        const Scene scene = build_scene(shipped_road(name), options);
+        const Scene scene = build_scene(opendrive_text::library_road(name), {.textures = true});
         std::size_t checked = 0;
         for (const Mesh& mesh : scene.meshes)
             for (const Batch& batch : mesh.batches) {
@@ -298,11 +287,8 @@ TEST(TexturePosition, RoadMeshesHaveTheirTexturesInTrueSize) {
 }
 
 TEST(TexturePosition, RoadsHaveTexturesOnlyWhenAsked) {
-    const RoadNetwork network = shipped_road("village.xodr");
-    RoadMeshOptions with, without;
-    with.textures = true;
-    without.textures = false;
-    const Scene plain = build_scene(network, without), textured = build_scene(network, with);
+    const RoadNetwork network = opendrive_text::library_road("village.xodr");
+    const Scene plain = build_scene(network, {.textures = false}), textured = build_scene(network, {.textures = true});
     EXPECT_TRUE(plain.textures.empty());
     EXPECT_EQ(plain.materials, road_materials());
     for (const Material& material : plain.materials)
