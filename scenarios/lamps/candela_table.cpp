@@ -121,97 +121,6 @@ void check_axis(const std::vector<double>& axis, const char* name, double limit_
     }
 }
 
-} // namespace
-
-double intensity_cd(const CandelaTable& table, double h_deg, double v_deg) {
-    Place v, h;
-    if (!place_with_data(table, h_deg, v_deg, v, h))
-        return 0.0;
-    const Corners k = corners(table, v.cell, h.cell);
-    if (table.rule == BetweenSamples::linear_cd || k.any_zero())
-        return between(k, v.fraction, h.fraction);
-    return std::exp(between(k.logarithms(), v.fraction, h.fraction));
-}
-
-bool has_data(const CandelaTable& table, double h_deg, double v_deg) {
-    Place v, h;
-    return place_with_data(table, h_deg, v_deg, v, h);
-}
-
-Peak peak_of(const CandelaTable& table) {
-    const auto highest = std::max_element(table.cd.begin(), table.cd.end());
-    if (highest == table.cd.end())
-        return {};
-    const auto index = static_cast<std::size_t>(highest - table.cd.begin());
-    return {*highest, table.h_deg[index % table.h_deg.size()], table.v_deg[index / table.h_deg.size()]};
-}
-
-double flux_lm(const CandelaTable& table) {
-    double flux = 0.0;
-    for (std::size_t v = 0; v + 1 < table.v_deg.size(); ++v) {
-        const double v0 = table.v_deg[v], v1 = table.v_deg[v + 1];
-        const auto [lower, upper] = cosine_weights(v0, v1);
-        double row = 0.0;
-        for (std::size_t h = 0; h + 1 < table.h_deg.size(); ++h) {
-            if (is_gap(table, v, h))
-                continue;
-            const Corners k = corners(table, v, h);
-            const bool linear = table.rule == BetweenSamples::linear_cd || k.any_zero();
-            const double per_radian =
-                linear ? lower * (k.a + k.b) / 2.0 + upper * (k.c + k.d) / 2.0 : log_cell_integral(k.logarithms(), v0, v1);
-            row += per_radian * radians(table.h_deg[h + 1] - table.h_deg[h]);
-        }
-        flux += row;
-    }
-    return flux;
-}
-
-void check_invariants(const CandelaTable& table) {
-    check_axis(table.h_deg, "H", 180.0);
-    check_axis(table.v_deg, "V", 90.0);
-    const std::size_t samples = table.h_deg.size() * table.v_deg.size();
-    if (table.cd.size() != samples)
-        throw std::invalid_argument(fmt::format("candela table: has {} intensities, expected {}", table.cd.size(), samples));
-    for (std::size_t i = 0; i < samples; ++i)
-        if (!(std::isfinite(table.cd[i]) && table.cd[i] >= 0.0))
-            throw std::invalid_argument(fmt::format("candela table: has {} cd at H {}, V {} deg, expected a finite intensity of at least 0",
-                                                    table.cd[i], table.h_deg[i % table.h_deg.size()], table.v_deg[i / table.h_deg.size()]));
-    const std::size_t cells = (table.h_deg.size() - 1) * (table.v_deg.size() - 1);
-    if (!table.gaps.empty() && table.gaps.size() != cells)
-        throw std::invalid_argument(fmt::format("candela table: has {} gap marks, expected none or {}", table.gaps.size(), cells));
-}
-
-CandelaTable scaled(CandelaTable table, double factor) {
-    if (!(std::isfinite(factor) && factor >= 0.0))
-        throw std::invalid_argument(fmt::format("candela table: scaled by {}, expected a factor of at least 0", factor));
-    for (double& cd : table.cd)
-        cd *= factor;
-    return table;
-}
-
-CandelaTable mirrored(const CandelaTable& table) {
-    CandelaTable out = table;
-    std::reverse(out.h_deg.begin(), out.h_deg.end());
-    for (double& h : out.h_deg)
-        h = 0.0 - h; // not -h: no negative zero in files
-    const auto reverse_rows = [](auto& values, std::size_t row_length) {
-        for (auto row = values.begin(); row != values.end(); row += static_cast<std::ptrdiff_t>(row_length))
-            std::reverse(row, row + static_cast<std::ptrdiff_t>(row_length));
-    };
-    reverse_rows(out.cd, out.h_deg.size());
-    reverse_rows(out.gaps, out.h_deg.size() - 1);
-    return out;
-}
-
-double finest_step(const std::vector<double>& axis) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < axis.size(); ++i)
-        least = std::min(least, axis[i] - axis[i - 1]);
-    return least;
-}
-
-namespace {
-
 /// Width of the step that stands for a jump where one table ends, or has a gap, inside the other: narrow beside any goniometer's step
 /// (0.01 degrees), wide beside the rounding of 180 in double (3e-14).
 constexpr double jump_deg = 1e-9;
@@ -316,6 +225,93 @@ CandelaTable thinned(const CandelaTable& table, const std::vector<std::size_t>& 
 }
 
 } // namespace
+
+double intensity_cd(const CandelaTable& table, double h_deg, double v_deg) {
+    Place v, h;
+    if (!place_with_data(table, h_deg, v_deg, v, h))
+        return 0.0;
+    const Corners k = corners(table, v.cell, h.cell);
+    if (table.rule == BetweenSamples::linear_cd || k.any_zero())
+        return between(k, v.fraction, h.fraction);
+    return std::exp(between(k.logarithms(), v.fraction, h.fraction));
+}
+
+bool has_data(const CandelaTable& table, double h_deg, double v_deg) {
+    Place v, h;
+    return place_with_data(table, h_deg, v_deg, v, h);
+}
+
+Peak peak_of(const CandelaTable& table) {
+    const auto highest = std::max_element(table.cd.begin(), table.cd.end());
+    if (highest == table.cd.end())
+        return {};
+    const auto index = static_cast<std::size_t>(highest - table.cd.begin());
+    return {*highest, table.h_deg[index % table.h_deg.size()], table.v_deg[index / table.h_deg.size()]};
+}
+
+double flux_lm(const CandelaTable& table) {
+    double flux = 0.0;
+    for (std::size_t v = 0; v + 1 < table.v_deg.size(); ++v) {
+        const double v0 = table.v_deg[v], v1 = table.v_deg[v + 1];
+        const auto [lower, upper] = cosine_weights(v0, v1);
+        double row = 0.0;
+        for (std::size_t h = 0; h + 1 < table.h_deg.size(); ++h) {
+            if (is_gap(table, v, h))
+                continue;
+            const Corners k = corners(table, v, h);
+            const bool linear = table.rule == BetweenSamples::linear_cd || k.any_zero();
+            const double per_radian =
+                linear ? lower * (k.a + k.b) / 2.0 + upper * (k.c + k.d) / 2.0 : log_cell_integral(k.logarithms(), v0, v1);
+            row += per_radian * radians(table.h_deg[h + 1] - table.h_deg[h]);
+        }
+        flux += row;
+    }
+    return flux;
+}
+
+void check_invariants(const CandelaTable& table) {
+    check_axis(table.h_deg, "H", 180.0);
+    check_axis(table.v_deg, "V", 90.0);
+    const std::size_t samples = table.h_deg.size() * table.v_deg.size();
+    if (table.cd.size() != samples)
+        throw std::invalid_argument(fmt::format("candela table: has {} intensities, expected {}", table.cd.size(), samples));
+    for (std::size_t i = 0; i < samples; ++i)
+        if (!(std::isfinite(table.cd[i]) && table.cd[i] >= 0.0))
+            throw std::invalid_argument(fmt::format("candela table: has {} cd at H {}, V {} deg, expected a finite intensity of at least 0",
+                                                    table.cd[i], table.h_deg[i % table.h_deg.size()], table.v_deg[i / table.h_deg.size()]));
+    const std::size_t cells = (table.h_deg.size() - 1) * (table.v_deg.size() - 1);
+    if (!table.gaps.empty() && table.gaps.size() != cells)
+        throw std::invalid_argument(fmt::format("candela table: has {} gap marks, expected none or {}", table.gaps.size(), cells));
+}
+
+CandelaTable scaled(CandelaTable table, double factor) {
+    if (!(std::isfinite(factor) && factor >= 0.0))
+        throw std::invalid_argument(fmt::format("candela table: scaled by {}, expected a factor of at least 0", factor));
+    for (double& cd : table.cd)
+        cd *= factor;
+    return table;
+}
+
+CandelaTable mirrored(const CandelaTable& table) {
+    CandelaTable out = table;
+    std::reverse(out.h_deg.begin(), out.h_deg.end());
+    for (double& h : out.h_deg)
+        h = 0.0 - h; // not -h: no negative zero in files
+    const auto reverse_rows = [](auto& values, std::size_t row_length) {
+        for (auto row = values.begin(); row != values.end(); row += static_cast<std::ptrdiff_t>(row_length))
+            std::reverse(row, row + static_cast<std::ptrdiff_t>(row_length));
+    };
+    reverse_rows(out.cd, out.h_deg.size());
+    reverse_rows(out.gaps, out.h_deg.size() - 1);
+    return out;
+}
+
+double finest_step(const std::vector<double>& axis) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < axis.size(); ++i)
+        least = std::min(least, axis[i] - axis[i - 1]);
+    return least;
+}
 
 CandelaTable sum(const CandelaTable& a, const CandelaTable& b) {
     return combined(a, b, [](double x, double y) { return x + y; });

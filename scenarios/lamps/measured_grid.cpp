@@ -66,6 +66,19 @@ template <class Dark> Padding padding_of(const std::vector<double>& axis, Dark d
             axis[n - 1] - axis[n - 2] > ratio * (axis[n - 2] - axis[n - 3]) && dark(n - 1)};
 }
 
+std::vector<double> four_numbers(std::string_view text) {
+    std::vector<double> out;
+    while (!(text = trimmed(text)).empty()) {
+        const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+        const std::optional<double> value = number_in(text.substr(0, end));
+        if (!value || out.size() == 4)
+            return {};
+        out.push_back(*value);
+        text.remove_prefix(end);
+    }
+    return out;
+}
+
 } // namespace
 
 void put_in_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes) {
@@ -131,23 +144,6 @@ void mark_padding(CandelaTable& table, Notes& notes) {
     if (v.high)
         gap("V", table.v_deg[rows - 2], table.v_deg[rows - 1]);
 }
-
-namespace {
-
-std::vector<double> four_numbers(std::string_view text) {
-    std::vector<double> out;
-    while (!(text = trimmed(text)).empty()) {
-        const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-        const std::optional<double> value = number_in(text.substr(0, end));
-        if (!value || out.size() == 4)
-            return {};
-        out.push_back(*value);
-        text.remove_prefix(end);
-    }
-    return out;
-}
-
-} // namespace
 
 std::string gaps_text(const CandelaTable& table) {
     if (table.gaps.empty())

@@ -88,50 +88,6 @@ glm::dvec3 linear_srgb(const VisualIntegrals& i) {
     return rgb / (0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z);
 }
 
-} // namespace
-
-Spectrum planck_spectrum(double kelvin) {
-    if (!(kelvin > 0.0) || !std::isfinite(kelvin))
-        throw std::invalid_argument("planck_spectrum: a temperature above 0 K is needed");
-    constexpr double c2_nm_k = 1.438776877e7; // h c / k, SI 2019
-    Spectrum s;
-    for (double nm = spectral_table_first_nm; nm <= spectral_table_last_nm; nm += step_nm) {
-        s.wavelength_nm.push_back(nm);
-        s.power.push_back(std::pow(560.0 / nm, 5.0) * std::expm1(c2_nm_k / (560.0 * kelvin)) / std::expm1(c2_nm_k / (nm * kelvin)));
-    }
-    return s;
-}
-
-VisualIntegrals visual_integrals(const Spectrum& spectrum) {
-    VisualIntegrals sum;
-    for (double nm = spectral_table_first_nm; nm <= spectral_table_last_nm; nm += step_nm) {
-        const double power = power_at(spectrum, nm) * step_nm;
-        const SpectralWeights w = weights_at(nm);
-        sum.x += power * w.x;
-        sum.y += power * w.y;
-        sum.z += power * w.z;
-        sum.scotopic += power * w.scotopic;
-    }
-    return sum;
-}
-
-LampColour colour_of_spectrum(const Spectrum& spectrum) {
-    const VisualIntegrals i = visual_integrals(spectrum);
-    if (!(i.y > 0.0) || !std::isfinite(i.x + i.y + i.z + i.scotopic))
-        throw std::invalid_argument("colour_of_spectrum: a spectrum with visible light is needed");
-    return {linear_srgb(i), km_scotopic_lm_per_w * i.scotopic / (km_lm_per_w * i.y), correlated_temperature_k(chromaticity(i))};
-}
-
-LampColour colour_of_temperature(double kelvin) {
-    if (!(kelvin >= coolest_k && kelvin <= hottest_k))
-        throw std::invalid_argument("colour_of_temperature: 1000 to 25000 K is the range");
-    LampColour colour = colour_of_spectrum(planck_spectrum(kelvin));
-    colour.cct_k = kelvin;
-    return colour;
-}
-
-namespace {
-
 constexpr std::size_t most_samples = 100000;
 constexpr double needed_from_nm = 400.0, needed_to_nm = 700.0, coarsest_nm = 20.0;
 
@@ -222,6 +178,46 @@ Spectrum read_spectrum_file(const std::filesystem::path& path, FilesRead& opened
 }
 
 } // namespace
+
+Spectrum planck_spectrum(double kelvin) {
+    if (!(kelvin > 0.0) || !std::isfinite(kelvin))
+        throw std::invalid_argument("planck_spectrum: a temperature above 0 K is needed");
+    constexpr double c2_nm_k = 1.438776877e7; // h c / k, SI 2019
+    Spectrum s;
+    for (double nm = spectral_table_first_nm; nm <= spectral_table_last_nm; nm += step_nm) {
+        s.wavelength_nm.push_back(nm);
+        s.power.push_back(std::pow(560.0 / nm, 5.0) * std::expm1(c2_nm_k / (560.0 * kelvin)) / std::expm1(c2_nm_k / (nm * kelvin)));
+    }
+    return s;
+}
+
+VisualIntegrals visual_integrals(const Spectrum& spectrum) {
+    VisualIntegrals sum;
+    for (double nm = spectral_table_first_nm; nm <= spectral_table_last_nm; nm += step_nm) {
+        const double power = power_at(spectrum, nm) * step_nm;
+        const SpectralWeights w = weights_at(nm);
+        sum.x += power * w.x;
+        sum.y += power * w.y;
+        sum.z += power * w.z;
+        sum.scotopic += power * w.scotopic;
+    }
+    return sum;
+}
+
+LampColour colour_of_spectrum(const Spectrum& spectrum) {
+    const VisualIntegrals i = visual_integrals(spectrum);
+    if (!(i.y > 0.0) || !std::isfinite(i.x + i.y + i.z + i.scotopic))
+        throw std::invalid_argument("colour_of_spectrum: a spectrum with visible light is needed");
+    return {linear_srgb(i), km_scotopic_lm_per_w * i.scotopic / (km_lm_per_w * i.y), correlated_temperature_k(chromaticity(i))};
+}
+
+LampColour colour_of_temperature(double kelvin) {
+    if (!(kelvin >= coolest_k && kelvin <= hottest_k))
+        throw std::invalid_argument("colour_of_temperature: 1000 to 25000 K is the range");
+    LampColour colour = colour_of_spectrum(planck_spectrum(kelvin));
+    colour.cct_k = kelvin;
+    return colour;
+}
 
 LampColour read_spectrum(const std::filesystem::path& path, FilesRead& opened) {
     const Spectrum spectrum = read_spectrum_file(path, opened);

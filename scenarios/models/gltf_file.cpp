@@ -128,53 +128,6 @@ void read_buffers(GltfFile& file) {
     }
 }
 
-} // namespace
-
-std::string GltfFile::at_uri(const GltfEntry& uri) {
-    const std::string text = uri.text();
-    if (text.starts_with("data:")) {
-        const std::size_t comma = text.find(',');
-        if (comma == std::string::npos || !std::string_view(text).substr(0, comma).ends_with(";base64"))
-            uri.refuse("found a data URI without base64", "base64");
-        return from_base64(std::string_view(text).substr(comma + 1), uri);
-    }
-    const std::filesystem::path folder = path.parent_path();
-    std::error_code error;
-    std::filesystem::path relative(text);
-    if (!std::filesystem::exists(folder / relative, error))
-        relative = percent_decoded(text);
-    const std::filesystem::path normal = relative.lexically_normal();
-    if (text.empty() || text.find("://") != std::string::npos || normal.is_absolute() || normal.string().starts_with(".."))
-        uri.refuse("a file beside or below the model's");
-    if (!std::filesystem::exists(folder / normal, error))
-        uri.refuse("there is no file " + printable((folder / normal).string(), 400), "a file beside or below the model's");
-    return read_file(folder / normal, opened);
-}
-
-GltfFile open_gltf(const std::filesystem::path& path) {
-    GltfFile file;
-    file.path = path;
-    const std::string bytes = read_file(path, file.opened);
-    const bool packed = bytes.starts_with("glTF");
-    file.json = parsed(packed ? unpacked_glb(bytes, file) : bytes, path);
-    const GltfEntry root = file.root();
-    const auto asset = root.find("asset");
-    const auto version_entry = asset ? asset->find("version") : std::nullopt;
-    const std::string version = !version_entry                       ? ""
-                                : version_entry->value().is_string() ? version_entry->text()
-                                                                     : version_entry->value().dump();
-    const bool named_parts = root.find("meshes") && root.require("meshes").is_object();
-    if (version.starts_with("1") || (version.empty() && named_parts))
-        file.json = upgraded_gltf1(file.json, path, file.notes);
-    else if (!version.starts_with("2"))
-        throw InputError({path, 0, 0, "asset.version"}, version.empty() ? "no version" : fmt::format("version '{}'", printable(version)),
-                         "glTF 2.0, or 1.0");
-    read_buffers(file);
-    return file;
-}
-
-namespace {
-
 constexpr double largest = 1e9;
 
 glm::dmat4 local_transform(const GltfEntry& node) {
@@ -228,6 +181,49 @@ std::vector<std::size_t> first_nodes(const GltfEntry& root, const std::vector<bo
 }
 
 } // namespace
+
+std::string GltfFile::at_uri(const GltfEntry& uri) {
+    const std::string text = uri.text();
+    if (text.starts_with("data:")) {
+        const std::size_t comma = text.find(',');
+        if (comma == std::string::npos || !std::string_view(text).substr(0, comma).ends_with(";base64"))
+            uri.refuse("found a data URI without base64", "base64");
+        return from_base64(std::string_view(text).substr(comma + 1), uri);
+    }
+    const std::filesystem::path folder = path.parent_path();
+    std::error_code error;
+    std::filesystem::path relative(text);
+    if (!std::filesystem::exists(folder / relative, error))
+        relative = percent_decoded(text);
+    const std::filesystem::path normal = relative.lexically_normal();
+    if (text.empty() || text.find("://") != std::string::npos || normal.is_absolute() || normal.string().starts_with(".."))
+        uri.refuse("a file beside or below the model's");
+    if (!std::filesystem::exists(folder / normal, error))
+        uri.refuse("there is no file " + printable((folder / normal).string(), 400), "a file beside or below the model's");
+    return read_file(folder / normal, opened);
+}
+
+GltfFile open_gltf(const std::filesystem::path& path) {
+    GltfFile file;
+    file.path = path;
+    const std::string bytes = read_file(path, file.opened);
+    const bool packed = bytes.starts_with("glTF");
+    file.json = parsed(packed ? unpacked_glb(bytes, file) : bytes, path);
+    const GltfEntry root = file.root();
+    const auto asset = root.find("asset");
+    const auto version_entry = asset ? asset->find("version") : std::nullopt;
+    const std::string version = !version_entry                       ? ""
+                                : version_entry->value().is_string() ? version_entry->text()
+                                                                     : version_entry->value().dump();
+    const bool named_parts = root.find("meshes") && root.require("meshes").is_object();
+    if (version.starts_with("1") || (version.empty() && named_parts))
+        file.json = upgraded_gltf1(file.json, path, file.notes);
+    else if (!version.starts_with("2"))
+        throw InputError({path, 0, 0, "asset.version"}, version.empty() ? "no version" : fmt::format("version '{}'", printable(version)),
+                         "glTF 2.0, or 1.0");
+    read_buffers(file);
+    return file;
+}
 
 void walk_nodes(const GltfEntry& root, const std::function<void(const GltfEntry&, const glm::dmat4&)>& visit) {
     const std::size_t count = root.list_size("nodes");

@@ -7,12 +7,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 
 namespace fernlicht {
 namespace {
-
-using Cell = std::array<long, 3>;
 
 Mesh mesh_of(const TriangleSoup& soup, const std::vector<std::size_t>& triangles, const glm::dvec3& origin_m, std::string name) {
     Mesh mesh{std::move(name), origin_m, {}, {}, {}};
@@ -33,6 +32,26 @@ Mesh mesh_of(const TriangleSoup& soup, const std::vector<std::size_t>& triangles
             }
     }
     return mesh;
+}
+
+constexpr double open_from_share = 0.85;
+
+using Key = std::array<long, 3>;
+Key key_of(const glm::dvec3& v, double step) { return {std::lround(v.x / step), std::lround(v.y / step), std::lround(v.z / step)}; }
+
+void append_quad(TriangleSoup& soup, const std::array<glm::dvec3, 4>& q, std::uint32_t material) {
+    soup.add({q[0], q[1], q[2]}, material);
+    soup.add({q[0], q[2], q[3]}, material);
+}
+
+void append_cap(TriangleSoup& soup, const Outline& outline, bool turned, std::uint32_t material) {
+    glm::dvec3 middle(0.0);
+    for (const glm::dvec3& p : outline)
+        middle += p / static_cast<double>(outline.size());
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const glm::dvec3 &a = outline[k], &b = outline[(k + 1) % outline.size()];
+        soup.add(turned ? std::array{middle, b, a} : std::array{middle, a, b}, material);
+    }
 }
 
 } // namespace
@@ -69,48 +88,23 @@ void add_meshes(Model& model, const TriangleSoup& soup) {
     const glm::dvec3 size = high - low, farthest = glm::max(glm::abs(low), glm::abs(high));
     if (std::max({size.x, size.y, size.z}) <= largest_mesh_m) {
         std::vector<std::size_t> all(soup.triangles.size());
-        for (std::size_t t = 0; t < all.size(); ++t)
-            all[t] = t;
+        std::iota(all.begin(), all.end(), std::size_t{0});
         const bool near = std::max({farthest.x, farthest.y, farthest.z}) <= largest_mesh_m;
         model.meshes.push_back(mesh_of(soup, all, near ? glm::dvec3(0.0) : glm::round(0.5 * (low + high)), model.name));
         return;
     }
-    std::map<Cell, std::vector<std::size_t>> cells;
+    std::map<Key, std::vector<std::size_t>> cells;
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
         const auto& c = soup.triangles[t].corners;
         const glm::dvec3 middle =
             (soup.vertices[c[0]].position_m + soup.vertices[c[1]].position_m + soup.vertices[c[2]].position_m) / (3.0 * mesh_cell_m);
-        cells[{std::lround(std::floor(middle.x)), std::lround(std::floor(middle.y)), std::lround(std::floor(middle.z))}].push_back(t);
+        cells[key_of(glm::floor(middle), 1.0)].push_back(t);
     }
     for (const auto& [cell, triangles] : cells) {
         const glm::dvec3 origin = (glm::dvec3(cell[0], cell[1], cell[2]) + 0.5) * mesh_cell_m;
         model.meshes.push_back(mesh_of(soup, triangles, origin, fmt::format("{} {} {} {}", model.name, cell[0], cell[1], cell[2])));
     }
 }
-
-namespace {
-
-constexpr double open_from_share = 0.85;
-
-using Key = std::array<long, 3>;
-Key key_of(const glm::dvec3& v, double step) { return {std::lround(v.x / step), std::lround(v.y / step), std::lround(v.z / step)}; }
-
-void append_quad(TriangleSoup& soup, const std::array<glm::dvec3, 4>& q, std::uint32_t material) {
-    soup.add({q[0], q[1], q[2]}, material);
-    soup.add({q[0], q[2], q[3]}, material);
-}
-
-void append_cap(TriangleSoup& soup, const Outline& outline, bool turned, std::uint32_t material) {
-    glm::dvec3 middle(0.0);
-    for (const glm::dvec3& p : outline)
-        middle += p / static_cast<double>(outline.size());
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        const glm::dvec3 &a = outline[k], &b = outline[(k + 1) % outline.size()];
-        soup.add(turned ? std::array{middle, b, a} : std::array{middle, a, b}, material);
-    }
-}
-
-} // namespace
 
 void append_loft(TriangleSoup& soup, const std::vector<Outline>& stations,
                  const std::function<std::uint32_t(std::size_t, std::size_t)>& material, std::uint32_t caps) {

@@ -8,8 +8,6 @@
 namespace fernlicht {
 namespace {
 
-template <class... Visitors> struct Overloaded : Visitors... { using Visitors::operator()...; };
-
 /// sin(x)/x and (1 - cos(x))/x, both smooth through 0: an arc of any curvature, nearly straight ones included.
 void unit_arc(double x, double& along, double& across) {
     if (std::abs(x) < 1e-2) {
@@ -23,27 +21,18 @@ void unit_arc(double x, double& along, double& across) {
     }
 }
 
-PlanPoint arc_point(const Arc& arc, double ds) {
+PlanPoint curve_point(const Line&, double, double ds) { return {ds, 0.0, 0.0, 0.0, 1.0}; }
+
+PlanPoint curve_point(const Arc& arc, double, double ds) {
     double along = 1.0, across = 0.0;
     unit_arc(arc.curvature_per_m * ds, along, across);
     return {ds * along, ds * across, arc.curvature_per_m * ds, arc.curvature_per_m, 1.0};
 }
 
-PlanPoint local_point(const PlanElement& element, double ds) {
-    return std::visit(Overloaded{[&](const Line&) {
-                                     return PlanPoint{ds, 0.0, 0.0, 0.0, 1.0};
-                                 },
-                                 [&](const Arc& arc) { return arc_point(arc, ds); },
-                                 [&](const Spiral& spiral) { return spiral_point(spiral, element.length_m, ds); },
-                                 [&](const Poly3& poly) { return poly3_point(poly, element.length_m, ds); },
-                                 [&](const ParamPoly3& poly) { return param_poly3_point(poly, element.length_m, ds); }},
-                      element.shape);
-}
-
 } // namespace
 
 PlanPoint plan_point(const PlanElement& element, double ds_m) {
-    const PlanPoint local = local_point(element, ds_m);
+    const PlanPoint local = std::visit([&](const auto& shape) { return curve_point(shape, element.length_m, ds_m); }, element.shape);
     const double c = std::cos(element.heading_rad), s = std::sin(element.heading_rad);
     return {element.x_m + c * local.x_m - s * local.y_m, element.y_m + s * local.x_m + c * local.y_m,
             element.heading_rad + local.heading_rad, local.heading_rate_per_m, local.speed};

@@ -143,11 +143,11 @@ std::vector<Poly3::Knot> poly3_knots(const Poly3& poly, double length_m) {
     return knots_over(poly, last->u_m);
 }
 
-PlanPoint poly3_point(const Poly3& poly, double length_m, double ds_m) {
+PlanPoint curve_point(const Poly3& poly, double length_m, double ds_m) {
     if (poly.knots.empty()) {
         Poly3 prepared = poly;
         prepared.knots = poly3_knots(poly, length_m);
-        return poly3_point(prepared, length_m, ds_m);
+        return curve_point(prepared, length_m, ds_m);
     }
     const auto after = std::upper_bound(poly.knots.begin() + 1, poly.knots.end() - 1, ds_m,
                                         [](double s, const Poly3::Knot& knot) { return s < knot.s_m; });
@@ -158,7 +158,7 @@ PlanPoint poly3_point(const Poly3& poly, double length_m, double ds_m) {
             1.0};
 }
 
-PlanPoint param_poly3_point(const ParamPoly3& poly, double length_m, double ds_m) {
+PlanPoint curve_point(const ParamPoly3& poly, double length_m, double ds_m) {
     const double per_m = parameter_per_m(poly, length_m);
     const Derivatives at = derivatives(poly, ds_m * per_m);
     const double speed2 = at.du * at.du + at.dv * at.dv;
@@ -190,7 +190,7 @@ std::vector<glm::dvec2> spiral_steps(const Spiral& spiral, double length_m) {
     return steps;
 }
 
-PlanPoint spiral_point(const Spiral& spiral, double length_m, double ds_m) {
+PlanPoint curve_point(const Spiral& spiral, double length_m, double ds_m) {
     const Winding w = winding(spiral, length_m);
     const double last = static_cast<double>(w.steps - 1);
     const double index = w.step_m > 0.0 ? std::clamp(std::floor(ds_m / w.step_m), 0.0, last) : 0.0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace fernlicht {
 namespace {
@@ -18,15 +19,9 @@ struct CoverFigures {
 };
 /// IES 1984, table 1 and equations of the sky's illuminance; klx there.
 CoverFigures figures_of(SkyCover cover) {
-    switch (cover) {
-    case SkyCover::clear:
-        return {0.21, 800.0, 15500.0, 0.5, 1.0};
-    case SkyCover::partly_cloudy:
-        return {0.80, 300.0, 45000.0, 1.0, 0.375};
-    case SkyCover::overcast:
-        break;
-    }
-    return {HUGE_VAL, 300.0, 21000.0, 1.0, 0.375};
+    static constexpr CoverFigures figures[]{
+        {0.21, 800.0, 15500.0, 0.5, 1.0}, {0.80, 300.0, 45000.0, 1.0, 0.375}, {HUGE_VAL, 300.0, 21000.0, 1.0, 0.375}};
+    return figures[static_cast<std::size_t>(cover)];
 }
 
 /// Horizontal, of the sky by day; the sun's disc at and below the horizon counts as at it.
@@ -48,9 +43,11 @@ double direct_share(const CoverFigures& f, double apparent_rad) {
 struct Fit {
     double above_deg, l0, l1, l2, l3; // log10 of lx, in powers of altitude / 90 degrees
 };
-double fitted(const Fit& fit, double altitude_deg) {
+/// By the first that reaches so low; 0 below the last.
+double fitted(std::span<const Fit> fits, double altitude_deg) {
+    const auto fit = std::ranges::find_if(fits, [&](const Fit& f) { return altitude_deg >= f.above_deg; });
     const double x = altitude_deg / 90.0;
-    return std::pow(10.0, fit.l0 + x * (fit.l1 + x * (fit.l2 + x * fit.l3)));
+    return fit == fits.end() ? 0.0 : std::pow(10.0, fit->l0 + x * (fit->l1 + x * (fit->l2 + x * fit->l3)));
 }
 
 } // namespace
@@ -69,21 +66,13 @@ double supplement_sun_lx(double altitude_rad) {
     static constexpr Fit fits[] = {{20.0, 3.74, 3.97, -4.07, 1.47},         {5.0, 3.05, 13.28, -45.98, 64.33},
                                    {-0.8, 2.88, 22.26, -207.64, 1034.30},   {-5.0, 2.88, 21.81, -258.11, -858.36},
                                    {-12.0, 2.70, 12.17, -431.69, -1899.83}, {-18.0, 13.84, 262.72, 1447.42, 2797.93}};
-    const double h = std::clamp(degrees(altitude_rad), -18.0, 90.0);
-    for (const Fit& fit : fits)
-        if (h >= fit.above_deg)
-            return fitted(fit, h);
-    return 0.0;
+    return fitted(fits, std::clamp(degrees(altitude_rad), -18.0, 90.0));
 }
 
 double supplement_full_moon_lx(double altitude_rad) {
     static constexpr Fit fits[] = {
         {20.0, -1.95, 4.06, -4.24, 1.56}, {5.0, -2.58, 12.58, -42.58, 59.06}, {-0.8, -2.79, 24.27, -252.95, 1321.29}};
-    const double h = degrees(altitude_rad);
-    for (const Fit& fit : fits)
-        if (h >= fit.above_deg)
-            return fitted(fit, h);
-    return 0.0;
+    return fitted(fits, degrees(altitude_rad));
 }
 
 SkyLight sun_light(double altitude_rad, double apparent_altitude_rad, double distance_km, SkyCover cover) {

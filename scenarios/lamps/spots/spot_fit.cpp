@@ -100,52 +100,6 @@ void measure(SpotFit& fit, const CandelaTable& unit, const SpotDirections& d) {
         }
 }
 
-} // namespace
-
-double intensity_cd(const Spot& spot, double h_deg, double v_deg) {
-    const double cosine = glm::dot(direction_of(spot.h_deg, spot.v_deg), direction_of(h_deg, v_deg));
-    return cosine <= 0.0 || cosine < std::cos(radians(spot.cutoff_deg)) ? 0.0 : spot.cd * std::pow(cosine, spot.exponent);
-}
-
-double flux_lm(const Spot& spot) {
-    const double power = spot.exponent + 1.0;
-    return 2.0 * pi * spot.cd * (1.0 - std::pow(std::max(std::cos(radians(spot.cutoff_deg)), 0.0), power)) / power;
-}
-
-SpotFit fit_spots(const CandelaTable& table, int count) {
-    if (count < 1 || count > most_spots)
-        throw std::invalid_argument(fmt::format("spot fit: {} spots, expected 1 to {}", count, most_spots));
-    constexpr double worth_a_spot = 1e-9; // of the table's sum of squares: less is rounding
-    SpotFit fit;
-    fit.table_flux_lm = flux_lm(table);
-    const double peak = peak_of(table).cd;
-    if (peak <= 0.0)
-        return fit;
-    CandelaTable unit = table; // whose squares are in range
-    for (double& cd : unit.cd)
-        cd /= peak;
-    const SpotDirections directions = spot_directions(unit, most_directions), coarse = spot_directions(unit, most_axes);
-    if (directions.total_cd2_sr <= 0.0)
-        return fit; // all its light goes backwards
-    for (int k = 0; k < count; ++k) {
-        const Candidate next = best_addition(coarse, fit.spots);
-        if (next.gain <= worth_a_spot * directions.total_cd2_sr)
-            break;
-        fit.spots.push_back(next.spot);
-        refine_alone(directions, fit.spots, fit.spots.size() - 1, 2.0, 0.1);
-        refine(directions, fit.spots);
-    }
-    std::erase_if(fit.spots, [](const Spot& spot) { return spot.cd <= 0.0; });
-    measure(fit, unit, directions);
-    for (Spot& spot : fit.spots) {
-        spot.cd *= peak;
-        fit.flux_lm += flux_lm(spot);
-    }
-    return fit;
-}
-
-namespace {
-
 constexpr double coarsest_deg = 5.0;
 
 /// A sample of one axis and the stretch that it stands for.
@@ -270,6 +224,48 @@ void add_group(SpotDirections& out, const Samples& s, Range rows, Range columns)
 }
 
 } // namespace
+
+double intensity_cd(const Spot& spot, double h_deg, double v_deg) {
+    const double cosine = glm::dot(direction_of(spot.h_deg, spot.v_deg), direction_of(h_deg, v_deg));
+    return cosine <= 0.0 || cosine < std::cos(radians(spot.cutoff_deg)) ? 0.0 : spot.cd * std::pow(cosine, spot.exponent);
+}
+
+double flux_lm(const Spot& spot) {
+    const double power = spot.exponent + 1.0;
+    return 2.0 * pi * spot.cd * (1.0 - std::pow(std::max(std::cos(radians(spot.cutoff_deg)), 0.0), power)) / power;
+}
+
+SpotFit fit_spots(const CandelaTable& table, int count) {
+    if (count < 1 || count > most_spots)
+        throw std::invalid_argument(fmt::format("spot fit: {} spots, expected 1 to {}", count, most_spots));
+    constexpr double worth_a_spot = 1e-9; // of the table's sum of squares: less is rounding
+    SpotFit fit;
+    fit.table_flux_lm = flux_lm(table);
+    const double peak = peak_of(table).cd;
+    if (peak <= 0.0)
+        return fit;
+    CandelaTable unit = table; // whose squares are in range
+    for (double& cd : unit.cd)
+        cd /= peak;
+    const SpotDirections directions = spot_directions(unit, most_directions), coarse = spot_directions(unit, most_axes);
+    if (directions.total_cd2_sr <= 0.0)
+        return fit; // all its light goes backwards
+    for (int k = 0; k < count; ++k) {
+        const Candidate next = best_addition(coarse, fit.spots);
+        if (next.gain <= worth_a_spot * directions.total_cd2_sr)
+            break;
+        fit.spots.push_back(next.spot);
+        refine_alone(directions, fit.spots, fit.spots.size() - 1, 2.0, 0.1);
+        refine(directions, fit.spots);
+    }
+    std::erase_if(fit.spots, [](const Spot& spot) { return spot.cd <= 0.0; });
+    measure(fit, unit, directions);
+    for (Spot& spot : fit.spots) {
+        spot.cd *= peak;
+        fit.flux_lm += flux_lm(spot);
+    }
+    return fit;
+}
 
 SpotDirections spot_directions(const CandelaTable& table, std::size_t most) {
     const Samples s = samples_of(table);

@@ -44,6 +44,44 @@ std::vector<Strip> with_kerb_faces(const std::vector<Strip>& strips) {
     return out;
 }
 
+// German guide lines outside towns (RMS-1): 4 m dash, 8 m gap [M].
+constexpr double dash_of_broken_m = 4.0;
+constexpr double gap_of_broken_m = 8.0;
+constexpr double shortest_period_m = 0.2;
+constexpr double most_dashes = 20'000.0; ///< of one mark: 240 km of guide line
+constexpr double default_width_m = 0.12;
+
+using Explicit = RoadMark::Stripe;
+
+/// Left line first: OpenDRIVE names the lines of a double mark from the inside of the road outwards, so they swap on the right side.
+std::vector<Explicit> stripes_by_kind(MarkKind kind, double width, bool left_side) {
+    const auto line = [width](bool broken, double t) {
+        return Explicit{width, broken ? dash_of_broken_m : 0.0, broken ? gap_of_broken_m : 0.0, t, 0.0};
+    };
+    const double inner = left_side ? -width : width;
+    using enum MarkKind;
+    if (kind == solid || kind == broken)
+        return {line(kind == broken, 0.0)};
+    if (kind == solid_solid || kind == solid_broken || kind == broken_solid || kind == broken_broken)
+        return {line(kind == broken_solid || kind == broken_broken, inner), line(kind == solid_broken || kind == broken_broken, -inner)};
+    return {};
+}
+
+Stripe placed(const Explicit& line, const RoadMark& mark, double from_s, double to_s) {
+    Stripe stripe;
+    stripe.from_s_m = from_s;
+    stripe.to_s_m = to_s;
+    stripe.t_m = line.t_m;
+    stripe.width_m = line.width_m > 0.0 ? line.width_m : mark.width_m > 0.0 ? mark.width_m : default_width_m;
+    stripe.first_dash_m = from_s + line.start_m;
+    stripe.dash_m = line.dash_m;
+    stripe.period_m = line.gap_m > 0.0 ? line.dash_m + line.gap_m : 0.0;
+    if (stripe.period_m < shortest_period_m || (to_s - from_s) / stripe.period_m > most_dashes)
+        stripe.period_m = 0.0;
+    stripe.material = marking_material(mark.colour);
+    return stripe;
+}
+
 } // namespace
 
 double Strip::height_at(double t_m) const {
@@ -196,48 +234,6 @@ void SectionProfile::append_stations(std::vector<double>& stations) const {
 }
 
 double SectionProfile::rightmost_t(double s_m) const { return edges_.empty() ? 0.0 : span(*edges_.front().left, s_m).right_t_m; }
-
-namespace {
-
-// German guide lines outside towns (RMS-1): 4 m dash, 8 m gap [M].
-constexpr double dash_of_broken_m = 4.0;
-constexpr double gap_of_broken_m = 8.0;
-constexpr double shortest_period_m = 0.2;
-constexpr double most_dashes = 20'000.0; ///< of one mark: 240 km of guide line
-constexpr double default_width_m = 0.12;
-
-using Explicit = RoadMark::Stripe;
-
-/// Left line first: OpenDRIVE names the lines of a double mark from the inside of the road outwards, so they swap on the right side.
-std::vector<Explicit> stripes_by_kind(MarkKind kind, double width, bool left_side) {
-    const auto line = [width](bool broken, double t) {
-        return Explicit{width, broken ? dash_of_broken_m : 0.0, broken ? gap_of_broken_m : 0.0, t, 0.0};
-    };
-    const double inner = left_side ? -width : width;
-    using enum MarkKind;
-    if (kind == solid || kind == broken)
-        return {line(kind == broken, 0.0)};
-    if (kind == solid_solid || kind == solid_broken || kind == broken_solid || kind == broken_broken)
-        return {line(kind == broken_solid || kind == broken_broken, inner), line(kind == solid_broken || kind == broken_broken, -inner)};
-    return {};
-}
-
-Stripe placed(const Explicit& line, const RoadMark& mark, double from_s, double to_s) {
-    Stripe stripe;
-    stripe.from_s_m = from_s;
-    stripe.to_s_m = to_s;
-    stripe.t_m = line.t_m;
-    stripe.width_m = line.width_m > 0.0 ? line.width_m : mark.width_m > 0.0 ? mark.width_m : default_width_m;
-    stripe.first_dash_m = from_s + line.start_m;
-    stripe.dash_m = line.dash_m;
-    stripe.period_m = line.gap_m > 0.0 ? line.dash_m + line.gap_m : 0.0;
-    if (stripe.period_m < shortest_period_m || (to_s - from_s) / stripe.period_m > most_dashes)
-        stripe.period_m = 0.0;
-    stripe.material = marking_material(mark.colour);
-    return stripe;
-}
-
-} // namespace
 
 bool Stripe::painted_at(double s_m) const {
     if (s_m < from_s_m || s_m > to_s_m || s_m < first_dash_m)

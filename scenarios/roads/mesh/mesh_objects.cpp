@@ -74,43 +74,6 @@ std::vector<Corner> tidy(const std::vector<Corner>& outline, bool closed) {
     return out;
 }
 
-} // namespace
-
-std::vector<std::array<std::size_t, 3>> triangulated(const std::vector<glm::dvec3>& polygon) {
-    std::vector<std::array<std::size_t, 3>> out;
-    std::vector<std::size_t> left(polygon.size());
-    for (std::size_t i = 0; i < left.size(); ++i)
-        left[i] = i;
-    const auto is_ear = [&](std::size_t i) {
-        const std::size_t n = left.size();
-        const std::size_t a = left[(i + n - 1) % n], b = left[i], c = left[(i + 1) % n];
-        if (cross(polygon[a], polygon[b], polygon[c]) <= 0.0)
-            return false;
-        return std::none_of(left.begin(), left.end(), [&](std::size_t k) {
-            if (k == a || k == b || k == c)
-                return false;
-            const glm::dvec3& q = polygon[k];
-            return cross(polygon[a], polygon[b], q) >= 0.0 && cross(polygon[b], polygon[c], q) >= 0.0 &&
-                   cross(polygon[c], polygon[a], q) >= 0.0;
-        });
-    };
-    while (left.size() > 3) {
-        std::size_t ear = 0;
-        while (ear < left.size() && !is_ear(ear))
-            ++ear;
-        if (ear == left.size())
-            return {};
-        const std::size_t n = left.size();
-        out.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
-    }
-    if (left.size() == 3)
-        out.push_back({left[0], left[1], left[2]});
-    return out;
-}
-
-namespace {
-
 /// A cylinder of 12 sides about the pose's up axis from its position upwards, with a lid.
 void append_post(MeshBuilder& builder, RoadMaterial material, const Pose& foot, double radius_m, double height_m) {
     constexpr int sides = 12;
@@ -309,6 +272,39 @@ void append_board(MeshBuilder& builder, const RoadSignal& signal, const Pose& gr
 }
 
 } // namespace
+
+std::vector<std::array<std::size_t, 3>> triangulated(const std::vector<glm::dvec3>& polygon) {
+    std::vector<std::array<std::size_t, 3>> out;
+    std::vector<std::size_t> left(polygon.size());
+    for (std::size_t i = 0; i < left.size(); ++i)
+        left[i] = i;
+    const auto is_ear = [&](std::size_t i) {
+        const std::size_t n = left.size();
+        const std::size_t a = left[(i + n - 1) % n], b = left[i], c = left[(i + 1) % n];
+        if (cross(polygon[a], polygon[b], polygon[c]) <= 0.0)
+            return false;
+        return std::none_of(left.begin(), left.end(), [&](std::size_t k) {
+            if (k == a || k == b || k == c)
+                return false;
+            const glm::dvec3& q = polygon[k];
+            return cross(polygon[a], polygon[b], q) >= 0.0 && cross(polygon[b], polygon[c], q) >= 0.0 &&
+                   cross(polygon[c], polygon[a], q) >= 0.0;
+        });
+    };
+    while (left.size() > 3) {
+        std::size_t ear = 0;
+        while (ear < left.size() && !is_ear(ear))
+            ++ear;
+        if (ear == left.size())
+            return {};
+        const std::size_t n = left.size();
+        out.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+    }
+    if (left.size() == 3)
+        out.push_back({left[0], left[1], left[2]});
+    return out;
+}
 
 void append_objects(Scene& scene, const RoadNetwork& network, const SurfacePlan& plan, const RoadMeshOptions& options) {
     const Road& road = *plan.road;

@@ -261,6 +261,10 @@ class Side {
     std::vector<std::array<bool, 4>> open_; ///< cells that are left out
 };
 
+constexpr double far_beyond_m = 2500.0, far_below_m = 0.5;
+constexpr double far_tile_m = 500.0;     // small enough to be culled
+constexpr double most_far_tiles = 250.0; // each way; larger then
+
 } // namespace
 
 void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, const Footprints& footprints,
@@ -273,14 +277,6 @@ void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_inde
         side.append(scene);
     }
 }
-
-namespace {
-
-constexpr double far_beyond_m = 2500.0, far_below_m = 0.5;
-constexpr double far_tile_m = 500.0;     // small enough to be culled
-constexpr double most_far_tiles = 250.0; // each way; larger then
-
-} // namespace
 
 void add_far_ground(Scene& scene) {
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);

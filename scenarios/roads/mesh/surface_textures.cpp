@@ -146,6 +146,18 @@ void put_on(Material& material, const std::vector<SurfaceTexture>& textures, Roa
     material.retro_rl = static_cast<float>(static_cast<double>(material.retro_rl) * luminance(own) / luminance(wanted));
 }
 
+/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return z ^ (z >> 31);
+}
+
+constexpr std::uint64_t golden = 0x9E3779B97F4A7C15ULL;
+
+/// Perlin's fade of 2002: first and second derivative are 0 at both ends.
+double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
+
 } // namespace
 
 std::vector<SurfaceTexture> road_textures(std::uint64_t seed) { return {asphalt(seed), concrete(seed), grass(seed), paint_wear(seed)}; }
@@ -172,22 +184,6 @@ void add_road_textures(Scene& scene, std::uint64_t seed) {
     put(RoadMaterial::marking_white, RoadTexture::paint_wear, TextureMode::decal);
     put(RoadMaterial::marking_yellow, RoadTexture::paint_wear, TextureMode::decal);
 }
-
-namespace {
-
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31);
-}
-
-constexpr std::uint64_t golden = 0x9E3779B97F4A7C15ULL;
-
-/// Perlin's fade of 2002: first and second derivative are 0 at both ends.
-double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
-
-} // namespace
 
 TilingNoise::TilingNoise(std::uint64_t seed, std::uint64_t stream) : key_(mixed(mixed(seed + golden) + stream * golden)) {}
 

@@ -113,42 +113,6 @@ void check_edges(XmlFile& xml, pugi::xml_node node, const Road& road, const Lane
     }
 }
 
-} // namespace
-
-void read_lanes(XmlFile& xml, pugi::xml_node road_node, Road& road) {
-    const pugi::xml_node lanes = road_node.child("lanes");
-    const std::string road_name = named("road", road.id);
-    road.lane_offset = read_cubics(xml, lanes, "laneOffset", "s");
-    std::vector<pugi::xml_node> nodes;
-    for (const pugi::xml_node node : lanes.children("laneSection")) {
-        LaneSection section = read_section(xml, node, road_name);
-        if (!road.sections.empty() && section.s_m <= road.sections.back().s_m)
-            xml.refuse(node, "s", fmt::format("found {} after {} in {}", section.s_m, road.sections.back().s_m, road_name),
-                       "lane sections in ascending order");
-        if (section.s_m >= road.length_m) {
-            xml.warn(node,
-                     fmt::format("{}: the lane section at s = {} lies beyond the road's end and is left out", road_name, section.s_m));
-            continue;
-        }
-        road.sections.push_back(std::move(section));
-        nodes.push_back(node);
-    }
-    if (road.sections.empty()) {
-        xml.warn(road_node, fmt::format("{} has no lane section: it is a reference line without surface", road_name));
-        road.sections.push_back({0.0, road.length_m, {Lane{}}});
-        nodes.push_back(road_node);
-    }
-    if (road.sections.front().s_m > 0.0)
-        xml.warn(nodes.front(), fmt::format("{}: the first lane section begins at s = {}; it is extended back to 0", road_name,
-                                            road.sections.front().s_m));
-    for (std::size_t i = 0; i < road.sections.size(); ++i) {
-        road.sections[i].end_m = i + 1 < road.sections.size() ? road.sections[i + 1].s_m : road.length_m;
-        check_edges(xml, nodes[i], road, road.sections[i]);
-    }
-}
-
-namespace {
-
 constexpr double standard_width_m = 0.12, bold_width_m = 0.25, widest_mark_m = 10.0;
 constexpr double once_m = 1e9; ///< the gap after a line that is not repeated
 
@@ -199,6 +163,38 @@ void read_stripes(XmlFile& xml, pugi::xml_node node, RoadMark& mark) {
 }
 
 } // namespace
+
+void read_lanes(XmlFile& xml, pugi::xml_node road_node, Road& road) {
+    const pugi::xml_node lanes = road_node.child("lanes");
+    const std::string road_name = named("road", road.id);
+    road.lane_offset = read_cubics(xml, lanes, "laneOffset", "s");
+    std::vector<pugi::xml_node> nodes;
+    for (const pugi::xml_node node : lanes.children("laneSection")) {
+        LaneSection section = read_section(xml, node, road_name);
+        if (!road.sections.empty() && section.s_m <= road.sections.back().s_m)
+            xml.refuse(node, "s", fmt::format("found {} after {} in {}", section.s_m, road.sections.back().s_m, road_name),
+                       "lane sections in ascending order");
+        if (section.s_m >= road.length_m) {
+            xml.warn(node,
+                     fmt::format("{}: the lane section at s = {} lies beyond the road's end and is left out", road_name, section.s_m));
+            continue;
+        }
+        road.sections.push_back(std::move(section));
+        nodes.push_back(node);
+    }
+    if (road.sections.empty()) {
+        xml.warn(road_node, fmt::format("{} has no lane section: it is a reference line without surface", road_name));
+        road.sections.push_back({0.0, road.length_m, {Lane{}}});
+        nodes.push_back(road_node);
+    }
+    if (road.sections.front().s_m > 0.0)
+        xml.warn(nodes.front(), fmt::format("{}: the first lane section begins at s = {}; it is extended back to 0", road_name,
+                                            road.sections.front().s_m));
+    for (std::size_t i = 0; i < road.sections.size(); ++i) {
+        road.sections[i].end_m = i + 1 < road.sections.size() ? road.sections[i + 1].s_m : road.length_m;
+        check_edges(xml, nodes[i], road, road.sections[i]);
+    }
+}
 
 std::vector<RoadMark> read_marks(XmlFile& xml, pugi::xml_node lane_node) {
     std::vector<RoadMark> marks;

@@ -15,6 +15,15 @@ namespace {
 
 const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
 
+/// Our street lamp, on a row of its own or on these objects.
+StreetLampRow row_of(const std::string& name, const std::vector<std::string>& on_objects = {}) {
+    StreetLampRow row;
+    row.name = name;
+    row.file = std::make_shared<LampFile>(read_lamp(library + "lamps/street-6000lm.ies", {.type_c_axis = TypeCAxis::nadir}));
+    row.on_objects = on_objects;
+    return row;
+}
+
 /// The straight, with our street lamp to the right of it.
 struct LitStraight {
     RoadNetwork network = read_opendrive(library + "roads/straight.xodr");
@@ -23,9 +32,7 @@ struct LitStraight {
     Moment moment;
 
     explicit LitStraight(double beside_m = -4.0) {
-        StreetLampRow row;
-        row.name = "row";
-        row.file = std::make_shared<LampFile>(read_lamp(library + "lamps/street-6000lm.ies", {.type_c_axis = TypeCAxis::nadir}));
+        StreetLampRow row = row_of("row");
         row.first_m = 10.0;
         row.last_m = 320.0;
         row.beside_m = beside_m;
@@ -102,10 +109,7 @@ struct LitVillage {
     Drive drive;
 
     explicit LitVillage(const std::string& word, double height_m = 0.0, double arm_m = 1.0) {
-        StreetLampRow row;
-        row.name = "posts";
-        row.file = std::make_shared<LampFile>(read_lamp(library + "lamps/street-6000lm.ies", {.type_c_axis = TypeCAxis::nadir}));
-        row.on_objects = {word};
+        StreetLampRow row = row_of("posts", {word});
         row.height_m = height_m;
         row.arm_m = arm_m;
         drive.file = "village.yaml";
