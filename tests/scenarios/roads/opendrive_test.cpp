@@ -56,11 +56,10 @@ TEST(OpenDrive, NamespacesLatin1AndByteOrderMark) {
 }
 
 TEST(OpenDrive, GradeAndRoll) {
-    RoadText text;
-    text.profiles =
-        R"(<elevationProfile><elevation s="0" a="10" b="0.1" c="0" d="0"/><elevation s="50" a="15" b="0.1" c="-0.002" d="0"/></elevationProfile>
-        <lateralProfile><superelevation s="0" a="0.05" b="0" c="0" d="0"/></lateralProfile>)";
-    const RoadNetwork network = network_of(text);
+    const RoadNetwork network = network_of(RoadText{
+        .profiles =
+            R"(<elevationProfile><elevation s="0" a="10" b="0.1" c="0" d="0"/><elevation s="50" a="15" b="0.1" c="-0.002" d="0"/></elevationProfile>
+        <lateralProfile><superelevation s="0" a="0.05" b="0" c="0" d="0"/></lateralProfile>)"});
     const Pose pose = surface_pose(network, network.roads[0], 20.0, 4.0);
     const glm::dmat3 axes = axes_from_angles(0.0, std::atan(0.1), 0.05);
     const glm::dvec3 expected = glm::dvec3(20.0, 0.0, 12.0) + 4.0 * axes[1];
@@ -93,10 +92,9 @@ TEST(OpenDrive, SurfaceAxesAreTangents) {
 }
 
 TEST(OpenDrive, ShapeIsLinearInSAndGoesOnStraightBesideTheRoad) {
-    RoadText text;
-    text.profiles = R"(<lateralProfile><shape s="0" t="-3.5" a="0.1" b="-0.02" c="0" d="0"/><shape s="0" t="0" a="0" b="0" c="0.01" d="0"/>
-        <shape s="100" t="-3.5" a="0.3" b="-0.02" c="0" d="0"/><shape s="100" t="0" a="0" b="0" c="0.01" d="0"/></lateralProfile>)";
-    const RoadNetwork network = network_of(text);
+    const RoadNetwork network = network_of(RoadText{
+        .profiles = R"(<lateralProfile><shape s="0" t="-3.5" a="0.1" b="-0.02" c="0" d="0"/><shape s="0" t="0" a="0" b="0" c="0.01" d="0"/>
+        <shape s="100" t="-3.5" a="0.3" b="-0.02" c="0" d="0"/><shape s="100" t="0" a="0" b="0" c="0.01" d="0"/></lateralProfile>)"});
     const auto z = [&](double s, double t) { return surface_pose(network, network.roads[0], s, t).position_m.z; };
     EXPECT_NEAR(z(0.0, 2.0), 0.04, 1e-12);
     EXPECT_NEAR(z(50.0, -3.5), 0.2, 1e-12);
@@ -106,13 +104,12 @@ TEST(OpenDrive, ShapeIsLinearInSAndGoesOnStraightBesideTheRoad) {
 }
 
 TEST(OpenDrive, WidthsBordersAndOffset) {
-    RoadText text;
-    text.lanes =
-        R"(<laneOffset s="0" a="1" b="0.01" c="0" d="0"/>)" + section(0.0, lane(2, "3") + lane(1), lane(-1) + lane(-2, "-2")) +
-        section(
-            60.0, "",
-            R"(<lane id="-1" type="driving"><width sOffset="0" a="3" b="0" c="0" d="0"/><width sOffset="10" a="3" b="0.1" c="0" d="0"/></lane>)");
-    const RoadNetwork network = network_of(text);
+    const RoadNetwork network = network_of(RoadText{
+        .lanes =
+            R"(<laneOffset s="0" a="1" b="0.01" c="0" d="0"/>)" + section(0.0, lane(2, "3") + lane(1), lane(-1) + lane(-2, "-2")) +
+            section(
+                60.0, "",
+                R"(<lane id="-1" type="driving"><width sOffset="0" a="3" b="0" c="0" d="0"/><width sOffset="10" a="3" b="0.1" c="0" d="0"/></lane>)")});
     const Road& only = network.roads[0];
     const LaneSection& first = section_at(only, 20.0);
     EXPECT_NEAR(lane_edges(only, first, 2, 20.0).inner_t_m, 1.2 + 3.5, 1e-12);
@@ -144,14 +141,12 @@ TEST(OpenDrive, RoadMarks) {
 }
 
 TEST(OpenDrive, ObjectsOutlinesAndRepeats) {
-    RoadText text;
-    text.rest = R"(<objects>
+    const RoadNetwork network = network_of(RoadText{.rest = R"(<objects>
         <object id="post" type="pole" s="10" t="5" zOffset="0" height="1" radius="0.06"><repeat s="10" length="50" distance="25" tStart="5" tEnd="6" heightStart="1" heightEnd="2" zOffsetStart="0" zOffsetEnd="0"/></object>
         <object id="rail" type="barrier" s="0" t="0" width="0.3" height="0.8"><repeat s="20" length="10" distance="0" tStart="-6" tEnd="-6" heightStart="0.8" heightEnd="0.8" zOffsetStart="0.1" zOffsetEnd="0.1"/></object>
         <object id="local" type="building" s="30" t="10" hdg="1.5707963267948966"><outline><cornerLocal u="0" v="0" z="0" height="3"/><cornerLocal u="2" v="0" z="0.5" height="3"/><cornerLocal u="2" v="1" z="0" height="3"/></outline></object>
         <object id="road" type="island" s="50" t="-8" hdg="1.5707963267948966"><outlines><outline id="1"><cornerRoad s="50" t="-8" dz="0" height="0.2"/><cornerRoad s="52" t="-8" dz="0" height="0.2"/><cornerRoad s="52" t="-7" dz="0.3" height="0.2"/></outline></outlines></object>
-        </objects>)";
-    const RoadNetwork network = network_of(text);
+        </objects>)"});
     const auto& objects = network.roads[0].objects;
     ASSERT_EQ(objects.size(), 3U + 3U + 2U);
     EXPECT_EQ(std::tuple(objects[1].s_m, objects[1].t_m), std::tuple(35.0, 5.5));

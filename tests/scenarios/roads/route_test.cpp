@@ -46,9 +46,7 @@ TEST(Route, RightLanesRunAlongSAndLeftOnesAgainstIt) {
 }
 
 TEST(Route, LeftHandTrafficStartsOnTheLeft) {
-    RoadText text;
-    text.attributes = R"(rule="LHT" junction="-1")";
-    const RoadNetwork network = network_with(road(text));
+    const RoadNetwork network = network_with(road({.attributes = R"(rule="LHT" junction="-1")"}));
     const Route route(network, {});
     expect_position(route.pose(30.0), 30.0, 1.75);
     EXPECT_NEAR(route.pose(30.0).forward().x, 1.0, 1e-12);
@@ -57,10 +55,8 @@ TEST(Route, LeftHandTrafficStartsOnTheLeft) {
 }
 
 TEST(Route, CrossSectionAsTheDriverSeesIt) {
-    RoadText text;
-    text.lanes =
-        section(0.0, lane(2, "1.5", {}, "sidewalk") + lane(1, "3.0"), lane(-1, "3.5") + lane(-2, "2.0", {}, "shoulder") + lane(-3, "0"));
-    const RoadNetwork network = network_with(road(text));
+    const RoadNetwork network = network_with(road({.lanes = section(0.0, lane(2, "1.5", {}, "sidewalk") + lane(1, "3.0"),
+                                                                    lane(-1, "3.5") + lane(-2, "2.0", {}, "shoulder") + lane(-3, "0"))}));
     const CrossSection ahead = Route(network, {}).cross_section(10.0);
     ASSERT_EQ(ahead.lanes.size(), 4U);
     const std::vector<std::string> names{"left 2", "left 1", "own", "right 1"};
@@ -87,9 +83,7 @@ TEST(Route, CrossSectionAsTheDriverSeesIt) {
 
 /// On a circle the lane's centre is longer or shorter than the reference line by its radius.
 TEST(Route, DistanceIsThatOfTheLane) {
-    RoadText text;
-    text.plan = geometry(0.0, 0.0, 0.0, 0.0, 100.0, R"(<arc curvature="0.02"/>)");
-    const RoadNetwork network = network_with(road(text));
+    const RoadNetwork network = network_with(road({.plan = geometry(0.0, 0.0, 0.0, 0.0, 100.0, R"(<arc curvature="0.02"/>)")}));
     const Route outer(network, {});
     EXPECT_NEAR(outer.length_m(), 100.0 * (50.0 + 1.75) / 50.0, 1e-9);
     const double turned = 20.0 / 51.75;
@@ -140,12 +134,11 @@ TEST(Route, PoseIsOrthonormalAndAlongTheLane) {
 }
 
 TEST(Route, FollowsLaneLinksOverSections) {
-    RoadText text;
-    text.lanes =
-        section(0.0, "", lane(-1, "3.5", R"(<successor id="-2"/>)")) +
-        section(40.0, "", lane(-1, "3", R"(<successor id="-1"/>)") + lane(-2, "3.5", R"(<predecessor id="-1"/><successor id="-1"/>)")) +
-        section(70.0, "", lane(-1, "3.5", R"(<predecessor id="-2"/>)"));
-    const RoadNetwork network = network_with(road(text));
+    const RoadNetwork network = network_with(road(
+        {.lanes = section(0.0, "", lane(-1, "3.5", R"(<successor id="-2"/>)")) +
+                  section(40.0, "",
+                          lane(-1, "3", R"(<successor id="-1"/>)") + lane(-2, "3.5", R"(<predecessor id="-1"/><successor id="-1"/>)")) +
+                  section(70.0, "", lane(-1, "3.5", R"(<predecessor id="-2"/>)"))}));
     const Route route(network, {});
     ASSERT_EQ(route.legs().size(), 3U);
     EXPECT_EQ(route.legs()[1].lane, -2);
