@@ -74,11 +74,10 @@ void take_header_line(std::string_view line, const InputError::Where& at, Matrix
 
 class Cells {
   public:
-    explicit Cells(std::string_view first_line)
-        : separator_(first_line.find(';') != std::string_view::npos    ? ';'
-                     : first_line.find('\t') != std::string_view::npos ? '\t'
-                     : first_line.find(',') != std::string_view::npos  ? ','
-                                                                       : ' ') {}
+    explicit Cells(std::string_view first_line) {
+        for (const char c : {',', '\t', ';'}) // the last that there is
+            separator_ = first_line.find(c) != std::string_view::npos ? c : separator_;
+    }
 
     std::vector<std::string_view> of(std::string_view line) const {
         std::vector<std::string_view> cells;
@@ -109,7 +108,7 @@ class Cells {
         cell = trimmed(cell);
         return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
     }
-    char separator_;
+    char separator_ = ' ';
 };
 
 void take_first_row(std::string_view line, const Cells& cells, const InputError::Where& at, MeasuredGrid& grid) {

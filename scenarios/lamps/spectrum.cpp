@@ -91,18 +91,12 @@ glm::dvec3 linear_srgb(const VisualIntegrals& i) {
 constexpr std::size_t most_samples = 100000;
 constexpr double needed_from_nm = 400.0, needed_to_nm = 700.0, coarsest_nm = 20.0;
 
-bool is_separator(char c) { return c == ',' || c == ';' || c == '\t' || c == ' ' || c == '\r'; }
-
 std::vector<std::string_view> fields_of(std::string_view line) {
+    constexpr std::string_view separators = ",;\t \r";
     std::vector<std::string_view> fields;
-    for (std::size_t i = 0; i < line.size();) {
-        while (i < line.size() && is_separator(line[i]))
-            ++i;
-        const std::size_t begin = i;
-        while (i < line.size() && !is_separator(line[i]))
-            ++i;
-        if (i > begin)
-            fields.push_back(line.substr(begin, i - begin));
+    for (std::size_t begin = 0, end = 0; (begin = line.find_first_not_of(separators, end)) != std::string_view::npos;) {
+        end = std::min(line.find_first_of(separators, begin), line.size());
+        fields.push_back(line.substr(begin, end - begin));
     }
     return fields;
 }

@@ -118,28 +118,22 @@ LuxBounds QuickLight::surface_lx(const glm::dvec3& point_m, const glm::dvec3& no
     most_lx *= 1.0 + rounding;
     if (most_lx < enough_lx)
         return {0.0, most_lx};
-    double e = sky_lx, error = 0.0;
+    return sum(point_m, &normal, sky_lx);
+}
+
+LuxBounds QuickLight::target_lx(const glm::dvec3& point_m) const { return sum(point_m, nullptr, 0.0); }
+
+LuxBounds QuickLight::sum(const glm::dvec3& point_m, const glm::dvec3* normal, double e) const {
+    double error = 0.0;
     for (const Lamp& lamp : lamps_) {
         const glm::dvec3 to_lamp = lamp.position_m - point_m;
-        const double inverse_d = 1.0 / std::sqrt(glm::dot(to_lamp, to_lamp)), cosine = glm::dot(normal, to_lamp) * inverse_d;
+        const double inverse_d = 1.0 / std::sqrt(glm::dot(to_lamp, to_lamp));
+        const double cosine = normal ? glm::dot(*normal, to_lamp) * inverse_d : 1.0;
         if (cosine <= 0.0)
             continue;
         const Intensity intensity = towards(lamp, -to_lamp, inverse_d);
         e += intensity.cd * inverse_d * inverse_d * cosine;
         error += intensity.error_cd * inverse_d * inverse_d * cosine;
-    }
-    error += rounding * e;
-    return {std::max(e - error, 0.0), e + error};
-}
-
-LuxBounds QuickLight::target_lx(const glm::dvec3& point_m) const {
-    double e = 0.0, error = 0.0;
-    for (const Lamp& lamp : lamps_) {
-        const glm::dvec3 to_lamp = lamp.position_m - point_m;
-        const double inverse_d = 1.0 / std::sqrt(glm::dot(to_lamp, to_lamp));
-        const Intensity intensity = towards(lamp, -to_lamp, inverse_d);
-        e += intensity.cd * inverse_d * inverse_d;
-        error += intensity.error_cd * inverse_d * inverse_d;
     }
     error += rounding * e;
     return {std::max(e - error, 0.0), e + error};

@@ -56,6 +56,8 @@ class QuickLight {
     struct Intensity {
         double cd = 0.0, error_cd = 0.0;
     };
+    /// On a surface of this normal, or facing each lamp, beside `e` that is there without them.
+    LuxBounds sum(const glm::dvec3& point_m, const glm::dvec3* normal, double e) const;
     Intensity towards(const Lamp& lamp, const glm::dvec3& from_lamp, double inverse_d) const;
 
     std::vector<Table> tables_; ///< one per lamp file

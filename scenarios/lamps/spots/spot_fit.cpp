@@ -18,17 +18,11 @@ constexpr std::size_t most_directions = 5000; // closest where the light changes
 constexpr std::size_t most_axes = 1500;
 constexpr int rounds = 3, steps_a_round = 8;
 
-/// What one more spot could gain: (sum w r s)^2 / sum w s^2 for its best intensity.
-struct Candidate {
-    Spot spot;
-    double gain = 0.0;
-};
-
 constexpr std::array<double, 12> cutoffs_deg{1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 17.0, 25.0, 36.0, 55.0, 90.0};
 constexpr std::size_t exponents = 5; // 0, 2, 8, 32, 128: from 2 on each the square of the square of the one before
 
 /// All exponents and cut-offs on one axis, in one pass over the directions.
-Candidate best_on_axis(const SpotDirections& d, const std::vector<double>& residual, const glm::dvec3& axis) {
+Gain best_on_axis(const SpotDirections& d, const std::vector<double>& residual, const glm::dvec3& axis) {
     std::array<double, cutoffs_deg.size()> cosines{};
     std::ranges::transform(cutoffs_deg, cosines.begin(), [](double angle) { return std::max(std::cos(radians(angle)), 0.0); });
     std::array<std::array<double, exponents>, cutoffs_deg.size()> products{}, squares{};
@@ -47,13 +41,13 @@ Candidate best_on_axis(const SpotDirections& d, const std::vector<double>& resid
             next = (next * next) * (next * next);
         }
     }
-    Candidate best;
+    Gain best;
     for (std::size_t e = 0; e < exponents; ++e) {
         double product = 0.0, square = 0.0;
         for (std::size_t ring = 0; ring < cosines.size(); ++ring) {
             product += products[ring][e];
             square += squares[ring][e];
-            if (product > 0.0 && square > 0.0 && product * product / square > best.gain)
+            if (product > 0.0 && square > 0.0 && product * product / square > best.cd2_sr)
                 best = {{degrees(std::atan2(axis.x, axis.z)), degrees(std::asin(std::clamp(axis.y, -1.0, 1.0))), product / square,
                          e == 0 ? 0.0 : std::pow(2.0, 2.0 * static_cast<double>(e) - 1.0), cutoffs_deg[ring]},
                         product * product / square};
@@ -62,11 +56,11 @@ Candidate best_on_axis(const SpotDirections& d, const std::vector<double>& resid
     return best;
 }
 
-Candidate best_addition(const SpotDirections& d, const std::vector<Spot>& spots) {
+Gain best_addition(const SpotDirections& d, const std::vector<Spot>& spots) {
     const std::vector<double> residual = residual_of(d, spots);
-    Candidate best;
+    Gain best;
     for (std::size_t i = 0; i < d.size(); ++i)
-        if (const Candidate here = best_on_axis(d, residual, {d.x[i], d.y[i], d.z[i]}); here.gain > best.gain)
+        if (const Gain here = best_on_axis(d, residual, {d.x[i], d.y[i], d.z[i]}); here.cd2_sr > best.cd2_sr)
             best = here;
     return best;
 }
@@ -251,8 +245,8 @@ SpotFit fit_spots(const CandelaTable& table, int count) {
     if (directions.total_cd2_sr <= 0.0)
         return fit; // all its light goes backwards
     for (int k = 0; k < count; ++k) {
-        const Candidate next = best_addition(coarse, fit.spots);
-        if (next.gain <= worth_a_spot * directions.total_cd2_sr)
+        const Gain next = best_addition(coarse, fit.spots);
+        if (next.cd2_sr <= worth_a_spot * directions.total_cd2_sr)
             break;
         fit.spots.push_back(next.spot);
         refine_alone(directions, fit.spots, fit.spots.size() - 1, 2.0, 0.1);

@@ -149,12 +149,6 @@ Parameters step_from(const Parameters& p, const Normal& normal, double damping) 
     return next;
 }
 
-/// What a spot's best intensity gains: (sum w r s)^2 / sum w s^2.
-struct Gain {
-    Spot spot;
-    double cd2_sr = 0.0;
-};
-
 /// The best cut-off, of all that differ on these directions, and the intensity that goes with it.
 Gain best_cutoff(const SpotDirections& d, const std::vector<double>& residual, Spot spot) {
     spot.cutoff_deg = 90.0;

@@ -15,6 +15,12 @@ std::vector<double> residual_of(const SpotDirections& directions, std::span<cons
 
 double left_over_cd2_sr(const SpotDirections& directions, std::span<const double> residual);
 
+/// A spot with its best intensity, and what it gains: (sum w r s)^2 / sum w s^2.
+struct Gain {
+    Spot spot;
+    double cd2_sr = 0.0;
+};
+
 /// Levenberg-Marquardt on axes, intensities and exponents together, within their bounds, cut-offs held. Never leaves more over than
 /// before. At most `steps` steps.
 void refine_together(const SpotDirections& directions, std::vector<Spot>& spots, int steps);

@@ -2,8 +2,9 @@
 
 #include "scenarios/roads/mesh/road_mesh.h"
 
-#include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace fernlicht {
 
@@ -17,24 +18,21 @@ double luminance_of(const glm::vec3& rgb) { // Y of linear sRGB, IEC 61966-2-1
     return 0.2126 * static_cast<double>(rgb.r) + 0.7152 * static_cast<double>(rgb.g) + 0.0722 * static_cast<double>(rgb.b);
 }
 
-/// A surface whose R_L in EN 1436's geometry is `total_mcd` (mcd/m2/lx) in all: the diffuse part has rho sin(1.24 deg) / pi of it,
-/// since E on the surface is E_perp times that sine; the retroreflecting part has what is left.
-Material road_surface(const char* name, SurfaceKind kind, const glm::vec3& albedo, double total_mcd) {
-    const double diffuse = luminance_of(albedo) * std::sin(radians(en1436_illumination_deg)) / pi;
-    Material material;
-    material.name = name;
-    material.kind = kind;
-    material.albedo = albedo;
-    material.retro_rl = static_cast<float>(std::max(0.0, total_mcd * 1e-3 - diffuse));
-    material.retro_reference_rad = static_cast<float>(radians(en1436_observation_deg - en1436_illumination_deg));
-    return material;
-}
-
 Material diffuse(const char* name, SurfaceKind kind, const glm::vec3& albedo) {
     Material material;
     material.name = name;
     material.kind = kind;
     material.albedo = albedo;
+    return material;
+}
+
+/// A surface whose R_L in EN 1436's geometry is `total_mcd` (mcd/m2/lx) in all: the diffuse part has rho sin(1.24 deg) / pi of it,
+/// since E on the surface is E_perp times that sine; the retroreflecting part has what is left.
+Material road_surface(const char* name, SurfaceKind kind, const glm::vec3& albedo, double total_mcd) {
+    const double diffuse_rl = luminance_of(albedo) * std::sin(radians(en1436_illumination_deg)) / pi;
+    Material material = diffuse(name, kind, albedo);
+    material.retro_rl = static_cast<float>(std::max(0.0, total_mcd * 1e-3 - diffuse_rl));
+    material.retro_reference_rad = static_cast<float>(radians(en1436_observation_deg - en1436_illumination_deg));
     return material;
 }
 
@@ -76,19 +74,14 @@ std::vector<Material> road_materials() {
 }
 
 RoadMaterial lane_material(const std::string& lane_type) {
-    struct LaneRow {
-        const char* type;
-        RoadMaterial material;
-    };
-    static constexpr std::array rows{
-        LaneRow{"none", RoadMaterial::verge},       LaneRow{"median", RoadMaterial::verge}, LaneRow{"sidewalk", RoadMaterial::concrete},
-        LaneRow{"walking", RoadMaterial::concrete}, LaneRow{"curb", RoadMaterial::kerb},    LaneRow{"tram", RoadMaterial::concrete},
-        LaneRow{"rail", RoadMaterial::terrain},
-    };
-    for (const LaneRow& row : rows)
-        if (lane_type == row.type)
-            return row.material;
-    return RoadMaterial::asphalt;
+    using enum RoadMaterial;
+    static constexpr std::pair<std::string_view, RoadMaterial> rows[]{{"none", verge},       {"median", verge}, {"sidewalk", concrete},
+                                                                      {"walking", concrete}, {"curb", kerb},    {"tram", concrete},
+                                                                      {"rail", terrain}};
+    for (const auto& [type, material] : rows)
+        if (lane_type == type)
+            return material;
+    return asphalt;
 }
 
 RoadMaterial marking_material(const std::string& colour) {

@@ -29,10 +29,16 @@ double distance_to_chord(const glm::dvec3& point, const glm::dvec3& a, const glm
 }
 
 /// The greatest distance between a stretch's surface and flat strips over it.
-class ChordError {
-  public:
-    ChordError(const RoadNetwork& network, const Road& road, const SectionProfile& profile, const std::vector<double>& crown)
-        : network_(network), road_(road), profile_(profile), crown_(crown) {}
+struct ChordError {
+    const RoadNetwork& network;
+    const Road& road;
+    const SectionProfile& profile;
+    const std::vector<double>& crown;
+
+    struct Line {
+        glm::dvec3 point;
+        glm::dvec3 up;
+    };
 
     /// Along each border between strips and each crown line, and along both diagonals of each strip: which of them the triangles take
     /// is decided later, and on a twisted surface one lies above and the other below.
@@ -50,20 +56,14 @@ class ChordError {
         return worst;
     }
 
-  private:
-    struct Line {
-        glm::dvec3 point;
-        glm::dvec3 up;
-    };
-
     std::vector<Line> lines(double layout_s, double s) const {
         std::vector<Line> out;
         const auto add = [&](double t) {
-            const Pose pose = surface_pose(network_, road_, s, t);
+            const Pose pose = surface_pose(network, road, s, t);
             out.push_back({pose.position_m, pose.up()});
         };
         double last_t = 0.0;
-        for (const Strip& strip : profile_.strips(layout_s, s)) {
+        for (const Strip& strip : profile.strips(layout_s, s)) {
             if (out.empty())
                 add(strip.right_t_m);
             if (!strip.kerb_face)
@@ -72,8 +72,8 @@ class ChordError {
         }
         if (out.empty())
             return out;
-        const double first_t = profile_.rightmost_t(s);
-        for (const double t : crown_) // clamped, so that there are as many at each s
+        const double first_t = profile.rightmost_t(s);
+        for (const double t : crown) // clamped, so that there are as many at each s
             add(std::clamp(t, std::min(first_t, last_t), std::max(first_t, last_t)));
         return out;
     }
@@ -89,11 +89,6 @@ class ChordError {
             }
         return worst;
     }
-
-    const RoadNetwork& network_;
-    const Road& road_;
-    const SectionProfile& profile_;
-    const std::vector<double>& crown_;
 };
 
 void append_knots(std::vector<double>& stations, const std::vector<Cubic>& cubics) {
@@ -208,7 +203,7 @@ std::vector<RoadStretch> stretches_of(const RoadNetwork& network, const Road& ro
         const double middle = 0.5 * (stations[i] + stations[i + 1]);
         while (profile + 1 < profiles.size() && profiles[profile + 1].section().s_m <= middle)
             ++profile;
-        const ChordError error(network, road, profiles[profile], crown);
+        const ChordError error{network, road, profiles[profile], crown};
         const double parts = std::max(1.0, std::ceil((stations[i + 1] - stations[i]) / longest));
         ends.clear();
         double from = stations[i];
