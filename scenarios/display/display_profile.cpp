@@ -15,7 +15,8 @@
 namespace fernlicht {
 namespace {
 
-// SMPTE ST 2084:2014, equations 4.1 and 5.2.
+// SMPTE ST 2084:2014, equations 4.1 and 5.2, and what it ends at.
+constexpr double pq_most_cdm2 = 10000.0;
 constexpr double pq_m1 = 2610.0 / 16384.0, pq_m2 = 128.0 * 2523.0 / 4096.0, pq_c1 = 3424.0 / 4096.0, pq_c2 = 32.0 * 2413.0 / 4096.0,
                  pq_c3 = 32.0 * 2392.0 / 4096.0;
 

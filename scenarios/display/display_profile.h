@@ -12,9 +12,6 @@
 
 namespace fernlicht {
 
-/// What SMPTE ST 2084 ends at.
-inline constexpr double pq_most_cdm2 = 10000.0;
-
 /// From a code, 0..1, to the share of a channel's full light, 0..1.
 enum class TransferKind {
     linear,

@@ -174,8 +174,7 @@ LampFile read_beam_texture(const std::filesystem::path& path, const std::string&
     grid.v_deg =
         pixel_centres(extent(options.texture_v_extent_deg, "v_extent_deg"), image.value.height(), 90.0, metadata.where("v_extent_deg"));
     grid.cd = intensities(image.value, scale * distance * distance, path);
-    refuse_negative(
-        grid, path, [](std::size_t) { return std::size_t{0}; }, lamp.notes);
+    refuse_negative(grid, path, lamp.notes, [](std::size_t) { return std::size_t{0}; });
     if (image.was_coloured)
         lamp.notes.push_back("The picture is coloured: its luminance is taken.");
     if (image.pixel_type == "uint8")

@@ -70,7 +70,6 @@ struct LampSets {
 };
 
 struct FirstSet {
-    bool absolute = false;
     double flux_lm = 0.0;
     std::string type;
 };
@@ -78,11 +77,8 @@ struct FirstSet {
 FirstSet first_lamp_set(LdtLines& in, Notes& notes) {
     LampSets sets;
     sets.count = static_cast<std::size_t>(in.whole("number of lamp sets", 1, 20));
-    const InputError::Where where = [&] {
-        auto w = in.where("lamp sets");
-        ++w.line;
-        return w;
-    }();
+    InputError::Where where = in.where("lamp sets");
+    ++where.line;
     for (std::size_t i = 0; i < 6 * sets.count; ++i)
         sets.lines.push_back(in.text("lamp sets"));
     const bool by_set = sets.reads(6, 1), by_field = !by_set && sets.reads(1, sets.count);
@@ -95,12 +91,11 @@ FirstSet first_lamp_set(LdtLines& in, Notes& notes) {
         notes.push_back("The lamp sets are listed field by field, not set by set.");
     const std::size_t step = by_set ? 1 : sets.count;
     FirstSet set;
-    set.absolute = *either_decimal(sets.lines[0]) < 0.0;
     set.type = sets.lines[step];
     set.flux_lm = *either_decimal(sets.lines[2 * step]);
     if (!(std::isfinite(set.flux_lm) && set.flux_lm > 0.0))
         throw InputError(where, fmt::format("found a lamp flux of {} lm", set.flux_lm), "a flux above 0");
-    if (set.absolute)
+    if (*either_decimal(sets.lines[0]) < 0.0)
         notes.push_back("The number of lamps is negative: absolute photometry.");
     if (sets.count > 1)
         notes.push_back(
@@ -212,8 +207,7 @@ LampFile read_eulumdat(const std::filesystem::path& path, std::string_view text,
     }
     MeasuredGrid grid = read_planes(in, layout, lamps.flux_lm / 1000.0 * conversion, path);
     const std::size_t planes = grid.h_deg.size(), first_line = in.next_number() - grid.cd.size(); // a value a line, plane by plane
-    refuse_negative(
-        grid, path, [&](std::size_t at) { return first_line + at % planes * grid.v_deg.size() + at / planes; }, lamp.notes);
+    refuse_negative(grid, path, lamp.notes, [&](std::size_t at) { return first_line + at % planes * grid.v_deg.size() + at / planes; });
     put_in_order(grid, path, lamp.notes);
     lamp.format = fmt::format("EULUMDAT, Isym {}", layout.symmetry);
     lamp.name = path.stem().string();

@@ -357,8 +357,7 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
     for (double& cd : p.grid.cd)
         cd *= tilt;
     const std::size_t planes = p.grid.h_deg.size();
-    refuse_negative(
-        p.grid, path, [&](std::size_t at) { return p.lines[at % planes * p.grid.v_deg.size() + at / planes]; }, lamp.notes);
+    refuse_negative(p.grid, path, lamp.notes, [&](std::size_t at) { return p.lines[at % planes * p.grid.v_deg.size() + at / planes]; });
     put_in_order(p.grid, path, lamp.notes);
     lamp.format = fmt::format("IES LM-63-{}, type {}", header.edition, p.type);
     lamp.declared_flux_lm = p.lamp_flux_lm;

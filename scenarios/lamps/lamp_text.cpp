@@ -16,6 +16,18 @@ constexpr std::string_view blanks{" \t\v\f\0", 5};
     throw InputError(where, "has decimal commas", fmt::format("points: write {} for {}", pointed, text));
 }
 
+/// What `text` is with a point for its decimal comma ("1.5" for "1,5"); nullopt when it is no number with one.
+std::optional<std::string> with_point(std::string_view text) {
+    text = trimmed(text.substr(0, 100));
+    const std::size_t comma = text.find(',');
+    const auto digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+    if (comma == std::string_view::npos || comma == 0 || !digit(comma - 1) || !digit(comma + 1))
+        return std::nullopt;
+    std::string out(text);
+    out[comma] = '.';
+    return number_in(out) ? std::optional(out) : std::nullopt;
+}
+
 } // namespace
 
 std::string lamp_text(const std::string& bytes, const std::filesystem::path& path) {
@@ -67,17 +79,6 @@ std::optional<double> number_in(std::string_view text) {
     if (text.empty() || error != std::errc{} || end != text.data() + text.size())
         return std::nullopt;
     return value;
-}
-
-std::optional<std::string> with_point(std::string_view text) {
-    text = trimmed(text.substr(0, 100));
-    const std::size_t comma = text.find(',');
-    const auto digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
-    if (comma == std::string_view::npos || comma == 0 || !digit(comma - 1) || !digit(comma + 1))
-        return std::nullopt;
-    std::string out(text);
-    out[comma] = '.';
-    return number_in(out) ? std::optional(out) : std::nullopt;
 }
 
 double finite_number(std::string_view text, const InputError::Where& where) {

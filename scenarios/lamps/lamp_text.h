@@ -43,9 +43,6 @@ std::string on_one_line(std::string text);
 /// here.
 std::optional<double> number_in(std::string_view text);
 
-/// What `text` is with a point for its decimal comma ("1.5" for "1,5"); nullopt when it is no number with one.
-std::optional<std::string> with_point(std::string_view text);
-
 /// Throws InputError unless `text` is a finite number; one with a decimal comma is called that.
 double finite_number(std::string_view text, const InputError::Where& where);
 double number_above_zero(std::string_view text, const InputError::Where& where);

@@ -88,8 +88,8 @@ void put_in_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& 
     grid = transposed(grid);
 }
 
-void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, const std::function<std::size_t(std::size_t)>& line_of,
-                     Notes& notes) {
+void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes,
+                     const std::function<std::size_t(std::size_t)>& line_of) {
     const auto [lowest, highest] = std::minmax_element(grid.cd.begin(), grid.cd.end());
     const auto complain = [&](std::vector<double>::iterator at, const std::string& expected) {
         const auto index = static_cast<std::size_t>(at - grid.cd.begin());

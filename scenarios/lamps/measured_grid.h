@@ -25,8 +25,8 @@ void put_in_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& 
 /// Negative intensities down to -0.1 % of the peak are a meter's noise about zero and become 0; below that they are an InputError.
 /// So are intensities above max_intensity_cd. The grid is in the file's order: `line_of` gives the line of cd[index], 0 where there is
 /// none.
-void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, const std::function<std::size_t(std::size_t)>& line_of,
-                     Notes& notes);
+void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes,
+                     const std::function<std::size_t(std::size_t)>& line_of);
 
 /// Marks as gap the outermost rows and columns of cells that only pad the file: more than eight times as wide as their neighbour and
 /// ending in zeros all along (a goniometer's range of -5..7 degrees, say, closed by zeros at -90 and 90). Light does not fade over such

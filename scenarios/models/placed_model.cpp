@@ -21,8 +21,7 @@ Mesh moved(const Mesh& mesh, const Pose& pose, double scale, std::uint32_t first
     return out;
 }
 
-} // namespace
-
+/// Where a placed model's frame lies in the world.
 Pose world_pose(const PlacedModel& placed, const Route& route) {
     const Pose own{{}, axes_from_angles(placed.yaw_rad, placed.pitch_rad, placed.roll_rad)};
     if (!placed.along_route)
@@ -30,6 +29,8 @@ Pose world_pose(const PlacedModel& placed, const Route& route) {
     const Pose there = route.pose(placed.position_m.x, placed.position_m.y);
     return compose(there, {{0.0, 0.0, placed.position_m.z}, own.axes});
 }
+
+} // namespace
 
 void add_model(Scene& scene, const Model& model, const Pose& pose, double scale, SurfaceKind kind) {
     const auto first_material = static_cast<std::uint32_t>(scene.materials.size());

@@ -20,9 +20,6 @@ struct PlacedModel {
     bool ground = false;                                   ///< it is ground, and stands in maps
 };
 
-/// Where a placed model's frame lies in the world.
-Pose world_pose(const PlacedModel& placed, const Route& route);
-
 /// Adds the model's meshes, materials and textures to the scene, turned and moved to `pose` and scaled. Surfaces become `kind`.
 /// Sizes of textures are left to unify_texture_sizes().
 void add_model(Scene& scene, const Model& model, const Pose& pose, double scale, SurfaceKind kind);

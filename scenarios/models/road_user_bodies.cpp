@@ -96,8 +96,8 @@ class BodyBuilder {
         }
         const std::size_t points = stations[0].size();
         const auto strip = [&](std::size_t k) { return std::min(k, points - 1 - k); }; // the same on both sides
-        append_loft(
-            soup_, stations, [&](std::size_t i, std::size_t k) { return index_of(material(i, strip(k))); }, index_of(BodyMaterial::paint));
+        append_loft(soup_, stations, index_of(BodyMaterial::paint),
+                    [&](std::size_t i, std::size_t k) { return index_of(material(i, strip(k))); });
     }
 
     void box(const glm::dvec3& low_m, const glm::dvec3& high_m, BodyMaterial material) {

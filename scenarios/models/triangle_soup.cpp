@@ -13,6 +13,8 @@
 namespace fernlicht {
 namespace {
 
+constexpr double largest_mesh_m = 128.0, mesh_cell_m = 64.0;
+
 Mesh mesh_of(const TriangleSoup& soup, const std::vector<std::size_t>& triangles, const glm::dvec3& origin_m, std::string name) {
     Mesh mesh{std::move(name), origin_m, {}, {}, {}};
     std::map<std::uint32_t, std::vector<std::size_t>> by_material;
@@ -106,8 +108,8 @@ void add_meshes(Model& model, const TriangleSoup& soup) {
     }
 }
 
-void append_loft(TriangleSoup& soup, const std::vector<Outline>& stations,
-                 const std::function<std::uint32_t(std::size_t, std::size_t)>& material, std::uint32_t caps) {
+void append_loft(TriangleSoup& soup, const std::vector<Outline>& stations, std::uint32_t caps,
+                 const std::function<std::uint32_t(std::size_t, std::size_t)>& material) {
     for (std::size_t i = 0; i + 1 < stations.size(); ++i)
         for (std::size_t k = 0; k < stations[i].size(); ++k) {
             const std::size_t next = (k + 1) % stations[i].size();
@@ -170,8 +172,7 @@ void append_limb(TriangleSoup& soup, const glm::dvec3& from, const glm::dvec3& t
     // Rings turn clockwise seen against the way, which is counter-clockwise along it.
     for (Outline& outline : rings)
         std::ranges::reverse(outline);
-    append_loft(
-        soup, rings, [&](std::size_t, std::size_t) { return material; }, material);
+    append_loft(soup, rings, material, [&](std::size_t, std::size_t) { return material; });
 }
 
 void append_plate(TriangleSoup& soup, const glm::dvec3& c, double width_m, double height_m, bool faces_forward, std::uint32_t material) {

@@ -28,9 +28,7 @@ struct TriangleSoup {
     void add(const std::array<glm::dvec3, 3>& corners, std::uint32_t material);
 };
 
-inline constexpr double largest_mesh_m = 128.0, mesh_cell_m = 64.0;
-
-/// Adds the soup to the model: as one mesh, or as one a cell where it is larger than largest_mesh_m. Sets the model's box.
+/// Adds the soup to the model: as one mesh, or as one a cell of 64 m where it is larger than 128 m. Sets the model's box.
 void add_meshes(Model& model, const TriangleSoup& soup);
 
 /// A closed outline of points, the same number at every station of a loft.
@@ -39,8 +37,8 @@ using Outline = std::vector<glm::dvec3>;
 /// Skins the space between outlines that follow one another, with caps on both ends (fans about the middle). Outlines turn
 /// counter-clockwise seen along the way from the first to the last. `material(station, strip)` names what lies between stations i and
 /// i + 1 and between points k and k + 1; `caps` what closes the ends.
-void append_loft(TriangleSoup& soup, const std::vector<Outline>& stations,
-                 const std::function<std::uint32_t(std::size_t, std::size_t)>& material, std::uint32_t caps);
+void append_loft(TriangleSoup& soup, const std::vector<Outline>& stations, std::uint32_t caps,
+                 const std::function<std::uint32_t(std::size_t, std::size_t)>& material);
 
 /// Faces of a box between two corners.
 void append_box(TriangleSoup& soup, const glm::dvec3& low_m, const glm::dvec3& high_m, std::uint32_t material);

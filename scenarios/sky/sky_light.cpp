@@ -35,6 +35,12 @@ double risen_share(double apparent_rad) {
     return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / pi;
 }
 
+/// Relative air mass, Kasten and Young 1989; 1 at the zenith, 38 at the horizon, where it stays below.
+double air_mass(double apparent_altitude_rad) {
+    const double h = std::max(degrees(apparent_altitude_rad), 0.0);
+    return 1.0 / (std::sin(radians(h)) + 0.50572 * std::pow(h + 6.07995, -1.6364));
+}
+
 double direct_share(const CoverFigures& f, double apparent_rad) {
     const double risen = risen_share(apparent_rad);
     return risen > 0.0 && std::isfinite(f.extinction) ? risen * std::exp(-f.extinction * air_mass(apparent_rad)) : 0.0;
@@ -51,11 +57,6 @@ double fitted(std::span<const Fit> fits, double altitude_deg) {
 }
 
 } // namespace
-
-double air_mass(double apparent_altitude_rad) {
-    const double h = std::max(degrees(apparent_altitude_rad), 0.0);
-    return 1.0 / (std::sin(radians(h)) + 0.50572 * std::pow(h + 6.07995, -1.6364));
-}
 
 double extraterrestrial_lx(double distance_km) {
     const double relative = astronomical_unit_km / distance_km;

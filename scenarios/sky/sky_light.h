@@ -11,9 +11,6 @@ struct SkyLight {
     double direct_lx = 0.0, diffuse_lx = 0.0;
 };
 
-/// Relative air mass, Kasten and Young 1989; 1 at the zenith, 38 at the horizon, where it stays below.
-double air_mass(double apparent_altitude_rad);
-
 /// Perpendicular to the sun outside the atmosphere: 127.5 klx at the mean distance (IES 1984).
 double extraterrestrial_lx(double distance_km);
 

@@ -149,6 +149,18 @@ Parameters step_from(const Parameters& p, const Normal& normal, double damping) 
     return next;
 }
 
+/// Spot intensity over all directions, for cd = 1.
+std::vector<double> shape_over(const SpotDirections& d, const Spot& spot) {
+    std::vector<double> shape(d.size());
+    const glm::dvec3 axis = direction_of(spot.h_deg, spot.v_deg);
+    const double least = cutoff_cosine(spot);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+        const double cosine = axis.x * d.x[i] + axis.y * d.y[i] + axis.z * d.z[i];
+        shape[i] = cosine < least ? 0.0 : std::exp(spot.exponent * std::log(cosine));
+    }
+    return shape;
+}
+
 /// The best cut-off, of all that differ on these directions, and the intensity that goes with it.
 Gain best_cutoff(const SpotDirections& d, const std::vector<double>& residual, Spot spot) {
     spot.cutoff_deg = 90.0;
@@ -182,17 +194,6 @@ Gain best_cutoff(const SpotDirections& d, const std::vector<double>& residual, S
 }
 
 } // namespace
-
-std::vector<double> shape_over(const SpotDirections& d, const Spot& spot) {
-    std::vector<double> shape(d.size());
-    const glm::dvec3 axis = direction_of(spot.h_deg, spot.v_deg);
-    const double least = cutoff_cosine(spot);
-    for (std::size_t i = 0; i < d.size(); ++i) {
-        const double cosine = axis.x * d.x[i] + axis.y * d.y[i] + axis.z * d.z[i];
-        shape[i] = cosine < least ? 0.0 : std::exp(spot.exponent * std::log(cosine));
-    }
-    return shape;
-}
 
 std::vector<double> residual_of(const SpotDirections& d, std::span<const Spot> spots) {
     std::vector<double> residual = d.cd;

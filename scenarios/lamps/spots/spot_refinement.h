@@ -7,9 +7,6 @@
 
 namespace fernlicht {
 
-/// Spot intensity over all directions, for cd = 1.
-std::vector<double> shape_over(const SpotDirections& directions, const Spot& spot);
-
 /// The table less the spots, in cd, for each direction.
 std::vector<double> residual_of(const SpotDirections& directions, std::span<const Spot> spots);
 

@@ -68,18 +68,30 @@ std::vector<Explicit> stripes_by_kind(MarkKind kind, double width, bool left_sid
 }
 
 Stripe placed(const Explicit& line, const RoadMark& mark, double from_s, double to_s) {
-    Stripe stripe;
-    stripe.from_s_m = from_s;
-    stripe.to_s_m = to_s;
-    stripe.t_m = line.t_m;
-    stripe.width_m = line.width_m > 0.0 ? line.width_m : mark.width_m > 0.0 ? mark.width_m : default_width_m;
-    stripe.first_dash_m = from_s + line.start_m;
-    stripe.dash_m = line.dash_m;
-    stripe.period_m = line.gap_m > 0.0 ? line.dash_m + line.gap_m : 0.0;
-    if (stripe.period_m < shortest_period_m || (to_s - from_s) / stripe.period_m > most_dashes)
-        stripe.period_m = 0.0;
-    stripe.material = marking_material(mark.colour);
-    return stripe;
+    const double width = line.width_m > 0.0 ? line.width_m : mark.width_m > 0.0 ? mark.width_m : default_width_m;
+    const double period = line.gap_m > 0.0 ? line.dash_m + line.gap_m : 0.0;
+    const bool solid = period < shortest_period_m || (to_s - from_s) / period > most_dashes;
+    return {from_s, to_s, line.t_m, width, from_s + line.start_m, line.dash_m, solid ? 0.0 : period, marking_material(mark.colour)};
+}
+
+/// The stripes of a lane's marks. Kinds without explicit lines: broken lines have 4 m dashes and 8 m gaps; the two lines of a double
+/// mark stand one line's width apart. Kerbs, botts' dots and marks without paint give none. Dashes with a period below 0.2 m
+/// are drawn solid, as are marks of more than 20 000 dashes: each would cost a row of vertices.
+std::vector<Stripe> stripes_of(const LaneSection& section, const Lane& lane) {
+    std::vector<Stripe> all;
+    for (std::size_t i = 0; i < lane.marks.size(); ++i) {
+        const RoadMark& mark = lane.marks[i];
+        const double from = section.s_m + mark.s_m;
+        const double to = i + 1 < lane.marks.size() ? section.s_m + lane.marks[i + 1].s_m : section.end_m;
+        if (mark.kind == MarkKind::none || mark.kind == MarkKind::curb || from >= to)
+            continue;
+        const auto lines = mark.stripes.empty()
+                               ? stripes_by_kind(mark.kind, mark.width_m > 0.0 ? mark.width_m : default_width_m, lane.id > 0)
+                               : mark.stripes;
+        for (const Explicit& line : lines)
+            all.push_back(placed(line, mark, from, std::min(to, section.end_m)));
+    }
+    return all;
 }
 
 } // namespace
@@ -255,23 +267,6 @@ void Stripe::append_ends(std::vector<double>& stations) const {
         stations.push_back(start);
         stations.push_back(std::min(start + dash_m, to_s_m));
     }
-}
-
-std::vector<Stripe> stripes_of(const LaneSection& section, const Lane& lane) {
-    std::vector<Stripe> all;
-    for (std::size_t i = 0; i < lane.marks.size(); ++i) {
-        const RoadMark& mark = lane.marks[i];
-        const double from = section.s_m + mark.s_m;
-        const double to = i + 1 < lane.marks.size() ? section.s_m + lane.marks[i + 1].s_m : section.end_m;
-        if (mark.kind == MarkKind::none || mark.kind == MarkKind::curb || from >= to)
-            continue;
-        const auto lines = mark.stripes.empty()
-                               ? stripes_by_kind(mark.kind, mark.width_m > 0.0 ? mark.width_m : default_width_m, lane.id > 0)
-                               : mark.stripes;
-        for (const Explicit& line : lines)
-            all.push_back(placed(line, mark, from, std::min(to, section.end_m)));
-    }
-    return all;
 }
 
 } // namespace fernlicht

@@ -23,11 +23,6 @@ struct Stripe {
     void append_ends(std::vector<double>& stations) const;
 };
 
-/// The stripes of a lane's marks. Kinds without explicit lines: broken lines have 4 m dashes and 8 m gaps; the two lines of a double
-/// mark stand one line's width apart. Kerbs, botts' dots and marks without paint give none. Dashes with a period below 0.2 m
-/// are drawn solid, as are marks of more than 20 000 dashes: each would cost a row of vertices.
-std::vector<Stripe> stripes_of(const LaneSection& section, const Lane& lane);
-
 /// Heights are above the road's plane (OpenDRIVE lane height), t left positive; right_t <= left_t.
 struct Strip {
     double right_t_m = 0.0, left_t_m = 0.0;

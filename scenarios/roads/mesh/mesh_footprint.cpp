@@ -108,12 +108,8 @@ void Footprints::add(const RoadNetwork& network, const SurfacePlan& plan, std::s
             return ground_between({place(stretch.from_s_m, a.right_t), place(stretch.to_s_m, b.right_t), place(stretch.to_s_m, b.left_t),
                                    place(stretch.from_s_m, a.left_t)});
         };
-        RoadFootprint footprint;
-        footprint.all = ground({from.front().right_t_m, from.back().left_t_m}, {to.front().right_t_m, to.back().left_t_m});
-        footprint.paved = ground(paved_extent(from), paved_extent(to));
-        footprint.road = road;
-        footprint.from_s_m = stretch.from_s_m;
-        footprint.to_s_m = stretch.to_s_m;
+        const RoadFootprint footprint{ground({from.front().right_t_m, from.back().left_t_m}, {to.front().right_t_m, to.back().left_t_m}),
+                                      ground(paved_extent(from), paved_extent(to)), road, stretch.from_s_m, stretch.to_s_m};
         const auto index = static_cast<std::uint32_t>(all_.size());
         for_tiles(bounds(footprint.all), [&](std::uint64_t key) { tiles_[key].push_back(index); });
         all_.push_back(footprint);

@@ -200,7 +200,7 @@ class CPlanes : public LampTrial {
   protected:
     /// A file of type C with I = form(C, gamma).
     template <class Form>
-    LampFile lamp(const std::vector<double>& c, const std::vector<double>& gamma, Form form, TypeCAxis axis = TypeCAxis::automatic) const {
+    LampFile lamp(const std::vector<double>& c, const std::vector<double>& gamma, Form form, TypeCAxis axis = TypeCAxis::horizontal) const {
         std::string text = fmt::format("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {} {} 1 2 0 0 0\n1 1 0\n{}\n{}\n", gamma.size(), c.size(),
                                        fmt::join(gamma, " "), fmt::join(c, " "));
         for (const double ci : c)
@@ -218,18 +218,16 @@ double lobe(double c, double gamma) {
 }
 
 TEST_F(CPlanes, RotationalSymmetryNeedsTwoColumns) {
-    const LampFile l = lamp(
-        {0}, steps(0, 180, 5), [](double, double) { return 75.0; }, TypeCAxis::horizontal);
+    const LampFile l = lamp({0}, steps(0, 180, 5), [](double, double) { return 75.0; });
     EXPECT_EQ(l.table.h_deg, (std::vector<double>{-180, 180}));
     EXPECT_NEAR(flux_lm(l.table), 4 * pi * 75, 1e-9);
     // A single plane that is listed as both 0 and 360.
-    const LampFile both = lamp(
-        {0, 360}, steps(0, 180, 5), [](double, double g) { return 10.0 + g; }, TypeCAxis::horizontal);
+    const LampFile both = lamp({0, 360}, steps(0, 180, 5), [](double, double g) { return 10.0 + g; });
     EXPECT_EQ(both.table.h_deg, (std::vector<double>{-180, 180}));
 }
 
 TEST_F(CPlanes, AllPlanesAreUsedAndCRunsAgainstTheClockSeenFromAbove) {
-    const LampFile l = lamp(steps(0, 360, 10), steps(0, 180, 5), lobe, TypeCAxis::horizontal);
+    const LampFile l = lamp(steps(0, 360, 10), steps(0, 180, 5), lobe);
     EXPECT_THAT(all_notes(l), HasSubstr("Plane C 0 is taken as forward"));
     // Seen from above with forward up the page, C 30 lies 30 degrees to the left.
     EXPECT_NEAR(intensity_cd(l.table, -30.0, -10.0), lobe(30, 80), 1e-9);
@@ -239,12 +237,10 @@ TEST_F(CPlanes, AllPlanesAreUsedAndCRunsAgainstTheClockSeenFromAbove) {
 }
 
 TEST_F(CPlanes, ForwardIsTheQuarterNearestToTheLight) {
-    const LampFile l = lamp(
-        steps(0, 355, 5), steps(0, 180, 5), [](double c, double g) { return lobe(c - 70.0, g); }, TypeCAxis::horizontal);
+    const LampFile l = lamp(steps(0, 355, 5), steps(0, 180, 5), [](double c, double g) { return lobe(c - 70.0, g); });
     EXPECT_THAT(all_notes(l), HasSubstr("Plane C 90 is taken as forward")); // the lobe lies at C 100
     EXPECT_NEAR(intensity_cd(l.table, -10.0, -10.0), lobe(30, 80), 1e-9);
-    const LampFile back = lamp(
-        steps(0, 355, 5), steps(0, 180, 5), [](double c, double g) { return lobe(c + 100.0, g); }, TypeCAxis::horizontal);
+    const LampFile back = lamp(steps(0, 355, 5), steps(0, 180, 5), [](double c, double g) { return lobe(c + 100.0, g); });
     EXPECT_THAT(all_notes(back), HasSubstr("Plane C 270 is taken as forward")); // at C 290
     EXPECT_NEAR(intensity_cd(back.table, -20.0, -10.0), lobe(30, 80), 1e-9);
 }
@@ -260,30 +256,26 @@ TEST_F(CPlanes, SymmetriesFillTheTurn) {
         EXPECT_NEAR(flux_lm(folded.table), flux_lm(full.table), 1e-9);
     };
     const auto gamma = steps(0, 180, 15);
-    const TypeCAxis axis = TypeCAxis::horizontal;
-    same(lamp(steps(0, 90, 15), gamma, even, axis), lamp(steps(0, 360, 15), gamma, even, axis));
-    same(lamp(steps(0, 180, 15), gamma, about_0, axis), lamp(steps(0, 360, 15), gamma, about_0, axis));
-    same(lamp(steps(90, 270, 15), gamma, about_90, axis), lamp(steps(0, 360, 15), gamma, about_90, axis));
-    same(lamp(steps(0, 345, 15), gamma, lobe, axis), lamp(steps(0, 360, 15), gamma, lobe, axis));
-    same(lamp(steps(-180, 180, 15), gamma, lobe, axis), lamp(steps(0, 360, 15), gamma, lobe, axis));
+    same(lamp(steps(0, 90, 15), gamma, even), lamp(steps(0, 360, 15), gamma, even));
+    same(lamp(steps(0, 180, 15), gamma, about_0), lamp(steps(0, 360, 15), gamma, about_0));
+    same(lamp(steps(90, 270, 15), gamma, about_90), lamp(steps(0, 360, 15), gamma, about_90));
+    same(lamp(steps(0, 345, 15), gamma, lobe), lamp(steps(0, 360, 15), gamma, lobe));
+    same(lamp(steps(-180, 180, 15), gamma, lobe), lamp(steps(0, 360, 15), gamma, lobe));
 }
 
 TEST_F(CPlanes, TheTurnClosesAcrossAMissing360AndAWideHoleHasNoData) {
     const auto gamma = steps(0, 180, 10);
     for (const double last : {350.0, 355.0}) {
-        const LampFile l = lamp(
-            steps(0, last, last == 350.0 ? 10.0 : 5.0), gamma, [](double, double) { return 30.0; }, TypeCAxis::horizontal);
+        const LampFile l = lamp(steps(0, last, last == 350.0 ? 10.0 : 5.0), gamma, [](double, double) { return 30.0; });
         EXPECT_NEAR(flux_lm(l.table), 4 * pi * 30, 1e-9) << last;
     }
-    const LampFile l = lamp(
-        steps(0, 270, 10), steps(0, 180, 10), [](double, double) { return 30.0; }, TypeCAxis::horizontal);
+    const LampFile l = lamp(steps(0, 270, 10), steps(0, 180, 10), [](double, double) { return 30.0; });
     EXPECT_THAT(all_notes(l), HasSubstr("leave 90 degrees of the turn open"));
     EXPECT_NEAR(flux_lm(l.table), 0.75 * 4 * pi * 30, 1e-9);
 }
 
 TEST_F(CPlanes, TwoAnswersForOneDirectionAreNoted) {
-    const LampFile l = lamp(
-        {0, 90, 180, 270, 360}, {0, 90, 180}, [](double c, double) { return c == 360 ? 7.0 : 5.0; }, TypeCAxis::horizontal);
+    const LampFile l = lamp({0, 90, 180, 270, 360}, {0, 90, 180}, [](double c, double) { return c == 360 ? 7.0 : 5.0; });
     EXPECT_THAT(all_notes(l), HasSubstr("differ by up to 2 cd"));
     EXPECT_NEAR(flux_lm(l.table), 4 * pi * 5, 1e-9);
 }
@@ -295,7 +287,7 @@ double downlight(double c, double gamma) {
 }
 
 TEST_F(CPlanes, ABeamAlongTheNadirIsTurnedForward) {
-    const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight);
+    const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight, TypeCAxis::automatic);
     EXPECT_THAT(all_notes(l), HasSubstr("gamma 0 is taken as forward"));
     const Peak peak = peak_of(l.table);
     EXPECT_NEAR(peak.h_deg, 0.0, 8.0);
@@ -311,23 +303,20 @@ TEST_F(CPlanes, ABeamAlongTheNadirIsTurnedForward) {
 /// The whole, a cone, and half of one, that end in light.
 TEST_F(CPlanes, TurningKeepsTheFluxAndTheOptionOutvotesTheLight) {
     const auto kept = [&](const std::vector<double>& c, const std::vector<double>& gamma) { // of what is not resampled
-        return flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / flux_lm(lamp(c, gamma, downlight, TypeCAxis::horizontal).table);
+        return flux_lm(lamp(c, gamma, downlight, TypeCAxis::nadir).table) / flux_lm(lamp(c, gamma, downlight).table);
     };
     EXPECT_NEAR(kept(steps(0, 330, 30), steps(0, 90, 5)), 1.0, 1e-3);
     for (const double turn : {360.0, 187.5})
         for (const double step : {2.5, 7.5})
             EXPECT_NEAR(kept(steps(0, turn, 7.5), steps(0, 37.5, step)), 1.0, 2e-4) << turn << " " << step;
-    const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight, TypeCAxis::horizontal);
+    const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), downlight);
     EXPECT_LT(peak_of(l.table).v_deg, -60.0);
 }
 
 TEST_F(CPlanes, ADarkLampIsDarkWhereverItPoints) {
-    const LampFile l = lamp(steps(0, 330, 30), steps(0, 90, 5), [](double, double) { return 0.0; });
-    EXPECT_EQ(flux_lm(l.table), 0.0);
-    EXPECT_EQ(flux_lm(lamp(
-                          {0}, {0, 90}, [](double, double) { return 0.0; }, TypeCAxis::nadir)
-                          .table),
-              0.0);
+    const auto dark = [](double, double) { return 0.0; };
+    EXPECT_EQ(flux_lm(lamp(steps(0, 330, 30), steps(0, 90, 5), dark, TypeCAxis::automatic).table), 0.0);
+    EXPECT_EQ(flux_lm(lamp({0}, {0, 90}, dark, TypeCAxis::nadir).table), 0.0);
 }
 
 } // namespace
