@@ -34,8 +34,8 @@ struct DisplayProfile {
     TransferKind transfer = TransferKind::srgb;
     double gamma = 2.2; ///< TransferKind::gamma alone; 0.1 to 10
     GamutRule gamut = GamutRule::keep_luminance;
-    int bits = 8;                                             ///< of a channel: 8 or 16 in files
-    std::optional<double> viewing_distance_m, pixel_pitch_mm; ///< nullopt: not known; else above 0
+    int bits = 8;                                                       ///< of a channel: 8 or 16 in files
+    std::optional<double> viewing_distance_m = {}, pixel_pitch_mm = {}; ///< nullopt: not known; else above 0
 
     double white_cdm2() const; ///< what (1, 1, 1) adds to black
     double peak_cdm2() const { return black_cdm2 + white_cdm2(); }

@@ -213,10 +213,7 @@ bool looks_like_beam_matrix(std::string_view text) {
 }
 
 LampFile read_beam_matrix(const std::filesystem::path& path, std::string_view text, const LampReadOptions& options, FilesRead opened) {
-    LampFile lamp;
-    lamp.opened = std::move(opened);
-    lamp.format = "beam matrix";
-    lamp.name = path.stem().string();
+    LampFile lamp{.name = path.stem().string(), .format = "beam matrix", .opened = std::move(opened)};
     MatrixHeader header;
     std::vector<std::size_t> row_lines;
     MeasuredGrid grid = read_matrix(path, text, header, lamp, row_lines);

@@ -155,10 +155,7 @@ bool looks_like_beam_texture(const std::string& bytes) { return bytes.starts_wit
 LampFile read_beam_texture(const std::filesystem::path& path, const std::string& bytes, const LampReadOptions& options, FilesRead opened) {
     const TextureImage image = decode_texture(path, bytes, max_made_samples);
     const Metadata metadata(path, image.attributes);
-    LampFile lamp;
-    lamp.opened = std::move(opened);
-    lamp.format = "beam texture";
-    lamp.name = path.stem().string();
+    LampFile lamp{.name = path.stem().string(), .format = "beam texture", .opened = std::move(opened)};
     take_texts(metadata, lamp);
     const bool own_scale = options.texture_scale_lx == 0.0;
     const double scale =

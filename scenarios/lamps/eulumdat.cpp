@@ -181,8 +181,7 @@ bool looks_like_eulumdat(std::string_view text) {
 }
 
 LampFile read_eulumdat(const std::filesystem::path& path, std::string_view text, const LampReadOptions& options, FilesRead opened) {
-    LampFile lamp;
-    lamp.opened = std::move(opened);
+    LampFile lamp{.name = path.stem().string(), .opened = std::move(opened)};
     LdtLines in(path, text);
     const auto label = [&](const char* name) { lamp.labels.emplace_back(name, in.text(name)); };
     label("company");
@@ -210,7 +209,6 @@ LampFile read_eulumdat(const std::filesystem::path& path, std::string_view text,
     refuse_negative(grid, path, lamp.notes, [&](std::size_t at) { return first_line + at % planes * grid.v_deg.size() + at / planes; });
     put_in_order(grid, path, lamp.notes);
     lamp.format = fmt::format("EULUMDAT, Isym {}", layout.symmetry);
-    lamp.name = path.stem().string();
     for (const std::size_t i : {std::size_t{3}, std::size_t{2}}) // number, then luminaire
         if (!lamp.labels[i].second.empty())
             lamp.name = lamp.labels[i].second;

@@ -338,8 +338,7 @@ bool looks_like_ies(std::string_view text) {
 }
 
 LampFile read_ies(const std::filesystem::path& path, std::string_view text, const LampReadOptions& options, FilesRead opened) {
-    LampFile lamp;
-    lamp.opened = std::move(opened);
+    LampFile lamp{.name = path.stem().string(), .opened = std::move(opened)};
     LineReader lines(text);
     IesHeader header = read_ies_header(lines, path, lamp.notes);
     const std::string_view rest = lines.rest();
@@ -362,7 +361,6 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
     lamp.format = fmt::format("IES LM-63-{}, type {}", header.edition, p.type);
     lamp.declared_flux_lm = p.lamp_flux_lm;
     lamp.labels = std::move(header.labels);
-    lamp.name = path.stem().string();
     for (const char* key : {"LUMINAIRE", "LUMCAT"})
         for (const auto& [name, value] : lamp.labels)
             if (name == key && !value.empty())

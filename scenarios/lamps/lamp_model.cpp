@@ -92,10 +92,7 @@ double model_intensity_cd(const LampModel& model, double h, double v) {
 }
 
 LampFile lamp_of_model(const LampModel& model) {
-    LampFile lamp;
-    lamp.name = model.title;
-    lamp.format = "model " + model.name;
-    lamp.table = axes_of(model);
+    LampFile lamp{.name = model.title, .format = "model " + model.name, .table = axes_of(model)};
     for (const double v : lamp.table.v_deg)
         for (const double h : lamp.table.h_deg)
             lamp.table.cd.push_back(std::round(model_intensity_cd(model, h, v) * 10.0) / 10.0);

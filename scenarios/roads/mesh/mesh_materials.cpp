@@ -18,13 +18,7 @@ double luminance_of(const glm::vec3& rgb) { // Y of linear sRGB, IEC 61966-2-1
     return 0.2126 * static_cast<double>(rgb.r) + 0.7152 * static_cast<double>(rgb.g) + 0.0722 * static_cast<double>(rgb.b);
 }
 
-Material diffuse(const char* name, SurfaceKind kind, const glm::vec3& albedo) {
-    Material material;
-    material.name = name;
-    material.kind = kind;
-    material.albedo = albedo;
-    return material;
-}
+Material diffuse(const char* name, SurfaceKind kind, const glm::vec3& albedo) { return {.name = name, .kind = kind, .albedo = albedo}; }
 
 /// A surface whose R_L in EN 1436's geometry is `total_mcd` (mcd/m2/lx) in all: the diffuse part has rho sin(1.24 deg) / pi of it,
 /// since E on the surface is E_perp times that sine; the retroreflecting part has what is left.

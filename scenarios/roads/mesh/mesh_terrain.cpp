@@ -47,7 +47,7 @@ struct Rib {
     double width_m = 0.0;
     glm::dvec3 outward{0.0}, forward{0.0}; ///< horizontal
     double grade = 0.0;                    ///< rise along the road
-    std::array<glm::dvec3, 5> points_m;
+    std::array<glm::dvec3, 5> points_m = {};
     std::array<double, 5> cap_m{unlimited, unlimited, unlimited, unlimited, unlimited};
 };
 
@@ -112,11 +112,7 @@ class Side {
     }
 
     void add_rib(const Row& row, const RowPoint& point, std::size_t chunk, bool always) {
-        Rib rib;
-        rib.edge = edge_.size() - 1;
-        rib.s_m = row.s_m;
-        rib.t_m = point.t_m;
-        rib.chunk = chunk;
+        Rib rib{.edge = edge_.size() - 1, .s_m = row.s_m, .t_m = point.t_m, .chunk = chunk};
         const glm::dvec3 forward = point.pose.forward();
         const double level = std::hypot(forward.x, forward.y);
         rib.grade = level > 1e-6 ? forward.z / level : 0.0;
