@@ -1,4 +1,4 @@
-#include "scenarios/lamps/beam_matrix.h"
+#include "scenarios/lamps/beam_files.h"
 
 #include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/lamp_text.h"

@@ -1,4 +1,4 @@
-#include "scenarios/lamps/beam_texture.h"
+#include "scenarios/lamps/beam_files.h"
 
 #include "scenarios/lamps/lamp_text.h"
 #include "scenarios/lamps/measured_grid.h"

@@ -1,7 +1,6 @@
 #include "scenarios/lamps/lamp_file.h"
 
-#include "scenarios/lamps/beam_matrix.h"
-#include "scenarios/lamps/beam_texture.h"
+#include "scenarios/lamps/beam_files.h"
 #include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/ies.h"
 #include "scenarios/lamps/lamp_text.h"

@@ -30,9 +30,8 @@ struct LampFile {
     std::string name;        ///< short: catalogue or luminaire name, else the file's stem
     std::string format = {}; ///< "IES LM-63-2002, type A", "EULUMDAT, Isym 0", "beam matrix", "beam texture"
     CandelaTable table = {};
-    std::optional<MeasuredTable> measured =
-        {}; ///< where the file's angles are others and `table` was resampled; nullopt: `table` is the file's own
-    std::optional<double> declared_flux_lm = {};                  ///< as the file says; nullopt: absolute photometry or silent
+    std::optional<MeasuredTable> measured = {};  ///< where its angles are others and `table` was resampled; nullopt: `table` is its own
+    std::optional<double> declared_flux_lm = {}; ///< as the file says; nullopt: absolute photometry or silent
     std::vector<std::pair<std::string, std::string>> labels = {}; ///< the file's own keywords and texts, UTF-8
     std::vector<std::string> notes = {}; ///< what was odd and how it was taken ("angles descend: sorted"), one sentence each
     FilesRead opened = {};
