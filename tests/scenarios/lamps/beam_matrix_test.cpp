@@ -286,11 +286,7 @@ TEST_F(BeamTexture, MessagesNameWhatIsMissing) {
 }
 
 LampFile lamp_with(const CandelaTable& table) {
-    LampFile lamp{.name = "round trip",
-                  .table = table,
-                  .declared_flux_lm = 987.6543210123,
-                  .labels = {{"MANUFAC", "B\xc3\xbc"
-                                         "cher: sons"}}};
+    LampFile lamp{.name = "round trip", .table = table, .declared_flux_lm = 987.6543210123, .labels = {{"MANUFAC", "Bücher: sons"}}};
     return lamp;
 }
 

@@ -80,11 +80,9 @@ TEST_F(IesFile, SeparatorsLineEndsAndBytesMayVary) {
 }
 
 TEST_F(IesFile, LabelsAreKeptAsUtf8AndDimensionsAreNoMatter) {
-    const LampFile lamp = read("l.ies", small("IESNA:LM-63-1995\n[MANUFAC] B\xfc"
-                                              "cher \x80\n[MORE] AG\n[_SECRET] x\nloose line\n"));
+    const LampFile lamp = read("l.ies", small("IESNA:LM-63-1995\n[MANUFAC] B\374cher \200\n[MORE] AG\n[_SECRET] x\nloose line\n"));
     ASSERT_EQ(lamp.labels.size(), 3U);
-    EXPECT_EQ(lamp.labels[0], (std::pair<std::string, std::string>{"MANUFAC", "B\xc3\xbc"
-                                                                              "cher \xe2\x82\xac AG"}));
+    EXPECT_EQ(lamp.labels[0], (std::pair<std::string, std::string>{"MANUFAC", "Bücher € AG"}));
     EXPECT_EQ(lamp.labels[1].first, "_SECRET");
     EXPECT_EQ(std::tuple(lamp.labels[2], lamp.name), std::tuple((std::pair<std::string, std::string>{"text", "loose line"}), "l"));
     const std::string text = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 2 3 2 -0.12 0 -0.34\n1 1 0\n-1 1\n-1 1\n5 6\n7 8\n";

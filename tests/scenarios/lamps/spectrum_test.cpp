@@ -137,16 +137,10 @@ TEST_F(SpectrumFile, BadFilesAreRefusedWithTheirLine) {
     EXPECT_THAT(refusal("380,1\n380,1\n"), HasSubstr("ascend"));
     EXPECT_THAT(refusal("380,1,7\n"), HasSubstr("s.csv:1"));
     EXPECT_THAT(refusal("nm;power\n380,0;0,5\n"), HasSubstr("s.csv:2:1: has decimal commas, expected points: write 380.0 for 380,0"));
-    EXPECT_THAT(refusal("\xff\xfe" + std::string("3\0"
-                                                 "8\0",
-                                                 4)),
-                HasSubstr("is encoded in UTF-16"));
+    EXPECT_THAT(refusal("\xff\xfe" + std::string("3\0008\0", 4)), HasSubstr("is encoded in UTF-16"));
     EXPECT_THAT(refusal("500,1\n600,1\n"), HasSubstr("400 to 700 nm"));
     EXPECT_THAT(refusal("380,1\n500,1\n780,1\n"), HasSubstr("20 nm"));
-    EXPECT_THAT(refusal(std::string("\x7f"
-                                    "ELF\0\x01\x02",
-                                    7)),
-                HasSubstr("s.csv"));
+    EXPECT_THAT(refusal(std::string("\177ELF\0\1\2", 7)), HasSubstr("s.csv"));
     std::string dark = flat(",");
     for (std::size_t at = 0; (at = dark.find("2.5", at)) != std::string::npos;)
         dark.replace(at, 3, "0.0");
