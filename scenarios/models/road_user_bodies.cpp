@@ -111,15 +111,14 @@ class BodyBuilder {
                          index_of(BodyMaterial::rim));
     }
 
+    void plate(double x_m, double z_m, double width_m, double height_m, bool faces_forward, BodyMaterial material, double y_m = 0.0) {
+        append_plate(soup_, {x_m + (faces_forward ? proud_m : -proud_m), y_m, z_m}, width_m, height_m, faces_forward, index_of(material));
+    }
+
     /// Plates on both sides of the middle, at so far to each.
     void pair(double x_m, double beside_m, double z_m, double width_m, double height_m, bool faces_forward, BodyMaterial material) {
         for (const double side : {-1.0, 1.0})
-            append_plate(soup_, {x_m + (faces_forward ? proud_m : -proud_m), side * beside_m, z_m}, width_m, height_m, faces_forward,
-                         index_of(material));
-    }
-
-    void plate(double x_m, double z_m, double width_m, double height_m, bool faces_forward, BodyMaterial material) {
-        append_plate(soup_, {x_m + (faces_forward ? proud_m : -proud_m), 0.0, z_m}, width_m, height_m, faces_forward, index_of(material));
+            plate(x_m, z_m, width_m, height_m, faces_forward, material, side * beside_m);
     }
 
     /// lamp.FUNCTION.left and .right, looking forward or back; only .centre when `beside_m` is 0.

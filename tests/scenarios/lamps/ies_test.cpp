@@ -370,11 +370,8 @@ std::vector<std::filesystem::path> real_files(const std::string& extension) {
     return out;
 }
 
-LampFile read_upright(const std::filesystem::path& path) {
-    LampReadOptions options;
-    options.type_c_axis = TypeCAxis::horizontal; // not resampled: the flux is the file's own
-    return read_lamp(path, options);
-}
+/// Not resampled: the flux is the file's own.
+LampFile read_upright(const std::filesystem::path& path) { return read_lamp(path, {.type_c_axis = TypeCAxis::horizontal}); }
 
 bool of(const std::filesystem::path& path, const char* name) { return path.string().find(name) != std::string::npos; }
 

@@ -6,11 +6,9 @@
 #include "tests/trial.h"
 
 #include <algorithm>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <random>
-#include <sstream>
 #include <tuple>
 
 namespace fernlicht {
@@ -194,17 +192,26 @@ TEST_F(Gltf, CopiesWithoutEndAreRefusedBeforeTheyAreMade) {
     EXPECT_THAT(refusal(file), HasSubstr("nodes[1333]: with it the model has 4002000 triangles"));
 }
 
+const std::filesystem::path real_files = std::filesystem::path(FERNLICHT_SHARED_DATA) / "models";
+
+/// Models of others; none where there are no such files.
+std::vector<std::filesystem::path> real_models() {
+    std::vector<std::filesystem::path> all;
+    if (std::filesystem::exists(real_files))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(real_files))
+            if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
+                all.push_back(entry.path());
+    return all;
+}
+
 /// What becomes of each file of others: read, or refused for this reason.
 TEST_F(Gltf, FilesOfOthersAreReadOrRefusedPrecisely) {
-    const std::filesystem::path shared = std::filesystem::path(FERNLICHT_SHARED_DATA) / "models";
-    if (!std::filesystem::exists(shared))
-        GTEST_SKIP() << "no models in " << FERNLICHT_SHARED_DATA;
+    if (real_models().empty())
+        GTEST_SKIP() << "no models at " << real_files;
     int read = 0, refused = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(shared)) {
-        if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb")
-            continue;
+    for (const std::filesystem::path& path : real_models()) {
         try {
-            const Model model = read_model(entry.path());
+            const Model model = read_model(path);
             ++read;
             for (const Mesh& mesh : model.meshes)
                 for (const std::uint32_t index : mesh.indices)
@@ -217,15 +224,14 @@ TEST_F(Gltf, FilesOfOthersAreReadOrRefusedPrecisely) {
             EXPECT_THAT(what, HasSubstr("expected"));
             EXPECT_LT(what.size(), 700U) << what;
         }
-        RecordProperty(entry.path().filename().string(), read);
+        RecordProperty(path.filename().string(), read);
     }
     EXPECT_GE(read, 10);
     EXPECT_GE(refused, 9);
 }
 
 TEST_F(Gltf, ACarOfOthersHasItsSizeAndItsPicture) {
-    const std::filesystem::path truck =
-        std::filesystem::path(FERNLICHT_SHARED_DATA) / "models/assimp__assimp/test/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf";
+    const std::filesystem::path truck = real_files / "assimp__assimp/test/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf";
     if (!std::filesystem::exists(truck))
         GTEST_SKIP() << "no " << truck;
     const Model model = read_model(truck);
@@ -241,14 +247,6 @@ TEST_F(Gltf, ACarOfOthersHasItsSizeAndItsPicture) {
 
 // Files with bytes changed, cut out, doubled or swapped at random: each is read or refused in one sentence, and nothing else happens.
 // Under AddressSanitizer (ci/test) this is where the reader is tried.
-
-const std::filesystem::path real_files = std::filesystem::path(FERNLICHT_SHARED_DATA) / "models";
-
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ostringstream out;
-    out << std::ifstream(path, std::ios::binary).rdbuf();
-    return out.str();
-}
 
 std::string mutated(std::string bytes, std::mt19937& random) {
     const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
@@ -284,10 +282,11 @@ class GltfMutation : public testing::Test {
     /// How many of the mutants were refused; the rest were read and are whole.
     std::size_t refused(const std::filesystem::path& file, std::size_t mutants, std::uint32_t seed) {
         std::mt19937 random(seed);
-        const std::string bytes = bytes_of(file);
+        FilesRead opened;
+        const std::string bytes = read_file(file, opened);
         std::size_t count = 0;
         for (std::size_t k = 0; k < mutants; ++k) {
-            std::ofstream(folder_ / file.filename(), std::ios::binary | std::ios::trunc) << mutated(bytes, random);
+            tests::written(file.filename(), mutated(bytes, random), folder_);
             try {
                 const Model model = read_model(folder_ / file.filename());
                 for (const Mesh& mesh : model.meshes)
@@ -317,13 +316,10 @@ TEST_F(GltfMutation, OurOwnFilesAreReadOrRefused) {
 }
 
 TEST_F(GltfMutation, RealFilesAreReadOrRefused) {
-    if (!std::filesystem::exists(real_files))
-        GTEST_SKIP() << "no real files at " << real_files;
+    if (real_models().empty())
+        GTEST_SKIP() << "no models at " << real_files;
     std::size_t files = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(real_files)) {
-        const std::filesystem::path& path = entry.path();
-        if (path.extension() != ".gltf" && path.extension() != ".glb")
-            continue;
+    for (const std::filesystem::path& path : real_models()) {
         for (const auto& beside : std::filesystem::directory_iterator(path.parent_path())) // what it names
             if (beside.is_regular_file() && beside.file_size() < (1U << 20))
                 std::filesystem::copy_file(beside.path(), folder_ / beside.path().filename(),
