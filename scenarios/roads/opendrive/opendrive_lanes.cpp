@@ -2,7 +2,6 @@
 #include "scenarios/roads/road_network.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -117,24 +116,13 @@ constexpr double standard_width_m = 0.12, bold_width_m = 0.25, widest_mark_m = 1
 constexpr double once_m = 1e9; ///< the gap after a line that is not repeated
 
 MarkKind mark_kind(XmlFile& xml, pugi::xml_node node) {
-    using enum MarkKind;
-    static constexpr std::pair<std::string_view, MarkKind> kinds[]{{"none", none},
-                                                                   {"solid", solid},
-                                                                   {"broken", broken},
-                                                                   {"solid solid", solid_solid},
-                                                                   {"solid broken", solid_broken},
-                                                                   {"broken solid", broken_solid},
-                                                                   {"broken broken", broken_broken},
-                                                                   {"botts dots", botts_dots},
-                                                                   {"curb", curb},
-                                                                   {"custom", other},
-                                                                   {"edge", none}, // where nothing is painted
-                                                                   {"grass", none},
-                                                                   {"", none}};
+    static constexpr std::string_view names[]{"none",          "solid",      "broken", "solid solid", "solid broken", "broken solid",
+                                              "broken broken", "botts dots", "curb",   "custom"}; // in MarkKind's order
     const std::string name = xml.text(node, "type");
-    for (const auto& [word, kind] : kinds)
-        if (name == word)
-            return kind;
+    if (name.empty() || name == "edge" || name == "grass") // where nothing is painted
+        return MarkKind::none;
+    if (const auto known = std::ranges::find(names, name); known != std::end(names))
+        return static_cast<MarkKind>(known - names);
     xml.warn_once(node, "mark type " + name,
                   fmt::format("the road mark type '{}' is unknown; it is not drawn unless its lines are given", name));
     return MarkKind::other;
