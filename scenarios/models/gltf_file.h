@@ -19,7 +19,6 @@ class GltfEntry {
         : value_(&value), file_(&file), way_(std::move(way)) {}
 
     const nlohmann::json& value() const { return *value_; }
-    const std::filesystem::path& file() const { return *file_; }
     const std::string& way() const { return way_; }
     [[noreturn]] void refuse(const std::string& found, const std::string& expected) const;
     [[noreturn]] void refuse(const std::string& expected) const; ///< found: a description of the value itself

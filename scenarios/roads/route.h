@@ -1,7 +1,7 @@
 // A way through a network: follows one lane over road and junction borders; distance along it to pose and cross-section.
 #pragma once
 
-#include "scenarios/roads/surface.h"
+#include "scenarios/roads/plan.h"
 
 #include <span>
 

@@ -1,6 +1,4 @@
-#include "scenarios/roads/surface.h"
-
-#include "scenarios/roads/road_network.h"
+#include "scenarios/roads/plan.h"
 
 #include <algorithm>
 #include <cmath>
