@@ -54,52 +54,44 @@ class LdtLines {
     LineReader lines_;
 };
 
-/// The six lines of each set: number of lamps, type, flux, colour, colour rendering, watts.
-struct LampSets {
-    std::vector<std::string_view> lines;
-    std::size_t count = 0, first_line = 0;
-
-    bool reads(std::size_t set_step, std::size_t field_step) const {
-        for (std::size_t set = 0; set < count; ++set) {
-            const std::optional<double> lamps = either_decimal(lines[set * set_step]);
-            if (!lamps || *lamps != std::floor(*lamps) || !either_decimal(lines[set * set_step + 2 * field_step]))
-                return false;
-        }
-        return true;
-    }
-};
-
 struct FirstSet {
     double flux_lm = 0.0;
     std::string type;
 };
 
 FirstSet first_lamp_set(LdtLines& in, Notes& notes) {
-    LampSets sets;
-    sets.count = static_cast<std::size_t>(in.whole("number of lamp sets", 1, 20));
+    const auto count = static_cast<std::size_t>(in.whole("number of lamp sets", 1, 20));
     InputError::Where where = in.where("lamp sets");
     ++where.line;
-    for (std::size_t i = 0; i < 6 * sets.count; ++i)
-        sets.lines.push_back(in.text("lamp sets"));
-    const bool by_set = sets.reads(6, 1), by_field = !by_set && sets.reads(1, sets.count);
+    std::vector<std::string_view> lines; // six of each set: number of lamps, type, flux, colour, colour rendering, watts
+    for (std::size_t i = 0; i < 6 * count; ++i)
+        lines.push_back(in.text("lamp sets"));
+    const auto reads = [&](std::size_t set_step, std::size_t field_step) {
+        for (std::size_t set = 0; set < count; ++set) {
+            const std::optional<double> lamps = either_decimal(lines[set * set_step]);
+            if (!lamps || *lamps != std::floor(*lamps) || !either_decimal(lines[set * set_step + 2 * field_step]))
+                return false;
+        }
+        return true;
+    };
+    const bool by_set = reads(6, 1), by_field = !by_set && reads(1, count);
     if (!by_set && !by_field)
         throw InputError(where,
-                         fmt::format("found '{}' lamps of '{}' lm in the first of {} sets", printable(std::string(sets.lines[0])),
-                                     printable(std::string(sets.lines[2])), sets.count),
+                         fmt::format("found '{}' lamps of '{}' lm in the first of {} sets", printable(std::string(lines[0])),
+                                     printable(std::string(lines[2])), count),
                          "numbers");
     if (by_field)
         notes.push_back("The lamp sets are listed field by field, not set by set.");
-    const std::size_t step = by_set ? 1 : sets.count;
+    const std::size_t step = by_set ? 1 : count;
     FirstSet set;
-    set.type = sets.lines[step];
-    set.flux_lm = *either_decimal(sets.lines[2 * step]);
+    set.type = lines[step];
+    set.flux_lm = *either_decimal(lines[2 * step]);
     if (!(std::isfinite(set.flux_lm) && set.flux_lm > 0.0))
         throw InputError(where, fmt::format("found a lamp flux of {} lm", set.flux_lm), "a flux above 0");
-    if (*either_decimal(sets.lines[0]) < 0.0)
+    if (*either_decimal(lines[0]) < 0.0)
         notes.push_back("The number of lamps is negative: absolute photometry.");
-    if (sets.count > 1)
-        notes.push_back(
-            fmt::format("{} lamp sets to choose from: the first, '{}' with {} lm, is taken.", sets.count, set.type, set.flux_lm));
+    if (count > 1)
+        notes.push_back(fmt::format("{} lamp sets to choose from: the first, '{}' with {} lm, is taken.", count, set.type, set.flux_lm));
     return set;
 }
 

@@ -122,10 +122,8 @@ std::optional<RoadPlace> RoadFinder::find(const glm::dvec2& point_m, std::option
         const PlanPoint plan = plan_point(road, place->s_m);
         const double gap = std::hypot(point_m.x - plan.x_m, point_m.y - plan.y_m) - std::abs(place->t_m); // beyond an end
         double score = beyond_lanes(road, *place) + std::max(gap, 0.0) * 2.0;
-        if (heading_rad) {
-            const double turn = std::abs(std::remainder(*heading_rad - plan.heading_rad, pi)); // either way
-            score += 1e-3 * turn;
-        }
+        if (heading_rad)
+            score += 1e-3 * std::abs(std::remainder(*heading_rad - plan.heading_rad, pi)); // either way
         if (preferred && *preferred == place->road)
             score -= 0.1;
         if (score < best_score) {

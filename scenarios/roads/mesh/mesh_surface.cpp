@@ -222,15 +222,6 @@ std::vector<RoadStretch> stretches_of(const RoadNetwork& network, const Road& ro
     return out;
 }
 
-struct Cut {
-    std::vector<Strip> from, to;
-};
-
-Cut cut_at(const SurfacePlan& plan, const RoadStretch& stretch) {
-    const SectionProfile& profile = plan.profile(stretch);
-    return {profile.strips(stretch.layout_s_m(), stretch.from_s_m), profile.strips(stretch.layout_s_m(), stretch.to_s_m)};
-}
-
 } // namespace
 
 SurfacePlan plan_surface(const RoadNetwork& network, const Road& road, const RoadMeshOptions& options) {
@@ -254,9 +245,13 @@ std::string chunk_name(const char* what, const SurfacePlan& plan, std::size_t fi
 SurfaceRows append_surface(Scene& scene, const RoadNetwork& network, const SurfacePlan& plan, const Repaint& repaint) {
     SurfaceRows surface;
     const Road& road = *plan.road;
+    struct Cut {
+        std::vector<Strip> from, to;
+    };
     std::vector<Cut> cuts;
     for (const RoadStretch& stretch : plan.stretches)
-        cuts.push_back(cut_at(plan, stretch));
+        cuts.push_back({plan.profile(stretch).strips(stretch.layout_s_m(), stretch.from_s_m),
+                        plan.profile(stretch).strips(stretch.layout_s_m(), stretch.to_s_m)});
     for (std::size_t i = 0; i <= cuts.size() && !cuts.empty(); ++i) {
         const double s = i < cuts.size() ? plan.stretches[i].from_s_m : plan.stretches.back().to_s_m;
         surface.rows.push_back(make_row(network, road, s, i > 0 ? cuts[i - 1].to : std::vector<Strip>{},
