@@ -149,9 +149,7 @@ std::optional<double> DisplayProfile::pixel_deg() const {
 
 glm::dmat3 xyz_from_light() { return {{0.4124, 0.2126, 0.0193}, {0.3576, 0.7152, 0.1192}, {0.1805, 0.0722, 0.9505}}; }
 
-DisplayProfile srgb_display() {
-    return {.name = "srgb", .title = "sRGB reference display", .xyz_from_rgb = 80.0 * xyz_from_light()};
-}
+DisplayProfile srgb_display() { return {.name = "srgb", .title = "sRGB reference display", .xyz_from_rgb = 80.0 * xyz_from_light()}; }
 
 bool is_srgb(const DisplayProfile& profile) {
     if (profile.transfer != TransferKind::srgb || profile.bits != 8)
