@@ -253,14 +253,15 @@ class Parser {
     int depth_ = 0;
 };
 
-} // namespace
-
+/// The value of one expression without its `${` and `}`.
 std::string evaluate(std::string_view expression, const Lookup& lookup) {
     const Value value = Parser(expression, lookup).whole();
     if (value.number && !std::isfinite(*value.number))
         throw std::invalid_argument("the expression has no finite value");
     return value.written();
 }
+
+} // namespace
 
 std::string resolve(std::string_view text, const Lookup& lookup) {
     constexpr std::size_t longest = 65536; // parameters of parameters can double at each step

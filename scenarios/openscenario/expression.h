@@ -17,7 +17,4 @@ using Lookup = std::function<std::optional<std::string>(const std::string& name)
 /// std::invalid_argument with a fragment of what is wrong: "unknown parameter 'a'", "found '/', expected a number".
 std::string resolve(std::string_view text, const Lookup& lookup);
 
-/// The value of one expression without its `${` and `}`. Throws as resolve().
-std::string evaluate(std::string_view expression, const Lookup& lookup);
-
 } // namespace fernlicht::osc

@@ -4,8 +4,6 @@
 #include "scenarios/openscenario/storyboard.h"
 #include "scenarios/values/xml_file.h"
 
-#include <utility>
-
 namespace fernlicht::osc {
 
 /// Names and values, inner ones before outer ones.

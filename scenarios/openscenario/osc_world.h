@@ -5,6 +5,7 @@
 #include "scenarios/openscenario/storyboard.h"
 #include "scenarios/roads/road_finder.h"
 #include "scenarios/roads/route_links.h"
+#include "scenarios/values/errors.h"
 
 namespace fernlicht::osc {
 
@@ -15,6 +16,15 @@ inline constexpr double small = 1e-6;
 struct PlaceError {
     std::string found, expected;
 };
+
+/// What `call` gives; where it cannot be placed, an InputError at this element.
+template <class Call> auto placed(const std::filesystem::path& file, std::size_t line, const std::string& element, const Call& call) {
+    try {
+        return call();
+    } catch (const PlaceError& error) {
+        throw InputError({file, line, 0, element}, error.found, error.expected);
+    }
+}
 
 /// Where something stands, in the world and on the network.
 struct Spot {
@@ -90,6 +100,7 @@ class World {
     std::map<std::string, std::size_t> index_;
 };
 
+const Lane* lane_of(const Road& road, int id, double s_m); ///< nullptr: the road has none of this id there
 /// The lane nearest to t that has width, on either side; 0 where there is none.
 int nearest_lane(const Road& road, double s_m, double t_m);
 /// Heading of travel of a lane, relative to the reference line: 0 or pi.

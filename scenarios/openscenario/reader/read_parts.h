@@ -28,7 +28,6 @@ Position read_position(const OscNode& node);
 /// From an element that holds a Route or Trajectory, or a CatalogReference to one. Throw InputError.
 std::shared_ptr<const Route> read_route(const OscNode& holder);
 std::shared_ptr<const Trajectory> read_trajectory(const OscNode& holder);
-Orientation read_orientation(const OscNode& node);
 
 /// nullopt when `element` ("StartTrigger", "StopTrigger") is not there. One without groups is there and never true. Throws InputError.
 std::optional<Trigger> read_trigger(const OscNode& holder, const char* element);
