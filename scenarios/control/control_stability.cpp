@@ -35,9 +35,8 @@ double breach_rad(const ControlRun& run, const ActuatorParameters& actuator, dou
     return worst;
 }
 
-} // namespace
-
-ControlInputs weaving(double time_s, double side) {
+/// A course of bends; `side` -1: mirrored.
+ControlInputs weaving(double time_s, double side = 1.0) {
     ControlInputs in;
     in.time_s = time_s;
     in.speed_mps = 20.0;
@@ -48,6 +47,10 @@ ControlInputs weaving(double time_s, double side) {
     in.bearing_ahead_rad = side * 0.15 * std::sin(2.0 * pi * (time_s + 0.75) / 4.0);
     return in;
 }
+
+constexpr BendLaw all_laws[] = {BendLaw::steering, BendLaw::yaw_rate, BendLaw::route};
+
+} // namespace
 
 ControlParameters plain_bend_light(BendLaw law, double period_s) {
     ControlParameters control;
@@ -109,7 +112,7 @@ std::vector<ExtremeTrial> control_with_extreme_signals() {
     };
     std::vector<ExtremeTrial> trials;
     for (const Case& one : cases)
-        for (const BendLaw law : {BendLaw::steering, BendLaw::yaw_rate, BendLaw::route}) {
+        for (const BendLaw law : all_laws) {
             const ControlParameters control = plain_bend_light(law, 0.02);
             constexpr double end_s = 3.0;
             const ControlRun run = run_of(
@@ -127,7 +130,7 @@ std::vector<ExtremeTrial> control_with_extreme_signals() {
 
 std::vector<ExtremeTrial> control_mirrored() {
     std::vector<ExtremeTrial> trials;
-    for (const BendLaw law : {BendLaw::steering, BendLaw::yaw_rate, BendLaw::route}) {
+    for (const BendLaw law : all_laws) {
         ControlParameters control = plain_bend_light(law, 0.02);
         control.bend->outer_share = 0.6;
         const ControlRun left = run_of(

@@ -71,7 +71,7 @@ SignalTable::SignalTable(std::vector<std::string> lamps)
 }
 
 const SignalKind& SignalTable::kind(std::size_t place) const {
-    return kinds[place < signal::count ? place : std::size_t{signal::count} + (place - signal::count) % lamp_signal::count];
+    return kinds[place < signal::count ? place : std::size_t{signal::count} + lamp_signal_at(place).second];
 }
 
 std::string SignalTable::name(std::size_t place) const {
@@ -79,7 +79,7 @@ std::string SignalTable::name(std::size_t place) const {
     if (place < signal::count)
         return std::string(pattern);
     const std::size_t star = pattern.find('*');
-    return fmt::format("{}{}{}", pattern.substr(0, star), lamps_[(place - signal::count) / lamp_signal::count], pattern.substr(star + 1));
+    return fmt::format("{}{}{}", pattern.substr(0, star), lamps_[lamp_signal_at(place).first], pattern.substr(star + 1));
 }
 
 std::size_t SignalTable::find(const std::string& wanted) const {

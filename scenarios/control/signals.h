@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fernlicht {
@@ -69,6 +70,10 @@ class SignalTable {
     double operator[](std::size_t place) const { return values_[place]; }
     std::size_t place(std::size_t lamp, std::size_t of_lamp) const {
         return std::size_t{signal::count} + lamp * lamp_signal::count + of_lamp;
+    }
+    /// Lamp and its signal that a place beyond those that are there once is of.
+    static std::pair<std::size_t, std::size_t> lamp_signal_at(std::size_t place) {
+        return {(place - signal::count) / lamp_signal::count, (place - signal::count) % lamp_signal::count};
     }
     double& of(std::size_t lamp, std::size_t of_lamp) { return values_[place(lamp, of_lamp)]; }
     double of(std::size_t lamp, std::size_t of_lamp) const { return values_[place(lamp, of_lamp)]; }

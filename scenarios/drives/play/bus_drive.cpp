@@ -3,7 +3,6 @@
 #include "scenarios/drives/play/advance.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -56,14 +55,7 @@ std::vector<CanFrame> BusDrive::step() {
     const std::vector<BusValue>& values = bus_.at(next_tick_ns());
     if (motion_) {
         mover_.add(now_s, values, *motion_);
-        const double room_m = route_.length_m() - drive_.bumper_m;
-        for (; on_route_ * drive_.step_s <= now_s && on_route_ < tick_count(drive_); ++on_route_)
-            if (way_m(drive_, on_route_ * drive_.step_s) > room_m) {
-                drive_.notes.push_back(fmt::format("can: the car comes to the end of the route, {:.1f} m: the drive ends after {:.3g} s "
-                                                   "instead of {:.3g} s",
-                                                   route_.length_m(), on_route_ * drive_.step_s, drive_.duration_s));
-                drive_.duration_s = on_route_ * drive_.step_s;
-            }
+        end_with_route(drive_, route_, on_route_, now_s);
     }
     play_.ticks.push_back(values);
     if (now_s < drive_.duration_s)

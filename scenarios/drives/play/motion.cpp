@@ -1,7 +1,7 @@
 #include "scenarios/drives/play/motion.h"
 
 #include "scenarios/drives/play/advance.h"
-#include "scenarios/drives/play/bus_motion.h"
+#include "scenarios/drives/play/bus_play.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

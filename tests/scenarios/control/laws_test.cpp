@@ -3,7 +3,6 @@
 #include "scenarios/control/control_stability.h"
 #include "scenarios/control/high_beam.h"
 #include "scenarios/control/lamp_controller.h"
-#include "scenarios/control/masked_beam.h"
 #include "scenarios/values/pose.h"
 #include "tests/trial.h"
 
@@ -177,12 +176,7 @@ ControlInputs circle(double time_s, double speed_mps, double radius_m) {
 const std::vector<ControlledLamp> two_lamps{{"left", {3.4, 0.6, 0.65}, 0.0}, {"right", {3.4, -0.6, 0.65}, 0.0}};
 const ControlledCar car{2.7, 0.003};
 
-ControlParameters bend_light(BendLaw law) {
-    ControlParameters control{.bend = BendParameters{}};
-    control.bend->law = law;
-    control.bend->lamps = {"left", "right"};
-    return control;
-}
+ControlParameters bend_light(BendLaw law) { return plain_bend_light(law, 0.02); }
 
 /// 20 m/s on a circle of 150 m: 30 m later the car is 0.1 rad to the left of where it points now (k v T / 2 = 20 * 1.5 / 300).
 TEST(BendLight, AllLawsLookToWhereACircleLeads) {
