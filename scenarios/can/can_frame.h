@@ -11,6 +11,8 @@
 
 namespace fernlicht {
 
+inline double in_seconds(std::int64_t ns) { return static_cast<double>(ns) / 1.0e9; }
+
 struct CanFrame {
     std::int64_t time_ns = 0; ///< of reception; since the epoch, or since whatever the log's stamps count from
     std::string channel;      ///< name of the interface, "can0"; at most 15 bytes (IFNAMSIZ)

@@ -133,19 +133,18 @@ class CandumpParser : private CandumpCursor {
     /// Identifier of `digits` hexadecimal digits.
     void identifier(std::size_t digits) {
         const std::size_t from = at_;
-        if (digits != 3 && digits != 8) {
-            if (digits == 5)
-                refuse(from, "found a CAN XL frame, which is not supported",
-                       "classic CAN or CAN FD: an identifier of 3 or 8 hexadecimal digits");
-            refuse(from, "an identifier of 3 or 8 hexadecimal digits");
-        }
+        if (digits == 5)
+            refuse(from, "found a CAN XL frame, which is not supported",
+                   "classic CAN or CAN FD: an identifier of 3 or 8 hexadecimal digits");
+        bool is_one = digits == 3 || digits == 8;
         std::uint32_t id = 0;
-        for (std::size_t i = 0; i < digits; ++i) {
+        for (std::size_t i = 0; is_one && i < digits; ++i) {
             const std::uint8_t nibble = nibble_of(line_[from + i]);
-            if (nibble > 15)
-                refuse(from, "an identifier of 3 or 8 hexadecimal digits");
+            is_one = nibble <= 15;
             id = id << 4 | nibble;
         }
+        if (!is_one)
+            refuse(from, "an identifier of 3 or 8 hexadecimal digits");
         at_ += digits;
         if (digits == 3) {
             if (id > 0x7ff)

@@ -1,6 +1,5 @@
-// Automatic high beam, and its glare-free form: which windows meet others.
-// What lamp control is told besides the signals: plain values, in the frame of the own car (x forward, y left, on the road under the rear
-// axle).
+// Automatic high beam, and its glare-free form: which windows meet others, told in the frame of the own car (x forward, y left, on the road
+// under the rear axle).
 #pragma once
 
 #include "scenarios/control/control_parameters.h"

@@ -60,6 +60,9 @@ std::span<const SignalKind> known_signals();
 /// Of the signal of this name, with a lamp's name in place of the star or the star itself; nullptr: none has it.
 const SignalKind* known_signal(const std::string& name);
 
+/// "lamp.left.level" of "lamp.*.level".
+std::string of_lamp(std::string_view pattern, std::string_view lamp);
+
 /// A value that is not a number says that the signal is lost; infinity is a distance to nothing.
 class SignalTable {
   public:

@@ -1,5 +1,4 @@
-// The storyboard's world at one moment: where every entity is, on road and lane, and how positions of the file become places.
-// Distances between entities and places: straight, along the road, across it; from reference points or between boxes.
+// The storyboard's world at one moment: where every entity is, how positions of the file become places, and distances between them.
 #pragma once
 
 #include "scenarios/openscenario/storyboard.h"

@@ -47,7 +47,6 @@ struct RelativeLanePosition {
     std::string entity;
     int lanes = 0;
     double ds_m = 0.0, offset_m = 0.0;
-    bool along_lane = false; ///< ds is measured along the lane, not along the reference line
 };
 struct RelativeRoadPosition {
     std::string entity;

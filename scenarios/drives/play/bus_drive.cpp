@@ -36,7 +36,7 @@ BusDrive::BusDrive(Drive& drive, const Route& route, std::size_t variant)
 void BusDrive::take(const CanFrame& frame) {
     ++play_.frames;
     bus_.take(frame);
-    const double time_s = static_cast<double>(frame.time_ns) / 1.0e9;
+    const double time_s = in_seconds(frame.time_ns);
     play_.first_s = play_.first_s.value_or(time_s);
     play_.last_s = time_s;
 }

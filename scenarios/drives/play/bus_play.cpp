@@ -61,13 +61,6 @@ namespace {
 
 constexpr double shortest_gap_s = 0.1; ///< a recording that ends so much before the drive says so
 
-double in_seconds(std::int64_t ns) { return static_cast<double>(ns) / 1.0e9; }
-
-std::string lamp_signal_name(const std::string& pattern, const std::string& lamp) {
-    const std::size_t star = pattern.find('*');
-    return pattern.substr(0, star) + lamp + pattern.substr(star + 1);
-}
-
 /// "can0 (12 frames), can1 (3 frames)"
 std::string channels_text(const std::vector<CanFrame>& frames) {
     constexpr std::size_t most_named = 8;
@@ -265,7 +258,7 @@ BusWriter::BusWriter(const BusMapping& mapping, const std::vector<std::string>& 
             names.push_back(input.name);
         else
             for (const std::string& lamp : lamps) // one that is named itself comes from there alone
-                if (const std::string name = lamp_signal_name(input.name, lamp);
+                if (const std::string name = of_lamp(input.name, lamp);
                     std::ranges::find(mapping.inputs, name, &BusInput::name) == mapping.inputs.end())
                     names.push_back(name);
         for (const std::string& name : names) {

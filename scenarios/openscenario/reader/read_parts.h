@@ -1,8 +1,4 @@
-// Actions of entities and of the world.
-// Entities: vehicles, pedestrians and objects, with their boxes and limits.
-// Environments: time of day, weather and the road's condition as the file gives them.
-// Positions, routes and trajectories from their elements.
-// Triggers and their conditions.
+// The parts of a storyboard, each from its element.
 #pragma once
 
 #include "scenarios/openscenario/osc_node.h"

@@ -55,7 +55,7 @@ decltype(Position::place) read_kind(const OscNode& node) {
         return RoadPosition{node.text("roadId"), node.length("s"), node.length("t")};
     if (kind == "RelativeLanePosition")
         return RelativeLanePosition{entity_of(node), node.whole("dLane"), node.length(node.has("dsLane") ? "dsLane" : "ds"),
-                                    node.length_or_0("offset"), node.has("dsLane")};
+                                    node.length_or_0("offset")};
     if (kind == "RelativeRoadPosition")
         return RelativeRoadPosition{entity_of(node), node.length("ds"), node.length("dt")};
     if (kind == "RelativeObjectPosition" || kind == "RelativeWorldPosition")

@@ -90,7 +90,7 @@ TEST(Story, ParametersAndExpressions) {
     const auto text = scenario_text(of("Ego", teleport(on_lane(-1, 50.0)) + speed("${$twice / 3.6}")), stop_at(1.0), declared);
     EXPECT_NEAR(play_text(text).entities[0].samples[0].speed_mps, 20.0, 1e-12);
     EXPECT_EQ(read_storyboard(story_file(text), {.parameters = {{"kmh", "18"}}}).parameters.at("kmh"), "18");
-    EXPECT_THROW(read_storyboard(file, {.parameters = {{"mph", "18"}}}), InputError);
+    EXPECT_THROW(read_storyboard(story_file(text), {.parameters = {{"mph", "18"}}}), InputError);
 }
 
 std::string light(const std::string& action, const std::string& state) {
