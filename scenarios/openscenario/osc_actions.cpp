@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/osc_actions.h"
 
-#include "scenarios/openscenario/osc_mover.h"
 #include "scenarios/roads/plan.h"
 #include "scenarios/values/errors.h"
 

@@ -1,4 +1,4 @@
-#include "scenarios/openscenario/osc_catalogs.h"
+#include "scenarios/openscenario/osc_node.h"
 
 #include "scenarios/values/errors.h"
 

@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/osc_judge.h"
 
-#include "scenarios/openscenario/osc_mover.h"
 #include "scenarios/values/xml_file.h"
 
 #include <algorithm>

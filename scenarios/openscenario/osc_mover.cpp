@@ -1,4 +1,4 @@
-#include "scenarios/openscenario/osc_mover.h"
+#include "scenarios/openscenario/osc_world.h"
 
 #include "scenarios/roads/plan.h"
 

@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/osc_world.h"
 
-#include "scenarios/openscenario/osc_mover.h"
 #include "scenarios/openscenario/osc_path.h"
 #include "scenarios/roads/plan.h"
 

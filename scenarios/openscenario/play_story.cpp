@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/play_story.h"
 
-#include "scenarios/openscenario/osc_mover.h"
 #include "scenarios/openscenario/story_tree.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/reader/read_parts.h"
 
-#include "scenarios/openscenario/osc_catalogs.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/reader/read_storyboard.h"
 
-#include "scenarios/openscenario/osc_catalogs.h"
 #include "scenarios/openscenario/osc_node.h"
 #include "scenarios/openscenario/reader/read_parts.h"
 #include "scenarios/values/errors.h"
