@@ -158,7 +158,6 @@ std::vector<CanFrame> BusOutputs::due(std::int64_t until_ns) {
             frames.push_back(frame(first, page));
         first.next_ns += first.cycle_ns;
     }
-    sent_ += frames.size();
     return frames;
 }
 

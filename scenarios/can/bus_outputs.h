@@ -27,7 +27,6 @@ class BusOutputs {
     /// When the next is due; the largest number there is without outputs.
     std::int64_t next_ns() const;
 
-    std::uint64_t sent() const { return sent_; }
     /// What was cut or was no number, one sentence for each signal.
     std::vector<std::string> notes() const;
 
@@ -56,7 +55,6 @@ class BusOutputs {
     std::vector<CanDatabase> databases_;
     std::string channel_;
     std::vector<Sent> messages_;
-    std::uint64_t sent_ = 0;
 };
 
 } // namespace fernlicht

@@ -15,8 +15,6 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double cycles_until_stale = 3.0;
 constexpr std::int64_t never_ns = std::numeric_limits<std::int64_t>::max();
 
-double in_seconds(std::int64_t ns) { return static_cast<double>(ns) / 1.0e9; }
-
 std::uint64_t identifier_key(std::uint32_t id, bool extended) { return id | (std::uint64_t{extended ? 1U : 0U} << 32U); }
 
 std::int64_t staleness_ns(const BusInput& input, const CanMessage& message) {
@@ -106,10 +104,8 @@ void BusSignals::take(const CanFrame& frame) {
     const auto readers = frame.error || frame.remote || (!channel_.empty() && frame.channel != channel_)
                              ? readers_.end()
                              : readers_.find(identifier_key(frame.id, frame.extended));
-    if (readers == readers_.end()) {
-        ++ignored_;
+    if (readers == readers_.end())
         return;
-    }
     ++taken_;
     for (const auto& [input, second] : readers->second) {
         Source& source = sources_[input];

@@ -1,7 +1,6 @@
 #include "scenarios/can/bus_sources.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -111,46 +110,39 @@ struct KnownUnit {
 };
 
 // Miles are those of 1609.344 m, g is 9.80665 m/s2.
-constexpr std::array known{
-    KnownUnit{"s", "s", {}},
-    KnownUnit{"s", "sec", {}},
-    KnownUnit{"s", "ms", {1.0, 0.0, 1000.0}},
-    KnownUnit{"s", "us", {1.0, 0.0, 1.0e6}},
-    KnownUnit{"s", "min", {60.0}},
-    KnownUnit{"m", "m", {}},
-    KnownUnit{"m", "km", {1000.0}},
-    KnownUnit{"m", "cm", {1.0, 0.0, 100.0}},
-    KnownUnit{"m", "mm", {1.0, 0.0, 1000.0}},
-    KnownUnit{"m/s", "m/s", {}},
-    KnownUnit{"m/s", "mps", {}},
-    KnownUnit{"m/s", "km/h", {1.0, 0.0, 3.6}},
-    KnownUnit{"m/s", "kmh", {1.0, 0.0, 3.6}},
-    KnownUnit{"m/s", "kph", {1.0, 0.0, 3.6}},
-    KnownUnit{"m/s", "mph", {0.44704}},
-    KnownUnit{"m/s2", "m/s2", {}},
-    KnownUnit{"m/s2", "m/s/s", {}},
-    KnownUnit{"m/s2", "g", {9.80665}},
-    KnownUnit{"rad/s", "rad/s", {}},
-    KnownUnit{"rad/s", "deg/s", {rad_per_deg}},
-    KnownUnit{"rad", "rad", {}},
-    KnownUnit{"rad", "mrad", {1.0, 0.0, 1000.0}},
-    KnownUnit{"rad", "deg", {rad_per_deg}},
-    KnownUnit{"1/m", "1/m", {}},
-    KnownUnit{"1/m", "m-1", {}},
-    KnownUnit{"1/m", "1/km", {1.0, 0.0, 1000.0}},
-    KnownUnit{"lx", "lx", {}},
-    KnownUnit{"lx", "lux", {}},
-    KnownUnit{"lx", "klx", {1000.0}},
-    KnownUnit{"1", "", {}},
-    KnownUnit{"1", "1", {}},
-    KnownUnit{"1", "-", {}},
-    KnownUnit{"1", "%", {1.0, 0.0, 100.0}},
-};
-
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-}
+constexpr KnownUnit known[] = {{"s", "s", {}},
+                               {"s", "sec", {}},
+                               {"s", "ms", {1.0, 0.0, 1000.0}},
+                               {"s", "us", {1.0, 0.0, 1.0e6}},
+                               {"s", "min", {60.0}},
+                               {"m", "m", {}},
+                               {"m", "km", {1000.0}},
+                               {"m", "cm", {1.0, 0.0, 100.0}},
+                               {"m", "mm", {1.0, 0.0, 1000.0}},
+                               {"m/s", "m/s", {}},
+                               {"m/s", "mps", {}},
+                               {"m/s", "km/h", {1.0, 0.0, 3.6}},
+                               {"m/s", "kmh", {1.0, 0.0, 3.6}},
+                               {"m/s", "kph", {1.0, 0.0, 3.6}},
+                               {"m/s", "mph", {0.44704}},
+                               {"m/s2", "m/s2", {}},
+                               {"m/s2", "m/s/s", {}},
+                               {"m/s2", "g", {9.80665}},
+                               {"rad/s", "rad/s", {}},
+                               {"rad/s", "deg/s", {rad_per_deg}},
+                               {"rad", "rad", {}},
+                               {"rad", "mrad", {1.0, 0.0, 1000.0}},
+                               {"rad", "deg", {rad_per_deg}},
+                               {"1/m", "1/m", {}},
+                               {"1/m", "m-1", {}},
+                               {"1/m", "1/km", {1.0, 0.0, 1000.0}},
+                               {"lx", "lx", {}},
+                               {"lx", "lux", {}},
+                               {"lx", "klx", {1000.0}},
+                               {"1", "", {}},
+                               {"1", "1", {}},
+                               {"1", "-", {}},
+                               {"1", "%", {1.0, 0.0, 100.0}}};
 
 /// Lower case, without blanks and "^"; degrees as "deg", squares as "2", seconds below a stroke as "s".
 std::string plain_unit(std::string_view written) {
@@ -158,12 +150,11 @@ std::string plain_unit(std::string_view written) {
     for (const char c : written)
         if (c != ' ' && c != '^' && c != '\t')
             text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    replace_all(text, "\xc2\xb0", "deg");
-    replace_all(text, "\xc2\xb2", "2");
-    replace_all(text, "degrees", "deg");
-    replace_all(text, "degree", "deg");
-    replace_all(text, "/sec", "/s");
-    replace_all(text, "km/hr", "km/h");
+    static constexpr std::pair<std::string_view, std::string_view> spellings[] = {
+        {"\xc2\xb0", "deg"}, {"\xc2\xb2", "2"}, {"degrees", "deg"}, {"degree", "deg"}, {"/sec", "/s"}, {"km/hr", "km/h"}};
+    for (const auto& [from, to] : spellings)
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+            text.replace(at, from.size(), to);
     return text;
 }
 

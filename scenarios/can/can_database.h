@@ -26,8 +26,7 @@ struct CanSignal {
     CanValueKind kind = CanValueKind::whole;
     double factor = 1.0, offset = 0.0;   ///< physical = raw * factor + offset
     double minimum = 0.0, maximum = 0.0; ///< physical; both 0: no limits
-    std::string unit, comment;
-    std::vector<std::string> receivers;
+    std::string unit;
     std::map<std::int64_t, std::string> labels; ///< raw value to text (VAL_); those of unsigned 64-bit signals by their bit pattern
     std::optional<double> start_value;          ///< raw (GenSigStartValue); what an encoder sends before it is told better
 
@@ -45,10 +44,7 @@ struct CanMessage {
     bool fd = false; ///< VFrameFormat says so, or it is longer than 8 bytes
     bool bit_rate_switch = false;
     std::string name;
-    std::uint16_t length = 0; ///< bytes
-    std::vector<std::string> senders;
-    std::string comment;
-    std::string send_type;          ///< GenMsgSendType as the file names it: "Cyclic", "OnEvent" ...
+    std::uint16_t length = 0;       ///< bytes
     std::optional<double> cycle_s;  ///< GenMsgCycleTime; nullopt or 0: not cyclic
     std::vector<CanSignal> signals; ///< in the order of the file
 
@@ -58,8 +54,6 @@ struct CanMessage {
 
 struct CanDatabase {
     std::filesystem::path file;
-    std::string version, comment;
-    std::vector<std::string> nodes;
     std::vector<CanMessage> messages; ///< in the order of the file
     std::vector<std::string> notes;   ///< what was odd and how it was taken, one sentence each with the line
 

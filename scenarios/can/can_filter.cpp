@@ -18,11 +18,11 @@ bool hexadecimal(std::string_view text, std::uint32_t& value) {
     return error == std::errc{} && end == text.data() + text.size();
 }
 
-} // namespace
-
 std::uint32_t kernel_can_id(const CanFrame& frame) {
     return frame.id | (frame.extended ? extended_id_flag : 0) | (frame.remote ? remote_id_flag : 0) | (frame.error ? error_id_flag : 0);
 }
+
+} // namespace
 
 bool CanFilter::passes(const CanFrame& frame) const {
     // As net/can/af_can.c does: a mask of the extended flag with a standard identifier looks at its 11 bits.

@@ -10,9 +10,6 @@
 
 namespace fernlicht {
 
-/// The identifier with its flags as the kernel has it: 0x80000000 extended, 0x40000000 remote, 0x20000000 error.
-std::uint32_t kernel_can_id(const CanFrame& frame);
-
 struct CanFilter {
     std::uint32_t id = 0, mask = 0;
     bool inverted = false;

@@ -11,6 +11,8 @@
 
 namespace fernlicht {
 
+inline double in_seconds(std::int64_t ns) { return static_cast<double>(ns) / 1.0e9; }
+
 struct CanFrame {
     std::int64_t time_ns = 0; ///< of reception; since the epoch, or since whatever the log's stamps count from
     std::string channel;      ///< name of the interface, "can0"; at most 15 bytes (IFNAMSIZ)
@@ -28,13 +30,8 @@ struct CanFrame {
     bool operator==(const CanFrame&) const = default;
 };
 
-/// Of bits 0-9 of an error frame's identifier (include/uapi/linux/can/error.h).
-inline constexpr std::array<std::string_view, 10> can_error_classes = {
-    "tx-timeout", "lost-arbitration", "controller-problem",      "protocol-violation", "transceiver-status", "no-acknowledgement-on-tx",
-    "bus-off",    "bus-error",        "restarted-after-bus-off", "error-counter-tx-rx"};
-
-/// A text for each class of the frame with what its data add, as `candump -e` prints one to a line:
-/// "controller-problem{rx-error-passive}". Nothing for frames that are no error frames, and for classes beyond these.
+/// A text for each class of the frame (bits 0-9 of its identifier, include/uapi/linux/can/error.h) with what its data add, as `candump -e`
+/// prints one to a line: "controller-problem{rx-error-passive}". Nothing for frames that are no error frames, and for classes beyond these.
 std::vector<std::string> error_words(const CanFrame& frame);
 
 } // namespace fernlicht

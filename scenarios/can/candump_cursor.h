@@ -40,6 +40,11 @@ class CandumpCursor {
         return true;
     }
 
+    void expect(std::string_view text, const char* expected) {
+        if (!take(text))
+            refuse(at_, expected);
+    }
+
     std::size_t take_blanks() {
         const std::size_t from = at_;
         while (peek() == ' ')
@@ -82,21 +87,17 @@ class CandumpCursor {
         const std::size_t from = at_ - 4;
         ++at_;
         const std::int64_t month_number = fixed_decimal(2, 1, 12, "a month from 01 to 12");
-        if (!take("-"))
-            refuse(at_, "'-' behind the month");
+        expect("-", "'-' behind the month");
         const std::int64_t day_number = fixed_decimal(2, 1, 31, "a day from 01 to 31");
         const year_month_day date(std::chrono::year(static_cast<int>(year)), month(static_cast<unsigned>(month_number)),
                                   day(static_cast<unsigned>(day_number)));
         if (!date.ok() || year < 1970 || year > 2261)
             refuse(from, "a day that there is, from 1970 to 2261");
-        if (!take(" "))
-            refuse(at_, "a blank between date and time");
+        expect(" ", "a blank between date and time");
         const std::int64_t hours = fixed_decimal(2, 0, 23, "hours from 00 to 23");
-        if (!take(":"))
-            refuse(at_, "':' behind the hours");
+        expect(":", "':' behind the hours");
         const std::int64_t minutes = fixed_decimal(2, 0, 59, "minutes from 00 to 59");
-        if (!take(":"))
-            refuse(at_, "':' behind the minutes");
+        expect(":", "':' behind the minutes");
         const std::int64_t seconds = fixed_decimal(2, 0, 60, "seconds from 00 to 60");
         return sys_days(date).time_since_epoch().count() * std::int64_t{86400} + hours * 3600 + minutes * 60 + seconds;
     }

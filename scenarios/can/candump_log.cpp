@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
+#include <iterator>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -33,17 +35,8 @@ void append_date(std::string& out, std::int64_t seconds) {
     using namespace std::chrono;
     const std::int64_t days_since = seconds / 86400, rest = seconds % 86400;
     const year_month_day date{sys_days{days{static_cast<int>(days_since)}}};
-    append_padded(out, static_cast<int>(date.year()), 4);
-    out += '-';
-    append_padded(out, static_cast<unsigned>(date.month()), 2);
-    out += '-';
-    append_padded(out, static_cast<unsigned>(date.day()), 2);
-    out += ' ';
-    append_padded(out, rest / 3600, 2);
-    out += ':';
-    append_padded(out, rest / 60 % 60, 2);
-    out += ':';
-    append_padded(out, rest % 60, 2);
+    fmt::format_to(std::back_inserter(out), "{:04}-{:02}-{:02} {:02}:{:02}:{:02}", static_cast<int>(date.year()),
+                   static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), rest / 3600, rest / 60 % 60, rest % 60);
 }
 
 void append_stamp(std::string& out, std::int64_t time_ns, const CandumpStyle& style) {

@@ -23,8 +23,7 @@ class CandumpParser : private CandumpCursor {
         } else {
             style_.form = CandumpStyle::Form::screen;
             style_.stamp_digits = 0;
-            if (!take(" "))
-                refuse(at_, "a stamp '(seconds.digits)', or a blank as candump's screen form begins with");
+            expect(" ", "a stamp '(seconds.digits)', or a blank as candump's screen form begins with");
             if (take_colour())
                 style_.colour_mode = 3;
             if (peek() == '(')
@@ -60,14 +59,12 @@ class CandumpParser : private CandumpCursor {
         }
         if (seconds > most_seconds)
             refuse(start + 1, "seconds up to 9223372035 (April 2262)");
-        if (!take("."))
-            refuse(at_, "a point between seconds and their fraction");
+        expect(".", "a point between seconds and their fraction");
         std::int64_t fraction = 0;
         const std::size_t places = decimal(fraction, 10);
         if (places != 6 && places != 9)
             refuse(at_ - places, "6 or 9 digits behind the point, as candump writes");
-        if (!take(")"))
-            refuse(at_, "')' behind the stamp");
+        expect(")", "')' behind the stamp");
         style_.stamp_digits = static_cast<std::uint8_t>(places);
         frame_.time_ns = seconds * 1'000'000'000 + fraction * (places == 6 ? 1000 : 1);
     }
@@ -136,19 +133,18 @@ class CandumpParser : private CandumpCursor {
     /// Identifier of `digits` hexadecimal digits.
     void identifier(std::size_t digits) {
         const std::size_t from = at_;
-        if (digits != 3 && digits != 8) {
-            if (digits == 5)
-                refuse(from, "found a CAN XL frame, which is not supported",
-                       "classic CAN or CAN FD: an identifier of 3 or 8 hexadecimal digits");
-            refuse(from, "an identifier of 3 or 8 hexadecimal digits");
-        }
+        if (digits == 5)
+            refuse(from, "found a CAN XL frame, which is not supported",
+                   "classic CAN or CAN FD: an identifier of 3 or 8 hexadecimal digits");
+        bool is_one = digits == 3 || digits == 8;
         std::uint32_t id = 0;
-        for (std::size_t i = 0; i < digits; ++i) {
+        for (std::size_t i = 0; is_one && i < digits; ++i) {
             const std::uint8_t nibble = nibble_of(line_[from + i]);
-            if (nibble > 15)
-                refuse(from, "an identifier of 3 or 8 hexadecimal digits");
+            is_one = nibble <= 15;
             id = id << 4 | nibble;
         }
+        if (!is_one)
+            refuse(from, "an identifier of 3 or 8 hexadecimal digits");
         at_ += digits;
         if (digits == 3) {
             if (id > 0x7ff)
@@ -300,23 +296,20 @@ class CandumpParser : private CandumpCursor {
             frame_.raw_dlc = dlc > 8 ? dlc : std::uint8_t{0};
             return std::min<std::size_t>(dlc, 8);
         }
-        if (open == '[' && is_decimal(peek(1)) && peek(2) == ']') {
-            const auto length = static_cast<std::size_t>(peek(1) - '0');
-            if (length > 8)
+        if (take("[")) {
+            std::int64_t length = 0;
+            const std::size_t digits = decimal(length, 4);
+            const bool closed = take("]");
+            if (closed && digits == 1 && length > 8)
                 refuse(from, "a length from 0 to 8, or of CAN FD with two digits");
-            at_ += 3;
-            return length;
-        }
-        if (open == '[' && is_decimal(peek(1)) && is_decimal(peek(2)) && peek(3) == ']') {
-            const auto length = static_cast<std::size_t>((peek(1) - '0') * 10 + peek(2) - '0');
-            if (!is_fd_length(length))
+            if (closed && digits == 2 && !is_fd_length(static_cast<std::size_t>(length)))
                 refuse(from, "a length of CAN FD: 00 to 08, 12, 16, 20, 24, 32, 48 or 64");
-            at_ += 4;
-            frame_.fd = true;
-            return length;
+            if (closed && digits == 4)
+                refuse(from, "found a CAN XL frame, which is not supported", "classic CAN or CAN FD");
+            frame_.fd = digits == 2;
+            if (closed && digits > 0 && digits < 3)
+                return static_cast<std::size_t>(length);
         }
-        if (open == '[' && is_decimal(peek(1)) && is_decimal(peek(2)) && is_decimal(peek(3)) && is_decimal(peek(4)) && peek(5) == ']')
-            refuse(from, "found a CAN XL frame, which is not supported", "classic CAN or CAN FD");
         refuse(from, "the length, as [8], or of CAN FD [08]");
     }
 
@@ -341,8 +334,7 @@ class CandumpParser : private CandumpCursor {
         const std::size_t padding_from = at_;
         const std::size_t padding = take_blanks();
         if (frame_.error) {
-            if (!take("ERRORFRAME"))
-                refuse(at_, "ERRORFRAME behind the data of an error frame");
+            expect("ERRORFRAME", "ERRORFRAME behind the data of an error frame");
         } else if (peek() == '\'' || peek() == '`') {
             ascii_column(length);
         } else if (length == 0 && padding == 0) {

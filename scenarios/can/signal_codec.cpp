@@ -19,26 +19,16 @@ struct Switch {
     bool there = false;
 };
 
-bool chosen_by(const CanSignal& signal, std::uint64_t raw) {
-    for (const auto& [first, last] : signal.multiplexed_when)
-        if (raw >= first && raw <= last)
-            return true;
-    return false;
-}
-
-const Switch* switch_of(const CanSignal& signal, std::span<const Switch> switches) {
-    for (const Switch& one : switches)
-        if (one.signal->name == signal.multiplexed_by)
-            return &one;
-    return nullptr;
+bool lets_in(const CanSignal& signal, std::uint64_t raw) {
+    return std::ranges::any_of(signal.multiplexed_when, [&](const auto& range) { return raw >= range.first && raw <= range.second; });
 }
 
 // Up the chain of multiplexors; `left` ends a ring, which no reader lets through.
 bool switched_on(const CanSignal& signal, std::span<const Switch> switches, std::size_t left) {
     if (signal.multiplexed_by.empty())
         return true;
-    const Switch* by = switch_of(signal, switches);
-    return by != nullptr && left > 0 && by->there && chosen_by(signal, by->raw) && switched_on(*by->signal, switches, left - 1);
+    const auto by = std::ranges::find_if(switches, [&](const Switch& one) { return one.signal->name == signal.multiplexed_by; });
+    return by != switches.end() && left > 0 && by->there && lets_in(signal, by->raw) && switched_on(*by->signal, switches, left - 1);
 }
 
 std::vector<Switch> switches_of(const CanMessage& message, std::span<const std::uint8_t> bytes) {
@@ -74,8 +64,6 @@ double unscaled_value(const CanSignal& signal, std::uint64_t raw) {
     return signal.is_signed ? static_cast<double>(signed_raw(signal, raw)) : static_cast<double>(raw);
 }
 
-} // namespace
-
 CanValue value_of_raw(const CanSignal& signal, std::uint64_t raw) {
     const double unscaled = unscaled_value(signal, raw);
     CanValue value{&signal, raw, unscaled * signal.factor + signal.offset, label_of(signal, raw, unscaled)};
@@ -85,6 +73,8 @@ CanValue value_of_raw(const CanSignal& signal, std::uint64_t raw) {
             value.physical = static_cast<double>(*exact);
     return value;
 }
+
+} // namespace
 
 bool CanValue::out_of_limits() const {
     if (!std::isfinite(physical))
@@ -217,20 +207,9 @@ std::uint64_t start_raw(const CanSignal& signal) {
            all_bits(signal);
 }
 
-bool lets_in(const CanSignal& signal, std::uint64_t raw) {
-    return std::ranges::any_of(signal.multiplexed_when, [&](const auto& range) { return raw >= range.first && raw <= range.second; });
-}
-
-// What the multiplexors must be so that all that was named is there; those that were named must let it in.
-struct Chooser {
-    const CanMessage& message;
-    RawValues& values;
-
-    void run(std::span<const std::uint8_t> before);
-    void choose(const CanSignal& by, const std::vector<const CanSignal*>& wanted, std::span<const std::uint8_t> before);
-};
-
-void Chooser::choose(const CanSignal& by, const std::vector<const CanSignal*>& wanted, std::span<const std::uint8_t> before) {
+// What a multiplexor must be so that all that is wanted of it is there; one that was named must let it in.
+void choose(const CanMessage& message, const CanSignal& by, const std::vector<const CanSignal*>& wanted,
+            std::span<const std::uint8_t> before, RawValues& values) {
     const auto lets_all_in = [&](std::uint64_t raw) {
         return std::ranges::all_of(wanted, [&](const CanSignal* one) { return lets_in(*one, raw); });
     };
@@ -262,7 +241,7 @@ void Chooser::choose(const CanSignal& by, const std::vector<const CanSignal*>& w
     values[by.name] = *least;
 }
 
-void Chooser::run(std::span<const std::uint8_t> before) {
+void choose_multiplexors(const CanMessage& message, std::span<const std::uint8_t> before, RawValues& values) {
     // From the innermost outwards: a multiplexor that was chosen is itself wanted by the one above it.
     for (std::size_t round = 0; round <= message.signals.size(); ++round) {
         std::map<const CanSignal*, std::vector<const CanSignal*>> wanted;
@@ -275,15 +254,14 @@ void Chooser::run(std::span<const std::uint8_t> before) {
         bool more = false;
         for (const auto& [by, those] : wanted) {
             more |= !values.contains(by->name);
-            choose(*by, those, before);
+            choose(message, *by, those, before, values);
         }
         if (!more)
             return;
     }
 }
 
-} // namespace
-
+/// Upon bytes that were there before: only the named signals change.
 void encode_raw_into(const CanMessage& message, const RawValues& raw, std::span<std::uint8_t> bytes) {
     for (const auto& [name, value] : raw) {
         const CanSignal* signal = message.signal(name);
@@ -303,7 +281,7 @@ void encode_raw_into(const CanMessage& message, const RawValues& raw, std::span<
                              fmt::format("at most {} bits", signal->length));
     }
     RawValues values = raw;
-    Chooser{message, values}.run(bytes);
+    choose_multiplexors(message, bytes, values);
     for (const auto& [name, value] : values)
         if (const CanSignal* signal = message.signal(name); bytes_to_hold(*signal) <= bytes.size())
             write_bits(*signal, value, bytes);
@@ -330,6 +308,8 @@ std::vector<std::uint8_t> encode_raw(const CanMessage& message, const RawValues&
         encode_raw_into(message, raw, bytes);
     return bytes;
 }
+
+} // namespace
 
 std::vector<std::uint8_t> encode(const CanMessage& message, const std::map<std::string, double>& physical) {
     RawValues raw;

@@ -27,8 +27,6 @@ void decode_into(const CanMessage& message, std::span<const std::uint8_t> bytes,
 /// One signal of a message; nullopt where it is not there (multiplexor, short frame).
 std::optional<CanValue> decode(const CanMessage& message, const CanSignal& signal, std::span<const std::uint8_t> bytes);
 
-/// Value of these bits of a signal.
-CanValue value_of_raw(const CanSignal& signal, std::uint64_t raw);
 /// The value in decimals: whole numbers exactly, all others so that they come back by reading; "nan", "inf", "-inf".
 std::string exact_text(const CanValue& value);
 
@@ -36,15 +34,10 @@ std::string exact_text(const CanValue& value);
 /// hold it; not a number and infinities fit floating-point signals only.
 std::uint64_t raw_of(const CanSignal& signal, double physical);
 
-/// Bytes of the message's length with these raw values (bits). Signals not named take their start value, else 0; a multiplexor not named
-/// takes its start value if that lets the named signals be there, else the least value that does.
+/// Bytes of the message's length with these physical values, by raw_of(). Signals not named take their start value, else 0; a multiplexor
+/// not named takes its start value if that lets the named signals be there, else the least value that does.
 /// Throws InputError for a name that no signal of the message has, values that a multiplexor does not let be in one frame, a signal beyond
 /// the message's length, and signals that overlap and differ.
-std::vector<std::uint8_t> encode_raw(const CanMessage& message, const std::map<std::string, std::uint64_t>& raw);
-/// The same upon bytes that were there before: only the named signals change.
-void encode_raw_into(const CanMessage& message, const std::map<std::string, std::uint64_t>& raw, std::span<std::uint8_t> bytes);
-
-/// encode_raw() of physical values, by raw_of().
 std::vector<std::uint8_t> encode(const CanMessage& message, const std::map<std::string, double>& physical);
 
 } // namespace fernlicht

@@ -1,7 +1,6 @@
-// Bend light: where the lamps look, by steering angle, by yaw rate and speed, or by the lane ahead.
-// Static cornering light: lamps that shine beside the car while it turns slowly.
-// A first-order filter and a limit on the rate of change, stepped exactly: their results at a time do not depend on how it is cut into
-// steps while the input holds.
+// Bend light: where the lamps look, by steering angle, by yaw rate and speed, or by the lane ahead; and static cornering light: lamps that
+// shine beside the car while it turns slowly. Filters are stepped exactly: how a time is cut into steps does not matter while the input
+// holds.
 #pragma once
 
 #include "scenarios/control/control_parameters.h"

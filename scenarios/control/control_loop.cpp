@@ -51,7 +51,7 @@ ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<
         const std::size_t place = table_.find(name);
         if (place < signal::count)
             continue;
-        const std::size_t lamp = (place - signal::count) / lamp_signal::count, which = (place - signal::count) % lamp_signal::count;
+        const auto [lamp, which] = SignalTable::lamp_signal_at(place);
         if (which == lamp_signal::swivel_command)
             swivelling.insert(lamp);
         if (which == lamp_signal::pitch_command)
@@ -60,8 +60,8 @@ ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<
             measured_.push_back(place);
     }
     for (const std::size_t place : measured_) {
-        const std::size_t lamp = (place - signal::count) / lamp_signal::count;
-        ((place - signal::count) % lamp_signal::count == lamp_signal::swivel ? swivelling : levelled).erase(lamp);
+        const auto [lamp, which] = SignalTable::lamp_signal_at(place);
+        (which == lamp_signal::swivel ? swivelling : levelled).erase(lamp);
     }
     const ActuatorParameters swivel = parameters_.bend ? parameters_.bend->actuator : SwivelParameters{}.actuator;
     const ActuatorParameters level = parameters_.levelling ? parameters_.levelling->actuator : LevellingParameters{}.actuator;
@@ -85,21 +85,24 @@ void ControlLoop::read(const ControlInputs& in) {
     for (const std::size_t scripted_only :
          {std::size_t{signal::ego_indicator}, std::size_t{signal::ego_wipers}, std::size_t{signal::road_motorway}})
         table_[scripted_only] = 0.0;
-    table_[signal::time] = in.time_s;
-    table_[signal::ego_distance] = in.distance_m;
-    table_[signal::ego_speed] = in.speed_mps;
-    table_[signal::ego_acceleration] = in.acceleration_mps2;
-    table_[signal::ego_yaw_rate] = in.yaw_rate_rad_s;
-    table_[signal::ego_steering] = in.steering_rad;
-    table_[signal::ego_spring_pitch] = in.spring_pitch_rad;
-    table_[signal::ego_load_pitch] = in.load_pitch_rad;
-    table_[signal::road_curvature] = in.curvature_per_m;
-    table_[signal::road_curvature_25m] = in.curvature_25m_per_m;
-    table_[signal::road_curvature_50m] = in.curvature_50m_per_m;
-    table_[signal::road_curvature_100m] = in.curvature_100m_per_m;
-    table_[signal::road_bearing_ahead] = in.bearing_ahead_rad;
-    table_[signal::environment_illuminance] = in.illuminance_lx;
-    table_[signal::environment_wetness] = in.wetness;
+    using In = ControlInputs;
+    static constexpr std::pair<std::size_t, double In::*> told[] = {{signal::time, &In::time_s},
+                                                                    {signal::ego_distance, &In::distance_m},
+                                                                    {signal::ego_speed, &In::speed_mps},
+                                                                    {signal::ego_acceleration, &In::acceleration_mps2},
+                                                                    {signal::ego_yaw_rate, &In::yaw_rate_rad_s},
+                                                                    {signal::ego_steering, &In::steering_rad},
+                                                                    {signal::ego_spring_pitch, &In::spring_pitch_rad},
+                                                                    {signal::ego_load_pitch, &In::load_pitch_rad},
+                                                                    {signal::road_curvature, &In::curvature_per_m},
+                                                                    {signal::road_curvature_25m, &In::curvature_25m_per_m},
+                                                                    {signal::road_curvature_50m, &In::curvature_50m_per_m},
+                                                                    {signal::road_curvature_100m, &In::curvature_100m_per_m},
+                                                                    {signal::road_bearing_ahead, &In::bearing_ahead_rad},
+                                                                    {signal::environment_illuminance, &In::illuminance_lx},
+                                                                    {signal::environment_wetness, &In::wetness}};
+    for (const auto& [place, value] : told)
+        table_[place] = in.*value;
     double oncoming_m = std::numeric_limits<double>::infinity(), preceding_m = oncoming_m, count = 0.0;
     for (const OtherUser& other : in.surroundings.others) {
         if (!other.lamps_on || other.ahead_m <= 0.0)
@@ -253,9 +256,8 @@ void ControlLoop::keep(double time_s) {
         changed(runs_[lamp].levels, level, 1.0);
     }
     for (const std::size_t place : measured_) {
-        const std::size_t lamp = (place - signal::count) / lamp_signal::count;
-        const bool swivel = (place - signal::count) % lamp_signal::count == lamp_signal::swivel;
-        changed(swivel ? runs_[lamp].measured_swivel : runs_[lamp].measured_pitch, table_[place], 0.0);
+        const auto [lamp, which] = SignalTable::lamp_signal_at(place);
+        changed(which == lamp_signal::swivel ? runs_[lamp].measured_swivel : runs_[lamp].measured_pitch, table_[place], 0.0);
     }
     const auto mode = static_cast<BeamMode>(static_cast<int>(table_[signal::control_mode]));
     for (const std::size_t lamp : mode_lamps_)

@@ -13,7 +13,7 @@ const std::vector<ControlledLamp> two_lamps{{"left", {3.4, 0.6, 0.65}, 0.0}, {"r
 constexpr ControlledCar car{2.7, 0.003};
 constexpr double finest_s = 2.5e-4;
 
-ControlRun run_of(const ControlParameters& control, const std::function<ControlInputs(double)>& inputs, double end_s) {
+ControlRun run_of(const ControlParameters& control, double end_s, const std::function<ControlInputs(double)>& inputs) {
     return run_control(control, two_lamps, car, inputs, {end_s, end_s});
 }
 
@@ -35,9 +35,8 @@ double breach_rad(const ControlRun& run, const ActuatorParameters& actuator, dou
     return worst;
 }
 
-} // namespace
-
-ControlInputs weaving(double time_s, double side) {
+/// A course of bends; `side` -1: mirrored.
+ControlInputs weaving(double time_s, double side = 1.0) {
     ControlInputs in;
     in.time_s = time_s;
     in.speed_mps = 20.0;
@@ -48,6 +47,10 @@ ControlInputs weaving(double time_s, double side) {
     in.bearing_ahead_rad = side * 0.15 * std::sin(2.0 * pi * (time_s + 0.75) / 4.0);
     return in;
 }
+
+constexpr BendLaw all_laws[] = {BendLaw::steering, BendLaw::yaw_rate, BendLaw::route};
+
+} // namespace
 
 ControlParameters plain_bend_light(BendLaw law, double period_s) {
     ControlParameters control;
@@ -67,8 +70,7 @@ std::vector<ExtremeTrial> control_of_extreme_actuators() {
                 control.bend->actuator.natural_frequency_hz = frequency_hz;
                 control.bend->actuator.dead_time_s = dead_time_s;
                 constexpr double end_s = 4.0;
-                const ControlRun run = run_of(
-                    control, [](double t) { return weaving(t); }, end_s);
+                const ControlRun run = run_of(control, end_s, [](double t) { return weaving(t); });
                 trials.push_back({fmt::format("{:g} Hz, dead time {:g} s, period {:g} s", frequency_hz, dead_time_s, period_s),
                                   breach_rad(run, control.bend->actuator, end_s)});
             }
@@ -109,17 +111,14 @@ std::vector<ExtremeTrial> control_with_extreme_signals() {
     };
     std::vector<ExtremeTrial> trials;
     for (const Case& one : cases)
-        for (const BendLaw law : {BendLaw::steering, BendLaw::yaw_rate, BendLaw::route}) {
+        for (const BendLaw law : all_laws) {
             const ControlParameters control = plain_bend_light(law, 0.02);
             constexpr double end_s = 3.0;
-            const ControlRun run = run_of(
-                control,
-                [&](double t) {
-                    ControlInputs in = weaving(t);
-                    one.change(in);
-                    return in;
-                },
-                end_s);
+            const ControlRun run = run_of(control, end_s, [&](double t) {
+                ControlInputs in = weaving(t);
+                one.change(in);
+                return in;
+            });
             trials.push_back({fmt::format("{}, law {}", one.what, static_cast<int>(law)), breach_rad(run, control.bend->actuator, end_s)});
         }
     return trials;
@@ -127,13 +126,11 @@ std::vector<ExtremeTrial> control_with_extreme_signals() {
 
 std::vector<ExtremeTrial> control_mirrored() {
     std::vector<ExtremeTrial> trials;
-    for (const BendLaw law : {BendLaw::steering, BendLaw::yaw_rate, BendLaw::route}) {
+    for (const BendLaw law : all_laws) {
         ControlParameters control = plain_bend_light(law, 0.02);
         control.bend->outer_share = 0.6;
-        const ControlRun left = run_of(
-            control, [](double t) { return weaving(t); }, 4.0);
-        const ControlRun right = run_of(
-            control, [](double t) { return weaving(t, -1.0); }, 4.0);
+        const ControlRun left = run_of(control, 4.0, [](double t) { return weaving(t); });
+        const ControlRun right = run_of(control, 4.0, [](double t) { return weaving(t, -1.0); });
         double worst = 0.0;
         for (int k = 0; k < 997; ++k)
             for (const std::size_t lamp : {std::size_t{0}, std::size_t{1}})
@@ -144,8 +141,7 @@ std::vector<ExtremeTrial> control_mirrored() {
 }
 
 ControlRun weave(BendLaw law, double period_s, double end_s) {
-    return run_of(
-        plain_bend_light(law, period_s), [](double t) { return weaving(t); }, end_s);
+    return run_of(plain_bend_light(law, period_s), end_s, [](double t) { return weaving(t); });
 }
 
 double control_period_error_rad(BendLaw law, double period_s) {

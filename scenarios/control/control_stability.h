@@ -6,9 +6,6 @@
 
 namespace fernlicht {
 
-/// A course of bends made up for studies: 20 m/s, yaw rate 0.2 rad/s times sin(2 pi t / 4 s), its steering and bearing; `side` -1:
-/// mirrored.
-ControlInputs weaving(double time_s, double side = 1.0);
 /// Bend light by `law` for two lamps, with this period.
 ControlParameters plain_bend_light(BendLaw law, double period_s);
 
@@ -20,10 +17,10 @@ std::vector<ExtremeTrial> control_of_extreme_actuators();
 /// Error as above.
 std::vector<ExtremeTrial> control_with_extreme_signals();
 
-/// The same course mirrored. Error: the sum of both angles where it should be 0, rad.
+/// Weaving, mirrored. Error: the sum of both angles where it should be 0, rad.
 std::vector<ExtremeTrial> control_mirrored();
 
-/// Bend light while weaving.
+/// Bend light while weaving: 20 m/s, yaw rate 0.2 rad/s times sin(2 pi t / 4 s), its steering and bearing.
 ControlRun weave(BendLaw law, double period_s, double end_s);
 /// Error of the swivel over 4 s of weaving against a period of 0.25 ms, the largest at 997 moments, rad.
 double control_period_error_rad(BendLaw law, double period_s);

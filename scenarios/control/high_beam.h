@@ -1,6 +1,5 @@
-// Automatic high beam, and its glare-free form: which windows meet others.
-// What lamp control is told besides the signals: plain values, in the frame of the own car (x forward, y left, on the road under the rear
-// axle).
+// Automatic high beam, and its glare-free form: which windows meet others, told in the frame of the own car (x forward, y left, on the road
+// under the rear axle).
 #pragma once
 
 #include "scenarios/control/control_parameters.h"
@@ -76,5 +75,13 @@ class LampWindows {
 
 /// The angles that a road user takes up, seen from a lamp: from, to, degrees, right positive; from > to: none, it is not before the lamp.
 std::pair<double, double> seen_deg(const OtherUser& other, const glm::dvec3& position_m, double yaw_rad);
+
+/// Between a dark window and its lit neighbour the light rises over this angle, inside the neighbour.
+inline constexpr double window_edge_deg = 0.1;
+
+/// The table with the intensity of each window of H times its level; where windows meet, the darker one holds. Outside the windows nothing
+/// changes. `windows_deg`: from, to, ascending; `levels`: one each, 0 to 1. Throws std::invalid_argument for a wrong number of levels.
+CandelaTable masked(const CandelaTable& table, const std::vector<std::pair<double, double>>& windows_deg,
+                    const std::vector<double>& levels);
 
 } // namespace fernlicht

@@ -1,5 +1,4 @@
 // All laws of a lamp set, moved on tick by tick: signals in, commands out, in one table.
-// Classes C, V, E and W of the passing beam, chosen by speed, light and wetness.
 #pragma once
 
 #include "scenarios/control/bend_light.h"
@@ -11,7 +10,7 @@
 
 namespace fernlicht {
 
-/// Wet first, then fast, then town, else C:
+/// Classes of the passing beam. Wet first, then fast, then town, else C:
 /// W: wetness at least `w_wetness` (until below 60 % of it), or wipers on for `w_wipers_s` without a break.
 /// E: faster than `e_above_mps`, or than `e_motorway_above_mps` on a motorway.
 /// V: at most `v_below_mps`, or at most `v_lit_below_mps` where the road has at least `v_lit_lx` (until below 60 % of it).

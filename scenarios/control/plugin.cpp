@@ -236,20 +236,12 @@ void on_exit_inside() {
 }
 
 std::string word(int number, double give_up_s) {
-    switch (number) {
-    case SIGSEGV:
-        return "a segmentation fault";
-    case SIGBUS:
-        return "a bus error";
-    case SIGFPE:
-        return "an arithmetic fault";
-    case SIGILL:
-        return "an illegal instruction";
-    case SIGABRT:
-        return "abort()";
-    default:
-        return fmt::format("no return within {:g} s", give_up_s);
-    }
+    for (const auto& [known, text] :
+         {std::pair(SIGSEGV, "a segmentation fault"), std::pair(SIGBUS, "a bus error"), std::pair(SIGFPE, "an arithmetic fault"),
+          std::pair(SIGILL, "an illegal instruction"), std::pair(SIGABRT, "abort()")})
+        if (known == number)
+            return text;
+    return fmt::format("no return within {:g} s", give_up_s);
 }
 
 /// Handlers and their own stack, as long as it lives; what was there before comes back.

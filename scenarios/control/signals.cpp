@@ -63,6 +63,11 @@ const SignalKind* known_signal(const std::string& name) {
     return nullptr;
 }
 
+std::string of_lamp(std::string_view pattern, std::string_view lamp) {
+    const std::size_t star = pattern.find('*');
+    return fmt::format("{}{}{}", pattern.substr(0, star), lamp, pattern.substr(star + 1));
+}
+
 SignalTable::SignalTable(std::vector<std::string> lamps)
     : lamps_(std::move(lamps)), values_(std::size_t{signal::count} + lamps_.size() * lamp_signal::count, 0.0), stamps_(values_.size()) {
     values_[signal::others_nearest_oncoming] = values_[signal::others_nearest_preceding] = none;
@@ -71,15 +76,14 @@ SignalTable::SignalTable(std::vector<std::string> lamps)
 }
 
 const SignalKind& SignalTable::kind(std::size_t place) const {
-    return kinds[place < signal::count ? place : std::size_t{signal::count} + (place - signal::count) % lamp_signal::count];
+    return kinds[place < signal::count ? place : std::size_t{signal::count} + lamp_signal_at(place).second];
 }
 
 std::string SignalTable::name(std::size_t place) const {
     const std::string_view pattern = kind(place).name;
     if (place < signal::count)
         return std::string(pattern);
-    const std::size_t star = pattern.find('*');
-    return fmt::format("{}{}{}", pattern.substr(0, star), lamps_[(place - signal::count) / lamp_signal::count], pattern.substr(star + 1));
+    return of_lamp(pattern, lamps_[lamp_signal_at(place).first]);
 }
 
 std::size_t SignalTable::find(const std::string& wanted) const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fernlicht {
@@ -59,6 +60,9 @@ std::span<const SignalKind> known_signals();
 /// Of the signal of this name, with a lamp's name in place of the star or the star itself; nullptr: none has it.
 const SignalKind* known_signal(const std::string& name);
 
+/// "lamp.left.level" of "lamp.*.level".
+std::string of_lamp(std::string_view pattern, std::string_view lamp);
+
 /// A value that is not a number says that the signal is lost; infinity is a distance to nothing.
 class SignalTable {
   public:
@@ -69,6 +73,10 @@ class SignalTable {
     double operator[](std::size_t place) const { return values_[place]; }
     std::size_t place(std::size_t lamp, std::size_t of_lamp) const {
         return std::size_t{signal::count} + lamp * lamp_signal::count + of_lamp;
+    }
+    /// Lamp and its signal that a place beyond those that are there once is of.
+    static std::pair<std::size_t, std::size_t> lamp_signal_at(std::size_t place) {
+        return {(place - signal::count) / lamp_signal::count, (place - signal::count) % lamp_signal::count};
     }
     double& of(std::size_t lamp, std::size_t of_lamp) { return values_[place(lamp, of_lamp)]; }
     double of(std::size_t lamp, std::size_t of_lamp) const { return values_[place(lamp, of_lamp)]; }

@@ -1,8 +1,7 @@
-#include "scenarios/openscenario/expression.h"
+#include "scenarios/openscenario/osc_node.h"
 
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
-#include "scenarios/values/xml_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -26,8 +25,8 @@ std::string name_at(std::string_view text, std::size_t at) {
     return std::string(text.substr(at, end - at));
 }
 
-std::string parameter(const std::string& name, const Lookup& lookup) {
-    if (auto value = lookup(name))
+std::string parameter(const std::string& name, const Scope& scope) {
+    if (auto value = scope.find(name))
         return *value;
     throw std::invalid_argument(fmt::format("unknown parameter '{}'", printable(name)));
 }
@@ -55,14 +54,11 @@ double function(const std::string& name, const std::vector<double>& given) {
             throw std::invalid_argument(fmt::format("{} takes one value, found {}", name, given.size()));
         return given[0];
     };
-    if ((name == "pow" || name == "min" || name == "max") && given.size() != 2)
-        throw std::invalid_argument(fmt::format("{} takes two values, found {}", name, given.size()));
-    if (name == "pow")
-        return std::pow(given[0], given[1]);
-    if (name == "min")
-        return std::min(given[0], given[1]);
-    if (name == "max")
-        return std::max(given[0], given[1]);
+    if (name == "pow" || name == "min" || name == "max") {
+        if (given.size() != 2)
+            throw std::invalid_argument(fmt::format("{} takes two values, found {}", name, given.size()));
+        return name == "pow" ? std::pow(given[0], given[1]) : name == "min" ? std::min(given[0], given[1]) : std::max(given[0], given[1]);
+    }
     if (name == "sign")
         return one() > 0.0 ? 1.0 : one() < 0.0 ? -1.0 : 0.0;
     struct Named {
@@ -81,7 +77,7 @@ double function(const std::string& name, const std::vector<double>& given) {
 /// Reads by precedence: or, and, comparison, sum, product, sign.
 class Parser {
   public:
-    Parser(std::string_view text, const Lookup& lookup) : text_(text), lookup_(lookup) {}
+    Parser(std::string_view text, const Scope& scope) : text_(text), scope_(scope) {}
 
     Value whole() {
         Value value = either();
@@ -197,7 +193,7 @@ class Parser {
         if (text_[at_] == '$') {
             const std::string name = name_at(text_, at_ + 1);
             at_ += 1 + name.size();
-            return value_of(parameter(name, lookup_));
+            return value_of(parameter(name, scope_));
         }
         if (text_[at_] == '\'' || text_[at_] == '"')
             return quoted();
@@ -248,21 +244,22 @@ class Parser {
     }
 
     std::string_view text_;
-    const Lookup& lookup_;
+    const Scope& scope_;
     std::size_t at_ = 0;
     int depth_ = 0;
 };
 
-} // namespace
-
-std::string evaluate(std::string_view expression, const Lookup& lookup) {
-    const Value value = Parser(expression, lookup).whole();
+/// The value of one expression without its `${` and `}`.
+std::string evaluate(std::string_view expression, const Scope& scope) {
+    const Value value = Parser(expression, scope).whole();
     if (value.number && !std::isfinite(*value.number))
         throw std::invalid_argument("the expression has no finite value");
     return value.written();
 }
 
-std::string resolve(std::string_view text, const Lookup& lookup) {
+} // namespace
+
+std::string resolve(std::string_view text, const Scope& scope) {
     constexpr std::size_t longest = 65536; // parameters of parameters can double at each step
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
@@ -277,11 +274,11 @@ std::string resolve(std::string_view text, const Lookup& lookup) {
             const std::size_t end = text.find('}', at);
             if (end == std::string_view::npos)
                 throw std::invalid_argument("an expression is not closed by '}'");
-            out += evaluate(text.substr(at + 2, end - at - 2), lookup);
+            out += evaluate(text.substr(at + 2, end - at - 2), scope);
             at = end + 1;
         } else {
             const std::string name = name_at(text, at + 1);
-            out += parameter(name, lookup);
+            out += parameter(name, scope);
             at += 1 + name.size();
         }
     }

@@ -1,10 +1,12 @@
 #include "scenarios/openscenario/osc_actions.h"
 
-#include "scenarios/openscenario/osc_mover.h"
 #include "scenarios/roads/plan.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <type_traits>
 
 namespace fernlicht::osc {
 namespace {
@@ -19,9 +21,45 @@ double limited_change(double from_mps, double to_mps, double dt_s, const SpeedLi
     return dt_s > 0.0 ? std::clamp(to_mps, from_mps - down, from_mps + up) : from_mps;
 }
 
+template <class Kind, class... Known> constexpr bool is_one_of = (std::is_same_v<Kind, Known> || ...);
+
 } // namespace
 
-void RunningAction::begin_speed(World& world, const SpeedAction& action) {
+unsigned RunningAction::domains() const {
+    return std::visit(
+        []<class Kind>(const Kind& action) -> unsigned {
+            if constexpr (is_one_of<Kind, SpeedAction, SpeedProfileAction, LongitudinalDistanceAction, SynchronizeAction>)
+                return longitudinal_domain;
+            else if constexpr (is_one_of<Kind, LaneChangeAction, LaneOffsetAction, LateralDistanceAction>)
+                return lateral_domain;
+            else if constexpr (is_one_of<Kind, FollowTrajectoryAction>)
+                return action.timed ? lateral_domain | longitudinal_domain : lateral_domain;
+            else
+                return is_one_of<Kind, LightStateAction> ? light_domain : no_domain;
+        },
+        *action_);
+}
+
+bool RunningAction::conflicts(const RunningAction& other) const {
+    if (entity_ != other.entity_ || (domains() & other.domains()) == 0)
+        return false;
+    const auto *mine = std::get_if<LightStateAction>(action_), *theirs = std::get_if<LightStateAction>(other.action_);
+    return !mine || !theirs || mine->light == theirs->light;
+}
+
+void RunningAction::begin(World& world, PlayedStory& played) {
+    since_s_ = world.time_s;
+    std::visit([&](const auto& action) { begin(action, world, played); }, *action_);
+}
+
+bool RunningAction::step(World& world, double dt_s, unsigned& moved) {
+    moved |= domains() & lateral_domain;
+    if (std::holds_alternative<LaneChangeAction>(*action_) || std::holds_alternative<FollowTrajectoryAction>(*action_))
+        moved |= longitudinal_domain;
+    return std::visit([&](const auto& action) { return step(action, world, dt_s); }, *action_);
+}
+
+void RunningAction::begin(const SpeedAction& action, World& world, PlayedStory& /*played*/) {
     EntityState& car = state(world);
     const SpeedLimits& limits = car.entity->limits;
     const double from = car.speed_mps, to = limited(target_speed(world, action), limits);
@@ -48,7 +86,7 @@ double RunningAction::target_speed(const World& world, const SpeedAction& action
     return relative.factor ? other * relative.value : other + relative.value;
 }
 
-bool RunningAction::step_speed(World& world, const SpeedAction& action, double dt_s) {
+bool RunningAction::step(const SpeedAction& action, World& world, double dt_s) {
     EntityState& car = state(world);
     const SpeedLimits& limits = car.entity->limits;
     const auto* relative = std::get_if<RelativeSpeed>(&action.target);
@@ -67,7 +105,7 @@ bool RunningAction::step_speed(World& world, const SpeedAction& action, double d
     return reached && !(relative && relative->continuous);
 }
 
-void RunningAction::begin_profile(World& world, const SpeedProfileAction& action) {
+void RunningAction::begin(const SpeedProfileAction& action, World& world, PlayedStory& /*played*/) {
     EntityState& car = state(world);
     const double offset = action.relative_to.empty() ? 0.0 : world.entity(action.relative_to).speed_mps;
     profile_ = {{0.0, car.speed_mps}};
@@ -86,7 +124,7 @@ void RunningAction::begin_profile(World& world, const SpeedProfileAction& action
     since_s_ = 0.0;
 }
 
-bool RunningAction::step_profile(World& world, double dt_s) {
+bool RunningAction::step(const SpeedProfileAction& /*action*/, World& world, double dt_s) {
     since_s_ += dt_s;
     EntityState& car = state(world);
     for (std::size_t i = 1; i < profile_.size(); ++i)
@@ -100,7 +138,7 @@ bool RunningAction::step_profile(World& world, double dt_s) {
     return true;
 }
 
-void RunningAction::begin_lane_change(World& world, const LaneChangeAction& action) {
+void RunningAction::begin(const LaneChangeAction& action, World& world, PlayedStory& /*played*/) {
     EntityState& car = state(world);
     Spot& spot = car.spot;
     if (!spot.on_network)
@@ -116,8 +154,7 @@ void RunningAction::begin_lane_change(World& world, const LaneChangeAction& acti
     }
     const Road& road = world.network().roads[spot.road];
     const bool forward = spot.with_s();
-    const auto& lanes = section_at(road, spot.s_m).lanes;
-    if (std::none_of(lanes.begin(), lanes.end(), [&](const Lane& lane) { return lane.id == target_lane_; }))
+    if (!lane_of(road, target_lane_, spot.s_m))
         target_lane_ = spot.lane;
     const double offset = spot.t_m - lane_centre_t(road, target_lane_, spot.s_m);
     spot = world.on_lane(spot.road, target_lane_, spot.s_m, offset, forward ? 0.0 : pi);
@@ -126,7 +163,7 @@ void RunningAction::begin_lane_change(World& world, const LaneChangeAction& acti
 }
 
 /// The way of a step is that of the car: what goes sideways does not go ahead.
-bool RunningAction::step_lane_change(World& world, const LaneChangeAction& action, double dt_s) {
+bool RunningAction::step(const LaneChangeAction& action, World& world, double dt_s) {
     EntityState& car = state(world);
     Spot& spot = car.spot;
     const double step_m = std::abs(car.speed_mps) * dt_s;
@@ -181,7 +218,7 @@ double RunningAction::target_offset(const World& world, const LaneOffsetAction& 
 }
 
 /// The longest lateral acceleration is pi^2 b / 2 T^2 of the sinusoidal, 6 b / T^2 of the cubic shape; linear takes that of the cubic.
-void RunningAction::begin_lane_offset(World& world, const LaneOffsetAction& action) {
+void RunningAction::begin(const LaneOffsetAction& action, World& world, PlayedStory& /*played*/) {
     const Spot& spot = state(world).spot;
     if (!spot.on_network)
         return;
@@ -192,7 +229,7 @@ void RunningAction::begin_lane_offset(World& world, const LaneOffsetAction& acti
     transition_ = Transition({action.shape, Dimension::time, lasts}, spot.offset_m, target);
 }
 
-bool RunningAction::step_lane_offset(World& world, const LaneOffsetAction& action, double dt_s) {
+bool RunningAction::step(const LaneOffsetAction& action, World& world, double dt_s) {
     EntityState& car = state(world);
     Spot& spot = car.spot;
     if (!spot.on_network)
@@ -208,7 +245,7 @@ bool RunningAction::step_lane_offset(World& world, const LaneOffsetAction& actio
     return over && !action.continuous;
 }
 
-bool RunningAction::step_lateral_distance(World& world, const LateralDistanceAction& action, double dt_s) {
+bool RunningAction::step(const LateralDistanceAction& action, World& world, double dt_s) {
     EntityState& car = state(world);
     const EntityState& other = world.entity(action.entity);
     if (!car.spot.on_network)
@@ -222,7 +259,7 @@ bool RunningAction::step_lateral_distance(World& world, const LateralDistanceAct
 }
 
 /// A critically damped second-order law for the gap, within the limits; without limits the gap is taken at once.
-bool RunningAction::step_distance(World& world, const LongitudinalDistanceAction& action, double dt_s) {
+bool RunningAction::step(const LongitudinalDistanceAction& action, World& world, double dt_s) {
     constexpr double reached_m = 0.1, natural_per_s = 0.8;
     EntityState& car = state(world);
     const EntityState& other = world.entity(action.entity);
@@ -247,7 +284,7 @@ bool RunningAction::step_distance(World& world, const LongitudinalDistanceAction
     return !action.continuous && std::abs(error) < reached_m;
 }
 
-void RunningAction::begin_trajectory(World& world, const FollowTrajectoryAction& action) {
+void RunningAction::begin(const FollowTrajectoryAction& action, World& world, PlayedStory& /*played*/) {
     EntityState& car = state(world);
     path_ = std::make_shared<const Path>(build_path(*action.trajectory, world, car.spot));
     path_s_ = action.initial_offset_m;
@@ -265,7 +302,7 @@ void RunningAction::begin_trajectory(World& world, const FollowTrajectoryAction&
     }
 }
 
-bool RunningAction::step_trajectory(World& world, const FollowTrajectoryAction& action, double dt_s) {
+bool RunningAction::step(const FollowTrajectoryAction& action, World& world, double dt_s) {
     EntityState& car = state(world);
     const double before = path_s_;
     double beyond_m = 0.0;
@@ -295,7 +332,7 @@ bool RunningAction::step_trajectory(World& world, const FollowTrajectoryAction& 
 
 /// Speed as a quadratic of time that covers the distance in the master's time and ends at the final speed (without one: a constant
 /// acceleration), solved anew at each step.
-bool RunningAction::step_synchronize(World& world, const SynchronizeAction& action, double dt_s) {
+bool RunningAction::step(const SynchronizeAction& action, World& world, double dt_s) {
     EntityState& car = state(world);
     const EntityState& master = world.entity(action.master);
     if (!target_) {
@@ -332,12 +369,49 @@ bool RunningAction::step_synchronize(World& world, const SynchronizeAction& acti
     return false;
 }
 
-bool RunningAction::step_acquire(World& world) const {
-    const EntityState& car = world.entities()[entity_];
+bool RunningAction::step(const AcquirePositionAction& /*action*/, World& world, double /*dt_s*/) {
+    const EntityState& car = state(world);
     if (!car.path)
         return true;
     const Spot& goal = car.path->goal;
     return car.spot.road == goal.road && (car.spot.with_s() ? car.spot.s_m >= goal.s_m : car.spot.s_m <= goal.s_m);
+}
+
+void RunningAction::begin(const TeleportAction& action, World& world, PlayedStory& /*played*/) {
+    EntityState& car = state(world);
+    car.spot = world.spot(action.position);
+    car.present = true;
+    car.path.reset();
+    car.end_of_road = false;
+}
+
+void RunningAction::begin(const VisibilityAction& action, World& world, PlayedStory& /*played*/) { state(world).visible = action.graphics; }
+
+void RunningAction::begin(const LightStateAction& action, World& world, PlayedStory& played) {
+    played.entities[entity_].lights.push_back({world.time_s, action});
+}
+
+bool RunningAction::step(const LightStateAction& action, World& world, double /*dt_s*/) {
+    return world.time_s >= since_s_ + action.transition_s - 1e-6;
+}
+
+void RunningAction::begin(const AssignRouteAction& action, World& world, PlayedStory& played) {
+    std::vector<Spot> goals;
+    for (const Position& waypoint : action.route->waypoints)
+        goals.push_back(world.spot(waypoint));
+    take_path(world, goals, played);
+}
+
+void RunningAction::begin(const AcquirePositionAction& action, World& world, PlayedStory& played) {
+    take_path(world, {world.spot(action.position)}, played);
+}
+
+void RunningAction::take_path(World& world, const std::vector<Spot>& goals, PlayedStory& played) {
+    EntityState& car = state(world);
+    car.path = plan_path(world, car.spot, goals);
+    if (!car.path)
+        played.notes.push_back(fmt::format("at {:.6g} s: no way over lanes leads {} along its route; it follows its lane", world.time_s,
+                                           printable(car.entity->name)));
 }
 
 } // namespace fernlicht::osc

@@ -28,22 +28,33 @@ class RunningAction {
   private:
     EntityState& state(World& world) const { return world.entities()[entity_]; }
 
-    void begin_speed(World& world, const SpeedAction& action);
-    bool step_speed(World& world, const SpeedAction& action, double dt_s);
+    void begin(const SpeedAction& action, World& world, PlayedStory& played);
+    void begin(const SpeedProfileAction& action, World& world, PlayedStory& played);
+    void begin(const LaneChangeAction& action, World& world, PlayedStory& played);
+    void begin(const LaneOffsetAction& action, World& world, PlayedStory& played);
+    void begin(const FollowTrajectoryAction& action, World& world, PlayedStory& played);
+    void begin(const TeleportAction& action, World& world, PlayedStory& played);
+    void begin(const VisibilityAction& action, World& world, PlayedStory& played);
+    void begin(const LightStateAction& action, World& world, PlayedStory& played);
+    void begin(const AssignRouteAction& action, World& world, PlayedStory& played);
+    void begin(const AcquirePositionAction& action, World& world, PlayedStory& played);
+    template <class Other> void begin(const Other&, World&, PlayedStory&) {}
+
+    bool step(const SpeedAction& action, World& world, double dt_s);
+    bool step(const SpeedProfileAction& action, World& world, double dt_s);
+    bool step(const LaneChangeAction& action, World& world, double dt_s);
+    bool step(const LaneOffsetAction& action, World& world, double dt_s);
+    bool step(const LateralDistanceAction& action, World& world, double dt_s);
+    bool step(const LongitudinalDistanceAction& action, World& world, double dt_s);
+    bool step(const FollowTrajectoryAction& action, World& world, double dt_s);
+    bool step(const SynchronizeAction& action, World& world, double dt_s);
+    bool step(const LightStateAction& action, World& world, double dt_s);
+    bool step(const AcquirePositionAction& action, World& world, double dt_s);
+    template <class Other> bool step(const Other&, World&, double) { return true; }
+
     double target_speed(const World& world, const SpeedAction& action) const;
-    void begin_profile(World& world, const SpeedProfileAction& action);
-    bool step_profile(World& world, double dt_s);
-    void begin_lane_change(World& world, const LaneChangeAction& action);
-    bool step_lane_change(World& world, const LaneChangeAction& action, double dt_s);
-    void begin_lane_offset(World& world, const LaneOffsetAction& action);
-    bool step_lane_offset(World& world, const LaneOffsetAction& action, double dt_s);
     double target_offset(const World& world, const LaneOffsetAction& action) const;
-    bool step_lateral_distance(World& world, const LateralDistanceAction& action, double dt_s);
-    bool step_distance(World& world, const LongitudinalDistanceAction& action, double dt_s);
-    void begin_trajectory(World& world, const FollowTrajectoryAction& action);
-    bool step_trajectory(World& world, const FollowTrajectoryAction& action, double dt_s);
-    bool step_synchronize(World& world, const SynchronizeAction& action, double dt_s);
-    bool step_acquire(World& world) const;
+    void take_path(World& world, const std::vector<Spot>& goals, PlayedStory& played);
 
     const PrivateAction* action_;
     std::size_t entity_;

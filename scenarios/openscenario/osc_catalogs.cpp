@@ -1,12 +1,11 @@
-#include "scenarios/openscenario/osc_catalogs.h"
+#include "scenarios/openscenario/osc_node.h"
 
-#include "scenarios/openscenario/expression.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
-#include <stdexcept>
+#include <utility>
 
 namespace fernlicht::osc {
 namespace {

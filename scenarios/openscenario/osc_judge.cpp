@@ -1,10 +1,9 @@
 #include "scenarios/openscenario/osc_judge.h"
 
-#include "scenarios/openscenario/osc_mover.h"
-#include "scenarios/values/errors.h"
 #include "scenarios/values/xml_file.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,13 +12,11 @@
 namespace fernlicht::osc {
 namespace {
 
+/// Of an entity that is present. Conditions about others that are not present are false.
 struct Asked {
     const World& world;
     const EntityState& self;
 
-    bool lasting(const std::optional<double>& since_s, double duration_s) const {
-        return since_s && world.time_s - *since_s >= duration_s - small;
-    }
     const EntityState* other(const std::string& name) const {
         const EntityState& found = world.entity(name);
         return found.present ? &found : nullptr;
@@ -31,17 +28,17 @@ struct Asked {
         return (vector * spot.pose.axes)[static_cast<int>(direction) - 1];
     }
 
-    bool operator()(const EndOfRoadCondition& c) const { return lasting(self.end_of_road_since_s, c.duration_s); }
-    bool operator()(const OffroadCondition& c) const { return lasting(self.offroad_since_s, c.duration_s); }
-    bool operator()(const StandStillCondition& c) const { return lasting(self.still_since_s, c.duration_s); }
+    bool operator()(const LastingCondition& c) const {
+        const auto& since_s = c.state == LastingCondition::State::end_of_road ? self.end_of_road_since_s
+                              : c.state == LastingCondition::State::offroad   ? self.offroad_since_s
+                                                                              : self.still_since_s;
+        return since_s && world.time_s - *since_s >= c.duration_s - small;
+    }
     bool operator()(const CollisionCondition& c) const {
         for (const EntityState& one : world.entities()) {
             if (&one == &self || !one.present)
                 continue;
-            const char* type = one.entity->kind == EntityKind::vehicle      ? "vehicle"
-                               : one.entity->kind == EntityKind::pedestrian ? "pedestrian"
-                                                                            : "miscellaneous";
-            if ((c.entity.empty() ? c.type == type : c.entity == one.entity->name) && touching(self, one))
+            if ((c.entity.empty() ? c.type == type_of(one.entity->kind) : c.entity == one.entity->name) && touching(self, one))
                 return true;
         }
         return false;
@@ -88,14 +85,11 @@ struct Asked {
         return std::hypot(apart.x, apart.y) < c.tolerance_m;
     }
     bool operator()(const DistanceCondition& c) const {
-        const auto gap = distance(world, self, world.spot(c.position), c.measure);
-        return holds(gap ? std::abs(*gap) : HUGE_VAL, c.value_m, c.rule);
-    }
-    bool operator()(const RelativeDistanceCondition& c) const {
-        const EntityState* there = other(c.entity);
-        if (!there)
+        const auto* position = std::get_if<Position>(&c.target);
+        const EntityState* there = position ? nullptr : other(std::get<std::string>(c.target));
+        if (!position && !there)
             return false;
-        const auto gap = distance(world, self, *there, c.measure);
+        const auto gap = there ? distance(world, self, *there, c.measure) : distance(world, self, world.spot(*position), c.measure);
         return holds(gap ? std::abs(*gap) : HUGE_VAL, c.value_m, c.rule);
     }
     /// No other stands on the lanes beside within the distances ahead and behind.
@@ -137,30 +131,11 @@ struct Asked {
     }
 };
 
-/// Of the entity with this index, which is present. Conditions about others that are not present are false.
-bool entity_condition(const EntityCondition& condition, std::size_t entity, const World& world) {
-    return std::visit(Asked{world, world.entities()[entity]}, condition);
-}
-
 bool texts_hold(const std::string& a, const std::string& b, Rule rule) {
     const auto left = to_number(a), right = to_number(b);
     if (left && right)
         return holds(*left, *right, rule);
-    switch (rule) {
-    case Rule::greater:
-        return a > b;
-    case Rule::less:
-        return a < b;
-    case Rule::greater_or_equal:
-        return a >= b;
-    case Rule::less_or_equal:
-        return a <= b;
-    case Rule::not_equal:
-        return a != b;
-    case Rule::equal:
-        break;
-    }
-    return a == b;
+    return std::array{a > b, a < b, a == b, a >= b, a <= b, a != b}[static_cast<std::size_t>(rule)];
 }
 
 bool named_value(const NamedValueCondition& condition, const World& world) {
@@ -188,21 +163,8 @@ bool time_of_day(const TimeOfDayCondition& condition, const World& world) {
 } // namespace
 
 bool holds(double a, double b, Rule rule) {
-    switch (rule) {
-    case Rule::greater:
-        return a > b + small;
-    case Rule::less:
-        return a < b - small;
-    case Rule::greater_or_equal:
-        return a >= b - small;
-    case Rule::less_or_equal:
-        return a <= b + small;
-    case Rule::not_equal:
-        return std::abs(a - b) >= small;
-    case Rule::equal:
-        break;
-    }
-    return std::abs(a - b) < small;
+    return std::array{a > b + small, a < b - small, std::abs(a - b) < small, a >= b - small, a <= b + small, std::abs(a - b) >= small}
+        [static_cast<std::size_t>(rule)];
 }
 
 std::optional<double> seconds_of(const std::string& text) {
@@ -254,7 +216,8 @@ bool JudgedTrigger::by_entity(const ByEntity& condition, const World& world) {
     std::vector<std::size_t> by;
     for (const std::string& name : condition.entities) {
         const std::size_t entity = world.index_of(name);
-        const bool is = world.entities()[entity].present && entity_condition(condition.condition, entity, world);
+        const EntityState& self = world.entities()[entity];
+        const bool is = self.present && std::visit(Asked{world, self}, condition.condition);
         any = any || is;
         all = all && is;
         if (is)
@@ -281,14 +244,6 @@ bool JudgedTrigger::value(Judged& judged, const World& world) {
     return state_is(judged, std::get<ElementStateCondition>(condition));
 }
 
-bool JudgedTrigger::placed_value(Judged& judged, const World& world) {
-    try {
-        return value(judged, world);
-    } catch (const PlaceError& error) {
-        throw InputError({world.file(), judged.condition->line, 0, "Condition"}, error.found, error.expected);
-    }
-}
-
 /// True if the value was true at any time since it was last asked, a delay ago.
 bool JudgedTrigger::delayed(Judged& judged, bool value, double time_s) {
     auto& history = judged.history;
@@ -312,7 +267,8 @@ bool JudgedTrigger::judge(const World& world) {
         for (Judged& judged : group) {
             if (!all && judged.condition->delay_s <= 0.0)
                 continue;
-            const bool now = placed_value(judged, world), before = judged.last, known = judged.evaluated;
+            const bool now = placed(world.file(), judged.condition->line, "Condition", [&] { return value(judged, world); });
+            const bool before = judged.last, known = judged.evaluated;
             judged.last = now;
             judged.evaluated = true;
             bool edge = now;

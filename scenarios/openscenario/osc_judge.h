@@ -36,7 +36,6 @@ class JudgedTrigger {
         std::vector<std::pair<double, bool>> history; ///< values with the time they began
         std::size_t past = 0;                         ///< of the history, looked at already
     };
-    bool placed_value(Judged& judged, const World& world);
     bool value(Judged& judged, const World& world);
     bool by_entity(const ByEntity& condition, const World& world);
     static bool state_is(Judged& judged, const ElementStateCondition& condition);

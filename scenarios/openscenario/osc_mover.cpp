@@ -1,4 +1,4 @@
-#include "scenarios/openscenario/osc_mover.h"
+#include "scenarios/openscenario/osc_world.h"
 
 #include "scenarios/roads/plan.h"
 
@@ -137,11 +137,8 @@ Moved move_along(const World& world, const Spot& from, double distance_m, bool a
         }
     }
     const Road& road = walker.on();
-    if (walker.s < road.length_m || !end) {
-        const auto& lanes = section_at(road, walker.s).lanes;
-        if (std::none_of(lanes.begin(), lanes.end(), [&](const Lane& lane) { return lane.id == walker.lane; }))
-            walker.lane = nearest_lane(road, walker.s, from.t_m);
-    }
+    if ((walker.s < road.length_m || !end) && !lane_of(road, walker.lane, walker.s))
+        walker.lane = nearest_lane(road, walker.s, from.t_m);
     return {world.on_lane(walker.road, walker.lane, walker.s, walker.offset, walker.heading), end};
 }
 

@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/osc_node.h"
 
-#include "scenarios/openscenario/expression.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
 
@@ -13,10 +12,6 @@ namespace fernlicht::osc {
 namespace {
 
 bool is_element(pugi::xml_node node) { return node.type() == pugi::node_element; }
-
-Lookup lookup_in(const Scope& scope) {
-    return [&scope](const std::string& name) { return scope.find(name); };
-}
 
 } // namespace
 
@@ -39,7 +34,7 @@ void OscNode::note(const std::string& what) const {
 
 std::string OscNode::resolved(const char* attribute, const char* written) const {
     try {
-        std::string text = resolve(written, lookup_in(*scope_));
+        std::string text = resolve(written, *scope_);
         if (std::string_view(written).find('$') != std::string_view::npos)
             count_bytes(attribute, text.size());
         return text;
@@ -64,7 +59,7 @@ std::string OscNode::text_or(const char* attribute, const std::string& otherwise
 std::string OscNode::name() const {
     const std::string written = node_.attribute("name").value();
     try {
-        return resolve(written, lookup_in(*scope_));
+        return resolve(written, *scope_);
     } catch (const std::invalid_argument&) {
         return written;
     }

@@ -4,8 +4,6 @@
 #include "scenarios/openscenario/storyboard.h"
 #include "scenarios/values/xml_file.h"
 
-#include <utility>
-
 namespace fernlicht::osc {
 
 /// Names and values, inner ones before outer ones.
@@ -15,6 +13,12 @@ struct Scope {
 
     std::optional<std::string> find(const std::string& name) const;
 };
+
+/// A value of the text with its parameters put in: `$name` and `${expression}`, alone or inside other text. Numbers that an expression
+/// gives are written with the digits that bring them back. OpenSCENARIO XML 1.3, 6.12: + - * / %, brackets, comparisons, and, or, not, pow,
+/// sqrt, abs, sign, round, floor, ceil, min, max, sin, cos, tan, asin, acos, atan. A result is at most 64 KiB long. Throws
+/// std::invalid_argument with a fragment of what is wrong: "unknown parameter 'a'", "found '/', expected a number".
+std::string resolve(std::string_view text, const Scope& scope);
 
 /// What all nodes of one reading share.
 struct Reading {
@@ -107,6 +111,29 @@ class OscNode {
     pugi::xml_node node_;
     std::shared_ptr<const Scope> scope_;
     Reading* reading_;
+};
+
+/// Takes the folders that the scenario's CatalogLocations names. They are read when an entry is first asked for.
+void note_catalog_folders(const OscNode& scenario);
+
+/// The entry that a CatalogReference names, with its parameters as assigned there. Throws InputError at the reference: no such catalog, no
+/// such entry (naming the nearest), a parameter that the entry does not declare.
+OscNode catalog_entry(const OscNode& reference);
+
+/// `element` as a child of `node`, or what the CatalogReference there names.
+std::optional<OscNode> own_or_catalog(const OscNode& node, const char* element);
+
+/// While it lives, the Route or Trajectory `node` is being read. The constructor refuses one that is being read already, with the names
+/// that lead back to it.
+class OpenEntry {
+  public:
+    explicit OpenEntry(const OscNode& node);
+    ~OpenEntry() { reading_.open_entries.pop_back(); }
+    OpenEntry(const OpenEntry&) = delete;
+    OpenEntry& operator=(const OpenEntry&) = delete;
+
+  private:
+    Reading& reading_;
 };
 
 } // namespace fernlicht::osc

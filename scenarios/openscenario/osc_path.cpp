@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace fernlicht::osc {
 namespace {
@@ -45,8 +46,8 @@ void drop_repeated(Path& path) {
 }
 
 bool gives_heading(const Position& position) {
-    const auto* world = std::get_if<WorldPosition>(&position);
-    return world ? world->h_rad.has_value() : false;
+    const auto* world = std::get_if<WorldPosition>(&position.place);
+    return world && world->h_rad;
 }
 
 struct Builder {
@@ -56,16 +57,15 @@ struct Builder {
 
     PathPoint point_of(const Position& position, Path& path) const {
         const Spot spot = world.spot(position);
-        const auto* at = std::get_if<WorldPosition>(&position);
+        const auto* at = std::get_if<WorldPosition>(&position.place);
         path.has_z = path.has_z || (at && at->z_m);
         return {0.0, spot.pose.position_m.x, spot.pose.position_m.y, spot.pose.position_m.z, spot.heading_rad(), {}, false};
     }
 
     Path operator()(const Polyline& line) const {
         Path path;
-        path.own_headings =
-            std::all_of(line.vertices.begin(), line.vertices.end(), [](const Vertex& vertex) { return gives_heading(vertex.position); });
-        for (const Vertex& vertex : line.vertices) {
+        path.own_headings = std::ranges::all_of(line, [](const Vertex& vertex) { return gives_heading(vertex.position); });
+        for (const Vertex& vertex : line) {
             path.points.push_back(point_of(vertex.position, path));
             path.points.back().time_s = vertex.time_s;
             path.points.back().corner = true;
@@ -89,13 +89,10 @@ struct Builder {
         PathPoint at;
         if (here)
             at = {0.0, here->pose.position_m.x, here->pose.position_m.y, here->pose.position_m.z, here->heading_rad(), {}, false};
-        for (const ClothoidSegment& segment : clothoids.segments) {
+        for (const ClothoidSegment& segment : clothoids) {
             if (segment.start) {
                 const PathPoint start = point_of(*segment.start, path);
-                at.x_m = start.x_m;
-                at.y_m = start.y_m;
-                at.z_m = start.z_m;
-                at.heading_rad = start.heading_rad;
+                std::tie(at.x_m, at.y_m, at.z_m, at.heading_rad) = std::tie(start.x_m, start.y_m, start.z_m, start.heading_rad);
             }
             at.heading_rad += segment.h_offset_rad;
             const int steps = std::max(2, static_cast<int>(std::ceil(segment.length_m / step_m)));
@@ -109,7 +106,7 @@ struct Builder {
             } else if (segment.time_start_s) {
                 path.points.back().time_s = segment.time_start_s;
             }
-            if (segment.start && !path.points.empty() && path.points.size() > 1)
+            if (segment.start && path.points.size() > 1)
                 path.points.push_back(at);
             for (int i = 1; i <= steps; ++i) {
                 const double s0 = (i - 1) * ds, s1 = i * ds, middle = 0.5 * (s0 + s1);
@@ -130,7 +127,7 @@ struct Builder {
         Path path;
         std::vector<glm::dvec4> homogeneous;
         std::vector<double> times;
-        for (const ControlPoint& control : nurbs.points) {
+        for (const Vertex& control : nurbs.points) {
             const PathPoint p = point_of(control.position, path);
             homogeneous.emplace_back(glm::dvec4(p.x_m, p.y_m, p.z_m, 1.0) * control.weight);
             if (control.time_s)
@@ -151,9 +148,6 @@ struct Builder {
                 ++span;
             std::vector<glm::dvec4> d(homogeneous.begin() + static_cast<std::ptrdiff_t>(span - degree),
                                       homogeneous.begin() + static_cast<std::ptrdiff_t>(span) + 1);
-            std::vector<double> w;
-            for (const glm::dvec4& point : d)
-                w.push_back(point.w);
             std::vector<double> t;
             if (times.size() == homogeneous.size())
                 t.assign(times.begin() + static_cast<std::ptrdiff_t>(span - degree), times.begin() + static_cast<std::ptrdiff_t>(span) + 1);
@@ -197,28 +191,28 @@ void fill_times(Path& path) {
         path.timed = path.timed && *path.points[i].time_s >= *path.points[i - 1].time_s;
 }
 
+/// Where the rising `of` a point is `wanted`; clamped.
+template <class Of> PathPoint point_at(const Path& path, double wanted, const Of& of) {
+    const auto next = std::ranges::upper_bound(path.points, wanted, {}, of);
+    if (next == path.points.begin())
+        return path.points.front();
+    if (next == path.points.end())
+        return path.points.back();
+    const PathPoint &a = *(next - 1), &b = *next;
+    return between(a, b, (wanted - of(a)) / (of(b) - of(a)), path.own_headings);
+}
+
+double steepest(Shape shape) { return shape == Shape::sinusoidal ? 0.5 * pi : shape == Shape::cubic ? 1.5 : 1.0; }
+
 } // namespace
 
 PathPoint Path::at(double s_m) const {
     const double s = closed && length_m() > 0.0 ? s_m - length_m() * std::floor(s_m / length_m()) : s_m;
-    const auto next = std::upper_bound(points.begin(), points.end(), s, [](double at, const PathPoint& point) { return at < point.s_m; });
-    if (next == points.begin())
-        return points.front();
-    if (next == points.end())
-        return points.back();
-    const PathPoint &a = *(next - 1), &b = *next;
-    return between(a, b, (s - a.s_m) / (b.s_m - a.s_m), own_headings);
+    return point_at(*this, s, [](const PathPoint& point) { return point.s_m; });
 }
 
 PathPoint Path::at_time(double time_s) const {
-    const auto next =
-        std::upper_bound(points.begin(), points.end(), time_s, [](double at, const PathPoint& point) { return at < *point.time_s; });
-    if (next == points.begin())
-        return points.front();
-    if (next == points.end())
-        return points.back();
-    const PathPoint &a = *(next - 1), &b = *next;
-    return between(a, b, (time_s - *a.time_s) / (*b.time_s - *a.time_s), own_headings);
+    return point_at(*this, time_s, [](const PathPoint& point) { return *point.time_s; });
 }
 
 Path build_path(const Trajectory& trajectory, const World& world, const std::optional<Spot>& here) {
@@ -228,12 +222,6 @@ Path build_path(const Trajectory& trajectory, const World& world, const std::opt
     fill_times(path);
     return path;
 }
-
-namespace {
-
-double steepest(Shape shape) { return shape == Shape::sinusoidal ? 0.5 * pi : shape == Shape::cubic ? 1.5 : 1.0; }
-
-} // namespace
 
 Transition::Transition(const Dynamics& dynamics, double start, double target)
     : shape_(dynamics.shape), start_(start), target_(target), length_(dynamics.value) {

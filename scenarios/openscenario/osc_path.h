@@ -1,6 +1,5 @@
-// Trajectories as paths: arc length, or time, to a place. Polylines, clothoids and NURBS, all sampled finely enough that a chord strays
-// less than a millimetre from a bend of 5 m radius.
-// How a value goes from its start to its target: the shapes of OpenSCENARIO's TransitionDynamics over time or distance.
+// Trajectories as paths, sampled finely enough that a chord strays less than a millimetre from a bend of 5 m radius; and how a value goes
+// from its start to its target: the shapes of OpenSCENARIO's TransitionDynamics over time or distance.
 #pragma once
 
 #include "scenarios/openscenario/osc_world.h"
@@ -22,7 +21,6 @@ struct Path {
     bool own_headings = false; ///< the file gives them
 
     double length_m() const { return points.back().s_m; }
-    double start_s() const { return points.front().time_s.value_or(0.0); }
     double end_s() const { return points.back().time_s.value_or(0.0); }
     PathPoint at(double s_m) const;         ///< clamped; of a closed path taken round
     PathPoint at_time(double time_s) const; ///< clamped

@@ -1,9 +1,7 @@
 #include "scenarios/openscenario/osc_world.h"
 
-#include "scenarios/openscenario/osc_mover.h"
 #include "scenarios/openscenario/osc_path.h"
 #include "scenarios/roads/plan.h"
-#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <array>
@@ -16,14 +14,14 @@ namespace {
 
 glm::dmat3 turned(const glm::dmat3& axes, double yaw_rad) { return axes * axes_from_angles(yaw_rad, 0.0, 0.0); }
 
+} // namespace
+
 const Lane* lane_of(const Road& road, int id, double s_m) {
     for (const Lane& lane : section_at(road, s_m).lanes)
         if (lane.id == id)
             return &lane;
     return nullptr;
 }
-
-} // namespace
 
 int nearest_lane(const Road& road, double s_m, double t_m) {
     if (const int on = lane_at(road, s_m, t_m); on != 0)
@@ -117,6 +115,7 @@ namespace {
 struct Placing {
     const World& world;
     const Storyboard& storyboard;
+    const std::optional<Orientation>& orientation;
 
     std::size_t road(const std::string& id) const {
         const Road* found = world.network().find(id);
@@ -133,7 +132,7 @@ struct Placing {
     }
 
     /// Turns a spot that looks along its lane as the orientation asks.
-    Spot oriented(Spot spot, const std::optional<Orientation>& orientation) const {
+    Spot oriented(Spot spot) const {
         if (!orientation)
             return spot;
         if (orientation->relative) {
@@ -144,9 +143,8 @@ struct Placing {
         return world.at_point(spot.pose.position_m, true, orientation->h_rad, -orientation->p_rad, orientation->r_rad, spot.road);
     }
 
-    Spot along_lane(std::size_t road_at, int lane, double s, double offset, const std::optional<Orientation>& orientation) const {
-        const Road& on = world.network().roads[road_at];
-        return oriented(world.on_lane(road_at, lane, s, offset, lane_direction_rad(on, lane, s)), orientation);
+    Spot along_lane(std::size_t road_at, int lane, double s, double offset) const {
+        return oriented(world.on_lane(road_at, lane, s, offset, lane_direction_rad(world.network().roads[road_at], lane, s)));
     }
 
     Spot operator()(const WorldPosition& p) const {
@@ -160,7 +158,7 @@ struct Placing {
     Spot operator()(const LanePosition& p) const {
         const std::size_t at = road(p.road);
         check_s(at, p.s_m);
-        return along_lane(at, p.lane, p.s_m, p.offset_m, p.orientation);
+        return along_lane(at, p.lane, p.s_m, p.offset_m);
     }
     Spot operator()(const RoadPosition& p) const {
         const std::size_t at = road(p.road);
@@ -168,7 +166,7 @@ struct Placing {
         const Road& on = world.network().roads[at];
         const double s = std::clamp(p.s_m, 0.0, on.length_m);
         const int lane = nearest_lane(on, s, p.t_m);
-        return along_lane(at, lane, s, p.t_m - lane_centre_t(on, lane, s), p.orientation);
+        return along_lane(at, lane, s, p.t_m - lane_centre_t(on, lane, s));
     }
     /// A place `ds` on from an entity along its road's reference line, over the borders of roads; offset and lane kept.
     Spot onwards(const Spot& from, double ds_m) const { return move_along(world, from, ds_m, false, nullptr).spot; }
@@ -180,54 +178,50 @@ struct Placing {
         int lane = there.lane + p.lanes * (there.with_s() ? 1 : -1);
         if (there.lane != 0 && (lane == 0 || (lane > 0) != (there.lane > 0)))
             lane += lane <= 0 && there.lane > 0 ? -1 : lane >= 0 && there.lane < 0 ? 1 : 0;
-        Spot spot = world.on_lane(there.road, lane, there.s_m, p.offset_m, there.with_s() ? 0.0 : pi);
-        if (!p.orientation)
-            spot = world.on_lane(there.road, lane, there.s_m, p.offset_m, lane_direction_rad(on, lane, there.s_m));
-        return oriented(spot, p.orientation);
+        const double heading = orientation ? (there.with_s() ? 0.0 : pi) : lane_direction_rad(on, lane, there.s_m);
+        return oriented(world.on_lane(there.road, lane, there.s_m, p.offset_m, heading));
     }
     Spot operator()(const RelativeRoadPosition& p) const {
         const Spot there = onwards(world.entity(p.entity).spot, p.ds_m);
         const Road& on = world.network().roads[there.road];
         const double t = there.t_m + p.dt_m;
         const int lane = nearest_lane(on, there.s_m, t);
-        return oriented(world.on_lane(there.road, lane, there.s_m, t - lane_centre_t(on, lane, there.s_m), there.with_s() ? 0.0 : pi),
-                        p.orientation);
+        return oriented(world.on_lane(there.road, lane, there.s_m, t - lane_centre_t(on, lane, there.s_m), there.with_s() ? 0.0 : pi));
     }
     Spot operator()(const RelativePosition& p) const {
         const Spot& from = world.entity(p.entity).spot;
         const glm::dvec3 by(p.dx_m, p.dy_m, p.dz_m);
         const glm::dvec3 at = p.in_world ? from.pose.position_m + by : to_parent(from.pose, by);
         double heading = from.heading_rad();
-        if (p.orientation)
-            heading = p.orientation->h_rad + (p.orientation->relative ? heading : 0.0);
+        if (orientation)
+            heading = orientation->h_rad + (orientation->relative ? heading : 0.0);
         else if (p.in_world)
             heading = 0.0;
         return world.at_point(at, p.dz_m != 0.0, heading, {}, {}, from.on_network ? std::optional(from.road) : std::nullopt);
     }
     Spot operator()(const RoutePosition& p) const {
         if (!p.current_entity.empty())
-            return oriented(world.entity(p.current_entity).spot, p.orientation);
+            return oriented(world.entity(p.current_entity).spot);
         // The route's first waypoint says where it begins and which way; along it roads are followed with the least turn.
-        const Spot start = world.spot(p.route->waypoints.front().position);
+        const Spot start = world.spot(p.route->waypoints.front());
         const Spot there = onwards(start, p.s_m);
         const Road& on = world.network().roads[there.road];
         const double s = there.s_m;
         const int lane = p.lane ? *p.lane : p.t_m ? nearest_lane(on, s, *p.t_m) : there.lane;
         const double offset = p.t_m ? *p.t_m - lane_centre_t(on, lane, s) : p.offset_m;
-        return along_lane(there.road, lane, s, offset, p.orientation);
+        return along_lane(there.road, lane, s, offset);
     }
     Spot operator()(const TrajectoryPosition& p) const {
         const Path path = build_path(*p.trajectory, world, {});
         const PathPoint point = path.at(p.s_m);
         const double left_x = -std::sin(point.heading_rad), left_y = std::cos(point.heading_rad);
-        return oriented(world.at_point({point.x_m + p.t_m * left_x, point.y_m + p.t_m * left_y, point.z_m}, path.has_z, point.heading_rad),
-                        p.orientation);
+        return oriented(world.at_point({point.x_m + p.t_m * left_x, point.y_m + p.t_m * left_y, point.z_m}, path.has_z, point.heading_rad));
     }
 };
 
 } // namespace
 
-Spot World::spot(const Position& position) const { return std::visit(Placing{*this, *storyboard_}, position); }
+Spot World::spot(const Position& position) const { return std::visit(Placing{*this, *storyboard_, position.orientation}, position.place); }
 
 namespace {
 

@@ -1,10 +1,10 @@
-// The storyboard's world at one moment: where every entity is, on road and lane, and how positions of the file become places.
-// Distances between entities and places: straight, along the road, across it; from reference points or between boxes.
+// The storyboard's world at one moment: where every entity is, how positions of the file become places, and distances between them.
 #pragma once
 
 #include "scenarios/openscenario/storyboard.h"
 #include "scenarios/roads/road_finder.h"
 #include "scenarios/roads/route_links.h"
+#include "scenarios/values/errors.h"
 
 namespace fernlicht::osc {
 
@@ -15,6 +15,15 @@ inline constexpr double small = 1e-6;
 struct PlaceError {
     std::string found, expected;
 };
+
+/// What `call` gives; where it cannot be placed, an InputError at this element.
+template <class Call> auto placed(const std::filesystem::path& file, std::size_t line, const std::string& element, const Call& call) {
+    try {
+        return call();
+    } catch (const PlaceError& error) {
+        throw InputError({file, line, 0, element}, error.found, error.expected);
+    }
+}
 
 /// Where something stands, in the world and on the network.
 struct Spot {
@@ -90,6 +99,7 @@ class World {
     std::map<std::string, std::size_t> index_;
 };
 
+const Lane* lane_of(const Road& road, int id, double s_m); ///< nullptr: the road has none of this id there
 /// The lane nearest to t that has width, on either side; 0 where there is none.
 int nearest_lane(const Road& road, double s_m, double t_m);
 /// Heading of travel of a lane, relative to the reference line: 0 or pi.
@@ -106,5 +116,24 @@ double longitudinal_gap(const World& world, const EntityState& from, const Entit
 double way_to(const World& world, const EntityState& from, const Spot& to);
 /// The boxes overlap, seen from above.
 bool touching(const EntityState& a, const EntityState& b);
+
+struct Moved {
+    Spot spot;
+    bool end_of_road = false; ///< the lane leads nowhere: the spot lies at its end
+};
+
+/// Moves along the lane that the spot is on (its offset kept), the way it looks; backwards for a distance below zero. `actual`: the
+/// distance is that on the spot's own path; where the reference line bends with curvature k and the spot lies t beside it, s grows by
+/// distance / (1 - k t). At junctions `path` decides, else the least turn.
+Moved move_along(const World& world, const Spot& from, double distance_m, bool actual, RoadPath* path);
+
+/// The shortest way over lanes (changes of lane count as `lane_change_m`) from a spot, the way it looks, through all goals in order. A
+/// first goal that already lies behind is left out. nullopt: there is no way.
+std::optional<RoadPath> plan_path(const World& world, const Spot& from, const std::vector<Spot>& goals);
+inline constexpr double lane_change_m = 30.0;
+
+/// Signed distance along reference lines from one spot to another, ahead of the first positive; nullopt where no road leads there within
+/// `most_m` either way.
+std::optional<double> distance_along(const World& world, const Spot& from, const Spot& to, double most_m = 2000.0);
 
 } // namespace fernlicht::osc

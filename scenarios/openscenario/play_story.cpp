@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/play_story.h"
 
-#include "scenarios/openscenario/osc_mover.h"
 #include "scenarios/openscenario/story_tree.h"
 
 #include <algorithm>
@@ -18,10 +17,9 @@ constexpr double settle_mps = 1.0, settle_slope = 0.15; ///< how quickly a car g
 void glide(const World& world, EntityState& car, double dt_s) {
     if (car.path && car.path->at < car.path->steps.size()) {
         const RoadPath::Step& step = car.path->steps[car.path->at];
-        const auto& lanes = section_at(world.network().roads[car.spot.road], car.spot.s_m).lanes;
-        const bool there = std::any_of(lanes.begin(), lanes.end(), [&](const Lane& lane) { return lane.id == step.lane; });
-        if (step.road == car.spot.road && step.lane != car.spot.lane && there) {
-            const double offset = car.spot.t_m - lane_centre_t(world.network().roads[car.spot.road], step.lane, car.spot.s_m);
+        const Road& road = world.network().roads[car.spot.road];
+        if (step.road == car.spot.road && step.lane != car.spot.lane && lane_of(road, step.lane, car.spot.s_m)) {
+            const double offset = car.spot.t_m - lane_centre_t(road, step.lane, car.spot.s_m);
             car.spot = world.on_lane(car.spot.road, step.lane, car.spot.s_m, offset, car.spot.relative_heading_rad);
             car.settle_to_m = 0.0;
         }

@@ -1,5 +1,4 @@
-// Plays a storyboard by fixed steps: the same file on the same road gives the same bytes.
-// What a storyboard did, tick by tick: the plain result that drives, logs and tests share.
+// Plays a storyboard by fixed steps, the same file on the same road to the same bytes; what it did, tick by tick.
 #pragma once
 
 #include "scenarios/openscenario/storyboard.h"

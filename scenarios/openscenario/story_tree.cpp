@@ -41,40 +41,34 @@ StoryTree::StoryTree(const Storyboard& storyboard, World& world, PlayedStory& pl
     build_triggers();
 }
 
-void StoryTree::add(Element& parent, Level level, const std::string& name) {
-    auto child = std::make_unique<Element>();
-    child->level = level;
-    child->name = name;
-    child->path = parent.path.empty() ? name : parent.path + "::" + name;
-    child->parent = &parent;
-    parent.children.push_back(std::move(child));
+Element& StoryTree::add(Element& parent, Level level, const std::string& name) {
+    Element& child = *parent.children.emplace_back(std::make_unique<Element>());
+    child.level = level;
+    child.path = parent.path.empty() ? name : parent.path + "::" + name;
+    child.parent = &parent;
+    return child;
 }
 
 void StoryTree::build() {
     for (const Story& story : storyboard_->stories) {
-        add(root_, Level::story, story.name);
-        Element& in_story = *root_.children.back();
+        Element& in_story = add(root_, Level::story, story.name);
         for (const Act& act : story.acts) {
-            add(in_story, Level::act, act.name);
-            Element& in_act = *in_story.children.back();
+            Element& in_act = add(in_story, Level::act, act.name);
+            in_act.act = &act;
             for (const ManeuverGroup& group : act.groups) {
-                add(in_act, Level::group, group.name);
-                Element& in_group = *in_act.children.back();
+                Element& in_group = add(in_act, Level::group, group.name);
                 in_group.group = &group;
                 in_group.most_executions = group.executions;
                 for (const Maneuver& maneuver : group.maneuvers) {
-                    add(in_group, Level::maneuver, maneuver.name);
-                    Element& in_maneuver = *in_group.children.back();
+                    Element& in_maneuver = add(in_group, Level::maneuver, maneuver.name);
                     for (const Event& event : maneuver.events) {
-                        add(in_maneuver, Level::event, event.name);
-                        Element& in_event = *in_maneuver.children.back();
+                        Element& in_event = add(in_maneuver, Level::event, event.name);
                         in_event.event = &event;
                         in_event.group = &group;
                         in_event.most_executions = event.executions;
                         for (const Action& action : event.actions) {
-                            add(in_event, Level::action, action.name);
-                            in_event.children.back()->action = &action;
-                            actions_.push_back(in_event.children.back().get());
+                            actions_.push_back(&add(in_event, Level::action, action.name));
+                            actions_.back()->action = &action;
                         }
                     }
                 }
@@ -89,16 +83,14 @@ void StoryTree::build_triggers() {
         return trigger ? std::optional(JudgedTrigger(*trigger, by_name)) : std::nullopt;
     };
     root_.stop = judged(storyboard_->stop);
-    for (std::size_t s = 0; s < storyboard_->stories.size(); ++s)
-        for (std::size_t a = 0; a < storyboard_->stories[s].acts.size(); ++a) {
-            Element& act = *root_.children[s]->children[a];
-            act.start = judged(storyboard_->stories[s].acts[a].start);
-            act.stop = judged(storyboard_->stories[s].acts[a].stop);
-            walk(act, [&](Element& element) {
-                if (element.event)
-                    element.start = judged(element.event->start);
-            });
+    walk(root_, [&](Element& element) {
+        if (element.act) {
+            element.start = judged(element.act->start);
+            element.stop = judged(element.act->stop);
+        } else if (element.event) {
+            element.start = judged(element.event->start);
         }
+    });
 }
 
 std::vector<const ElementChanges*> StoryTree::find(const ElementStateCondition& condition) const {
@@ -123,19 +115,11 @@ void StoryTree::set(Element& element, ElementState state, const char* transition
 }
 
 void StoryTree::run(RunningAction& run, const Action& action) {
-    try {
-        run.begin(*world_, *played_);
-    } catch (const PlaceError& error) {
-        throw InputError({storyboard_->file, action.line, 0, action.name}, error.found, error.expected);
-    }
+    placed(storyboard_->file, action.line, action.name, [&] { run.begin(*world_, *played_); });
 }
 
 bool StoryTree::step_run(RunningAction& run, const Action& action, double dt_s, std::vector<unsigned>& moved) {
-    try {
-        return run.step(*world_, dt_s, moved[run.entity()]);
-    } catch (const PlaceError& error) {
-        throw InputError({storyboard_->file, action.line, 0, action.name}, error.found, error.expected);
-    }
+    return placed(storyboard_->file, action.line, action.name, [&] { return run.step(*world_, dt_s, moved[run.entity()]); });
 }
 
 void StoryTree::start() {
@@ -157,14 +141,10 @@ void StoryTree::start() {
 }
 
 void StoryTree::start(Element& element) {
-    if (element.level == Level::event) {
-        start_event(element);
-        return;
-    }
-    if (element.state == ElementState::init && element.start) {
-        set(element, ElementState::standby, "");
-        return;
-    }
+    if (element.state == ElementState::init && element.start)
+        return set(element, ElementState::standby, "");
+    if (element.level == Level::event)
+        return start_event(element);
     set(element, ElementState::running, "startTransition");
     ++element.executions;
     for (const auto& child : element.children)
@@ -174,10 +154,6 @@ void StoryTree::start(Element& element) {
 }
 
 void StoryTree::start_event(Element& element) {
-    if (element.state == ElementState::init && element.start) {
-        set(element, ElementState::standby, "");
-        return;
-    }
     if (running(element))
         return;
     auto& siblings = element.parent->children;
@@ -198,10 +174,8 @@ void StoryTree::start_event(Element& element) {
             actors.push_back(at);
     set(element, ElementState::running, "startTransition");
     ++element.executions;
-    if (element.children.empty()) {
-        end(element);
-        return;
-    }
+    if (element.children.empty())
+        return end(element);
     for (const auto& action : element.children)
         start_action(*action, actors);
 }
@@ -226,10 +200,8 @@ void StoryTree::start_action(Element& element, const std::vector<std::size_t>& a
     element.runs.clear();
     set(element, ElementState::running, "startTransition");
     ++element.executions;
-    if (const auto* global = std::get_if<GlobalAction>(&element.action->what)) {
-        act_on_world(*global);
-        return;
-    }
+    if (const auto* global = std::get_if<GlobalAction>(&element.action->what))
+        return act_on_world(*global);
     const auto& what = std::get<PrivateAction>(element.action->what);
     for (const std::size_t actor : actors) {
         element.runs.push_back({RunningAction(what, actor), false});
@@ -239,10 +211,8 @@ void StoryTree::start_action(Element& element, const std::vector<std::size_t>& a
 }
 
 void StoryTree::judge(Element& element) {
-    if (running(element) && element.stop && element.stop->judge(*world_)) {
-        stop(element);
-        return;
-    }
+    if (running(element) && element.stop && element.stop->judge(*world_))
+        return stop(element);
     if (element.state == ElementState::standby && (!element.start || element.start->judge(*world_)))
         start(element);
     if (running(element))
@@ -337,7 +307,6 @@ void StoryTree::act_on_world(const GlobalAction& action) {
             if (from)
                 into = from;
         };
-        merged.name = by.name;
         if (by.date_time) {
             merged.time_runs = by.time_runs;
             world_->environment_since_s = world_->time_s;
@@ -350,20 +319,14 @@ void StoryTree::act_on_world(const GlobalAction& action) {
         take(merged.fog_visual_range_m, by.fog_visual_range_m);
         take(merged.precipitation, by.precipitation);
         take(merged.precipitation_mm_per_h, by.precipitation_mm_per_h);
-        take(merged.friction_scale, by.friction_scale);
         take(merged.wetness, by.wetness);
         world_->environment = merged;
         played_->environment.push_back({world_->time_s, merged, world_->environment_since_s});
     } else if (const auto* entity = std::get_if<EntityAction>(&action)) {
         EntityState& state = world_->entity(entity->entity);
         state.present = entity->add_at.has_value();
-        if (entity->add_at) {
-            try {
-                state.spot = world_->spot(*entity->add_at);
-            } catch (const PlaceError& error) {
-                throw InputError({storyboard_->file, 0, 0, "AddEntityAction"}, error.found, error.expected);
-            }
-        }
+        if (entity->add_at)
+            state.spot = placed(storyboard_->file, 0, "AddEntityAction", [&] { return world_->spot(*entity->add_at); });
     } else if (const auto* value = std::get_if<SetValueAction>(&action)) {
         auto& values = value->variable ? world_->variables : world_->parameters;
         std::string& known = values[value->name];

@@ -13,13 +13,14 @@ enum class ElementState { init, standby, running, complete };
 
 struct Element {
     Level level = Level::storyboard;
-    std::string name, path; ///< path: the names from the story down, "::" between
+    std::string path; ///< the names from the story down, "::" between
     Element* parent = nullptr;
     std::vector<std::unique_ptr<Element>> children;
     ElementState state = ElementState::init;
     int executions = 0, most_executions = -1; ///< groups and events only
     std::optional<JudgedTrigger> start, stop;
     ElementChanges changes;
+    const Act* act = nullptr;
     const Event* event = nullptr;
     const Action* action = nullptr;
     const ManeuverGroup* group = nullptr;
@@ -42,7 +43,7 @@ class StoryTree {
     bool all_over() const; ///< there are stories, and each is complete
 
   private:
-    void add(Element& parent, Level level, const std::string& name);
+    static Element& add(Element& parent, Level level, const std::string& name);
     void build();
     void build_triggers();
     std::vector<const ElementChanges*> find(const ElementStateCondition& condition) const;

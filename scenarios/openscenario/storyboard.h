@@ -3,11 +3,11 @@
 
 #include "scenarios/values/files.h"
 
-#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -38,31 +38,25 @@ struct LanePosition {
     std::string road;
     int lane = 0;
     double s_m = 0.0, offset_m = 0.0;
-    std::optional<Orientation> orientation;
 };
 struct RoadPosition {
     std::string road;
     double s_m = 0.0, t_m = 0.0;
-    std::optional<Orientation> orientation;
 };
 struct RelativeLanePosition {
     std::string entity;
     int lanes = 0;
     double ds_m = 0.0, offset_m = 0.0;
-    bool along_lane = false; ///< ds is measured along the lane, not along the reference line
-    std::optional<Orientation> orientation;
 };
 struct RelativeRoadPosition {
     std::string entity;
     double ds_m = 0.0, dt_m = 0.0;
-    std::optional<Orientation> orientation;
 };
 /// In the entity's own axes, or with `in_world` in the world's.
 struct RelativePosition {
     std::string entity;
     double dx_m = 0.0, dy_m = 0.0, dz_m = 0.0;
     bool in_world = false;
-    std::optional<Orientation> orientation;
 };
 struct RoutePosition {
     std::shared_ptr<const Route> route;
@@ -71,33 +65,28 @@ struct RoutePosition {
     double offset_m = 0.0;
     std::optional<double> t_m;  ///< in road coordinates
     std::string current_entity; ///< where this entity is on the route
-    std::optional<Orientation> orientation;
 };
 struct TrajectoryPosition {
     std::shared_ptr<const Trajectory> trajectory;
     double s_m = 0.0, t_m = 0.0;
+};
+struct Position {
+    std::variant<WorldPosition, LanePosition, RoadPosition, RelativeLanePosition, RelativeRoadPosition, RelativePosition, RoutePosition,
+                 TrajectoryPosition>
+        place;
     std::optional<Orientation> orientation;
 };
-using Position = std::variant<WorldPosition, LanePosition, RoadPosition, RelativeLanePosition, RelativeRoadPosition, RelativePosition,
-                              RoutePosition, TrajectoryPosition>;
 
-struct Waypoint {
-    Position position;
-    std::string strategy; ///< shortest, fastest, leastIntersections, random
-};
 struct Route {
-    std::string name;
-    bool closed = false;
-    std::vector<Waypoint> waypoints;
+    std::vector<Position> waypoints;
 };
 
 struct Vertex {
     std::optional<double> time_s;
     Position position;
+    double weight = 1.0; ///< of a control point
 };
-struct Polyline {
-    std::vector<Vertex> vertices;
-};
+using Polyline = std::vector<Vertex>;
 /// One piece: curvature grows by `dot_per_m2` over `length_m`.
 struct ClothoidSegment {
     double curvature_per_m = 0.0, end_curvature_per_m = 0.0, length_m = 0.0, h_offset_rad = 0.0;
@@ -105,21 +94,13 @@ struct ClothoidSegment {
     std::optional<Position> start;
 };
 /// Clothoid: one segment that begins at `start`. ClothoidSpline: several, each at the end of the one before.
-struct ClothoidPath {
-    std::vector<ClothoidSegment> segments;
-};
-struct ControlPoint {
-    std::optional<double> time_s;
-    double weight = 1.0;
-    Position position;
-};
+using ClothoidPath = std::vector<ClothoidSegment>;
 struct Nurbs {
     int order = 2; ///< degree + 1
-    std::vector<ControlPoint> points;
+    std::vector<Vertex> points;
     std::vector<double> knots; ///< points + order of them, never falling
 };
 struct Trajectory {
-    std::string name;
     bool closed = false;
     std::variant<Polyline, ClothoidPath, Nurbs> shape;
 };
@@ -190,8 +171,6 @@ struct LightStateAction {
     LightMode mode = LightMode::off;
     double transition_s = 0.0;
     double flash_on_s = 0.5, flash_off_s = 0.5;
-    std::optional<double> luminous_intensity_cd;
-    std::optional<std::array<double, 3>> rgb;
 };
 struct FollowTrajectoryAction {
     std::shared_ptr<const Trajectory> trajectory;
@@ -217,9 +196,7 @@ struct SynchronizeAction {
     double master_tolerance_m = 0.0, tolerance_m = 0.0;
 };
 /// Activating, assigning and overriding controllers: the storyboard's own motion goes on.
-struct ControllerAction {
-    std::string what;
-};
+struct ControllerAction {};
 using PrivateAction = std::variant<SpeedAction, SpeedProfileAction, LaneChangeAction, LaneOffsetAction, LateralDistanceAction,
                                    LongitudinalDistanceAction, TeleportAction, VisibilityAction, LightStateAction, FollowTrajectoryAction,
                                    AssignRouteAction, AcquirePositionAction, SynchronizeAction, ControllerAction>;
@@ -227,7 +204,6 @@ using PrivateAction = std::variant<SpeedAction, SpeedProfileAction, LaneChangeAc
 // ---- actions of the world ----
 /// What is not given stays as it is.
 struct Environment {
-    std::string name;
     std::optional<std::string> date_time; ///< ISO 8601
     bool time_runs = false;
     std::optional<std::string> cloud_state;                                       ///< free, cloudy, overcast, rainy; or "3 oktas" ...
@@ -235,7 +211,6 @@ struct Environment {
     std::optional<double> fog_visual_range_m;
     std::optional<std::string> precipitation; ///< dry, rain, snow
     std::optional<double> precipitation_mm_per_h;
-    std::optional<double> friction_scale;
     std::optional<std::string> wetness; ///< dry, moist, wetWithPuddles, lowFlooded, highFlooded
 };
 struct EnvironmentAction {
@@ -268,13 +243,8 @@ enum class Edge { none, rising, falling, either };
 enum class Frame { entity, lane, road, trajectory, world };
 enum class Span { straight, longitudinal, lateral };
 
-struct EndOfRoadCondition {
-    double duration_s = 0.0;
-};
-struct OffroadCondition {
-    double duration_s = 0.0;
-};
-struct StandStillCondition {
+struct LastingCondition {
+    enum class State { end_of_road, offroad, standing } state = State::end_of_road;
     double duration_s = 0.0;
 };
 struct CollisionCondition {
@@ -292,8 +262,9 @@ struct TimeHeadwayCondition {
     Rule rule = Rule::greater;
     Measure measure;
 };
+using Target = std::variant<std::string, Position>; ///< an entity, or a place
 struct TimeToCollisionCondition {
-    std::variant<std::string, Position> target;
+    Target target;
     double value_s = 0.0;
     Rule rule = Rule::greater;
     Measure measure;
@@ -318,13 +289,7 @@ struct ReachPositionCondition {
     double tolerance_m = 0.0;
 };
 struct DistanceCondition {
-    Position position;
-    double value_m = 0.0;
-    Rule rule = Rule::greater;
-    Measure measure;
-};
-struct RelativeDistanceCondition {
-    std::string entity;
+    Target target;
     double value_m = 0.0;
     Rule rule = Rule::greater;
     Measure measure;
@@ -344,10 +309,9 @@ struct AngleCondition {
     double angle_rad = 0.0, tolerance_rad = 0.0;
     std::string relative_to; ///< RelativeAngleCondition
 };
-using EntityCondition =
-    std::variant<EndOfRoadCondition, OffroadCondition, StandStillCondition, CollisionCondition, TimeHeadwayCondition,
-                 TimeToCollisionCondition, AccelerationCondition, SpeedCondition, TraveledDistanceCondition, ReachPositionCondition,
-                 DistanceCondition, RelativeDistanceCondition, RelativeClearanceCondition, AngleCondition>;
+using EntityCondition = std::variant<LastingCondition, CollisionCondition, TimeHeadwayCondition, TimeToCollisionCondition,
+                                     AccelerationCondition, SpeedCondition, TraveledDistanceCondition, ReachPositionCondition,
+                                     DistanceCondition, RelativeClearanceCondition, AngleCondition>;
 struct ByEntity {
     bool all = false; ///< else any
     std::vector<std::string> entities;
@@ -377,7 +341,6 @@ struct ElementStateCondition {
 using Condition =
     std::variant<ByEntity, SimulationTimeCondition, TimeOfDayCondition, NamedValueCondition, TrafficSignalCondition, ElementStateCondition>;
 struct TimedCondition {
-    std::string name;
     double delay_s = 0.0;
     Edge edge = Edge::none;
     Condition condition;
@@ -396,7 +359,6 @@ struct Event {
     int executions = 1;
     std::vector<Action> actions;
     std::optional<Trigger> start;
-    std::size_t line = 0;
 };
 struct Maneuver {
     std::string name;
@@ -424,15 +386,17 @@ struct BoundingBox {
     double length_m = 4.5, width_m = 1.8, height_m = 1.5;
 };
 enum class EntityKind { vehicle, pedestrian, object };
+/// As conditions and selections of the file name it.
+constexpr std::string_view type_of(EntityKind kind) {
+    return kind == EntityKind::vehicle ? "vehicle" : kind == EntityKind::pedestrian ? "pedestrian" : "miscellaneous";
+}
 struct Entity {
     std::string name;
     EntityKind kind = EntityKind::vehicle;
     std::string category; ///< car, truck, bicycle, pedestrian, ...
     std::string model;    ///< the file of a 3D model, as written
     BoundingBox box;
-    double wheelbase_m = 2.7;
     SpeedLimits limits; ///< Performance
-    std::map<std::string, std::string> properties;
 };
 
 struct InitAction {

@@ -67,8 +67,16 @@ TrafficLamp rear_lamp(const char* name, LampFunction function, const std::shared
 
 } // namespace
 
+MountedLamp RoadUser::lamp_at(const TrafficLamp& mounted, double time_s) const {
+    MountedLamp lamp = mounted.lamp;
+    for (const LampChange& change : changes)
+        if (change.time_s <= time_s && change.lamp == lamp.name)
+            apply(change, lamp);
+    return lamp;
+}
+
 bool RoadUser::visible_at(double time_s) const {
-    if (!track || (only_on_track && (time_s < track->first_s() || time_s > track->last_s())))
+    if (!track || time_s < track->first_s() || time_s > track->last_s())
         return false;
     bool visible = true;
     for (const auto& [from_s, seen] : visibility)
@@ -102,18 +110,16 @@ std::vector<TrafficLamp> rear_lamps(const glm::dvec3& size_m, double rear_m, dou
     std::vector<TrafficLamp> lamps;
     const double y = 0.5 * size_m.y - 0.15, z = std::min(0.85, 0.6 * size_m.z), x = rear_m - 0.02;
     const bool narrow = size_m.y < 1.0;
-    if (tail_cd > 0.0) {
-        const auto file = rear_lamp_file(tail_cd);
-        lamps.push_back(rear_lamp("tail-left", LampFunction::tail, file, {x, narrow ? 0.0 : y, z}));
+    const auto add = [&](double cd, LampFunction function, const char* left, const char* right, double left_m) {
+        if (!(cd > 0.0))
+            return;
+        const auto file = rear_lamp_file(cd);
+        lamps.push_back(rear_lamp(left, function, file, {x, narrow ? 0.0 : left_m, z}));
         if (!narrow)
-            lamps.push_back(rear_lamp("tail-right", LampFunction::tail, file, {x, -y, z}));
-    }
-    if (brake_cd > 0.0) {
-        const auto file = rear_lamp_file(brake_cd);
-        lamps.push_back(rear_lamp("brake-left", LampFunction::brake, file, {x, narrow ? 0.0 : y - 0.15, z}));
-        if (!narrow)
-            lamps.push_back(rear_lamp("brake-right", LampFunction::brake, file, {x, -y + 0.15, z}));
-    }
+            lamps.push_back(rear_lamp(right, function, file, {x, -left_m, z}));
+    };
+    add(tail_cd, LampFunction::tail, "tail-left", "tail-right", y);
+    add(brake_cd, LampFunction::brake, "brake-left", "brake-right", y - 0.15);
     return lamps;
 }
 

@@ -56,9 +56,10 @@ struct RoadUser {
     std::vector<LampChange> changes; ///< of its lamps by name, by time
     std::shared_ptr<const Track> track;
     std::vector<std::pair<double, bool>> visibility; ///< from these times on, ascending; seen before the first
-    bool only_on_track = true;                       ///< not there before the track's first and after its last point
 
-    bool visible_at(double time_s) const;
+    /// One of its lamps with the changes up to then.
+    MountedLamp lamp_at(const TrafficLamp& mounted, double time_s) const;
+    bool visible_at(double time_s) const; ///< never before the track's first and after its last point
 };
 
 /// Length, width and height of the kind's usual body, and the x of its rear end.

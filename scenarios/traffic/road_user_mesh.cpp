@@ -24,25 +24,9 @@ std::size_t paint_of(const std::string& name) {
 
 Model body_of(const RoadUser& user) {
     const BodySize size{user.size_m, user.rear_m, paints[paint_of(user.name)]};
-    switch (user.kind) {
-    case RoadUserKind::car:
-        return car_body(size);
-    case RoadUserKind::van:
-        return van_body(size);
-    case RoadUserKind::truck:
-        return truck_body(size);
-    case RoadUserKind::bus:
-        return bus_body(size);
-    case RoadUserKind::motorcycle:
-        return motorcycle_body(size);
-    case RoadUserKind::bicycle:
-        return bicycle_body(size);
-    case RoadUserKind::pedestrian:
-        return pedestrian_body(size);
-    case RoadUserKind::other:
-        break;
-    }
-    return plain_body(size);
+    static constexpr Model (*bodies[])(const BodySize&) = {car_body,        van_body,     truck_body,      bus_body,
+                                                           motorcycle_body, bicycle_body, pedestrian_body, plain_body}; // by RoadUserKind
+    return bodies[static_cast<std::size_t>(user.kind)](size);
 }
 
 /// What users must have in common to look the same.
@@ -60,10 +44,8 @@ void add_road_users(Scene& scene, std::span<const RoadUser> users, FilesRead& op
         const std::size_t before = scene.meshes.size();
         const Look look = users[i].model.empty() ? look_of(users[i]) : look_of_file(users[i]);
         if (const auto same = known.find(look); same != known.end()) {
-            for (std::size_t k = same->second.first; k < same->second.second; ++k) {
-                Mesh copy = scene.meshes[k];
-                scene.meshes.push_back(std::move(copy));
-            }
+            for (std::size_t k = same->second.first; k < same->second.second; ++k)
+                scene.meshes.push_back(Mesh(scene.meshes[k]));
         } else {
             const Model model = users[i].model.empty() ? body_of(users[i]) : read_model(users[i].model);
             opened.insert(opened.end(), model.opened.begin(), model.opened.end());

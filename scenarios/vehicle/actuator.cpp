@@ -116,7 +116,6 @@ Actuator::Actuator(Actuator&&) noexcept = default;
 Actuator::~Actuator() = default;
 
 double Actuator::angle_rad() const { return parts_->x[0]; }
-double Actuator::time_s() const { return parts_->time_s; }
 void Actuator::command(double angle_rad) {
     parts_->law.command = std::clamp(angle_rad, parts_->actuator.least_rad, parts_->actuator.greatest_rad);
 }

@@ -27,7 +27,6 @@ class Actuator {
     ~Actuator();
 
     double angle_rad() const;
-    double time_s() const;
     /// Holds from now on, cut to the stops; the dead time is the caller's.
     void command(double angle_rad);
     /// Jammed it stands still at once, whatever is commanded, until it is freed.

@@ -2,7 +2,7 @@
 // driver. docs/vehicle.md derives them and names the sources. Angles are small where they are pitch, slope or heading beside the lane.
 #pragma once
 
-#include "scenarios/vehicle/road_course.h"
+#include "scenarios/roads/route.h"
 #include "scenarios/vehicle/vehicle_parameters.h"
 
 #include <memory>
@@ -10,6 +10,20 @@
 namespace fernlicht {
 
 inline constexpr double gravity_mps2 = 9.81;
+
+/// Means over cells of `cell_m` about each knot, joined by a cubic B-spline: two continuous derivatives, and a bump is spread over about
+/// 2 m. A car of the real world does so too (a tyre envelops, a driver looks at stretches); edges are RoadStep's.
+struct RoadCourse {
+    static constexpr double cell_m = 1.0;
+    std::vector<double> slope;           ///< rise by distance at -1, 0, 1 .. cells
+    std::vector<double> curvature_per_m; ///< of the lane's centre, left turns positive
+
+    /// The spline and its derivative at a distance; constant beyond the ends. An empty table is 0.
+    static double at(const std::vector<double>& table, double distance_m, double& derivative);
+};
+
+/// Up to `length_m` from the route's start; beyond its end the lane goes on straight with the last slope.
+RoadCourse road_course(const Route& route, double length_m);
 
 /// Places in the state vector. "By the road": above the place that the road gives it, from the rest on a level road.
 namespace car_state {

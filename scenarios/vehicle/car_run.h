@@ -29,7 +29,6 @@ class CarRun {
   public:
     /// Time is clamped to the run. The same for every frame rate: steps follow from the equations alone.
     CarPlace at(double time_s) const;
-    double end_s() const { return path_.end_s(); }
     const DensePath& path() const { return path_; } ///< components: car_run_kept
     const SolverWork& work() const { return work_; }
 

@@ -49,18 +49,7 @@ StudiedProblem actuator(double natural_frequency_hz, double end_s) {
     for (int k = 0; k < samples; ++k)
         problem.truth.push_back(step_response(w, z, moment_s(k)));
     problem.solve = [=](const SolverOptions& options) {
-        OdeProblem ode;
-        ode.derivative = [=](double, const double* x, double* dxdt) {
-            dxdt[0] = x[1];
-            dxdt[1] = w * w * (1.0 - x[0]) - 2.0 * z * w * x[1];
-        };
-        ode.jacobian = [=](double, const double*, double* rows, double* dfdt) {
-            rows[0] = dfdt[0] = dfdt[1] = 0.0;
-            rows[1] = 1.0;
-            rows[2] = -w * w;
-            rows[3] = -2.0 * z * w;
-        };
-        ode.scale = {1.0, w};
+        const OdeProblem ode = step_problem(w, z);
         OdeIntegrator integrator(ode, options);
         DensePath path({0});
         std::vector<double> x{0.0, 0.0};
@@ -140,6 +129,22 @@ std::vector<SolverRow> study_solvers(const SolverStudy& study) {
             for (const double tolerance : study.tolerances)
                 rows.push_back(measured(problem, {.solver = solver, .tolerance = tolerance}, study.repetitions));
     return rows;
+}
+
+OdeProblem step_problem(double w, double z) {
+    OdeProblem problem;
+    problem.derivative = [=](double, const double* x, double* dxdt) {
+        dxdt[0] = x[1];
+        dxdt[1] = w * w * (1.0 - x[0]) - 2.0 * z * w * x[1];
+    };
+    problem.jacobian = [=](double, const double*, double* rows, double* dfdt) {
+        rows[0] = dfdt[0] = dfdt[1] = 0.0;
+        rows[1] = 1.0;
+        rows[2] = -w * w;
+        rows[3] = -2.0 * z * w;
+    };
+    problem.scale = {1.0, std::max(w, 1.0)};
+    return problem;
 }
 
 double step_response(double w, double z, double t_s) {

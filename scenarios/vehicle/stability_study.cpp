@@ -15,12 +15,8 @@ namespace {
 constexpr double damping = 0.7;
 
 OdeProblem actuator_step(double w) {
-    OdeProblem problem;
-    problem.derivative = [=](double, const double* x, double* dxdt) {
-        dxdt[0] = x[1];
-        dxdt[1] = w * w * (1.0 - x[0]) - 2.0 * damping * w * x[1];
-    };
-    problem.scale = {1.0, std::max(w, 1.0)};
+    OdeProblem problem = step_problem(w, damping);
+    problem.jacobian = nullptr; // by differences
     return problem;
 }
 

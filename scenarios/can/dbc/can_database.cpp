@@ -72,12 +72,9 @@ CanDatabase read_dbc(const std::filesystem::path& path, FilesRead& opened) {
     apply_dbc_multiplexing(reading);
     check_dbc_layout(reading);
     CanDatabase database;
-    apply_dbc_texts(reading);
+    apply_dbc_labels(reading);
     apply_dbc_attributes(reading); // last, because it gives long names
     database.file = path;
-    database.version = reading.statements.version;
-    database.comment = reading.comment;
-    database.nodes = std::move(reading.statements.nodes);
     for (DbcMessage& read : reading.statements.messages) {
         for (DbcSignal& signal : read.signals)
             read.message.signals.push_back(std::move(signal.signal));

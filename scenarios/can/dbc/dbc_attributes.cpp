@@ -1,7 +1,6 @@
 #include "scenarios/can/dbc/dbc_meaning.h"
 #include "scenarios/can/signal_bits.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -17,12 +16,12 @@ std::optional<double> attribute_number(const std::string& text) {
 
 // A choice may be written by its number.
 std::string attribute_choice(const DbcReading& reading, const std::string& name, const std::string& value, bool quoted) {
-    const auto definition = reading.statements.definitions.find(name);
+    const auto choices = reading.statements.choices.find(name);
     const std::optional<double> number = attribute_number(value);
-    if (quoted || definition == reading.statements.definitions.end() || definition->second.type != "ENUM" || !number)
+    if (quoted || choices == reading.statements.choices.end() || !number)
         return value;
-    const auto& choices = definition->second.choices;
-    return *number >= 0.0 && *number < static_cast<double>(choices.size()) ? choices[static_cast<std::size_t>(*number)] : value;
+    const auto& known = choices->second;
+    return *number >= 0.0 && *number < static_cast<double>(known.size()) ? known[static_cast<std::size_t>(*number)] : value;
 }
 
 // Frame formats by number where the attribute is a number.
@@ -68,9 +67,7 @@ void apply_defaults(DbcReading& reading) {
         if (cycle_ms && *cycle_ms > 0.0 && std::isfinite(*cycle_ms))
             read.message.cycle_s = *cycle_ms / 1000.0;
         read.frame_format = text("VFrameFormat");
-        read.message.send_type = text("GenMsgSendType");
-        const std::string rate = text("CANFD_BRS");
-        read.message.bit_rate_switch = rate == "1";
+        read.message.bit_rate_switch = text("CANFD_BRS") == "1";
         for (DbcSignal& signal : read.signals)
             if (start && *start != 0.0 && holds_raw(signal.signal, *start))
                 signal.signal.start_value = *start;
@@ -78,14 +75,12 @@ void apply_defaults(DbcReading& reading) {
 }
 
 void apply_to_message(DbcReading& reading, const DbcAttribute& said) {
-    DbcMessage* read = reading.message(said.on.id);
+    DbcMessage* const read = reading.message_of("BA_", said.on);
     if (read == nullptr)
-        return reading.note_absent("BA_", said.on);
+        return;
     const std::string value = attribute_choice(reading, said.name, said.value, said.quoted);
     if (said.name == "GenMsgCycleTime")
         set_cycle(reading, said, read->message);
-    else if (said.name == "GenMsgSendType")
-        read->message.send_type = value;
     else if (said.name == "VFrameFormat")
         read->frame_format = value;
     else if (said.name == "CANFD_BRS")
@@ -95,9 +90,9 @@ void apply_to_message(DbcReading& reading, const DbcAttribute& said) {
 }
 
 void apply_to_signal(DbcReading& reading, const DbcAttribute& said) {
-    DbcSignal* read = reading.signal(said.on.id, said.on.name);
+    DbcSignal* const read = reading.signal_of("BA_", said.on);
     if (read == nullptr)
-        return reading.note_absent("BA_", said.on);
+        return;
     if (said.name == "GenSigStartValue")
         set_start(reading, said, *read);
     else if (said.name == "SystemSignalLongSymbol" && !said.value.empty())
@@ -142,31 +137,15 @@ void give_long_names(DbcReading& reading, DbcMessage& message) {
     }
 }
 
-void give_long_node_names(DbcReading& reading, const std::map<std::string, std::string>& renamed) {
-    const auto rename = [&](std::string& name) {
-        if (const auto to = renamed.find(name); to != renamed.end())
-            name = to->second;
-    };
-    std::ranges::for_each(reading.statements.nodes, rename);
-    for (DbcMessage& message : reading.statements.messages) {
-        std::ranges::for_each(message.message.senders, rename);
-        for (DbcSignal& signal : message.signals)
-            std::ranges::for_each(signal.signal.receivers, rename);
-    }
-}
-
 } // namespace
 
 void apply_dbc_attributes(DbcReading& reading) {
     apply_defaults(reading);
-    std::map<std::string, std::string> nodes;
     for (const DbcAttribute& said : reading.statements.attributes) {
         if (said.on.kind == DbcObject::Kind::message)
             apply_to_message(reading, said);
         else if (said.on.kind == DbcObject::Kind::signal)
             apply_to_signal(reading, said);
-        else if (said.on.kind == DbcObject::Kind::node && said.name == "SystemNodeLongSymbol" && !said.value.empty())
-            nodes[said.on.name] = said.value;
     }
     for (DbcMessage& message : reading.statements.messages) {
         settle_frame_format(reading, message);
@@ -174,7 +153,6 @@ void apply_dbc_attributes(DbcReading& reading) {
         if (!message.long_name.empty())
             message.message.name = message.long_name;
     }
-    give_long_node_names(reading, nodes);
 }
 
 } // namespace fernlicht

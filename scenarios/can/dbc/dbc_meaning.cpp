@@ -1,6 +1,5 @@
 #include "scenarios/can/dbc/dbc_meaning.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,61 +7,23 @@
 namespace fernlicht {
 namespace {
 
-// Raw value of a label; nullopt for what is no whole number of 64 bits.
+template <class Number> std::optional<Number> all_of(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.begin(), text.end(), value);
+    return error == std::errc{} && end == text.end() ? std::optional(value) : std::nullopt;
+}
+
+/// Raw value of a label; nullopt for what is no whole number of 64 bits.
 std::optional<std::int64_t> label_value(std::string_view text) {
     if (text.starts_with('+'))
         text.remove_prefix(1);
-    std::int64_t value = 0;
-    if (const auto [end, error] = std::from_chars(text.begin(), text.end(), value); error == std::errc{} && end == text.end())
+    if (const auto value = all_of<std::int64_t>(text))
         return value;
-    std::uint64_t great = 0;
-    if (const auto [end, error] = std::from_chars(text.begin(), text.end(), great); error == std::errc{} && end == text.end())
-        return static_cast<std::int64_t>(great);
-    double number = 0.0; // "1.0", "1e3"
-    if (const auto [end, error] = std::from_chars(text.begin(), text.end(), number);
-        error == std::errc{} && end == text.end() && std::trunc(number) == number && std::abs(number) < 0x1p63)
-        return static_cast<std::int64_t>(number);
+    if (const auto great = all_of<std::uint64_t>(text))
+        return static_cast<std::int64_t>(*great);
+    if (const auto number = all_of<double>(text); number && std::trunc(*number) == *number && std::abs(*number) < 0x1p63)
+        return static_cast<std::int64_t>(*number); // "1.0", "1e3"
     return std::nullopt;
-}
-
-void apply_labels(DbcReading& reading) {
-    for (const DbcLabels& said : reading.statements.labels) {
-        if (said.on.kind != DbcObject::Kind::signal)
-            continue;
-        DbcSignal* read = reading.signal(said.on.id, said.on.name);
-        if (read == nullptr) {
-            reading.note_absent("VAL_", said.on);
-            continue;
-        }
-        read->signal.labels.clear();
-        for (const auto& [number, text] : said.labels) {
-            const std::optional<std::int64_t> value = label_value(number);
-            if (!value)
-                reading.note(said.on.line, fmt::format("'{}' is not a whole number that {} could have; its text '{}' is left out", number,
-                                                       printable(said.on.name), printable(text)));
-            else if (const auto [at, is_new] = read->signal.labels.try_emplace(*value, text); !is_new && at->second != text)
-                reading.note(said.on.line, fmt::format("{} of {} is both '{}' and '{}'; the first is taken", number,
-                                                       printable(said.on.name), printable(at->second), printable(text)));
-        }
-    }
-}
-
-void apply_comments(DbcReading& reading) {
-    for (const DbcComment& said : reading.statements.comments) {
-        if (said.on.kind == DbcObject::Kind::network)
-            reading.comment += (reading.comment.empty() ? "" : "\n") + said.text;
-        else if (said.on.kind == DbcObject::Kind::message) {
-            if (DbcMessage* message = reading.message(said.on.id))
-                message->message.comment = said.text;
-            else
-                reading.note_absent("CM_", said.on);
-        } else if (said.on.kind == DbcObject::Kind::signal) {
-            if (DbcSignal* signal = reading.signal(said.on.id, said.on.name))
-                signal->signal.comment = said.text;
-            else
-                reading.note_absent("CM_", said.on);
-        }
-    }
 }
 
 } // namespace
@@ -88,13 +49,18 @@ DbcSignal* DbcReading::signal(std::uint32_t id, const std::string& name) {
 
 void DbcReading::note(std::size_t line, const std::string& text) { notes.push_back(fmt::format("line {}: {}", line, text)); }
 
-void DbcReading::note_absent(const char* keyword, const DbcObject& on) {
-    if (left_out.contains({on.id, on.name}))
-        return;
-    note(on.line,
-         on.kind == DbcObject::Kind::signal && message(on.id) != nullptr
-             ? fmt::format("{} of {}, which message {} has not", keyword, printable(on.name), printable(message(on.id)->message.name))
-             : fmt::format("{} of message {}, which is not there", keyword, on.id));
+DbcMessage* DbcReading::message_of(const char* keyword, const DbcObject& on) {
+    DbcMessage* const found = message(on.id);
+    if (found == nullptr && !left_out.contains({on.id, on.name}))
+        note(on.line, fmt::format("{} of message {}, which is not there", keyword, on.id));
+    return found;
+}
+
+DbcSignal* DbcReading::signal_of(const char* keyword, const DbcObject& on) {
+    DbcSignal* const found = signal(on.id, on.name);
+    if (const DbcMessage* const in = found ? nullptr : message_of(keyword, on); in && !left_out.contains({on.id, on.name}))
+        note(on.line, fmt::format("{} of {}, which message {} has not", keyword, printable(on.name), printable(in->message.name)));
+    return found;
 }
 
 void DbcReading::refuse(std::size_t line, const std::string& found, const std::string& expected) const {
@@ -106,27 +72,26 @@ std::string dbc_signal_name(const DbcMessage& message, const DbcSignal& signal) 
 }
 
 void apply_dbc_value_types(DbcReading& reading) {
-    for (const DbcValueType& said : reading.statements.value_types) {
-        DbcSignal* signal = reading.signal(said.on.id, said.on.name);
-        if (signal == nullptr)
-            reading.note_absent("SIG_VALTYPE_", said.on);
-        else
-            signal->signal.kind = said.type == 1 ? CanValueKind::float32 : said.type == 2 ? CanValueKind::float64 : CanValueKind::whole;
-    }
+    for (const auto& [on, type] : reading.statements.value_types)
+        if (DbcSignal* const read = reading.signal_of("SIG_VALTYPE_", on))
+            read->signal.kind = type == 1 ? CanValueKind::float32 : type == 2 ? CanValueKind::float64 : CanValueKind::whole;
 }
 
-void apply_dbc_texts(DbcReading& reading) {
-    apply_labels(reading);
-    apply_comments(reading);
-    for (const DbcSenders& said : reading.statements.senders) {
-        DbcMessage* message = reading.message(said.on.id);
-        if (message == nullptr) {
-            reading.note_absent("BO_TX_BU_", said.on);
+void apply_dbc_labels(DbcReading& reading) {
+    for (const auto& [on, labels] : reading.statements.labels) {
+        DbcSignal* const read = reading.signal_of("VAL_", on);
+        if (read == nullptr)
             continue;
+        read->signal.labels.clear();
+        for (const auto& [number, text] : labels) {
+            const std::optional<std::int64_t> value = label_value(number);
+            if (!value)
+                reading.note(on.line, fmt::format("'{}' is not a whole number that {} could have; its text '{}' is left out", number,
+                                                  printable(on.name), printable(text)));
+            else if (const auto [at, is_new] = read->signal.labels.try_emplace(*value, text); !is_new && at->second != text)
+                reading.note(on.line, fmt::format("{} of {} is both '{}' and '{}'; the first is taken", number, printable(on.name),
+                                                  printable(at->second), printable(text)));
         }
-        for (const std::string& name : said.names)
-            if (name != "Vector__XXX" && std::ranges::find(message->message.senders, name) == message->message.senders.end())
-                message->message.senders.push_back(name);
     }
 }
 

@@ -16,7 +16,6 @@ struct DbcReading {
     std::filesystem::path file;
     DbcStatements statements;
     std::unordered_map<std::uint32_t, std::size_t> by_id; ///< as it stands in the file -> place in statements.messages
-    std::string comment;                                  ///< of the network
     std::vector<std::string> notes;
 
     DbcMessage* message(std::uint32_t id);
@@ -30,7 +29,9 @@ struct DbcReading {
     std::set<std::pair<std::uint32_t, std::string>> left_out; ///< signals that were there, and "" for messages, by identifier
 
     void note(std::size_t line, const std::string& text);
-    void note_absent(const char* keyword, const DbcObject& on); ///< a statement on what is not in the file
+    /// What a statement is on; with a note nullptr where it is not in the file.
+    DbcMessage* message_of(const char* keyword, const DbcObject& on);
+    DbcSignal* signal_of(const char* keyword, const DbcObject& on);
     [[noreturn]] void refuse(std::size_t line, const std::string& found, const std::string& expected) const;
 };
 
@@ -42,8 +43,8 @@ void apply_dbc_value_types(DbcReading& reading);
 void apply_dbc_multiplexing(DbcReading& reading);
 /// Lengths, limits, factors and places of signals.
 void check_dbc_layout(DbcReading& reading);
-/// VAL_ and CM_ .
-void apply_dbc_texts(DbcReading& reading);
+/// VAL_ .
+void apply_dbc_labels(DbcReading& reading);
 /// Cycle times, FD, start values, long names.
 void apply_dbc_attributes(DbcReading& reading);
 

@@ -1,4 +1,5 @@
-// What stands in a DBC file, statement by statement, before its parts are brought together.
+// What stands in a DBC file, statement by statement, before its parts are brought together. What says nothing of frames (nodes, receivers,
+// comments, groups) is read past.
 #pragma once
 
 #include "scenarios/can/can_database.h"
@@ -23,23 +24,12 @@ struct DbcMessage {
     std::vector<DbcSignal> signals;
 };
 
-/// What a comment, an attribute or labels belong to.
+/// What an attribute or labels belong to.
 struct DbcObject {
-    enum class Kind { network, node, message, signal, variable } kind = Kind::network;
+    enum class Kind { other, message, signal } kind = Kind::other;
     std::uint32_t id = 0; ///< of the message
-    std::string name;     ///< of node, signal or variable
+    std::string name;     ///< of the signal
     std::size_t line = 0;
-};
-
-struct DbcComment {
-    DbcObject on;
-    std::string text;
-};
-
-struct DbcAttributeDefinition {
-    DbcObject::Kind kind = DbcObject::Kind::network;
-    std::string type;                 ///< INT, HEX, FLOAT, STRING, ENUM
-    std::vector<std::string> choices; ///< of ENUM
 };
 
 struct DbcAttribute {
@@ -51,40 +41,20 @@ struct DbcAttribute {
 
 using DbcLabelList = std::vector<std::pair<std::string, std::string>>; ///< number as it stands there, text
 
-struct DbcLabels {
-    DbcObject on;
-    DbcLabelList labels;
-};
-
 struct DbcMultiplexing { ///< SG_MUL_VAL_
     DbcObject on;
     std::string multiplexor;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> when;
 };
 
-struct DbcValueType { ///< SIG_VALTYPE_
-    DbcObject on;
-    std::uint64_t type = 0; ///< 0: whole, 1: float32, 2: float64
-};
-
-struct DbcSenders { ///< BO_TX_BU_
-    DbcObject on;
-    std::vector<std::string> names;
-};
-
 struct DbcStatements {
-    std::string version;
-    std::vector<std::string> nodes;
-    std::map<std::string, DbcLabelList> tables;
     std::vector<DbcMessage> messages;
-    std::vector<DbcSenders> senders;
-    std::vector<DbcComment> comments;
-    std::map<std::string, DbcAttributeDefinition> definitions;
-    std::map<std::string, std::string> defaults; ///< of attributes
+    std::map<std::string, std::vector<std::string>> choices; ///< of attributes that are an ENUM
+    std::map<std::string, std::string> defaults;             ///< of attributes
     std::vector<DbcAttribute> attributes;
-    std::vector<DbcLabels> labels;
+    std::vector<std::pair<DbcObject, DbcLabelList>> labels;
     std::vector<DbcMultiplexing> multiplexing;
-    std::vector<DbcValueType> value_types;
+    std::vector<std::pair<DbcObject, std::uint64_t>> value_types; ///< SIG_VALTYPE_: 0: whole, 1: float32, 2: float64
     std::vector<std::string> notes;
 };
 

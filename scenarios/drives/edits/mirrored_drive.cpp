@@ -18,6 +18,13 @@ void mirror(View& view) {
     std::swap(view.map_left_m, view.map_right_m);
 }
 
+/// Stops of a swivel.
+void mirror(ActuatorParameters& actuator) {
+    std::swap(actuator.least_rad, actuator.greatest_rad);
+    change_sign(actuator.least_rad);
+    change_sign(actuator.greatest_rad);
+}
+
 void mirror(SeeingParameters& seeing) {
     if (seeing.sensors)
         for (Sensor& sensor : seeing.sensors->points) {
@@ -81,12 +88,8 @@ void mirror(Variant& variant, Drive& drive) {
     mirror(variant.lamps, variant.changes, drive);
     if (variant.control)
         variant.control = std::make_shared<const ControlParameters>(mirrored(*variant.control));
-    if (!variant.swivel)
-        return;
-    ActuatorParameters& actuator = variant.swivel->actuator;
-    std::swap(actuator.least_rad, actuator.greatest_rad);
-    change_sign(actuator.least_rad);
-    change_sign(actuator.greatest_rad);
+    if (variant.swivel)
+        mirror(variant.swivel->actuator);
 }
 
 } // namespace
@@ -158,10 +161,7 @@ ControlParameters mirrored(ControlParameters control) {
     const auto names = [](std::vector<std::string>& lamps) { std::ranges::transform(lamps, lamps.begin(), other_side); };
     if (control.bend) {
         names(control.bend->lamps);
-        ActuatorParameters& actuator = control.bend->actuator;
-        std::swap(actuator.least_rad, actuator.greatest_rad);
-        change_sign(actuator.least_rad);
-        change_sign(actuator.greatest_rad);
+        mirror(control.bend->actuator);
     }
     if (control.cornering) {
         names(control.cornering->left);

@@ -1,6 +1,6 @@
 #include "scenarios/drives/play/advance.h"
 
-#include "scenarios/drives/play/bus_motion.h"
+#include "scenarios/drives/play/bus_play.h"
 #include "scenarios/drives/play/told_story.h"
 #include "scenarios/values/errors.h"
 

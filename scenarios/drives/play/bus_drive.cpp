@@ -3,7 +3,6 @@
 #include "scenarios/drives/play/advance.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -37,7 +36,7 @@ BusDrive::BusDrive(Drive& drive, const Route& route, std::size_t variant)
 void BusDrive::take(const CanFrame& frame) {
     ++play_.frames;
     bus_.take(frame);
-    const double time_s = static_cast<double>(frame.time_ns) / 1.0e9;
+    const double time_s = in_seconds(frame.time_ns);
     play_.first_s = play_.first_s.value_or(time_s);
     play_.last_s = time_s;
 }
@@ -56,14 +55,7 @@ std::vector<CanFrame> BusDrive::step() {
     const std::vector<BusValue>& values = bus_.at(next_tick_ns());
     if (motion_) {
         mover_.add(now_s, values, *motion_);
-        const double room_m = route_.length_m() - drive_.bumper_m;
-        for (; on_route_ * drive_.step_s <= now_s && on_route_ < tick_count(drive_); ++on_route_)
-            if (way_m(drive_, on_route_ * drive_.step_s) > room_m) {
-                drive_.notes.push_back(fmt::format("can: the car comes to the end of the route, {:.1f} m: the drive ends after {:.3g} s "
-                                                   "instead of {:.3g} s",
-                                                   route_.length_m(), on_route_ * drive_.step_s, drive_.duration_s));
-                drive_.duration_s = on_route_ * drive_.step_s;
-            }
+        end_with_route(drive_, route_, on_route_, now_s);
     }
     play_.ticks.push_back(values);
     if (now_s < drive_.duration_s)

@@ -10,16 +10,56 @@
 #include <map>
 
 namespace fernlicht {
+
+std::size_t BusMotion::point_at(double time_s) const {
+    const auto next = std::ranges::upper_bound(points_, time_s, {}, &Point::time_s);
+    return next == points_.begin() ? 0 : static_cast<std::size_t>(next - points_.begin()) - 1;
+}
+
+void BusMotion::add(double time_s, double speed_mps, std::optional<double> way_m) {
+    if (way_m) {
+        way_told_ = true;
+        points_.push_back({time_s, speed_mps, *way_m});
+        return;
+    }
+    const std::size_t n = points_.size();
+    if (n >= 2 && points_[n - 1].speed_mps == speed_mps && points_[n - 2].speed_mps == speed_mps)
+        points_.pop_back();
+    const double before_m = points_.empty() ? 0.0 : points_.back().way_m;
+    const double ridden_m = points_.empty() ? 0.0 : (time_s - points_.back().time_s) * 0.5 * (points_.back().speed_mps + speed_mps);
+    points_.push_back({time_s, speed_mps, before_m + ridden_m});
+}
+
+double BusMotion::speed_mps(double time_s) const {
+    const std::size_t at = point_at(time_s);
+    const Point& before = points_[at];
+    if (at + 1 == points_.size() || time_s <= before.time_s)
+        return before.speed_mps;
+    const Point& next = points_[at + 1];
+    return std::lerp(before.speed_mps, next.speed_mps, (time_s - before.time_s) / (next.time_s - before.time_s));
+}
+
+double BusMotion::way_m(double time_s) const {
+    const std::size_t at = point_at(time_s);
+    const Point& before = points_[at];
+    if (!way_told_)
+        return before.way_m + (time_s - before.time_s) * 0.5 * (before.speed_mps + speed_mps(time_s));
+    if (at + 1 == points_.size())
+        return before.way_m;
+    const Point& next = points_[at + 1];
+    return std::lerp(before.way_m, next.way_m, (time_s - before.time_s) / (next.time_s - before.time_s));
+}
+
+std::vector<SpeedPoint> BusMotion::profile() const {
+    std::vector<SpeedPoint> profile;
+    for (const Point& point : points_)
+        profile.push_back({point.time_s, point.speed_mps});
+    return profile;
+}
+
 namespace {
 
 constexpr double shortest_gap_s = 0.1; ///< a recording that ends so much before the drive says so
-
-double in_seconds(std::int64_t ns) { return static_cast<double>(ns) / 1.0e9; }
-
-std::string lamp_signal_name(const std::string& pattern, const std::string& lamp) {
-    const std::size_t star = pattern.find('*');
-    return pattern.substr(0, star) + lamp + pattern.substr(star + 1);
-}
 
 /// "can0 (12 frames), can1 (3 frames)"
 std::string channels_text(const std::vector<CanFrame>& frames) {
@@ -72,10 +112,11 @@ std::vector<CanFrame> frames_of(Drive& drive, BusPlay& play) {
     return frames;
 }
 
-/// The drive ends before the moment at which the bumper is beyond the route.
-void end_with_route(Drive& drive, const Route& route) {
+} // namespace
+
+void end_with_route(Drive& drive, const Route& route, int& tick, double until_s) {
     const double room_m = route.length_m() - drive.bumper_m;
-    for (int tick = 1; tick < tick_count(drive); ++tick) {
+    for (; tick * drive.step_s <= until_s && tick < tick_count(drive); ++tick) {
         if (way_m(drive, tick * drive.step_s) <= room_m)
             continue;
         drive.notes.push_back(fmt::format("can: the car comes to the end of the route, {:.1f} m: the drive ends after {:.3g} s instead of "
@@ -84,6 +125,8 @@ void end_with_route(Drive& drive, const Route& route) {
         drive.duration_s = tick * drive.step_s;
     }
 }
+
+namespace {
 
 void note_signals(Drive& drive, const BusPlay& play) {
     for (std::size_t i = 0; i < play.records.size(); ++i) {
@@ -215,7 +258,7 @@ BusWriter::BusWriter(const BusMapping& mapping, const std::vector<std::string>& 
             names.push_back(input.name);
         else
             for (const std::string& lamp : lamps) // one that is named itself comes from there alone
-                if (const std::string name = lamp_signal_name(input.name, lamp);
+                if (const std::string name = of_lamp(input.name, lamp);
                     std::ranges::find(mapping.inputs, name, &BusInput::name) == mapping.inputs.end())
                     names.push_back(name);
         for (const std::string& name : names) {
@@ -277,7 +320,8 @@ void simulate_bus(Drive& drive, const Route& route) {
     play.records = signals.records();
     if (mover.moves()) {
         drive.bus_motion = std::make_shared<const BusMotion>(std::move(motion));
-        end_with_route(drive, route);
+        int tick = 1;
+        end_with_route(drive, route, tick, drive.duration_s);
     }
     const std::vector<std::string> notes = mover.notes();
     drive.notes.push_back(fmt::format("can: {} frames of the recording, of which inputs read {}", play.frames, play.read));

@@ -4,9 +4,31 @@
 #include "scenarios/can/bus_signals.h"
 #include "scenarios/control/control_loop.h"
 #include "scenarios/drives/drive.h"
-#include "scenarios/drives/play/bus_motion.h"
 
 namespace fernlicht {
+
+/// Speed is linear between the ticks of control, so that the way is its exact integral, as that of a drive's own speed is; or the bus says
+/// the way too, which is linear between ticks then. A speed that stays the same makes no new point: a constant one is the same profile as
+/// the drive's own.
+class BusMotion {
+  public:
+    /// In order of time, the first at 0 s. `way_m`: always or never.
+    void add(double time_s, double speed_mps, std::optional<double> way_m = std::nullopt);
+
+    /// Constant behind the last point.
+    double speed_mps(double time_s) const;
+    double way_m(double time_s) const;
+    std::vector<SpeedPoint> profile() const;
+
+  private:
+    struct Point {
+        double time_s = 0.0, speed_mps = 0.0, way_m = 0.0;
+    };
+    std::size_t point_at(double time_s) const;
+
+    std::vector<Point> points_;
+    bool way_told_ = false;
+};
 
 /// What a bus said over a drive.
 struct BusPlay {
@@ -49,6 +71,9 @@ class BusMover {
     std::optional<double> last_mps_, last_m_;
     std::uint64_t lost_ = 0, backwards_ = 0;
 };
+
+/// The drive ends before the moment at which the bumper is beyond the route; looks at moments from `tick` on until then, and moves it on.
+void end_with_route(Drive& drive, const Route& route, int& tick, double until_s);
 
 /// Inputs by their places in the signal table of a variant's lamps.
 class BusWriter {

@@ -15,14 +15,12 @@ namespace {
 
 /// The first lamp that is not named itself stands for all where a mapping says so.
 std::string one_signal(const std::string& name, const Variant& variant, const BusMapping& mapping) {
-    const std::size_t star = name.find('*');
-    if (star == std::string::npos || variant.lamps.empty())
+    if (name.find('*') == std::string::npos || variant.lamps.empty())
         return name;
-    const auto of_lamp = [&](const MountedLamp& lamp) { return name.substr(0, star) + lamp.name + name.substr(star + 1); };
     for (const MountedLamp& lamp : variant.lamps)
-        if (std::ranges::find(mapping.inputs, of_lamp(lamp), &BusInput::name) == mapping.inputs.end())
-            return of_lamp(lamp);
-    return of_lamp(variant.lamps.front());
+        if (std::ranges::find(mapping.inputs, of_lamp(name, lamp.name), &BusInput::name) == mapping.inputs.end())
+            return of_lamp(name, lamp.name);
+    return of_lamp(name, variant.lamps.front().name);
 }
 
 /// physical = (value - offset) / factor.

@@ -72,7 +72,7 @@ BusReport bus_report(const Drive& drive, const Variant& variant, int first, int 
     if (!drive.bus)
         return report;
     const BusPlay& play = *drive.bus;
-    report.start_s = static_cast<double>(play.start_ns) / 1.0e9;
+    report.start_s = in_seconds(play.start_ns);
     report.frames = play.frames;
     report.read = play.read;
     for (int tick = std::max(first, 0); tick <= last; ++tick) {

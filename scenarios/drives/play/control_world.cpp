@@ -3,7 +3,6 @@
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/told_story.h"
-#include "scenarios/vehicle/road_course.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,6 @@ constexpr double shortest_bearing_m = 5.0;                ///< nearer, the direc
 
 } // namespace
 
-/// All that control reads, as a function of time alone.
 struct ControlWorld::Parts {
     Parts(const Drive& drive, const Route& route, const CarRun* car)
         : drive_(drive), route_(route), car_(car),
@@ -41,7 +39,6 @@ struct ControlWorld::Parts {
         return in;
     }
 
-    /// Springs and tyres of the vehicle, else of the middle-class car; each axle goes down by its load over its stiffness.
     Resting load_on_springs(const AxleLoad& load) const {
         const VehicleParameters car = drive_.vehicle.value_or(VehicleParameters{});
         const auto springs_m = [](double n, const AxleParameters& axle) { return -n / axle.spring_n_per_m; };
@@ -167,13 +164,8 @@ struct ControlWorld::Parts {
     }
 
     static bool shines(const RoadUser& user, double time_s) {
-        return std::ranges::any_of(user.lamps, [&](const TrafficLamp& mounted) {
-            MountedLamp lamp = mounted.lamp;
-            for (const LampChange& change : user.changes)
-                if (change.time_s <= time_s && change.lamp == lamp.name)
-                    apply(change, lamp);
-            return lamp.intensity_factor() > 0.0;
-        });
+        return std::ranges::any_of(user.lamps,
+                                   [&](const TrafficLamp& mounted) { return user.lamp_at(mounted, time_s).intensity_factor() > 0.0; });
     }
 
     /// Diffuse, and of the sun or the moon on a level plane.

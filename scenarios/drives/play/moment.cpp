@@ -15,13 +15,7 @@ namespace {
 
 void add_lamps(const RoadUser& user, int body, const Pose& pose, double until_s, std::vector<LitLamp>& lit) {
     for (const TrafficLamp& mounted : user.lamps) {
-        MountedLamp lamp = mounted.lamp;
-        for (const LampChange& change : user.changes) {
-            if (change.time_s > until_s)
-                break;
-            if (change.lamp == lamp.name)
-                apply(change, lamp);
-        }
+        const MountedLamp lamp = user.lamp_at(mounted, until_s);
         if (const double factor = lamp.intensity_factor(); factor > 0.0)
             lit.push_back({user.name + " " + lamp.name, lamp.file, compose(pose, lamp.pose()), factor, lamp.colour,
                            lamp.photometric_distance_m, body, mounted.face_m});
@@ -88,20 +82,14 @@ Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double 
 
 Moment moment_at(const State& state, const Drive& drive, const Route& route, const Variant& variant) {
     std::vector<MountedLamp> lamps = variant.lamps;
-    for (const LampChange& change : variant.changes) {
-        if (change.time_s > state.time_s + tick_tolerance * drive.step_s)
-            break; // sorted by time
-        for (MountedLamp& lamp : lamps)
-            if (lamp.name == change.lamp)
-                apply(change, lamp);
-    }
-    for (const LampChange& change : variant.told) {
-        if (change.time_s > state.time_s + tick_tolerance * drive.step_s)
-            break;
-        for (MountedLamp& lamp : lamps)
-            if (lamp.name == change.lamp)
-                apply(change, lamp);
-    }
+    for (const std::vector<LampChange>* changes : {&variant.changes, &variant.told})
+        for (const LampChange& change : *changes) {
+            if (change.time_s > state.time_s + tick_tolerance * drive.step_s)
+                break; // sorted by time
+            for (MountedLamp& lamp : lamps)
+                if (lamp.name == change.lamp)
+                    apply(change, lamp);
+        }
     Moment moment;
     moment.tick = state.tick;
     moment.time_s = state.time_s;
@@ -109,14 +97,10 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     moment.speed_mps = state.speed_mps;
     moment.daylight = daylight_of(drive, state.time_s);
     moment.weather = weather_of(drive, state.time_s);
-    if (drive.ego_track) {
-        const TrackPoint at = drive.ego_track->at(state.time_s);
-        moment.ego = at.pose;
-        moment.speed_mps = at.speed_mps;
-        if (CarPlace place; variant.motion && rest_on_load(place, *variant.motion))
-            moment.ego = moved(moment.ego, place);
-    } else if (!drive.vehicle) {
-        moment.ego = ego_pose(route, state.distance_m, drive.wheelbase_m);
+    if (drive.ego_track || !drive.vehicle) {
+        moment.ego = drive.ego_track ? drive.ego_track->at(state.time_s).pose : ego_pose(route, state.distance_m, drive.wheelbase_m);
+        if (drive.ego_track)
+            moment.speed_mps = drive.ego_track->at(state.time_s).speed_mps;
         if (CarPlace place; variant.motion && rest_on_load(place, *variant.motion))
             moment.ego = moved(moment.ego, place);
     } else {

@@ -1,7 +1,7 @@
 #include "scenarios/drives/play/motion.h"
 
 #include "scenarios/drives/play/advance.h"
-#include "scenarios/drives/play/bus_motion.h"
+#include "scenarios/drives/play/bus_play.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -70,7 +70,11 @@ std::vector<double> switches_s(const Variant& variant, double end_s) {
     return times_s;
 }
 
-SolverOptions solver_options(const VehicleParameters& car) { return {.solver = car.solver, .tolerance = car.tolerance}; }
+ActuatorRun run_lamp_actuator(const Drive& drive, const Variant& variant, const ActuatorParameters& actuator,
+                              const std::function<double(double)>& command) {
+    return run_actuator(actuator, command, switches_s(variant, drive.duration_s), drive.duration_s,
+                        {.solver = drive.vehicle->solver, .tolerance = drive.vehicle->tolerance});
+}
 
 ActuatorRun run_levelling(const Drive& drive, const Variant& variant, const CarRun& car) {
     double mean_rad = car.at(0.0).spring_pitch_rad, last_s = 0.0;
@@ -82,8 +86,7 @@ ActuatorRun run_levelling(const Drive& drive, const Variant& variant, const CarR
             return 0.0;
         return variant.levelling->control == LevellingControl::dynamic ? -pitch_rad : -mean_rad;
     };
-    return run_actuator(variant.levelling->actuator, command, switches_s(variant, drive.duration_s), drive.duration_s,
-                        solver_options(*drive.vehicle));
+    return run_lamp_actuator(drive, variant, variant.levelling->actuator, command);
 }
 
 /// The circle of curvature k that the steering drives lies at an angle of k d / 2 to the left after a way of d.
@@ -94,8 +97,7 @@ ActuatorRun run_swivel(const Drive& drive, const Variant& variant, const CarRun&
         const double bend_per_m = place.steering_rad / (model.wheelbase_m + model.self_steering_gradient() * v * v);
         return shines(variant, tick_s) ? 0.5 * bend_per_m * v * variant.swivel->preview_s : 0.0;
     };
-    return run_actuator(variant.swivel->actuator, command, switches_s(variant, drive.duration_s), drive.duration_s,
-                        solver_options(*drive.vehicle));
+    return run_lamp_actuator(drive, variant, variant.swivel->actuator, command);
 }
 
 /// fit_to_route held the plan to the route; a car that cannot brake as it was asked to comes further.

@@ -15,13 +15,14 @@ namespace {
 constexpr double pole_half_m = 0.07, head_m = 0.5, head_width_m = 0.25, head_height_m = 0.1;
 constexpr double below_lamp_m = 0.05; ///< where a pole without arm ends, so that the lamp is not in it
 
-/// On the pole's side of the lane, with x along the route and y to its left; z stands up in the world, as poles do.
-Pose foot_of(const StreetLampRow& row, const Route& route, double at_m) {
-    const Pose lane = route.pose(at_m, row.beside_m);
-    const glm::dvec3 forward = glm::normalize(glm::dvec3(lane.forward().x, lane.forward().y, 0.0));
-    const glm::dvec3 up(0.0, 0.0, 1.0);
-    return {lane.position_m, {forward, glm::cross(up, forward), up}};
+/// There, with x along the road and y to its left; z stands up in the world, as poles do.
+Pose upright(const Pose& ground) {
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(ground.forward().x, ground.forward().y, 0.0)), up(0.0, 0.0, 1.0);
+    return {ground.position_m, {forward, glm::cross(up, forward), up}};
 }
+
+/// On the pole's side of the lane.
+Pose foot_of(const StreetLampRow& row, const Route& route, double at_m) { return upright(route.pose(at_m, row.beside_m)); }
 
 /// Whether the lamp hangs beside its pole rather than on it.
 bool has_arm(const StreetLampRow& row) { return row.arm_m > street_lamp_least_arm_m; }
@@ -143,16 +144,13 @@ bool is_asked_for(const StreetLampRow& row, const RoadObject& object) {
 }
 
 StreetLampPlace place_on(const StreetLampRow& row, const RoadNetwork& network, const Road& road, const RoadObject& object) {
-    const Pose ground = surface_pose(network, road, object.s_m, object.t_m);
-    const glm::dvec3 up(0.0, 0.0, 1.0),
-        forward = glm::normalize(glm::dvec3(ground.forward().x, ground.forward().y, 0.0)); // poles stand upright
+    Pose ground = surface_pose(network, road, object.s_m, object.t_m);
+    ground.position_m += object.z_offset_m * glm::dvec3(0.0, 0.0, 1.0);
     const double own_m = object.height_m > 0.0 ? object.height_m : pole_drawn_m;
-    const bool has_arm = row.arm_m > street_lamp_least_arm_m;
-    return {fmt::format("object {} ({}) of road {}", object.id, object.name.empty() ? object.type : object.name, road.id),
-            {ground.position_m + object.z_offset_m * up, {forward, glm::cross(up, forward), up}},
+    return {fmt::format("object {} ({}) of road {}", object.id, object.name.empty() ? object.type : object.name, road.id), upright(ground),
             object.t_m,
             row.height_m > 0.0 ? row.height_m
-            : has_arm          ? std::max(own_m - below_top_m, 0.5)
+            : has_arm(row)     ? std::max(own_m - below_top_m, 0.5)
                                : own_m + above_top_m,
             own_m};
 }

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
+#include <map>
 
 namespace fernlicht {
 namespace {
@@ -201,30 +201,19 @@ struct Ramp {
 
 bool is_light(const std::string& light, LampFunction function) {
     using F = LampFunction;
-    const auto one_of = [function](std::initializer_list<F> functions) {
-        return std::ranges::find(functions, function) != functions.end();
-    };
-    if (light == "lowBeam")
-        return one_of({F::low, F::tail, F::position}); // wired together (UN R48, 5.11)
-    if (light == "highBeam")
-        return one_of({F::high});
-    if (light == "daytimeRunningLights")
-        return one_of({F::daytime});
-    if (light == "fogLights")
-        return one_of({F::fog, F::rear_fog});
-    if (light == "fogLightsFront")
-        return one_of({F::fog});
-    if (light == "fogLightsRear")
-        return one_of({F::rear_fog});
-    if (light == "brakeLights")
-        return one_of({F::brake});
-    if (light == "reversingLights")
-        return one_of({F::reverse});
-    if (light == "indicatorLeft")
-        return one_of({F::indicator_left});
-    if (light == "indicatorRight")
-        return one_of({F::indicator_right});
-    return light == "warningLights" && one_of({F::indicator_left, F::indicator_right});
+    static const std::map<std::string, std::vector<F>> lights{{"lowBeam", {F::low, F::tail, F::position}}, // wired together (UN R48, 5.11)
+                                                              {"highBeam", {F::high}},
+                                                              {"daytimeRunningLights", {F::daytime}},
+                                                              {"fogLights", {F::fog, F::rear_fog}},
+                                                              {"fogLightsFront", {F::fog}},
+                                                              {"fogLightsRear", {F::rear_fog}},
+                                                              {"brakeLights", {F::brake}},
+                                                              {"reversingLights", {F::reverse}},
+                                                              {"indicatorLeft", {F::indicator_left}},
+                                                              {"indicatorRight", {F::indicator_right}},
+                                                              {"warningLights", {F::indicator_left, F::indicator_right}}};
+    const auto meant = lights.find(light);
+    return meant != lights.end() && std::ranges::find(meant->second, function) != meant->second.end();
 }
 
 std::vector<LampChange> light_changes(const std::vector<osc::LightChange>& lights, const std::vector<TrafficLamp>& lamps, double end_s) {

@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/reader/read_parts.h"
 
-#include "scenarios/openscenario/osc_catalogs.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>
@@ -52,42 +51,30 @@ SpeedProfileAction profile_of(const OscNode& node) {
     out.relative_to = node.text_or("entityRef", "");
     if (const auto limits = node.find("DynamicConstraints"))
         out.limits = read_limits(*limits);
-    for (const OscNode& entry : node.children("SpeedProfileEntry")) {
-        out.entries.push_back({entry.number_if("time"), entry.number("speed")});
-        if (out.entries.back().duration_s && *out.entries.back().duration_s < 0.0)
-            entry.refuse("time", fmt::format("found {}", *out.entries.back().duration_s), "a time not below 0");
-    }
+    for (const OscNode& entry : node.children("SpeedProfileEntry"))
+        out.entries.push_back({entry.not_below_0_if("time", "a time not below 0"), entry.number("speed")});
     if (out.entries.empty())
         node.refuse("", "has no entry", "at least one SpeedProfileEntry");
     return out;
 }
 
-std::optional<PrivateAction> read_longitudinal(const OscNode& node) {
-    const std::string kind = node.element();
-    if (kind == "SpeedAction")
-        return speed_of(node);
-    if (kind == "SpeedProfileAction")
-        return profile_of(node);
-    if (kind == "LongitudinalDistanceAction") {
-        LongitudinalDistanceAction out;
-        out.entity = node.entity("entityRef");
-        out.distance_m = node.not_below_0_if("distance", "a distance not below 0");
-        out.time_gap_s = node.not_below_0_if("timeGap", "a time not below 0");
-        if (out.distance_m.has_value() == out.time_gap_s.has_value())
-            node.refuse("", "has not exactly one of distance and timeGap", "one of the two");
-        out.freespace = node.flag_or("freespace", false);
-        out.continuous = node.flag_or("continuous", false);
-        if (node.has("displacement")) {
-            const std::size_t side = node.choice("displacement", {"trailingReferencedEntity", "leadingReferencedEntity", "any"});
-            out.ahead = side == 1;
-            out.any_side = side == 2;
-        }
-        if (const auto limits = node.find("DynamicConstraints"))
-            out.limits = read_limits(*limits);
-        return out;
+LongitudinalDistanceAction distance_of(const OscNode& node) {
+    LongitudinalDistanceAction out;
+    out.entity = node.entity("entityRef");
+    out.distance_m = node.not_below_0_if("distance", "a distance not below 0");
+    out.time_gap_s = node.not_below_0_if("timeGap", "a time not below 0");
+    if (out.distance_m.has_value() == out.time_gap_s.has_value())
+        node.refuse("", "has not exactly one of distance and timeGap", "one of the two");
+    out.freespace = node.flag_or("freespace", false);
+    out.continuous = node.flag_or("continuous", false);
+    if (node.has("displacement")) {
+        const std::size_t side = node.choice("displacement", {"trailingReferencedEntity", "leadingReferencedEntity", "any"});
+        out.ahead = side == 1;
+        out.any_side = side == 2;
     }
-    node.unsupported(fmt::format("the action {}", printable(kind)));
-    return {};
+    if (const auto limits = node.find("DynamicConstraints"))
+        out.limits = read_limits(*limits);
+    return out;
 }
 
 LaneChangeAction lane_change_of(const OscNode& node) {
@@ -120,24 +107,15 @@ LaneOffsetAction lane_offset_of(const OscNode& node) {
     return out;
 }
 
-std::optional<PrivateAction> read_lateral(const OscNode& node) {
-    const std::string kind = node.element();
-    if (kind == "LaneChangeAction")
-        return lane_change_of(node);
-    if (kind == "LaneOffsetAction")
-        return lane_offset_of(node);
-    if (kind == "LateralDistanceAction") {
-        LateralDistanceAction out;
-        out.entity = node.entity("entityRef");
-        out.distance_m = node.not_below_0_if("distance", "a distance not below 0").value_or(0.0);
-        out.freespace = node.flag_or("freespace", false);
-        out.continuous = node.flag_or("continuous", false);
-        if (const auto limits = node.find("DynamicConstraints"))
-            out.max_speed_mps = limits->not_below_0_if("maxSpeed", "a speed not below 0");
-        return out;
-    }
-    node.unsupported(fmt::format("the action {}", printable(kind)));
-    return {};
+LateralDistanceAction lateral_distance_of(const OscNode& node) {
+    LateralDistanceAction out;
+    out.entity = node.entity("entityRef");
+    out.distance_m = node.not_below_0_if("distance", "a distance not below 0").value_or(0.0);
+    out.freespace = node.flag_or("freespace", false);
+    out.continuous = node.flag_or("continuous", false);
+    if (const auto limits = node.find("DynamicConstraints"))
+        out.max_speed_mps = limits->not_below_0_if("maxSpeed", "a speed not below 0");
+    return out;
 }
 
 FollowTrajectoryAction follow_of(const OscNode& node) {
@@ -154,18 +132,6 @@ FollowTrajectoryAction follow_of(const OscNode& node) {
             timing->refuse("scale", fmt::format("found {}", out.time_scale), "a factor above 0");
     }
     return out;
-}
-
-std::optional<PrivateAction> read_routing(const OscNode& node) {
-    const std::string kind = node.element();
-    if (kind == "AssignRouteAction")
-        return AssignRouteAction{read_route(node)};
-    if (kind == "AcquirePositionAction")
-        return AcquirePositionAction{read_position(node)};
-    if (kind == "FollowTrajectoryAction")
-        return follow_of(node);
-    node.unsupported(fmt::format("the action {}", printable(kind)));
-    return {};
 }
 
 SynchronizeAction synchronize_of(const OscNode& node) {
@@ -191,46 +157,32 @@ SynchronizeAction synchronize_of(const OscNode& node) {
 
 LightStateAction light_of(const OscNode& node) {
     LightStateAction out;
-    out.transition_s = node.number_or("transitionTime", 0.0);
-    if (!(out.transition_s >= 0.0))
-        node.refuse("transitionTime", fmt::format("found {}", out.transition_s), "a time not below 0");
+    out.transition_s = node.not_below_0_if("transitionTime", "a time not below 0").value_or(0.0);
     const OscNode type = node.require("LightType").only("VehicleLight or UserDefinedLight");
     if (type.element() == "VehicleLight") {
-        static constexpr std::string_view known[] = {
+        static const std::initializer_list<std::string_view> known = {
             "brakeLights",     "daytimeRunningLights", "fogLights",      "fogLightsFront",           "fogLightsRear",
             "highBeam",        "indicatorLeft",        "indicatorRight", "licensePlateIllumination", "lowBeam",
             "reversingLights", "specialPurposeLights", "warningLights"};
-        const std::size_t at = type.choice("vehicleLightType", {known[0], known[1], known[2], known[3], known[4], known[5], known[6],
-                                                                known[7], known[8], known[9], known[10], known[11], known[12]});
-        out.light = known[at];
+        out.light = known.begin()[type.choice("vehicleLightType", known)];
     } else {
         out.light = type.text("userDefinedLightType");
     }
     const OscNode state = node.require("LightState");
     out.mode = static_cast<LightMode>(state.choice("mode", {"off", "on", "flashing"}));
     out.flash_on_s = state.number_or("flashingOnDuration", 0.5);
-    out.flash_off_s = state.number_or("flashingOffDuration", 0.5);
     if (!(out.flash_on_s > 0.0))
         state.refuse("flashingOnDuration", fmt::format("found {}", out.flash_on_s), "a time above 0");
-    if (!(out.flash_off_s >= 0.0))
-        state.refuse("flashingOffDuration", fmt::format("found {}", out.flash_off_s), "a time not below 0");
+    out.flash_off_s = state.not_below_0_if("flashingOffDuration", "a time not below 0").value_or(0.5);
     if (constexpr double shortest_s = 0.01; out.mode == LightMode::flashing && out.flash_on_s + out.flash_off_s < shortest_s)
         state.refuse("flashingOnDuration", fmt::format("found a light that flashes every {} s", out.flash_on_s + out.flash_off_s),
                      fmt::format("{} s at least: faster, it is seen as steady light", shortest_s));
-    out.luminous_intensity_cd = state.number_if("luminousIntensity");
-    if (out.luminous_intensity_cd && !(*out.luminous_intensity_cd >= 0.0))
-        state.refuse("luminousIntensity", fmt::format("found {}", *out.luminous_intensity_cd), "candela not below 0");
+    state.not_below_0_if("luminousIntensity", "candela not below 0");
     if (const auto colour = state.find("Color"))
         if (const auto rgb = colour->find("ColorRgb"))
-            out.rgb = {rgb->number("red"), rgb->number("green"), rgb->number("blue")};
+            for (const char* channel : {"red", "green", "blue"})
+                rgb->number(channel);
     return out;
-}
-
-std::optional<PrivateAction> read_appearance(const OscNode& node) {
-    if (node.element() == "LightStateAction")
-        return light_of(node);
-    node.unsupported(fmt::format("the action {}", printable(node.element())));
-    return {};
 }
 
 ControllerAction controller_of(const OscNode& node) {
@@ -241,7 +193,7 @@ ControllerAction controller_of(const OscNode& node) {
             what += (what.empty() ? "" : ", ") + part.element();
     }
     node.note(fmt::format("controllers are not run: {} changes nothing, the entity goes on as the storyboard moves it", what));
-    return {what};
+    return {};
 }
 
 SetValueAction set_value_of(const OscNode& node, bool variable) {
@@ -276,26 +228,34 @@ SpeedLimits read_limits(const OscNode& node) {
 }
 
 std::optional<PrivateAction> read_private_action(const OscNode& node) {
-    const OscNode kind = node.only("an action");
-    const std::string name = kind.element();
-    if (name == "LongitudinalAction")
-        return read_longitudinal(kind.only("an action"));
-    if (name == "LateralAction")
-        return read_lateral(kind.only("an action"));
-    if (name == "RoutingAction")
-        return read_routing(kind.only("an action"));
-    if (name == "AppearanceAction")
-        return read_appearance(kind.only("an action"));
-    if (name == "TeleportAction")
-        return TeleportAction{read_position(kind)};
-    if (name == "VisibilityAction")
-        return VisibilityAction{kind.flag_or("graphics", true)};
-    if (name == "SynchronizeAction")
-        return synchronize_of(kind);
-    if (name == "ControllerAction" || name == "ActivateControllerAction" || name == "AssignControllerAction" ||
-        name == "OverrideControllerValueAction")
-        return controller_of(kind);
-    kind.unsupported(fmt::format("the action {}", printable(name)));
+    using A = PrivateAction;
+    static const std::map<std::string, A (*)(const OscNode&)> known{
+        {"LongitudinalAction/SpeedAction", [](const OscNode& n) -> A { return speed_of(n); }},
+        {"LongitudinalAction/SpeedProfileAction", [](const OscNode& n) -> A { return profile_of(n); }},
+        {"LongitudinalAction/LongitudinalDistanceAction", [](const OscNode& n) -> A { return distance_of(n); }},
+        {"LateralAction/LaneChangeAction", [](const OscNode& n) -> A { return lane_change_of(n); }},
+        {"LateralAction/LaneOffsetAction", [](const OscNode& n) -> A { return lane_offset_of(n); }},
+        {"LateralAction/LateralDistanceAction", [](const OscNode& n) -> A { return lateral_distance_of(n); }},
+        {"RoutingAction/AssignRouteAction", [](const OscNode& n) -> A { return AssignRouteAction{read_route(n)}; }},
+        {"RoutingAction/AcquirePositionAction", [](const OscNode& n) -> A { return AcquirePositionAction{read_position(n)}; }},
+        {"RoutingAction/FollowTrajectoryAction", [](const OscNode& n) -> A { return follow_of(n); }},
+        {"AppearanceAction/LightStateAction", [](const OscNode& n) -> A { return light_of(n); }},
+        {"TeleportAction", [](const OscNode& n) -> A { return TeleportAction{read_position(n)}; }},
+        {"VisibilityAction", [](const OscNode& n) -> A { return VisibilityAction{n.flag_or("graphics", true)}; }},
+        {"SynchronizeAction", [](const OscNode& n) -> A { return synchronize_of(n); }},
+        {"ControllerAction", [](const OscNode& n) -> A { return controller_of(n); }},
+        {"ActivateControllerAction", [](const OscNode& n) -> A { return controller_of(n); }},
+        {"AssignControllerAction", [](const OscNode& n) -> A { return controller_of(n); }},
+        {"OverrideControllerValueAction", [](const OscNode& n) -> A { return controller_of(n); }}};
+    OscNode kind = node.only("an action");
+    std::string name = kind.element();
+    if (name == "LongitudinalAction" || name == "LateralAction" || name == "RoutingAction" || name == "AppearanceAction") {
+        kind = kind.only("an action");
+        name += '/' + kind.element();
+    }
+    if (const auto reader = known.find(name); reader != known.end())
+        return reader->second(kind);
+    kind.unsupported(fmt::format("the action {}", printable(kind.element())));
     return {};
 }
 

@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/reader/read_parts.h"
 
-#include "scenarios/openscenario/osc_catalogs.h"
 #include "scenarios/sky/sky_light.h"
 #include "scenarios/values/errors.h"
 
@@ -26,19 +25,14 @@ void read_box(const OscNode& node, BoundingBox& box) {
     }
 }
 
-void read_properties(const OscNode& node, Entity& entity) {
-    const auto properties = node.find("Properties");
-    if (!properties)
-        return;
-    for (const OscNode& property : properties->children("Property"))
-        entity.properties[property.text("name")] = property.text_or("value", "");
-    if (const auto file = properties->find("File"); file && entity.model.empty())
-        entity.model = file->text("filepath");
-}
-
-double default_size(EntityKind kind, double vehicle, double pedestrian, double object) {
-    return kind == EntityKind::vehicle ? vehicle : kind == EntityKind::pedestrian ? pedestrian : object;
-}
+/// Elements that entities are, in the order of EntityKind, with boxes where the file gives none.
+struct KnownKind {
+    const char *element, *category;
+    BoundingBox box;
+};
+constexpr KnownKind known_kinds[] = {{"Vehicle", "vehicleCategory", {1.4, 0.0, 0.75, 4.5, 1.8, 1.5}},
+                                     {"Pedestrian", "pedestrianCategory", {0.0, 0.0, 0.9, 0.5, 0.6, 1.8}},
+                                     {"MiscObject", "miscObjectCategory", {0.0, 0.0, 0.5, 1.0, 1.0, 1.0}}};
 
 Entity entity_from(const OscNode& node, const std::string& name) {
     Entity entity;
@@ -46,23 +40,17 @@ Entity entity_from(const OscNode& node, const std::string& name) {
     entity.kind = node.element() == "Vehicle"      ? EntityKind::vehicle
                   : node.element() == "Pedestrian" ? EntityKind::pedestrian
                                                    : EntityKind::object;
-    const char* category = entity.kind == EntityKind::vehicle      ? "vehicleCategory"
-                           : entity.kind == EntityKind::pedestrian ? "pedestrianCategory"
-                                                                   : "miscObjectCategory";
-    entity.category = node.text_or(category, "");
+    const KnownKind& kind = known_kinds[static_cast<std::size_t>(entity.kind)];
+    entity.category = node.text_or(kind.category, "");
     entity.model = node.text_or("model3d", "");
-    const double length = default_size(entity.kind, 4.5, 0.5, 1.0);
-    entity.box = {default_size(entity.kind, 1.4, 0.0, 0.0),  0.0,
-                  default_size(entity.kind, 0.75, 0.9, 0.5), length,
-                  default_size(entity.kind, 1.8, 0.6, 1.0),  default_size(entity.kind, 1.5, 1.8, 1.0)};
+    entity.box = kind.box;
     if (const auto box = node.find("BoundingBox"))
         read_box(*box, entity.box);
     if (const auto performance = node.find("Performance"))
         entity.limits = read_limits(*performance);
-    if (const auto axles = node.find("Axles"))
-        if (const auto front = axles->find("FrontAxle"))
-            entity.wheelbase_m = front->number_or("positionX", entity.wheelbase_m);
-    read_properties(node, entity);
+    if (const auto properties = node.find("Properties"); properties && entity.model.empty())
+        if (const auto file = properties->find("File"))
+            entity.model = file->text("filepath");
     return entity;
 }
 
@@ -82,16 +70,16 @@ ReadEntities read_entities(const OscNode& scenario) {
     for (const OscNode& object : list.children("ScenarioObject")) {
         const std::string name = take_name(object);
         std::optional<OscNode> what;
-        for (const char* kind : {"Vehicle", "Pedestrian", "MiscObject"})
-            if (const auto own = object.find(kind))
+        for (const KnownKind& kind : known_kinds)
+            if (const auto own = object.find(kind.element))
                 what = own->with_declared();
         if (const auto reference = object.find("CatalogReference"); !what && reference)
             what = catalog_entry(*reference);
         if (!what)
             object.refuse("", "holds no entity", "Vehicle, Pedestrian, MiscObject or CatalogReference");
         out.entities.push_back(entity_from(*what, name));
-        if (object.find("ObjectController"))
-            object.find("ObjectController")->note("controllers are not run: the entity moves as the storyboard says");
+        if (const auto controller = object.find("ObjectController"))
+            controller->note("controllers are not run: the entity moves as the storyboard says");
     }
     for (const OscNode& selection : list.children("EntitySelection")) {
         std::vector<std::string> members;
@@ -100,9 +88,7 @@ ReadEntities read_entities(const OscNode& scenario) {
             members.push_back(member.entity("entityRef"));
         for (const OscNode& member : names.children("ByObjectType")) // 1.0: ByType
             for (const Entity& entity : out.entities)
-                if (member.text("type") == (entity.kind == EntityKind::vehicle      ? "vehicle"
-                                            : entity.kind == EntityKind::pedestrian ? "pedestrian"
-                                                                                    : "miscellaneous"))
+                if (member.text("type") == type_of(entity.kind))
                     members.push_back(entity.name);
         out.selections[take_name(selection)] = members;
     }
@@ -147,18 +133,14 @@ void read_weather(const OscNode& node, Environment& out) {
 
 Environment read_environment(const OscNode& node) {
     Environment out;
-    out.name = node.name();
     if (const auto time = node.find("TimeOfDay")) {
         out.date_time = time->has("dateTime") ? std::optional(time->text("dateTime")) : std::nullopt;
         out.time_runs = time->flag_or("animation", false);
     }
     if (const auto weather = node.find("Weather"))
         read_weather(*weather, out);
-    if (const auto road = node.find("RoadCondition")) {
-        out.friction_scale = road->has("frictionScaleFactor") ? road->number_if("frictionScaleFactor") : road->number_if("frictionScale");
-        if (road->has("wetness"))
-            out.wetness = road->text("wetness");
-    }
+    if (const auto road = node.find("RoadCondition"); road && road->has("wetness"))
+        out.wetness = road->text("wetness");
     return out;
 }
 

@@ -1,8 +1,4 @@
-// Actions of entities and of the world.
-// Entities: vehicles, pedestrians and objects, with their boxes and limits.
-// Environments: time of day, weather and the road's condition as the file gives them.
-// Positions, routes and trajectories from their elements.
-// Triggers and their conditions.
+// The parts of a storyboard, each from its element.
 #pragma once
 
 #include "scenarios/openscenario/osc_node.h"
@@ -28,7 +24,6 @@ Position read_position(const OscNode& node);
 /// From an element that holds a Route or Trajectory, or a CatalogReference to one. Throw InputError.
 std::shared_ptr<const Route> read_route(const OscNode& holder);
 std::shared_ptr<const Trajectory> read_trajectory(const OscNode& holder);
-Orientation read_orientation(const OscNode& node);
 
 /// nullopt when `element` ("StartTrigger", "StopTrigger") is not there. One without groups is there and never true. Throws InputError.
 std::optional<Trigger> read_trigger(const OscNode& holder, const char* element);

@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/reader/read_parts.h"
 
-#include "scenarios/openscenario/osc_catalogs.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>
@@ -11,7 +10,10 @@ namespace {
 
 std::optional<Orientation> orientation_of(const OscNode& node) {
     const auto given = node.find("Orientation");
-    return given ? std::optional(read_orientation(*given)) : std::nullopt;
+    if (!given)
+        return {};
+    return Orientation{given->has("type") && given->choice("type", {"absolute", "relative"}) == 1, given->angle_or_0("h"),
+                       given->angle_or_0("p"), given->angle_or_0("r")};
 }
 
 std::string entity_of(const OscNode& node) { return node.entity(node.has("entityRef") ? "entityRef" : "object"); }
@@ -22,7 +24,6 @@ RoutePosition read_route_position(const OscNode& node) {
     position.route = read_route(holder);
     const auto inside = node.find("InRoutePosition");
     const OscNode where = (inside ? *inside : node).only("a position on the route");
-    position.orientation = orientation_of(node);
     if (where.element() == "FromLaneCoordinates") {
         position.s_m = where.length("pathS");
         position.lane = where.whole("laneId");
@@ -38,7 +39,7 @@ RoutePosition read_route_position(const OscNode& node) {
     return position;
 }
 
-Position read_kind(const OscNode& node) {
+decltype(Position::place) read_kind(const OscNode& node) {
     const std::string kind = node.element();
     if (kind == "WorldPosition") {
         for (const char* axis : {"x", "y", "z"})
@@ -48,24 +49,21 @@ Position read_kind(const OscNode& node) {
         return WorldPosition{node.number("x"), node.number("y"), node.number_if("z"), angle("h"), angle("p"), angle("r")};
     }
     if (kind == "LanePosition")
-        return LanePosition{node.text("roadId"), node.whole("laneId"), node.length("s"), node.length_or_0("offset"), orientation_of(node)};
+        return LanePosition{node.text("roadId"), node.whole("laneId"), node.length("s"), node.length_or_0("offset")};
     if (kind == "RoadPosition")
-        return RoadPosition{node.text("roadId"), node.length("s"), node.length("t"), orientation_of(node)};
+        return RoadPosition{node.text("roadId"), node.length("s"), node.length("t")};
     if (kind == "RelativeLanePosition")
-        return RelativeLanePosition{
-            entity_of(node),    node.whole("dLane"), node.length(node.has("dsLane") ? "dsLane" : "ds"), node.length_or_0("offset"),
-            node.has("dsLane"), orientation_of(node)};
+        return RelativeLanePosition{entity_of(node), node.whole("dLane"), node.length(node.has("dsLane") ? "dsLane" : "ds"),
+                                    node.length_or_0("offset")};
     if (kind == "RelativeRoadPosition")
-        return RelativeRoadPosition{entity_of(node), node.length("ds"), node.length("dt"), orientation_of(node)};
+        return RelativeRoadPosition{entity_of(node), node.length("ds"), node.length("dt")};
     if (kind == "RelativeObjectPosition" || kind == "RelativeWorldPosition")
-        return RelativePosition{
-            entity_of(node),     node.length("dx"), node.length("dy"), node.length_or_0("dz"), kind == "RelativeWorldPosition",
-            orientation_of(node)};
+        return RelativePosition{entity_of(node), node.length("dx"), node.length("dy"), node.length_or_0("dz"),
+                                kind == "RelativeWorldPosition"};
     if (kind == "RoutePosition")
         return read_route_position(node);
     if (kind == "TrajectoryPosition")
-        return TrajectoryPosition{read_trajectory(node.require("TrajectoryRef")), node.length("s"), node.length_or_0("t"),
-                                  orientation_of(node)};
+        return TrajectoryPosition{read_trajectory(node.require("TrajectoryRef")), node.length("s"), node.length_or_0("t")};
     if (kind == "GeoPosition") {
         node.unsupported("geographic positions");
         return WorldPosition{};
@@ -73,12 +71,16 @@ Position read_kind(const OscNode& node) {
     node.refuse("", "is no position", "one of OpenSCENARIO's positions");
 }
 
-std::optional<double> time_of(const OscNode& node) { return node.number_if("time"); }
+Vertex vertex_of(const OscNode& node) {
+    const std::optional<double> time = node.number_if("time");
+    const double weight = node.number_or("weight", 1.0);
+    return {time, read_position(node), weight};
+}
 
 void refuse_falling_times(const std::vector<OscNode>& points) {
     std::optional<double> before;
     for (const OscNode& point : points) {
-        const std::optional<double> time = time_of(point);
+        const std::optional<double> time = point.number_if("time");
         if (time && before && !(*time >= *before))
             point.refuse("time", fmt::format("found {} after {}", *time, *before), "times that do not fall");
         before = time ? time : before;
@@ -113,7 +115,7 @@ Nurbs read_nurbs(const OscNode& node) {
     Nurbs nurbs;
     nurbs.order = node.whole("order");
     for (const OscNode& point : node.children("ControlPoint"))
-        nurbs.points.push_back({time_of(point), point.number_or("weight", 1.0), read_position(point)});
+        nurbs.points.push_back(vertex_of(point));
     refuse_falling_times(node.children("ControlPoint"));
     for (const OscNode& knot : node.children("Knot"))
         nurbs.knots.push_back(knot.number("value"));
@@ -132,26 +134,25 @@ Nurbs read_nurbs(const OscNode& node) {
 std::shared_ptr<const Trajectory> trajectory_of(const OscNode& node) {
     const OpenEntry open(node);
     auto trajectory = std::make_shared<Trajectory>();
-    trajectory->name = node.name();
     trajectory->closed = node.flag_or("closed", false);
     const OscNode shape = node.require("Shape").only("a polyline, clothoid or NURBS");
     if (shape.element() == "Polyline") {
         Polyline line;
         for (const OscNode& vertex : shape.children("Vertex"))
-            line.vertices.push_back({time_of(vertex), read_position(vertex)});
+            line.push_back(vertex_of(vertex));
         refuse_falling_times(shape.children("Vertex"));
-        if (line.vertices.size() < 2)
-            shape.refuse("", fmt::format("has {} vertices", line.vertices.size()), "at least 2");
+        if (line.size() < 2)
+            shape.refuse("", fmt::format("has {} vertices", line.size()), "at least 2");
         trajectory->shape = std::move(line);
     } else if (shape.element() == "Clothoid") {
-        trajectory->shape = ClothoidPath{{read_segment(shape)}};
+        trajectory->shape = ClothoidPath{read_segment(shape)};
     } else if (shape.element() == "ClothoidSpline") {
         ClothoidPath path;
         for (const OscNode& segment : shape.children("ClothoidSplineSegment"))
-            path.segments.push_back(read_segment(segment));
-        if (path.segments.empty())
+            path.push_back(read_segment(segment));
+        if (path.empty())
             shape.refuse("", "has no segment", "at least one ClothoidSplineSegment");
-        path.segments.back().time_end_s = shape.number_if("timeEnd");
+        path.back().time_end_s = shape.number_if("timeEnd");
         trajectory->shape = std::move(path);
     } else if (shape.element() == "Nurbs") {
         trajectory->shape = read_nurbs(shape);
@@ -163,14 +164,13 @@ std::shared_ptr<const Trajectory> trajectory_of(const OscNode& node) {
 
 } // namespace
 
-Orientation read_orientation(const OscNode& node) {
-    return {node.has("type") && node.choice("type", {"absolute", "relative"}) == 1, node.angle_or_0("h"), node.angle_or_0("p"),
-            node.angle_or_0("r")};
-}
-
 Position read_position(const OscNode& node) {
     const OscNode position = node.element() == "Position" ? node : node.find("Position").value_or(node);
-    return read_kind(position.only("a position"));
+    const OscNode kind = position.only("a position");
+    Position out{read_kind(kind), {}};
+    if (!std::holds_alternative<WorldPosition>(out.place))
+        out.orientation = orientation_of(kind);
+    return out;
 }
 
 std::shared_ptr<const Route> read_route(const OscNode& holder) {
@@ -179,10 +179,8 @@ std::shared_ptr<const Route> read_route(const OscNode& holder) {
         holder.refuse("", "has no route", "a Route or a CatalogReference");
     const OpenEntry open(*node);
     auto route = std::make_shared<Route>();
-    route->name = node->name();
-    route->closed = node->flag_or("closed", false);
     for (const OscNode& point : node->children("Waypoint"))
-        route->waypoints.push_back({read_position(point), point.text_or("routeStrategy", point.text_or("strategy", "shortest"))});
+        route->waypoints.push_back(read_position(point));
     if (route->waypoints.size() < 2)
         node->refuse("", fmt::format("has {} waypoints", route->waypoints.size()), "at least 2");
     return route;

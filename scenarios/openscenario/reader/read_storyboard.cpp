@@ -1,6 +1,5 @@
 #include "scenarios/openscenario/reader/read_storyboard.h"
 
-#include "scenarios/openscenario/osc_catalogs.h"
 #include "scenarios/openscenario/osc_node.h"
 #include "scenarios/openscenario/reader/read_parts.h"
 #include "scenarios/values/errors.h"
@@ -15,25 +14,14 @@ namespace {
 namespace fs = std::filesystem;
 
 std::optional<Action> read_action(const OscNode& node) {
-    Action action;
-    action.name = node.name();
-    action.line = node.line();
-    if (const auto one = node.find("PrivateAction")) {
-        auto what = read_private_action(*one);
-        if (!what)
-            return {};
-        action.what = std::move(*what);
-    } else if (const auto all = node.find("GlobalAction")) {
-        auto what = read_global_action(*all);
-        if (!what)
-            return {};
-        action.what = std::move(*what);
-    } else {
-        const OscNode other = node.only("PrivateAction or GlobalAction");
-        other.unsupported(fmt::format("the action {}", printable(other.element())));
-        return {};
-    }
-    return action;
+    const auto of = [&](auto what) { return what ? std::optional(Action{node.name(), std::move(*what), node.line()}) : std::nullopt; };
+    if (const auto one = node.find("PrivateAction"))
+        return of(read_private_action(*one));
+    if (const auto all = node.find("GlobalAction"))
+        return of(read_global_action(*all));
+    const OscNode other = node.only("PrivateAction or GlobalAction");
+    other.unsupported(fmt::format("the action {}", printable(other.element())));
+    return {};
 }
 
 int executions_of(const OscNode& node) {
@@ -46,7 +34,6 @@ int executions_of(const OscNode& node) {
 Event read_event(const OscNode& node) {
     Event event;
     event.name = node.name();
-    event.line = node.line();
     const std::size_t priority = node.choice("priority", {"overwrite", "override", "skip", "parallel"});
     event.priority = priority < 2 ? Priority::overwrite : priority == 2 ? Priority::skip : Priority::parallel;
     event.executions = node.has("maximumExecutionCount") ? executions_of(node) : 1;
@@ -264,13 +251,6 @@ std::vector<Case> range_of(const OscNode& node, const std::string& parameter) {
     return out;
 }
 
-std::vector<Case> set_of(const OscNode& node, const std::string& parameter) {
-    std::vector<Case> out;
-    for (const OscNode& element : node.children("Element"))
-        out.push_back({{parameter, element.text("value")}});
-    return out;
-}
-
 std::vector<Case> distribution_of(const OscNode& node) {
     std::vector<Case> out;
     if (node.element() == "DeterministicSingleParameterDistribution") {
@@ -279,7 +259,8 @@ std::vector<Case> distribution_of(const OscNode& node) {
         if (kind.element() == "DistributionRange")
             out = range_of(kind, parameter);
         else if (kind.element() == "DistributionSet")
-            out = set_of(kind, parameter);
+            for (const OscNode& element : kind.children("Element"))
+                out.push_back({{parameter, element.text("value")}});
         else
             kind.refuse("", "is not supported", "DistributionRange or DistributionSet");
     } else if (node.element() == "DeterministicMultiParameterDistribution") {

@@ -1,5 +1,4 @@
-// Reading an OpenSCENARIO XML file, version 1.0 to 1.3.
-// Which storyboard a drive plays, and how it is read.
+// Reading an OpenSCENARIO XML file, version 1.0 to 1.3; which one a drive plays, and how.
 #pragma once
 
 #include "scenarios/openscenario/storyboard.h"

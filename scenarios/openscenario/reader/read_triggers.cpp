@@ -90,40 +90,66 @@ AngleCondition angle_of(const OscNode& node) {
     return out;
 }
 
-std::optional<EntityCondition> read_entity_condition(const OscNode& node) {
-    const std::string kind = node.element();
-    if (kind == "EndOfRoadCondition")
-        return EndOfRoadCondition{node.number("duration")};
-    if (kind == "OffroadCondition")
-        return OffroadCondition{node.number("duration")};
-    if (kind == "StandStillCondition")
-        return StandStillCondition{node.number("duration")};
-    if (kind == "CollisionCondition")
-        return collision_of(node);
-    if (kind == "TimeHeadwayCondition")
-        return TimeHeadwayCondition{node.entity("entityRef"), node.number("value"), rule_of(node), measure_of(node)};
-    if (kind == "TimeToCollisionCondition")
-        return ttc_of(node);
-    if (kind == "AccelerationCondition")
-        return AccelerationCondition{node.number("value"), rule_of(node), direction_of(node)};
-    if (kind == "SpeedCondition")
-        return SpeedCondition{node.number("value"), rule_of(node), direction_of(node), {}};
-    if (kind == "RelativeSpeedCondition")
-        return SpeedCondition{node.number("value"), rule_of(node), direction_of(node), node.entity("entityRef")};
-    if (kind == "TraveledDistanceCondition")
-        return TraveledDistanceCondition{not_negative(node, "value")};
-    if (kind == "ReachPositionCondition")
-        return ReachPositionCondition{read_position(node), not_negative(node, "tolerance")};
-    if (kind == "DistanceCondition")
-        return DistanceCondition{read_position(node), node.number("value"), rule_of(node), measure_of(node)};
-    if (kind == "RelativeDistanceCondition")
-        return RelativeDistanceCondition{node.entity("entityRef"), node.number("value"), rule_of(node), measure_of(node)};
-    if (kind == "RelativeClearanceCondition")
-        return clearance_of(node);
-    if (kind == "AngleCondition" || kind == "RelativeAngleCondition")
-        return angle_of(node);
-    node.unsupported(fmt::format("the condition {}", printable(kind)));
+/// What stands in a table under the element's name makes of it; others are not supported.
+template <class Read, class Table> std::optional<Read> read_listed(const OscNode& node, const Table& table) {
+    const auto reader = table.find(node.element());
+    if (reader != table.end())
+        return reader->second(node);
+    node.unsupported(fmt::format("the condition {}", printable(node.element())));
     return {};
+}
+
+std::optional<EntityCondition> read_entity_condition(const OscNode& node) {
+    using C = EntityCondition;
+    using Lasting = LastingCondition::State;
+    static const std::map<std::string, C (*)(const OscNode&)> known{
+        {"EndOfRoadCondition",
+         [](const OscNode& n) -> C {
+             return LastingCondition{Lasting::end_of_road, n.number("duration")};
+         }},
+        {"OffroadCondition",
+         [](const OscNode& n) -> C {
+             return LastingCondition{Lasting::offroad, n.number("duration")};
+         }},
+        {"StandStillCondition",
+         [](const OscNode& n) -> C {
+             return LastingCondition{Lasting::standing, n.number("duration")};
+         }},
+        {"CollisionCondition", [](const OscNode& n) -> C { return collision_of(n); }},
+        {"TimeHeadwayCondition",
+         [](const OscNode& n) -> C {
+             return TimeHeadwayCondition{n.entity("entityRef"), n.number("value"), rule_of(n), measure_of(n)};
+         }},
+        {"TimeToCollisionCondition", [](const OscNode& n) -> C { return ttc_of(n); }},
+        {"AccelerationCondition",
+         [](const OscNode& n) -> C {
+             return AccelerationCondition{n.number("value"), rule_of(n), direction_of(n)};
+         }},
+        {"SpeedCondition",
+         [](const OscNode& n) -> C {
+             return SpeedCondition{n.number("value"), rule_of(n), direction_of(n), {}};
+         }},
+        {"RelativeSpeedCondition",
+         [](const OscNode& n) -> C {
+             return SpeedCondition{n.number("value"), rule_of(n), direction_of(n), n.entity("entityRef")};
+         }},
+        {"TraveledDistanceCondition", [](const OscNode& n) -> C { return TraveledDistanceCondition{not_negative(n, "value")}; }},
+        {"ReachPositionCondition",
+         [](const OscNode& n) -> C {
+             return ReachPositionCondition{read_position(n), not_negative(n, "tolerance")};
+         }},
+        {"DistanceCondition",
+         [](const OscNode& n) -> C {
+             return DistanceCondition{read_position(n), n.number("value"), rule_of(n), measure_of(n)};
+         }},
+        {"RelativeDistanceCondition",
+         [](const OscNode& n) -> C {
+             return DistanceCondition{n.entity("entityRef"), n.number("value"), rule_of(n), measure_of(n)};
+         }},
+        {"RelativeClearanceCondition", [](const OscNode& n) -> C { return clearance_of(n); }},
+        {"AngleCondition", [](const OscNode& n) -> C { return angle_of(n); }},
+        {"RelativeAngleCondition", [](const OscNode& n) -> C { return angle_of(n); }}};
+    return read_listed<C>(node, known);
 }
 
 std::optional<Condition> read_by_entity(const OscNode& node) {
@@ -142,44 +168,50 @@ std::optional<Condition> read_by_entity(const OscNode& node) {
 }
 
 std::optional<Condition> read_by_value(const OscNode& node) {
-    const std::string kind = node.element();
-    if (kind == "SimulationTimeCondition")
-        return SimulationTimeCondition{node.number("value"), rule_of(node)};
-    if (kind == "TimeOfDayCondition")
-        return TimeOfDayCondition{node.text("dateTime"), rule_of(node)};
-    if (kind == "ParameterCondition")
-        return NamedValueCondition{false, node.text("parameterRef"), node.text("value"), rule_of(node)};
-    if (kind == "VariableCondition")
-        return NamedValueCondition{true, node.text("variableRef"), node.text("value"), rule_of(node)};
-    if (kind == "TrafficSignalCondition")
-        return TrafficSignalCondition{node.text("name"), node.text("state"), false};
-    if (kind == "TrafficSignalControllerCondition")
-        return TrafficSignalCondition{node.text("trafficSignalControllerRef"), node.text("phase"), true};
-    if (kind == "StoryboardElementStateCondition")
-        return ElementStateCondition{node.text("storyboardElementType"), node.text("storyboardElementRef"), node.text("state")};
-    node.unsupported(fmt::format("the condition {}", printable(kind)));
-    return {};
+    using C = Condition;
+    static const std::map<std::string, C (*)(const OscNode&)> known{
+        {"SimulationTimeCondition",
+         [](const OscNode& n) -> C {
+             return SimulationTimeCondition{n.number("value"), rule_of(n)};
+         }},
+        {"TimeOfDayCondition",
+         [](const OscNode& n) -> C {
+             return TimeOfDayCondition{n.text("dateTime"), rule_of(n)};
+         }},
+        {"ParameterCondition",
+         [](const OscNode& n) -> C {
+             return NamedValueCondition{false, n.text("parameterRef"), n.text("value"), rule_of(n)};
+         }},
+        {"VariableCondition",
+         [](const OscNode& n) -> C {
+             return NamedValueCondition{true, n.text("variableRef"), n.text("value"), rule_of(n)};
+         }},
+        {"TrafficSignalCondition",
+         [](const OscNode& n) -> C {
+             return TrafficSignalCondition{n.text("name"), n.text("state"), false};
+         }},
+        {"TrafficSignalControllerCondition",
+         [](const OscNode& n) -> C {
+             return TrafficSignalCondition{n.text("trafficSignalControllerRef"), n.text("phase"), true};
+         }},
+        {"StoryboardElementStateCondition", [](const OscNode& n) -> C {
+             return ElementStateCondition{n.text("storyboardElementType"), n.text("storyboardElementRef"), n.text("state")};
+         }}};
+    return read_listed<C>(node, known);
 }
 
 std::optional<TimedCondition> read_condition(const OscNode& node) {
     TimedCondition out;
-    out.name = node.name();
     out.line = node.line();
     out.delay_s = node.has("delay") ? not_negative(node, "delay") : 0.0;
     out.edge = static_cast<Edge>(node.choice("conditionEdge", {"none", "rising", "falling", "risingOrFalling"}));
-    if (const auto by_entity = node.find("ByEntityCondition")) {
-        if (auto condition = read_by_entity(*by_entity))
-            out.condition = std::move(*condition);
-        else
-            return {};
-    } else if (const auto by_value = node.find("ByValueCondition")) {
-        if (auto condition = read_by_value(by_value->only("a condition")))
-            out.condition = std::move(*condition);
-        else
-            return {};
-    } else {
+    const auto by_entity = node.find("ByEntityCondition"), by_value = node.find("ByValueCondition");
+    if (!by_entity && !by_value)
         node.refuse("", "is neither by entity nor by value", "ByEntityCondition or ByValueCondition");
-    }
+    auto condition = by_entity ? read_by_entity(*by_entity) : read_by_value(by_value->only("a condition"));
+    if (!condition)
+        return {};
+    out.condition = std::move(*condition);
     return out;
 }
 

@@ -69,8 +69,9 @@ TEST(BusOutputs, SendEachMessageAtItsCycleWithWhatHeldThen) {
     table.of(0, lamp_signal::level) = 0.5; // 50 % is 100 = 0x64
     EXPECT_EQ(lines(outputs.due(50 * a_millisecond_ns)).front(), "(0000000000.050000) vcan0 210#009600C8") << "not told yet";
     outputs.set(table);
-    EXPECT_EQ(lines(outputs.due(150 * a_millisecond_ns)).back(), "(0000000000.150000) vcan0 210#0338FF64");
-    EXPECT_EQ(outputs.sent(), 8U);
+    const std::vector<std::string> later = lines(outputs.due(150 * a_millisecond_ns));
+    EXPECT_EQ(later.size(), 4U);
+    EXPECT_EQ(later.back(), "(0000000000.150000) vcan0 210#0338FF64");
     EXPECT_THAT(outputs.notes(), IsEmpty());
 }
 

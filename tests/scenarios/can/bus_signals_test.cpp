@@ -78,7 +78,7 @@ TEST(BusSignals, OthersFramesAreLeftOut) {
     other.remote = false;
     other.error = true;
     bus.take(other);
-    EXPECT_EQ(bus.left_out(), 5U);
+    EXPECT_EQ(bus.taken(), 0U);
     bus.take(frame(0, 0x100, {0x10})); // too short for the signal
     EXPECT_EQ(bus.at(0).front().state, BusState::missing);
     EXPECT_TRUE(std::isinf(bus.at(0).front().age_s));

@@ -282,46 +282,34 @@ bool passes(const std::string& filters, const std::string& frame) {
     return parse_can_filters(filters, "--filter").passes(parse_candump_line("(1.000000) can0 " + frame, {}).frame);
 }
 
-TEST(CanFilter, LooksAtTheBitsOfTheMask) {
-    EXPECT_TRUE(passes("123:7FF", "123#11"));
-    EXPECT_FALSE(passes("123:7FF", "124#11"));
-    EXPECT_TRUE(passes("123:7FF", "123##111"));
-    EXPECT_TRUE(passes("400:700", "4FF#11"));
-    EXPECT_FALSE(passes("400:700", "500#11"));
-    EXPECT_FALSE(passes("400~7F0", "40F#11"));
-    EXPECT_TRUE(passes("400~7F0", "410#11"));
-    EXPECT_TRUE(passes("0x123:0x7ff", "123#11"));
-}
-
-TEST(CanFilter, MatchesExtendedAndRemoteUnlessTheMaskTells) {
-    EXPECT_TRUE(passes("123:7FF", "00000123#11")); // "including EFF and RTR frames"
-    EXPECT_TRUE(passes("123:7FF", "123#R"));
-    EXPECT_TRUE(passes("123:7FF", "12345123#11"));
-    EXPECT_TRUE(passes("123:C00007FF", "123#11")); // "only SFF and non-RTR frames"
-    EXPECT_FALSE(passes("123:C00007FF", "00000123#11"));
-    EXPECT_FALSE(passes("123:C00007FF", "123#R"));
-    EXPECT_TRUE(passes("12345678:DFFFFFFF", "12345678#11")); // "only for extended CAN ID 12345678"
-    EXPECT_FALSE(passes("12345678:DFFFFFFF", "678#11"));
-    EXPECT_FALSE(passes("12345678:DFFFFFFF", "12345678#R"));
-    EXPECT_TRUE(passes("00000123:DFFFFFFF", "00000123#"));
-    EXPECT_FALSE(passes("00000123:DFFFFFFF", "123#"));
-    EXPECT_TRUE(passes("123:9FFFFFFF", "123#")); // the extended flag in the mask: 11 bits are looked at
-    EXPECT_FALSE(passes("123:9FFFFFFF", "00000123#"));
-}
-
-TEST(CanFilter, LetsErrorFramesPassAndPassesByAnyOrAll) {
-    EXPECT_FALSE(passes("0:0", "20000004#0000000000000000"));
-    EXPECT_TRUE(passes("0:0,#FFFFFFFF", "20000004#0000000000000000"));
-    EXPECT_TRUE(passes("0:0,#FFFFFFFF", "123#"));
-    EXPECT_TRUE(passes("0~0,#FFFFFFFF", "20000004#0000000000000000")); // "only error frames"
-    EXPECT_FALSE(passes("0~0,#FFFFFFFF", "123#"));
-    EXPECT_FALSE(passes("#00000003", "20000004#0000000000000000"));
-    EXPECT_TRUE(passes("#00000003", "123#")); // without a filter for data frames all of them
-    EXPECT_TRUE(passes("100:700,200:700", "2AA#"));
-    EXPECT_FALSE(passes("100:700,200:700", "3AA#"));
-    EXPECT_TRUE(passes("100~7FF,200~7FF", "100#"));
-    EXPECT_FALSE(passes("100~7FF,200~7FF,j", "100#"));
-    EXPECT_TRUE(passes("100~7FF,200~7FF,J", "300#"));
+/// Filters, with frames that pass them and frames that do not.
+TEST(CanFilter, LooksAtTheBitsOfTheMaskOfAnyOrAllFilters) {
+    struct Case {
+        std::string filters;
+        std::vector<std::string> pass, stop;
+    };
+    for (const Case& one : std::initializer_list<Case>{
+             {"123:7FF", {"123#11", "123##111", "00000123#11", "123#R", "12345123#11"}, {"124#11"}}, // "including EFF and RTR frames"
+             {"400:700", {"4FF#11"}, {"500#11"}},
+             {"400~7F0", {"410#11"}, {"40F#11"}},
+             {"0x123:0x7ff", {"123#11"}, {}},
+             {"123:C00007FF", {"123#11"}, {"00000123#11", "123#R"}},           // "only SFF and non-RTR frames"
+             {"12345678:DFFFFFFF", {"12345678#11"}, {"678#11", "12345678#R"}}, // "only for extended CAN ID 12345678"
+             {"00000123:DFFFFFFF", {"00000123#"}, {"123#"}},
+             {"123:9FFFFFFF", {"123#"}, {"00000123#"}}, // the extended flag in the mask: 11 bits are looked at
+             {"0:0", {}, {"20000004#0000000000000000"}},
+             {"0:0,#FFFFFFFF", {"20000004#0000000000000000", "123#"}, {}},
+             {"0~0,#FFFFFFFF", {"20000004#0000000000000000"}, {"123#"}}, // "only error frames"
+             {"#00000003", {"123#"}, {"20000004#0000000000000000"}},     // without a filter for data frames all of them
+             {"100:700,200:700", {"2AA#"}, {"3AA#"}},
+             {"100~7FF,200~7FF", {"100#"}, {}},
+             {"100~7FF,200~7FF,j", {}, {"100#"}},
+             {"100~7FF,200~7FF,J", {"300#"}, {}}}) {
+        for (const std::string& frame : one.pass)
+            EXPECT_TRUE(passes(one.filters, frame)) << one.filters << ' ' << frame;
+        for (const std::string& frame : one.stop)
+            EXPECT_FALSE(passes(one.filters, frame)) << one.filters << ' ' << frame;
+    }
 }
 
 TEST(CanFilter, BelongsToAChannelAndSaysWhatIsNone) {

@@ -1,18 +1,11 @@
 // Lamp control in drives: what is read is written back, what is wrong is refused, and moments have what the laws did.
-#include "scenarios/control/control_parameters.h"
-#include "scenarios/control/control_run.h"
 #include "scenarios/control/plugin.h"
-#include "scenarios/drives/play/advance.h"
-#include "scenarios/drives/play/control_play.h"
-#include "scenarios/drives/play/motion.h"
-#include "scenarios/drives/play/place_traffic.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/drive_fixture.h"
-#include "tests/trial.h"
+#include "tests/scenarios/drives/play/staged_drive.h"
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -25,34 +18,12 @@ using testing::HasSubstr;
 
 const std::filesystem::path library = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
 
-struct Played {
-    Drive drive;
-    RoadNetwork network = read_opendrive(drive.road_file);
-    Route route{network, drive.start, drive.via};
-
-    explicit Played(Drive d) : drive(std::move(d)) {
-        fit_to_route(drive, route);
-        simulate(drive, route);
-        place_traffic(drive, network, route);
-        simulate_control(drive, route);
-    }
-    Moment at(double time_s, std::size_t variant = 0) const {
-        const int tick = static_cast<int>(std::lround(time_s / drive.step_s));
-        return moment_at({tick, time_s, distance_m(drive.speed, time_s), speed_mps(drive.speed, time_s)}, drive, route,
-                         drive.variants.at(variant));
-    }
-};
-
-/// Angle of a lamp to the left of the car.
-double swivel_deg(const Moment& moment, std::size_t lamp) {
-    const glm::dvec3 in_car = moment.lamps[lamp].pose.forward() * moment.ego.axes;
-    return degrees(std::atan2(in_car.y, in_car.x));
-}
+double swivel_deg(const Moment& moment, std::size_t lamp) { return degrees(swivel_rad(moment, lamp)); }
 
 class ControlDrive : public DriveFixture {};
 
 TEST_F(ControlDrive, ShippedBendLightLooksIntoTheBend) {
-    const Played played(read_drive(library / "s-bend-alc.yaml"));
+    const StagedDrive played(read_drive(library / "s-bend-alc.yaml"));
     // 64.4 km/h = 17.9 m/s, 150 m, 1.5 s: 17.9 * 1.5 / 300 rad = 5.1 degrees inside, 0.6 of it outside.
     double left = 0.0, right = 0.0;
     for (double t = 0.0; t < 30.0; t += 0.5) {
@@ -137,9 +108,9 @@ const std::string xenon_high = "file: " + (library.parent_path() / "lamps/xenon-
 /// 200 kg on the rear axle: springs of 43 kN/m go down by 45.6 mm, tyres of 400 kN/m by 4.9 mm; over 2.7 m the springs' part is 0.968
 /// degrees.
 TEST(ControlLoad, LevellingTakesOutTheSpringsPartOfALoad) {
-    const Played played(straight("  loaded: {source: arc, " + xenon_high +
-                                 ", control: {load: {rear_kg: 200}}}\n  levelled: {source: arc, " + xenon_high +
-                                 ", control: {load: {rear_kg: 200}, levelling: static}}\n"));
+    const StagedDrive played(straight("  loaded: {source: arc, " + xenon_high +
+                                      ", control: {load: {rear_kg: 200}}}\n  levelled: {source: arc, " + xenon_high +
+                                      ", control: {load: {rear_kg: 200}, levelling: static}}\n"));
     const auto pitch_deg = [](const Pose& pose) { return degrees(std::asin(pose.forward().z)); };
     EXPECT_NEAR(pitch_deg(played.at(3.0).ego), 1.072, 0.001);
     EXPECT_NEAR(pitch_deg(played.at(3.0).lamps[0].pose), 1.072, 0.001);
@@ -159,7 +130,7 @@ TEST(ControlTraffic, OncomingCarsDipTheBeamOrDarkenItsWindows) {
         straight(with_files("  dips: {" + lamps + ", control: {high_beam: automatic}}\n  masks: {" + lamps +
                             ", control: {high_beam: automatic, glare_free: {windows_deg: {high-left: [-8, -3, -1, 0, 1, 8]}}}}\n"),
                  with_files("traffic: {other: {oncoming: {gap_m: 500}, speed_kmh: 80, file: LOW, source: arc}}\n"));
-    const Played played(std::move(drive));
+    const StagedDrive played(std::move(drive));
     const auto high = [&](double t, std::size_t variant) { return played.at(t, variant).lamps[1]; };
     EXPECT_EQ(high(0.5, 0).intensity_factor, 1.0);
     EXPECT_EQ(high(4.0, 0).intensity_factor, 0.0) << "dipped";

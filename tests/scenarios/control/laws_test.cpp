@@ -3,7 +3,6 @@
 #include "scenarios/control/control_stability.h"
 #include "scenarios/control/high_beam.h"
 #include "scenarios/control/lamp_controller.h"
-#include "scenarios/control/masked_beam.h"
 #include "scenarios/values/pose.h"
 #include "tests/trial.h"
 
@@ -177,17 +176,16 @@ ControlInputs circle(double time_s, double speed_mps, double radius_m) {
 const std::vector<ControlledLamp> two_lamps{{"left", {3.4, 0.6, 0.65}, 0.0}, {"right", {3.4, -0.6, 0.65}, 0.0}};
 const ControlledCar car{2.7, 0.003};
 
-ControlParameters bend_light(BendLaw law) {
-    ControlParameters control{.bend = BendParameters{}};
-    control.bend->law = law;
-    control.bend->lamps = {"left", "right"};
-    return control;
+ControlParameters bend_light(BendLaw law) { return plain_bend_light(law, 0.02); }
+
+ControlRun ran(const ControlParameters& control, double end_s, const std::function<ControlInputs(double)>& inputs) {
+    return run_control(control, two_lamps, car, inputs, {end_s, 0.1});
 }
 
 /// 20 m/s on a circle of 150 m: 30 m later the car is 0.1 rad to the left of where it points now (k v T / 2 = 20 * 1.5 / 300).
 TEST(BendLight, AllLawsLookToWhereACircleLeads) {
     for (const BendLaw law : {BendLaw::steering, BendLaw::yaw_rate, BendLaw::route}) {
-        const ControlRun run = run_control(bend_light(law), two_lamps, car, [](double t) { return circle(t, 20.0, 150.0); }, {3.0, 0.1});
+        const ControlRun run = ran(bend_light(law), 3.0, [](double t) { return circle(t, 20.0, 150.0); });
         EXPECT_NEAR(run.swivel_rad(0, 2.9), 0.1, 1e-9) << static_cast<int>(law);
         EXPECT_NEAR(run.swivel_rad(1, 0.0), 0.1, 1e-9) << "starts where the law wants it";
         EXPECT_EQ(run.rows.size(), 30U);
@@ -197,9 +195,7 @@ TEST(BendLight, AllLawsLookToWhereACircleLeads) {
 TEST(BendLight, OuterLampTakesItsShare) {
     ControlParameters control = bend_light(BendLaw::yaw_rate);
     control.bend->outer_share = 0.5;
-    const auto run = [&](double radius_m) {
-        return run_control(control, two_lamps, car, [=](double t) { return circle(t, 20.0, radius_m); }, {1.0, 0.1});
-    };
+    const auto run = [&](double radius_m) { return ran(control, 1.0, [=](double t) { return circle(t, 20.0, radius_m); }); };
     EXPECT_NEAR(run(150.0).swivel_rad(0, 1.0), 0.1, 1e-9);
     EXPECT_NEAR(run(150.0).swivel_rad(1, 1.0), 0.05, 1e-9);
     EXPECT_NEAR(run(-150.0).swivel_rad(0, 1.0), -0.05, 1e-9);
@@ -208,21 +204,18 @@ TEST(BendLight, OuterLampTakesItsShare) {
 
 TEST(BendLight, StandingReversingAndSlowCarsLookStraightAhead) {
     for (const auto& [speed, share] : {std::pair{0.0, 0.0}, {-3.0, 0.0}, {1.4, 0.0}, {2.1, 0.5}, {2.8, 1.0}}) {
-        const ControlRun run = run_control(bend_light(BendLaw::yaw_rate), two_lamps, car,
-                                           [=](double t) {
-                                               ControlInputs in = circle(t, speed, 20.0);
-                                               in.yaw_rate_rad_s = 0.1;
-                                               return in;
-                                           },
-                                           {1.0, 0.1});
+        const ControlRun run = ran(bend_light(BendLaw::yaw_rate), 1.0, [=](double t) {
+            ControlInputs in = circle(t, speed, 20.0);
+            in.yaw_rate_rad_s = 0.1;
+            return in;
+        });
         EXPECT_NEAR(run.swivel_rad(0, 1.0), share * 0.1 * 1.5 / 2.0, 1e-9) << speed;
     }
 }
 
 /// Dead time 30 ms after the tick, then the filter of 0.1 s and the actuator: nothing moves before, all of it has after a second.
 TEST(BendLight, FollowsAStepAfterDeadTimeFilterAndActuator) {
-    const ControlRun run = run_control(bend_light(BendLaw::yaw_rate), two_lamps, car,
-                                       [](double t) { return circle(t, 20.0, t < 0.5 ? 1e9 : 150.0); }, {3.0, 0.1});
+    const ControlRun run = ran(bend_light(BendLaw::yaw_rate), 3.0, [](double t) { return circle(t, 20.0, t < 0.5 ? 1e9 : 150.0); });
     EXPECT_NEAR(run.swivel_rad(0, 0.53), 0.0, 1e-6);
     EXPECT_GT(run.swivel_rad(0, 0.6), 1e-4);
     EXPECT_LT(run.swivel_rad(0, 0.6), 0.03);
@@ -232,15 +225,14 @@ TEST(BendLight, FollowsAStepAfterDeadTimeFilterAndActuator) {
 TEST(BendLight, FailuresGoStraightAheadOrStayAndComeBack) {
     ControlParameters control = bend_light(BendLaw::yaw_rate);
     control.failures = {{ControlFailure::Kind::lost_signal, 1.0, 4.0, "ego.yaw_rate_rad_s"}};
-    const ControlRun run = run_control(control, two_lamps, car, [](double t) { return circle(t, 20.0, 150.0); }, {8.0, 0.1});
+    const ControlRun run = ran(control, 8.0, [](double t) { return circle(t, 20.0, 150.0); });
     EXPECT_NEAR(run.swivel_rad(0, 1.0), 0.1, 1e-9);
     EXPECT_NEAR(run.swivel_rad(0, 3.9), 0.0, 1e-6);
     EXPECT_NEAR(run.swivel_rad(0, 7.9), 0.1, 1e-6);
     ControlParameters other_control = bend_light(BendLaw::yaw_rate);
     other_control.failures = {{ControlFailure::Kind::stuck_swivel, 1.0, 6.0, "left"}};
     other_control.stuck_swivel = std::nullopt;
-    const ControlRun other_run =
-        run_control(other_control, two_lamps, car, [](double t) { return circle(t, 20.0, t < 1.5 ? 150.0 : -150.0); }, {8.0, 0.1});
+    const ControlRun other_run = ran(other_control, 8.0, [](double t) { return circle(t, 20.0, t < 1.5 ? 150.0 : -150.0); });
     EXPECT_NEAR(other_run.swivel_rad(0, 5.9), 0.1, 1e-9);
     EXPECT_NEAR(other_run.swivel_rad(1, 5.9), -0.1, 1e-6);
     EXPECT_NEAR(other_run.swivel_rad(0, 7.9), -0.1, 1e-6);
@@ -252,7 +244,7 @@ TEST(BendLight, AStuckSwivelIsFoundAndMadeSafe) {
     ControlParameters control = bend_light(BendLaw::yaw_rate);
     control.failures = {{ControlFailure::Kind::stuck_swivel, 1.0, 6.0, "left"}};
     const auto run_of = [](const ControlParameters& with, double radius_m = -150.0) {
-        return run_control(with, two_lamps, car, [=](double t) { return circle(t, 20.0, t < 1.5 ? 150.0 : radius_m); }, {8.0, 0.1});
+        return ran(with, 8.0, [=](double t) { return circle(t, 20.0, t < 1.5 ? 150.0 : radius_m); });
     };
     const ControlRun dimmed = run_of(control);
     EXPECT_NEAR(dimmed.swivel_rad(0, 5.9), 0.1, 1e-9);
@@ -281,7 +273,7 @@ TEST(BendLight, AHealthySwivelIsNeverFoundStuck) {
     control.bend->filter_s = 0.0;
     control.bend->actuator.rate_limit_rad_s = 0.05;
     const auto weaving = [](double t) { return circle(t, 30.0, std::fmod(t, 4.0) < 2.0 ? 60.0 : -60.0); };
-    const ControlRun run = run_control(control, two_lamps, car, weaving, {20.0, 0.1});
+    const ControlRun run = ran(control, 20.0, weaving);
     const std::size_t stuck = std::size_t{signal::count} + std::size_t{lamp_signal::swivel_stuck};
     double least = 0.0, most = 0.0;
     for (const auto& row : run.rows) {
@@ -293,8 +285,7 @@ TEST(BendLight, AHealthySwivelIsNeverFoundStuck) {
 }
 
 TEST(BendLight, ValuesThatNoCarHasAreLostSignals) {
-    const ControlRun run =
-        run_control(bend_light(BendLaw::yaw_rate), two_lamps, car, [](double t) { return circle(t, 20.0, 1.0); }, {1.0, 0.1});
+    const ControlRun run = ran(bend_light(BendLaw::yaw_rate), 1.0, [](double t) { return circle(t, 20.0, 1.0); });
     EXPECT_NEAR(run.swivel_rad(0, 1.0), 0.0, 1e-9) << "20 rad/s are no car's";
     ASSERT_FALSE(run.notes.empty());
     EXPECT_EQ(run.notes[0], "signal ego.yaw_rate_rad_s was outside -6.3 to 6.3 rad/s at 50 ticks, and taken for lost there");

@@ -27,15 +27,11 @@ std::vector<fs::path> scenario_files(const fs::path& folder) {
     return files;
 }
 
-std::string content(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
-
 /// What the file says it is, by its own elements.
-bool is_scenario(const std::string& text) { return text.find("<Storyboard") != std::string::npos; }
+bool is_scenario(const fs::path& path) {
+    FilesRead opened;
+    return read_file(path, opened).find("<Storyboard") != std::string::npos;
+}
 
 struct Counts {
     int files = 0, scenarios = 0, read = 0, played = 0;
@@ -54,7 +50,7 @@ TEST(ScenarioFiles, ArePlayedToTheirEndOrRefusedWithFileAndLine) {
     std::map<std::string, RoadNetwork> roads;
     for (const fs::path& file : files) {
         ++counts.files;
-        const bool scenario = is_scenario(content(file));
+        const bool scenario = is_scenario(file);
         counts.scenarios += scenario ? 1 : 0;
         const std::string name = fs::relative(file, shared).string();
         const auto refused = [&](const InputError& error) {
@@ -124,11 +120,8 @@ std::map<std::string, std::vector<Place>> esmini_positions() {
     while (std::getline(in, line)) {
         std::istringstream fields(line);
         std::string scenario, entity, time, x, y;
-        std::getline(fields, scenario, ',');
-        std::getline(fields, entity, ',');
-        std::getline(fields, time, ',');
-        std::getline(fields, x, ',');
-        std::getline(fields, y, ',');
+        for (std::string* const field : {&scenario, &entity, &time, &x, &y})
+            std::getline(fields, *field, ',');
         out[scenario].push_back({entity, static_cast<std::size_t>(to_number(time).value()), to_number(x).value(), to_number(y).value()});
     }
     return out;

@@ -1,15 +1,17 @@
 #include "tests/scenarios/openscenario/story_text.h"
 
 #include "scenarios/values/errors.h"
-#include "tests/trial.h"
 
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <functional>
+#include <gmock/gmock.h>
 
 namespace fernlicht::osc {
 namespace {
+
+using testing::HasSubstr;
 
 const std::string begin = of("Ego", teleport(on_lane(-1, 50.0)) + speed("20"));
 
@@ -87,9 +89,8 @@ TEST(Story, ParametersAndExpressions) {
                                  R"(<ParameterDeclaration name="twice" parameterType="double" value="${2 * $kmh}"/>)";
     const auto text = scenario_text(of("Ego", teleport(on_lane(-1, 50.0)) + speed("${$twice / 3.6}")), stop_at(1.0), declared);
     EXPECT_NEAR(play_text(text).entities[0].samples[0].speed_mps, 20.0, 1e-12);
-    const StoryFile file(text);
-    EXPECT_EQ(read_storyboard(file.path(), {.parameters = {{"kmh", "18"}}}).parameters.at("kmh"), "18");
-    EXPECT_THROW(read_storyboard(file.path(), {.parameters = {{"mph", "18"}}}), InputError);
+    EXPECT_EQ(read_storyboard(story_file(text), {.parameters = {{"kmh", "18"}}}).parameters.at("kmh"), "18");
+    EXPECT_THROW(read_storyboard(story_file(text), {.parameters = {{"mph", "18"}}}), InputError);
 }
 
 std::string light(const std::string& action, const std::string& state) {
@@ -132,8 +133,7 @@ class Catalogs : public testing::Test {
         const std::string none = "<CatalogLocations/>";
         text.replace(text.find(none), none.size(),
                      "<CatalogLocations><RouteCatalog><Directory path=\"" + folder_.string() + "\"/></RouteCatalog></CatalogLocations>");
-        const StoryFile file(text);
-        return refusal_of(file.path());
+        return refusal_of(story_file(text));
     }
 };
 
@@ -144,13 +144,11 @@ TEST_F(Catalogs, AreFoundByTheirNameAndBehindItByTheirFiles) {
     EXPECT_EQ(told("Other", "a"), "read");
     EXPECT_EQ(told("Ways", "a"), "read");
     EXPECT_EQ(told("Zoo", "b"), "read");
-    EXPECT_NE(
-        told("Wegs", "a").find("found 'Wegs', expected a catalog in the folders of CatalogLocations: 'Other', 'Routes', 'Ways', 'Zoo'"),
-        std::string::npos)
-        << told("Wegs", "a");
-    EXPECT_NE(told("Ways", "b").find("entryName: found 'b'"), std::string::npos);
+    EXPECT_THAT(told("Wegs", "a"),
+                HasSubstr("found 'Wegs', expected a catalog in the folders of CatalogLocations: 'Other', 'Routes', 'Ways', 'Zoo'"));
+    EXPECT_THAT(told("Ways", "b"), HasSubstr("entryName: found 'b'"));
     write_catalog("Aaa.xosc", "Ways", "<Route name=\"a\" closed=\"false\"/>");
-    EXPECT_NE(told("Ways", "a").find("has 0 waypoints"), std::string::npos) << "its own name comes before a file's";
+    EXPECT_THAT(told("Ways", "a"), HasSubstr("has 0 waypoints")) << "its own name comes before a file's";
 }
 
 TEST_F(Catalogs, AnEntryThatNeedsItselfIsRefusedWithTheWayBack) {
@@ -164,8 +162,8 @@ TEST_F(Catalogs, AnEntryThatNeedsItselfIsRefusedWithTheWayBack) {
             "<Route name=\"c\" closed=\"false\">" + way(on_lane(-1, 1.0)) +
             way("<TrajectoryPosition s=\"1\" t=\"0\"><TrajectoryRef>" + reference("R", "t") + "</TrajectoryRef></TrajectoryPosition>") +
             "</Route>");
-    EXPECT_NE(told("R", "a").find("R.xosc:1: Route: leads back to itself: 'a' > 'b' > 'a'"), std::string::npos) << told("R", "a");
-    EXPECT_NE(told("R", "c").find("leads back to itself: 't' > 't'"), std::string::npos) << told("R", "c");
+    EXPECT_THAT(told("R", "a"), HasSubstr("R.xosc:1: Route: leads back to itself: 'a' > 'b' > 'a'"));
+    EXPECT_THAT(told("R", "c"), HasSubstr("leads back to itself: 't' > 't'"));
 }
 
 /// Each route leads over `waypoints` places on the next.
@@ -186,41 +184,34 @@ TEST_F(Catalogs, WaysThatDoNotEndAreRefusedWithTheWay) {
     write_catalog("R.xosc", "R", routes_in_a_row(64, 1, way_to, way(on_lane(-1, 1.0))));
     EXPECT_EQ(told("R", "r0"), "read");
     write_catalog("R.xosc", "R", routes_in_a_row(20'000, 1, way_to, way(on_lane(-1, 1.0))));
-    EXPECT_NE(told("R", "r0").find("R.xosc:1: Route: lies on a way from one to the next: 'r0' > 'r1' > 'r2' > 'r3' > ... > 'r62' > 'r63' "
-                                   "> 'r64', expected 64 at most"),
-              std::string::npos)
-        << told("R", "r0");
+    EXPECT_THAT(told("R", "r0"),
+                HasSubstr("R.xosc:1: Route: lies on a way from one to the next: 'r0' > 'r1' > 'r2' > 'r3' > ... > 'r62' > 'r63' "
+                          "> 'r64', expected 64 at most"));
     write_catalog("R.xosc", "R", routes_in_a_row(10, 2, way_to, way(on_lane(-1, 1.0))));
     EXPECT_EQ(told("R", "r0"), "read");
     write_catalog("R.xosc", "R", routes_in_a_row(30, 2, way_to, way(on_lane(-1, 1.0)))); // 2^30 were they read
-    EXPECT_NE(told("R", "r0").find("R.xosc:1: Route: is the 10001th route or trajectory that lies within others: 'r0' > 'r1' > "),
-              std::string::npos)
-        << told("R", "r0");
+    EXPECT_THAT(told("R", "r0"), HasSubstr("R.xosc:1: Route: is the 10001th route or trajectory that lies within others: 'r0' > 'r1' > "));
 }
 
 TEST(Story, LongParametersAreRefusedBeforeTheyFillMemory) {
     std::string declarations = R"(<ParameterDeclaration name="A0" parameterType="string" value=")" + std::string(60'000, 'x') + "\"/>";
     for (int i = 1; i < 3000; ++i)
         declarations += fmt::format("\n<ParameterDeclaration name=\"A{}\" parameterType=\"string\" value=\"$A0\"/>", i);
-    const StoryFile file(scenario_text(begin, stop_at(1.0), declarations));
-    EXPECT_NE(refusal_of(file.path()).find("value: gives a text of 60000 bytes, with which parameters fill more than 64 MiB"),
-              std::string::npos)
-        << refusal_of(file.path());
+    EXPECT_THAT(refusal_of(story_file(scenario_text(begin, stop_at(1.0), declarations))),
+                HasSubstr("value: gives a text of 60000 bytes, with which parameters fill more than 64 MiB"));
     declarations.clear();
     for (int i = 0; i < 10'000; ++i) // many that are short are read in their time
         declarations += fmt::format("\n<ParameterDeclaration name=\"A{}\" parameterType=\"string\" value=\"$A{}\"/>", i, i - 1);
     declarations.replace(declarations.find("$A-1"), 4, "1");
-    const StoryFile many(scenario_text(begin, stop_at(1.0), declarations));
-    EXPECT_EQ(refusal_of(many.path()), "read");
+    EXPECT_EQ(refusal_of(story_file(scenario_text(begin, stop_at(1.0), declarations))), "read");
 }
 
 TEST(Story, ParametersThatDoubleAreRefusedBeforeTheyFillMemory) {
     std::string declarations = R"(<ParameterDeclaration name="A0" parameterType="string" value="0123456789"/>)";
     for (int i = 1; i < 60; ++i)
         declarations += fmt::format("\n<ParameterDeclaration name=\"A{}\" parameterType=\"string\" value=\"$A{}$A{}\"/>", i, i - 1, i - 1);
-    const StoryFile file(scenario_text(begin, stop_at(1.0), declarations));
-    EXPECT_NE(refusal_of(file.path()).find("found '$A12$A12': its parameters give a text of more than 65536 bytes"), std::string::npos)
-        << refusal_of(file.path());
+    EXPECT_THAT(refusal_of(story_file(scenario_text(begin, stop_at(1.0), declarations))),
+                HasSubstr("found '$A12$A12': its parameters give a text of more than 65536 bytes"));
 }
 
 TEST(Story, RefusesWithFileAndLineWhatItCannotPlay) {
@@ -233,15 +224,13 @@ TEST(Story, RefusesWithFileAndLineWhatItCannotPlay) {
         }
         return std::string("played");
     };
-    EXPECT_NE(refusal(scenario_text(of("Eggo", speed("1")), "")).find("perhaps 'Ego'"), std::string::npos);
-    EXPECT_NE(refusal(scenario_text(of("Ego", teleport(on_lane(-7, 50.0))), "")).find("lane -7"), std::string::npos);
-    EXPECT_NE(refusal(scenario_text(of("Ego", teleport(on_lane(-1, 1e6))), "")).find("s = 1e+06"), std::string::npos);
-    EXPECT_NE(refusal(scenario_text(of("Ego", speed("fast")), "")).find("'fast'"), std::string::npos);
-    EXPECT_NE(refusal(scenario_text(of("Ego", speed("$v")), "")).find("unknown parameter 'v'"), std::string::npos);
+    EXPECT_THAT(refusal(scenario_text(of("Eggo", speed("1")), "")), HasSubstr("perhaps 'Ego'"));
+    EXPECT_THAT(refusal(scenario_text(of("Ego", teleport(on_lane(-7, 50.0))), "")), HasSubstr("lane -7"));
+    EXPECT_THAT(refusal(scenario_text(of("Ego", teleport(on_lane(-1, 1e6))), "")), HasSubstr("s = 1e+06"));
+    EXPECT_THAT(refusal(scenario_text(of("Ego", speed("fast")), "")), HasSubstr("'fast'"));
+    EXPECT_THAT(refusal(scenario_text(of("Ego", speed("$v")), "")), HasSubstr("unknown parameter 'v'"));
     const auto refused = [&](const std::string& actions, const std::string& sentence) {
-        EXPECT_NE(refusal(scenario_text(of("Ego", actions), "")).find(sentence), std::string::npos)
-            << sentence << "\n"
-            << refusal(scenario_text(of("Ego", actions), ""));
+        EXPECT_THAT(refusal(scenario_text(of("Ego", actions), "")), HasSubstr(sentence));
     };
     const auto over = [](const std::string& dimension, const std::string& value) {
         return R"(dynamicsShape="linear" dynamicsDimension=")" + dimension + "\" value=\"" + value + '"';
@@ -295,13 +284,11 @@ TEST(Story, RefusesWithFileAndLineWhatItCannotPlay) {
                 vertex(0.0) + vertex(2.0) + vertex(1.5) +
                 "</Polyline></Shape></Trajectory></TrajectoryRef></FollowTrajectoryAction></RoutingAction></PrivateAction>",
             "Vertex@time: found 1.5 after 2, expected times that do not fall");
-    EXPECT_NE(refusal(scenario_text(begin, story(event("e", speed("1"), at_time(1.0), R"(maximumExecutionCount="-1")"))))
-                  .find("Event@maximumExecutionCount: found -1, expected a count not below 0"),
-              std::string::npos);
+    EXPECT_THAT(refusal(scenario_text(begin, story(event("e", speed("1"), at_time(1.0), R"(maximumExecutionCount="-1")")))),
+                HasSubstr("Event@maximumExecutionCount: found -1, expected a count not below 0"));
     const std::string user = "<UserDefinedAction><CustomCommandAction type=\"x\"/></UserDefinedAction>";
-    EXPECT_NE(refusal(scenario_text(begin + user, "")).find("not supported"), std::string::npos);
-    const StoryFile file(scenario_text(begin + user, stop_at(1.0)));
-    EXPECT_FALSE(read_storyboard(file.path(), {.lenient = true}).notes.empty());
+    EXPECT_THAT(refusal(scenario_text(begin + user, "")), HasSubstr("not supported"));
+    EXPECT_FALSE(read_storyboard(story_file(scenario_text(begin + user, stop_at(1.0))), {.lenient = true}).notes.empty());
 }
 
 TEST(Story, SameFileGivesTheSameBytes) {

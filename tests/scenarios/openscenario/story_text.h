@@ -11,14 +11,7 @@ namespace fernlicht::osc {
 
 inline const std::string straight_road = std::string(FERNLICHT_SOURCE_DIR) + "/scenarios/library/roads/straight.xodr";
 
-class StoryFile {
-  public:
-    explicit StoryFile(const std::string& text) : path_(tests::written("story.xosc", text)) {}
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
+inline std::filesystem::path story_file(const std::string& text) { return tests::written("story.xosc", text); }
 
 /// Two cars; `init` inside Actions, `story` inside Storyboard behind Init.
 inline std::string scenario_text(const std::string& init, const std::string& story, const std::string& declarations = {}) {
@@ -74,8 +67,7 @@ inline std::string story(const std::string& events, const std::string& actor = "
 inline std::string stop_at(double time) { return "<StopTrigger>" + at_time(time) + "</StopTrigger>"; }
 
 inline PlayedStory play_text(const std::string& text, double most_s = 20.0) {
-    const StoryFile file(text);
-    const Storyboard storyboard = read_storyboard(file.path());
+    const Storyboard storyboard = read_storyboard(story_file(text));
     return play_story(storyboard, read_opendrive(storyboard.road_file), {.step_s = 0.01, .most_s = most_s});
 }
 

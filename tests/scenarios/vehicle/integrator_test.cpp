@@ -7,7 +7,6 @@
 #include "tests/trial.h"
 
 #include <cmath>
-#include <complex>
 #include <gmock/gmock.h>
 #include <tuple>
 
@@ -199,16 +198,6 @@ TEST(OdeIntegrator, GivesUpWithASentence) {
 }
 
 // Lamp actuators against the closed forms of a second-order system, and their limits.
-
-/// Answer to a step of 1 at time 0 of x'' = w^2 (1 - x) - 2 z w x', from rest (any textbook of control; complex roots cover every z but 1).
-double step_response(double w, double z, double t_s) {
-    if (t_s <= 0.0)
-        return 0.0;
-    if (z == 1.0)
-        return 1.0 - std::exp(-w * t_s) * (1.0 + w * t_s);
-    const std::complex<double> root = std::sqrt(std::complex<double>(z * z - 1.0)), a = w * (-z + root), b = w * (-z - root);
-    return 1.0 + ((b * std::exp(a * t_s) - a * std::exp(b * t_s)) / (a - b)).real();
-}
 
 constexpr ActuatorParameters unlimited{5.0, 0.7, 1.0e6, -1.0, 1.0, 0.01, 0.0};
 

@@ -1,10 +1,9 @@
 // Drives by a bus: what a recording makes of them, and that tick by tick it is the same.
 #include "scenarios/can/candump_log.h"
-#include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/bus_drive.h"
 #include "scenarios/drives/play/bus_recording.h"
-#include "scenarios/drives/play/place_traffic.h"
 #include "tests/scenarios/drives/drive_fixture.h"
+#include "tests/scenarios/drives/play/staged_drive.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -16,23 +15,6 @@ using testing::Contains, testing::HasSubstr;
 
 const std::filesystem::path shipped = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives/s-bend-can.yaml";
 
-struct Staged {
-    Drive drive;
-    RoadNetwork network = read_opendrive(drive.road_file);
-    Route route{network, drive.start, drive.via};
-
-    explicit Staged(Drive d) : drive(std::move(d)) {
-        simulate_bus(drive, route);
-        fit_to_route(drive, route);
-        simulate(drive, route);
-        place_traffic(drive, network, route);
-        simulate_control(drive, route);
-    }
-    Moment at(int tick, std::size_t variant = 1) const {
-        return moment_at(state_at(tick, drive), drive, route, drive.variants.at(variant));
-    }
-};
-
 void expect_same(const Moment& a, const Moment& b) {
     EXPECT_EQ(a.time_s, b.time_s);
     EXPECT_EQ(a.distance_m, b.distance_m) << "at " << a.time_s << " s";
@@ -43,12 +25,6 @@ void expect_same(const Moment& a, const Moment& b) {
         EXPECT_EQ(a.lamps[i].pose, b.lamps[i].pose) << a.lamps[i].name << " at " << a.time_s << " s";
         EXPECT_EQ(a.lamps[i].intensity_factor, b.lamps[i].intensity_factor) << a.lamps[i].name << " at " << a.time_s << " s";
     }
-}
-
-/// Angle of a lamp to the left of the car.
-double swivel_rad(const Moment& moment, std::size_t lamp) {
-    const glm::dvec3 in_car = moment.lamps[lamp].pose.forward() * moment.ego.axes;
-    return std::atan2(in_car.y, in_car.x);
 }
 
 class BusDriveTest : public DriveFixture {
@@ -88,7 +64,7 @@ class BusDriveTest : public DriveFixture {
         }
         return mapping;
     }
-    static std::vector<CanFrame> recording_of(const Staged& script) {
+    static std::vector<CanFrame> recording_of(const StagedDrive& script) {
         FilesRead opened;
         std::vector<std::string> notes;
         return recorded_inputs(script.drive, script.route, script.drive.variants[1], opened, notes);
@@ -98,17 +74,17 @@ class BusDriveTest : public DriveFixture {
 TEST_F(BusDriveTest, SignalsThatSayTheSameAsTheScriptMakeTheSameMoments) {
     Drive drive = scripted();
     drive.can = std::make_shared<const BusMapping>(exact(drive));
-    const Staged script(drive), bus(played_by(recording_of(script), script.drive.can.get()));
+    const StagedDrive script(drive), bus(played_by(recording_of(script), script.drive.can.get()));
     ASSERT_TRUE(bus.drive.bus_motion);
     ASSERT_EQ(tick_count(bus.drive), tick_count(script.drive));
     double place_m = 0.0, turn_rad = 0.0;
     for (int tick = 0; tick < tick_count(script.drive); ++tick) {
-        if (script.at(tick).time_s <= 20.0) { // a constant speed is the same profile
-            expect_same(script.at(tick), bus.at(tick));
-            expect_same(script.at(tick, 0), bus.at(tick, 0));
+        if (script.at_tick(tick, 1).time_s <= 20.0) { // a constant speed is the same profile
+            expect_same(script.at_tick(tick, 1), bus.at_tick(tick, 1));
+            expect_same(script.at_tick(tick, 0), bus.at_tick(tick, 0));
         }
-        place_m = std::max(place_m, std::abs(script.at(tick).distance_m - bus.at(tick).distance_m));
-        turn_rad = std::max(turn_rad, std::abs(swivel_rad(script.at(tick), 0) - swivel_rad(bus.at(tick), 0)));
+        place_m = std::max(place_m, std::abs(script.at_tick(tick, 1).distance_m - bus.at_tick(tick, 1).distance_m));
+        turn_rad = std::max(turn_rad, std::abs(swivel_rad(script.at_tick(tick, 1), 0) - swivel_rad(bus.at_tick(tick, 1), 0)));
     }
     // A ramp in pieces of 20 ms is the same ramp but for the rounding of its sums.
     EXPECT_LT(place_m, 1e-9);
@@ -117,10 +93,10 @@ TEST_F(BusDriveTest, SignalsThatSayTheSameAsTheScriptMakeTheSameMoments) {
 }
 
 TEST_F(BusDriveTest, QuantisedSignalsMoveThingsAsFarAsTheirSteps) {
-    const Staged script(scripted()), bus(read_drive(shipped));
+    const StagedDrive script(scripted()), bus(read_drive(shipped));
     double place_m = 0.0, turn_rad = 0.0;
     for (int tick = 0; tick < tick_count(script.drive); ++tick) {
-        const Moment a = script.at(tick), b = bus.at(tick);
+        const Moment a = script.at_tick(tick, 1), b = bus.at_tick(tick, 1);
         if (a.time_s <= 20.0) {
             EXPECT_EQ(a.ego, b.ego) << "64.40 km/h is a value of the signal";
         }
@@ -150,13 +126,13 @@ TEST_F(BusDriveTest, TickByTickIsTheSameAsBeforehand) {
     for (CanFrame& frame : frames)
         if (frame.id == 288 && frame.time_ns - frames.front().time_ns > 6'000'000'000)
             frame.data[0] ^= 0x01;
-    const Staged before(played_by(frames));
+    const StagedDrive before(played_by(frames));
     EXPECT_GT(before.drive.bus->records[1].ticks[static_cast<std::size_t>(BusState::stale)], 10U);
     EXPECT_GT(before.drive.bus->records[1].ticks[static_cast<std::size_t>(BusState::contradictory)], 1000U);
 
     Drive live_drive = played_by(frames);
     live_drive.live = true;
-    Staged live(std::move(live_drive));
+    StagedDrive live(std::move(live_drive));
     BusDrive drive(live.drive, live.route, 1);
     std::vector<CanFrame> sent;
     std::vector<Moment> moments;
@@ -180,7 +156,7 @@ TEST_F(BusDriveTest, TickByTickIsTheSameAsBeforehand) {
         moments.push_back(drive.moment(static_cast<int>(moments.size())));
     ASSERT_EQ(static_cast<int>(moments.size()), tick_count(before.drive));
     for (int tick = 0; tick < tick_count(before.drive); ++tick)
-        expect_same(before.at(tick), moments[static_cast<std::size_t>(tick)]);
+        expect_same(before.at_tick(tick, 1), moments[static_cast<std::size_t>(tick)]);
     const Motion& motion = *before.drive.variants[1].motion;
     ASSERT_EQ(sent.size(), motion.sent.size());
     EXPECT_TRUE(sent == motion.sent);
@@ -197,12 +173,12 @@ TEST_F(BusDriveTest, APlaceFromTheBusIsWhereTheCarIs) {
     const std::string yaml = on("straight", "2", "{ego.speed_mps: Travel.Speed, ego.distance_m: Travel.Distance}");
     // 36.00 km/h = 0x0e10; 5.000 m = 0x1388, 7.000 m = 0x1b58 after 1 s, and then nothing: both lost after 60 ms.
     write_file(folder / "bus.log", "(100.000000) can0 110#100E881300000000\n(101.000000) can0 110#100E581B00000000\n");
-    const Staged played(read(yaml));
-    EXPECT_EQ(played.at(0, 0).distance_m, 5.0);
-    EXPECT_NEAR(played.at(5, 0).distance_m, 5.0 + 22 * 0.2, 1e-12) << "on with 10 m/s from the tick of 80 ms";
-    EXPECT_EQ(played.at(10, 0).distance_m, 7.0);
-    EXPECT_NEAR(played.at(15, 0).distance_m, 7.0 + 22 * 0.2, 1e-12);
-    EXPECT_EQ(played.at(15, 0).speed_mps, 10.0) << "the last that was known";
+    const StagedDrive played(read(yaml));
+    EXPECT_EQ(played.at_tick(0, 0).distance_m, 5.0);
+    EXPECT_NEAR(played.at_tick(5, 0).distance_m, 5.0 + 22 * 0.2, 1e-12) << "on with 10 m/s from the tick of 80 ms";
+    EXPECT_EQ(played.at_tick(10, 0).distance_m, 7.0);
+    EXPECT_NEAR(played.at_tick(15, 0).distance_m, 7.0 + 22 * 0.2, 1e-12);
+    EXPECT_EQ(played.at_tick(15, 0).speed_mps, 10.0) << "the last that was known";
     EXPECT_THAT(played.drive.notes, Contains(HasSubstr("the recording ends at 1.000 s of the drive's 2.000 s")));
     EXPECT_THAT(played.drive.notes, Contains(HasSubstr("speed was lost at 92 ticks")));
 }
@@ -210,13 +186,13 @@ TEST_F(BusDriveTest, APlaceFromTheBusIsWhereTheCarIs) {
 TEST_F(BusDriveTest, TheRouteEndsTheDrive) {
     const std::string yaml = on("s-bend", "100", "{ego.speed_mps: {signal: Travel.Speed, stale: hold}}");
     write_file(folder / "bus.log", "(0.000000) can0 110#409C000000000000\n"); // 400 km/h = 111.1 m/s
-    const Staged before(read(yaml));
+    const StagedDrive before(read(yaml));
     const double room_m = before.route.length_m() - before.drive.bumper_m;
     EXPECT_EQ(tick_count(before.drive), static_cast<int>(room_m / (400.0 / 3.6 * 0.1)) + 1);
     EXPECT_THAT(before.drive.notes, Contains(HasSubstr("can: the car comes to the end of the route")));
     Drive live_drive = read(yaml);
     live_drive.live = true;
-    Staged live(std::move(live_drive));
+    StagedDrive live(std::move(live_drive));
     BusDrive drive(live.drive, live.route);
     drive.take(parse_candump_line("(0.000000) can0 110#409C000000000000", {}).frame);
     while (!drive.done())
@@ -236,16 +212,16 @@ TEST_F(BusDriveTest, CommandsLevelsAndMeasuredAnglesReachTheLamps) {
     // Left: 10.00 degrees = 0x03e8, level 50 %; right measured at -5.00 = 0xfe0c. The switch goes off at 1.5 s.
     write_file(folder / "bus.log", "(0.500000) can0 200#0003E80000640000\n(0.500000) can0 220#00000CFE\n(0.500000) can0 100#01000000\n"
                                    "(0.000000) can0 100#01000000\n(1.500000) can0 100#00000000\n");
-    const Staged played(read(yaml, DriveEdits{.can_start_ns = 0}));
-    EXPECT_EQ(swivel_rad(played.at(4, 0), 0), 0.0) << "not asked yet";
-    EXPECT_NEAR(swivel_rad(played.at(14, 0), 0), radians(10.0), 1e-3) << "an actuator has followed";
-    EXPECT_LT(swivel_rad(played.at(5, 0), 0), radians(9.0)) << "which takes its time";
-    EXPECT_NEAR(swivel_rad(played.at(5, 0), 1), radians(-5.0), 1e-12) << "where it was measured";
-    EXPECT_EQ(played.at(4, 0).lamps[0].intensity_factor, 1.0);
-    EXPECT_EQ(played.at(5, 0).lamps[0].intensity_factor, 0.5);
-    EXPECT_EQ(played.at(5, 0).lamps[1].intensity_factor, 1.0);
-    EXPECT_EQ(played.at(15, 0).lamps[0].intensity_factor, 0.0);
-    EXPECT_EQ(played.at(15, 0).lamps[1].intensity_factor, 0.0);
+    const StagedDrive played(read(yaml, DriveEdits{.can_start_ns = 0}));
+    EXPECT_EQ(swivel_rad(played.at_tick(4, 0), 0), 0.0) << "not asked yet";
+    EXPECT_NEAR(swivel_rad(played.at_tick(14, 0), 0), radians(10.0), 1e-3) << "an actuator has followed";
+    EXPECT_LT(swivel_rad(played.at_tick(5, 0), 0), radians(9.0)) << "which takes its time";
+    EXPECT_NEAR(swivel_rad(played.at_tick(5, 0), 1), radians(-5.0), 1e-12) << "where it was measured";
+    EXPECT_EQ(played.at_tick(4, 0).lamps[0].intensity_factor, 1.0);
+    EXPECT_EQ(played.at_tick(5, 0).lamps[0].intensity_factor, 0.5);
+    EXPECT_EQ(played.at_tick(5, 0).lamps[1].intensity_factor, 1.0);
+    EXPECT_EQ(played.at_tick(15, 0).lamps[0].intensity_factor, 0.0);
+    EXPECT_EQ(played.at_tick(15, 0).lamps[1].intensity_factor, 0.0);
 }
 
 TEST(BusWriter, ALampThatIsNamedGoesByItsOwnLineWhateverTheOrder) {

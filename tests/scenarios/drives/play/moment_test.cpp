@@ -47,17 +47,16 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
     EXPECT_LT(glm::length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
-TEST(EgoPose, FlatAndStraight) {
-    const RoadNetwork roads = network(straight());
-    const Pose ego = ego_pose(Route(roads, {}), 100.0, wheelbase_m);
-    expect_near(ego.position_m, {100.0, -1.75, 0.0}, 1e-9);
-    expect_near(ego.forward(), {1.0, 0.0, 0.0}, 1e-12);
-    expect_near(ego.up(), {0.0, 0.0, 1.0}, 1e-12);
-}
-
-TEST(EgoPose, AConstantGradeIsThePitch) {
-    const RoadNetwork roads = network(straight(), {{0.0, 5.0, 0.06, 0.0, 0.0}});
-    EXPECT_NEAR(pitch_rad(ego_pose(Route(roads, {}), 100.0, wheelbase_m)), std::atan(0.06), 1e-9);
+TEST(EgoPose, GradeIsPitchAndBankIsRoll) {
+    for (const auto& [grade, bank] : {std::pair(0.0, 0.0), std::pair(0.06, 0.0), std::pair(0.0, 0.05)}) {
+        const RoadNetwork roads = network(straight(), {{0.0, 0.0, grade, 0.0, 0.0}}, {{0.0, bank, 0.0, 0.0, 0.0}});
+        const Pose ego = ego_pose(Route(roads, {}), 100.0, wheelbase_m);
+        EXPECT_NEAR(pitch_rad(ego), std::atan(grade), 1e-9);
+        EXPECT_NEAR(roll_rad(ego), bank, 1e-9);
+        EXPECT_NEAR(std::atan2(ego.forward().y, ego.forward().x), 0.0, 1e-12);
+    }
+    const RoadNetwork flat = network(straight());
+    expect_near(ego_pose(Route(flat, {}), 100.0, wheelbase_m).position_m, {100.0, -1.75, 0.0}, 1e-9);
 }
 
 /// Distance along the route, which runs over hill and dale, at which the road's own s is reached.
@@ -86,13 +85,6 @@ TEST(EgoPose, HeadingIsTheLanesAtTheRearAxle) {
     expect_near(ego.forward(), route.pose(200.0).forward(), 1e-9);
     expect_near(ego.position_m, route.pose(200.0).position_m, 1e-12);
     expect_near(ego.up(), {0.0, 0.0, 1.0}, 1e-9);
-}
-
-TEST(EgoPose, ABankedRoadRollsTheCar) {
-    const RoadNetwork roads = network(straight(), {}, {{0.0, 0.05, 0.0, 0.0, 0.0}});
-    const Pose ego = ego_pose(Route(roads, {}), 100.0, wheelbase_m);
-    EXPECT_NEAR(roll_rad(ego), 0.05, 1e-9);
-    EXPECT_NEAR(pitch_rad(ego), 0.0, 1e-9);
 }
 
 TEST(EgoPose, IsAFrameEverywhereAndContinuousToTheEnd) {

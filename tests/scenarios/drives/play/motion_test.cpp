@@ -1,9 +1,7 @@
 // A drive with a vehicle: its moments follow the simulated motion, whatever the frame rate.
-#include "scenarios/drives/play/advance.h"
-#include "scenarios/drives/play/motion.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/drive_fixture.h"
-#include "tests/trial.h"
+#include "tests/scenarios/drives/play/staged_drive.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -16,25 +14,10 @@ using testing::HasSubstr;
 
 const std::filesystem::path shipped_drives = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
 
-struct Simulated {
-    Drive drive;
-    RoadNetwork network = read_opendrive(drive.road_file);
-    Route route{network, drive.start, drive.via};
-
-    explicit Simulated(Drive d) : drive(std::move(d)) {
-        fit_to_route(drive, route);
-        simulate(drive, route);
-    }
-    Moment at(double time_s, std::size_t variant = 0) const {
-        return moment_at({0, time_s, distance_m(drive.speed, time_s), speed_mps(drive.speed, time_s)}, drive, route,
-                         drive.variants.at(variant));
-    }
-};
-
 double climb_rad(const Pose& pose) { return std::atan2(pose.forward().z, std::hypot(pose.forward().x, pose.forward().y)); }
 
 TEST(Motion, RunsOnRailsWithoutAVehicleWhichMustBeSimulatedFirst) {
-    const Simulated played(read_drive(shipped_drives / "straight.yaml"));
+    const StagedDrive played(read_drive(shipped_drives / "straight.yaml"));
     EXPECT_EQ(played.drive.variants[0].motion, nullptr);
     EXPECT_EQ(played.at(3.0).ego, ego_pose(played.route, distance_m(played.drive.speed, 3.0), played.drive.wheelbase_m));
     const Drive drive = read_drive(shipped_drives / "braking.yaml");
@@ -43,7 +26,7 @@ TEST(Motion, RunsOnRailsWithoutAVehicleWhichMustBeSimulatedFirst) {
 }
 
 TEST(Motion, BrakingDipsTheLampsAndLevellingLiftsThem) {
-    const Simulated played(read_drive(shipped_drives / "braking.yaml"));
+    const StagedDrive played(read_drive(shipped_drives / "braking.yaml"));
     EXPECT_NEAR(climb_rad(played.at(1.0).ego), 0.0, 2e-3) << "steady speed: only the drag pitches";
     const Moment fixed = played.at(4.5), levelled = played.at(4.5, 1);
     EXPECT_LT(climb_rad(fixed.ego), radians(-1.2));
@@ -60,11 +43,11 @@ TEST(Motion, BrakingDipsTheLampsAndLevellingLiftsThem) {
 
 TEST(Motion, DoesNotKnowTheFrameRate) {
     Drive drive = read_drive(shipped_drives / "braking.yaml");
-    const Simulated coarse(drive);
+    const StagedDrive coarse(drive);
     drive.step_s = 1.0e-6;
-    const Simulated fine(drive);
+    const StagedDrive fine(drive);
     drive.step_s = 10.0;
-    const Simulated very_coarse(drive);
+    const StagedDrive very_coarse(drive);
     for (double time_s = 0.0; time_s < 12.0; time_s += 0.173)
         for (const std::size_t variant : {0U, 1U}) {
             EXPECT_EQ(coarse.at(time_s, variant).ego, fine.at(time_s, variant).ego);
@@ -76,7 +59,7 @@ TEST(Motion, FollowsTheCountryRoad) {
     Drive drive = read_drive(shipped_drives / "country.yaml");
     drive.vehicle = VehicleParameters{};
     drive.variants[0].swivel = SwivelParameters{};
-    const Simulated played(drive);
+    const StagedDrive played(drive);
     double furthest_m = 0.0, most_rad = 0.0;
     for (double time_s = 0.0; time_s < played.drive.duration_s; time_s += 0.1) {
         const Moment moment = played.at(time_s);
@@ -95,7 +78,7 @@ TEST(Motion, AStepInTheRoadIsFeltByEachAxleInTurn) {
     drive.vehicle = VehicleParameters{};
     drive.vehicle->road_steps = {{60.0, 0.03}, {120.0, -0.03}};
     drive.vehicle->tolerance = 1.0e-9;
-    const Simulated played(drive);
+    const StagedDrive played(drive);
     const CarRun& car = *played.drive.variants[0].motion->car;
     EXPECT_EQ(car.work().events, 4U);
     // When the front axle comes to the step: by the car's own distance. Before it nothing has happened, just after it the wheel is 3 cm
@@ -122,7 +105,7 @@ TEST(Motion, ACarThatCannotBrakeIsCutAtTheRoutesEnd) {
     drive.start.s_m = 930.0 - drive.bumper_m;
     drive.speed = {{0.0, 50.0}, {0.2, 50.0}, {2.2, 0.0}};
     drive.vehicle = VehicleParameters{};
-    const Simulated played(drive);
+    const StagedDrive played(drive);
     EXPECT_LT(played.drive.duration_s, 9.0);
     const double last_m = played.at((tick_count(played.drive) - 1) * played.drive.step_s).distance_m;
     EXPECT_LE(last_m + drive.bumper_m, played.route.length_m());
@@ -135,7 +118,7 @@ std::string refusal(const VehicleParameters& car, std::vector<SpeedPoint> speed 
     drive.vehicle = car;
     if (!speed.empty())
         drive.speed = std::move(speed);
-    return tests::refusal_of([&] { const Simulated played(std::move(drive)); }, "");
+    return tests::refusal_of([&] { const StagedDrive played(std::move(drive)); }, "");
 }
 
 TEST(Motion, RefusesACarThatLeavesItsModel) {
@@ -161,10 +144,10 @@ TEST(Motion, RefusesACarThatLeavesItsModel) {
 TEST(Motion, WheelsThatHopOverAnEdgeAreANote) {
     Drive drive = read_drive(shipped_drives / "straight.yaml");
     drive.vehicle = VehicleParameters{};
-    EXPECT_THAT(Simulated(drive).drive.notes, testing::Not(testing::Contains(HasSubstr("leave the road"))));
+    EXPECT_THAT(StagedDrive(drive).drive.notes, testing::Not(testing::Contains(HasSubstr("leave the road"))));
     // Tyres are pressed in by 20 mm at rest: behind an edge 50 mm lower the wheels hang in the air until the springs have pushed them down.
     drive.vehicle->road_steps = {{60.0, -0.05}};
-    EXPECT_THAT(Simulated(drive).drive.notes, testing::Contains(HasSubstr("vehicle: wheels of an axle leave the road")));
+    EXPECT_THAT(StagedDrive(drive).drive.notes, testing::Contains(HasSubstr("vehicle: wheels of an axle leave the road")));
 }
 
 using VehicleKeys = DriveFixture;
