@@ -10,9 +10,9 @@
 // nothing of this is there.
 #pragma once
 
-#include "renderer/camera.h"
 #include "renderer/gl/scene/beams.h"
 #include "renderer/renderer.h"
+#include "scenarios/drives/play/camera.h"
 
 namespace fernlicht::gl {
 

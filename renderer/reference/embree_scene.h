@@ -5,7 +5,7 @@
 // Everything is const after construction and may be used by many threads at once. The scene must outlive this.
 #pragma once
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/values/scene.h"
 
 #include <array>

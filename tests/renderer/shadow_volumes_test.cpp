@@ -1,5 +1,5 @@
 // Shadow volumes against rays in double precision: edges within one pixel, and no surface towards the light that shades itself.
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "tests/renderer/shadow_scene.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // One way to light a scene on the GPU: what renderer.cpp asks of it.
 #pragma once
 
-#include "renderer/camera.h"
 #include "renderer/gl/device/pass_clock.h"
 #include "renderer/gl/device/targets.h"
 #include "renderer/renderer.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 #include "renderer/gl/shadows/shadow_casters.h"
 
-#include "renderer/camera.h"
 #include "renderer/gl/scene/draw_list.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <algorithm>
 #include <array>

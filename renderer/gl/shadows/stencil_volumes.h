@@ -3,9 +3,9 @@
 // in one. The depth buffer is reversed (1 near, 0 at infinity, test GREATER), so that what lies behind a surface fails the test as ever.
 #pragma once
 
-#include "renderer/camera.h"
 #include "renderer/gl/device/objects.h"
 #include "renderer/gl/device/program.h"
+#include "scenarios/drives/play/camera.h"
 
 namespace fernlicht::gl {
 

@@ -1,7 +1,7 @@
 // Views of one moment: the light is the same in all of them, a mirror exchanges left and right, and shadow maps are drawn once.
-#include "renderer/camera.h"
 #include "renderer/renderer.h"
 #include "scenarios/drives/drive.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/light/light.h"
 #include "scenarios/models/placed_model.h"
