@@ -221,6 +221,16 @@ TangentWindow window_of(std::span<const LitLamp> lamps, const Pose& pose) {
 
 } // namespace
 
+std::vector<LitLamp> shining_in(const Pose& pose, std::span<const LitLamp> lamps) {
+    std::vector<LitLamp> on;
+    for (const LitLamp& lamp : lamps)
+        if (is_on(lamp)) {
+            on.push_back(lamp);
+            on.back().pose = {to_local(pose, lamp.pose.position_m), glm::transpose(pose.axes) * lamp.pose.axes};
+        }
+    return on;
+}
+
 Pose merged_pose(std::span<const LitLamp> lamps) {
     glm::dvec3 position(0.0), forward(0.0), up(0.0);
     int count = 0;
@@ -245,11 +255,7 @@ Pose merged_pose(std::span<const LitLamp> lamps) {
 ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, const BeamTexels& texels) {
     const Pose pose = merged_pose(lamps);
     Moment moment;
-    for (const LitLamp& lamp : lamps)
-        if (is_on(lamp)) {
-            moment.lamps.push_back(lamp); // relative to the merged pose, where no map's millions of metres cost digits
-            moment.lamps.back().pose = {to_local(pose, lamp.pose.position_m), glm::transpose(pose.axes) * lamp.pose.axes};
-        }
+    moment.lamps = shining_in(pose, lamps); // where no map's millions of metres cost digits
     const TangentWindow window = window_of(moment.lamps, {});
     return sampled_beam(window, texels, [&](double x, double y) {
         return target_illuminance_lx(moment, exact_at_m * glm::normalize(glm::dvec3(1.0, -x, y)));

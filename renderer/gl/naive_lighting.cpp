@@ -13,9 +13,8 @@ glm::vec4 padded(const glm::dvec3& v) { return {glm::vec3(v), 0.0F}; }
 
 NaiveLighting::NaiveLighting(Context& context, const Scene& scene, const RendererSettings& settings)
     : context_(context), settings_(settings), scene_(context, scene, false), beams_(context, settings.beams), list_(context, scene_),
-      depth_(context, "depth.vert.glsl", "",
-             scene_.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
-      block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)), shadow_target_(make_framebuffer(context)) {}
+      depth_(depth_program(context, scene_.moves())), block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
+      shadow_target_(make_framebuffer(context)) {}
 
 const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
     std::vector<Program::Define> d = Targets::defines(shot.wanted);

@@ -214,10 +214,7 @@ void PhotometricLighting::compile(const Features& features, const Shot& shot) {
     if (variants_.contains(features))
         return;
     use(variant(features, shot.wanted), shot);
-    list_.start(shot.moment.ego.position_m, scene_.moves() || !shot.moment.other_lamps.empty());
-    const int call = list_.add_nothing();
-    list_.upload();
-    list_.draw(call);
+    list_.draw_nothing(shot.moment.ego.position_m, scene_.moves() || !shot.moment.other_lamps.empty());
 }
 
 PhotometricLighting::Features PhotometricLighting::background_features(const Shot& shot) const {

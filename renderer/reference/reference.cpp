@@ -1,7 +1,5 @@
 #include "renderer/reference/reference.h"
 
-#include "renderer/posed_scene.h"
-
 #include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/solved_light.h"
 
@@ -123,6 +121,29 @@ std::size_t pixels_done(const ReferenceImage& image) {
 } // namespace
 
 bool knows_weather(Integrator integrator) { return integrator != Integrator::radiosity && integrator != Integrator::photon_map; }
+
+Scene posed_scene(const Scene& scene, const std::vector<Body>& bodies) {
+    Scene posed = scene;
+    for (Mesh& mesh : posed.meshes) {
+        if (mesh.body < 0)
+            continue;
+        const auto body = static_cast<std::size_t>(mesh.body);
+        mesh.body = -1;
+        if (body >= bodies.size() || !bodies[body].visible) {
+            mesh.vertices.clear();
+            mesh.indices.clear();
+            mesh.batches.clear();
+            continue;
+        }
+        const Pose& pose = bodies[body].pose;
+        mesh.origin_m = to_parent(pose, mesh.origin_m);
+        for (Vertex& vertex : mesh.vertices) {
+            vertex.position_m = glm::vec3(pose.axes * glm::dvec3(vertex.position_m));
+            vertex.normal = glm::vec3(pose.axes * glm::dvec3(vertex.normal));
+        }
+    }
+    return posed;
+}
 
 struct Reference::State {
     std::mutex mutex;

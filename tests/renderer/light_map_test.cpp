@@ -51,7 +51,7 @@ TEST(LightMapAxis, IsEvenOrGrowsAndComesBack) {
 
 TEST(LightMap, GroundIsTheLampsLightAtItsNodes) {
     Moment moment = two_dim_lamps();
-    const LightMap2d map = bake_ground(moment);
+    const LightMap map = bake_ground(moment);
     ASSERT_EQ(map.lx.size(), 512u * 256u);
     EXPECT_EQ(map.bytes(), 524'288u);
     moment.daylight.horizontal_illuminance_lx = 0.0;
@@ -62,23 +62,23 @@ TEST(LightMap, GroundIsTheLampsLightAtItsNodes) {
             const double y = -25.0 + 50.0 * (static_cast<double>(row) + 0.5) / 256.0;
             const double truth = surface_illuminance_lx(moment, {x, y, 0.0}, {0.0, 0.0, 1.0});
             ASSERT_NEAR(static_cast<double>(map.lx[row * 512 + i]), truth, 1e-6 * truth + 1e-9) << x << ' ' << y;
-            ASSERT_NEAR(mapped_lx(map, x, y), truth, 1e-6 * truth + 1e-6);
+            ASSERT_NEAR(mapped_lx(map, {x, y, 0.0}), truth, 1e-6 * truth + 1e-6);
             most = std::max(most, truth);
         }
     EXPECT_GT(most, 10.0);
 }
 
 TEST(LightMap, GroundUnderAnEvenLampIsInClosedForm) {
-    const LightMap2d map = bake_ground(even_lamp(), {{0.0, 8.0, 2, 1.0}, {-3.0, 3.0, 3, 1.0}});
+    const LightMap map = bake_ground(even_lamp(), {{0.0, 8.0, 2, 1.0}, {-3.0, 3.0, 3, 1.0}});
     const auto lx = [](double x, double y) { return 625.0 / std::pow(1.0 + x * x + y * y, 1.5); };
     const std::vector<double> expected{lx(2, -2), lx(6, -2), lx(2, 0), lx(6, 0), lx(2, 2), lx(6, 2)};
     ASSERT_EQ(map.lx.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i)
         EXPECT_NEAR(static_cast<double>(map.lx[i]), expected[i], 1e-5 * expected[i]) << i;
-    EXPECT_NEAR(mapped_lx(map, 4.0, 0.0), 0.5 * (expected[2] + expected[3]), 1e-4);
-    EXPECT_NEAR(mapped_lx(map, 2.0, 1.0), 0.5 * (expected[2] + expected[4]), 1e-4);
-    EXPECT_EQ(mapped_lx(map, 8.1, 0.0), 0.0);
-    EXPECT_EQ(mapped_lx(map, -0.1, 0.0), 0.0);
+    EXPECT_NEAR(mapped_lx(map, {4.0, 0.0, 0.0}), 0.5 * (expected[2] + expected[3]), 1e-4);
+    EXPECT_NEAR(mapped_lx(map, {2.0, 1.0, 0.0}), 0.5 * (expected[2] + expected[4]), 1e-4);
+    EXPECT_EQ(mapped_lx(map, {8.1, 0.0, 0.0}), 0.0);
+    EXPECT_EQ(mapped_lx(map, {-0.1, 0.0, 0.0}), 0.0);
     // Midway: the mean of four texels against the light there.
     const double wrong = std::abs((expected[0] + expected[1] + expected[2] + expected[3]) / 4.0 - lx(4, -1));
     EXPECT_NEAR(map.error.worst_lx, wrong, 1e-4);
@@ -89,7 +89,7 @@ TEST(LightMap, GroundUnderAnEvenLampIsInClosedForm) {
 TEST(LightMap, VolumeIsTheFacingIlluminanceAtItsNodes) {
     const Moment moment = two_dim_lamps();
     const VolumeMapExtent extent{{0.0, 100.0, 64, 8.0}, {-25.0, 25.0, 32, 1.0}, {-2.0, 6.0, 16, 1.0}};
-    const LightMap3d map = bake_volume(moment, extent);
+    const LightMap map = bake_volume(moment, extent);
     ASSERT_EQ(map.bytes(), 64u * 32u * 16u * 4u);
     double most = 0.0;
     for (std::size_t k = 0; k < 16; ++k)
@@ -110,7 +110,7 @@ TEST(LightMap, VolumeIsTheFacingIlluminanceAtItsNodes) {
 
 TEST(LightMap, VolumeHasNoPoleInALamp) {
     // One cell's centre is the lamp itself, where the direction is none; the next ones are 0.2 and 1 m away.
-    const LightMap3d map = bake_volume(even_lamp(), {{-0.1, 0.5, 3, 1.0}, {-1.5, 1.5, 3, 1.0}, {0.5, 1.5, 1, 1.0}});
+    const LightMap map = bake_volume(even_lamp(), {{-0.1, 0.5, 3, 1.0}, {-1.5, 1.5, 3, 1.0}, {0.5, 1.5, 1, 1.0}});
     ASSERT_EQ(map.lx.size(), 9u);
     for (const float lx : map.lx)
         EXPECT_TRUE(std::isfinite(lx));
@@ -133,12 +133,12 @@ TEST(LightMap, MovingCarAndLampsTogetherChangesNothing) {
 
 TEST(LightMap, LampsThatAreOffAddNothingAndAxesNeedCells) {
     Moment moment = two_dim_lamps();
-    const LightMap2d lit = bake_ground(moment, {{0.0, 50.0, 16, 1.0}, {-5.0, 5.0, 8, 1.0}});
+    const LightMap lit = bake_ground(moment, {{0.0, 50.0, 16, 1.0}, {-5.0, 5.0, 8, 1.0}});
     moment.daylight.horizontal_illuminance_lx = 100.0;
     EXPECT_EQ(bake_ground(moment, {lit.ahead, lit.left}).lx, lit.lx);
     for (LitLamp& lamp : moment.lamps)
         lamp.intensity_factor = 0.0;
-    const LightMap2d dark = bake_ground(moment, {lit.ahead, lit.left});
+    const LightMap dark = bake_ground(moment, {lit.ahead, lit.left});
     EXPECT_EQ(dark.lx, std::vector<float>(dark.lx.size(), 0.0F));
     EXPECT_EQ(dark.error.worst_lx, 0.0);
     EXPECT_FALSE(dark.error.p95_relative);
@@ -151,11 +151,11 @@ TEST(LightMap, LampsThatAreOffAddNothingAndAxesNeedCells) {
 
 TEST(LightMap, FinerMapsErrLess) {
     const Moment moment = two_dim_lamps();
-    const LightMap2d coarse = bake_ground(moment, {{0.0, 100.0, 128, 16.0}, {-25.0, 25.0, 64, 1.0}}), fine = bake_ground(moment);
+    const LightMap coarse = bake_ground(moment, {{0.0, 100.0, 128, 16.0}, {-25.0, 25.0, 64, 1.0}}), fine = bake_ground(moment);
     ASSERT_TRUE(coarse.error.p95_relative && fine.error.p95_relative);
     EXPECT_LT(*fine.error.p95_relative, 0.5 * *coarse.error.p95_relative);
     EXPECT_LT(*fine.error.p95_relative, 0.02);
-    const LightMap3d volume = bake_volume(moment);
+    const LightMap volume = bake_volume(moment);
     EXPECT_EQ(volume.bytes(), std::size_t{4} << 20);
     ASSERT_TRUE(volume.error.p95_relative);
     EXPECT_GT(*volume.error.p95_relative, *fine.error.p95_relative);

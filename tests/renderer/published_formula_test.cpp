@@ -204,12 +204,12 @@ template <class Map, class At> Value mapped(const Map& map, const glm::dvec3& p,
 }
 
 Value ground_map(const Car& car, const Point& point) {
-    static const LightMap2d map = bake_ground(car.moment);
-    return mapped(map, point.p, [&](const glm::dvec3& p) { return mapped_lx(map, p.x, p.y); });
+    static const LightMap map = bake_ground(car.moment);
+    return mapped(map, point.p, [&](const glm::dvec3& p) { return mapped_lx(map, {p.x, p.y, 0.0}); });
 }
 
 Value volume_map(const Car& car, const Point& point) {
-    static const LightMap3d map = bake_volume(car.moment);
+    static const LightMap map = bake_volume(car.moment);
     return mapped(map, point.p, [&](const glm::dvec3& p) { return mapped_lx(map, p); });
 }
 

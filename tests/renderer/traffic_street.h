@@ -1,7 +1,6 @@
 // A street with other vehicles, and how it is drawn.
 #pragma once
 
-#include "renderer/posed_scene.h"
 #include "renderer/reference/reference.h"
 #include "renderer/renderer.h"
 #include "renderer/traffic_levels.h"

@@ -35,7 +35,4 @@ class Lighting {
     virtual std::optional<double> beam_error(const LampFile& lamp) const = 0;
 };
 
-/// The lighting of a technique by its name. Throws InputError.
-std::unique_ptr<Lighting> make_lighting(Context& context, const Scene& scene, const RendererSettings& settings);
-
 } // namespace fernlicht::gl

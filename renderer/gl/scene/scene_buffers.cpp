@@ -1,6 +1,5 @@
 #include "renderer/gl/scene/scene_buffers.h"
 
-#include "renderer/gl/scene/surface_textures.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 

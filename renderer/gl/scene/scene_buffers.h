@@ -125,4 +125,11 @@ Corners box_round(const std::vector<glm::dvec3>& triangles);
 /// A box round each body: triangles that share a place belong to one. `triangles` holds three places each.
 std::vector<Corners> boxes_round_bodies(const std::vector<glm::dvec3>& triangles);
 
+/// Of the pictures of surfaces: one array texture with mipmaps.
+inline constexpr GLuint surface_texture_unit = 15;
+
+/// One layer a texture, in the order given, repeating, looked up by the context's surface_filter. `encoded`: texels go through the sRGB
+/// curve. Nothing for no textures. Throws InputError when sizes differ or are no powers of two; `bytes` gets the memory taken.
+Texture upload_surface_textures(Context& context, const std::vector<SurfaceTexture>& textures, bool encoded, std::size_t& bytes);
+
 } // namespace fernlicht::gl

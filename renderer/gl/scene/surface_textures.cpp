@@ -1,4 +1,4 @@
-#include "renderer/gl/scene/surface_textures.h"
+#include "renderer/gl/scene/scene_buffers.h"
 
 #include "scenarios/photometry.h"
 #include "scenarios/values/errors.h"

@@ -96,12 +96,7 @@ bool shades(const Caster& caster, const Corners& box, double slack_m) {
 }
 
 glm::dmat4 lamp_clip(const LitLamp& lamp, const ShadowWindow& w, const glm::dvec3& ego_m) {
-    const glm::dvec3 axes[3] = {-lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()}, at = lamp.pose.position_m - ego_m;
-    glm::dmat4 lamp_from_ego(1.0);
-    for (int column = 0; column < 3; ++column)
-        lamp_from_ego[column] = {axes[0][column], axes[1][column], axes[2][column], 0.0};
-    lamp_from_ego[3] = {-glm::dot(axes[0], at), -glm::dot(axes[1], at), -glm::dot(axes[2], at), 1.0};
-    return tangent_projection(w.left, w.right, w.bottom, w.top, shadow_near_m) * lamp_from_ego;
+    return tangent_projection(w.left, w.right, w.bottom, w.top, shadow_near_m) * lamp_from_ego(lamp.pose, ego_m);
 }
 
 double texel_tangent(const ShadowWindow& window, const ShadowSettings& settings) {

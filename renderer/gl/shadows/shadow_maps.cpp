@@ -10,14 +10,10 @@
 namespace fernlicht::gl {
 
 ShadowMaps::ShadowMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings)
-    : Shadows(context, scene, settings),
-      program_(context, "depth.vert.glsl", "",
-               scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
-      matrix_(program_.uniform("clip_from_ego")), list_(context, scene), target_(make_framebuffer(context)) {}
+    : Shadows(context, scene, settings), pass_(context, scene, scene.moves()) {}
 
 void ShadowMaps::draw(const Shot& shot) {
     shot.clock.begin("shadow maps");
-    const GladGLContext& gl = context_.gl;
     Work& work = shot.work;
     const std::vector<LampCasters>& lamps = casters_.lamps();
     while (textures_.size() < lamps.size())
@@ -33,47 +29,23 @@ void ShadowMaps::draw(const Shot& shot) {
     work.shadow_maps += static_cast<int>(lamps.size());
     const glm::dvec3 ego_m = casters_.ego_m();
     if (clips != drawn_clips_ || pieces != drawn_pieces_ || ego_m != drawn_ego_m_ || scene_.placed() != drawn_placed_) {
-        work.shadow_maps_drawn += static_cast<int>(lamps.size());
-        program_.use();
-        // The outermost texels stay empty: what lies outside the window is lit.
-        gl.Viewport(1, 1, settings_.width - 2, settings_.height - 2);
-        gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); // row 0 is the lowest tangent, as the look-up takes it
-        gl.Enable(GL_SCISSOR_TEST);
+        pass_.begin(settings_.width, settings_.height);
         for (std::size_t i = 0; i < lamps.size(); ++i) {
-            gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, textures_[i], 0);
-            gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
-            gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
-            const float far_away = 0.0F;
-            gl.Scissor(0, 0, settings_.width, settings_.height);
-            gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
-            gl.Scissor(1, 1, settings_.width - 2, settings_.height - 2);
-            const glm::mat4 clip(lamps[i].clip);
-            gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip[0][0]);
-            list_.start(ego_m, scene_.moves());
-            list_.add(lamps[i].pieces);
-            list_.upload();
-            list_.draw(0);
-            ++work.passes;
-            work.draws += static_cast<int>(lamps[i].pieces.size());
-            work.triangles += list_.triangles();
+            pass_.set_pieces(ego_m, lamps[i].pieces);
+            pass_.draw(textures_[i], lamps[i].clip, work);
         }
-        gl.Disable(GL_SCISSOR_TEST);
-        gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-        context_.check("drawing shadow maps");
+        pass_.end("drawing shadow maps");
         drawn_clips_ = std::move(clips);
         drawn_pieces_ = std::move(pieces);
         drawn_ego_m_ = ego_m;
         drawn_placed_ = scene_.placed();
     }
     for (std::size_t i = 0; i < lamps.size(); ++i)
-        gl.BindTextureUnit(shadow_unit(i), textures_[i]);
+        context_.gl.BindTextureUnit(shadow_unit(i), textures_[i]);
     shot.clock.end();
 }
 
-void ShadowMaps::compile(const Shot& /*shot*/) {
-    list_.compile_depth_pass(program_, target_, settings_.width, settings_.height);
-    context_.check("compiling the shadow pass");
-}
+void ShadowMaps::compile(const Shot& /*shot*/) { pass_.compile(settings_.width, settings_.height); }
 
 std::vector<Program::Define> ShadowMaps::defines(const std::vector<const Beam*>& beams) const {
     double spread = 0.0;

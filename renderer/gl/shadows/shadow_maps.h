@@ -23,10 +23,7 @@ class ShadowMaps : public Shadows {
     const char* title() const override { return "shadow maps"; }
 
   private:
-    Program program_;
-    GLint matrix_;
-    DrawList list_;
-    Framebuffer target_;
+    DepthPass pass_;
     std::vector<Texture> textures_;
     std::vector<glm::dmat4> drawn_clips_; ///< what the textures hold
     std::vector<std::vector<std::uint32_t>> drawn_pieces_;

@@ -16,9 +16,7 @@ constexpr GLuint target_bits_from = 8;
 } // namespace
 
 ShadowMask::ShadowMask(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, const ShadowUse& use)
-    : Shadows(context, scene, settings), use_(use),
-      depth_program_(context, "depth.vert.glsl", "",
-                     scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
+    : Shadows(context, scene, settings), use_(use), depth_program_(depth_program(context, scene.moves())),
       mask_program_(context, "shadow_mask.vert.glsl", "shadow_mask.frag.glsl", {}), depth_clip_(depth_program_.uniform("clip_from_ego")),
       bits_(mask_program_.uniform("bits")), nothing_(make_vertex_array(context)), list_(context, scene) {}
 
@@ -164,10 +162,7 @@ void ShadowMask::compile(const Shot& /*shot*/) {
     gl.Enable(GL_STENCIL_TEST);
     gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     depth_program_.use();
-    list_.start(glm::dvec3(0.0), scene_.moves());
-    list_.add_nothing();
-    list_.upload();
-    list_.draw(0);
+    list_.draw_nothing(glm::dvec3(0.0), scene_.moves());
     set_bits(0);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.StencilMask(0xFF);
