@@ -39,8 +39,8 @@ class AirLamps {
     std::vector<Packed> packed_;
     std::vector<float> cd_;
     std::map<int, int> offsets_;
-    Buffer lamp_buffer_, cd_buffer_;
-    std::size_t lamp_room_ = 0, cd_room_ = 0, left_out_ = 0;
+    GrowingBuffer lamp_buffer_, cd_buffer_;
+    std::size_t left_out_ = 0;
     float least_cdm2_ = 0.0F;
 };
 

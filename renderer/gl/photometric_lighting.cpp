@@ -162,9 +162,7 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("TEXTURED", f.surface.texture == 0 ? "0" : (f.everything ? "2" : "1"));
     define("TEXTURE_MODE", std::to_string(f.surface.texture - 1));
     define("TARGET_HEIGHT", literal(settings_.target_height_m));
-    define("TONE_KIND", std::to_string(static_cast<int>(settings_.tone_mapper.kind)));
-    define("TONE_S", literal(settings_.tone_mapper.s));
-    define("TONE_L_MAX", literal(settings_.tone_mapper.l_max_cdm2));
+    add_tone_defines(d, settings_.tone_mapper);
     define("BEAM_GRIDS", list(beams, [](const Beam& b) {
                return fmt::format("vec4({}, {}, {}, {})", literal(b.grid.h_first_rad), literal(b.grid.v_first_rad),
                                   literal(1.0 / b.grid.h_step_rad), literal(1.0 / b.grid.v_step_rad));

@@ -283,6 +283,8 @@ constexpr double same_within = 1e-6;
 
 /// Texels [z][y][x] with the outermost ones black.
 template <class T> std::vector<T> framed(std::vector<T> texels, int width, int height, int depth) {
+    if (texels.empty())
+        return texels;
     std::size_t i = 0;
     for (int z = 0; z < depth; ++z)
         for (int y = 0; y < height; ++y)
@@ -311,20 +313,10 @@ void set_linear(const GladGLContext& gl, GLuint texture) {
 } // namespace
 
 UploadedBeam PublishedBeams::upload(const ProjectedBeam& beam) {
-    const GladGLContext& gl = context_.gl;
     UploadedBeam uploaded{beam.window, beam.steps.empty() ? 1.0 : beam.scale_lx, beam.scale_lx, beam.worst_error_of_peak,
-                          make_texture(context_, format_of_texels(beam.bits), beam.width, beam.height)};
-    set_linear(gl, uploaded.texture);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    const auto send = [&](GLenum type, const void* texels) {
-        gl.TextureSubImage2D(uploaded.texture, 0, 0, 0, beam.width, beam.height, GL_RED, type, texels);
-    };
-    if (beam.steps.empty())
-        send(GL_FLOAT, framed(beam.lx, beam.width, beam.height, 1).data());
-    else if (beam.bits == 16)
-        send(GL_UNSIGNED_SHORT, framed(beam.steps, beam.width, beam.height, 1).data());
-    else
-        send(GL_UNSIGNED_BYTE, framed(std::vector<std::uint8_t>(beam.steps.begin(), beam.steps.end()), beam.width, beam.height, 1).data());
+                          make_texels(context_, beam.width, beam.height, beam.bits, framed(beam.lx, beam.width, beam.height, 1),
+                                      framed(beam.steps, beam.width, beam.height, 1))};
+    set_linear(context_.gl, uploaded.texture);
     texture_bytes_ += beam.bytes();
     context_.check("uploading a projected beam");
     return uploaded;

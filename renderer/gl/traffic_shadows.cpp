@@ -111,12 +111,8 @@ TrafficShadows::Map TrafficShadows::map_of(const TrafficSource& unit, int lamp, 
                  up = std::max(narrowest, beyond_casters * (w.top - w.bottom));
     map.window = {w.left - 0.5 * across, w.right + 0.5 * across, w.bottom - 0.5 * up, w.top + 0.5 * up};
     const double margin = caster_margin_texels * texel_tangent(map.window, settings_);
-    for (Caster& caster : map.bodies) {
-        caster.left -= margin;
-        caster.right += margin;
-        caster.bottom -= margin;
-        caster.top += margin;
-    }
+    for (Caster& caster : map.bodies)
+        widen(caster, margin);
     return map;
 }
 

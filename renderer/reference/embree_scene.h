@@ -9,6 +9,7 @@
 #include "scenarios/values/scene.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,17 @@ namespace fernlicht::reference {
 inline constexpr std::size_t packet_size = 16;
 using LaneMask = std::uint32_t; ///< bit i: lane i takes part
 inline constexpr bool in_mask(LaneMask mask, std::size_t lane) { return (mask >> lane & 1U) != 0; }
+
+/// The lanes of a mask, ascending.
+struct LanesOf {
+    LaneMask left;
+    std::size_t operator*() const { return static_cast<std::size_t>(std::countr_zero(left)); }
+    void operator++() { left &= left - 1; }
+    bool operator!=(const LanesOf& other) const { return left != other.left; }
+    LanesOf begin() const { return *this; }
+    LanesOf end() const { return {0}; }
+};
+inline LanesOf lanes_of(LaneMask mask) { return {mask}; }
 
 /// Where a ray met a triangle. All in double, by the equations of Twin::cast.
 struct SurfaceHit {

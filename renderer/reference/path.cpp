@@ -100,9 +100,7 @@ glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::siz
 
 void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light) {
     const std::size_t first_pair = 1 + shot.moment.lamps.size();
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(light.hit, i))
-            continue;
+    for (const std::size_t i : lanes_of(light.hit)) {
         const SurfaceHit& hit = light.hits[i];
         const glm::dvec3 from_m = EmbreeScene::raised(hit), direction = sample_cosine(hit.normal, points[i].pair(first_pair)),
                          to_eye = glm::normalize(shot.to_eye(hit.point_m));
@@ -145,19 +143,18 @@ void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>
     add_smooth_light(shot, points, by_path, light);
     if (!is_in_air(shot) || shot.camera.is_map || !shot.wanted.luminance)
         return;
-    for (std::size_t i = 0; i < packet_size; ++i)
-        if (in_mask(lanes, i)) {
-            const double way_m = in_mask(light.hit, i) ? glm::length(light.hits[i].point_m - eye_rays[i].origin_m) : air_end_m;
-            light.luminance_cdm2[i] += luminance(air_seen(shot, points[i], eye_rays[i], way_m, light.rays));
-        }
+    for (const std::size_t i : lanes_of(lanes)) {
+        const double way_m = in_mask(light.hit, i) ? glm::length(light.hits[i].point_m - eye_rays[i].origin_m) : air_end_m;
+        light.luminance_cdm2[i] += luminance(air_seen(shot, points[i], eye_rays[i], way_m, light.rays));
+    }
 }
 
 void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light) {
     if (!shot.wanted.luminance)
         return;
     const Scene& scene = shot.embree.scene();
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(light.hit, i) || !is_smooth(scene.materials[light.hits[i].material]))
+    for (const std::size_t i : lanes_of(light.hit)) {
+        if (!is_smooth(scene.materials[light.hits[i].material]))
             continue;
         const SurfaceHit& hit = light.hits[i];
         const double left = left_on_way_to_eye(shot, hit.point_m);

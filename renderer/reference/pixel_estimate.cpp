@@ -230,7 +230,7 @@ std::uint64_t draw_certain_row(const Shot& shot, const CentreRow& row, int x0, i
     Drawing drawing(shot);
     PacketLight light;
     add_packet(shot, {}, row.rays, row.lanes, light, drawing);
-    for (std::size_t i = 0; i < packet_size && in_mask(row.lanes, i); ++i) {
+    for (const std::size_t i : lanes_of(row.lanes)) {
         const int x = x0 + static_cast<int>(i);
         store(image, x, y, {{{drawing.sums[0][i], 0.0}, {drawing.sums[1][i], 0.0}, {drawing.sums[2][i], 0.0}}}, 0, 1);
         image.ids.at(x, y) = in_mask(light.hit, i) ? light.hits[i].mesh + 1 : 0;
@@ -241,7 +241,7 @@ std::uint64_t draw_certain_row(const Shot& shot, const CentreRow& row, int x0, i
 std::uint64_t draw_ids(const Shot& shot, const CentreRow& row, int x0, int y, ReferenceImage& image) {
     std::array<SurfaceHit, packet_size> hits;
     const LaneMask hit = shot.embree.cast(row.rays, row.lanes, shot.camera.is_map, hits);
-    for (std::size_t i = 0; i < packet_size && in_mask(row.lanes, i); ++i)
+    for (const std::size_t i : lanes_of(row.lanes))
         image.ids.at(x0 + static_cast<int>(i), y) = in_mask(hit, i) ? hits[i].mesh + 1 : 0;
     return static_cast<std::uint64_t>(std::popcount(row.lanes));
 }

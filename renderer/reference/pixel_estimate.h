@@ -41,9 +41,7 @@ struct Seen {
     std::uint32_t mesh = 0, material = 0;
 
     void add(const PacketLight& light, LaneMask lanes) {
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            if (!in_mask(lanes, i))
-                continue;
+        for (const std::size_t i : lanes_of(lanes)) {
             const bool hit = in_mask(light.hit, i);
             const std::uint32_t m = hit ? light.hits[i].mesh + 1 : 0, kind = hit ? light.hits[i].material : 0;
             several |= anything && (m != mesh || kind != material);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "tests/renderer/views.h"
 
 #include <gtest/gtest.h>
 #include <string>

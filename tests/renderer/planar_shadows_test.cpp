@@ -64,10 +64,9 @@ TEST_F(PlanarShadows, OnTheGroundAreAsRaysHaveThem) {
         for (const View& view : {driver_for_shadows(), map_for_shadows(60.0, 12.0, 5)}) {
             HiddenPixels pixels = hidden_pixels(device_, scene, moment, view, planar);
             const Twin twin(scene, false);
-            for (int y = 0; y < view.height_px; ++y)
-                for (int x = 0; x < view.width_px; ++x)
-                    if (twin.pixel(moment, view, x + 0.5, y + 0.5).id != 1) // upright
-                        pixels.rays[static_cast<std::size_t>(y * view.width_px + x)] = -1;
+            for (const auto& [x, y] : each_pixel(view))
+                if (twin.pixel(moment, view, x + 0.5, y + 0.5).id != 1) // upright
+                    pixels.rays[static_cast<std::size_t>(y * view.width_px + x)] = -1;
             EXPECT_EQ(pixels.wrong_inside(), 0) << view.name << slope_rad;
             EXPECT_GT(pixels.count(1), 500) << view.name;
             EXPECT_GT(pixels.count(0), 10000) << view.name;

@@ -100,11 +100,6 @@ RandomScene random_scene(std::uint64_t seed, const Features& on) {
     return out;
 }
 
-View driver_160() {
-    return {
-        .position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(40.0), .width_px = 160, .height_px = 120};
-}
-
 class PruningTest : public DeviceTest {
   protected:
     Frame draw(const RandomScene& s, const char* technique, Work* work = nullptr) {
@@ -112,8 +107,8 @@ class PruningTest : public DeviceTest {
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, s.scene, settings);
         if (work != nullptr)
-            *work = renderer.count(s.moment, driver_160(), all_results);
-        return renderer.draw(s.moment, driver_160(), all_results);
+            *work = renderer.count(s.moment, driver_view(160, 120, 40.0), all_results);
+        return renderer.draw(s.moment, driver_view(160, 120, 40.0), all_results);
     }
 };
 

@@ -297,14 +297,7 @@ Comparison compare(const Frame& frame, const Formula& formula, const std::vector
 TEST_F(PublishedTest, EachFollowsItsOwnFormula) {
     const Moment moment = two_lamps(sky_lx);
     const Car car(moment);
-    View map;
-    map.projection = Projection::map;
-    map.map_ahead_m = 60.0;
-    map.map_behind_m = 10.0;
-    map.map_left_m = map.map_right_m = 15.0;
-    map.width_px = 48;
-    map.height_px = 112;
-    const std::vector<View> views{view_towards(0.0, -4.0), view_towards(170.0, -8.0), map};
+    const std::vector<View> views{view_towards(0.0, -4.0), view_towards(170.0, -8.0), map_view(60.0, 10.0, 15.0, 48, 112)};
     for (const int cells : {40, 1}) {
         const Scene scene = ground_and_board(moment.ego, cells);
         std::vector<std::vector<Pixel>> pixels;

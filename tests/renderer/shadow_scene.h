@@ -54,22 +54,11 @@ inline LitLamp lamp_at(const glm::dvec3& place_m, double yaw_rad = 0.0, double p
     return lamp;
 }
 
-inline View driver_for_shadows(int width = 320, int height = 240) {
-    return {.name = "driver",
-            .position_m = {1.5, 0.35, 1.2},
-            .pitch_rad = radians(-4.0),
-            .vertical_fov_rad = radians(35.0),
-            .width_px = width,
-            .height_px = height};
-}
+inline View driver_for_shadows() { return driver_view(320, 240, 35.0, -4.0); }
 
 /// `per_m` pixels a metre.
 inline View map_for_shadows(double ahead_m, double beside_m, int per_m) {
-    View view{.name = "map", .projection = Projection::map, .map_ahead_m = ahead_m};
-    view.map_left_m = view.map_right_m = beside_m;
-    view.width_px = static_cast<int>(2.0 * beside_m) * per_m;
-    view.height_px = static_cast<int>(ahead_m) * per_m;
-    return view;
+    return map_view(ahead_m, 0.0, beside_m, static_cast<int>(2.0 * beside_m) * per_m, static_cast<int>(ahead_m) * per_m);
 }
 
 inline Frame drawn_with(Device& device, const Scene& scene, const Moment& moment, const View& view, ShadowMethod method,
@@ -123,14 +112,13 @@ inline HiddenPixels hidden_pixels(Device& device, const Scene& scene, const Mome
     const Frame shaded = with.draw(moment, view, wanted), plain = without.draw(moment, view, wanted);
     const Twin shaded_twin(scene, true), plain_twin(scene, false);
     HiddenPixels out{view.width_px, view.height_px, {}, {}};
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const TwinPixel free = plain_twin.pixel(moment, view, x + 0.5, y + 0.5);
-            const bool known =
-                free.id != 0 && free.id == plain.ids.at(x, y) && free.illuminance_lx > 1e-6 && plain.illuminance_lx.at(x, y) > 0.0F;
-            out.rays.push_back(!known ? -1 : shaded_twin.pixel(moment, view, x + 0.5, y + 0.5).illuminance_lx == 0.0 ? 1 : 0);
-            out.drawn.push_back(!known ? -1 : shaded.illuminance_lx.at(x, y) == 0.0F ? 1 : 0);
-        }
+    for (const auto& [x, y] : each_pixel(view)) {
+        const TwinPixel free = plain_twin.pixel(moment, view, x + 0.5, y + 0.5);
+        const bool known =
+            free.id != 0 && free.id == plain.ids.at(x, y) && free.illuminance_lx > 1e-6 && plain.illuminance_lx.at(x, y) > 0.0F;
+        out.rays.push_back(!known ? -1 : shaded_twin.pixel(moment, view, x + 0.5, y + 0.5).illuminance_lx == 0.0 ? 1 : 0);
+        out.drawn.push_back(!known ? -1 : shaded.illuminance_lx.at(x, y) == 0.0F ? 1 : 0);
+    }
     return out;
 }
 

@@ -29,14 +29,13 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     const Frame bright = draw(street, moment, view, without_shadows());
     const Twin shaded(street.scene, true), unshaded(street.scene, false);
     Image<double> hidden(view.width_px, view.height_px), lx(view.width_px, view.height_px), bound(view.width_px, view.height_px);
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const TwinPixel with = shaded.pixel(moment, view, x + 0.5, y + 0.5), without = unshaded.pixel(moment, view, x + 0.5, y + 0.5);
-            const bool same = with.id != 0 && with.id == frame.ids.at(x, y);
-            hidden.at(x, y) = !same ? -1.0 : without.illuminance_lx > 0.0 ? 1.0 - with.illuminance_lx / without.illuminance_lx : 0.0;
-            lx.at(x, y) = with.illuminance_lx;
-            bound.at(x, y) = with.bound_lx;
-        }
+    for (const auto& [x, y] : each_pixel(view)) {
+        const TwinPixel with = shaded.pixel(moment, view, x + 0.5, y + 0.5), without = unshaded.pixel(moment, view, x + 0.5, y + 0.5);
+        const bool same = with.id != 0 && with.id == frame.ids.at(x, y);
+        hidden.at(x, y) = !same ? -1.0 : without.illuminance_lx > 0.0 ? 1.0 - with.illuminance_lx / without.illuminance_lx : 0.0;
+        lx.at(x, y) = with.illuminance_lx;
+        bound.at(x, y) = with.bound_lx;
+    }
     int compared = 0, in_shadow = 0, wrong = 0, wrong_before = 0;
     double worst = 0.0;
     const double allowed = (worst_traffic_error + 2.0) * moment.least_traffic_lx;
@@ -59,11 +58,6 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     EXPECT_GT(in_shadow, 100);
     EXPECT_GT(wrong_before, 100) << "without maps";
     EXPECT_LE(wrong, in_shadow / 100);
-    RecordProperty("pixels_compared", compared);
-    RecordProperty("pixels_in_shadow", in_shadow);
-    RecordProperty("pixels_off", wrong);
-    RecordProperty("pixels_off_without_maps", wrong_before);
-    RecordProperty("worst_lx", fmt::format("{}", worst));
 }
 
 /// The village's lamps, which hang over cars that are parked, against the reference by the ray through each pixel's centre.
@@ -109,10 +103,6 @@ TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
     EXPECT_GT(in_shadow, 100);
     EXPECT_GT(off_before, 100) << "without maps";
     EXPECT_LE(off, off_before / 20);
-    RecordProperty("pixels_compared", compared);
-    RecordProperty("pixels_in_shadow", in_shadow);
-    RecordProperty("pixels_off", off);
-    RecordProperty("pixels_off_without_maps", off_before);
 }
 
 /// Lamps in bodies, on and below the road, in one place, far away and far too bright: numbers everywhere, and pruning changes no byte.
@@ -213,7 +203,6 @@ TEST_F(Traffic, ShadowsDoNotPop) {
     }
     EXPECT_GT(before, 0.0);
     EXPECT_LE(most, 0.05);
-    RecordProperty("most_share_a_frame", fmt::format("{}", most));
 }
 
 /// Twelve pairs and maps for eight. The bound on the light whose shadows may be missing stands in the report where it says something:

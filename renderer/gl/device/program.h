@@ -42,6 +42,13 @@ inline int wanted_bits(const Wanted& w) {
 /// A constant of the source; it reads back as the same float.
 inline std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
 
+/// How light is shown, for shaders that are compiled for it.
+inline void add_tone_defines(std::vector<Program::Define>& defines, const ToneMapper& tone) {
+    defines.push_back({"TONE_KIND", std::to_string(static_cast<int>(tone.kind))});
+    defines.push_back({"TONE_S", literal(tone.s)});
+    defines.push_back({"TONE_L_MAX", literal(tone.l_max_cdm2)});
+}
+
 /// What floats on the GPU may be above a bound in double, as a factor.
 inline constexpr double rounding = 1.001;
 

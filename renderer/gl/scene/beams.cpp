@@ -29,10 +29,12 @@ ShadowWindow window_of(const BeamTexture& g) {
     return w;
 }
 
-template <class Step> std::vector<Step> steps_of(const BeamTexture& g) {
-    std::vector<Step> steps;
-    for (const float cd : g.cd)
-        steps.push_back(static_cast<Step>(g.scale_cd > 0.0 ? std::lround(static_cast<double>(cd) / g.scale_cd * largest_step(g.bits)) : 0));
+std::vector<std::uint16_t> steps_of(const BeamTexture& g) {
+    std::vector<std::uint16_t> steps;
+    if (g.bits < 32)
+        for (const float cd : g.cd)
+            steps.push_back(static_cast<std::uint16_t>(
+                g.scale_cd > 0.0 ? std::lround(static_cast<double>(cd) / g.scale_cd * largest_step(g.bits)) : 0));
     return steps;
 }
 
@@ -43,7 +45,21 @@ bool same_grid(const BeamTexture& a, const BeamTexture& b) {
 
 } // namespace
 
-GLenum format_of_texels(int bits) { return bits == 32 ? GL_R32F : (bits == 16 ? GL_R16 : GL_R8); }
+Texture make_texels(Context& context, int width, int height, int bits, std::span<const float> values,
+                    std::span<const std::uint16_t> steps) {
+    Texture texture = make_texture(context, bits == 32 ? GL_R32F : (bits == 16 ? GL_R16 : GL_R8), width, height);
+    context.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    const auto send = [&](GLenum type, const void* texels) {
+        context.gl.TextureSubImage2D(texture, 0, 0, 0, width, height, GL_RED, type, texels);
+    };
+    if (bits == 32)
+        send(GL_FLOAT, values.data());
+    else if (bits == 16)
+        send(GL_UNSIGNED_SHORT, steps.data());
+    else
+        send(GL_UNSIGNED_BYTE, std::vector<std::uint8_t>(steps.begin(), steps.end()).data());
+    return texture;
+}
 
 const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     if (const auto known = known_.find(file.get()); known != known_.end())
@@ -60,16 +76,7 @@ const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     beam.window = window_of(g);
     constexpr double asin_reaches_rad = 0.5235; // 30 degrees
     beam.steep = g.v_first_rad < -asin_reaches_rad || g.v_first_rad + (g.height - 1) * g.v_step_rad > asin_reaches_rad;
-    beam.texture = make_texture(context_, format_of_texels(g.bits), g.width, g.height);
-    context_.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    const auto send = [&](GLenum type, const void* texels) {
-        context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RED, type, texels);
-    };
-    if (g.bits == 32)
-        send(GL_FLOAT, g.cd.data());
-    else
-        g.bits == 16 ? send(GL_UNSIGNED_SHORT, steps_of<std::uint16_t>(g).data())
-                     : send(GL_UNSIGNED_BYTE, steps_of<std::uint8_t>(g).data());
+    beam.texture = make_texels(context_, g.width, g.height, g.bits, g.cd, steps_of(g));
     beam.cd_a_unit = g.bits == 32 ? 1.0 : g.scale_cd;
     texture_bytes_ += static_cast<std::size_t>(g.bits / 8) * g.cd.size();
     context_.check("uploading a beam texture");

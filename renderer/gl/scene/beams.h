@@ -45,8 +45,8 @@ struct Beam {
     Texture texture;
 };
 
-/// The format of a texture of one channel with so many bits (BeamTexels).
-GLenum format_of_texels(int bits);
+/// Of one channel with so many bits (BeamTexels): as it is with 32, else in steps.
+Texture make_texels(Context& context, int width, int height, int bits, std::span<const float> values, std::span<const std::uint16_t> steps);
 
 class Beams {
   public:

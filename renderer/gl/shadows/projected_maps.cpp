@@ -124,11 +124,7 @@ void ProjectedMaps::set(const std::vector<LitLamp>& lamps, const std::vector<con
 
 MapPlan ProjectedMaps::plain(const LampCasters& lamp) const {
     ShadowWindow window = lamp.window;
-    const double more = kept_tangent(lamp);
-    window.left -= more;
-    window.right += more;
-    window.bottom -= more;
-    window.top += more;
+    widen(window, kept_tangent(lamp));
     MapPlan plan{lamp.lamp.pose, window_homography(window, settings_.width, settings_.height), 0.0, lamp.pieces, lamp.bodies};
     plan.spread = 1.5 * texel_tangent(window, settings_);
     return plan;

@@ -158,7 +158,8 @@ double ShadowCasters::begins_in(const LampCasters& lamp, std::uint32_t piece, co
 void ShadowCasters::add_bodies(LampCasters& found) {
     const double margin = caster_margin_texels * texel_tangent(found.window, settings_),
                  more = margin + 2.0 * settings_.redraw_texels * texel_tangent(found.window, settings_);
-    const ShadowWindow window{found.window.left - more, found.window.right + more, found.window.bottom - more, found.window.top + more};
+    ShadowWindow window = found.window;
+    gl::widen(window, more);
     for (const std::uint32_t k : found.pieces) {
         std::optional<double> begins_m;
         for (const Corners& body : scene_.pieces()[k].bodies_m) {
@@ -192,24 +193,15 @@ void ShadowCasters::merge(const LitLamp& lamp, const ShadowWindow& window) {
 }
 
 void ShadowCasters::widen(std::size_t lamp, double tangent) {
-    for (Caster& caster : lamps_.at(lamp).bodies) {
-        caster.left -= tangent;
-        caster.right += tangent;
-        caster.bottom -= tangent;
-        caster.top += tangent;
-    }
+    for (Caster& caster : lamps_.at(lamp).bodies)
+        gl::widen(caster, tangent);
 }
 
 void ShadowCasters::soften(double radius_m) {
     for (LampCasters& lamp : lamps_) {
         lamp.slack_m += radius_m;
-        for (Caster& caster : lamp.bodies) {
-            const double tangent = radius_m / std::max(caster.nearest_m, tangents_from_m);
-            caster.left -= tangent;
-            caster.right += tangent;
-            caster.bottom -= tangent;
-            caster.top += tangent;
-        }
+        for (Caster& caster : lamp.bodies)
+            gl::widen(caster, radius_m / std::max(caster.nearest_m, tangents_from_m));
     }
 }
 

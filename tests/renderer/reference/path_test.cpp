@@ -10,14 +10,7 @@
 namespace fernlicht {
 namespace {
 
-double hypotenuse(double a, double b) { return std::hypot(a, b); }
-
 ReferenceSettings paths(double target_error) { return {.integrator = Integrator::path, .target_error = target_error}; }
-
-/// Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom; seeds are fixed. 1e-6: floats store the result.
-void expect_estimate(const Estimate& estimate, double truth, int x = 0, int y = 0) {
-    EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + 1e-6 * truth);
-}
 
 /// View factor from a small element, parallel, to a rectangle a x b at height c above it, one of whose corners is above the element
 /// (Howell's catalogue, B-3).
@@ -34,12 +27,11 @@ TEST(ReferencePath, KeepsEnergyInAWhiteClosedRoom) {
         ReferenceSettings settings = paths(0.005);
         settings.most_samples = 1 << 16;
         const ReferenceImage image = Reference(scene).render({}, camera({0.2, 0.1, -0.3}, 20, 10, 60, 3), everything, settings);
-        for (int y = 0; y < 3; ++y)
-            for (int x = 0; x < 3; ++x) {
-                expect_estimate(image.luminance_cdm2, truth, x, y);
-                expect_estimate(image.illuminance_lx, pi * truth, x, y);
-                EXPECT_LE(image.luminance_cdm2.standard_error.at(x, y), 0.005 * truth * 1.05);
-            }
+        for (const auto& [x, y] : each_pixel(3, 3)) {
+            expect_estimate(image.luminance_cdm2, truth, 1e-6, x, y);
+            expect_estimate(image.illuminance_lx, pi * truth, 1e-6, x, y);
+            EXPECT_LE(image.luminance_cdm2.standard_error.at(x, y), 0.005 * truth * 1.05);
+        }
     }
 }
 
@@ -50,8 +42,7 @@ TEST(ReferencePath, ColoursTheWhiteRoomChannelByChannel) {
     const Scene scene = closed_room(wall);
     const double truth = 0.2126 * 1.0 / (1.0 - 0.8) + 0.7152 * 2.0 / (1.0 - 0.5) + 0.0722 * 4.0 / (1.0 - 0.2);
     const ReferenceImage image = Reference(scene).render({}, camera({0, 0, 0}, 20, 10, 60, 1), everything, paths(0.002));
-    EXPECT_NEAR(image.luminance_cdm2.mean.at(0, 0), truth,
-                5.0 * static_cast<double>(image.luminance_cdm2.standard_error.at(0, 0)) + 1e-5 * truth);
+    expect_estimate(image.luminance_cdm2, truth, 1e-5);
 }
 
 TEST(ReferencePath, RetroreflectionMakesNoEnergyHoweverStrong) {
@@ -164,12 +155,11 @@ TEST(ReferencePath, AnIntegratingSphereSpreadsALampsLightEvenly) {
     settings.target_error = 0.001;
     const ReferenceImage direct = reference.render(moment, view, lux, settings);
     const double rho = static_cast<double>(0.7F), truth = rho * 2.0 * pi * 10.0 / (4.0 * pi * (1.0 - rho));
-    for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 3; ++x) {
-            const double bounced = all.illuminance_lx.mean.at(x, y) - direct.illuminance_lx.mean.at(x, y),
-                         error = std::hypot(all.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y));
-            EXPECT_NEAR(bounced, truth, 5.0 * error + 0.002 * truth); // flat cells of 2.8 degrees: (pi / 64)^2
-        }
+    for (const auto& [x, y] : each_pixel(3, 3)) {
+        const double bounced = all.illuminance_lx.mean.at(x, y) - direct.illuminance_lx.mean.at(x, y),
+                     error = std::hypot(all.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y));
+        EXPECT_NEAR(bounced, truth, 5.0 * error + 0.002 * truth); // flat cells of 2.8 degrees: (pi / 64)^2
+    }
 }
 
 TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
@@ -213,11 +203,9 @@ TEST(ReferencePath, IsDirectLightWhereNothingReflects) {
     const ReferenceImage path = reference.render(moment, map_about({3, 0}, 2.0, 8), lux, settings);
     settings.integrator = Integrator::direct;
     const ReferenceImage direct = reference.render(moment, map_about({3, 0}, 2.0, 8), lux, settings);
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x)
-            EXPECT_NEAR(path.illuminance_lx.mean.at(x, y), direct.illuminance_lx.mean.at(x, y),
-                        5.0 * hypotenuse(path.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y)) +
-                            1e-6);
+    for (const auto& [x, y] : each_pixel(8, 8))
+        EXPECT_NEAR(path.illuminance_lx.mean.at(x, y), direct.illuminance_lx.mean.at(x, y),
+                    5.0 * std::hypot(path.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y)) + 1e-6);
 }
 
 } // namespace

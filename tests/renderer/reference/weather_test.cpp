@@ -20,11 +20,6 @@ Moment in_fog(double extinction_per_m, double albedo = 1.0, double asymmetry = 0
     return {.weather = {extinction_per_m, albedo, asymmetry, 0.0}};
 }
 
-/// Five standard errors (path_test.cpp).
-void expect_in_weather(const Estimate& estimate, double truth, int x = 0, int y = 0) {
-    EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + 1e-5 * truth);
-}
-
 TEST(ReferenceFog, WhiteFogChangesNothingInAnEvenRoom) {
     // Where light is the same from all sides, what fog takes it gives back: L = Le / (1 - rho) whatever the fog.
     Material wall = lambert(0.5, SurfaceKind::road, 3.0);
@@ -32,9 +27,9 @@ TEST(ReferenceFog, WhiteFogChangesNothingInAnEvenRoom) {
     for (const double asymmetry : {0.0, 0.85}) {
         const ReferenceImage image =
             Reference(scene).render(in_fog(0.7, 1.0, asymmetry), camera({0.2, 0.1, -0.3}, 20, 10, 60, 2), everything, by(Integrator::path));
-        expect_in_weather(image.luminance_cdm2, 6.0, 0, 0);
-        expect_in_weather(image.luminance_cdm2, 6.0, 1, 1);
-        expect_in_weather(image.illuminance_lx, 6.0 * pi, 1, 0);
+        expect_estimate(image.luminance_cdm2, 6.0, 1e-5, 0, 0);
+        expect_estimate(image.luminance_cdm2, 6.0, 1e-5, 1, 1);
+        expect_estimate(image.illuminance_lx, 6.0 * pi, 1e-5, 1, 0);
     }
     ReferenceSettings once = by(Integrator::path);
     once.most_scatterings = 1;
@@ -90,15 +85,14 @@ TEST(ReferenceFog, SingleScatteringByPathsIsThatOfDirectLight) {
     const ReferenceImage direct = drawn(Integrator::direct, 1, 0.01), path = drawn(Integrator::path, 1, 0.01),
                          whitted = drawn(Integrator::whitted, 1, 0.01), more = drawn(Integrator::path, 1000, 0.04);
     double single = 0.0, all = 0.0;
-    for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) {
-            const double error = std::hypot(path.luminance_cdm2.standard_error.at(x, y), direct.luminance_cdm2.standard_error.at(x, y));
-            EXPECT_NEAR(path.luminance_cdm2.mean.at(x, y), direct.luminance_cdm2.mean.at(x, y),
-                        5.0 * error + 1e-4 * static_cast<double>(direct.luminance_cdm2.mean.at(x, y)))
-                << x << " " << y;
-            EXPECT_EQ(whitted.luminance_cdm2.mean.at(x, y), direct.luminance_cdm2.mean.at(x, y));
-            single += static_cast<double>(path.luminance_cdm2.mean.at(x, y)), all += static_cast<double>(more.luminance_cdm2.mean.at(x, y));
-        }
+    for (const auto& [x, y] : each_pixel(4, 4)) {
+        const double error = std::hypot(path.luminance_cdm2.standard_error.at(x, y), direct.luminance_cdm2.standard_error.at(x, y));
+        EXPECT_NEAR(path.luminance_cdm2.mean.at(x, y), direct.luminance_cdm2.mean.at(x, y),
+                    5.0 * error + 1e-4 * static_cast<double>(direct.luminance_cdm2.mean.at(x, y)))
+            << x << " " << y;
+        EXPECT_EQ(whitted.luminance_cdm2.mean.at(x, y), direct.luminance_cdm2.mean.at(x, y));
+        single += static_cast<double>(path.luminance_cdm2.mean.at(x, y)), all += static_cast<double>(more.luminance_cdm2.mean.at(x, y));
+    }
     EXPECT_GT(all, 1.02 * single); // further scatterings add
 }
 
@@ -116,8 +110,8 @@ TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
         settings.footprint = Footprint::centre;
         const ReferenceImage seen = Reference(scene).render(moment, camera({0, 0, 0}, 180, 0, 2, 1), everything, settings),
                              mirrored = Reference(scene).render(moment, camera({0, 0, 0}, 0, 0, 2, 1), everything, settings);
-        expect_in_weather(seen.luminance_cdm2, 50.0 * std::exp(-0.05 * 12.0));
-        expect_in_weather(mirrored.luminance_cdm2, static_cast<double>(mirror.mirror) * 50.0 * std::exp(-0.05 * (8.0 + 20.0)));
+        expect_estimate(seen.luminance_cdm2, 50.0 * std::exp(-0.05 * 12.0), 1e-5);
+        expect_estimate(mirrored.luminance_cdm2, static_cast<double>(mirror.mirror) * 50.0 * std::exp(-0.05 * (8.0 + 20.0)), 1e-5);
     }
 }
 
@@ -193,7 +187,7 @@ TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
         settings.footprint = Footprint::centre;
         const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
         EXPECT_LT(image.luminance_cdm2.standard_error.at(0, 0), 0.01 * truth);
-        expect_in_weather(image.luminance_cdm2, truth);
+        expect_estimate(image.luminance_cdm2, truth, 1e-5);
     }
 }
 

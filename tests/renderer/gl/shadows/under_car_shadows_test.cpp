@@ -40,18 +40,17 @@ TEST_F(UnderCar, TheGroundWithinTheOutlineIsDarkAndAllElseIsAsWithoutShadows) {
                 without = drawn_with(device_, s.scene, s.moment, map, ShadowMethod::none);
     const Camera camera = camera_of(s.moment, map);
     int inside = 0;
-    for (int y = 0; y < map.height_px; ++y)
-        for (int x = 0; x < map.width_px; ++x) {
-            const glm::dvec3 ground = pixel_ray(camera, map, x + 0.5, y + 0.5).origin_m;
-            const glm::dvec3 in_car = to_local(s.moment.bodies[0].pose, {ground.x, ground.y, 0.0});
-            const double beyond =
-                std::max(std::max(car_low.x - in_car.x, in_car.x - car_high.x), std::max(car_low.y - in_car.y, in_car.y - car_high.y));
-            if (std::abs(beyond) < 1e-3)
-                continue; // on the outline
-            inside += beyond < 0.0 ? 1 : 0;
-            EXPECT_EQ(with.illuminance_lx.at(x, y), beyond < 0.0 ? 0.0F : without.illuminance_lx.at(x, y)) << x << ' ' << y;
-            EXPECT_EQ(with.target_lx.at(x, y), beyond < 0.0 ? 0.0F : without.target_lx.at(x, y)) << x << ' ' << y;
-        }
+    for (const auto& [x, y] : each_pixel(map)) {
+        const glm::dvec3 ground = pixel_ray(camera, map, x + 0.5, y + 0.5).origin_m;
+        const glm::dvec3 in_car = to_local(s.moment.bodies[0].pose, {ground.x, ground.y, 0.0});
+        const double beyond =
+            std::max(std::max(car_low.x - in_car.x, in_car.x - car_high.x), std::max(car_low.y - in_car.y, in_car.y - car_high.y));
+        if (std::abs(beyond) < 1e-3)
+            continue; // on the outline
+        inside += beyond < 0.0 ? 1 : 0;
+        EXPECT_EQ(with.illuminance_lx.at(x, y), beyond < 0.0 ? 0.0F : without.illuminance_lx.at(x, y)) << x << ' ' << y;
+        EXPECT_EQ(with.target_lx.at(x, y), beyond < 0.0 ? 0.0F : without.target_lx.at(x, y)) << x << ' ' << y;
+    }
     EXPECT_NEAR(inside, 4.0 * 1.8 * 100.0, 10.0);
 }
 

@@ -1,0 +1,40 @@
+// Views that tests draw, and their pixels.
+#pragma once
+
+#include "scenarios/drives/drive.h"
+#include "scenarios/values/pose.h"
+
+#include <utility>
+#include <vector>
+
+namespace fernlicht {
+
+/// (x, y) row by row.
+inline std::vector<std::pair<int, int>> each_pixel(int width, int height) {
+    std::vector<std::pair<int, int>> all;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            all.emplace_back(x, y);
+    return all;
+}
+inline std::vector<std::pair<int, int>> each_pixel(const View& view) { return each_pixel(view.width_px, view.height_px); }
+
+/// From where a driver sits, along the road.
+inline View driver_view(int width_px, int height_px, double fov_deg = 30.0, double pitch_deg = -3.0) {
+    return {.name = "driver",
+            .position_m = {1.5, 0.35, 1.2},
+            .pitch_rad = radians(pitch_deg),
+            .vertical_fov_rad = radians(fov_deg),
+            .width_px = width_px,
+            .height_px = height_px};
+}
+
+inline View map_view(double ahead_m, double behind_m, double beside_m, int width_px, int height_px) {
+    View view{.name = "map", .projection = Projection::map, .width_px = width_px, .height_px = height_px};
+    view.map_ahead_m = ahead_m;
+    view.map_behind_m = behind_m;
+    view.map_left_m = view.map_right_m = beside_m;
+    return view;
+}
+
+} // namespace fernlicht
