@@ -38,6 +38,38 @@ std::vector<LitLamp> from_left(const Moment& moment) {
     return lamps;
 }
 
+constexpr std::size_t most_arrangements = 4;
+constexpr double same_within = 1e-6;
+
+/// Texels [z][y][x] with the outermost ones black.
+template <class T> std::vector<T> framed(std::vector<T> texels, int width, int height, int depth) {
+    if (texels.empty())
+        return texels;
+    std::size_t i = 0;
+    for (int z = 0; z < depth; ++z)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x, ++i)
+                if (x == 0 || y == 0 || x == width - 1 || y == height - 1 || (depth > 1 && (z == 0 || z == depth - 1)))
+                    texels[i] = T{0};
+    return texels;
+}
+
+/// Within a micrometre and a microradian: moving the car rounds more than nothing.
+bool same_arrangement(const std::vector<LitLamp>& lamps, const std::vector<LitLamp>& others) {
+    return std::ranges::equal(lamps, others, [](const LitLamp& a, const LitLamp& b) {
+        bool same = a.file == b.file && a.intensity_factor == b.intensity_factor &&
+                    glm::distance(a.pose.position_m, b.pose.position_m) < same_within;
+        for (int axis = 0; axis < 3; ++axis)
+            same = same && glm::distance(a.pose.axes[axis], b.pose.axes[axis]) < same_within;
+        return same;
+    });
+}
+
+void set_linear(const GladGLContext& gl, GLuint texture) {
+    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
 } // namespace
 
 PublishedLighting::PublishedLighting(Context& context, const Scene& scene, const RendererSettings& settings)
@@ -276,42 +308,6 @@ void PublishedLighting::prepare(const Shot& shot) {
     context_.check("compiling variants");
 }
 
-namespace {
-
-constexpr std::size_t most_arrangements = 4;
-constexpr double same_within = 1e-6;
-
-/// Texels [z][y][x] with the outermost ones black.
-template <class T> std::vector<T> framed(std::vector<T> texels, int width, int height, int depth) {
-    if (texels.empty())
-        return texels;
-    std::size_t i = 0;
-    for (int z = 0; z < depth; ++z)
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x, ++i)
-                if (x == 0 || y == 0 || x == width - 1 || y == height - 1 || (depth > 1 && (z == 0 || z == depth - 1)))
-                    texels[i] = T{0};
-    return texels;
-}
-
-/// Within a micrometre and a microradian: moving the car rounds more than nothing.
-bool same_arrangement(const std::vector<LitLamp>& lamps, const std::vector<LitLamp>& others) {
-    return std::ranges::equal(lamps, others, [](const LitLamp& a, const LitLamp& b) {
-        bool same = a.file == b.file && a.intensity_factor == b.intensity_factor &&
-                    glm::distance(a.pose.position_m, b.pose.position_m) < same_within;
-        for (int axis = 0; axis < 3; ++axis)
-            same = same && glm::distance(a.pose.axes[axis], b.pose.axes[axis]) < same_within;
-        return same;
-    });
-}
-
-void set_linear(const GladGLContext& gl, GLuint texture) {
-    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-}
-
-} // namespace
-
 UploadedBeam PublishedBeams::upload(const ProjectedBeam& beam) {
     UploadedBeam uploaded{beam.window, beam.steps.empty() ? 1.0 : beam.scale_lx, beam.scale_lx, beam.worst_error_of_peak,
                           make_texels(context_, beam.width, beam.height, beam.bits, framed(beam.lx, beam.width, beam.height, 1),
@@ -368,13 +364,11 @@ const UploadedMap& PublishedBeams::light_map(const Moment& moment, bool volume) 
         const std::vector<float> texels = framed(map.lx, x, y, z);
         UploadedMap uploaded{map.ahead, map.left, volume ? map.up : LightMapAxis{}, {}};
         if (volume) {
-            GLuint name = 0;
-            gl.CreateTextures(GL_TEXTURE_3D, 1, &name);
-            uploaded.texture = Texture(context_, name);
-            gl.TextureStorage3D(name, 1, GL_R32F, x, y, z);
+            uploaded.texture = new_texture(context_, GL_TEXTURE_3D);
+            gl.TextureStorage3D(uploaded.texture, 1, GL_R32F, x, y, z);
             for (const auto direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-                gl.TextureParameteri(name, static_cast<GLenum>(direction), GL_CLAMP_TO_EDGE);
-            gl.TextureSubImage3D(name, 0, 0, 0, 0, x, y, z, GL_RED, GL_FLOAT, texels.data());
+                gl.TextureParameteri(uploaded.texture, static_cast<GLenum>(direction), GL_CLAMP_TO_EDGE);
+            gl.TextureSubImage3D(uploaded.texture, 0, 0, 0, 0, x, y, z, GL_RED, GL_FLOAT, texels.data());
         } else {
             uploaded.texture = make_texture(context_, GL_R32F, x, y);
             gl.TextureSubImage2D(uploaded.texture, 0, 0, 0, x, y, GL_RED, GL_FLOAT, texels.data());

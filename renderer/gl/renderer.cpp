@@ -32,6 +32,28 @@ std::unique_ptr<gl::Lighting> make_lighting(gl::Context& context, const Scene& s
     return std::make_unique<gl::PhotometricLighting>(context, scene, settings, technique.name != "photometric-unpruned");
 }
 
+/// Median time of a frame of four results over an empty night scene, two always on their way when overlapped.
+double frame_time(Device& device, ReadBack way) {
+    const Scene scene;
+    RendererSettings settings;
+    settings.read_back = way;
+    Renderer renderer(device, scene, settings);
+    const View view;
+    const Wanted wanted{.colour = true, .illuminance = true, .luminance = true, .depth = true};
+    std::vector<double> seconds;
+    Pending earlier = renderer.submit({}, view, wanted);
+    for (int i = 0; i < frames; ++i) {
+        const Clock::time_point start = Clock::now();
+        Pending next = renderer.submit({}, view, wanted);
+        earlier();
+        earlier = std::move(next);
+        seconds.push_back(seconds_since(start));
+    }
+    earlier();
+    std::ranges::sort(seconds);
+    return seconds[frames / 2];
+}
+
 } // namespace
 
 struct Renderer::State {
@@ -165,32 +187,6 @@ std::optional<double> Renderer::beam_error(const LampFile& lamp) const { return 
 Renderer::ShadowMapsUsed Renderer::shadow_maps_used() const { return state_->shadow_maps; }
 
 int Renderer::compiled_programs() const { return state_->context.compiled_programs - state_->programs_before; }
-
-namespace {
-
-/// Median time of a frame of four results over an empty night scene, two always on their way when overlapped.
-double frame_time(Device& device, ReadBack way) {
-    const Scene scene;
-    RendererSettings settings;
-    settings.read_back = way;
-    Renderer renderer(device, scene, settings);
-    const View view;
-    const Wanted wanted{.colour = true, .illuminance = true, .luminance = true, .depth = true};
-    std::vector<double> seconds;
-    Pending earlier = renderer.submit({}, view, wanted);
-    for (int i = 0; i < frames; ++i) {
-        const Clock::time_point start = Clock::now();
-        Pending next = renderer.submit({}, view, wanted);
-        earlier();
-        earlier = std::move(next);
-        seconds.push_back(seconds_since(start));
-    }
-    earlier();
-    std::ranges::sort(seconds);
-    return seconds[frames / 2];
-}
-
-} // namespace
 
 ReadBackCheck check_read_back(Device& device) { return {frame_time(device, ReadBack::plain), frame_time(device, ReadBack::overlapped)}; }
 

@@ -51,10 +51,8 @@ template <class T> void TrafficLights::fill(Texels& texels, GLenum format, const
                                           values.size() * sizeof(T) / texel_bytes(format)));
         texels.room = std::min(room, most / sizeof(T));
         texels.buffer = make_buffer(context_, std::vector<T>(texels.room), GL_DYNAMIC_STORAGE_BIT);
-        GLuint name = 0;
-        gl.CreateTextures(GL_TEXTURE_BUFFER, 1, &name);
-        texels.texture = Texture(context_, name);
-        gl.TextureBuffer(name, format, texels.buffer);
+        texels.texture = new_texture(context_, GL_TEXTURE_BUFFER);
+        gl.TextureBuffer(texels.texture, format, texels.buffer);
         context_.check("making texels of lamps");
     }
     update_buffer(context_, texels.buffer, values);

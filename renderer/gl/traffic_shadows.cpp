@@ -38,10 +38,8 @@ bool behind_lamp(const Corners& box) {
 TrafficShadows::TrafficShadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, bool pruned)
     : context_(context), scene_(scene), settings_(traffic_map_settings(settings)), pruned_(pruned), pass_(context, scene, scene.moves()),
       map_buffer_(make_buffer(context, std::vector<glm::vec4>(4 * most_traffic_maps), GL_DYNAMIC_STORAGE_BIT)), layers_(most_traffic_maps) {
-    GLuint name = 0;
-    context_.gl.CreateTextures(GL_TEXTURE_BUFFER, 1, &name);
-    map_texels_ = Texture(context_, name);
-    context_.gl.TextureBuffer(name, GL_RGBA32F, map_buffer_);
+    map_texels_ = new_texture(context_, GL_TEXTURE_BUFFER);
+    context_.gl.TextureBuffer(map_texels_, GL_RGBA32F, map_buffer_);
     maps_ = make_shadow_texture(context_, {settings_.width, settings_.height, static_cast<int>(most_traffic_maps), "lamps of others",
                                            "a smaller map_texels, or shadows: none"});
 }

@@ -98,72 +98,6 @@ int most_each(const ReferenceSettings& s) {
     return std::max(least_each(s), static_cast<int>(std::bit_floor(static_cast<unsigned>(s.most_samples) / 16)));
 }
 
-} // namespace
-
-int most_samples_used(const ReferenceSettings& s) { return most_each(s) * static_cast<int>(replicate_count); }
-
-Drawing pilot_of(const Shot& shot, int x, int y) {
-    const bool is_path = !is_direct(shot.settings);
-    return draw_pixel(shot, x, y, 0, !is_path, is_path ? path_pilot_each : 1);
-}
-
-bool differ(const Drawing& a, const Drawing& b) {
-    return a.seen.mesh != b.seen.mesh || a.seen.material != b.seen.material || a.shadows.seen != b.shadows.seen;
-}
-
-PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& pilot, bool at_edge) {
-    const int most = most_each(shot.settings), pilot_each = is_direct(shot.settings) ? 1 : path_pilot_each;
-    PixelEstimate estimate{{}, std::min(most, std::max(least_each(shot.settings), at_edge ? edge_least_each : 1)), 0, 0};
-    for (std::size_t r = 0; r < 3; ++r) {
-        const auto [mean, error] = mean_of(pilot.sums[r], pilot_each);
-        estimate.each = std::max(estimate.each, samples_for(error, target_of(shot, r, mean), falling_power(shot, pilot), pilot_each, most));
-    }
-    for (std::uint64_t round = 1;; ++round) {
-        const Drawing drawing = draw_pixel(shot, x, y, round, false, estimate.each);
-        estimate.rays += drawing.rays;
-        int wanted = estimate.each;
-        for (std::size_t r = 0; r < 3; ++r) {
-            estimate.result[r] = mean_of(drawing.sums[r], estimate.each);
-            const auto [mean, error] = estimate.result[r];
-            const double target = target_of(shot, r, mean);
-            if (error > target)
-                wanted = std::max(wanted, samples_for(error, target, falling_power(shot, drawing), estimate.each, most));
-        }
-        estimate.mixed = drawing.mixed();
-        if (wanted == estimate.each)
-            return estimate;
-        estimate.each = wanted;
-    }
-}
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-__attribute__((target_clones("avx512f", "avx2", "default"))) // chosen when the program starts; sanitizers cannot instrument that
-#endif
-void angles(const Lanes& y, const Lanes& x, Lanes& angle_rad) {
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        const double ay = std::abs(y[i]), ax = std::abs(x[i]), small = ay < ax ? ay : ax, large = ay < ax ? ax : ay;
-        // tan(a - pi/4) = (tan a - 1) / (tan a + 1) brings the upper half of the octant down.
-        const bool upper = small > 0.66 * large;
-        const double above = upper ? small - large : small, below = upper ? small + large : large;
-        const double t = above / (below > 0.0 ? below : 1.0), z = t * t;
-        const double p = (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z - 7.500855792314704667340e1) * z -
-                          1.228866684490136173410e2) *
-                             z -
-                         6.485021904942025371773e1;
-        const double q = ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z + 4.328810604912902668951e2) * z +
-                          4.853903996359136964868e2) *
-                             z +
-                         1.945506571482613964425e2;
-        double a = t + t * (z * p / q);
-        a = upper ? a + 0.25 * pi : a;
-        a = ay > ax ? 0.5 * pi - a : a;
-        a = x[i] < 0.0 ? pi - a : a;
-        angle_rad[i] = y[i] < 0.0 ? -a : a;
-    }
-}
-
-namespace {
-
 constexpr double n = static_cast<double>(replicate_count);
 
 /// Sum of squared differences from the mean.
@@ -175,23 +109,6 @@ double squares_about(const std::array<double, replicate_count>& values, double m
 }
 
 double mean_value(const std::array<double, replicate_count>& values) { return std::accumulate(values.begin(), values.end(), 0.0) / n; }
-
-} // namespace
-
-MeanAndError mean_of(const std::array<double, replicate_count>& sums, int each) {
-    const double mean = mean_value(sums);
-    const double error = std::sqrt(squares_about(sums, mean) / (n * (n - 1.0)) * ((n - 1.0) / (n - 3.0)));
-    return {mean / each, error / each};
-}
-
-int samples_for(double error, double target, double power, int now, int most) {
-    int count = now;
-    for (double reached = error; count < most && reached > 0.75 * target; count *= 2)
-        reached *= std::pow(2.0, -0.5 * power);
-    return count;
-}
-
-namespace {
 
 static_assert(tile_px == packet_size, "a row of a tile is a packet of rays through pixels' centres");
 
@@ -296,6 +213,81 @@ std::uint64_t draw_pixels(const Shot& shot, int x0, int y0, ReferenceImage& imag
 }
 
 } // namespace
+
+int most_samples_used(const ReferenceSettings& s) { return most_each(s) * static_cast<int>(replicate_count); }
+
+Drawing pilot_of(const Shot& shot, int x, int y) {
+    const bool is_path = !is_direct(shot.settings);
+    return draw_pixel(shot, x, y, 0, !is_path, is_path ? path_pilot_each : 1);
+}
+
+bool differ(const Drawing& a, const Drawing& b) {
+    return a.seen.mesh != b.seen.mesh || a.seen.material != b.seen.material || a.shadows.seen != b.shadows.seen;
+}
+
+PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& pilot, bool at_edge) {
+    const int most = most_each(shot.settings), pilot_each = is_direct(shot.settings) ? 1 : path_pilot_each;
+    PixelEstimate estimate{{}, std::min(most, std::max(least_each(shot.settings), at_edge ? edge_least_each : 1)), 0, 0};
+    for (std::size_t r = 0; r < 3; ++r) {
+        const auto [mean, error] = mean_of(pilot.sums[r], pilot_each);
+        estimate.each = std::max(estimate.each, samples_for(error, target_of(shot, r, mean), falling_power(shot, pilot), pilot_each, most));
+    }
+    for (std::uint64_t round = 1;; ++round) {
+        const Drawing drawing = draw_pixel(shot, x, y, round, false, estimate.each);
+        estimate.rays += drawing.rays;
+        int wanted = estimate.each;
+        for (std::size_t r = 0; r < 3; ++r) {
+            estimate.result[r] = mean_of(drawing.sums[r], estimate.each);
+            const auto [mean, error] = estimate.result[r];
+            const double target = target_of(shot, r, mean);
+            if (error > target)
+                wanted = std::max(wanted, samples_for(error, target, falling_power(shot, drawing), estimate.each, most));
+        }
+        estimate.mixed = drawing.mixed();
+        if (wanted == estimate.each)
+            return estimate;
+        estimate.each = wanted;
+    }
+}
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+__attribute__((target_clones("avx512f", "avx2", "default"))) // chosen when the program starts; sanitizers cannot instrument that
+#endif
+void angles(const Lanes& y, const Lanes& x, Lanes& angle_rad) {
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        const double ay = std::abs(y[i]), ax = std::abs(x[i]), small = ay < ax ? ay : ax, large = ay < ax ? ax : ay;
+        // tan(a - pi/4) = (tan a - 1) / (tan a + 1) brings the upper half of the octant down.
+        const bool upper = small > 0.66 * large;
+        const double above = upper ? small - large : small, below = upper ? small + large : large;
+        const double t = above / (below > 0.0 ? below : 1.0), z = t * t;
+        const double p = (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z - 7.500855792314704667340e1) * z -
+                          1.228866684490136173410e2) *
+                             z -
+                         6.485021904942025371773e1;
+        const double q = ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z + 4.328810604912902668951e2) * z +
+                          4.853903996359136964868e2) *
+                             z +
+                         1.945506571482613964425e2;
+        double a = t + t * (z * p / q);
+        a = upper ? a + 0.25 * pi : a;
+        a = ay > ax ? 0.5 * pi - a : a;
+        a = x[i] < 0.0 ? pi - a : a;
+        angle_rad[i] = y[i] < 0.0 ? -a : a;
+    }
+}
+
+MeanAndError mean_of(const std::array<double, replicate_count>& sums, int each) {
+    const double mean = mean_value(sums);
+    const double error = std::sqrt(squares_about(sums, mean) / (n * (n - 1.0)) * ((n - 1.0) / (n - 3.0)));
+    return {mean / each, error / each};
+}
+
+int samples_for(double error, double target, double power, int now, int most) {
+    int count = now;
+    for (double reached = error; count < most && reached > 0.75 * target; count *= 2)
+        reached *= std::pow(2.0, -0.5 * power);
+    return count;
+}
 
 std::uint64_t draw_tile(const Shot& shot, int x0, int y0, ReferenceImage& image) {
     try {

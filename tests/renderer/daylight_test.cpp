@@ -39,8 +39,7 @@ Moment sunlit(double azimuth_deg, double elevation_deg, double lx, double sky_lx
 class DrawnDaylight : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, bool shadows, const char* technique = "photometric", Work* work = nullptr) {
-        RendererSettings settings;
-        settings.shadows.method = shadows ? ShadowMethod::map : ShadowMethod::none;
+        RendererSettings settings{.shadows = {.method = shadows ? ShadowMethod::map : ShadowMethod::none}};
         settings.technique = technique;
         Renderer renderer(device_, scene, settings);
         if (work != nullptr)

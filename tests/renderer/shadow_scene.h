@@ -63,8 +63,7 @@ inline View map_for_shadows(double ahead_m, double beside_m, int per_m) {
 
 inline Frame drawn_with(Device& device, const Scene& scene, const Moment& moment, const View& view, ShadowMethod method,
                         const char* technique = "photometric") {
-    RendererSettings settings{.technique = technique};
-    settings.shadows.method = method;
+    RendererSettings settings{.technique = technique, .shadows = {.method = method}};
     Renderer renderer(device, scene, settings);
     return renderer.draw(moment, view, all_results);
 }

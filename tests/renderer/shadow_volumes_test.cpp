@@ -237,8 +237,7 @@ Moment busy_moment(double time_s) {
 TEST_F(ShadowVolumesTest, PrunedAndUnprunedGiveTheSameBytesWhateverWasDrawnBefore) {
     const Scene scene = busy_scene();
     for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar, ShadowMethod::under_car}) {
-        RendererSettings settings;
-        settings.shadows.method = method;
+        RendererSettings settings{.shadows = {.method = method}};
         Renderer pruned(device_, scene, settings);
         settings.technique = "photometric-unpruned";
         Renderer unpruned(device_, scene, settings);
@@ -257,8 +256,7 @@ TEST_F(ShadowVolumesTest, PrunedAndUnprunedGiveTheSameBytesWhateverWasDrawnBefor
 TEST_F(ShadowVolumesTest, CostNothingWhereNothingStandsInABeam) {
     const Scene scene = busy_scene();
     for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar}) {
-        RendererSettings settings;
-        settings.shadows.method = method;
+        RendererSettings settings{.shadows = {.method = method}};
         Renderer renderer(device_, scene, settings);
         Moment moment = busy_moment(0.0);
         EXPECT_EQ(renderer.count(moment, driver_for_shadows(), all_results).passes, 1 + 2 * 2 + 1)
@@ -279,8 +277,7 @@ TEST_F(ShadowVolumesTest, TexturesAreMadeWhenSomethingFirstCasts) {
     for (LitLamp& lamp : away.lamps)
         lamp.pose.axes = axes_from_angles(pi, 0.0, 0.0); // backwards, where nothing stands
     const View view = driver_for_shadows();
-    RendererSettings settings;
-    settings.shadows.method = ShadowMethod::none;
+    RendererSettings settings{.shadows = {.method = ShadowMethod::none}};
     Renderer none(device_, scene, settings);
     const std::size_t least = none.count(near, view, all_results).texture_bytes;
     for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar, ShadowMethod::under_car}) {

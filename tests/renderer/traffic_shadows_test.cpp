@@ -37,7 +37,6 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
         bound.at(x, y) = with.bound_lx;
     }
     int compared = 0, in_shadow = 0, wrong = 0, wrong_before = 0;
-    double worst = 0.0;
     const double allowed = (worst_traffic_error + 2.0) * moment.least_traffic_lx;
     for (int y = 2; y + 2 < view.height_px; ++y)
         for (int x = 2; x + 2 < view.width_px; ++x) {
@@ -52,7 +51,6 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
             in_shadow += least > 0.1 ? 1 : 0;
             wrong += is_off(frame) ? 1 : 0;
             wrong_before += is_off(bright) ? 1 : 0;
-            worst = std::max(worst, std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - lx.at(x, y)));
         }
     EXPECT_GT(compared, 1000);
     EXPECT_GT(in_shadow, 100);

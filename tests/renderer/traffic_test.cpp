@@ -26,7 +26,7 @@ TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
     for (const double least : {0.05, 1e-6}) {
         moment.least_traffic_lx = least;
         const Frame frame = draw(street, moment, view, s);
-        double brightest = 0.0, worst = 0.0;
+        double brightest = 0.0;
         int others = 0;
         for (const auto& [x, y] : each_pixel(view)) {
             const TwinPixel pixel = twin.pixel(moment, view, x + 0.5, y + 0.5);
@@ -36,7 +36,6 @@ TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
             }
             const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - pixel.illuminance_lx);
             EXPECT_LE(off, 2.0 * worst_traffic_error * least + 4.0 * pixel.bound_lx + 1e-5 * pixel.illuminance_lx + 1e-9) << x << " " << y;
-            worst = std::max(worst, off);
             brightest = std::max(brightest, pixel.illuminance_lx);
         }
         EXPECT_GT(brightest, 5.0);
@@ -56,7 +55,6 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
     const ReferenceImage truth = Reference(street.scene).render(moment, view, all_results, rays);
     const Frame frame = draw(street, moment, view, settings());
     const Twin shaded(street.scene, true), unshaded(street.scene, false);
-    double worst = 0.0, worst_share = 0.0;
     int compared = 0, in_shadow = 0;
     for (const auto& [x, y] : each_pixel(view)) {
         const TwinPixel with = shaded.pixel(moment, view, x + 0.5, y + 0.5), without = unshaded.pixel(moment, view, x + 0.5, y + 0.5);
@@ -70,8 +68,6 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
         ++compared;
         const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - rays_lx);
         EXPECT_LE(off, 3.0 * worst_traffic_error * moment.least_traffic_lx + 4.0 * with.bound_lx + 1e-5 * rays_lx) << x << " " << y;
-        worst = std::max(worst, off);
-        worst_share = std::max(worst_share, rays_lx > 0.5 ? off / rays_lx : 0.0);
     }
     EXPECT_GT(compared, 100);
     EXPECT_GT(in_shadow, 0);

@@ -64,6 +64,7 @@ struct GrowingBuffer {
     }
 };
 
+Texture new_texture(Context& context, GLenum target);
 /// One level, nearest filter, clamped to the edge. Throws DeviceError when the driver's size limit is exceeded.
 Texture make_texture(Context& context, GLenum internal_format, int width, int height);
 

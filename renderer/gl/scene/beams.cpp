@@ -43,6 +43,9 @@ bool same_grid(const BeamTexture& a, const BeamTexture& b) {
            a.v_first_rad == b.v_first_rad && a.h_step_rad == b.h_step_rad && a.v_step_rad == b.v_step_rad;
 }
 
+constexpr int texels_a_cell = 32;
+constexpr double slack_rad = 1e-3; // what the GPU's angles may differ, many times over
+
 } // namespace
 
 Texture make_texels(Context& context, int width, int height, int bits, std::span<const float> values,
@@ -100,13 +103,6 @@ std::vector<LitLamp> shining(const Moment& moment, bool all) {
 glm::dvec3 to_lamp_space(const LitLamp& lamp, const glm::dvec3& direction) {
     return {-glm::dot(lamp.pose.left(), direction), glm::dot(lamp.pose.up(), direction), glm::dot(lamp.pose.forward(), direction)};
 }
-
-namespace {
-
-constexpr int texels_a_cell = 32;
-constexpr double slack_rad = 1e-3; // what the GPU's angles may differ, many times over
-
-} // namespace
 
 BeamBounds::BeamBounds(const BeamTexture& beam)
     : h_first_(beam.h_first_rad), v_first_(beam.v_first_rad), h_cell_(texels_a_cell * beam.h_step_rad),

@@ -82,6 +82,21 @@ struct Gathered {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> corners; ///< vertex of the mesh, material
 };
 
+/// The root of `i` in a forest of parents, with the path halved on the way.
+std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
+    while (parent[i] != i)
+        i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+    void add(const glm::dvec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+};
+
 } // namespace
 
 SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) : context_(context) {
@@ -183,7 +198,6 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
         }
     }
     flat_ = resting_.empty() && (pieces_.empty() || highest - lowest < flat_within_m);
-    triangles_ = indices.size() / 3;
     find_bridges();
     std::vector<GpuMaterial> materials;
     for (const Material& material : scene.materials)
@@ -328,25 +342,6 @@ void SceneBuffers::find_bridges() {
         });
     }
 }
-
-namespace {
-
-/// The root of `i` in a forest of parents, with the path halved on the way.
-std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
-    while (parent[i] != i)
-        i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-struct Box {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-    void add(const glm::dvec3& p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-};
-
-} // namespace
 
 Corners box_round(const std::vector<glm::dvec3>& triangles) {
     // Strips of road have long edges along the road: the longest edge is tried beside the world's axes, the smallest floor wins.

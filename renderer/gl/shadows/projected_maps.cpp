@@ -39,6 +39,11 @@ bool covered_by(const MapPlan& map, const MapPlan& now, int width, int height) {
     });
 }
 
+/// What lies nearer and at the side of a beam may be lit for want of texels: to hold it too would take texels from all the rest.
+constexpr double one_map_from_m = 3.0;
+/// 72 degrees: of a lamp that looks elsewhere, such as a cornering lamp, only so much is in the map.
+constexpr double one_map_widest_tangent = 3.0;
+
 } // namespace
 
 glm::dmat3 window_homography(const ShadowWindow& window, int width, int height) {
@@ -238,15 +243,6 @@ std::vector<Program::Define> ProjectedMaps::defines(const std::vector<const Beam
 std::size_t ProjectedMaps::texture_bytes() const {
     return kept_.size() * places_.size() * 4 * static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
 }
-
-namespace {
-
-/// What lies nearer and at the side of a beam may be lit for want of texels: to hold it too would take texels from all the rest.
-constexpr double one_map_from_m = 3.0;
-/// 72 degrees: of a lamp that looks elsewhere, such as a cornering lamp, only so much is in the map.
-constexpr double one_map_widest_tangent = 3.0;
-
-} // namespace
 
 LitLamp midway(const std::vector<LitLamp>& lamps) {
     LitLamp between = lamps.front();

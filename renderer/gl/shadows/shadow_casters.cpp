@@ -146,11 +146,9 @@ double ShadowCasters::begins_in(const LampCasters& lamp, std::uint32_t piece, co
     auto known = corners_.find(piece);
     if (known == corners_.end())
         known = corners_.emplace(piece, scene_.corners_of(of)).first;
-    const glm::dquat turn(static_cast<double>(of.turn.w), static_cast<double>(of.turn.x), static_cast<double>(of.turn.y),
-                          static_cast<double>(of.turn.z));
     std::vector<glm::dvec3> triangles;
     for (const glm::vec3& corner : known->second)
-        triangles.push_back(to_lamp_space(lamp.lamp, of.origin_m - ego_m_ - lamp.lamp_m + turn * glm::dvec3(corner)));
+        triangles.push_back(to_lamp_space(lamp.lamp, of.origin_m - ego_m_ - lamp.lamp_m + turn_of(of) * glm::dvec3(corner)));
     return begins_in_window(triangles, window);
 }
 

@@ -96,20 +96,18 @@ Texture make_shadow_texture(Context& context, const ShadowTextureAsked& asked) {
                                             "which {} draws",
                                             asked.width, asked.height, asked.owner, limit, context.info.gl_renderer));
     context.check("drawing before a shadow map was made");
-    GLuint name = 0;
-    gl.CreateTextures(asked.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
-    Texture texture(context, name);
+    Texture texture = new_texture(context, asked.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D);
     if (asked.layers > 0)
-        gl.TextureStorage3D(name, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height, asked.layers);
+        gl.TextureStorage3D(texture, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height, asked.layers);
     else
-        gl.TextureStorage2D(name, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height);
+        gl.TextureStorage2D(texture, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height);
     check_room(context, asked);
-    gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    gl.TextureParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
-    gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.TextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl.TextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    gl.TextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     context.check("making a shadow map");
     return texture;
 }

@@ -266,10 +266,10 @@ TEST(Fresnel, RefractionFollowsSnell) {
 /// A wall at x = 4 that faces the car, a mirror in the plane x = y that shows it to an eye that looks along +y, and a lamp before the wall.
 Scene mirror_and_wall(const Material& mirror) {
     Scene scene{.materials = {lambert(0.5, SurfaceKind::object), mirror}};
-    Mesh wall{"wall", {4.0, 0.0, 0.0}, {}, {}, {}}, looking_glass{"mirror", {0.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(wall, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
-    add_quad(looking_glass, {-1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 1}); // faces +x -y
-    scene.meshes = {finished(wall, 0), finished(looking_glass, 1)};
+    scene.meshes = {
+        quads("wall", 0, {4.0, 0.0, 0.0}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
+        quads("mirror", 1, {0.0, 0.0, 0.0}, {{{-1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 1}}}) // faces +x -y
+    };
     return scene;
 }
 
@@ -294,11 +294,10 @@ Scene slab_before_shining_wall(float glass_index) {
     Scene scene;
     Material shining = lambert(0.0, SurfaceKind::object, 100.0);
     scene.materials = {smooth(0.0F, glass_index), shining};
-    Mesh slab{"slab", {}, {}, {}, {}}, wall{"wall", {3.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(slab, {1.0, 2, -2}, {1.0, -2, -2}, {1.0, -2, 2}, {1.0, 2, 2});
-    add_quad(slab, {1.2, -2, -2}, {1.2, 2, -2}, {1.2, 2, 2}, {1.2, -2, 2});
-    add_quad(wall, {0, 2, -2}, {0, -2, -2}, {0, -2, 2}, {0, 2, 2});
-    scene.meshes = {finished(slab, 0), finished(wall, 1)};
+    scene.meshes = {
+        quads("slab", 0, {},
+              {{{1.0, 2, -2}, {1.0, -2, -2}, {1.0, -2, 2}, {1.0, 2, 2}}, {{1.2, -2, -2}, {1.2, 2, -2}, {1.2, 2, 2}, {1.2, -2, 2}}}),
+        quads("wall", 1, {3.0, 0.0, 0.0}, {{{0, 2, -2}, {0, -2, -2}, {0, -2, 2}, {0, 2, 2}}})};
     return scene;
 }
 

@@ -1,6 +1,5 @@
 // Photons against closed forms and against paths; flux is kept.
 #include "renderer/reference/patches.h"
-#include "renderer/reference/photon_emission.h"
 #include "renderer/reference/photon_map.h"
 #include "renderer/reference/pixel_estimate.h"
 #include "scenarios/values/errors.h"
@@ -100,10 +99,8 @@ TEST(PhotonMap, AMirrorThrowsTheLampsLightOnTheWall) {
     Material mirror = lambert(0.0, SurfaceKind::object);
     mirror.mirror = 0.8F;
     scene.materials = {lambert(0.0, SurfaceKind::object), mirror};
-    Mesh wall{"wall", {-3.0, 0.0, 0.0}, {}, {}, {}}, glass{"mirror", {2.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(wall, {0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1});
-    add_quad(glass, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
-    scene.meshes = {finished(wall, 0), finished(glass, 1)};
+    scene.meshes = {quads("wall", 0, {-3.0, 0.0, 0.0}, {{{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}}}),
+                    quads("mirror", 1, {2.0, 0.0, 0.0}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}})};
     const double truth = static_cast<double>(0.8F) * 500.0 / 49.0; // 2 m there, 5 m back
     const Moment moment = with(even_lamp(500.0, looking({0, 0, 0}, 0, 0)));
     const Solved solved(scene, moment, photons(1 << 20, 0.2, true));
@@ -201,11 +198,10 @@ ReferenceSettings radiosity(double patch_m, int rays, bool final_gather) {
 
 TEST(Patches, CoverTheirTrianglesAndFindTheirOwnPlaces) {
     Scene scene{.materials = {lambert(0.5)}};
-    Mesh mesh{"triangles", {3.0, -2.0, 0.5}, {}, {}, {}};
-    add_quad(mesh, {0, 0, 0}, {20, 0, 0}, {20, 0.1, 0}, {0, 0.1, 0}); // long and thin
-    add_quad(mesh, {0, 1, 0}, {2, 1, 0}, {2.5, 4, 1}, {0.2, 3, 0.3});
-    add_quad(mesh, {30, 0, 0}, {30.01, 0, 0}, {30.01, 0.01, 0}, {30, 0.01, 0}); // smaller than a patch
-    scene.meshes = {finished(mesh, 0)};
+    scene.meshes = {quads("triangles", 0, {3.0, -2.0, 0.5}, // long and thin; any; smaller than a patch
+                          {{{0, 0, 0}, {20, 0, 0}, {20, 0.1, 0}, {0, 0.1, 0}},
+                           {{0, 1, 0}, {2, 1, 0}, {2.5, 4, 1}, {0.2, 3, 0.3}},
+                           {{30, 0, 0}, {30.01, 0, 0}, {30.01, 0.01, 0}, {30, 0.01, 0}}})};
     const reference::EmbreeScene embree(scene, {0, 0, 0});
     const reference::Patches patches(embree, reference::facets_within(embree, {0, 0, 0}, 100.0), 0.5, 100000);
     EXPECT_GT(patches.size(), 40U + 40U + 20U + 2U); // 20 m of two thin triangles, the slanted ones, one for each of the small

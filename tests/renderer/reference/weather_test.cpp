@@ -118,10 +118,10 @@ TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
 TEST(ReferenceFog, BouncedLightIsTakenOnBothOfItsWays) {
     // Lamp to a board of 1 m x 1 m, board to a black post beside the lamp; nothing scatters: E = rho / pi E_board A cos cos / d^2 nearly.
     Scene scene{.materials = {lambert(0.9), lambert(0.0)}};
-    Mesh board{"board", {}, {}, {}, {}}, post{"post", {}, {}, {}, {}};
-    add_quad(board, {8, 0.5, -0.5}, {8, -0.5, -0.5}, {8, -0.5, 0.5}, {8, 0.5, 0.5});
-    add_quad(post, {0, -1.5, -0.5}, {0, -0.5, -0.5}, {0, -0.5, 0.5}, {0, -1.5, 0.5}); // faces +x
-    scene.meshes = {finished(board, 0), finished(post, 1)};
+    scene.meshes = {
+        quads("board", 0, {}, {{{8, 0.5, -0.5}, {8, -0.5, -0.5}, {8, -0.5, 0.5}, {8, 0.5, 0.5}}}),
+        quads("post", 1, {}, {{{0, -1.5, -0.5}, {0, -0.5, -0.5}, {0, -0.5, 0.5}, {0, -1.5, 0.5}}}) // faces +x
+    };
     Moment clear, fog = in_fog(0.06, 0.0);
     clear.lamps = fog.lamps = {even_lamp(1.0e6, looking({0, 0, 0}, 0, 0))};
     ReferenceSettings settings = by(Integrator::path, 0.02);
@@ -206,10 +206,10 @@ TEST(ReferenceWet, AWetRoomMakesNoEnergy) {
 TEST(ReferenceSun, LightThatTheGroundThrowsUpIsTheSameByAllMethods) {
     // A plate that looks down on the corner of a sunlit square from 1 m up: E = rho E_sun F, view factor of Howell's catalogue B-3.
     Scene scene{.materials = {lambert(0.5), lambert(0.0, SurfaceKind::object)}};
-    Mesh ground{"ground", {}, {}, {}, {}}, plate{"plate", {}, {}, {}, {}};
-    add_quad(ground, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-    add_quad(plate, {-0.01, -0.01, 1}, {-0.01, 0.01, 1}, {0.01, 0.01, 1}, {0.01, -0.01, 1}); // faces down
-    scene.meshes = {finished(ground, 0), finished(plate, 1)};
+    scene.meshes = {
+        quads("ground", 0, {}, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}),
+        quads("plate", 1, {}, {{{-0.01, -0.01, 1}, {-0.01, 0.01, 1}, {0.01, 0.01, 1}, {0.01, -0.01, 1}}}) // faces down
+    };
     Moment moment;
     moment.daylight.sun = {radians(45.0), radians(30.0), 1000.0}; // the plate's shadow falls beside the square
     const double x = 1.0 / std::sqrt(2.0), factor = 2.0 * x * std::atan(x) / (2.0 * pi), truth = 0.5 * 1000.0 * 0.5 * factor;

@@ -73,17 +73,9 @@ TEST_F(UnderCar, UprightThingsStayAsLitAsWithoutShadows) {
     EXPECT_GT(darker, 50) << "the ground seen between car and road";
 }
 
-TEST_F(UnderCar, PrunedAndUnprunedGiveTheSameBytes) {
-    const StreetAtNight s;
-    for (const View& view : {driver_for_shadows(), map_for_shadows(30.0, 10.0, 5)})
-        expect_same_frames(drawn_with(device_, s.scene, s.moment, view, ShadowMethod::under_car),
-                           drawn_with(device_, s.scene, s.moment, view, ShadowMethod::under_car, "photometric-unpruned"), view.name);
-}
-
 TEST_F(UnderCar, CostsNothingWhereNoLampShinesOnACar) {
     StreetAtNight s;
-    RendererSettings settings;
-    settings.shadows.method = ShadowMethod::under_car;
+    RendererSettings settings{.shadows = {.method = ShadowMethod::under_car}};
     Renderer renderer(device_, s.scene, settings);
     const Work near = renderer.count(s.moment, driver_for_shadows(), all_results);
     s.moment.bodies[0].pose.position_m.x = -30.0; // behind the lamps
