@@ -1,15 +1,9 @@
 // Sun and moon as they are drawn: against the double-precision twin, the reference, and closed forms; left out where they do not shine.
-#include "renderer/renderer.h"
 #include "renderer/twin.h"
 #include "scenarios/display/display_profile.h"
 #include "scenarios/display/tone_mapper.h"
 #include "tests/renderer/device_test.h"
 #include "tests/renderer/reference/rooms.h"
-
-#include <algorithm>
-#include <cmath>
-#include <gtest/gtest.h>
-#include <tuple>
 
 namespace fernlicht {
 namespace {

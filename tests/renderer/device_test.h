@@ -4,7 +4,6 @@
 #include "renderer/renderer.h"
 #include "tests/renderer/views.h"
 
-#include <gtest/gtest.h>
 #include <string>
 
 namespace fernlicht {

@@ -7,11 +7,6 @@
 #include "scenarios/models/road_user_bodies.h"
 #include "tests/renderer/reference/rooms.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
 namespace fernlicht {
 namespace {
 

@@ -5,7 +5,6 @@
 #include "tests/renderer/shadow_scene.h"
 #include "tests/trial.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 
 namespace fernlicht {

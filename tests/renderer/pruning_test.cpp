@@ -1,5 +1,4 @@
 // Leaving out what a moment does not need must not change a bit; switching it on must change a pixel, and off must save work.
-#include "renderer/renderer.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/control_play.h"
 #include "scenarios/drives/play/motion.h"
@@ -10,11 +9,7 @@
 #include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <random>
 
 namespace fernlicht {

@@ -6,7 +6,6 @@
 #include "scenarios/lamps/spots/spot_fit.h"
 #include "tests/renderer/published_scene.h"
 
-#include <algorithm>
 #include <functional>
 #include <map>
 

@@ -2,13 +2,9 @@
 // board.
 #pragma once
 
-#include "renderer/renderer.h"
 #include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <memory>
 
 namespace fernlicht::tests {

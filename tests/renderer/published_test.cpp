@@ -1,9 +1,7 @@
 // What the published techniques differ in, count and show: misprints, passes, textures, signs that glow, what is made once.
 #include "tests/renderer/published_scene.h"
 
-#include <algorithm>
 #include <functional>
-#include <tuple>
 
 namespace fernlicht {
 namespace {

@@ -1,15 +1,12 @@
 #include "renderer/device.h"
 #include "renderer/gl/device/program.h"
 #include "renderer/gpu_timer.h"
-#include "renderer/renderer.h"
 #include "scenarios/values/errors.h"
 #include "tests/renderer/device_test.h"
 #include "tests/renderer/reference/rooms.h"
 #include "tests/trial.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
-#include <tuple>
 
 namespace fernlicht {
 namespace {

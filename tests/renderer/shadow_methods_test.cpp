@@ -4,11 +4,7 @@
 #include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 namespace {

@@ -1,14 +1,9 @@
 // A road, lamps and bodies that tests of shadows share, and what they compare.
 #pragma once
 
-#include "renderer/renderer.h"
 #include "renderer/twin.h"
 #include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
-
-#include <algorithm>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 

@@ -2,8 +2,6 @@
 #include "scenarios/drives/play/camera.h"
 #include "tests/renderer/shadow_scene.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht {

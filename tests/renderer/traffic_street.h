@@ -2,7 +2,6 @@
 #pragma once
 
 #include "renderer/reference/reference.h"
-#include "renderer/renderer.h"
 #include "renderer/traffic_levels.h"
 #include "renderer/twin.h"
 #include "scenarios/drives/play/advance.h"
@@ -14,13 +13,8 @@
 #include "tests/renderer/device_test.h"
 #include "tests/trial.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-#include <tuple>
 
 namespace fernlicht {
 

@@ -1,16 +1,10 @@
 // The GPU's float frames against the double-precision twin, pixel by pixel, within a bound that is derived, not tuned.
 #include "renderer/twin.h"
 
-#include "renderer/renderer.h"
 #include "renderer/sanity.h"
 #include "scenarios/photometry.h"
 #include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
-
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-#include <tuple>
 
 namespace fernlicht {
 namespace {

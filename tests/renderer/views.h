@@ -1,9 +1,14 @@
-// Views that tests draw, and their pixels.
+// Views that tests draw, and their pixels; with what every test of pictures includes.
 #pragma once
 
 #include "scenarios/drives/drive.h"
 #include "scenarios/values/pose.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <tuple>
 #include <utility>
 #include <vector>
 

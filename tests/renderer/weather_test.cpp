@@ -1,14 +1,9 @@
 // Fog and a wet road as they are drawn: against integrals in double, the twin and the reference; pruned as unpruned; nothing in clear air.
 #include "tests/renderer/reference/rooms.h"
 
-#include "renderer/renderer.h"
 #include "renderer/twin.h"
 #include "scenarios/light/fog_light.h"
 #include "tests/renderer/device_test.h"
-
-#include <cmath>
-#include <gtest/gtest.h>
-#include <tuple>
 
 namespace fernlicht {
 namespace {

@@ -10,11 +10,6 @@
 #include "tests/scenarios/models/written_gltf.h"
 #include "tests/trial.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
 namespace fernlicht {
 namespace {
 

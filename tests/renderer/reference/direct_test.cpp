@@ -5,11 +5,6 @@
 #include "renderer/twin.h"
 #include "tests/renderer/reference/rooms.h"
 
-#include <algorithm>
-#include <cmath>
-#include <gtest/gtest.h>
-#include <tuple>
-
 namespace fernlicht {
 namespace {
 

@@ -4,14 +4,10 @@
 #include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/sampling.h"
 
-#include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cmath>
-#include <gtest/gtest.h>
 #include <set>
 #include <tbb/global_control.h>
-#include <tuple>
 
 namespace fernlicht {
 namespace {

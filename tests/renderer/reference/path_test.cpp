@@ -4,9 +4,6 @@
 #include "renderer/reference/sampling.h"
 #include "renderer/reference/surface_response.h"
 
-#include <cmath>
-#include <gtest/gtest.h>
-
 namespace fernlicht {
 namespace {
 

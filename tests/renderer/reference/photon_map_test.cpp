@@ -5,8 +5,6 @@
 #include "scenarios/values/errors.h"
 #include "tests/renderer/reference/rooms.h"
 
-#include <cmath>
-#include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 namespace fernlicht {

@@ -5,9 +5,6 @@
 #include "tests/lamps.h"
 #include "tests/renderer/views.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <initializer_list>
 
 namespace fernlicht {

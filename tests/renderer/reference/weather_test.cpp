@@ -6,7 +6,6 @@
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 
-#include <gtest/gtest.h>
 #include <stdexcept>
 
 namespace fernlicht {

@@ -3,8 +3,6 @@
 
 #include "tests/renderer/shadow_scene.h"
 
-#include <algorithm>
-
 namespace fernlicht {
 namespace {
 
