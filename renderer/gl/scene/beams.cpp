@@ -111,13 +111,12 @@ BeamBounds::BeamBounds(const BeamTexture& beam)
       most_of_cell_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0F) {
     for (int y = 0; y < beam.height; ++y)
         for (int x = 0; x < beam.width; ++x) {
-            const float cd = beam.cd[static_cast<std::size_t>(y) * static_cast<std::size_t>(beam.width) + static_cast<std::size_t>(x)];
+            const float cd = beam.cd[static_cast<std::size_t>(y * beam.width + x)];
             most_ = std::max(most_, static_cast<double>(cd));
             // A sample on a border belongs to the cells on both sides.
             for (int row = std::max(0, (y - 1) / texels_a_cell); row <= y / texels_a_cell; ++row)
                 for (int column = std::max(0, (x - 1) / texels_a_cell); column <= x / texels_a_cell; ++column) {
-                    float& most = most_of_cell_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                                                static_cast<std::size_t>(column)];
+                    float& most = most_of_cell_[static_cast<std::size_t>(row * columns_ + column)];
                     most = std::max(most, cd);
                 }
         }
@@ -141,8 +140,7 @@ double BeamBounds::most_towards(const glm::dvec3& centre, double radius) const {
     float most = 0.0F;
     for (int row = low; row <= high; ++row)
         for (int column = left; column <= right; ++column)
-            most = std::max(
-                most, most_of_cell_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)]);
+            most = std::max(most, most_of_cell_[static_cast<std::size_t>(row * columns_ + column)]);
     return static_cast<double>(most);
 }
 
