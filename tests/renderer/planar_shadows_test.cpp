@@ -15,8 +15,7 @@ constexpr ShadowSettings planar{.method = ShadowMethod::planar};
 /// A box lower than the lamp, a post that is higher, and a board in the air.
 Scene three_casters() {
     Scene scene = level_road_for_shadows();
-    Mesh things{"things", {12.0, 0.0, 0.0}, {}, {}, {}};
-    add_box(things, 1, {0, -0.8F, 0}, {0.5F, 0.2F, 0.4F});
+    Mesh things = box({12.0, 0.0, 0.0}, {0, -0.8F, 0}, {0.5F, 0.2F, 0.4F});
     add_box(things, 1, {-2.0F, 1.5F, 0}, {-1.9F, 1.6F, 3.0F});
     add_flat(things, 1, {3, -3, 0.2F}, {3, -3, 0.4F}, {3, -2, 0.4F}, {3, -2, 0.2F});
     scene.meshes.push_back(things);
@@ -76,9 +75,7 @@ TEST_F(PlanarShadows, OnTheGroundAreAsRaysHaveThem) {
 
 TEST_F(PlanarShadows, FallOnNothingUpright) {
     Scene scene = three_casters();
-    Mesh wall{"wall", {20.0, 0.0, 0.0}, {}, {}, {}};
-    add_box(wall, 1, {0, -6, 0}, {0.3F, 6, 3});
-    scene.meshes.push_back(wall);
+    scene.meshes.push_back(box({20.0, 0.0, 0.0}, {0, -6, 0}, {0.3F, 6, 3}));
     Moment moment{.lamps = {lamp_at({3.5, 0.6, 0.65})}};
     const Frame with = drawn_with(device_, scene, moment, driver_for_shadows(), ShadowMethod::planar),
                 without = drawn_with(device_, scene, moment, driver_for_shadows(), ShadowMethod::none);

@@ -29,6 +29,15 @@ inline void add_box(Mesh& mesh, std::uint32_t material, glm::vec3 low, glm::vec3
     add_flat(mesh, material, at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
 }
 
+inline Mesh thing(const glm::dvec3& origin, const char* name = "thing") { return {name, origin, {}, {}, {}}; }
+
+/// Of material 1.
+inline Mesh box(const glm::dvec3& origin, const glm::vec3& low, const glm::vec3& high, const char* name = "thing") {
+    Mesh mesh = thing(origin, name);
+    add_box(mesh, 1, low, high);
+    return mesh;
+}
+
 /// A level road of 260 m by 80 m: material 0; what stands on it is of material 1.
 inline Scene level_road_for_shadows() {
     Scene scene{.materials = {{"road", SurfaceKind::road, glm::vec3(0.1F)}, {"thing", SurfaceKind::object, glm::vec3(0.3F)}}};

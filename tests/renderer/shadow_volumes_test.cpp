@@ -11,14 +11,6 @@ constexpr ShadowSettings volumes{.method = ShadowMethod::volumes, .tolerance_m =
 
 Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) { return {.lamps = {lamp_at(at, 0.0, 0.0)}}; }
 
-Mesh thing(const glm::dvec3& origin, const char* name = "thing") { return {name, origin, {}, {}, {}}; }
-
-Mesh box(const glm::dvec3& origin, const glm::vec3& low, const glm::vec3& high, const char* name = "thing") {
-    Mesh mesh = thing(origin, name);
-    add_box(mesh, 1, low, high);
-    return mesh;
-}
-
 class ShadowVolumesTest : public DeviceTest {
   protected:
     /// No pixel wrong but within one pixel of an edge, and there is shadow to see.

@@ -3,8 +3,8 @@
 
 #include "renderer/sanity.h"
 #include "scenarios/photometry.h"
-#include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
+#include "tests/renderer/reference/rooms.h"
 
 namespace fernlicht {
 namespace {
@@ -17,34 +17,20 @@ CandelaTable steep_beam() {
     });
 }
 
-void add_quad(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, glm::vec3 normal) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), {{a, normal}, {b, normal}, {c, normal}, {d, normal}});
-    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
-}
-
 /// A road plane, a retroreflecting board and a post of a box before it.
 Scene small_scene(glm::dvec3 origin) {
-    Scene scene;
-    Material road{"road", SurfaceKind::road, glm::vec3(0.08F)};
-    road.retro_rl = 0.0145F;
-    Material board{"board", SurfaceKind::board, {0.6F, 0.1F, 0.1F}};
+    Material road = lambert(0.08), post = lambert(0.08, SurfaceKind::object), board = lambert(0.0, SurfaceKind::board);
+    road.retro_rl = post.retro_rl = 0.0145F;
+    board.albedo = {0.6F, 0.1F, 0.1F};
     board.retro_rl = 180.0F;
     board.retro_reference_rad = 0.00576F;
     board.retro_falloff_rad = 0.0079F;
-    scene.materials = {road, board};
-    Mesh plane{"plane", origin + glm::dvec3(40.0, 0.0, 0.0), {}, {}, {}};
-    add_quad(plane, {-60, -30, 0}, {110, -30, 0}, {110, 30, 0}, {-60, 30, 0}, {0, 0, 1});
-    plane.batches = {{0, 0, 6}};
-    Mesh sign{"board", origin + glm::dvec3(35.0, -4.0, 2.0), {}, {}, {}};
-    add_quad(sign, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}, {0, -1, -1}, {-1, 0, 0});
-    sign.batches = {{1, 0, 6}};
-    Mesh box{"box", origin + glm::dvec3(22.0, 1.5, 0.0), {}, {}, {}};
-    add_quad(box, {0, 0.5, 0}, {0, 0.5, 1.2F}, {0, -0.5, 1.2F}, {0, -0.5, 0}, {-1, 0, 0});
-    add_quad(box, {0, 0.5, 1.2F}, {0, 0.5, 0}, {1, 0.5, 0}, {1, 0.5, 1.2F}, {0, 1, 0});
-    box.batches = {{0, 0, 12}};
-    scene.meshes = {plane, sign, box};
-    return scene;
+    return {.materials = {road, board, post},
+            .meshes = {quads("plane", 0, origin + glm::dvec3(40.0, 0.0, 0.0), {{{-60, -30, 0}, {110, -30, 0}, {110, 30, 0}, {-60, 30, 0}}}),
+                       quads("board", 1, origin + glm::dvec3(35.0, -4.0, 2.0), {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
+                       quads("box", 2, origin + glm::dvec3(22.0, 1.5, 0.0),
+                             {{{0, 0.5, 0}, {0, -0.5, 0}, {0, -0.5, 1.2}, {0, 0.5, 1.2}},
+                              {{0, 0.5, 1.2}, {1, 0.5, 1.2}, {1, 0.5, 0}, {0, 0.5, 0}}})}};
 }
 
 Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
@@ -157,8 +143,7 @@ TEST_F(TwinTest, TwiceTheSameBytesAndExactlyZeroOfABlackLamp) {
         Renderer renderer(device_, scene, {});
         return renderer.draw(moment, driver_view(96, 64), all_results);
     };
-    const Frame a = draw(), b = draw();
-    expect_same_frames(a, b, "again");
+    expect_same_frames(draw(), draw(), "again");
     Moment other_moment = two_lamps({});
     for (LitLamp& lamp : other_moment.lamps)
         lamp.intensity_factor = 0.0;

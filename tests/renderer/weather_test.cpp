@@ -121,8 +121,8 @@ TEST_F(DrawnWeather, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
                                    Weather{0.0, 1.0, 0.85, 1.0}, Weather{0.01, 1.0, 0.85, 0.3}}) {
         Moment moment = in(weather, weather.wetness > 0.5 ? 0.0 : 1.0);
         moment.lamps[1].intensity_factor = weather.extinction_per_m > 0.02 ? 0.0 : 1.0;
-        const Frame a = draw(scene, moment), b = draw(scene, moment, "photometric-unpruned");
-        expect_same_frames(a, b, std::to_string(weather.extinction_per_m) + ' ' + std::to_string(weather.wetness));
+        expect_same_frames(draw(scene, moment), draw(scene, moment, "photometric-unpruned"),
+                           std::to_string(weather.extinction_per_m) + ' ' + std::to_string(weather.wetness));
     }
 }
 
@@ -207,8 +207,8 @@ TEST_F(DrawnWeather, BeamsOfOthersPrunedAndUnprunedGiveTheSameBytes) {
             moment.daylight.sun = {radians(80.0), radians(20.0), 1.0}; // so that all of it is compiled in where nothing is pruned
             moment.other_lamps = others();
             moment.least_traffic_lx = least_lx;
-            const Frame a = draw(scene, moment), b = draw(scene, moment, "photometric-unpruned");
-            expect_same_frames(a, b, std::to_string(extinction) + ' ' + std::to_string(least_lx));
+            expect_same_frames(draw(scene, moment), draw(scene, moment, "photometric-unpruned"),
+                               std::to_string(extinction) + ' ' + std::to_string(least_lx));
         }
 }
 

@@ -10,7 +10,6 @@
 #pragma once
 
 #include "renderer/gl/shadows/shadow_mask.h"
-#include "renderer/gl/shadows/stencil_volumes.h"
 
 #include <array>
 #include <map>

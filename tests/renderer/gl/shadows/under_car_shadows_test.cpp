@@ -13,9 +13,8 @@ struct StreetAtNight {
     Scene scene = level_road_for_shadows();
     Moment moment;
     StreetAtNight() {
-        Mesh car{"car", {0.0, 0.0, 0.0}, {}, {}, {}};
+        Mesh car = box({0.0, 0.0, 0.0}, {car_low, 0.2F}, {car_high, 1.4F});
         car.body = 0;
-        add_box(car, 1, {car_low, 0.2F}, {car_high, 1.4F});
         scene.meshes.push_back(std::move(car));
         moment.lamps = {lamp_at({3.5, 0.6, 0.65}), lamp_at({3.5, -0.6, 0.65})};
         moment.bodies.push_back({"car", {{12.0, -1.0, 0.0}, axes_from_angles(0.4, 0.0, 0.0)}, true, 0.0, false});
@@ -54,9 +53,7 @@ TEST_F(UnderCar, TheGroundWithinTheOutlineIsDarkAndAllElseIsAsWithoutShadows) {
 
 TEST_F(UnderCar, UprightThingsStayAsLitAsWithoutShadows) {
     StreetAtNight s;
-    Mesh wall{"wall", {16.0, 0.0, 0.0}, {}, {}, {}}; // behind the car, in its shadow if it cast one
-    add_box(wall, 1, {0, -3, 0}, {0.2F, 3, 2});
-    s.scene.meshes.push_back(wall);
+    s.scene.meshes.push_back(box({16.0, 0.0, 0.0}, {0, -3, 0}, {0.2F, 3, 2})); // behind the car, in its shadow if it cast one
     const Frame with = drawn_with(device_, s.scene, s.moment, driver_for_shadows(), ShadowMethod::under_car),
                 without = drawn_with(device_, s.scene, s.moment, driver_for_shadows(), ShadowMethod::none);
     int upright = 0, darker = 0;
