@@ -247,13 +247,6 @@ std::pair<std::uint32_t, std::uint32_t> TrafficLights::keep(Lists& lists, const 
     return {first, count};
 }
 
-std::vector<TrafficSource> TrafficLights::sources() const {
-    std::vector<TrafficSource> sources;
-    for (const Unit& unit : units_)
-        sources.push_back({unit.middle, unit.apart_m, unit.lamps, unit.beam});
-    return sources;
-}
-
 void TrafficLights::Cell::add(const glm::dvec4& normal) {
     for (glm::dvec4& known : normals)
         if (glm::length(glm::dvec3(known - normal)) <= same_normal) {
@@ -375,7 +368,7 @@ void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& 
         list_cells(moment, drawn, work);
     left_out_ = static_cast<int>(std::ranges::count(units_, false, &Unit::used));
     if (shadows != nullptr)
-        shadows->choose(moment, sources(), receivers_, places_, entries_);
+        shadows->choose(moment, std::vector<TrafficSource>(units_.begin(), units_.end()), receivers_, places_, entries_);
     fill(unit_texels_, GL_RGBA32F, packed_);
     fill(entry_texels_, GL_RGBA32F, entries_);
     if (cd_texels_.room == 0)

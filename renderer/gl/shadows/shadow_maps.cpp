@@ -20,25 +20,21 @@ void ShadowMaps::draw(const Shot& shot) {
         textures_.push_back(
             make_shadow_texture(context_, {settings_.width, settings_.height, 0, fmt::format("each lamp by '{}'", name(settings_.method)),
                                            "a smaller map_texels"}));
-    std::vector<glm::dmat4> clips;
-    std::vector<std::vector<std::uint32_t>> pieces;
+    const glm::dvec3 ego_m = casters_.ego_m();
+    Drawn now{{}, {}, ego_m, scene_.placed()};
     for (const LampCasters& lamp : lamps) {
-        clips.push_back(lamp.clip);
-        pieces.push_back(lamp.pieces);
+        now.clips.push_back(lamp.clip);
+        now.pieces.push_back(lamp.pieces);
     }
     work.shadow_maps += static_cast<int>(lamps.size());
-    const glm::dvec3 ego_m = casters_.ego_m();
-    if (clips != drawn_clips_ || pieces != drawn_pieces_ || ego_m != drawn_ego_m_ || scene_.placed() != drawn_placed_) {
+    if (now != drawn_) {
         pass_.begin(settings_.width, settings_.height);
         for (std::size_t i = 0; i < lamps.size(); ++i) {
             pass_.set_pieces(ego_m, lamps[i].pieces);
             pass_.draw(textures_[i], lamps[i].clip, work);
         }
         pass_.end("drawing shadow maps");
-        drawn_clips_ = std::move(clips);
-        drawn_pieces_ = std::move(pieces);
-        drawn_ego_m_ = ego_m;
-        drawn_placed_ = scene_.placed();
+        drawn_ = std::move(now);
     }
     for (std::size_t i = 0; i < lamps.size(); ++i)
         context_.gl.BindTextureUnit(shadow_unit(i), textures_[i]);

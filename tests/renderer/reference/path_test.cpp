@@ -7,6 +7,8 @@
 namespace fernlicht {
 namespace {
 
+double hypotenuse(double a, double b) { return std::hypot(a, b); }
+
 ReferenceSettings paths(double target_error) { return {.integrator = Integrator::path, .target_error = target_error}; }
 
 /// View factor from a small element, parallel, to a rectangle a x b at height c above it, one of whose corners is above the element
@@ -202,7 +204,7 @@ TEST(ReferencePath, IsDirectLightWhereNothingReflects) {
     const ReferenceImage direct = reference.render(moment, map_about({3, 0}, 2.0, 8), lux, settings);
     for (const auto& [x, y] : each_pixel(8, 8))
         EXPECT_NEAR(path.illuminance_lx.mean.at(x, y), direct.illuminance_lx.mean.at(x, y),
-                    5.0 * std::hypot(path.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y)) + 1e-6);
+                    5.0 * hypotenuse(path.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y)) + 1e-6);
 }
 
 } // namespace
