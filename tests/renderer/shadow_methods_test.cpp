@@ -16,10 +16,6 @@ std::shared_ptr<const LampFile> evenly_bright() {
     return file_of(table_of(steps(-30.0, 30.0, 1.0), steps(-14.0, 8.0, 1.0), [](double, double) { return 10000.0; }));
 }
 
-LitLamp lamp_at(const char* name, const glm::dvec3& place, const std::shared_ptr<const LampFile>& file) {
-    return {.name = name, .file = file, .pose = {place, axes_from_angles(0.0, -0.01, 0.0)}, .intensity_factor = 1.0};
-}
-
 void add_sheet(Scene& scene, const char* name, std::uint32_t material, const glm::dvec3& at, const glm::vec3& a, const glm::vec3& b) {
     Mesh mesh{name, at, {}, {}, {}};
     const glm::vec3 n = glm::normalize(glm::cross(a, b));
@@ -74,7 +70,8 @@ Moment with_lamps(const std::vector<double>& sides) {
     Moment moment;
     const auto file = evenly_bright();
     for (std::size_t i = 0; i < sides.size(); ++i)
-        moment.lamps.push_back(lamp_at(i == 0 ? "left" : "right", {lamp_x, sides[i], lamp_z}, file));
+        moment.lamps.push_back(
+            {.name = i == 0 ? "left" : "right", .file = file, .pose = {{lamp_x, sides[i], lamp_z}, axes_from_angles(0.0, -0.01, 0.0)}});
     return moment;
 }
 
