@@ -15,7 +15,7 @@ const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
     if (const auto known = variants_.find(key); known != variants_.end())
         return known->second;
     std::vector<Program::Define> d = Targets::defines(shot.wanted);
-    d.push_back({"LAMP_COUNT", std::to_string(lamps)});
+    add_lamp_defines(d, lamps);
     d.push_back({"SHADOWS", settings_.shadows.any() ? "1" : "0"});
     if (scene_.moves())
         d.push_back({"MOVING", "1"});

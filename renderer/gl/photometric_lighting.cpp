@@ -130,7 +130,7 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     std::vector<const Beam*> beams = f.beams.empty() ? std::vector<const Beam*>{} : lamp_beams_;
     std::vector<Program::Define> d = Targets::defines(wanted);
     const auto define = [&](const char* name, std::string value) { d.push_back({name, std::move(value)}); };
-    define("LAMP_COUNT", std::to_string(beams.size()));
+    add_lamp_defines(d, beams.size());
     define("LAMPS_BY_VERTEX", flag(f.by_vertex));
     define("SHADOWS", flag(f.shadows));
     define("SKY", flag(f.sky));

@@ -146,7 +146,7 @@ const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wis
         define("MOVING", "1");
     for (const auto& [name, value] : features_)
         d.push_back({name, name == "EMISSIVE" && wish.pass == 2 ? "NONE" : value}); // once is enough
-    define("LAMP_COUNT", std::to_string(wish.lamps));
+    add_lamp_defines(d, static_cast<std::size_t>(wish.lamps));
     define("SPOT_COUNT", std::to_string(most_spots));
     define("PASS", std::to_string(wish.pass));
     define("TEXTURED", wish.texture > 0 ? "1" : "0");
