@@ -17,8 +17,6 @@ constexpr double background_m = 5000.0;
 /// Headlamps bring less to a road: bounds beyond this say nothing.
 constexpr double most_useful_bound_lx = 1000.0;
 
-const char* flag(bool on) { return on ? "1" : "0"; }
-
 /// "vec4(...), vec4(...)": constants of a variant, one a lamp.
 template <class One> std::string list(const std::vector<const Beam*>& beams, One one) {
     std::string text;

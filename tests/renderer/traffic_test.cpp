@@ -4,16 +4,6 @@
 namespace fernlicht {
 namespace {
 
-TEST_F(Traffic, PrunedAndUnprunedGiveTheSameBytes) {
-    const Street street(oncoming(30.0, 4, 15.0), "s-bend");
-    Renderer pruned(device_, street.scene, settings()), unpruned(device_, street.scene, settings("photometric-unpruned"));
-    for (const double time_s : {0.0, 1.3, 3.0}) {
-        const Moment moment = street.at(time_s);
-        expect_same_frames(pruned.draw(moment, driver(), all_results), unpruned.draw(moment, driver(), all_results),
-                           std::to_string(time_s));
-    }
-}
-
 /// Off by rounding and by what the levels may be off, for each of two units.
 TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
     const Street street(oncoming(40.0, 2, 30.0));

@@ -39,12 +39,14 @@ inline int wanted_bits(const Wanted& w) {
            (w.ids ? 32 : 0) | (w.light ? 64 : 0);
 }
 
+inline const char* flag(bool on) { return on ? "1" : "0"; }
+
 /// A constant of the source; it reads back as the same float.
 inline std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
 
 /// LAMP_COUNT, and EACH_LAMP, which calls a macro for each lamp, with its number and the names of its samplers. These take constant indices
-/// alone: llvmpipe of Mesa 25 ends the process where a shader fetches by a variable index from an array of samplers and has an array texture
-/// beside it.
+/// alone: llvmpipe of Mesa 25 ends the process where a shader fetches by a variable index from an array of samplers and has an array
+/// texture beside it.
 inline void add_lamp_defines(std::vector<Program::Define>& defines, std::size_t lamps) {
     std::string calls;
     for (std::size_t i = 0; i < lamps; ++i)
