@@ -35,8 +35,7 @@ Scene small_scene(glm::dvec3 origin) {
 
 Moment two_lamps(glm::dvec3 origin, double sky_lx = 0.0) {
     const auto file = tests::file_of(steep_beam());
-    Moment moment;
-    moment.ego.position_m = origin;
+    Moment moment{.ego = {origin, glm::dmat3(1.0)}};
     moment.daylight.horizontal_illuminance_lx = sky_lx;
     LampColour warm;
     warm.linear_srgb = glm::dvec3(1.6, 0.9, 0.22) / glm::dot(glm::dvec3(1.6, 0.9, 0.22), glm::dvec3(0.2126, 0.7152, 0.0722));

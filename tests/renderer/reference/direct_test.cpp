@@ -147,8 +147,7 @@ class ReferenceAndTwin : public testing::TestWithParam<double> {};
 TEST_P(ReferenceAndTwin, AgreeWhereNoLightBounces) {
     const glm::dvec3 origin(GetParam(), -GetParam() / 3.0, 300.0);
     const Scene scene = mixed_scene(origin);
-    Moment moment;
-    moment.ego.position_m = origin;
+    Moment moment{.ego = {origin, glm::dmat3(1.0)}};
     moment.daylight.horizontal_illuminance_lx = 0.3;
     for (const double side : {0.6, -0.6})
         moment.lamps.push_back(even_lamp(8000.0, looking(origin + glm::dvec3(3.5, side, 0.65), side, 0.5)));
@@ -260,19 +259,17 @@ TEST(Fresnel, RefractionFollowsSnell) {
 
 /// A wall at x = 4 that faces the car, a mirror in the plane x = y that shows it to an eye that looks along +y, and a lamp before the wall.
 Scene mirror_and_wall(const Material& mirror) {
-    Scene scene{.materials = {lambert(0.5, SurfaceKind::object), mirror}};
-    scene.meshes = {
-        quads("wall", 0, {4.0, 0.0, 0.0}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
-        quads("mirror", 1, {0.0, 0.0, 0.0}, {{{-1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 1}}}) // faces +x -y
-    };
-    return scene;
+    return {.materials = {lambert(0.5, SurfaceKind::object), mirror},
+            .meshes = {
+                quads("wall", 0, {4.0, 0.0, 0.0}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
+                quads("mirror", 1, {0.0, 0.0, 0.0}, {{{-1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 1}}}) // faces +x -y
+            }};
 }
 
 TEST(Whitted, AMirrorShowsTheWall) {
     for (const float share : {1.0F, 0.6F}) {
         const Scene scene = mirror_and_wall(smooth(share, 0.0F));
-        Moment moment;
-        moment.lamps = {even_lamp(900.0, looking({1.0, 0.0, 0.5}, 0, 0))}; // shines on the wall, away from the mirror
+        Moment moment{.lamps = {even_lamp(900.0, looking({1.0, 0.0, 0.5}, 0, 0))}}; // shines on the wall, away from the mirror
         const double d2 = 9.0 + 0.25, e = 900.0 / d2 * 3.0 / std::sqrt(d2), truth = static_cast<double>(share) * 0.5 * e / pi;
         const View view = camera({0.0, -3.0, 0.0}, 90, 0, 1, 1);
         const Reference reference(scene);
