@@ -268,10 +268,9 @@ struct Pixel {
 /// Every third pixel each way.
 std::vector<Pixel> pixels_of(const Scene& scene, const Moment& moment, const View& view) {
     std::vector<Pixel> pixels;
-    for (int y = 0; y < view.height_px; y += 3)
-        for (int x = 0; x < view.width_px; x += 3)
-            if (const std::optional<Point> point = point_at(scene, moment, view, x, y))
-                pixels.push_back({x, y, *point});
+    for (const auto& [x, y] : each_pixel(view, 0, 3))
+        if (const std::optional<Point> point = point_at(scene, moment, view, x, y))
+            pixels.push_back({x, y, *point});
     return pixels;
 }
 

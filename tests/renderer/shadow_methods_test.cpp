@@ -162,34 +162,33 @@ TEST_P(MapMethods, NothingShadesItselfAndNothingLeaks) {
         const Frame drawn = draw(scene, moment, view, method(GetParam()));
         const Twin lit(scene, false), shaded(scene, true);
         int dark = 0, total = 0, wrong = 0;
-        for (int y = 1; y + 1 < view.height_px; ++y)
-            for (int x = 1; x + 1 < view.width_px; ++x) {
-                const TwinPixel pixel = lit.pixel(moment, view, x + 0.5, y + 0.5);
-                const double free = pixel.illuminance_lx;
-                if (pixel.id == 0 || free < 0.01)
-                    continue;
-                const auto is_dark = [&](const glm::dvec3& offset) {
-                    const glm::dvec3 from = pixel.point_m + offset, way = moment.lamps[0].pose.position_m - from;
-                    const auto hit = lit.cast(moment, {from, glm::normalize(way)}, 1e-4, Twin::Met::casters);
-                    return hit && hit->distance_m < glm::length(way);
-                };
-                // Beyond doubt: two texels to each side, and up to twice the height that a look-up is raised by.
-                const glm::dvec3 way = moment.lamps[0].pose.position_m - pixel.point_m;
-                const double texel = glm::length(way) * 2.0 * std::tan(radians(30.0)) / 1022.0, raise = std::max(0.03, 1.5 * texel);
-                const glm::dvec3 across = glm::normalize(glm::cross(way, glm::dvec3(0.0, 0.0, 1.0)));
-                const glm::dvec3 up = glm::normalize(glm::cross(across, way));
-                const bool truth = is_dark(1e-3 * pixel.normal);
-                bool sure = true;
-                for (const glm::dvec3& offset : {raise * pixel.normal, 2.0 * raise * pixel.normal,
-                                                 raise * pixel.normal + 2.0 * texel * across, raise * pixel.normal - 2.0 * texel * across,
-                                                 raise * pixel.normal + 2.0 * texel * up, raise * pixel.normal - 2.0 * texel * up})
-                    sure = sure && is_dark(offset) == truth;
-                if (!sure)
-                    continue;
-                ++total;
-                dark += truth ? 1 : 0;
-                wrong += (static_cast<double>(drawn.illuminance_lx.at(x, y)) < 0.5 * free) != truth ? 1 : 0;
-            }
+        for (const auto& [x, y] : each_pixel(view, 1)) {
+            const TwinPixel pixel = lit.pixel(moment, view, x + 0.5, y + 0.5);
+            const double free = pixel.illuminance_lx;
+            if (pixel.id == 0 || free < 0.01)
+                continue;
+            const auto is_dark = [&](const glm::dvec3& offset) {
+                const glm::dvec3 from = pixel.point_m + offset, way = moment.lamps[0].pose.position_m - from;
+                const auto hit = lit.cast(moment, {from, glm::normalize(way)}, 1e-4, Twin::Met::casters);
+                return hit && hit->distance_m < glm::length(way);
+            };
+            // Beyond doubt: two texels to each side, and up to twice the height that a look-up is raised by.
+            const glm::dvec3 way = moment.lamps[0].pose.position_m - pixel.point_m;
+            const double texel = glm::length(way) * 2.0 * std::tan(radians(30.0)) / 1022.0, raise = std::max(0.03, 1.5 * texel);
+            const glm::dvec3 across = glm::normalize(glm::cross(way, glm::dvec3(0.0, 0.0, 1.0)));
+            const glm::dvec3 up = glm::normalize(glm::cross(across, way));
+            const bool truth = is_dark(1e-3 * pixel.normal);
+            bool sure = true;
+            for (const glm::dvec3& offset : {raise * pixel.normal, 2.0 * raise * pixel.normal, raise * pixel.normal + 2.0 * texel * across,
+                                             raise * pixel.normal - 2.0 * texel * across, raise * pixel.normal + 2.0 * texel * up,
+                                             raise * pixel.normal - 2.0 * texel * up})
+                sure = sure && is_dark(offset) == truth;
+            if (!sure)
+                continue;
+            ++total;
+            dark += truth ? 1 : 0;
+            wrong += (static_cast<double>(drawn.illuminance_lx.at(x, y)) < 0.5 * free) != truth ? 1 : 0;
+        }
         EXPECT_GT(dark, 50) << from_beside << " " << scene.meshes[0].name;
         EXPECT_GT(total, 500) << from_beside << " " << scene.meshes[0].name;
         EXPECT_EQ(wrong, 0) << from_beside << " " << scene.meshes[0].name << ": " << dark << " dark of " << total;

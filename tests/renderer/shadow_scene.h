@@ -80,17 +80,16 @@ struct HiddenPixels {
     /// Pixels where the two differ though rays say the same of all that lie within one pixel around.
     int wrong_inside() const {
         int wrong = 0;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const int here = at(rays, x, y);
-                if (here < 0 || at(drawn, x, y) < 0 || at(drawn, x, y) == here)
-                    continue;
-                bool edge = false;
-                for (int dy = -1; dy <= 1; ++dy)
-                    for (int dx = -1; dx <= 1; ++dx)
-                        edge = edge || x + dx < 0 || y + dy < 0 || x + dx >= width || y + dy >= height || at(rays, x + dx, y + dy) != here;
-                wrong += edge ? 0 : 1;
-            }
+        for (const auto& [x, y] : each_pixel(width, height)) {
+            const int here = at(rays, x, y);
+            if (here < 0 || at(drawn, x, y) < 0 || at(drawn, x, y) == here)
+                continue;
+            bool edge = false;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx)
+                    edge = edge || x + dx < 0 || y + dy < 0 || x + dx >= width || y + dy >= height || at(rays, x + dx, y + dy) != here;
+            wrong += edge ? 0 : 1;
+        }
         return wrong;
     }
     int count(int what) const { return static_cast<int>(std::ranges::count(rays, what)); }

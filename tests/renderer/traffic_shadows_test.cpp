@@ -38,20 +38,19 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     }
     int compared = 0, in_shadow = 0, wrong = 0, wrong_before = 0;
     const double allowed = (worst_traffic_error + 2.0) * moment.least_traffic_lx;
-    for (int y = 2; y + 2 < view.height_px; ++y)
-        for (int x = 2; x + 2 < view.width_px; ++x) {
-            const auto [least, most] = range_around(x, y, 2, [&](int u, int v) { return hidden.at(u, v); });
-            if (least < 0.0 || most - least > 0.1)
-                continue;
-            ++compared;
-            const auto is_off = [&](const Frame& f) {
-                return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - lx.at(x, y)) >
-                       allowed + 4.0 * bound.at(x, y) + 0.02 * lx.at(x, y);
-            };
-            in_shadow += least > 0.1 ? 1 : 0;
-            wrong += is_off(frame) ? 1 : 0;
-            wrong_before += is_off(bright) ? 1 : 0;
-        }
+    for (const auto& [x, y] : each_pixel(view, 2)) {
+        const auto [least, most] = range_around(x, y, 2, [&](int u, int v) { return hidden.at(u, v); });
+        if (least < 0.0 || most - least > 0.1)
+            continue;
+        ++compared;
+        const auto is_off = [&](const Frame& f) {
+            return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - lx.at(x, y)) >
+                   allowed + 4.0 * bound.at(x, y) + 0.02 * lx.at(x, y);
+        };
+        in_shadow += least > 0.1 ? 1 : 0;
+        wrong += is_off(frame) ? 1 : 0;
+        wrong_before += is_off(bright) ? 1 : 0;
+    }
     EXPECT_GT(compared, 1000);
     EXPECT_GT(in_shadow, 100);
     EXPECT_GT(wrong_before, 100) << "without maps";
@@ -83,20 +82,19 @@ TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
         return dark.ids.at(x, y) == 0 || dark.ids.at(x, y) != frame.ids.at(x, y) ? -1.0 : all > 0.0 ? 1.0 - with / all : 0.0;
     };
     int compared = 0, in_shadow = 0, off = 0, off_before = 0;
-    for (int y = 1; y + 1 < view.height_px; ++y)
-        for (int x = 1; x + 1 < view.width_px; ++x) {
-            const auto [least, most] = range_around(x, y, 1, hidden);
-            const double truth = static_cast<double>(dark.illuminance_lx.mean.at(x, y));
-            if (least < 0.0 || most - least > 0.1 || truth < 0.02)
-                continue;
-            ++compared;
-            in_shadow += least > 0.05 ? 1 : 0;
-            const auto is_off = [&](const Frame& f) {
-                return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - truth) > 0.05 * truth + 0.1;
-            };
-            off += is_off(frame) ? 1 : 0;
-            off_before += is_off(lit) ? 1 : 0;
-        }
+    for (const auto& [x, y] : each_pixel(view, 1)) {
+        const auto [least, most] = range_around(x, y, 1, hidden);
+        const double truth = static_cast<double>(dark.illuminance_lx.mean.at(x, y));
+        if (least < 0.0 || most - least > 0.1 || truth < 0.02)
+            continue;
+        ++compared;
+        in_shadow += least > 0.05 ? 1 : 0;
+        const auto is_off = [&](const Frame& f) {
+            return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - truth) > 0.05 * truth + 0.1;
+        };
+        off += is_off(frame) ? 1 : 0;
+        off_before += is_off(lit) ? 1 : 0;
+    }
     EXPECT_GT(compared, 3000);
     EXPECT_GT(in_shadow, 100);
     EXPECT_GT(off_before, 100) << "without maps";

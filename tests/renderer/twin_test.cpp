@@ -125,13 +125,11 @@ TEST_F(TwinTest, UtmCoordinatesGiveTheSameFrame) {
     const Twin twin(here, false);
     const Moment moment = two_lamps({});
     int differing = 0;
-    for (int y = 0; y < a.ids.height(); ++y)
-        for (int x = 0; x < a.ids.width(); ++x) {
-            const TwinPixel truth = twin.pixel(moment, driver_view(96, 64), x + 0.5, y + 0.5);
-            const double difference =
-                std::abs(static_cast<double>(a.illuminance_lx.at(x, y)) - static_cast<double>(b.illuminance_lx.at(x, y)));
-            differing += difference > 2.0 * truth.bound_lx + 1e-9 ? 1 : 0;
-        }
+    for (const auto& [x, y] : each_pixel(driver_view(96, 64))) {
+        const TwinPixel truth = twin.pixel(moment, driver_view(96, 64), x + 0.5, y + 0.5);
+        const double difference = std::abs(static_cast<double>(a.illuminance_lx.at(x, y)) - static_cast<double>(b.illuminance_lx.at(x, y)));
+        differing += difference > 2.0 * truth.bound_lx + 1e-9 ? 1 : 0;
+    }
     EXPECT_LE(differing, 12) << "pixels on silhouettes and shadow edges may fall to either side";
 }
 

@@ -14,15 +14,17 @@
 
 namespace fernlicht {
 
-/// (x, y) row by row.
-inline std::vector<std::pair<int, int>> each_pixel(int width, int height) {
+/// (x, y) row by row, but those so near to the picture's edge; of every `step`th row and column.
+inline std::vector<std::pair<int, int>> each_pixel(int width, int height, int edge = 0, int step = 1) {
     std::vector<std::pair<int, int>> all;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
+    for (int y = edge; y < height - edge; y += step)
+        for (int x = edge; x < width - edge; x += step)
             all.emplace_back(x, y);
     return all;
 }
-inline std::vector<std::pair<int, int>> each_pixel(const View& view) { return each_pixel(view.width_px, view.height_px); }
+inline std::vector<std::pair<int, int>> each_pixel(const View& view, int edge = 0, int step = 1) {
+    return each_pixel(view.width_px, view.height_px, edge, step);
+}
 
 /// From where a driver sits, along the road.
 inline View driver_view(int width_px, int height_px, double fov_deg = 30.0, double pitch_deg = -3.0) {

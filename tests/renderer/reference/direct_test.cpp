@@ -40,17 +40,16 @@ TEST(ReferenceDirect, AveragesAPixelOfThePlaneUnderALampAsTheIntegralDoes) {
     const View view = map_about({1.0, 0.5}, 2.0, 4);
     const ReferenceImage image = Reference(scene).render(moment, view, lux, ReferenceSettings{.target_error = 0.001});
     ASSERT_TRUE(image.complete);
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column) {
-            const double x1 = 1.0 + 2.0 - row, x0 = x1 - 1.0, y1 = 0.5 + 2.0 - column, y0 = y1 - 1.0;
-            const auto corner = [&](double x, double y) { return std::atan2(x * y, h * std::sqrt(h * h + x * x + y * y)); };
-            const double truth = cd * (corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0));
-            const double error = image.illuminance_lx.standard_error.at(column, row);
-            // Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom, for one of 16 fixed pixels.
-            EXPECT_NEAR(image.illuminance_lx.mean.at(column, row), truth, 5.0 * error + stored * truth) << column << " " << row;
-            EXPECT_LE(error, 0.001 * truth * 1.05);
-            EXPECT_EQ(image.mixed.at(column, row), 0);
-        }
+    for (const auto& [column, row] : each_pixel(4, 4)) {
+        const double x1 = 1.0 + 2.0 - row, x0 = x1 - 1.0, y1 = 0.5 + 2.0 - column, y0 = y1 - 1.0;
+        const auto corner = [&](double x, double y) { return std::atan2(x * y, h * std::sqrt(h * h + x * x + y * y)); };
+        const double truth = cd * (corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0));
+        const double error = image.illuminance_lx.standard_error.at(column, row);
+        // Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom, for one of 16 fixed pixels.
+        EXPECT_NEAR(image.illuminance_lx.mean.at(column, row), truth, 5.0 * error + stored * truth) << column << " " << row;
+        EXPECT_LE(error, 0.001 * truth * 1.05);
+        EXPECT_EQ(image.mixed.at(column, row), 0);
+    }
 }
 
 /// A lamp 2 m up at x = 0, a thin wall 1 m high at x = 4 across: its shadow ends at x = 8.
