@@ -62,17 +62,13 @@ void check_materials(const Scene& scene) {
     }
 }
 
-Estimate empty_estimate(const View& view, bool wanted) {
-    if (!wanted)
-        return {};
-    return {Image<float>(view.width_px, view.height_px), Image<float>(view.width_px, view.height_px)};
-}
-
 ReferenceImage empty_image(const View& view, const Wanted& wanted) {
     ReferenceImage image;
-    image.illuminance_lx = empty_estimate(view, wanted.illuminance);
-    image.target_lx = empty_estimate(view, wanted.target);
-    image.luminance_cdm2 = empty_estimate(view, wanted.luminance);
+    for (const auto& [is_wanted, estimate] :
+         {std::pair(wanted.illuminance, &image.illuminance_lx), std::pair(wanted.target, &image.target_lx),
+          std::pair(wanted.luminance, &image.luminance_cdm2)})
+        if (is_wanted)
+            estimate->mean = estimate->standard_error = Image<float>(view.width_px, view.height_px);
     image.ids = Image<std::uint32_t>(view.width_px, view.height_px);
     image.samples = Image<std::uint32_t>(view.width_px, view.height_px);
     image.mixed = Image<std::uint8_t>(view.width_px, view.height_px);

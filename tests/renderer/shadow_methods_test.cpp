@@ -1,8 +1,6 @@
 // Shadow methods that draw depth maps: where edges lie, that nothing shades itself, and that the bytes do not depend on what is left out.
 #include "renderer/reference/reference.h"
-#include "renderer/twin.h"
-#include "tests/lamps.h"
-#include "tests/renderer/device_test.h"
+#include "tests/renderer/shadow_scene.h"
 
 #include <fmt/format.h>
 
@@ -18,11 +16,7 @@ std::shared_ptr<const LampFile> evenly_bright() {
 
 void add_sheet(Scene& scene, const char* name, std::uint32_t material, const glm::dvec3& at, const glm::vec3& a, const glm::vec3& b) {
     Mesh mesh{name, at, {}, {}, {}};
-    const glm::vec3 n = glm::normalize(glm::cross(a, b));
-    for (const glm::vec3& p : {glm::vec3(0.0F), a, a + b, b})
-        mesh.vertices.push_back({p, n, {}});
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    mesh.batches = {{material, 0, 6}};
+    add_flat(mesh, material, {}, a, a + b, b);
     scene.meshes.push_back(std::move(mesh));
 }
 

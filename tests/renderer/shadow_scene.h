@@ -11,7 +11,7 @@ inline void add_flat(Mesh& mesh, std::uint32_t material, glm::vec3 a, glm::vec3 
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size()), begin = static_cast<std::uint32_t>(mesh.indices.size());
     const glm::vec3 normal = glm::normalize(glm::cross(b - a, d - a));
     for (const glm::vec3& p : {a, b, c, d})
-        mesh.vertices.push_back({p, normal, {0.0F, 0.0F}});
+        mesh.vertices.push_back({p, normal, {0.25F * p.x + 0.1F * p.z, 0.25F * p.y}});
     mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
     mesh.batches.push_back({material, begin, 6});
 }

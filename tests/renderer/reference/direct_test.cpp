@@ -132,12 +132,10 @@ Scene mixed_scene(glm::dvec3 origin) {
         const double a = i, b = i + 10.0;
         add_quad(ground, {a, -30, z(a)}, {b, -30, z(b)}, {b, 30, z(b)}, {a, 30, z(a)});
     }
-    Mesh sign{"board", origin + glm::dvec3(35.0, -4.0, 2.0), {}, {}, {}};
-    add_quad(sign, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
-    Mesh box{"box", origin + glm::dvec3(22.0, 1.5, -1.0), {}, {}, {}};
-    add_quad(box, {0, 0.5, 0}, {0, -0.5, 0}, {0, -0.5, 2.2}, {0, 0.5, 2.2});
-    add_quad(box, {1, 0.5, 0}, {0, 0.5, 0}, {0, 0.5, 2.2}, {1, 0.5, 2.2});
-    scene.meshes = {finished(ground, 0), finished(sign, 1), finished(box, 1)};
+    scene.meshes = {
+        finished(ground, 0), quads("board", 1, origin + glm::dvec3(35.0, -4.0, 2.0), {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
+        quads("box", 1, origin + glm::dvec3(22.0, 1.5, -1.0),
+              {{{0, 0.5, 0}, {0, -0.5, 0}, {0, -0.5, 2.2}, {0, 0.5, 2.2}}, {{1, 0.5, 0}, {0, 0.5, 0}, {0, 0.5, 2.2}, {1, 0.5, 2.2}}})};
     return scene;
 }
 

@@ -160,13 +160,10 @@ TEST(ReferenceWet, FilmIsSampledAsItMirrors) {
 }
 
 TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
-    Material road = lambert(0.2), wall = lambert(0.0, SurfaceKind::object);
-    wall.emission_cdm2 = glm::vec3(100.0F);
+    Material road = lambert(0.2), wall = lambert(0.0, SurfaceKind::object, 100.0);
     Scene scene = level_ground(40.0, road);
     scene.materials.push_back(wall);
-    Mesh panel{"panel", {}, {}, {}, {}};
-    add_quad(panel, {14, 2, 0.5}, {14, -2, 0.5}, {14, -2, 3.5}, {14, 2, 3.5}); // faces -x
-    scene.meshes.push_back(finished(panel, 1));
+    scene.meshes.push_back(quads("panel", 1, {}, {{{14, 2, 0.5}, {14, -2, 0.5}, {14, -2, 3.5}, {14, 2, 3.5}}})); // faces -x
     for (const double wetness : {0.4, 1.0}) {
         Moment moment;
         moment.weather.wetness = wetness;
