@@ -1,11 +1,11 @@
 // Views of one moment: the light is the same in all of them, a mirror exchanges left and right, and shadow maps are drawn once.
-#include "renderer/renderer.h"
 #include "scenarios/drives/drive.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/light/light.h"
 #include "scenarios/models/placed_model.h"
 #include "scenarios/models/road_user_bodies.h"
+#include "tests/renderer/device_test.h"
 #include "tests/renderer/reference/rooms.h"
 #include "tests/scenarios/models/written_gltf.h"
 #include "tests/trial.h"
@@ -52,7 +52,10 @@ glm::dvec2 pixel_of(const Camera& camera, const View& view, const glm::dvec3& po
     return {(clip.x / clip.w + 1.0) * 0.5 * view.width_px, (1.0 - clip.y / clip.w) * 0.5 * view.height_px};
 }
 
-TEST(Views, TheShippedSetShowsWhatMirrorsMust) {
+using Views = DeviceTest;
+using Tessellation = DeviceTest;
+
+TEST_F(Views, TheShippedSetShowsWhatMirrorsMust) {
     const std::vector<View> views = six();
     ASSERT_EQ(views.size(), 7U) << "six and the map";
     const auto sees = [&](const char* name, const glm::dvec3& point_m) {
@@ -86,10 +89,9 @@ TEST(Views, TheShippedSetShowsWhatMirrorsMust) {
     }
 }
 
-TEST(Views, AMirrorExchangesLeftAndRight) {
-    Device device = open_device("auto");
+TEST_F(Views, AMirrorExchangesLeftAndRight) {
     const Scene scene = road_with_car();
-    Renderer renderer(device, scene, {});
+    Renderer renderer(device_, scene, {});
     View view{.position_m = {1.3, 0.35, 1.2}, .yaw_rad = 0.15, .width_px = 160, .height_px = 120};
     const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
     const Frame plain = renderer.draw(lit(), view, wanted);
@@ -112,10 +114,9 @@ TEST(Views, AMirrorExchangesLeftAndRight) {
 }
 
 /// What a pixel of one view shows lies in another view among the pixels round its place there: same point, same light.
-TEST(Views, TheLightIsTheSameInAll) {
-    Device device = open_device("auto");
+TEST_F(Views, TheLightIsTheSameInAll) {
     const Scene scene = road_with_car();
-    Renderer renderer(device, scene, {});
+    Renderer renderer(device_, scene, {});
     const Moment moment = lit();
     std::vector<View> views = six();
     views.pop_back(); // the map
@@ -167,10 +168,9 @@ TEST(Views, TheLightIsTheSameInAll) {
     }
 }
 
-TEST(Views, ShadowMapsAreDrawnOnceForAllViewsOfAMoment) {
-    Device device = open_device("auto");
+TEST_F(Views, ShadowMapsAreDrawnOnceForAllViewsOfAMoment) {
     const Scene scene = road_with_car();
-    Renderer renderer(device, scene, {});
+    Renderer renderer(device_, scene, {});
     std::vector<View> views = six();
     const Moment moment = lit();
     int passes = 0;
@@ -216,8 +216,7 @@ double error_of(const Frame& frame, const std::vector<double>& truth) {
     return std::sqrt(error / light);
 }
 
-TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
-    Device device = open_device("auto");
+TEST_F(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
     const Scene coarse = plane(1, 1), fine = plane(200, 50);
     const Moment moment = low_beams();
     const View view = map_view(65.0, -5.0, 6.0, 48, 240);
@@ -227,7 +226,7 @@ TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
             moment, {65.0 - 60.0 * (y + 0.5) / view.height_px, 6.0 - 12.0 * (x + 0.5) / view.width_px, 0.0}, {0.0, 0.0, 1.0}));
     ASSERT_GT(*std::ranges::max_element(truth), 5.0);
     const auto drawn = [&](const Scene& scene, const std::string& technique) {
-        return Renderer(device, scene, RendererSettings{.technique = technique}).draw(moment, view, {.illuminance = true});
+        return Renderer(device_, scene, RendererSettings{.technique = technique}).draw(moment, view, {.illuminance = true});
     };
     const Frame two = drawn(coarse, "photometric"), many = drawn(fine, "photometric");
     EXPECT_LT(error_of(two, truth), 1e-4);

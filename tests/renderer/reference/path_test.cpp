@@ -9,7 +9,9 @@ namespace {
 
 double hypotenuse(double a, double b) { return std::hypot(a, b); }
 
-ReferenceSettings paths(double target_error) { return {.integrator = Integrator::path, .target_error = target_error}; }
+ReferenceSettings paths(double target_error, Footprint footprint = Footprint::pixel) {
+    return {.integrator = Integrator::path, .footprint = footprint, .target_error = target_error};
+}
 
 /// View factor from a small element, parallel, to a rectangle a x b at height c above it, one of whose corners is above the element
 /// (Howell's catalogue, B-3).
@@ -92,8 +94,7 @@ TEST(ReferencePath, PlatesThatFaceEachOtherExchangeTheViewFactor) {
     EXPECT_NEAR(plates_factor, 0.19982, 1e-5); // the tabulated value
     const ReferenceImage whole = reference.render({}, map_about({0, 0}, 0.5, 1), lux, paths(0.002));
     expect_estimate(whole.illuminance_lx, pi * 100.0 * plates_factor);
-    ReferenceSettings settings = paths(0.002);
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings = paths(0.002, Footprint::centre);
     const ReferenceImage middle = reference.render({}, map_about({0, 0}, 0.5, 1), lux, settings);
     expect_estimate(middle.illuminance_lx, pi * 100.0 * 4.0 * corner_factor(0.5, 0.5, 1.0));
     const ReferenceImage edge = reference.render({}, map_about({0.2, 0.1}, 0.1, 1), lux, settings); // element at (0.2, 0.1)
@@ -106,8 +107,7 @@ TEST(ReferencePath, APlateHidesItsShareOfTheSky) {
     const Scene scene = hidden_sky(100.0);
     Moment moment;
     moment.daylight.horizontal_illuminance_lx = 40.0;
-    ReferenceSettings settings = paths(0.002);
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings = paths(0.002, Footprint::centre);
     const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 0.5, 1), lux, settings);
     expect_estimate(image.illuminance_lx, 40.0 * (1.0 - 4.0 * corner_factor(1.0, 1.0, 2.0)));
     settings.integrator = Integrator::direct; // there nothing hides the sky
@@ -175,8 +175,7 @@ TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
     const glm::dvec3 lamp_m{0.1, 0.0, 0.0}, place{0.0, 0.25, 0.0};
     Moment moment{.lamps = {even_lamp(1000.0, looking(lamp_m, 0, 0))}};
     View view = camera({1.0, 0.25, 0.0}, 180, 0, 1, 1);
-    ReferenceSettings settings = paths(0.005);
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings = paths(0.005, Footprint::centre);
     settings.most_samples = 1 << 16;
     const ReferenceImage image = Reference(scene).render(moment, view, lux, settings);
     const double rho = static_cast<double>(0.1F), k = 1.0 / static_cast<double>(0.05F);

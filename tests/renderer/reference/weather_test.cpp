@@ -11,8 +11,8 @@
 namespace fernlicht {
 namespace {
 
-ReferenceSettings by(Integrator integrator, double target_error = 0.005) {
-    return {.integrator = integrator, .target_error = target_error, .most_samples = 1 << 14};
+ReferenceSettings by(Integrator integrator, double target_error = 0.005, Footprint footprint = Footprint::pixel) {
+    return {.integrator = integrator, .footprint = footprint, .target_error = target_error, .most_samples = 1 << 14};
 }
 
 Moment in_fog(double extinction_per_m, double albedo = 1.0, double asymmetry = 0.85) {
@@ -76,8 +76,7 @@ TEST(ReferenceFog, SingleScatteringByPathsIsThatOfDirectLight) {
     moment.daylight.horizontal_illuminance_lx = 2.0;
     const View view = camera({-1.0, 0.2, 1.3}, 3, -2, 24, 4);
     const auto drawn = [&](Integrator integrator, int most_scatterings, double target_error) {
-        ReferenceSettings settings = by(integrator, target_error);
-        settings.footprint = Footprint::centre;
+        ReferenceSettings settings = by(integrator, target_error, Footprint::centre);
         settings.most_scatterings = most_scatterings;
         return Reference(scene).render(moment, view, everything, settings);
     };
@@ -105,8 +104,7 @@ TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
                     quads("mirror", 1, {}, {{{8, 30, -30}, {8, -30, -30}, {8, -30, 30}, {8, 30, 30}}})};
     const Moment moment = in_fog(0.05, 0.0); // takes and scatters nothing
     for (const Integrator integrator : {Integrator::whitted, Integrator::path}) {
-        ReferenceSettings settings = by(integrator, 0.001);
-        settings.footprint = Footprint::centre;
+        ReferenceSettings settings = by(integrator, 0.001, Footprint::centre);
         const ReferenceImage seen = Reference(scene).render(moment, camera({0, 0, 0}, 180, 0, 2, 1), everything, settings),
                              mirrored = Reference(scene).render(moment, camera({0, 0, 0}, 0, 0, 2, 1), everything, settings);
         expect_estimate(seen.luminance_cdm2, 50.0 * std::exp(-0.05 * 12.0), 1e-5);
@@ -179,8 +177,7 @@ TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
         const glm::dvec3 direction = at - eye;
         View view = camera(eye, degrees(std::atan2(direction.y, direction.x)),
                            degrees(std::atan2(direction.z, std::hypot(direction.x, direction.y))), 1, 1);
-        ReferenceSettings settings = by(Integrator::path, 0.003);
-        settings.footprint = Footprint::centre;
+        ReferenceSettings settings = by(Integrator::path, 0.003, Footprint::centre);
         const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
         EXPECT_LT(image.luminance_cdm2.standard_error.at(0, 0), 0.01 * truth);
         expect_estimate(image.luminance_cdm2, truth, 1e-5);
