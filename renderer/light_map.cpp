@@ -1,5 +1,6 @@
 #include "renderer/light_map.h"
 
+#include "renderer/projected_beam.h"
 #include "scenarios/light/light.h"
 
 #include <algorithm>
@@ -16,21 +17,6 @@ namespace {
 constexpr double nearest_m = 0.5;
 constexpr double lit_lx = 1.0;
 constexpr std::size_t most_texels_of_all = std::size_t{1} << 28;
-
-/// The lamps that are on, in the car's frame.
-Moment in_car(const Moment& moment) {
-    Moment local;
-    for (const LitLamp& lamp : moment.lamps)
-        if (lamp.intensity_factor > 0.0) {
-            local.lamps.push_back(lamp);
-            local.lamps.back().pose = {to_local(moment.ego, lamp.pose.position_m), glm::transpose(moment.ego.axes) * lamp.pose.axes};
-        }
-    return local;
-}
-
-double ground_lx(const Moment& local, double ahead_m, double left_m) {
-    return surface_illuminance_lx(local, {ahead_m, left_m, 0.0}, {0.0, 0.0, 1.0});
-}
 
 double facing_lx(const Moment& local, const glm::dvec3& point_m) {
     double e = 0.0;
@@ -112,6 +98,28 @@ LightMapError summary(std::vector<ErrorSamples>& rows) {
     return error;
 }
 
+/// `light_lx`: at a point in the car's frame.
+template <class Light> LightMap baked(LightMap map, const Light& light_lx) {
+    map.lx.resize(checked_cells({map.ahead, map.left, map.up}));
+    oneapi::tbb::parallel_for(std::size_t{0}, cells(map.up) * cells(map.left), [&](std::size_t row) {
+        const double left = texel_m(map.left, row % cells(map.left)), up = texel_m(map.up, row / cells(map.left));
+        for (std::size_t i = 0; i < cells(map.ahead); ++i)
+            map.lx[row * cells(map.ahead) + i] = static_cast<float>(light_lx({texel_m(map.ahead, i), left, up}));
+    });
+    const bool flat = map.up.cells == 1;
+    const std::size_t rows_a_layer = cells(map.left) - 1;
+    std::vector<ErrorSamples> rows((flat ? 1 : cells(map.up) - 1) * rows_a_layer);
+    oneapi::tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
+        const double left = border_m(map.left, row % rows_a_layer), up = flat ? texel_m(map.up, 0) : border_m(map.up, row / rows_a_layer);
+        for (std::size_t i = 0; i + 1 < cells(map.ahead); ++i) {
+            const glm::dvec3 point{border_m(map.ahead, i), left, up};
+            rows[row].add(light_lx(point), mapped_lx(map, point));
+        }
+    });
+    map.error = summary(rows);
+    return map;
+}
+
 } // namespace
 
 double position_m(const LightMapAxis& axis, double u) {
@@ -125,57 +133,21 @@ double texture_coordinate(const LightMapAxis& axis, double at_m) {
     return log_growth < 1e-9 ? share : std::log1p(share * std::expm1(log_growth)) / log_growth;
 }
 
-LightMap2d bake_ground(const Moment& moment, const GroundMapExtent& extent) {
-    LightMap2d map{extent.ahead, extent.left, {}, {}};
-    map.lx.resize(checked_cells({map.ahead, map.left}));
-    const Moment local = in_car(moment);
-    oneapi::tbb::parallel_for(std::size_t{0}, cells(map.left), [&](std::size_t row) {
-        for (std::size_t i = 0; i < cells(map.ahead); ++i)
-            map.lx[row * cells(map.ahead) + i] = static_cast<float>(ground_lx(local, texel_m(map.ahead, i), texel_m(map.left, row)));
+LightMap bake_ground(const Moment& moment, const GroundMapExtent& extent) {
+    Moment local;
+    local.lamps = shining_in(moment.ego, moment.lamps);
+    return baked({extent.ahead, extent.left, {-0.5, 0.5, 1, 1.0}, {}, {}}, [&](const glm::dvec3& point_m) {
+        return surface_illuminance_lx(local, point_m, {0.0, 0.0, 1.0});
     });
-    std::vector<ErrorSamples> rows(cells(map.left) - 1);
-    oneapi::tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
-        const double left = border_m(map.left, row);
-        for (std::size_t i = 0; i + 1 < cells(map.ahead); ++i) {
-            const double ahead = border_m(map.ahead, i);
-            rows[row].add(ground_lx(local, ahead, left), mapped_lx(map, ahead, left));
-        }
-    });
-    map.error = summary(rows);
-    return map;
 }
 
-LightMap3d bake_volume(const Moment& moment, const VolumeMapExtent& extent) {
-    LightMap3d map{extent.ahead, extent.left, extent.up, {}, {}};
-    map.lx.resize(checked_cells({map.ahead, map.left, map.up}));
-    const Moment local = in_car(moment);
-    oneapi::tbb::parallel_for(std::size_t{0}, cells(map.up) * cells(map.left), [&](std::size_t row) {
-        const double left = texel_m(map.left, row % cells(map.left)), up = texel_m(map.up, row / cells(map.left));
-        for (std::size_t i = 0; i < cells(map.ahead); ++i)
-            map.lx[row * cells(map.ahead) + i] = static_cast<float>(facing_lx(local, {texel_m(map.ahead, i), left, up}));
-    });
-    const std::size_t rows_a_layer = cells(map.left) - 1;
-    std::vector<ErrorSamples> rows((cells(map.up) - 1) * rows_a_layer);
-    oneapi::tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
-        const double left = border_m(map.left, row % rows_a_layer), up = border_m(map.up, row / rows_a_layer);
-        for (std::size_t i = 0; i + 1 < cells(map.ahead); ++i) {
-            const glm::dvec3 point{border_m(map.ahead, i), left, up};
-            rows[row].add(facing_lx(local, point), mapped_lx(map, point));
-        }
-    });
-    map.error = summary(rows);
-    return map;
+LightMap bake_volume(const Moment& moment, const VolumeMapExtent& extent) {
+    Moment local;
+    local.lamps = shining_in(moment.ego, moment.lamps);
+    return baked({extent.ahead, extent.left, extent.up, {}, {}}, [&](const glm::dvec3& point_m) { return facing_lx(local, point_m); });
 }
 
-double mapped_lx(const LightMap2d& map, double ahead_m, double left_m) {
-    const std::optional<Place> ahead = place_on(map.ahead, ahead_m), left = place_on(map.left, left_m);
-    if (!ahead || !left)
-        return 0.0;
-    return in_row(map.lx, left->lower * cells(map.ahead), *ahead) * (1.0 - left->share) +
-           in_row(map.lx, left->upper * cells(map.ahead), *ahead) * left->share;
-}
-
-double mapped_lx(const LightMap3d& map, const glm::dvec3& point_m) {
+double mapped_lx(const LightMap& map, const glm::dvec3& point_m) {
     const std::optional<Place> ahead = place_on(map.ahead, point_m.x), left = place_on(map.left, point_m.y),
                                up = place_on(map.up, point_m.z);
     if (!ahead || !left || !up)

@@ -42,17 +42,9 @@ struct VolumeMapExtent {
     LightMapAxis ahead{0.0, 100.0, 256, 8.0}, left{-25.0, 25.0, 128, 1.0}, up{-2.0, 6.0, 32, 1.0};
 };
 
-/// lx[left * ahead.cells + ahead]; rows from the right side (low y) to the left.
-struct LightMap2d {
-    LightMapAxis ahead, left;
-    std::vector<float> lx;
-    LightMapError error;
-    std::size_t bytes() const { return lx.size() * sizeof(float); }
-};
-
-/// lx[(up * left.cells + left) * ahead.cells + ahead]; layers from below upwards.
-struct LightMap3d {
-    LightMapAxis ahead, left, up;
+/// lx[(up * left.cells + left) * ahead.cells + ahead]; rows from the right side (low y) to the left, layers from below upwards.
+struct LightMap {
+    LightMapAxis ahead, left, up; ///< up: of a map of the ground one cell about z = 0
     std::vector<float> lx;
     LightMapError error;
     std::size_t bytes() const { return lx.size() * sizeof(float); }
@@ -60,15 +52,15 @@ struct LightMap3d {
 
 /// Illuminance of the plane z = 0 of the car's frame: E = sum of I cos(alpha) / d^2. A road that bends out of this plane is lit as if it
 /// did not. Throws std::invalid_argument for an axis without cells or length.
-LightMap2d bake_ground(const Moment& moment, const GroundMapExtent& extent = {});
+LightMap bake_ground(const Moment& moment, const GroundMapExtent& extent = {});
 
 /// Facing illuminance: the sum of I / d^2, d taken as 0.5 m at least, so that the pole in a lamp does not leak into the cells beside it.
 /// 4 MiB as it stands. Throws as above.
-LightMap3d bake_volume(const Moment& moment, const VolumeMapExtent& extent = {});
+LightMap bake_volume(const Moment& moment, const VolumeMapExtent& extent = {});
 
-/// Linear look-up by hand at a point in the car's frame; the outermost texels hold in the half cell along the edges, 0 beyond.
-double mapped_lx(const LightMap2d& map, double ahead_m, double left_m);
-double mapped_lx(const LightMap3d& map, const glm::dvec3& point_m);
+/// Linear look-up by hand at a point in the car's frame (of the ground at z = 0); the outermost texels hold in the half cell along the
+/// edges, 0 beyond.
+double mapped_lx(const LightMap& map, const glm::dvec3& point_m);
 
 /// The brightest that one halogen headlamp gives (the founding thesis's table of maxima): white of the clamped techniques, and the share of
 /// the lamps in the tone mapper's range.

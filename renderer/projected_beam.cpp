@@ -92,6 +92,55 @@ glm::dmat4 biased(const TangentWindow& w, const glm::dvec4& last_row) {
     return bias * projection;
 }
 
+constexpr double exact_at_m = 25.0;
+constexpr int window_steps = 32; // along each edge of a lamp's window
+
+bool is_on(const LitLamp& lamp) { return lamp.intensity_factor > 0.0; }
+
+glm::dvec3 unit_or_refuse(const glm::dvec3& sum, const char* axes) {
+    if (glm::length(sum) < 1e-6)
+        throw InputError({{}, 0, 0, "lamps"}, std::string("found lamps whose ") + axes + " cancel",
+                         "lamps that can be merged into one beam");
+    return glm::normalize(sum);
+}
+
+/// In the frame of `pose` the point 25 m from it that lies in `direction` from `lamp`. Lamps stand nearer than 25 m to their middle.
+glm::dvec3 point_at_distance(const Pose& pose, const Pose& lamp, const glm::dvec3& direction) {
+    const glm::dvec3 from = to_local(pose, lamp.position_m);
+    const glm::dvec3 along = glm::normalize(direction * pose.axes);
+    const double half = glm::dot(from, along);
+    const double root = half * half + exact_at_m * exact_at_m - glm::dot(from, from);
+    return from + along * (std::sqrt(std::max(root, 0.0)) - half);
+}
+
+/// `window` widened to the tangents of what the lamp's own window sees at 25 m.
+void widen(TangentWindow& window, const Pose& pose, const LitLamp& lamp) {
+    const TangentWindow own = lit_window(lamp.file->table);
+    for (int i = 0; i <= window_steps; ++i)
+        for (int k = 0; k <= window_steps; ++k) {
+            const double x = own.left + (own.right - own.left) * i / window_steps;
+            const double y = own.bottom + (own.top - own.bottom) * k / window_steps;
+            const glm::dvec3 p = point_at_distance(pose, lamp.pose, lamp.pose.forward() - lamp.pose.left() * x + lamp.pose.up() * y);
+            if (p.x <= 0.0)
+                continue;
+            window.left = std::min(window.left, -p.y / p.x);
+            window.right = std::max(window.right, -p.y / p.x);
+            window.bottom = std::min(window.bottom, p.z / p.x);
+            window.top = std::max(window.top, p.z / p.x);
+        }
+}
+
+TangentWindow window_of(std::span<const LitLamp> lamps, const Pose& pose) {
+    const TangentWindow widest;
+    TangentWindow window{widest.right, widest.left, widest.top, widest.bottom}; // nothing yet
+    for (const LitLamp& lamp : lamps)
+        if (is_on(lamp) && peak_of(lamp.file->table).cd > 0.0)
+            widen(window, pose, lamp);
+    window = {std::max(window.left, widest.left), std::min(window.right, widest.right), std::max(window.bottom, widest.bottom),
+              std::min(window.top, widest.top)};
+    return window.left < window.right && window.bottom < window.top ? window : widest;
+}
+
 } // namespace
 
 TangentWindow lit_window(const CandelaTable& table) {
@@ -168,58 +217,15 @@ glm::dmat4 texture_from_lamp(const TangentWindow& window) { return biased(window
 
 glm::dmat4 texture_from_lamp_as_printed(const TangentWindow& window) { return biased(window, {0.0, 0.0, 1.0, 1.0}); }
 
-namespace {
-
-constexpr double exact_at_m = 25.0;
-constexpr int window_steps = 32; // along each edge of a lamp's window
-
-bool is_on(const LitLamp& lamp) { return lamp.intensity_factor > 0.0; }
-
-glm::dvec3 unit_or_refuse(const glm::dvec3& sum, const char* axes) {
-    if (glm::length(sum) < 1e-6)
-        throw InputError({{}, 0, 0, "lamps"}, std::string("found lamps whose ") + axes + " cancel",
-                         "lamps that can be merged into one beam");
-    return glm::normalize(sum);
-}
-
-/// In the frame of `pose` the point 25 m from it that lies in `direction` from `lamp`. Lamps stand nearer than 25 m to their middle.
-glm::dvec3 point_at_distance(const Pose& pose, const Pose& lamp, const glm::dvec3& direction) {
-    const glm::dvec3 from = to_local(pose, lamp.position_m);
-    const glm::dvec3 along = glm::normalize(direction * pose.axes);
-    const double half = glm::dot(from, along);
-    const double root = half * half + exact_at_m * exact_at_m - glm::dot(from, from);
-    return from + along * (std::sqrt(std::max(root, 0.0)) - half);
-}
-
-/// `window` widened to the tangents of what the lamp's own window sees at 25 m.
-void widen(TangentWindow& window, const Pose& pose, const LitLamp& lamp) {
-    const TangentWindow own = lit_window(lamp.file->table);
-    for (int i = 0; i <= window_steps; ++i)
-        for (int k = 0; k <= window_steps; ++k) {
-            const double x = own.left + (own.right - own.left) * i / window_steps;
-            const double y = own.bottom + (own.top - own.bottom) * k / window_steps;
-            const glm::dvec3 p = point_at_distance(pose, lamp.pose, lamp.pose.forward() - lamp.pose.left() * x + lamp.pose.up() * y);
-            if (p.x <= 0.0)
-                continue;
-            window.left = std::min(window.left, -p.y / p.x);
-            window.right = std::max(window.right, -p.y / p.x);
-            window.bottom = std::min(window.bottom, p.z / p.x);
-            window.top = std::max(window.top, p.z / p.x);
-        }
-}
-
-TangentWindow window_of(std::span<const LitLamp> lamps, const Pose& pose) {
-    const TangentWindow widest;
-    TangentWindow window{widest.right, widest.left, widest.top, widest.bottom}; // nothing yet
+std::vector<LitLamp> shining_in(const Pose& pose, std::span<const LitLamp> lamps) {
+    std::vector<LitLamp> on;
     for (const LitLamp& lamp : lamps)
-        if (is_on(lamp) && peak_of(lamp.file->table).cd > 0.0)
-            widen(window, pose, lamp);
-    window = {std::max(window.left, widest.left), std::min(window.right, widest.right), std::max(window.bottom, widest.bottom),
-              std::min(window.top, widest.top)};
-    return window.left < window.right && window.bottom < window.top ? window : widest;
+        if (is_on(lamp)) {
+            on.push_back(lamp);
+            on.back().pose = {to_local(pose, lamp.pose.position_m), glm::transpose(pose.axes) * lamp.pose.axes};
+        }
+    return on;
 }
-
-} // namespace
 
 Pose merged_pose(std::span<const LitLamp> lamps) {
     glm::dvec3 position(0.0), forward(0.0), up(0.0);
@@ -245,11 +251,7 @@ Pose merged_pose(std::span<const LitLamp> lamps) {
 ProjectedBeam make_merged_beam(std::span<const LitLamp> lamps, const BeamTexels& texels) {
     const Pose pose = merged_pose(lamps);
     Moment moment;
-    for (const LitLamp& lamp : lamps)
-        if (is_on(lamp)) {
-            moment.lamps.push_back(lamp); // relative to the merged pose, where no map's millions of metres cost digits
-            moment.lamps.back().pose = {to_local(pose, lamp.pose.position_m), glm::transpose(pose.axes) * lamp.pose.axes};
-        }
+    moment.lamps = shining_in(pose, lamps); // where no map's millions of metres cost digits
     const TangentWindow window = window_of(moment.lamps, {});
     return sampled_beam(window, texels, [&](double x, double y) {
         return target_illuminance_lx(moment, exact_at_m * glm::normalize(glm::dvec3(1.0, -x, y)));

@@ -60,6 +60,9 @@ glm::dmat4 texture_from_lamp_as_printed(const TangentWindow& window);
 ProjectedBeam sampled_beam(const TangentWindow& window, const BeamTexels& texels,
                            const std::function<double(double, double)>& illuminance_lx);
 
+/// The lamps that are on, in the frame of a pose.
+std::vector<LitLamp> shining_in(const Pose& pose, std::span<const LitLamp> lamps);
+
 /// Where the one lamp stands that stands for all that are on: midway between them (the mean of their positions), x forward along the mean
 /// of their axes, upright as they are on average; in the frame of their poses. Not moved by lamps that are off. No lamp on: the origin.
 /// Throws InputError where the axes cancel.

@@ -1,7 +1,7 @@
 #include "renderer/sanity.h"
 
-#include "renderer/camera.h"
 #include "renderer/renderer.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/values/errors.h"
 
 #include <cmath>

@@ -16,10 +16,7 @@ constexpr double sky_m = 5000.0; // as far as the air before the sky is drawn
 constexpr double angle_error_rad = 6e-6, position_error = 1e-6, operations = 24.0, half_ulp = 6e-8;
 
 bool stands_on_ground(const Scene& scene, const Mesh& mesh) {
-    for (const Batch& batch : mesh.batches)
-        if (!is_ground(scene.materials[batch.material].kind))
-            return true;
-    return false;
+    return std::ranges::any_of(mesh.batches, [&](const Batch& batch) { return !is_ground(scene.materials[batch.material].kind); });
 }
 
 /// Moeller and Trumbore 1997, both sides; distance and barycentric u, v.

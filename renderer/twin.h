@@ -2,7 +2,7 @@
 // of the rasteriser, a ray to each lamp in place of its shadow map. Slow and exact: the measure of what the GPU's floats cost.
 #pragma once
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/drives/play/frame.h"
 #include "scenarios/values/scene.h"
 

@@ -14,14 +14,6 @@ namespace {
 constexpr double nearest_pass_m = 1e-3;
 constexpr GLuint lamps_at = 6, beams_at = 7; // bindings in air_lamps.glsl
 
-template <class T> void upload(Context& context, Buffer& buffer, std::size_t& room, const std::vector<T>& values) {
-    if (room < values.size() || buffer == 0) {
-        room = std::max<std::size_t>(2 * values.size(), 16);
-        buffer = make_buffer(context, std::vector<T>(room), GL_DYNAMIC_STORAGE_BIT);
-    }
-    update_buffer(context, buffer, values);
-}
-
 /// No ray of the picture passes nearer by a place than this; relative to the car.
 double apart_m(const Camera& camera, const glm::dvec3& place_m) {
     const glm::dvec3 to_place = place_m - camera.eye_m;
@@ -42,7 +34,7 @@ int AirLamps::beam_offset(const Beam& beam) {
     const auto [known, fresh] = offsets_.try_emplace(beam.id, static_cast<int>(cd_.size()));
     if (fresh) {
         cd_.insert(cd_.end(), beam.grid.cd.begin(), beam.grid.cd.end());
-        upload(context_, cd_buffer_, cd_room_, cd_);
+        cd_buffer_.fill(context_, cd_);
     }
     return known->second;
 }
@@ -70,16 +62,16 @@ void AirLamps::set(const Moment& moment, const Camera& camera) {
                            glm::vec4(beam_offset(beam), g.width, g.height, 0.0)});
     }
     if (!packed_.empty())
-        upload(context_, lamp_buffer_, lamp_room_, packed_);
-    else if (lamp_buffer_ == 0) // for a shader that finds no lamps to look at
-        upload(context_, lamp_buffer_, lamp_room_, std::vector<Packed>(1)), upload(context_, cd_buffer_, cd_room_, std::vector<float>(1));
+        lamp_buffer_.fill(context_, packed_);
+    else if (lamp_buffer_.buffer == 0) // for a shader that finds no lamps to look at
+        lamp_buffer_.fill(context_, std::vector<Packed>(1)), cd_buffer_.fill(context_, std::vector<float>(1));
 }
 
 void AirLamps::bind() const {
-    if (lamp_buffer_ == 0)
+    if (lamp_buffer_.buffer == 0)
         return;
-    context_.gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, lamps_at, lamp_buffer_);
-    context_.gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, beams_at, cd_buffer_);
+    context_.gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, lamps_at, lamp_buffer_.buffer);
+    context_.gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, beams_at, cd_buffer_.buffer);
 }
 
 } // namespace fernlicht::gl

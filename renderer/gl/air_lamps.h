@@ -10,9 +10,9 @@
 // nothing of this is there.
 #pragma once
 
-#include "renderer/camera.h"
 #include "renderer/gl/scene/beams.h"
 #include "renderer/renderer.h"
+#include "scenarios/drives/play/camera.h"
 
 namespace fernlicht::gl {
 
@@ -39,8 +39,8 @@ class AirLamps {
     std::vector<Packed> packed_;
     std::vector<float> cd_;
     std::map<int, int> offsets_;
-    Buffer lamp_buffer_, cd_buffer_;
-    std::size_t lamp_room_ = 0, cd_room_ = 0, left_out_ = 0;
+    GrowingBuffer lamp_buffer_, cd_buffer_;
+    std::size_t left_out_ = 0;
     float least_cdm2_ = 0.0F;
 };
 

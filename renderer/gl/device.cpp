@@ -5,6 +5,7 @@
 
 #include <array>
 #include <fmt/format.h>
+#include <regex>
 #include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,12 +23,8 @@ std::unique_ptr<gl::Context> open_named(const std::string& name) {
 }
 
 bool is_known(const std::string& name) {
-    const std::string prefix = "egl-device=";
-    if (name.starts_with(prefix)) {
-        const std::string digits = name.substr(prefix.size());
-        return !digits.empty() && digits.size() <= 3 && digits.find_first_not_of("0123456789") == std::string::npos;
-    }
-    return name == "egl" || name == "osmesa";
+    static const std::regex known("egl|osmesa|egl-device=[0-9]{1,3}");
+    return std::regex_match(name, known);
 }
 
 /// What the child says of a backend: "+" and four lines, or "-" and the failure.
@@ -70,11 +67,9 @@ BackendAttempt try_in_child(const std::string& name) {
         attempt.works = true;
         attempt.info.backend = name;
         std::istringstream lines(said.substr(1));
-        std::getline(lines, attempt.info.gl_version);
-        std::getline(lines, attempt.info.gl_renderer);
-        std::getline(lines, attempt.info.gl_vendor);
         std::string kind;
-        std::getline(lines, kind);
+        for (std::string* const line : {&attempt.info.gl_version, &attempt.info.gl_renderer, &attempt.info.gl_vendor, &kind})
+            std::getline(lines, *line);
         attempt.info.software = kind == "software";
     } else {
         attempt.failure = said.empty() ? name + ": the driver ends the process" : said.substr(1);

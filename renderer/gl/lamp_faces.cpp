@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 namespace fernlicht::gl {
 namespace {
@@ -52,10 +53,7 @@ const Program& LampFaces::program(const Wanted& wanted) {
     if (const auto known = programs_.find(wanted_bits(wanted)); known != programs_.end())
         return known->second;
     std::vector<Program::Define> d = Targets::defines(wanted);
-    const auto literal = [](double value) { return fmt::format("{:.9e}", static_cast<float>(value)); };
-    d.push_back({"TONE_KIND", std::to_string(static_cast<int>(tone_.kind))});
-    d.push_back({"TONE_S", literal(tone_.s)});
-    d.push_back({"TONE_L_MAX", literal(tone_.l_max_cdm2)});
+    add_tone_defines(d, tone_);
     return programs_.emplace(wanted_bits(wanted), Program(context_, "lamp_face.vert.glsl", "lamp_face.frag.glsl", d)).first->second;
 }
 
@@ -64,37 +62,30 @@ void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
     const Program& p = program(shot.wanted);
     if (layout_ == 0)
         layout_ = make_vertex_array(context_);
-    if (room_ < faces.size()) {
-        room_ = 2 * faces.size();
-        buffer_ = make_buffer(context_, std::vector<Face>(room_), GL_DYNAMIC_STORAGE_BIT);
-    }
-    update_buffer(context_, buffer_, faces);
+    buffer_.fill(context_, faces);
     p.use();
     gl.Uniform2f(p.uniform("picture_px"), static_cast<float>(shot.view.width_px), static_cast<float>(shot.view.height_px));
-    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, buffer_);
+    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, buffer_.buffer);
     gl.BindVertexArray(layout_);
     // Luminance adds up, the shown colour takes the brighter, and the rest is the surface's.
     gl.DepthMask(GL_FALSE);
+    const Wanted& w = shot.wanted;
     GLuint slot = 0;
-    const auto set = [&](bool wanted, int how) {
+    for (const auto& [wanted, blended, how] :
+         {std::tuple(w.colour, true, GL_MAX), std::tuple(w.illuminance, false, 0), std::tuple(w.target, false, 0),
+          std::tuple(w.luminance, true, GL_FUNC_ADD), std::tuple(w.light, true, GL_FUNC_ADD), std::tuple(w.depth, false, 0),
+          std::tuple(w.ids, false, 0)}) {
         if (!wanted)
-            return;
-        if (how == 0) {
-            gl.ColorMaski(slot, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        } else {
+            continue;
+        if (blended) {
             gl.Enablei(GL_BLEND, slot);
-            gl.BlendEquationi(slot, how == 1 ? GL_MAX : GL_FUNC_ADD);
+            gl.BlendEquationi(slot, static_cast<GLenum>(how));
             gl.BlendFunci(slot, GL_ONE, GL_ONE);
+        } else {
+            gl.ColorMaski(slot, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         }
         ++slot;
-    };
-    set(shot.wanted.colour, 1);
-    set(shot.wanted.illuminance, 0);
-    set(shot.wanted.target, 0);
-    set(shot.wanted.luminance, 2);
-    set(shot.wanted.light, 2);
-    set(shot.wanted.depth, 0);
-    set(shot.wanted.ids, 0);
+    }
     gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(faces.size()));
     for (GLuint i = 0; i < slot; ++i) {
         gl.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

@@ -32,9 +32,8 @@ class LampFaces {
     Context& context_;
     ToneMapper tone_;
     std::map<int, Program> programs_;
-    Buffer buffer_;
+    GrowingBuffer buffer_;
     VertexArray layout_;
-    std::size_t room_ = 0;
 };
 
 } // namespace fernlicht::gl

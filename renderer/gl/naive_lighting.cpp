@@ -5,33 +5,21 @@
 #include <glm/geometric.hpp>
 
 namespace fernlicht::gl {
-namespace {
-
-glm::vec4 padded(const glm::dvec3& v) { return {glm::vec3(v), 0.0F}; }
-
-} // namespace
-
 NaiveLighting::NaiveLighting(Context& context, const Scene& scene, const RendererSettings& settings)
     : context_(context), settings_(settings), scene_(context, scene, false), beams_(context, settings.beams), list_(context, scene_),
-      depth_(context, "depth.vert.glsl", "",
-             scene_.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
-      block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)), shadow_target_(make_framebuffer(context)) {}
+      depth_(depth_program(context, scene_.moves())), block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
+      shadow_target_(make_framebuffer(context)) {}
 
 const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
-    std::vector<Program::Define> d = Targets::defines(shot.wanted);
-    const auto flag = [](bool on) { return on ? "1" : "0"; };
-    d.push_back({"LAMP_COUNT", std::to_string(lamps)});
-    d.push_back({"SHADOWS", flag(settings_.shadows.any())});
-    d.push_back({"SKY", "1"});
-    if (scene_.moves())
-        d.push_back({"MOVING", "1"});
-    d.push_back({"RETRO", "1"});
-    d.push_back({"TEXTURED", flag(scene_.texture_bytes() > 0)});
-    std::string key;
-    for (const Program::Define& define : d)
-        key += define.name + "=" + define.value + " ";
+    const std::pair key(lamps, wanted_bits(shot.wanted));
     if (const auto known = variants_.find(key); known != variants_.end())
         return known->second;
+    std::vector<Program::Define> d = Targets::defines(shot.wanted);
+    add_lamp_defines(d, lamps);
+    d.push_back({"SHADOWS", settings_.shadows.any() ? "1" : "0"});
+    if (scene_.moves())
+        d.push_back({"MOVING", "1"});
+    d.push_back({"TEXTURED", scene_.texture_bytes() > 0 ? "1" : "0"});
     return variants_.emplace(key, Program(context_, "naive.vert.glsl", "naive.frag.glsl", d)).first->second;
 }
 
@@ -43,10 +31,10 @@ void NaiveLighting::set_lamps(const Moment& moment) {
         const BeamTexture& g = beam.grid;
         const ShadowWindow& w = beam.window;
         packed_.push_back(
-            {padded(lamp.pose.position_m - moment.ego.position_m), padded(-lamp.pose.left()), padded(lamp.pose.up()),
-             padded(lamp.pose.forward()), glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
+            {four(lamp.pose.position_m - moment.ego.position_m), four(-lamp.pose.left()), four(lamp.pose.up()), four(lamp.pose.forward()),
+             glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad),
              glm::vec4(g.width, g.height, lamp.intensity_factor * beam.cd_a_unit, settings_.shadows.any() ? 1.0 : 0.0),
-             padded(lamp.colour.linear_srgb),
+             four(lamp.colour.linear_srgb),
              glm::vec4(w.left, w.bottom, settings_.shadows.width / (w.right - w.left), settings_.shadows.height / (w.top - w.bottom))});
     }
     update_buffer(context_, block_, packed_);

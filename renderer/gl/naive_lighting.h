@@ -33,7 +33,7 @@ class NaiveLighting : public Lighting {
     Beams beams_;
     DrawList list_;
     Program depth_;
-    std::map<std::string, Program> variants_;
+    std::map<std::pair<std::size_t, int>, Program> variants_; ///< by lamps and wanted_bits()
     std::vector<LitLamp> lamps_;
     std::vector<Packed> packed_;
     Buffer block_;

@@ -17,8 +17,6 @@ constexpr double background_m = 5000.0;
 /// Headlamps bring less to a road: bounds beyond this say nothing.
 constexpr double most_useful_bound_lx = 1000.0;
 
-const char* flag(bool on) { return on ? "1" : "0"; }
-
 /// "vec4(...), vec4(...)": constants of a variant, one a lamp.
 template <class One> std::string list(const std::vector<const Beam*>& beams, One one) {
     std::string text;
@@ -130,7 +128,7 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     std::vector<const Beam*> beams = f.beams.empty() ? std::vector<const Beam*>{} : lamp_beams_;
     std::vector<Program::Define> d = Targets::defines(wanted);
     const auto define = [&](const char* name, std::string value) { d.push_back({name, std::move(value)}); };
-    define("LAMP_COUNT", std::to_string(beams.size()));
+    add_lamp_defines(d, beams.size());
     define("LAMPS_BY_VERTEX", flag(f.by_vertex));
     define("SHADOWS", flag(f.shadows));
     define("SKY", flag(f.sky));
@@ -162,9 +160,7 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("TEXTURED", f.surface.texture == 0 ? "0" : (f.everything ? "2" : "1"));
     define("TEXTURE_MODE", std::to_string(f.surface.texture - 1));
     define("TARGET_HEIGHT", literal(settings_.target_height_m));
-    define("TONE_KIND", std::to_string(static_cast<int>(settings_.tone_mapper.kind)));
-    define("TONE_S", literal(settings_.tone_mapper.s));
-    define("TONE_L_MAX", literal(settings_.tone_mapper.l_max_cdm2));
+    add_tone_defines(d, settings_.tone_mapper);
     define("BEAM_GRIDS", list(beams, [](const Beam& b) {
                return fmt::format("vec4({}, {}, {}, {})", literal(b.grid.h_first_rad), literal(b.grid.v_first_rad),
                                   literal(1.0 / b.grid.h_step_rad), literal(1.0 / b.grid.v_step_rad));
@@ -214,10 +210,7 @@ void PhotometricLighting::compile(const Features& features, const Shot& shot) {
     if (variants_.contains(features))
         return;
     use(variant(features, shot.wanted), shot);
-    list_.start(shot.moment.ego.position_m, scene_.moves() || !shot.moment.other_lamps.empty());
-    const int call = list_.add_nothing();
-    list_.upload();
-    list_.draw(call);
+    list_.draw_nothing(shot.moment.ego.position_m, scene_.moves() || !shot.moment.other_lamps.empty());
 }
 
 PhotometricLighting::Features PhotometricLighting::background_features(const Shot& shot) const {

@@ -38,13 +38,36 @@ std::vector<LitLamp> from_left(const Moment& moment) {
     return lamps;
 }
 
-glm::dmat4 lamp_from_ego(const Pose& pose, const glm::dvec3& ego_m) {
-    const glm::dvec3 right = -pose.left(), up = pose.up(), forward = pose.forward(), at = pose.position_m - ego_m;
-    glm::dmat4 m(1.0);
-    for (int column = 0; column < 3; ++column)
-        m[column] = {right[column], up[column], forward[column], 0.0};
-    m[3] = {-glm::dot(right, at), -glm::dot(up, at), -glm::dot(forward, at), 1.0};
-    return m;
+constexpr std::size_t most_arrangements = 4;
+constexpr double same_within = 1e-6;
+
+/// Texels [z][y][x] with the outermost ones black.
+template <class T> std::vector<T> framed(std::vector<T> texels, int width, int height, int depth) {
+    if (texels.empty())
+        return texels;
+    std::size_t i = 0;
+    for (int z = 0; z < depth; ++z)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x, ++i)
+                if (x == 0 || y == 0 || x == width - 1 || y == height - 1 || (depth > 1 && (z == 0 || z == depth - 1)))
+                    texels[i] = T{0};
+    return texels;
+}
+
+/// Within a micrometre and a microradian: moving the car rounds more than nothing.
+bool same_arrangement(const std::vector<LitLamp>& lamps, const std::vector<LitLamp>& others) {
+    return std::ranges::equal(lamps, others, [](const LitLamp& a, const LitLamp& b) {
+        bool same = a.file == b.file && a.intensity_factor == b.intensity_factor &&
+                    glm::distance(a.pose.position_m, b.pose.position_m) < same_within;
+        for (int axis = 0; axis < 3; ++axis)
+            same = same && glm::distance(a.pose.axes[axis], b.pose.axes[axis]) < same_within;
+        return same;
+    });
+}
+
+void set_linear(const GladGLContext& gl, GLuint texture) {
+    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
 } // namespace
@@ -93,7 +116,7 @@ void PublishedLighting::set_lamps(const Shot& shot) {
     if (is("LIGHT", "NONE") || lamps.empty())
         return;
     if (is("LIGHT", "GROUND_MAP") || is("LIGHT", "VOLUME_MAP")) {
-        map_ = is("LIGHT", "GROUND_MAP") ? &beams_.ground_map(moment) : &beams_.volume_map(moment);
+        map_ = &beams_.light_map(moment, is("LIGHT", "VOLUME_MAP"));
         textures_.push_back(map_->texture);
         lamps_ = 1;
         return;
@@ -123,7 +146,7 @@ const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wis
         define("MOVING", "1");
     for (const auto& [name, value] : features_)
         d.push_back({name, name == "EMISSIVE" && wish.pass == 2 ? "NONE" : value}); // once is enough
-    define("LAMP_COUNT", std::to_string(wish.lamps));
+    add_lamp_defines(d, static_cast<std::size_t>(wish.lamps));
     define("SPOT_COUNT", std::to_string(most_spots));
     define("PASS", std::to_string(wish.pass));
     define("TEXTURED", wish.texture > 0 ? "1" : "0");
@@ -278,72 +301,18 @@ void PublishedLighting::prepare(const Shot& shot) {
             if (variants_.contains(wish))
                 continue;
             use(variant(wish, shot.wanted), shot);
-            list_.start(shot.moment.ego.position_m, scene_.moves());
-            const int call = list_.add_nothing();
-            list_.upload();
-            list_.draw(call);
+            list_.draw_nothing(shot.moment.ego.position_m, scene_.moves());
         }
     }
     end_passes();
     context_.check("compiling variants");
 }
 
-namespace {
-
-constexpr std::size_t most_arrangements = 4;
-constexpr double same_within = 1e-6;
-
-/// Texels [z][y][x] with the outermost ones black.
-template <class T> std::vector<T> framed(std::vector<T> texels, int width, int height, int depth) {
-    std::size_t i = 0;
-    for (int z = 0; z < depth; ++z)
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x, ++i)
-                if (x == 0 || y == 0 || x == width - 1 || y == height - 1 || (depth > 1 && (z == 0 || z == depth - 1)))
-                    texels[i] = T{0};
-    return texels;
-}
-
-void set_linear(const GladGLContext& gl, GLuint texture) {
-    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-}
-
-} // namespace
-
-LampArrangement::LampArrangement(const Moment& moment) {
-    for (const LitLamp& lamp : moment.lamps)
-        if (lamp.intensity_factor > 0.0) {
-            lamps_.push_back(lamp);
-            lamps_.back().pose = {to_local(moment.ego, lamp.pose.position_m), glm::transpose(moment.ego.axes) * lamp.pose.axes};
-        }
-}
-
-bool LampArrangement::same_as(const LampArrangement& other) const {
-    return std::ranges::equal(lamps_, other.lamps_, [](const LitLamp& a, const LitLamp& b) {
-        bool same = a.file == b.file && a.intensity_factor == b.intensity_factor &&
-                    glm::distance(a.pose.position_m, b.pose.position_m) < same_within;
-        for (int axis = 0; axis < 3; ++axis)
-            same = same && glm::distance(a.pose.axes[axis], b.pose.axes[axis]) < same_within;
-        return same;
-    });
-}
-
 UploadedBeam PublishedBeams::upload(const ProjectedBeam& beam) {
-    const GladGLContext& gl = context_.gl;
     UploadedBeam uploaded{beam.window, beam.steps.empty() ? 1.0 : beam.scale_lx, beam.scale_lx, beam.worst_error_of_peak,
-                          make_texture(context_, format_of_texels(beam.bits), beam.width, beam.height)};
-    set_linear(gl, uploaded.texture);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    const auto send = [&](GLenum type, const void* texels) {
-        gl.TextureSubImage2D(uploaded.texture, 0, 0, 0, beam.width, beam.height, GL_RED, type, texels);
-    };
-    if (beam.steps.empty())
-        send(GL_FLOAT, framed(beam.lx, beam.width, beam.height, 1).data());
-    else if (beam.bits == 16)
-        send(GL_UNSIGNED_SHORT, framed(beam.steps, beam.width, beam.height, 1).data());
-    else
-        send(GL_UNSIGNED_BYTE, framed(std::vector<std::uint8_t>(beam.steps.begin(), beam.steps.end()), beam.width, beam.height, 1).data());
+                          make_texels(context_, beam.width, beam.height, beam.bits, framed(beam.lx, beam.width, beam.height, 1),
+                                      framed(beam.steps, beam.width, beam.height, 1))};
+    set_linear(context_.gl, uploaded.texture);
     texture_bytes_ += beam.bytes();
     context_.check("uploading a projected beam");
     return uploaded;
@@ -367,9 +336,9 @@ const std::vector<Spot>& PublishedBeams::spots_of(const std::shared_ptr<const La
 }
 
 template <class Made, class Make> const Made& PublishedBeams::kept(std::list<Kept<Made>>& list, const Moment& moment, Make make) {
-    const LampArrangement arrangement(moment);
+    const std::vector<LitLamp> arrangement = shining_in(moment.ego, moment.lamps);
     for (auto it = list.begin(); it != list.end(); ++it)
-        if (it->arrangement.same_as(arrangement)) {
+        if (same_arrangement(it->arrangement, arrangement)) {
             list.splice(list.begin(), list, it);
             return it->made;
         }
@@ -387,32 +356,24 @@ const UploadedBeam& PublishedBeams::merged(const Moment& moment) {
     return kept(merged_, moment, [&] { return upload(make_merged_beam(moment.lamps, texels_)); });
 }
 
-const UploadedMap& PublishedBeams::ground_map(const Moment& moment) {
-    return kept(maps_, moment, [&] {
-        const LightMap2d map = bake_ground(moment);
-        UploadedMap uploaded{map.ahead, map.left, {}, make_texture(context_, GL_R32F, map.ahead.cells, map.left.cells)};
-        set_linear(context_.gl, uploaded.texture);
-        context_.gl.TextureSubImage2D(uploaded.texture, 0, 0, 0, map.ahead.cells, map.left.cells, GL_RED, GL_FLOAT,
-                                      framed(map.lx, map.ahead.cells, map.left.cells, 1).data());
-        texture_bytes_ += map.bytes();
-        context_.check("uploading a light map");
-        return uploaded;
-    });
-}
-
-const UploadedMap& PublishedBeams::volume_map(const Moment& moment) {
+const UploadedMap& PublishedBeams::light_map(const Moment& moment, bool volume) {
     return kept(maps_, moment, [&] {
         const GladGLContext& gl = context_.gl;
-        const LightMap3d map = bake_volume(moment);
-        GLuint name = 0;
-        gl.CreateTextures(GL_TEXTURE_3D, 1, &name);
-        UploadedMap uploaded{map.ahead, map.left, map.up, Texture(context_, name)};
-        gl.TextureStorage3D(name, 1, GL_R32F, map.ahead.cells, map.left.cells, map.up.cells);
-        set_linear(gl, name);
-        for (const auto direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-            gl.TextureParameteri(name, static_cast<GLenum>(direction), GL_CLAMP_TO_EDGE);
-        gl.TextureSubImage3D(name, 0, 0, 0, 0, map.ahead.cells, map.left.cells, map.up.cells, GL_RED, GL_FLOAT,
-                             framed(map.lx, map.ahead.cells, map.left.cells, map.up.cells).data());
+        const LightMap map = volume ? bake_volume(moment) : bake_ground(moment);
+        const int x = map.ahead.cells, y = map.left.cells, z = map.up.cells;
+        const std::vector<float> texels = framed(map.lx, x, y, z);
+        UploadedMap uploaded{map.ahead, map.left, volume ? map.up : LightMapAxis{}, {}};
+        if (volume) {
+            uploaded.texture = new_texture(context_, GL_TEXTURE_3D);
+            gl.TextureStorage3D(uploaded.texture, 1, GL_R32F, x, y, z);
+            for (const auto direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+                gl.TextureParameteri(uploaded.texture, static_cast<GLenum>(direction), GL_CLAMP_TO_EDGE);
+            gl.TextureSubImage3D(uploaded.texture, 0, 0, 0, 0, x, y, z, GL_RED, GL_FLOAT, texels.data());
+        } else {
+            uploaded.texture = make_texture(context_, GL_R32F, x, y);
+            gl.TextureSubImage2D(uploaded.texture, 0, 0, 0, x, y, GL_RED, GL_FLOAT, texels.data());
+        }
+        set_linear(gl, uploaded.texture);
         texture_bytes_ += map.bytes();
         context_.check("uploading a light map");
         return uploaded;

@@ -28,17 +28,6 @@ struct UploadedMap {
     Texture texture;              ///< lux; the outermost texels are black
 };
 
-/// Where the lamps that are on stand on their car and how they shine: what merged beams and light maps are made from.
-class LampArrangement {
-  public:
-    explicit LampArrangement(const Moment& moment);
-    /// Within a micrometre and a microradian: moving the car rounds more than nothing.
-    bool same_as(const LampArrangement& other) const;
-
-  private:
-    std::vector<LitLamp> lamps_; ///< poses in the car's frame
-};
-
 class PublishedBeams {
   public:
     PublishedBeams(Context& context, const BeamTexels& texels) : context_(context), texels_(texels) {}
@@ -48,13 +37,12 @@ class PublishedBeams {
     const std::vector<Spot>& spots_of(const std::shared_ptr<const LampFile>& file);
     /// Made anew when a lamp moves on its car or changes its level; the last few arrangements are kept.
     const UploadedBeam& merged(const Moment& moment);
-    const UploadedMap& ground_map(const Moment& moment);
-    const UploadedMap& volume_map(const Moment& moment);
+    const UploadedMap& light_map(const Moment& moment, bool volume);
     std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
     template <class Made> struct Kept {
-        LampArrangement arrangement;
+        std::vector<LitLamp> arrangement; ///< the lamps that are on, in the car's frame
         Made made;
         std::size_t bytes;
     };

@@ -7,6 +7,7 @@
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/photometry.h"
 
+#include <algorithm>
 #include <chrono>
 #include <list>
 
@@ -19,13 +20,46 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 /// Views of so many sizes and wishes keep their targets; a drive's maps may change size with every moment.
 constexpr std::size_t most_targets = 8;
+constexpr int frames = 9; // of check_read_back
+
+/// The lighting of a technique by its name. Throws InputError.
+std::unique_ptr<gl::Lighting> make_lighting(gl::Context& context, const Scene& scene, const RendererSettings& settings) {
+    const Technique& technique = technique_named(settings.technique);
+    if (technique.kind != TechniqueKind::ours)
+        return std::make_unique<gl::PublishedLighting>(context, scene, settings);
+    if (technique.name == "photometric-naive")
+        return std::make_unique<gl::NaiveLighting>(context, scene, settings);
+    return std::make_unique<gl::PhotometricLighting>(context, scene, settings, technique.name != "photometric-unpruned");
+}
+
+/// Median time of a frame of four results over an empty night scene, two always on their way when overlapped.
+double frame_time(Device& device, ReadBack way) {
+    const Scene scene;
+    RendererSettings settings;
+    settings.read_back = way;
+    Renderer renderer(device, scene, settings);
+    const View view;
+    const Wanted wanted{.colour = true, .illuminance = true, .luminance = true, .depth = true};
+    std::vector<double> seconds;
+    Pending earlier = renderer.submit({}, view, wanted);
+    for (int i = 0; i < frames; ++i) {
+        const Clock::time_point start = Clock::now();
+        Pending next = renderer.submit({}, view, wanted);
+        earlier();
+        earlier = std::move(next);
+        seconds.push_back(seconds_since(start));
+    }
+    earlier();
+    std::ranges::sort(seconds);
+    return seconds[frames / 2];
+}
 
 } // namespace
 
 struct Renderer::State {
     State(Device& device, const Scene& scene, const RendererSettings& wishes)
         : context(device.context()), settings(wishes), technique(technique_named(wishes.technique)),
-          programs_before(context.compiled_programs), lighting(gl::make_lighting(context, scene, wishes)) {}
+          programs_before(context.compiled_programs), lighting(make_lighting(context, scene, wishes)) {}
 
     struct KnownTargets {
         int width, height;
@@ -33,8 +67,9 @@ struct Renderer::State {
         std::shared_ptr<gl::Targets> targets;
     };
     std::shared_ptr<gl::Targets> targets_for(const View& view, const Wanted& wanted);
-    template <class Use>
-    void with_shot(const Moment& moment, const View& view, const Wanted& wanted, PassClock& clock, Work& work, Use use);
+    /// Counts what it takes.
+    Work shoot(const Moment& moment, const View& view, const Wanted& wanted, PassClock& clock,
+               void (gl::Lighting::*take)(const gl::Shot&) = &gl::Lighting::draw);
 
     gl::Context& context;
     RendererSettings settings;
@@ -62,13 +97,15 @@ std::shared_ptr<gl::Targets> Renderer::State::targets_for(const View& view, cons
     return targets.front().targets;
 }
 
-template <class Use>
-void Renderer::State::with_shot(const Moment& moment, const View& view, const Wanted& wanted, PassClock& clock, Work& work, Use use) {
+Work Renderer::State::shoot(const Moment& moment, const View& view, const Wanted& wanted, PassClock& clock,
+                            void (gl::Lighting::*take)(const gl::Shot&)) {
     const double sky_luminance = moment.daylight.horizontal_illuminance_lx / pi;
     const float grey = static_cast<float>(photometry::srgb_encoded(toned(settings.tone_mapper, sky_luminance)));
     const Camera camera = camera_of(moment, view);
     const std::shared_ptr<gl::Targets> target = targets_for(view, wanted);
-    use(gl::Shot{moment, view, wanted, camera, *target, glm::vec3(grey), static_cast<float>(sky_luminance), clock, work});
+    Work work;
+    (*lighting.*take)({moment, view, wanted, camera, *target, glm::vec3(grey), static_cast<float>(sky_luminance), clock, work});
+    return work;
 }
 
 Renderer::Renderer(Device& device, const Scene& scene, const RendererSettings& settings)
@@ -102,9 +139,7 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& a
     const Wanted wanted = available(asked);
     const Clock::time_point start = Clock::now();
     PassClock passes(s.context, s.settings.profile, s.settings.gpu_clock);
-    Work work;
-    s.with_shot(moment, view, wanted, passes, work, [&](const gl::Shot& shot) { s.lighting->draw(shot); });
-    s.add(work);
+    s.add(s.shoot(moment, view, wanted, passes));
     const std::shared_ptr<gl::Targets> targets = s.targets_for(view, wanted);
     if (s.settings.read_back == ReadBack::overlapped) {
         const auto reading = std::make_shared<gl::Targets::Reading>(targets->start_read());
@@ -126,9 +161,7 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& a
 
 void Renderer::render(const Moment& moment, const View& view, const Wanted& wanted) {
     PassClock passes(state_->context, false, false);
-    Work work;
-    state_->with_shot(moment, view, available(wanted), passes, work, [&](const gl::Shot& shot) { state_->lighting->draw(shot); });
-    state_->add(work);
+    state_->add(state_->shoot(moment, view, available(wanted), passes));
     state_->context.gl.Flush();
 }
 
@@ -136,17 +169,15 @@ void Renderer::finish() { state_->context.gl.Finish(); }
 
 void Renderer::prepare(const std::vector<Moment>& moments, const View& view, const Wanted& wanted) {
     PassClock passes(state_->context, false, false);
-    Work work;
     for (const Moment& moment : moments)
-        state_->with_shot(moment, view, available(wanted), passes, work, [&](const gl::Shot& shot) { state_->lighting->prepare(shot); });
+        state_->shoot(moment, view, available(wanted), passes, &gl::Lighting::prepare);
     finish();
 }
 
 Work Renderer::count(const Moment& moment, const View& view, const Wanted& wanted) {
     PassClock passes(state_->context, false, false);
-    Work work;
     gl::FragmentCount fragments(state_->context);
-    state_->with_shot(moment, view, available(wanted), passes, work, [&](const gl::Shot& shot) { state_->lighting->draw(shot); });
+    Work work = state_->shoot(moment, view, available(wanted), passes);
     work.fragments = fragments.result();
     return work;
 }
@@ -157,17 +188,6 @@ Renderer::ShadowMapsUsed Renderer::shadow_maps_used() const { return state_->sha
 
 int Renderer::compiled_programs() const { return state_->context.compiled_programs - state_->programs_before; }
 
+ReadBackCheck check_read_back(Device& device) { return {frame_time(device, ReadBack::plain), frame_time(device, ReadBack::overlapped)}; }
+
 } // namespace fernlicht
-
-namespace fernlicht::gl {
-
-std::unique_ptr<Lighting> make_lighting(Context& context, const Scene& scene, const RendererSettings& settings) {
-    const Technique& technique = technique_named(settings.technique);
-    if (technique.kind != TechniqueKind::ours)
-        return std::make_unique<PublishedLighting>(context, scene, settings);
-    if (technique.name == "photometric-naive")
-        return std::make_unique<NaiveLighting>(context, scene, settings);
-    return std::make_unique<PhotometricLighting>(context, scene, settings, technique.name != "photometric-unpruned");
-}
-
-} // namespace fernlicht::gl

@@ -17,9 +17,7 @@ double to_grid(double m) { return texel_m * std::round(m / texel_m); }
 
 } // namespace
 
-SunLight::SunLight(Context& context, const SceneBuffers& scene)
-    : context_(context), scene_(scene), program_(context, "depth.vert.glsl", "", {}), matrix_(program_.uniform("clip_from_ego")),
-      list_(context, scene), target_(make_framebuffer(context)) {}
+SunLight::SunLight(Context& context, const SceneBuffers& scene) : context_(context), scene_(scene), pass_(context, scene, false) {}
 
 bool SunLight::faces_light(const Piece& piece) const {
     const glm::vec3 light(towards_);
@@ -78,58 +76,31 @@ void SunLight::make_map() {
     gl.TextureParameteri(*map_, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
     gl.TextureParameteri(*map_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl.TextureParameteri(*map_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, *map_, 0);
-    gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
 }
 
 void SunLight::draw(Work& work) {
-    const GladGLContext& gl = context_.gl;
     if (!map_)
         make_map();
     const glm::dmat4 window = window_from_ego();
     ++work.shadow_maps;
     if (drawn_window_ != window || casters_ != drawn_ || ego_m_ != drawn_ego_m_) {
-        ++work.shadow_maps_drawn;
-        program_.use();
-        gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
-        const float far_away = 0.0F;
-        gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
-        gl.Viewport(1, 1, sun_map_texels - 2, sun_map_texels - 2);
-        gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); // row 0 is the lowest, as the look-up takes it
-        gl.Enable(GL_SCISSOR_TEST);
-        gl.Scissor(1, 1, sun_map_texels - 2, sun_map_texels - 2);
-        const glm::mat4 clip(window);
-        gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip[0][0]);
-        list_.start(ego_m_);
-        list_.add(casters_);
-        list_.upload();
-        list_.draw(0);
-        ++work.passes;
-        work.draws += static_cast<int>(casters_.size());
-        work.triangles += list_.triangles();
-        gl.Disable(GL_SCISSOR_TEST);
-        gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-        context_.check("drawing the sun's shadow map");
+        pass_.begin(sun_map_texels, sun_map_texels);
+        pass_.set_pieces(ego_m_, casters_);
+        pass_.draw(*map_, window, work);
+        pass_.end("drawing the sun's shadow map");
         drawn_window_ = window;
         drawn_ = casters_;
         drawn_ego_m_ = ego_m_;
     }
-    gl.BindTextureUnit(sun_shadow_unit, *map_);
+    context_.gl.BindTextureUnit(sun_shadow_unit, *map_);
 }
 
 void SunLight::compile() {
     if (!map_)
         make_map();
-    const GladGLContext& gl = context_.gl;
-    program_.use();
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
-    gl.Viewport(0, 0, 1, 1);
-    list_.start(ego_m_);
-    const int call = list_.add_nothing();
-    list_.upload();
-    list_.draw(call);
+    pass_.compile(sun_map_texels, sun_map_texels);
     drawn_window_.reset();
-    gl.BindTextureUnit(sun_shadow_unit, *map_);
+    context_.gl.BindTextureUnit(sun_shadow_unit, *map_);
 }
 
 void SunLight::set_uniforms(const Program& program) const {

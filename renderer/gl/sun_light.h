@@ -38,10 +38,7 @@ class SunLight {
 
     Context& context_;
     const SceneBuffers& scene_;
-    Program program_;
-    GLint matrix_;
-    DrawList list_;
-    Framebuffer target_;
+    DepthPass pass_;
     std::optional<Texture> map_;
     double illuminance_lx_ = 0.0;
     glm::dvec3 towards_{0.0, 0.0, 1.0}, right_{1.0, 0.0, 0.0}, up_{0.0, 1.0, 0.0};

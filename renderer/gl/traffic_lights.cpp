@@ -51,10 +51,8 @@ template <class T> void TrafficLights::fill(Texels& texels, GLenum format, const
                                           values.size() * sizeof(T) / texel_bytes(format)));
         texels.room = std::min(room, most / sizeof(T));
         texels.buffer = make_buffer(context_, std::vector<T>(texels.room), GL_DYNAMIC_STORAGE_BIT);
-        GLuint name = 0;
-        gl.CreateTextures(GL_TEXTURE_BUFFER, 1, &name);
-        texels.texture = Texture(context_, name);
-        gl.TextureBuffer(name, format, texels.buffer);
+        texels.texture = new_texture(context_, GL_TEXTURE_BUFFER);
+        gl.TextureBuffer(texels.texture, format, texels.buffer);
         context_.check("making texels of lamps");
     }
     update_buffer(context_, texels.buffer, values);
@@ -249,13 +247,6 @@ std::pair<std::uint32_t, std::uint32_t> TrafficLights::keep(Lists& lists, const 
     return {first, count};
 }
 
-std::vector<TrafficSource> TrafficLights::sources() const {
-    std::vector<TrafficSource> sources;
-    for (const Unit& unit : units_)
-        sources.push_back({unit.middle, unit.apart_m, unit.lamps, unit.beam});
-    return sources;
-}
-
 void TrafficLights::Cell::add(const glm::dvec4& normal) {
     for (glm::dvec4& known : normals)
         if (glm::length(glm::dvec3(known - normal)) <= same_normal) {
@@ -326,14 +317,8 @@ void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint
                      b = (static_cast<double>(i / traffic_cells_ahead) + 0.5) * traffic_cell_m - traffic_beside_m;
         const glm::dvec2 at = ahead_ * a + left * b;
         const double half = 0.5 * traffic_cell_m + 0.01, up = 0.5 * (cell.high - cell.low);
-        const Place place{{at.x, at.y, 0.5 * (cell.low + cell.high)},
-                          std::sqrt(2.0 * half * half + up * up),
-                          cell.low,
-                          cell.high,
-                          0.0,
-                          true,
-                          false,
-                          &cell.normals};
+        const glm::dvec3 centre(at, 0.5 * (cell.low + cell.high));
+        const Place place{centre, std::sqrt(2.0 * half * half + up * up), cell.low, cell.high, 0.0, true, false, &cell.normals};
         Lists lists = lists_of(place, units, moment.least_traffic_lx, &work);
         TrafficPlace stands{{}, size_from_car(place.centre_m, place.radius_m)};
         for (std::size_t k = 0; k < stands.box_m.size(); ++k)
@@ -362,13 +347,10 @@ void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& 
     const std::vector<std::size_t> all = reaching({}, farthest_drawn_m);
     for (const std::uint32_t i : drawn) {
         const Piece& piece = scene_.pieces()[i];
-        const Place place{centre_of(piece, moment.ego.position_m),
-                          piece.radius_m,
-                          piece.lowest_m - moment.ego.position_m.z,
-                          piece.highest_m - moment.ego.position_m.z,
-                          lean_of(piece),
-                          piece.ground,
-                          piece.surface.retroreflecting};
+        const double car_z = moment.ego.position_m.z;
+        const glm::dvec3 centre = centre_of(piece, moment.ego.position_m);
+        const Place place{centre,         piece.radius_m, piece.lowest_m - car_z,       piece.highest_m - car_z,
+                          lean_of(piece), piece.ground,   piece.surface.retroreflecting};
         Lists lists = lists_of(place, all, moment.least_traffic_lx, piece.ground ? nullptr : &work); // ground is counted by its cells
         TrafficPlace stands{piece.corners_m, piece.ground ? 0.0 : size_from_car(place.centre_m, place.radius_m), i};
         for (glm::dvec3& corner : stands.box_m)
@@ -386,7 +368,7 @@ void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& 
         list_cells(moment, drawn, work);
     left_out_ = static_cast<int>(std::ranges::count(units_, false, &Unit::used));
     if (shadows != nullptr)
-        shadows->choose(moment, sources(), receivers_, places_, entries_);
+        shadows->choose(moment, std::vector<TrafficSource>(units_.begin(), units_.end()), receivers_, places_, entries_);
     fill(unit_texels_, GL_RGBA32F, packed_);
     fill(entry_texels_, GL_RGBA32F, entries_);
     if (cd_texels_.room == 0)

@@ -50,16 +50,12 @@ class TrafficLights {
     struct Packed { // six texels, as in traffic_lamps.glsl
         glm::vec4 position_m, forward, up, apart_m, colour, grid;
     };
-    struct Unit {
-        const Beam* beam = nullptr;
+    struct Unit : TrafficSource {
         const TrafficBeam* bounds = nullptr;
-        LitLamp middle;
-        glm::dvec3 at_m{0.0};    ///< relative to the car
-        glm::dvec3 apart_m{0.0}; ///< from the middle to the second lamp
+        glm::dvec3 at_m{0.0}; ///< of the middle, relative to the car
         double factor = 1.0, half_m = 0.0;
         double half_up_m = 0.0; ///< the part of half_m along the lamps' vertical
         double reaches_m = 0.0; ///< no farther does it bring the least lux, wherever it aims
-        int lamps = 1;
         bool used = false;
     };
     /// What the fragment or vertex stage fetches.
@@ -105,7 +101,6 @@ class TrafficLights {
     std::pair<std::uint32_t, std::uint32_t> keep(const std::vector<glm::vec4>& entries);
     /// The same of light by fragment, on a place that shadows may fall on.
     std::pair<std::uint32_t, std::uint32_t> keep(Lists& lists, const TrafficPlace& place);
-    std::vector<TrafficSource> sources() const;
 
     Context& context_;
     const SceneBuffers& scene_;

@@ -36,15 +36,10 @@ bool behind_lamp(const Corners& box) {
 } // namespace
 
 TrafficShadows::TrafficShadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, bool pruned)
-    : context_(context), scene_(scene), settings_(traffic_map_settings(settings)), pruned_(pruned),
-      program_(context, "depth.vert.glsl", "",
-               scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
-      matrix_(program_.uniform("clip_from_ego")), list_(context, scene), target_(make_framebuffer(context)),
+    : context_(context), scene_(scene), settings_(traffic_map_settings(settings)), pruned_(pruned), pass_(context, scene, scene.moves()),
       map_buffer_(make_buffer(context, std::vector<glm::vec4>(4 * most_traffic_maps), GL_DYNAMIC_STORAGE_BIT)), layers_(most_traffic_maps) {
-    GLuint name = 0;
-    context_.gl.CreateTextures(GL_TEXTURE_BUFFER, 1, &name);
-    map_texels_ = Texture(context_, name);
-    context_.gl.TextureBuffer(name, GL_RGBA32F, map_buffer_);
+    map_texels_ = new_texture(context_, GL_TEXTURE_BUFFER);
+    context_.gl.TextureBuffer(map_texels_, GL_RGBA32F, map_buffer_);
     maps_ = make_shadow_texture(context_, {settings_.width, settings_.height, static_cast<int>(most_traffic_maps), "lamps of others",
                                            "a smaller map_texels, or shadows: none"});
 }
@@ -114,12 +109,8 @@ TrafficShadows::Map TrafficShadows::map_of(const TrafficSource& unit, int lamp, 
                  up = std::max(narrowest, beyond_casters * (w.top - w.bottom));
     map.window = {w.left - 0.5 * across, w.right + 0.5 * across, w.bottom - 0.5 * up, w.top + 0.5 * up};
     const double margin = caster_margin_texels * texel_tangent(map.window, settings_);
-    for (Caster& caster : map.bodies) {
-        caster.left -= margin;
-        caster.right += margin;
-        caster.bottom -= margin;
-        caster.top += margin;
-    }
+    for (Caster& caster : map.bodies)
+        widen(caster, margin);
     return map;
 }
 
@@ -262,43 +253,18 @@ void TrafficShadows::place_in_layers(std::vector<char>& to_draw) {
         }
 }
 
-void TrafficShadows::draw_layer(const Map& map, Work& work) {
-    const GladGLContext& gl = context_.gl;
-    gl.NamedFramebufferTextureLayer(target_, GL_DEPTH_ATTACHMENT, maps_, 0, static_cast<GLint>(map.layer));
-    gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
-    const float far_away = 0.0F;
-    gl.Scissor(0, 0, settings_.width, settings_.height);
-    gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
-    gl.Scissor(1, 1, settings_.width - 2, settings_.height - 2); // the outermost texels stay empty: what lies outside the window is lit
-    const glm::mat4 clip(layers_[map.layer].clip);
-    gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip[0][0]);
-    list_.start(ego_m_, scene_.moves());
-    list_.add(map.pieces);
-    list_.upload();
-    list_.draw(0);
-    ++work.passes;
-    ++work.shadow_maps_drawn;
-    work.draws += static_cast<int>(map.pieces.size());
-    work.triangles += list_.triangles();
-}
-
 void TrafficShadows::draw(const Shot& shot) {
-    const GladGLContext& gl = context_.gl;
     shot.work.shadow_maps += static_cast<int>(chosen_.size());
     std::vector<char> to_draw;
     place_in_layers(to_draw);
     if (std::ranges::count(to_draw, 1) > 0) {
-        program_.use();
-        gl.Viewport(1, 1, settings_.width - 2, settings_.height - 2);
-        gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); // row 0 is the lowest tangent, as the look-up takes it
-        gl.Enable(GL_SCISSOR_TEST);
+        pass_.begin(settings_.width, settings_.height);
         for (std::size_t i = 0; i < chosen_.size(); ++i)
-            if (to_draw[i] != 0)
-                draw_layer(chosen_[i], shot.work);
-        gl.Disable(GL_SCISSOR_TEST);
-        gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-        context_.check("drawing shadow maps of others' lamps");
+            if (to_draw[i] != 0) {
+                pass_.set_pieces(ego_m_, chosen_[i].pieces);
+                pass_.draw(maps_, layers_[chosen_[i].layer].clip, shot.work, static_cast<GLint>(chosen_[i].layer));
+            }
+        pass_.end("drawing shadow maps of others' lamps");
     }
     std::vector<glm::vec4> texels; // as in traffic_shadows.glsl
     for (const Map& map : chosen_) {
@@ -318,18 +284,8 @@ void TrafficShadows::draw(const Shot& shot) {
 }
 
 void TrafficShadows::compile() {
-    const GladGLContext& gl = context_.gl;
-    gl.NamedFramebufferTextureLayer(target_, GL_DEPTH_ATTACHMENT, maps_, 0, 0);
-    gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
-    gl.Viewport(0, 0, 1, 1);
-    program_.use();
-    list_.start(glm::dvec3(0.0), scene_.moves());
-    list_.add_nothing();
-    list_.upload();
-    list_.draw(0);
+    pass_.compile(settings_.width, settings_.height);
     layers_.assign(most_traffic_maps, {});
-    context_.check("compiling the shadow pass of others' lamps");
 }
 
 void TrafficShadows::bind() const {

@@ -95,16 +95,12 @@ class TrafficShadows {
     Candidate candidate(std::uint32_t number, const TrafficSource& unit, double least_lx) const;
     static bool shaded(const Candidate& candidate, const Corners& box_m);
     void place_in_layers(std::vector<char>& to_draw);
-    void draw_layer(const Map& map, Work& work);
 
     Context& context_;
     const SceneBuffers& scene_;
     ShadowSettings settings_; ///< of one map
     bool pruned_;
-    Program program_;
-    GLint matrix_;
-    DrawList list_;
-    Framebuffer target_;
+    DepthPass pass_;
     Texture maps_, map_texels_;
     Buffer map_buffer_;
     glm::dvec3 ego_m_{0.0};

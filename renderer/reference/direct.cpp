@@ -65,9 +65,7 @@ LaneMask facing_lanes(const LitLamp& lamp, const Weather& weather, const Points&
                       Lanes& e_perp_lx) {
     Points in_lamp;
     Lanes across{}, up{}, ahead{}, level{}, h_rad, v_rad;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(asked, i))
-            continue;
+    for (const std::size_t i : lanes_of(asked)) {
         in_lamp[i] = photometry::lamp_space(point_m[i] - lamp_m[i], -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward());
         across[i] = in_lamp[i].x, up[i] = in_lamp[i].y, ahead[i] = in_lamp[i].z;
         level[i] = std::sqrt(in_lamp[i].x * in_lamp[i].x + in_lamp[i].z * in_lamp[i].z);
@@ -75,8 +73,8 @@ LaneMask facing_lanes(const LitLamp& lamp, const Weather& weather, const Points&
     angles(across, ahead, h_rad); // photometry.glsl: goniometer_angles
     angles(up, level, v_rad);
     LaneMask lit = 0;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(asked, i) || ahead[i] <= 0.0)
+    for (const std::size_t i : lanes_of(asked)) {
+        if (ahead[i] <= 0.0)
             continue;
         const double cd = lamp.intensity_factor * intensity_cd(lamp.file->table, degrees(h_rad[i]), degrees(v_rad[i]));
         e_perp_lx[i] = photometry::facing_illuminance(cd, in_lamp[i]) * air_transmittance(weather, glm::length(in_lamp[i]));
@@ -88,8 +86,8 @@ LaneMask facing_lanes(const LitLamp& lamp, const Weather& weather, const Points&
 /// Angles at the surfaces between lamp and eye, where they retroreflect (photometry.glsl: observation_angle).
 void observation_lanes(const Shot& shot, const PacketLight& light, const Points& lamp_m, LaneMask seen, Lanes& angle_rad) {
     Lanes sine{}, cosine{};
-    for (std::size_t i = 0; i < packet_size; ++i)
-        if (in_mask(seen, i) && light.responses[i].retro_rl > 0.0) {
+    for (const std::size_t i : lanes_of(seen))
+        if (light.responses[i].retro_rl > 0.0) {
             const glm::dvec3 &p = light.hits[i].point_m, to_lamp = lamp_m[i] - p, to_eye = shot.to_eye(p);
             sine[i] = glm::length(glm::cross(to_lamp, to_eye));
             cosine[i] = glm::dot(to_lamp, to_eye);
@@ -101,9 +99,7 @@ void add_luminance(const Shot& shot, const LitLamp& lamp, const Points& lamp_m, 
                    const PacketLight& light, Points& colour) {
     Lanes angle_rad;
     observation_lanes(shot, light, lamp_m, seen, angle_rad);
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(seen, i))
-            continue;
+    for (const std::size_t i : lanes_of(seen)) {
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 returned = response.albedo * (e_perp[i] * cosine[i] / pi);
         if (response.retro_rl > 0.0)
@@ -124,9 +120,7 @@ void add_lamp(const Shot& shot, std::size_t index, const Points& lamp_m, Points&
     Lanes e_perp{}, cosine{};
     Points point_m;
     LaneMask facing = 0, behind = 0;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(light.hit, i))
-            continue;
+    for (const std::size_t i : lanes_of(light.hit)) {
         const SurfaceHit& hit = light.hits[i];
         const glm::dvec3 to_lamp = lamp_m[i] - hit.point_m;
         point_m[i] = hit.point_m;
@@ -136,13 +130,12 @@ void add_lamp(const Shot& shot, std::size_t index, const Points& lamp_m, Points&
             behind |= 1U << i; // the flat triangle itself stands in the way
     }
     const LaneMask asked = facing_lanes(lamp, shot.moment.weather, lamp_m, point_m, facing, e_perp);
-    for (std::size_t i = 0; i < packet_size; ++i)
-        if (in_mask(asked, i))
-            point_m[i] = EmbreeScene::raised(light.hits[i]);
+    for (const std::size_t i : lanes_of(asked))
+        point_m[i] = EmbreeScene::raised(light.hits[i]);
     const LaneMask seen = seen_lanes(shot, point_m, lamp_m, asked & ~behind, light);
     tally(edges, index, asked, seen);
-    for (std::size_t i = 0; i < packet_size; ++i)
-        light.illuminance_lx[i] += in_mask(seen, i) ? e_perp[i] * cosine[i] : 0.0;
+    for (const std::size_t i : lanes_of(seen))
+        light.illuminance_lx[i] += e_perp[i] * cosine[i];
     if (shot.wanted.luminance && seen != 0)
         add_luminance(shot, lamp, lamp_m, e_perp, cosine, seen, light, colour);
 }
@@ -153,9 +146,7 @@ void add_sun(const Shot& shot, const DirectLight& sun, Points& colour, PacketLig
     Lanes e{};
     Points from_m, to_m;
     LaneMask facing = 0;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(light.hit, i))
-            continue;
+    for (const std::size_t i : lanes_of(light.hit)) {
         const SurfaceHit& hit = light.hits[i];
         e[i] = photometry::directional_illuminance(sun.illuminance_lx, hit.normal, towards);
         from_m[i] = EmbreeScene::raised(hit);
@@ -164,9 +155,9 @@ void add_sun(const Shot& shot, const DirectLight& sun, Points& colour, PacketLig
             facing |= 1U << i;
     }
     const LaneMask seen = seen_lanes(shot, from_m, to_m, facing, light);
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        light.illuminance_lx[i] += in_mask(seen, i) ? e[i] : 0.0;
-        if (!in_mask(seen, i) || !shot.wanted.luminance)
+    for (const std::size_t i : lanes_of(seen)) {
+        light.illuminance_lx[i] += e[i];
+        if (!shot.wanted.luminance)
             continue;
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 returned = response.albedo * (e[i] / pi);
@@ -182,14 +173,13 @@ void add_sun(const Shot& shot, const DirectLight& sun, Points& colour, PacketLig
 void add_target(const Shot& shot, std::size_t index, const Points& lamp_m, PacketLight& light, ShadowTally& edges) {
     Lanes e_perp{};
     Points target_m;
-    for (std::size_t i = 0; i < packet_size; ++i)
-        if (in_mask(light.hit, i))
-            target_m[i] = light.hits[i].point_m + glm::dvec3(0.0, 0.0, shot.settings.target_height_m);
+    for (const std::size_t i : lanes_of(light.hit))
+        target_m[i] = light.hits[i].point_m + glm::dvec3(0.0, 0.0, shot.settings.target_height_m);
     const LaneMask asked = facing_lanes(shot.moment.lamps[index], shot.moment.weather, lamp_m, target_m, light.hit, e_perp);
     const LaneMask seen = seen_lanes(shot, target_m, lamp_m, asked, light);
     tally(edges, shot.moment.lamps.size() + index, asked, seen);
-    for (std::size_t i = 0; i < packet_size; ++i)
-        light.target_lx[i] += in_mask(seen, i) ? e_perp[i] : 0.0;
+    for (const std::size_t i : lanes_of(seen))
+        light.target_lx[i] += e_perp[i];
 }
 
 } // namespace
@@ -202,13 +192,11 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
     const double sky_lx = shot.moment.daylight.horizontal_illuminance_lx;
     Points colour{}, lamp_m{};
     if (shot.wanted.luminance)
-        for (std::size_t i = 0; i < packet_size; ++i)
-            if (in_mask(light.hit, i))
-                light.responses[i] = response_at(shot.embree.scene(), light.hits[i]);
+        for (const std::size_t i : lanes_of(light.hit))
+            light.responses[i] = response_at(shot.embree.scene(), light.hits[i]);
     for (std::size_t index = 0; index < shot.moment.lamps.size(); ++index) {
-        for (std::size_t i = 0; i < packet_size; ++i)
-            if (in_mask(light.hit, i))
-                lamp_m[i] = lamp_point_m(shot, shot.moment.lamps[index], points[i], 1 + index);
+        for (const std::size_t i : lanes_of(light.hit))
+            lamp_m[i] = lamp_point_m(shot, shot.moment.lamps[index], points[i], 1 + index);
         if (shot.wanted.illuminance || shot.wanted.luminance)
             add_lamp(shot, index, lamp_m, colour, light, edges);
         if (shot.wanted.target && shot.moment.lamps[index].body == -1) // targets are about the own lamps

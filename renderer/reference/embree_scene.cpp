@@ -82,6 +82,20 @@ void occlude(RTCScene scene, const int* valid, RTCRay16& rays) {
 }
 #endif
 
+RTCRay ray_of(const glm::dvec3& from_m, const glm::dvec3& way, float end, unsigned mask) {
+    const glm::vec3 o(from_m), d(way);
+    return {o.x, o.y, o.z, 0.0F, d.x, d.y, d.z, 0.0F, end, mask, 0, 0};
+}
+
+void set_lane(RTCRay16& rays, std::size_t i, const RTCRay& ray) {
+    rays.org_x[i] = ray.org_x, rays.org_y[i] = ray.org_y, rays.org_z[i] = ray.org_z;
+    rays.dir_x[i] = ray.dir_x, rays.dir_y[i] = ray.dir_y, rays.dir_z[i] = ray.dir_z;
+    rays.tnear[i] = ray.tnear, rays.tfar[i] = ray.tfar, rays.time[i] = ray.time;
+    rays.mask[i] = ray.mask, rays.id[i] = ray.id, rays.flags[i] = ray.flags;
+}
+
+constexpr float no_end = std::numeric_limits<float>::infinity();
+
 } // namespace
 
 std::string embree_version() {
@@ -197,19 +211,7 @@ SurfaceHit EmbreeScene::hit_on(const Ray& ray, std::uint32_t mesh_index, std::ui
 
 std::optional<SurfaceHit> EmbreeScene::cast(const Ray& ray, bool ground_only) const {
     RTCRayHit found{};
-    const glm::vec3 origin(ray.origin_m), direction(ray.direction);
-    found.ray = {origin.x,
-                 origin.y,
-                 origin.z,
-                 0.0F,
-                 direction.x,
-                 direction.y,
-                 direction.z,
-                 0.0F,
-                 std::numeric_limits<float>::infinity(),
-                 ground_only ? ground_mask : all_mask,
-                 0,
-                 0};
+    found.ray = ray_of(ray.origin_m, ray.direction, no_end, ground_only ? ground_mask : all_mask);
     found.hit.geomID = found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersect(embree_->scene, found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -222,12 +224,8 @@ LaneMask EmbreeScene::cast(const std::array<Ray, packet_size>& rays, LaneMask la
     alignas(64) RTCRayHit16 found;
     alignas(64) std::array<int, packet_size> valid;
     for (std::size_t i = 0; i < packet_size; ++i) {
-        const glm::vec3 origin(rays[i].origin_m), direction(rays[i].direction);
         valid[i] = in_mask(lanes, i) ? -1 : 0;
-        found.ray.org_x[i] = origin.x, found.ray.org_y[i] = origin.y, found.ray.org_z[i] = origin.z;
-        found.ray.dir_x[i] = direction.x, found.ray.dir_y[i] = direction.y, found.ray.dir_z[i] = direction.z;
-        found.ray.tnear[i] = 0.0F, found.ray.tfar[i] = std::numeric_limits<float>::infinity(), found.ray.time[i] = 0.0F;
-        found.ray.mask[i] = ground_only ? ground_mask : all_mask, found.ray.id[i] = 0, found.ray.flags[i] = 0;
+        set_lane(found.ray, i, ray_of(rays[i].origin_m, rays[i].direction, no_end, ground_only ? ground_mask : all_mask));
         found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     intersect(embree_->scene, valid.data(), found);
@@ -245,8 +243,7 @@ bool EmbreeScene::visible(const SurfaceHit& from, const glm::dvec3& to_m) const 
 }
 
 bool EmbreeScene::visible(const glm::dvec3& from_m, const glm::dvec3& to_m) const {
-    const glm::vec3 origin(from_m), direction(to_m - from_m);
-    RTCRay ray{origin.x, origin.y, origin.z, 0.0F, direction.x, direction.y, direction.z, 0.0F, segment_end, casters_mask, 0, 0};
+    RTCRay ray = ray_of(from_m, to_m - from_m, segment_end, casters_mask);
     occlude(embree_->scene, ray);
     return ray.tfar >= 0.0F; // Embree makes it negative where something was met
 }
@@ -256,12 +253,8 @@ LaneMask EmbreeScene::visible(const std::array<glm::dvec3, packet_size>& from_m,
     alignas(64) RTCRay16 ray;
     alignas(64) std::array<int, packet_size> valid;
     for (std::size_t i = 0; i < packet_size; ++i) {
-        const glm::vec3 origin(from_m[i]), direction(to_m[i] - from_m[i]);
         valid[i] = in_mask(lanes, i) ? -1 : 0;
-        ray.org_x[i] = origin.x, ray.org_y[i] = origin.y, ray.org_z[i] = origin.z;
-        ray.dir_x[i] = direction.x, ray.dir_y[i] = direction.y, ray.dir_z[i] = direction.z;
-        ray.tnear[i] = 0.0F, ray.tfar[i] = segment_end, ray.time[i] = 0.0F;
-        ray.mask[i] = casters_mask, ray.id[i] = 0, ray.flags[i] = 0;
+        set_lane(ray, i, ray_of(from_m[i], to_m[i] - from_m[i], segment_end, casters_mask));
     }
     occlude(embree_->scene, valid.data(), ray);
     LaneMask seen = 0;

@@ -5,10 +5,11 @@
 // Everything is const after construction and may be used by many threads at once. The scene must outlive this.
 #pragma once
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/values/scene.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,17 @@ namespace fernlicht::reference {
 inline constexpr std::size_t packet_size = 16;
 using LaneMask = std::uint32_t; ///< bit i: lane i takes part
 inline constexpr bool in_mask(LaneMask mask, std::size_t lane) { return (mask >> lane & 1U) != 0; }
+
+/// The lanes of a mask, ascending.
+struct LanesOf {
+    LaneMask left;
+    std::size_t operator*() const { return static_cast<std::size_t>(std::countr_zero(left)); }
+    void operator++() { left &= left - 1; }
+    bool operator!=(const LanesOf& other) const { return left != other.left; }
+    LanesOf begin() const { return *this; }
+    LanesOf end() const { return {0}; }
+};
+inline LanesOf lanes_of(LaneMask mask) { return {mask}; }
 
 /// Where a ray met a triangle. All in double, by the equations of Twin::cast.
 struct SurfaceHit {
@@ -67,8 +79,6 @@ class EmbreeScene {
     /// coordinate; eight such units cover their sum in three dimensions: 0.05 mm within 100 m of the origin, 0.4 mm at 800 m. What is lower
     /// than that casts no shadow and shades nothing.
     static glm::dvec3 raised(const SurfaceHit& hit);
-
-    std::size_t triangles() const { return facets_.size(); }
 
   private:
     struct Embree;

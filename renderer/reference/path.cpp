@@ -92,17 +92,41 @@ glm::dvec3 air_seen(const Shot& shot, const SamplePoint& point, const Ray& ray, 
     return sum;
 }
 
-} // namespace
-
-glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays) {
-    return followed(shot, point, pair, ray, 0, rays);
+/// `left`: smooth surfaces that may still follow.
+glm::dvec3 seen_along(const Shot& shot, const SamplePoint& point, const Ray& ray, int left, std::uint64_t& rays) {
+    ++rays;
+    const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
+    if (!hit)
+        return through_air(shot, ray, ray.origin_m + ray.direction * air_end_m, sky_luminance(shot.moment, ray.direction));
+    const Surface surface = surface_at(shot, *hit, -ray.direction);
+    if (surface.is_dark())
+        return through_air(shot, ray, hit->point_m, glm::dvec3(0.0));
+    glm::dvec3 sum(0.0);
+    if (!surface.is_glass()) {
+        const double sky_lx = shot.moment.daylight.horizontal_illuminance_lx * 0.5 * (1.0 + hit->normal.z);
+        glm::dvec3 of_sky = surface.response.albedo * (sky_lx / pi);
+        if (surface.wetness > 0.0)
+            of_sky = partly_wet(
+                of_sky, wet_sky_light(surface.response.albedo, hit->normal, surface.out, sky_lx, sky_luminance_cdm2(shot.moment.daylight)),
+                surface.wetness);
+        // Lamps' places are those of the pixel's first feelers: pair 1 + i for lamp i.
+        sum = surface.response.emission_cdm2 + of_sky + lamps_on(shot, surface, point, 1, rays);
+    }
+    if (left <= 0)
+        return through_air(shot, ray, hit->point_m, sum);
+    const SpecularSplit split = specular_split(surface);
+    if (split.mirrored_share > 0.0)
+        sum += split.mirrored_share * seen_along(shot, point, leaving(*hit, split.mirrored), left - 1, rays);
+    if (split.refracted_share > 0.0)
+        sum += split.refracted_share * seen_along(shot, point, leaving(*hit, split.refracted), left - 1, rays);
+    return through_air(shot, ray, hit->point_m, sum);
 }
+
+} // namespace
 
 void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light) {
     const std::size_t first_pair = 1 + shot.moment.lamps.size();
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(light.hit, i))
-            continue;
+    for (const std::size_t i : lanes_of(light.hit)) {
         const SurfaceHit& hit = light.hits[i];
         const glm::dvec3 from_m = EmbreeScene::raised(hit), direction = sample_cosine(hit.normal, points[i].pair(first_pair)),
                          to_eye = glm::normalize(shot.to_eye(hit.point_m));
@@ -139,25 +163,24 @@ void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_si
 void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const std::array<Ray, packet_size>& eye_rays,
                     LaneMask lanes, PacketLight& light) {
     const Arriving by_path = [&](std::size_t, const SamplePoint& point, std::size_t pair, const Ray& ray, std::uint64_t& rays) {
-        return arriving_by_path(shot, point, pair, ray, rays);
+        return followed(shot, point, pair, ray, 0, rays);
     };
     add_bounced_light(shot, points, by_path, light);
     add_smooth_light(shot, points, by_path, light);
     if (!is_in_air(shot) || shot.camera.is_map || !shot.wanted.luminance)
         return;
-    for (std::size_t i = 0; i < packet_size; ++i)
-        if (in_mask(lanes, i)) {
-            const double way_m = in_mask(light.hit, i) ? glm::length(light.hits[i].point_m - eye_rays[i].origin_m) : air_end_m;
-            light.luminance_cdm2[i] += luminance(air_seen(shot, points[i], eye_rays[i], way_m, light.rays));
-        }
+    for (const std::size_t i : lanes_of(lanes)) {
+        const double way_m = in_mask(light.hit, i) ? glm::length(light.hits[i].point_m - eye_rays[i].origin_m) : air_end_m;
+        light.luminance_cdm2[i] += luminance(air_seen(shot, points[i], eye_rays[i], way_m, light.rays));
+    }
 }
 
 void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light) {
     if (!shot.wanted.luminance)
         return;
     const Scene& scene = shot.embree.scene();
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(light.hit, i) || !is_smooth(scene.materials[light.hits[i].material]))
+    for (const std::size_t i : lanes_of(light.hit)) {
+        if (!is_smooth(scene.materials[light.hits[i].material]))
             continue;
         const SurfaceHit& hit = light.hits[i];
         const double left = left_on_way_to_eye(shot, hit.point_m);
@@ -170,40 +193,6 @@ void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_siz
                                        luminance(arriving(i, points[i], refracted_pairs, leaving(hit, split.refracted), light.rays));
     }
 }
-
-namespace {
-
-/// `left`: smooth surfaces that may still follow.
-glm::dvec3 seen_along(const Shot& shot, const SamplePoint& point, const Ray& ray, int left, std::uint64_t& rays) {
-    ++rays;
-    const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
-    if (!hit)
-        return through_air(shot, ray, ray.origin_m + ray.direction * air_end_m, sky_luminance(shot.moment, ray.direction));
-    const Surface surface = surface_at(shot, *hit, -ray.direction);
-    if (surface.is_dark())
-        return through_air(shot, ray, hit->point_m, glm::dvec3(0.0));
-    glm::dvec3 sum(0.0);
-    if (!surface.is_glass()) {
-        const double sky_lx = shot.moment.daylight.horizontal_illuminance_lx * 0.5 * (1.0 + hit->normal.z);
-        glm::dvec3 of_sky = surface.response.albedo * (sky_lx / pi);
-        if (surface.wetness > 0.0)
-            of_sky = partly_wet(
-                of_sky, wet_sky_light(surface.response.albedo, hit->normal, surface.out, sky_lx, sky_luminance_cdm2(shot.moment.daylight)),
-                surface.wetness);
-        // Lamps' places are those of the pixel's first feelers: pair 1 + i for lamp i.
-        sum = surface.response.emission_cdm2 + of_sky + lamps_on(shot, surface, point, 1, rays);
-    }
-    if (left <= 0)
-        return through_air(shot, ray, hit->point_m, sum);
-    const SpecularSplit split = specular_split(surface);
-    if (split.mirrored_share > 0.0)
-        sum += split.mirrored_share * seen_along(shot, point, leaving(*hit, split.mirrored), left - 1, rays);
-    if (split.refracted_share > 0.0)
-        sum += split.refracted_share * seen_along(shot, point, leaving(*hit, split.refracted), left - 1, rays);
-    return through_air(shot, ray, hit->point_m, sum);
-}
-
-} // namespace
 
 void add_whitted_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, PacketLight& light) {
     add_smooth_light(

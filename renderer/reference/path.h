@@ -40,9 +40,6 @@ void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_siz
 void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const std::array<Ray, packet_size>& eye_rays,
                     LaneMask lanes, PacketLight& light);
 
-/// By paths: the whole of it, over any number of surfaces.
-glm::dvec3 arriving_by_path(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray ray, std::uint64_t& rays);
-
 /// Adds to a packet lit by light_packet what its mirrors and glass show.
 void add_whitted_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, PacketLight& light);
 

@@ -33,17 +33,12 @@ MeanAndError mean_of(const std::array<double, replicate_count>& sums, int each);
 /// The least power of two times `now` that brings `error` below 3/4 of `target`, at most `most`. now >= 1.
 int samples_for(double error, double target, double power, int now, int most);
 
-/// Illuminance, target, luminance.
-using Results = std::array<Lanes, 3>;
-
 struct Seen {
     bool several = false, anything = false;
     std::uint32_t mesh = 0, material = 0;
 
     void add(const PacketLight& light, LaneMask lanes) {
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            if (!in_mask(lanes, i))
-                continue;
+        for (const std::size_t i : lanes_of(lanes)) {
             const bool hit = in_mask(light.hit, i);
             const std::uint32_t m = hit ? light.hits[i].mesh + 1 : 0, kind = hit ? light.hits[i].material : 0;
             several |= anything && (m != mesh || kind != material);
@@ -54,7 +49,7 @@ struct Seen {
 
 /// One pixel's drawing: its results summed over `each` points of every lane's net.
 struct Drawing {
-    Results sums{};
+    std::array<Lanes, 3> sums{}; ///< illuminance, target, luminance
     Seen seen;
     ShadowTally shadows;
     std::uint64_t rays = 0;

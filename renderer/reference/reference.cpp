@@ -1,7 +1,5 @@
 #include "renderer/reference/reference.h"
 
-#include "renderer/posed_scene.h"
-
 #include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/solved_light.h"
 
@@ -64,17 +62,13 @@ void check_materials(const Scene& scene) {
     }
 }
 
-Estimate empty_estimate(const View& view, bool wanted) {
-    if (!wanted)
-        return {};
-    return {Image<float>(view.width_px, view.height_px), Image<float>(view.width_px, view.height_px)};
-}
-
 ReferenceImage empty_image(const View& view, const Wanted& wanted) {
     ReferenceImage image;
-    image.illuminance_lx = empty_estimate(view, wanted.illuminance);
-    image.target_lx = empty_estimate(view, wanted.target);
-    image.luminance_cdm2 = empty_estimate(view, wanted.luminance);
+    for (const auto& [is_wanted, estimate] :
+         {std::pair(wanted.illuminance, &image.illuminance_lx), std::pair(wanted.target, &image.target_lx),
+          std::pair(wanted.luminance, &image.luminance_cdm2)})
+        if (is_wanted)
+            estimate->mean = estimate->standard_error = Image<float>(view.width_px, view.height_px);
     image.ids = Image<std::uint32_t>(view.width_px, view.height_px);
     image.samples = Image<std::uint32_t>(view.width_px, view.height_px);
     image.mixed = Image<std::uint8_t>(view.width_px, view.height_px);
@@ -123,6 +117,29 @@ std::size_t pixels_done(const ReferenceImage& image) {
 } // namespace
 
 bool knows_weather(Integrator integrator) { return integrator != Integrator::radiosity && integrator != Integrator::photon_map; }
+
+Scene posed_scene(const Scene& scene, const std::vector<Body>& bodies) {
+    Scene posed = scene;
+    for (Mesh& mesh : posed.meshes) {
+        if (mesh.body < 0)
+            continue;
+        const auto body = static_cast<std::size_t>(mesh.body);
+        mesh.body = -1;
+        if (body >= bodies.size() || !bodies[body].visible) {
+            mesh.vertices.clear();
+            mesh.indices.clear();
+            mesh.batches.clear();
+            continue;
+        }
+        const Pose& pose = bodies[body].pose;
+        mesh.origin_m = to_parent(pose, mesh.origin_m);
+        for (Vertex& vertex : mesh.vertices) {
+            vertex.position_m = glm::vec3(pose.axes * glm::dvec3(vertex.position_m));
+            vertex.normal = glm::vec3(pose.axes * glm::dvec3(vertex.normal));
+        }
+    }
+    return posed;
+}
 
 struct Reference::State {
     std::mutex mutex;

@@ -142,4 +142,8 @@ class Reference {
     std::unique_ptr<State> state_;
 };
 
+/// A copy in which every mesh stands in the world. Meshes of bodies that are not visible, or not among `bodies`, are empty; numbers of
+/// meshes stay.
+Scene posed_scene(const Scene& scene, const std::vector<Body>& bodies);
+
 } // namespace fernlicht

@@ -16,6 +16,11 @@ constexpr std::size_t most_smooth = 64;
 
 double greatest(const glm::dvec3& rgb) { return std::max({rgb.x, rgb.y, rgb.z}); }
 
+/// About the share of light that the film sends on, by which a path chooses it; 0..1.
+double film_share(const glm::dvec3& normal, const glm::dvec3& out) {
+    return photometry::water_reflectance(photometry::facet_cosine(std::clamp(glm::dot(normal, out), 0.0, 1.0), wet_roughness));
+}
+
 } // namespace
 
 Surface surface_at(const Shot& shot, const SurfaceHit& hit, const glm::dvec3& out) {
@@ -214,10 +219,6 @@ FilmSample sample_film(const glm::dvec3& normal, const glm::dvec3& out, const gl
                  root_in = std::sqrt(a2 + (1.0 - a2) * c_in * c_in);
     sample.weight = photometry::water_reflectance(std::min(c_h, 1.0)) * c_in * (c_out + root_out) / (c_out * root_in + c_in * root_out);
     return sample;
-}
-
-double film_share(const glm::dvec3& normal, const glm::dvec3& out) {
-    return photometry::water_reflectance(photometry::facet_cosine(std::clamp(glm::dot(normal, out), 0.0, 1.0), wet_roughness));
 }
 
 } // namespace fernlicht::reference

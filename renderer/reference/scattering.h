@@ -76,7 +76,4 @@ struct FilmSample {
 };
 FilmSample sample_film(const glm::dvec3& normal, const glm::dvec3& out, const glm::dvec2& square);
 
-/// About the share of light that the film sends on, by which a path chooses it; 0..1.
-double film_share(const glm::dvec3& normal, const glm::dvec3& out);
-
 } // namespace fernlicht::reference

@@ -26,9 +26,7 @@ glm::dvec3 arriving_from_solution(const Shot& shot, std::size_t lane, const Samp
 }
 
 void add_irradiance(const Shot& shot, Part part, PacketLight& light) {
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!in_mask(light.hit, i))
-            continue;
+    for (const std::size_t i : lanes_of(light.hit)) {
         const glm::dvec3 e = shot.solved->irradiance(light.hits[i], part, i);
         light.illuminance_lx[i] += luminance(e);
         if (shot.wanted.luminance)

@@ -1,17 +1,8 @@
 // Technique `photometric-naive`: the equations of `photometric` written down as they stand, for its speed to be measured against.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, RETRO, and which results are wanted (WANT_*). What is left out adds exactly +0.
+// Compiled per set of features: LAMP_COUNT, SHADOWS, TEXTURED, and which results are wanted (WANT_*). What is left out adds exactly +0.
 #include "naive_lamps.glsl"
-
-struct Material { // as in surface.vert.glsl
-    vec4 albedo;
-    vec4 emission;
-    vec4 retro;
-    vec4 blend;
-    vec4 tint;
-};
-
-layout(std430, binding = 1) readonly buffer Materials { Material materials[]; };
+#include "materials.glsl"
 
 uniform vec3 eye_m;            // relative to the car
 uniform vec3 eye_direction;    // map views: the same for every point; 0 0 0: perspective
@@ -65,10 +56,8 @@ void add_lamp(Lamp lamp, sampler2D beam, sampler2D map) {
     illuminance += e;
 #if WANT_SEEN
     light += lamp.colour.rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e));
-#if RETRO
     if (rl > 0.0)
         light += lamp.colour.rgb * material.tint.rgb * retro_luminance(rl, e_perp, cosine, observation_angle(to_lamp, to_eye), material.retro.x, material.retro.y);
-#endif
 #endif
 #if WANT_TARGET
     vec3 raised = p + vec3(0.0, 0.0, target_height_m);
@@ -102,12 +91,10 @@ void main() {
     EACH_LAMP(ADD_LAMP)
 #endif
 
-#if SKY
     float e_sky = sky_lx * 0.5 * (1.0 + n.z);
     illuminance += e_sky;
 #if WANT_SEEN
     light += vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky));
-#endif
 #endif
 
 #if WANT_SEEN

@@ -1,6 +1,5 @@
 // The lamps of a moment: their beam textures, shadow maps, and what reaches a point.
 #include "photometry.glsl"
-#include "each_lamp.glsl"
 
 #if LAMP_COUNT > 0
 

@@ -20,3 +20,11 @@ layout(location = OUT_DEPTH) out float out_depth_m;
 #if WANT_IDS
 layout(location = OUT_IDS) out uint out_id;
 #endif
+
+#ifdef TONE_KIND
+float toned(float l) {
+    if (TONE_KIND == 0)
+        return tone_linear(l, TONE_L_MAX);
+    return TONE_KIND == 1 ? tone_rational(l, TONE_L_MAX, TONE_S) : tone_logarithmic(l, TONE_L_MAX, TONE_S);
+}
+#endif

@@ -20,14 +20,8 @@ layout(binding = 17) uniform sampler2DShadow sun_shadow; // 1 towards the light;
 
 #if LAMP_COUNT > 0
 // One sampler a lamp, so that each look-up names its own.
-layout(binding = 0) uniform sampler2D beam_0; // candela
-layout(binding = 1) uniform sampler2D beam_1;
-layout(binding = 2) uniform sampler2D beam_2;
-layout(binding = 3) uniform sampler2D beam_3;
-layout(binding = 4) uniform sampler2D beam_4;
-layout(binding = 5) uniform sampler2D beam_5;
-layout(binding = 6) uniform sampler2D beam_6;
-layout(binding = 7) uniform sampler2D beam_7;
+#define BEAM_UNIT(i, beam, map) layout(binding = i) uniform sampler2D beam;
+EACH_LAMP(BEAM_UNIT) // candela
 const vec4 beam_grid[LAMP_COUNT] = vec4[LAMP_COUNT](BEAM_GRIDS);   // first H, first V, 1 / step H, 1 / step V
 const vec2 beam_count[LAMP_COUNT] = vec2[LAMP_COUNT](BEAM_COUNTS); // samples across, up
 const vec2 beam_per_count[LAMP_COUNT] = vec2[LAMP_COUNT](BEAM_PER_COUNTS);
@@ -83,12 +77,6 @@ float scattered_on_the_way(vec3 eye, vec3 w, float factor, sampler2D beam, vec4 
     return end > begin ? v_fog.z * sum * (1.5 * (last - first) / (float(FOG_SAMPLES) * apart)) : 0.0;
 }
 #endif
-
-float toned(float l) {
-    if (TONE_KIND == 0)
-        return tone_linear(l, TONE_L_MAX);
-    return TONE_KIND == 1 ? tone_rational(l, TONE_L_MAX, TONE_S) : tone_logarithmic(l, TONE_L_MAX, TONE_S);
-}
 
 #if FOG
 #define TRAFFIC_EXTINCTION v_fog.x
@@ -337,22 +325,13 @@ void main() {
 #endif
     float luminance = dot(luminance_weights, light);
 #endif
-#if WANT_COLOUR
-    vec3 shown = luminance > 0.0 ? clamp(light * (toned(luminance) / luminance), 0.0, 1.0) : vec3(0.0);
-    out_colour = vec4(quick_srgb_encoded(shown.r), quick_srgb_encoded(shown.g), quick_srgb_encoded(shown.b), 1.0);
-#endif
 #if WANT_ILLUMINANCE
     out_illuminance_lx = illuminance;
 #endif
 #if WANT_TARGET
     out_target_lx = target;
 #endif
-#if WANT_LUMINANCE
-    out_luminance_cdm2 = luminance;
-#endif
-#if WANT_LIGHT
-    out_light = vec4(light, 1.0);
-#endif
+#include "seen_outputs.glsl"
 #if WANT_DEPTH
     out_depth_m = BACKGROUND > 0 ? 0.0 : v_depth_m;
 #endif

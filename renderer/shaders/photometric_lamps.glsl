@@ -1,6 +1,5 @@
 // The lamps of a moment. Their beams' grids are constants of the variant (BEAM_*), since a beam does not change while a lamp moves.
 #include "photometry.glsl"
-#include "each_lamp.glsl"
 
 #if LAMP_COUNT > 0
 

@@ -1,7 +1,6 @@
 // The published techniques: words that their features are spelled with (technique.cpp), the lamps, and what the vertex stage hands to the
 // fragment stage (STAGE_IO is `out` or `in`).
 #include "photometry.glsl"
-#include "each_lamp.glsl"
 
 #define NONE 0
 // LIGHT: where the lamps' light comes from

@@ -5,13 +5,4 @@ layout(location = 2) in uint material;
 layout(location = 3) in vec4 mesh_offset_m; // mesh origin relative to the car; w: mesh index + 1
 layout(location = 4) in vec2 uv;
 #include "turned.glsl"
-
-struct Material {
-    vec4 albedo;   // w: retro_rl
-    vec4 emission; // cd/m2; w: texture layer
-    vec4 retro;    // reference angle, 1 / fall-off, texture mode (0: none); w: 1 where it gets wet
-    vec4 blend;
-    vec4 tint; // of retroreflected light
-};
-
-layout(std430, binding = 1) readonly buffer Materials { Material materials[]; };
+#include "materials.glsl"

@@ -1,7 +1,7 @@
 #include "runner/play/extent_fold.h"
 
 #include "metrics/road/deciding_lx.h"
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
 
 #include <algorithm>

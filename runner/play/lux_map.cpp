@@ -1,6 +1,6 @@
 #include "runner/play/lux_map.h"
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

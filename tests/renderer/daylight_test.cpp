@@ -1,15 +1,9 @@
 // Sun and moon as they are drawn: against the double-precision twin, the reference, and closed forms; left out where they do not shine.
-#include "renderer/renderer.h"
 #include "renderer/twin.h"
 #include "scenarios/display/display_profile.h"
 #include "scenarios/display/tone_mapper.h"
 #include "tests/renderer/device_test.h"
 #include "tests/renderer/reference/rooms.h"
-
-#include <algorithm>
-#include <cmath>
-#include <gtest/gtest.h>
-#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -18,13 +12,11 @@ namespace {
 Scene yard() {
     Scene scene = level_ground(300.0, lambert(0.2));
     scene.materials.push_back(lambert(0.5, SurfaceKind::object));
-    Mesh post{"post", {16.0, 1.0, 0.0}, {}, {}, {}};
-    add_quad(post, {0, 0.2F, 0}, {0, -0.2F, 0}, {0, -0.2F, 2}, {0, 0.2F, 2});
-    add_quad(post, {0.2F, -0.2F, 0}, {0.2F, 0.2F, 0}, {0.2F, 0.2F, 2}, {0.2F, -0.2F, 2});
+    scene.meshes.push_back(quads("board", 1, {20.0, 0.0, 0.0},
+                                 {{{0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3}}, {{0.2, -3, 0}, {0.2, 3, 0}, {0.2, 3, 3}, {0.2, -3, 3}}}));
     scene.meshes.push_back(
-        quads("board", 1, {20.0, 0.0, 0.0},
-              {{{0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3}}, {{0.2F, -3, 0}, {0.2F, 3, 0}, {0.2F, 3, 3}, {0.2F, -3, 3}}}));
-    scene.meshes.push_back(finished(post, 1));
+        quads("post", 1, {16.0, 1.0, 0.0},
+              {{{0, 0.2, 0}, {0, -0.2, 0}, {0, -0.2, 2}, {0, 0.2, 2}}, {{0.2, -0.2, 0}, {0.2, 0.2, 0}, {0.2, 0.2, 2}, {0.2, -0.2, 2}}}));
     return scene;
 }
 
@@ -36,22 +28,15 @@ Moment sunlit(double azimuth_deg, double elevation_deg, double lx, double sky_lx
     return moment;
 }
 
-View ahead() {
-    View view = camera({1.5, 0.35, 1.2}, 0, -3, 30, 96);
-    view.height_px = 64;
-    return view;
-}
-
 class DrawnDaylight : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, bool shadows, const char* technique = "photometric", Work* work = nullptr) {
-        RendererSettings settings;
-        settings.shadows.method = shadows ? ShadowMethod::map : ShadowMethod::none;
+        RendererSettings settings{.shadows = {.method = shadows ? ShadowMethod::map : ShadowMethod::none}};
         settings.technique = technique;
         Renderer renderer(device_, scene, settings);
         if (work != nullptr)
-            *work = renderer.count(moment, ahead(), all_results);
-        return renderer.draw(moment, ahead(), all_results);
+            *work = renderer.count(moment, driver_view(96, 64), all_results);
+        return renderer.draw(moment, driver_view(96, 64), all_results);
     }
 };
 
@@ -61,16 +46,15 @@ struct Tally {
 
 Tally against_twin(const Frame& frame, const Twin& twin, const Moment& moment, const View& view) {
     Tally tally;
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
-            if (truth.id != frame.ids.at(x, y))
-                continue; // an outline
-            ++tally.compared;
-            const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - truth.illuminance_lx);
-            const double dim = std::abs(static_cast<double>(frame.luminance_cdm2.at(x, y)) - truth.luminance_cdm2);
-            tally.beyond += off > truth.bound_lx + 1e-9 || dim > 1e-5 * truth.luminance_cdm2 + 1e-12 ? 1 : 0;
-        }
+    for (const auto& [x, y] : each_pixel(view)) {
+        const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+        if (truth.id != frame.ids.at(x, y))
+            continue; // an outline
+        ++tally.compared;
+        const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - truth.illuminance_lx);
+        const double dim = std::abs(static_cast<double>(frame.luminance_cdm2.at(x, y)) - truth.luminance_cdm2);
+        tally.beyond += off > truth.bound_lx + 1e-9 || dim > 1e-5 * truth.luminance_cdm2 + 1e-12 ? 1 : 0;
+    }
     return tally;
 }
 
@@ -84,7 +68,7 @@ TEST_F(DrawnDaylight, LiesWithinTheBoundOfTheTwin) {
         for (const double sky : {0.0, 12'000.0}) {
             Moment moment = sunlit(azimuth, elevation, lx, sky);
             moment.lamps.clear();
-            const Tally tally = against_twin(draw(scene, moment, false), twin, moment, ahead());
+            const Tally tally = against_twin(draw(scene, moment, false), twin, moment, driver_view(96, 64));
             EXPECT_GT(tally.compared, 6000);
             EXPECT_EQ(tally.beyond, 0) << azimuth << ' ' << elevation;
         }
@@ -108,13 +92,7 @@ TEST_F(DrawnDaylight, GivesTheGroundTheSineOfTheElevation) {
 TEST_F(DrawnDaylight, ShadowsFallWhereRaysSay) {
     const Scene scene = yard();
     const Twin lit(scene, false), shaded(scene, true);
-    View above = ahead();
-    above.projection = Projection::map;
-    above.map_ahead_m = 40.0;
-    above.map_behind_m = 0.0;
-    above.map_left_m = above.map_right_m = 12.0;
-    above.width_px = 96;
-    above.height_px = 160;
+    const View above = map_view(40.0, 0.0, 12.0, 96, 160);
     for (const auto& [azimuth, elevation] : {std::pair(60.0, 25.0), std::pair(300.0, 12.0)}) {
         Moment moment = sunlit(azimuth, elevation, 1000.0, 0.0);
         moment.lamps.clear();
@@ -122,17 +100,16 @@ TEST_F(DrawnDaylight, ShadowsFallWhereRaysSay) {
         const Frame frame = renderer.draw(moment, above, {.illuminance = true});
         int dark = 0, wrong = 0;
         const auto dark_at = [&](double x, double y) { return shaded.pixel(moment, above, x, y).illuminance_lx == 0.0; };
-        for (int y = 0; y < above.height_px; ++y)
-            for (int x = 0; x < above.width_px; ++x) {
-                const bool truth = dark_at(x + 0.5, y + 0.5);
-                bool edge = false;
-                for (const double d : {-1.0, 1.0})
-                    edge = edge || dark_at(x + 0.5 + d, y + 0.5) != truth || dark_at(x + 0.5, y + 0.5 + d) != truth;
-                if (edge)
-                    continue;
-                dark += truth ? 1 : 0;
-                wrong += (static_cast<double>(frame.illuminance_lx.at(x, y)) < 500.0 * std::sin(radians(elevation))) != truth ? 1 : 0;
-            }
+        for (const auto& [x, y] : each_pixel(above)) {
+            const bool truth = dark_at(x + 0.5, y + 0.5);
+            bool edge = false;
+            for (const double d : {-1.0, 1.0})
+                edge = edge || dark_at(x + 0.5 + d, y + 0.5) != truth || dark_at(x + 0.5, y + 0.5 + d) != truth;
+            if (edge)
+                continue;
+            dark += truth ? 1 : 0;
+            wrong += (static_cast<double>(frame.illuminance_lx.at(x, y)) < 500.0 * std::sin(radians(elevation))) != truth ? 1 : 0;
+        }
         EXPECT_GT(dark, 300) << azimuth;
         EXPECT_LE(wrong, dark / 50) << azimuth;
     }
@@ -143,8 +120,7 @@ TEST_F(DrawnDaylight, PrunedAndUnprunedGiveTheSameBytesWithItOnAndOff) {
     for (const auto& [lx, elevation, sky] :
          {std::tuple(0.0, 0.0, 0.0), std::tuple(60'000.0, 30.0, 9000.0), std::tuple(0.2, 60.0, 0.0), std::tuple(100.0, -2.0, 0.0)}) {
         const Moment moment = sunlit(300.0, elevation, lx, sky);
-        const Frame a = draw(scene, moment, true), b = draw(scene, moment, true, "photometric-unpruned");
-        expect_same_frames(a, b, std::to_string(lx));
+        expect_same_frames(draw(scene, moment, true), draw(scene, moment, true, "photometric-unpruned"), std::to_string(lx));
     }
 }
 
@@ -164,18 +140,16 @@ TEST(ReferenceDaylight, AgreesWithTheTwin) {
     const Scene scene = yard();
     const Moment moment = sunlit(300.0, 20.0, 3000.0, 100.0);
     ReferenceSettings settings{.footprint = Footprint::centre};
-    const View view = ahead();
+    const View view = driver_view(96, 64);
     const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
     const Twin twin(scene, true);
     int differ = 0, shaded = 0;
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
-            differ += std::abs(static_cast<double>(image.illuminance_lx.mean.at(x, y)) - truth.illuminance_lx) > 1e-6 * truth.illuminance_lx
-                          ? 1
-                          : 0;
-            shaded += truth.id != 0 && truth.illuminance_lx < 200.0 ? 1 : 0;
-        }
+    for (const auto& [x, y] : each_pixel(view)) {
+        const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+        differ +=
+            std::abs(static_cast<double>(image.illuminance_lx.mean.at(x, y)) - truth.illuminance_lx) > 1e-6 * truth.illuminance_lx ? 1 : 0;
+        shaded += truth.id != 0 && truth.illuminance_lx < 200.0 ? 1 : 0;
+    }
     EXPECT_LE(differ, 20); // outlines and edges of shadows
     EXPECT_GT(shaded, 20);
 }
@@ -188,9 +162,7 @@ Scene red_board() {
     Material red = lambert(0.5, SurfaceKind::object);
     red.albedo = {0.6F, 0.05F, 0.03F};
     scene.materials.push_back(red);
-    Mesh board{"board", {20.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(board, {0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3});
-    scene.meshes.push_back(finished(board, 1));
+    scene.meshes.push_back(quads("board", 1, {20.0, 0.0, 0.0}, {{{0, 3, 0}, {0, -3, 0}, {0, -3, 3}, {0, 3, 3}}}));
     return scene;
 }
 
@@ -206,19 +178,13 @@ Moment warm_night() {
     return moment;
 }
 
-View ahead_of_board() {
-    View view = camera({1.5, 0.35, 1.2}, 0, -3, 30, 96);
-    view.height_px = 64;
-    return view;
-}
-
 constexpr Wanted as_seen{.colour = true, .luminance = true, .light = true};
 
 class ColouredLight : public testing::TestWithParam<const char*> {
   protected:
     Frame draw(const Wanted& wanted, const ToneMapper& mapper = {}) {
         Renderer renderer(device_, scene_, RendererSettings{.technique = GetParam(), .tone_mapper = mapper});
-        return renderer.draw(warm_night(), ahead_of_board(), wanted);
+        return renderer.draw(warm_night(), driver_view(96, 64), wanted);
     }
     Device device_ = open_device("auto");
     Scene scene_ = red_board();
@@ -283,7 +249,7 @@ TEST(ColouredLightOfOthers, TechniquesWithoutLuminanceHaveNone) {
     const Scene scene = red_board();
     Renderer renderer(device, scene, RendererSettings{.technique = "full"});
     EXPECT_FALSE(renderer.available(as_seen).light);
-    EXPECT_TRUE(renderer.draw(warm_night(), ahead_of_board(), as_seen).light.empty());
+    EXPECT_TRUE(renderer.draw(warm_night(), driver_view(96, 64), as_seen).light.empty());
 }
 
 } // namespace

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "tests/renderer/views.h"
 
-#include <gtest/gtest.h>
 #include <string>
 
 namespace fernlicht {

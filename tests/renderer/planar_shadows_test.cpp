@@ -1,11 +1,10 @@
 // Shadows flattened onto the road's plane: as rays have them on the ground, none on upright things, and no drive on ground that is no
 // plane.
-#include "renderer/gl/scene/ground_plane.h"
+#include "renderer/gl/shadows/planar_shadows.h"
 #include "scenarios/values/errors.h"
 #include "tests/renderer/shadow_scene.h"
 #include "tests/trial.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -16,8 +15,7 @@ constexpr ShadowSettings planar{.method = ShadowMethod::planar};
 /// A box lower than the lamp, a post that is higher, and a board in the air.
 Scene three_casters() {
     Scene scene = level_road_for_shadows();
-    Mesh things{"things", {12.0, 0.0, 0.0}, {}, {}, {}};
-    add_box(things, 1, {0, -0.8F, 0}, {0.5F, 0.2F, 0.4F});
+    Mesh things = box({12.0, 0.0, 0.0}, {0, -0.8F, 0}, {0.5F, 0.2F, 0.4F});
     add_box(things, 1, {-2.0F, 1.5F, 0}, {-1.9F, 1.6F, 3.0F});
     add_flat(things, 1, {3, -3, 0.2F}, {3, -3, 0.4F}, {3, -2, 0.4F}, {3, -2, 0.2F});
     scene.meshes.push_back(things);
@@ -64,10 +62,9 @@ TEST_F(PlanarShadows, OnTheGroundAreAsRaysHaveThem) {
         for (const View& view : {driver_for_shadows(), map_for_shadows(60.0, 12.0, 5)}) {
             HiddenPixels pixels = hidden_pixels(device_, scene, moment, view, planar);
             const Twin twin(scene, false);
-            for (int y = 0; y < view.height_px; ++y)
-                for (int x = 0; x < view.width_px; ++x)
-                    if (twin.pixel(moment, view, x + 0.5, y + 0.5).id != 1) // upright
-                        pixels.rays[static_cast<std::size_t>(y * view.width_px + x)] = -1;
+            for (const auto& [x, y] : each_pixel(view))
+                if (twin.pixel(moment, view, x + 0.5, y + 0.5).id != 1) // upright
+                    pixels.rays[static_cast<std::size_t>(y * view.width_px + x)] = -1;
             EXPECT_EQ(pixels.wrong_inside(), 0) << view.name << slope_rad;
             EXPECT_GT(pixels.count(1), 500) << view.name;
             EXPECT_GT(pixels.count(0), 10000) << view.name;
@@ -78,9 +75,7 @@ TEST_F(PlanarShadows, OnTheGroundAreAsRaysHaveThem) {
 
 TEST_F(PlanarShadows, FallOnNothingUpright) {
     Scene scene = three_casters();
-    Mesh wall{"wall", {20.0, 0.0, 0.0}, {}, {}, {}};
-    add_box(wall, 1, {0, -6, 0}, {0.3F, 6, 3});
-    scene.meshes.push_back(wall);
+    scene.meshes.push_back(box({20.0, 0.0, 0.0}, {0, -6, 0}, {0.3F, 6, 3}));
     Moment moment{.lamps = {lamp_at({3.5, 0.6, 0.65})}};
     const Frame with = drawn_with(device_, scene, moment, driver_for_shadows(), ShadowMethod::planar),
                 without = drawn_with(device_, scene, moment, driver_for_shadows(), ShadowMethod::none);

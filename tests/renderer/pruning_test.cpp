@@ -1,5 +1,4 @@
 // Leaving out what a moment does not need must not change a bit; switching it on must change a pixel, and off must save work.
-#include "renderer/renderer.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/control_play.h"
 #include "scenarios/drives/play/motion.h"
@@ -7,14 +6,9 @@
 #include "scenarios/drives/play/told_story.h"
 #include "scenarios/drives/story/tell_story.h"
 #include "scenarios/roads/mesh/road_mesh.h"
-#include "tests/lamps.h"
-#include "tests/renderer/device_test.h"
+#include "tests/renderer/shadow_scene.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <random>
 
 namespace fernlicht {
@@ -30,16 +24,6 @@ std::shared_ptr<const LampFile> round_beam(double peak_cd, double half_deg) {
 struct Features {
     bool lamp = true, second_lamp = true, caster = true, sky = true, retro = true, emissive = true, texture = true;
 };
-
-void add_quad(Mesh& mesh, std::uint32_t material, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    const glm::vec3 normal = glm::normalize(glm::cross(b - a, d - a));
-    for (const glm::vec3& p : {a, b, c, d})
-        mesh.vertices.push_back({p, normal, {0.25F * p.x + 0.1F * p.z, 0.25F * p.y}});
-    const auto begin = static_cast<std::uint32_t>(mesh.indices.size());
-    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
-    mesh.batches.push_back({material, begin, 6});
-}
 
 struct RandomScene {
     Scene scene;
@@ -72,12 +56,12 @@ RandomScene random_scene(std::uint64_t seed, const Features& on) {
     }
     out.scene.materials = {road, board, lantern};
     Mesh ground{"ground", {30.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(ground, 0, {-40, -30, 0}, {80, -30, 0}, {80, 30, 0}, {-40, 30, 0});
+    add_flat(ground, 0, {-40, -30, 0}, {80, -30, 0}, {80, 30, 0}, {-40, 30, 0});
     out.scene.meshes.push_back(ground);
     const auto upright = [&](std::uint32_t material, double x, double y, double size) {
         Mesh mesh{"upright", {x, y, 0.0}, {}, {}, {}};
         const auto s = static_cast<float>(size);
-        add_quad(mesh, material, {0, -s, 0}, {0, -s, 2 * s}, {0, s, 2 * s}, {0, s, 0}); // faces the car
+        add_flat(mesh, material, {0, -s, 0}, {0, -s, 2 * s}, {0, s, 2 * s}, {0, s, 0}); // faces the car
         out.scene.meshes.push_back(mesh);
     };
     const double x = between(9.0, 13.0), y = between(-1.0, 1.0);
@@ -100,11 +84,6 @@ RandomScene random_scene(std::uint64_t seed, const Features& on) {
     return out;
 }
 
-View driver_160() {
-    return {
-        .position_m = {1.5, 0.35, 1.2}, .pitch_rad = radians(-3.0), .vertical_fov_rad = radians(40.0), .width_px = 160, .height_px = 120};
-}
-
 class PruningTest : public DeviceTest {
   protected:
     Frame draw(const RandomScene& s, const char* technique, Work* work = nullptr) {
@@ -112,8 +91,8 @@ class PruningTest : public DeviceTest {
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, s.scene, settings);
         if (work != nullptr)
-            *work = renderer.count(s.moment, driver_160(), all_results);
-        return renderer.draw(s.moment, driver_160(), all_results);
+            *work = renderer.count(s.moment, driver_view(160, 120, 40.0), all_results);
+        return renderer.draw(s.moment, driver_view(160, 120, 40.0), all_results);
     }
 };
 

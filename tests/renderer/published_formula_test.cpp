@@ -6,7 +6,6 @@
 #include "scenarios/lamps/spots/spot_fit.h"
 #include "tests/renderer/published_scene.h"
 
-#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -204,12 +203,12 @@ template <class Map, class At> Value mapped(const Map& map, const glm::dvec3& p,
 }
 
 Value ground_map(const Car& car, const Point& point) {
-    static const LightMap2d map = bake_ground(car.moment);
-    return mapped(map, point.p, [&](const glm::dvec3& p) { return mapped_lx(map, p.x, p.y); });
+    static const LightMap map = bake_ground(car.moment);
+    return mapped(map, point.p, [&](const glm::dvec3& p) { return mapped_lx(map, {p.x, p.y, 0.0}); });
 }
 
 Value volume_map(const Car& car, const Point& point) {
-    static const LightMap3d map = bake_volume(car.moment);
+    static const LightMap map = bake_volume(car.moment);
     return mapped(map, point.p, [&](const glm::dvec3& p) { return mapped_lx(map, p); });
 }
 
@@ -269,10 +268,9 @@ struct Pixel {
 /// Every third pixel each way.
 std::vector<Pixel> pixels_of(const Scene& scene, const Moment& moment, const View& view) {
     std::vector<Pixel> pixels;
-    for (int y = 0; y < view.height_px; y += 3)
-        for (int x = 0; x < view.width_px; x += 3)
-            if (const std::optional<Point> point = point_at(scene, moment, view, x, y))
-                pixels.push_back({x, y, *point});
+    for (const auto& [x, y] : each_pixel(view, 0, 3))
+        if (const std::optional<Point> point = point_at(scene, moment, view, x, y))
+            pixels.push_back({x, y, *point});
     return pixels;
 }
 
@@ -297,14 +295,7 @@ Comparison compare(const Frame& frame, const Formula& formula, const std::vector
 TEST_F(PublishedTest, EachFollowsItsOwnFormula) {
     const Moment moment = two_lamps(sky_lx);
     const Car car(moment);
-    View map;
-    map.projection = Projection::map;
-    map.map_ahead_m = 60.0;
-    map.map_behind_m = 10.0;
-    map.map_left_m = map.map_right_m = 15.0;
-    map.width_px = 48;
-    map.height_px = 112;
-    const std::vector<View> views{view_towards(0.0, -4.0), view_towards(170.0, -8.0), map};
+    const std::vector<View> views{view_towards(0.0, -4.0), view_towards(170.0, -8.0), map_view(60.0, 10.0, 15.0, 48, 112)};
     for (const int cells : {40, 1}) {
         const Scene scene = ground_and_board(moment.ego, cells);
         std::vector<std::vector<Pixel>> pixels;

@@ -2,13 +2,9 @@
 // board.
 #pragma once
 
-#include "renderer/renderer.h"
 #include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 #include <memory>
 
 namespace fernlicht::tests {
@@ -69,12 +65,9 @@ inline Scene ground_and_board(const Pose& ego, int cells) {
 }
 
 inline View view_towards(double yaw_deg, double pitch_deg) {
-    return {.position_m = {1.5, 0.35, 1.2},
-            .yaw_rad = radians(yaw_deg),
-            .pitch_rad = radians(pitch_deg),
-            .vertical_fov_rad = radians(30.0),
-            .width_px = 96,
-            .height_px = 64};
+    View view = driver_view(96, 64, 30.0, pitch_deg);
+    view.yaw_rad = radians(yaw_deg);
+    return view;
 }
 
 class PublishedTest : public DeviceTest {

@@ -1,9 +1,7 @@
 // What the published techniques differ in, count and show: misprints, passes, textures, signs that glow, what is made once.
 #include "tests/renderer/published_scene.h"
 
-#include <algorithm>
 #include <functional>
-#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -132,16 +130,15 @@ TEST_F(PublishedTest, TwoPassesAddUpToOne) {
     const Frame two = drawn("two-pass-projective", scene, moment, view, wanted), one = drawn("full-clamped", scene, moment, view, wanted);
     EXPECT_EQ(std::tuple(two.ids, two.depth_m), std::tuple(one.ids, one.depth_m));
     int lit = 0;
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            if (one.illuminance_lx.at(x, y) < 99.0F) { // each pass rounds to half a step, and so does the one
-                EXPECT_NEAR(two.colour.at(x, y).b, one.colour.at(x, y).b, 1.0) << x << ' ' << y;
-            } else { // white stops the sum, not the surface's colour
-                EXPECT_GE(two.colour.at(x, y).b, one.colour.at(x, y).b - 1);
-            }
-            EXPECT_NEAR(two.illuminance_lx.at(x, y), one.illuminance_lx.at(x, y), 1e-5F * one.illuminance_lx.at(x, y));
-            lit += one.colour.at(x, y).b > 30 ? 1 : 0;
+    for (const auto& [x, y] : each_pixel(view)) {
+        if (one.illuminance_lx.at(x, y) < 99.0F) { // each pass rounds to half a step, and so does the one
+            EXPECT_NEAR(two.colour.at(x, y).b, one.colour.at(x, y).b, 1.0) << x << ' ' << y;
+        } else { // white stops the sum, not the surface's colour
+            EXPECT_GE(two.colour.at(x, y).b, one.colour.at(x, y).b - 1);
         }
+        EXPECT_NEAR(two.illuminance_lx.at(x, y), one.illuminance_lx.at(x, y), 1e-5F * one.illuminance_lx.at(x, y));
+        lit += one.colour.at(x, y).b > 30 ? 1 : 0;
+    }
     EXPECT_GT(lit, 500);
 }
 

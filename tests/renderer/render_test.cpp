@@ -1,31 +1,18 @@
 #include "renderer/device.h"
 #include "renderer/gl/device/program.h"
 #include "renderer/gpu_timer.h"
-#include "renderer/renderer.h"
 #include "scenarios/values/errors.h"
 #include "tests/renderer/device_test.h"
+#include "tests/renderer/reference/rooms.h"
 #include "tests/trial.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
-#include <tuple>
 
 namespace fernlicht {
 namespace {
 
 /// A wall of two by two metres, ten metres ahead, under an even sky.
-Scene wall() {
-    Scene scene;
-    scene.materials.push_back({});
-    Mesh mesh;
-    const glm::vec3 towards_us(-1.0F, 0.0F, 0.0F);
-    for (const auto& [y, z] : {std::pair(1.0F, -1.0F), std::pair(-1.0F, -1.0F), std::pair(-1.0F, 1.0F), std::pair(1.0F, 1.0F)})
-        mesh.vertices.push_back({{10.0F, y, z}, towards_us, {}});
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    mesh.batches.push_back({0, 0, 6});
-    scene.meshes.push_back(mesh);
-    return scene;
-}
+Scene wall() { return {.materials = {{}}, .meshes = {quads("wall", 0, {}, {{{10, 1, -1}, {10, -1, -1}, {10, -1, 1}, {10, 1, 1}}})}}; }
 
 class RenderTest : public DeviceTest {
   protected:

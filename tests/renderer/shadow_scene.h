@@ -1,14 +1,9 @@
 // A road, lamps and bodies that tests of shadows share, and what they compare.
 #pragma once
 
-#include "renderer/renderer.h"
 #include "renderer/twin.h"
 #include "tests/lamps.h"
 #include "tests/renderer/device_test.h"
-
-#include <algorithm>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 
@@ -16,7 +11,7 @@ inline void add_flat(Mesh& mesh, std::uint32_t material, glm::vec3 a, glm::vec3 
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size()), begin = static_cast<std::uint32_t>(mesh.indices.size());
     const glm::vec3 normal = glm::normalize(glm::cross(b - a, d - a));
     for (const glm::vec3& p : {a, b, c, d})
-        mesh.vertices.push_back({p, normal, {0.0F, 0.0F}});
+        mesh.vertices.push_back({p, normal, {0.25F * p.x + 0.1F * p.z, 0.25F * p.y}});
     mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
     mesh.batches.push_back({material, begin, 6});
 }
@@ -32,6 +27,15 @@ inline void add_box(Mesh& mesh, std::uint32_t material, glm::vec3 low, glm::vec3
     add_flat(mesh, material, at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0));
     add_flat(mesh, material, at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0));
     add_flat(mesh, material, at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
+}
+
+inline Mesh thing(const glm::dvec3& origin, const char* name = "thing") { return {name, origin, {}, {}, {}}; }
+
+/// Of material 1.
+inline Mesh box(const glm::dvec3& origin, const glm::vec3& low, const glm::vec3& high, const char* name = "thing") {
+    Mesh mesh = thing(origin, name);
+    add_box(mesh, 1, low, high);
+    return mesh;
 }
 
 /// A level road of 260 m by 80 m: material 0; what stands on it is of material 1.
@@ -54,28 +58,16 @@ inline LitLamp lamp_at(const glm::dvec3& place_m, double yaw_rad = 0.0, double p
     return lamp;
 }
 
-inline View driver_for_shadows(int width = 320, int height = 240) {
-    return {.name = "driver",
-            .position_m = {1.5, 0.35, 1.2},
-            .pitch_rad = radians(-4.0),
-            .vertical_fov_rad = radians(35.0),
-            .width_px = width,
-            .height_px = height};
-}
+inline View driver_for_shadows() { return driver_view(320, 240, 35.0, -4.0); }
 
 /// `per_m` pixels a metre.
 inline View map_for_shadows(double ahead_m, double beside_m, int per_m) {
-    View view{.name = "map", .projection = Projection::map, .map_ahead_m = ahead_m};
-    view.map_left_m = view.map_right_m = beside_m;
-    view.width_px = static_cast<int>(2.0 * beside_m) * per_m;
-    view.height_px = static_cast<int>(ahead_m) * per_m;
-    return view;
+    return map_view(ahead_m, 0.0, beside_m, static_cast<int>(2.0 * beside_m) * per_m, static_cast<int>(ahead_m) * per_m);
 }
 
 inline Frame drawn_with(Device& device, const Scene& scene, const Moment& moment, const View& view, ShadowMethod method,
                         const char* technique = "photometric") {
-    RendererSettings settings{.technique = technique};
-    settings.shadows.method = method;
+    RendererSettings settings{.technique = technique, .shadows = {.method = method}};
     Renderer renderer(device, scene, settings);
     return renderer.draw(moment, view, all_results);
 }
@@ -88,17 +80,16 @@ struct HiddenPixels {
     /// Pixels where the two differ though rays say the same of all that lie within one pixel around.
     int wrong_inside() const {
         int wrong = 0;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const int here = at(rays, x, y);
-                if (here < 0 || at(drawn, x, y) < 0 || at(drawn, x, y) == here)
-                    continue;
-                bool edge = false;
-                for (int dy = -1; dy <= 1; ++dy)
-                    for (int dx = -1; dx <= 1; ++dx)
-                        edge = edge || x + dx < 0 || y + dy < 0 || x + dx >= width || y + dy >= height || at(rays, x + dx, y + dy) != here;
-                wrong += edge ? 0 : 1;
-            }
+        for (const auto& [x, y] : each_pixel(width, height)) {
+            const int here = at(rays, x, y);
+            if (here < 0 || at(drawn, x, y) < 0 || at(drawn, x, y) == here)
+                continue;
+            bool edge = false;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx)
+                    edge = edge || x + dx < 0 || y + dy < 0 || x + dx >= width || y + dy >= height || at(rays, x + dx, y + dy) != here;
+            wrong += edge ? 0 : 1;
+        }
         return wrong;
     }
     int count(int what) const { return static_cast<int>(std::ranges::count(rays, what)); }
@@ -123,14 +114,13 @@ inline HiddenPixels hidden_pixels(Device& device, const Scene& scene, const Mome
     const Frame shaded = with.draw(moment, view, wanted), plain = without.draw(moment, view, wanted);
     const Twin shaded_twin(scene, true), plain_twin(scene, false);
     HiddenPixels out{view.width_px, view.height_px, {}, {}};
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const TwinPixel free = plain_twin.pixel(moment, view, x + 0.5, y + 0.5);
-            const bool known =
-                free.id != 0 && free.id == plain.ids.at(x, y) && free.illuminance_lx > 1e-6 && plain.illuminance_lx.at(x, y) > 0.0F;
-            out.rays.push_back(!known ? -1 : shaded_twin.pixel(moment, view, x + 0.5, y + 0.5).illuminance_lx == 0.0 ? 1 : 0);
-            out.drawn.push_back(!known ? -1 : shaded.illuminance_lx.at(x, y) == 0.0F ? 1 : 0);
-        }
+    for (const auto& [x, y] : each_pixel(view)) {
+        const TwinPixel free = plain_twin.pixel(moment, view, x + 0.5, y + 0.5);
+        const bool known =
+            free.id != 0 && free.id == plain.ids.at(x, y) && free.illuminance_lx > 1e-6 && plain.illuminance_lx.at(x, y) > 0.0F;
+        out.rays.push_back(!known ? -1 : shaded_twin.pixel(moment, view, x + 0.5, y + 0.5).illuminance_lx == 0.0 ? 1 : 0);
+        out.drawn.push_back(!known ? -1 : shaded.illuminance_lx.at(x, y) == 0.0F ? 1 : 0);
+    }
     return out;
 }
 

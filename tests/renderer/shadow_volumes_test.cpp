@@ -1,9 +1,7 @@
 // Shadow volumes against rays in double precision: edges within one pixel, and no surface towards the light that shades itself.
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "tests/renderer/shadow_scene.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -12,14 +10,6 @@ namespace {
 constexpr ShadowSettings volumes{.method = ShadowMethod::volumes, .tolerance_m = 1e-4};
 
 Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) { return {.lamps = {lamp_at(at, 0.0, 0.0)}}; }
-
-Mesh thing(const glm::dvec3& origin, const char* name = "thing") { return {name, origin, {}, {}, {}}; }
-
-Mesh box(const glm::dvec3& origin, const glm::vec3& low, const glm::vec3& high, const char* name = "thing") {
-    Mesh mesh = thing(origin, name);
-    add_box(mesh, 1, low, high);
-    return mesh;
-}
 
 class ShadowVolumesTest : public DeviceTest {
   protected:
@@ -30,8 +20,6 @@ class ShadowVolumesTest : public DeviceTest {
         EXPECT_GE(pixels.count(1), least_hidden) << what;
         EXPECT_GT(pixels.count(0), 1000) << what;
         EXPECT_LE(pixels.differ(), 2 + pixels.count(1) / 50) << what << ": edges fall on the same side of nearly all centres";
-        RecordProperty("differ_" + what, pixels.differ());
-        RecordProperty("hidden_" + what, pixels.count(1));
     }
 };
 
@@ -176,21 +164,20 @@ TEST_F(ShadowVolumesTest, MapsAndTargetsAboveTheRoad) {
         return met && met->distance_m < glm::length(way);
     };
     int wrong = 0, dark = 0, differs_from_ground = 0;
-    for (int y = 0; y < map.height_px; ++y)
-        for (int x = 0; x < map.width_px; ++x) {
-            if (without.target_lx.at(x, y) == 0.0F)
-                continue;
-            const bool here = hidden(x + 0.5, y + 0.5);
-            dark += here ? 1 : 0;
-            differs_from_ground += here != (with.illuminance_lx.at(x, y) == 0.0F) ? 1 : 0;
-            if (here == (with.target_lx.at(x, y) == 0.0F))
-                continue;
-            bool edge = false;
-            for (const double dx : {-1.0, 0.0, 1.0})
-                for (const double dy : {-1.0, 0.0, 1.0})
-                    edge = edge || hidden(x + 0.5 + dx, y + 0.5 + dy) != here;
-            wrong += edge ? 0 : 1;
-        }
+    for (const auto& [x, y] : each_pixel(map)) {
+        if (without.target_lx.at(x, y) == 0.0F)
+            continue;
+        const bool here = hidden(x + 0.5, y + 0.5);
+        dark += here ? 1 : 0;
+        differs_from_ground += here != (with.illuminance_lx.at(x, y) == 0.0F) ? 1 : 0;
+        if (here == (with.target_lx.at(x, y) == 0.0F))
+            continue;
+        bool edge = false;
+        for (const double dx : {-1.0, 0.0, 1.0})
+            for (const double dy : {-1.0, 0.0, 1.0})
+                edge = edge || hidden(x + 0.5 + dx, y + 0.5 + dy) != here;
+        wrong += edge ? 0 : 1;
+    }
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(dark, 100);
     EXPECT_GT(differs_from_ground, 100) << "targets stand higher than the road: the low box hides fewer of them";
@@ -240,8 +227,7 @@ Moment busy_moment(double time_s) {
 TEST_F(ShadowVolumesTest, PrunedAndUnprunedGiveTheSameBytesWhateverWasDrawnBefore) {
     const Scene scene = busy_scene();
     for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar, ShadowMethod::under_car}) {
-        RendererSettings settings;
-        settings.shadows.method = method;
+        RendererSettings settings{.shadows = {.method = method}};
         Renderer pruned(device_, scene, settings);
         settings.technique = "photometric-unpruned";
         Renderer unpruned(device_, scene, settings);
@@ -260,8 +246,7 @@ TEST_F(ShadowVolumesTest, PrunedAndUnprunedGiveTheSameBytesWhateverWasDrawnBefor
 TEST_F(ShadowVolumesTest, CostNothingWhereNothingStandsInABeam) {
     const Scene scene = busy_scene();
     for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar}) {
-        RendererSettings settings;
-        settings.shadows.method = method;
+        RendererSettings settings{.shadows = {.method = method}};
         Renderer renderer(device_, scene, settings);
         Moment moment = busy_moment(0.0);
         EXPECT_EQ(renderer.count(moment, driver_for_shadows(), all_results).passes, 1 + 2 * 2 + 1)
@@ -282,8 +267,7 @@ TEST_F(ShadowVolumesTest, TexturesAreMadeWhenSomethingFirstCasts) {
     for (LitLamp& lamp : away.lamps)
         lamp.pose.axes = axes_from_angles(pi, 0.0, 0.0); // backwards, where nothing stands
     const View view = driver_for_shadows();
-    RendererSettings settings;
-    settings.shadows.method = ShadowMethod::none;
+    RendererSettings settings{.shadows = {.method = ShadowMethod::none}};
     Renderer none(device_, scene, settings);
     const std::size_t least = none.count(near, view, all_results).texture_bytes;
     for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar, ShadowMethod::under_car}) {

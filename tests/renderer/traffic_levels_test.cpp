@@ -86,7 +86,6 @@ TEST(TrafficLevels, MergingIsOffByNoMoreThanItsBound) {
         }
         EXPECT_GT(worst, 0.2) << "the bound is of the error's size";
         EXPECT_LT(least_share, 0.05) << "and far lamps merge";
-        RecordProperty(std::string("worst_of_bound_") + name, std::to_string(worst));
     }
 }
 

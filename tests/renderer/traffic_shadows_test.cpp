@@ -29,41 +29,32 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     const Frame bright = draw(street, moment, view, without_shadows());
     const Twin shaded(street.scene, true), unshaded(street.scene, false);
     Image<double> hidden(view.width_px, view.height_px), lx(view.width_px, view.height_px), bound(view.width_px, view.height_px);
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const TwinPixel with = shaded.pixel(moment, view, x + 0.5, y + 0.5), without = unshaded.pixel(moment, view, x + 0.5, y + 0.5);
-            const bool same = with.id != 0 && with.id == frame.ids.at(x, y);
-            hidden.at(x, y) = !same ? -1.0 : without.illuminance_lx > 0.0 ? 1.0 - with.illuminance_lx / without.illuminance_lx : 0.0;
-            lx.at(x, y) = with.illuminance_lx;
-            bound.at(x, y) = with.bound_lx;
-        }
+    for (const auto& [x, y] : each_pixel(view)) {
+        const TwinPixel with = shaded.pixel(moment, view, x + 0.5, y + 0.5), without = unshaded.pixel(moment, view, x + 0.5, y + 0.5);
+        const bool same = with.id != 0 && with.id == frame.ids.at(x, y);
+        hidden.at(x, y) = !same ? -1.0 : without.illuminance_lx > 0.0 ? 1.0 - with.illuminance_lx / without.illuminance_lx : 0.0;
+        lx.at(x, y) = with.illuminance_lx;
+        bound.at(x, y) = with.bound_lx;
+    }
     int compared = 0, in_shadow = 0, wrong = 0, wrong_before = 0;
-    double worst = 0.0;
     const double allowed = (worst_traffic_error + 2.0) * moment.least_traffic_lx;
-    for (int y = 2; y + 2 < view.height_px; ++y)
-        for (int x = 2; x + 2 < view.width_px; ++x) {
-            const auto [least, most] = range_around(x, y, 2, [&](int u, int v) { return hidden.at(u, v); });
-            if (least < 0.0 || most - least > 0.1)
-                continue;
-            ++compared;
-            const auto is_off = [&](const Frame& f) {
-                return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - lx.at(x, y)) >
-                       allowed + 4.0 * bound.at(x, y) + 0.02 * lx.at(x, y);
-            };
-            in_shadow += least > 0.1 ? 1 : 0;
-            wrong += is_off(frame) ? 1 : 0;
-            wrong_before += is_off(bright) ? 1 : 0;
-            worst = std::max(worst, std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - lx.at(x, y)));
-        }
+    for (const auto& [x, y] : each_pixel(view, 2)) {
+        const auto [least, most] = range_around(x, y, 2, [&](int u, int v) { return hidden.at(u, v); });
+        if (least < 0.0 || most - least > 0.1)
+            continue;
+        ++compared;
+        const auto is_off = [&](const Frame& f) {
+            return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - lx.at(x, y)) >
+                   allowed + 4.0 * bound.at(x, y) + 0.02 * lx.at(x, y);
+        };
+        in_shadow += least > 0.1 ? 1 : 0;
+        wrong += is_off(frame) ? 1 : 0;
+        wrong_before += is_off(bright) ? 1 : 0;
+    }
     EXPECT_GT(compared, 1000);
     EXPECT_GT(in_shadow, 100);
     EXPECT_GT(wrong_before, 100) << "without maps";
     EXPECT_LE(wrong, in_shadow / 100);
-    RecordProperty("pixels_compared", compared);
-    RecordProperty("pixels_in_shadow", in_shadow);
-    RecordProperty("pixels_off", wrong);
-    RecordProperty("pixels_off_without_maps", wrong_before);
-    RecordProperty("worst_lx", fmt::format("{}", worst));
 }
 
 /// The village's lamps, which hang over cars that are parked, against the reference by the ray through each pixel's centre.
@@ -91,28 +82,23 @@ TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
         return dark.ids.at(x, y) == 0 || dark.ids.at(x, y) != frame.ids.at(x, y) ? -1.0 : all > 0.0 ? 1.0 - with / all : 0.0;
     };
     int compared = 0, in_shadow = 0, off = 0, off_before = 0;
-    for (int y = 1; y + 1 < view.height_px; ++y)
-        for (int x = 1; x + 1 < view.width_px; ++x) {
-            const auto [least, most] = range_around(x, y, 1, hidden);
-            const double truth = static_cast<double>(dark.illuminance_lx.mean.at(x, y));
-            if (least < 0.0 || most - least > 0.1 || truth < 0.02)
-                continue;
-            ++compared;
-            in_shadow += least > 0.05 ? 1 : 0;
-            const auto is_off = [&](const Frame& f) {
-                return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - truth) > 0.05 * truth + 0.1;
-            };
-            off += is_off(frame) ? 1 : 0;
-            off_before += is_off(lit) ? 1 : 0;
-        }
+    for (const auto& [x, y] : each_pixel(view, 1)) {
+        const auto [least, most] = range_around(x, y, 1, hidden);
+        const double truth = static_cast<double>(dark.illuminance_lx.mean.at(x, y));
+        if (least < 0.0 || most - least > 0.1 || truth < 0.02)
+            continue;
+        ++compared;
+        in_shadow += least > 0.05 ? 1 : 0;
+        const auto is_off = [&](const Frame& f) {
+            return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - truth) > 0.05 * truth + 0.1;
+        };
+        off += is_off(frame) ? 1 : 0;
+        off_before += is_off(lit) ? 1 : 0;
+    }
     EXPECT_GT(compared, 3000);
     EXPECT_GT(in_shadow, 100);
     EXPECT_GT(off_before, 100) << "without maps";
     EXPECT_LE(off, off_before / 20);
-    RecordProperty("pixels_compared", compared);
-    RecordProperty("pixels_in_shadow", in_shadow);
-    RecordProperty("pixels_off", off);
-    RecordProperty("pixels_off_without_maps", off_before);
 }
 
 /// Lamps in bodies, on and below the road, in one place, far away and far too bright: numbers everywhere, and pruning changes no byte.
@@ -213,7 +199,6 @@ TEST_F(Traffic, ShadowsDoNotPop) {
     }
     EXPECT_GT(before, 0.0);
     EXPECT_LE(most, 0.05);
-    RecordProperty("most_share_a_frame", fmt::format("{}", most));
 }
 
 /// Twelve pairs and maps for eight. The bound on the light whose shadows may be missing stands in the report where it says something:

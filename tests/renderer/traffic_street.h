@@ -1,9 +1,7 @@
 // A street with other vehicles, and how it is drawn.
 #pragma once
 
-#include "renderer/posed_scene.h"
 #include "renderer/reference/reference.h"
-#include "renderer/renderer.h"
 #include "renderer/traffic_levels.h"
 #include "renderer/twin.h"
 #include "scenarios/drives/play/advance.h"
@@ -15,13 +13,8 @@
 #include "tests/renderer/device_test.h"
 #include "tests/trial.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-#include <tuple>
 
 namespace fernlicht {
 
@@ -29,16 +22,16 @@ inline constexpr const char* low_beam = FERNLICHT_SOURCE_DIR "/scenarios/library
 
 /// The shipped straight with these road users.
 struct Street {
-    explicit Street(const std::string& traffic, const std::string& road = "straight") : drive(read(traffic, road)) {
+    explicit Street(const std::string& traffic) : drive(read(traffic)) {
         place_traffic(drive, network, route);
         scene = build_scene(network, {.textures = false});
         add_road_users(scene, drive.traffic, drive.opened);
     }
-    static Drive read(const std::string& traffic, const std::string& road) {
+    static Drive read(const std::string& traffic) {
         return read_drive(
-            tests::written("traffic.yaml", fmt::format("fernlicht: 1\nroad: {}/scenarios/library/roads/{}.xodr\nroute: {{s_m: 20}}\n"
+            tests::written("traffic.yaml", fmt::format("fernlicht: 1\nroad: {}/scenarios/library/roads/straight.xodr\nroute: {{s_m: 20}}\n"
                                                        "speed_mps: 20\nduration_s: 4\nvariants: {{one: {{file: {}}}}}\n{}",
-                                                       FERNLICHT_SOURCE_DIR, road, low_beam, traffic)));
+                                                       FERNLICHT_SOURCE_DIR, low_beam, traffic)));
     }
     Moment at(double time_s) const {
         return moment_at({0, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants[0]);

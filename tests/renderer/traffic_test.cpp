@@ -4,16 +4,6 @@
 namespace fernlicht {
 namespace {
 
-TEST_F(Traffic, PrunedAndUnprunedGiveTheSameBytes) {
-    const Street street(oncoming(30.0, 4, 15.0), "s-bend");
-    Renderer pruned(device_, street.scene, settings()), unpruned(device_, street.scene, settings("photometric-unpruned"));
-    for (const double time_s : {0.0, 1.3, 3.0}) {
-        const Moment moment = street.at(time_s);
-        expect_same_frames(pruned.draw(moment, driver(), all_results), unpruned.draw(moment, driver(), all_results),
-                           std::to_string(time_s));
-    }
-}
-
 /// Off by rounding and by what the levels may be off, for each of two units.
 TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
     const Street street(oncoming(40.0, 2, 30.0));
@@ -26,24 +16,20 @@ TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
     for (const double least : {0.05, 1e-6}) {
         moment.least_traffic_lx = least;
         const Frame frame = draw(street, moment, view, s);
-        double brightest = 0.0, worst = 0.0;
+        double brightest = 0.0;
         int others = 0;
-        for (int y = 0; y < view.height_px; ++y)
-            for (int x = 0; x < view.width_px; ++x) {
-                const TwinPixel pixel = twin.pixel(moment, view, x + 0.5, y + 0.5);
-                if (pixel.id != frame.ids.at(x, y)) {
-                    ++others;
-                    continue;
-                }
-                const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - pixel.illuminance_lx);
-                EXPECT_LE(off, 2.0 * worst_traffic_error * least + 4.0 * pixel.bound_lx + 1e-5 * pixel.illuminance_lx + 1e-9)
-                    << x << " " << y;
-                worst = std::max(worst, off);
-                brightest = std::max(brightest, pixel.illuminance_lx);
+        for (const auto& [x, y] : each_pixel(view)) {
+            const TwinPixel pixel = twin.pixel(moment, view, x + 0.5, y + 0.5);
+            if (pixel.id != frame.ids.at(x, y)) {
+                ++others;
+                continue;
             }
+            const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - pixel.illuminance_lx);
+            EXPECT_LE(off, 2.0 * worst_traffic_error * least + 4.0 * pixel.bound_lx + 1e-5 * pixel.illuminance_lx + 1e-9) << x << " " << y;
+            brightest = std::max(brightest, pixel.illuminance_lx);
+        }
         EXPECT_GT(brightest, 5.0);
         EXPECT_LT(others, 4) << "edges";
-        RecordProperty(fmt::format("worst_lx_at_{}", least), fmt::format("{}", worst));
     }
 }
 
@@ -59,30 +45,22 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
     const ReferenceImage truth = Reference(street.scene).render(moment, view, all_results, rays);
     const Frame frame = draw(street, moment, view, settings());
     const Twin shaded(street.scene, true), unshaded(street.scene, false);
-    double worst = 0.0, worst_share = 0.0;
     int compared = 0, in_shadow = 0;
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const TwinPixel with = shaded.pixel(moment, view, x + 0.5, y + 0.5), without = unshaded.pixel(moment, view, x + 0.5, y + 0.5);
-            if (with.id == 0 || with.id != frame.ids.at(x, y) || with.id != truth.ids.at(x, y))
-                continue;
-            const double rays_lx = static_cast<double>(truth.illuminance_lx.mean.at(x, y));
-            if (with.illuminance_lx != without.illuminance_lx) {
-                in_shadow += without.illuminance_lx - rays_lx > moment.least_traffic_lx ? 1 : 0;
-                continue;
-            }
-            ++compared;
-            const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - rays_lx);
-            EXPECT_LE(off, 3.0 * worst_traffic_error * moment.least_traffic_lx + 4.0 * with.bound_lx + 1e-5 * rays_lx) << x << " " << y;
-            worst = std::max(worst, off);
-            worst_share = std::max(worst_share, rays_lx > 0.5 ? off / rays_lx : 0.0);
+    for (const auto& [x, y] : each_pixel(view)) {
+        const TwinPixel with = shaded.pixel(moment, view, x + 0.5, y + 0.5), without = unshaded.pixel(moment, view, x + 0.5, y + 0.5);
+        if (with.id == 0 || with.id != frame.ids.at(x, y) || with.id != truth.ids.at(x, y))
+            continue;
+        const double rays_lx = static_cast<double>(truth.illuminance_lx.mean.at(x, y));
+        if (with.illuminance_lx != without.illuminance_lx) {
+            in_shadow += without.illuminance_lx - rays_lx > moment.least_traffic_lx ? 1 : 0;
+            continue;
         }
+        ++compared;
+        const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - rays_lx);
+        EXPECT_LE(off, 3.0 * worst_traffic_error * moment.least_traffic_lx + 4.0 * with.bound_lx + 1e-5 * rays_lx) << x << " " << y;
+    }
     EXPECT_GT(compared, 100);
     EXPECT_GT(in_shadow, 0);
-    RecordProperty("worst_lx", fmt::format("{}", worst));
-    RecordProperty("worst_share_above_0.5_lx", fmt::format("{}", worst_share));
-    RecordProperty("pixels_compared", compared);
-    RecordProperty("pixels_in_shadow", in_shadow);
 }
 
 /// What levels cost in lux against every lamp with its own beam, and that they save lamps.
@@ -95,7 +73,6 @@ TEST_F(Traffic, LevelsStayWithinTheirBound) {
     const double worst = most_difference(a.illuminance_lx, b.illuminance_lx);
     EXPECT_GT(worst, 0.0) << "levels are in use";
     EXPECT_LE(worst, worst_traffic_error * moment.least_traffic_lx * 3.0) << "of at most three units that are drawn coarsely at one place";
-    RecordProperty("worst_lx", fmt::format("{}", worst));
     const Work coarsely = coarse.count(moment, driver(), all_results), finely = fine.count(moment, driver(), all_results);
     EXPECT_LT(coarsely.traffic_full, finely.traffic_full);
     EXPECT_GT(coarsely.traffic_merged, 0);
@@ -124,7 +101,6 @@ TEST_F(Traffic, NothingPops) {
         fine_before = exact.illuminance_lx;
     }
     EXPECT_LE(most, 0.05) << "the least lux";
-    RecordProperty("most_lx_a_frame", fmt::format("{}", most));
 }
 
 /// The shipped drive at 5 ms a frame, 17 cm nearer: levels change no pixel by more than each pair's own least lux beside what its light
@@ -163,7 +139,6 @@ TEST_F(Traffic, NothingPopsOnTheShippedDrive) {
     }
     EXPECT_GT(in_use, 0);
     EXPECT_LE(most, drive.least_traffic_lx);
-    RecordProperty("most_lx_a_frame", fmt::format("{}", most));
 }
 
 /// Integral of luminance over solid angle = I / d^2, from many pixels to a hundredth of one.
@@ -184,12 +159,11 @@ TEST_F(Traffic, ALampThatIsSeenBringsItsLightToTheEye) {
         const Frame without = renderer.draw(moment, view, {.luminance = true});
         double seen = 0.0;
         const glm::dvec2 px = 2.0 * camera.half_extent / glm::dvec2(view.width_px, view.height_px);
-        for (int y = 0; y < view.height_px; ++y)
-            for (int x = 0; x < view.width_px; ++x) {
-                const double cosine = glm::dot(pixel_ray(camera, view, x + 0.5, y + 0.5).direction, camera.axis);
-                seen += (static_cast<double>(with.luminance_cdm2.at(x, y)) - static_cast<double>(without.luminance_cdm2.at(x, y))) * px.x *
-                        px.y * cosine * cosine * cosine;
-            }
+        for (const auto& [x, y] : each_pixel(view)) {
+            const double cosine = glm::dot(pixel_ray(camera, view, x + 0.5, y + 0.5).direction, camera.axis);
+            seen += (static_cast<double>(with.luminance_cdm2.at(x, y)) - static_cast<double>(without.luminance_cdm2.at(x, y))) * px.x *
+                    px.y * cosine * cosine * cosine;
+        }
         EXPECT_GT(expected, 0.0) << gap_m;
         EXPECT_NEAR(seen / expected, 1.0, 2e-3) << gap_m << " m";
     }

@@ -8,11 +8,8 @@
 namespace fernlicht::gl {
 namespace {
 
-void GLAD_API_PTR on_debug_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar* message,
-                                   const void* user) {
-    static_cast<void>(source);
-    static_cast<void>(type);
-    static_cast<void>(id);
+void GLAD_API_PTR on_debug_message(GLenum /*source*/, GLenum /*type*/, GLuint /*id*/, GLenum severity, GLsizei length,
+                                   const GLchar* message, const void* user) {
     if (severity == GL_DEBUG_SEVERITY_HIGH)
         static_cast<Context*>(const_cast<void*>(user))->last_error.assign(message, static_cast<std::size_t>(length));
 }

@@ -53,21 +53,14 @@ class OsMesaHolder final : public Context {
         const OsMesa& api = osmesa();
         if (!api.failure.empty())
             throw DeviceError(api.failure);
-        const std::array attributes{osmesa_format,
-                                    GL_RGBA,
-                                    osmesa_depth_bits,
-                                    0,
-                                    osmesa_stencil_bits,
-                                    0,
-                                    osmesa_profile,
-                                    osmesa_core_profile,
-                                    osmesa_major,
-                                    4,
-                                    osmesa_minor,
-                                    5,
-                                    0,
-                                    0};
-        context_ = api.create(attributes.data(), nullptr);
+        const int attributes[][2] = {{osmesa_format, GL_RGBA},
+                                     {osmesa_depth_bits, 0},
+                                     {osmesa_stencil_bits, 0},
+                                     {osmesa_profile, osmesa_core_profile},
+                                     {osmesa_major, 4},
+                                     {osmesa_minor, 5},
+                                     {0, 0}};
+        context_ = api.create(&attributes[0][0], nullptr);
         if (context_ == nullptr)
             throw DeviceError("osmesa: OSMesaCreateContextAttribs for OpenGL 4.5 core failed");
         if (api.make_current(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE) {

@@ -27,20 +27,24 @@ Buffer make_read_buffer(Context& context, std::size_t bytes) {
     return buffer;
 }
 
+Texture new_texture(Context& context, GLenum target) {
+    GLuint name = 0;
+    context.gl.CreateTextures(target, 1, &name);
+    return {context, name};
+}
+
 Texture make_texture(Context& context, GLenum internal_format, int width, int height) {
     GLint limit = 0;
     context.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width < 1 || height < 1 || width > limit || height > limit)
         throw DeviceError(
             fmt::format("{} draws at most {} x {} pixels, {} x {} were asked for", context.info.gl_renderer, limit, limit, width, height));
-    GLuint name = 0;
-    context.gl.CreateTextures(GL_TEXTURE_2D, 1, &name);
-    Texture texture(context, name);
-    context.gl.TextureStorage2D(name, 1, internal_format, width, height);
-    context.gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    context.gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    context.gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    context.gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    Texture texture = new_texture(context, GL_TEXTURE_2D);
+    context.gl.TextureStorage2D(texture, 1, internal_format, width, height);
+    context.gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    context.gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    context.gl.TextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    context.gl.TextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     context.check("making a texture");
     return texture;
 }

@@ -3,6 +3,7 @@
 
 #include "renderer/gl/device/context.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -11,7 +12,7 @@
 namespace fernlicht::gl {
 
 /// A GL name freed by `Free` (a member of GladGLContext). The context must outlive it.
-template <class Free> class Name {
+template <auto Free> class Name {
   public:
     Name() = default;
     Name(Context& context, GLuint name) : context_(&context), name_(name) {}
@@ -23,7 +24,7 @@ template <class Free> class Name {
     }
     ~Name() {
         if (context_ != nullptr && name_ != 0)
-            Free{}(context_->gl, name_);
+            (context_->gl.*Free)(1, &name_);
     }
     operator GLuint() const { return name_; }
 
@@ -32,23 +33,10 @@ template <class Free> class Name {
     GLuint name_ = 0;
 };
 
-struct FreeBuffer {
-    void operator()(const GladGLContext& gl, GLuint name) const { gl.DeleteBuffers(1, &name); }
-};
-struct FreeTexture {
-    void operator()(const GladGLContext& gl, GLuint name) const { gl.DeleteTextures(1, &name); }
-};
-struct FreeFramebuffer {
-    void operator()(const GladGLContext& gl, GLuint name) const { gl.DeleteFramebuffers(1, &name); }
-};
-struct FreeVertexArray {
-    void operator()(const GladGLContext& gl, GLuint name) const { gl.DeleteVertexArrays(1, &name); }
-};
-
-using Buffer = Name<FreeBuffer>;
-using Texture = Name<FreeTexture>;
-using Framebuffer = Name<FreeFramebuffer>;
-using VertexArray = Name<FreeVertexArray>;
+using Buffer = Name<&GladGLContext::DeleteBuffers>;
+using Texture = Name<&GladGLContext::DeleteTextures>;
+using Framebuffer = Name<&GladGLContext::DeleteFramebuffers>;
+using VertexArray = Name<&GladGLContext::DeleteVertexArrays>;
 
 /// Immutable storage holding `bytes`; empty content still gets one byte, because GL forbids buffers of size 0.
 Buffer make_buffer(Context& context, std::span<const std::byte> bytes, GLbitfield flags = 0);
@@ -62,6 +50,21 @@ template <class T> void update_buffer(Context& context, GLuint buffer, const std
         context.gl.NamedBufferSubData(buffer, 0, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data());
 }
 
+/// A buffer with room for more than it holds.
+struct GrowingBuffer {
+    Buffer buffer;
+    std::size_t room = 0;
+
+    template <class T> void fill(Context& context, const std::vector<T>& values) {
+        if (room < values.size() || buffer == 0) {
+            room = std::max<std::size_t>(2 * values.size(), 16);
+            buffer = make_buffer(context, std::vector<T>(room), GL_DYNAMIC_STORAGE_BIT);
+        }
+        update_buffer(context, buffer, values);
+    }
+};
+
+Texture new_texture(Context& context, GLenum target);
 /// One level, nearest filter, clamped to the edge. Throws DeviceError when the driver's size limit is exceeded.
 Texture make_texture(Context& context, GLenum internal_format, int width, int height);
 

@@ -57,6 +57,15 @@ std::string with_file_names(const std::string& log, const std::vector<std::strin
     return out;
 }
 
+/// What the driver says of a shader or program.
+template <class Get> std::string log_of(Get get, GLuint name) {
+    std::string log(8192, '\0');
+    GLsizei length = 0;
+    get(name, static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    return log;
+}
+
 GLuint compile(Context& context, GLenum stage, const std::string& file, const std::string& prologue) {
     Expanded source;
     paste(file, source);
@@ -68,10 +77,7 @@ GLuint compile(Context& context, GLenum stage, const std::string& file, const st
     GLint ok = GL_FALSE;
     context.gl.GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (ok != GL_TRUE) {
-        std::string log(8192, '\0');
-        GLsizei length = 0;
-        context.gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
-        log.resize(static_cast<std::size_t>(length));
+        const std::string log = log_of(context.gl.GetShaderInfoLog, shader);
         context.gl.DeleteShader(shader);
         throw DeviceError(fmt::format("{} does not compile on {}: {}", file, context.info.gl_renderer, with_file_names(log, source.files)));
     }
@@ -100,10 +106,7 @@ Program::Program(Context& context, const std::string& vertex_file, const std::st
     GLint ok = GL_FALSE;
     context.gl.GetProgramiv(program_, GL_LINK_STATUS, &ok);
     if (ok != GL_TRUE) {
-        std::string log(8192, '\0');
-        GLsizei length = 0;
-        context.gl.GetProgramInfoLog(program_, static_cast<GLsizei>(log.size()), &length, log.data());
-        log.resize(static_cast<std::size_t>(length));
+        const std::string log = log_of(context.gl.GetProgramInfoLog, program_);
         context.gl.DeleteProgram(program_);
         throw DeviceError(fmt::format("{} and {} do not link on {}: {}", vertex_file, fragment_file, context.info.gl_renderer, log));
     }

@@ -39,8 +39,28 @@ inline int wanted_bits(const Wanted& w) {
            (w.ids ? 32 : 0) | (w.light ? 64 : 0);
 }
 
+inline const char* flag(bool on) { return on ? "1" : "0"; }
+
 /// A constant of the source; it reads back as the same float.
 inline std::string literal(double value) { return fmt::format("{:.9e}", static_cast<float>(value)); }
+
+/// LAMP_COUNT, and EACH_LAMP, which calls a macro for each lamp, with its number and the names of its samplers. These take constant indices
+/// alone: llvmpipe of Mesa 25 ends the process where a shader fetches by a variable index from an array of samplers and has an array
+/// texture beside it.
+inline void add_lamp_defines(std::vector<Program::Define>& defines, std::size_t lamps) {
+    std::string calls;
+    for (std::size_t i = 0; i < lamps; ++i)
+        calls += fmt::format("OF({0}, beam_{0}, shadow_{0}) ", i);
+    defines.push_back({"LAMP_COUNT", std::to_string(lamps)});
+    defines.push_back({"EACH_LAMP(OF)", calls});
+}
+
+/// How light is shown, for shaders that are compiled for it.
+inline void add_tone_defines(std::vector<Program::Define>& defines, const ToneMapper& tone) {
+    defines.push_back({"TONE_KIND", std::to_string(static_cast<int>(tone.kind))});
+    defines.push_back({"TONE_S", literal(tone.s)});
+    defines.push_back({"TONE_L_MAX", literal(tone.l_max_cdm2)});
+}
 
 /// What floats on the GPU may be above a bound in double, as a factor.
 inline constexpr double rounding = 1.001;

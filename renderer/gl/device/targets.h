@@ -21,6 +21,7 @@ class Targets {
     /// Pixels on their way into a buffer of the driver's, while the GPU and we go on.
     struct Reading {
         Buffer pixels;
+        std::size_t bytes = 0;
         GLsync drawn = nullptr;
     };
     Reading start_read();
@@ -31,19 +32,18 @@ class Targets {
 
   private:
     enum Result { colour, illuminance, target, luminance, light, depth, ids, result_count };
-    static bool is_wanted(const Wanted& wanted, Result result);
-    static int slot(const Wanted& wanted, Result result);
+    static std::vector<Result> results_of(const Wanted& wanted);
     std::size_t bytes_of(Result result) const;
     /// glReadPixels of one result, to memory or, with a pack buffer bound, to an offset in it.
-    void read_pixels(Result result, void* place);
-    /// Makes the frame's pictures, each filled by fill(result, destination, bytes).
+    void read_pixels(std::size_t slot, void* place);
+    /// Makes the frame's pictures, each filled by fill(slot, destination, bytes), in the order of the slots.
     template <class Fill> Frame make_frame(Fill fill);
 
     Context& context_;
     int width_, height_;
-    Wanted wanted_;
+    std::vector<Result> results_; ///< those wanted; a slot each
     Framebuffer framebuffer_;
-    Texture textures_[result_count];
+    std::vector<Texture> textures_;
     Texture depth_;
 };
 

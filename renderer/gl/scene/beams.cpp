@@ -29,10 +29,12 @@ ShadowWindow window_of(const BeamTexture& g) {
     return w;
 }
 
-template <class Step> std::vector<Step> steps_of(const BeamTexture& g) {
-    std::vector<Step> steps;
-    for (const float cd : g.cd)
-        steps.push_back(static_cast<Step>(g.scale_cd > 0.0 ? std::lround(static_cast<double>(cd) / g.scale_cd * largest_step(g.bits)) : 0));
+std::vector<std::uint16_t> steps_of(const BeamTexture& g) {
+    std::vector<std::uint16_t> steps;
+    if (g.bits < 32)
+        for (const float cd : g.cd)
+            steps.push_back(static_cast<std::uint16_t>(
+                g.scale_cd > 0.0 ? std::lround(static_cast<double>(cd) / g.scale_cd * largest_step(g.bits)) : 0));
     return steps;
 }
 
@@ -41,9 +43,26 @@ bool same_grid(const BeamTexture& a, const BeamTexture& b) {
            a.v_first_rad == b.v_first_rad && a.h_step_rad == b.h_step_rad && a.v_step_rad == b.v_step_rad;
 }
 
+constexpr int texels_a_cell = 32;
+constexpr double slack_rad = 1e-3; // what the GPU's angles may differ, many times over
+
 } // namespace
 
-GLenum format_of_texels(int bits) { return bits == 32 ? GL_R32F : (bits == 16 ? GL_R16 : GL_R8); }
+Texture make_texels(Context& context, int width, int height, int bits, std::span<const float> values,
+                    std::span<const std::uint16_t> steps) {
+    Texture texture = make_texture(context, bits == 32 ? GL_R32F : (bits == 16 ? GL_R16 : GL_R8), width, height);
+    context.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    const auto send = [&](GLenum type, const void* texels) {
+        context.gl.TextureSubImage2D(texture, 0, 0, 0, width, height, GL_RED, type, texels);
+    };
+    if (bits == 32)
+        send(GL_FLOAT, values.data());
+    else if (bits == 16)
+        send(GL_UNSIGNED_SHORT, steps.data());
+    else
+        send(GL_UNSIGNED_BYTE, std::vector<std::uint8_t>(steps.begin(), steps.end()).data());
+    return texture;
+}
 
 const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     if (const auto known = known_.find(file.get()); known != known_.end())
@@ -60,16 +79,7 @@ const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     beam.window = window_of(g);
     constexpr double asin_reaches_rad = 0.5235; // 30 degrees
     beam.steep = g.v_first_rad < -asin_reaches_rad || g.v_first_rad + (g.height - 1) * g.v_step_rad > asin_reaches_rad;
-    beam.texture = make_texture(context_, format_of_texels(g.bits), g.width, g.height);
-    context_.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    const auto send = [&](GLenum type, const void* texels) {
-        context_.gl.TextureSubImage2D(beam.texture, 0, 0, 0, g.width, g.height, GL_RED, type, texels);
-    };
-    if (g.bits == 32)
-        send(GL_FLOAT, g.cd.data());
-    else
-        g.bits == 16 ? send(GL_UNSIGNED_SHORT, steps_of<std::uint16_t>(g).data())
-                     : send(GL_UNSIGNED_BYTE, steps_of<std::uint8_t>(g).data());
+    beam.texture = make_texels(context_, g.width, g.height, g.bits, g.cd, steps_of(g));
     beam.cd_a_unit = g.bits == 32 ? 1.0 : g.scale_cd;
     texture_bytes_ += static_cast<std::size_t>(g.bits / 8) * g.cd.size();
     context_.check("uploading a beam texture");
@@ -94,13 +104,6 @@ glm::dvec3 to_lamp_space(const LitLamp& lamp, const glm::dvec3& direction) {
     return {-glm::dot(lamp.pose.left(), direction), glm::dot(lamp.pose.up(), direction), glm::dot(lamp.pose.forward(), direction)};
 }
 
-namespace {
-
-constexpr int texels_a_cell = 32;
-constexpr double slack_rad = 1e-3; // what the GPU's angles may differ, many times over
-
-} // namespace
-
 BeamBounds::BeamBounds(const BeamTexture& beam)
     : h_first_(beam.h_first_rad), v_first_(beam.v_first_rad), h_cell_(texels_a_cell * beam.h_step_rad),
       v_cell_(texels_a_cell * beam.v_step_rad), columns_((beam.width + texels_a_cell - 1) / texels_a_cell),
@@ -108,13 +111,12 @@ BeamBounds::BeamBounds(const BeamTexture& beam)
       most_of_cell_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0F) {
     for (int y = 0; y < beam.height; ++y)
         for (int x = 0; x < beam.width; ++x) {
-            const float cd = beam.cd[static_cast<std::size_t>(y) * static_cast<std::size_t>(beam.width) + static_cast<std::size_t>(x)];
+            const float cd = beam.cd[static_cast<std::size_t>(y * beam.width + x)];
             most_ = std::max(most_, static_cast<double>(cd));
             // A sample on a border belongs to the cells on both sides.
             for (int row = std::max(0, (y - 1) / texels_a_cell); row <= y / texels_a_cell; ++row)
                 for (int column = std::max(0, (x - 1) / texels_a_cell); column <= x / texels_a_cell; ++column) {
-                    float& most = most_of_cell_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                                                static_cast<std::size_t>(column)];
+                    float& most = most_of_cell_[static_cast<std::size_t>(row * columns_ + column)];
                     most = std::max(most, cd);
                 }
         }
@@ -138,8 +140,7 @@ double BeamBounds::most_towards(const glm::dvec3& centre, double radius) const {
     float most = 0.0F;
     for (int row = low; row <= high; ++row)
         for (int column = left; column <= right; ++column)
-            most = std::max(
-                most, most_of_cell_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)]);
+            most = std::max(most, most_of_cell_[static_cast<std::size_t>(row * columns_ + column)]);
     return static_cast<double>(most);
 }
 

@@ -4,7 +4,7 @@
 
 #include "renderer/beam_texture.h"
 #include "renderer/gl/device/objects.h"
-#include "scenarios/drives/play/moment.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <glm/vec3.hpp>
 #include <map>
@@ -45,8 +45,8 @@ struct Beam {
     Texture texture;
 };
 
-/// The format of a texture of one channel with so many bits (BeamTexels).
-GLenum format_of_texels(int bits);
+/// Of one channel with so many bits (BeamTexels): as it is with 32, else in steps.
+Texture make_texels(Context& context, int width, int height, int bits, std::span<const float> values, std::span<const std::uint16_t> steps);
 
 class Beams {
   public:
@@ -72,5 +72,9 @@ inline constexpr std::size_t most_lamps = 8;
 
 /// A world direction in lamp space (x right, y up, z forward).
 glm::dvec3 to_lamp_space(const LitLamp& lamp, const glm::dvec3& direction);
+/// To it from places relative to `ego_m`.
+inline glm::dmat4 lamp_from_ego(const Pose& lamp, const glm::dvec3& ego_m) {
+    return view_matrix(-lamp.left(), lamp.up(), lamp.forward(), lamp.position_m - ego_m);
+}
 
 } // namespace fernlicht::gl

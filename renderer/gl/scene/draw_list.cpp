@@ -83,17 +83,73 @@ void DrawList::draw(int call) const {
                                           static_cast<GLsizei>(c.count), 0);
 }
 
-void DrawList::compile_depth_pass(const Program& program, const Framebuffer& target, int width, int height) {
+void DrawList::draw_nothing(const glm::dvec3& ego_m, bool extras) {
+    start(ego_m, extras);
+    const int call = add_nothing();
+    upload();
+    draw(call);
+}
+
+Program depth_program(Context& context, bool moving) {
+    return {context, "depth.vert.glsl", "", moving ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}};
+}
+
+DepthPass::DepthPass(Context& context, const SceneBuffers& scene, bool moving)
+    : context_(context), moving_(moving), program_(depth_program(context, moving)), matrix_(program_.uniform("clip_from_ego")),
+      list_(context, scene), target_(make_framebuffer(context)) {}
+
+void DepthPass::begin(int width, int height, int beside) {
+    width_ = width;
+    height_ = height;
+    program_.use();
+    context_.gl.Viewport(beside, beside, width - 2 * beside, height - 2 * beside);
+    context_.gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    context_.gl.Enable(GL_SCISSOR_TEST);
+}
+
+void DepthPass::set_pieces(const glm::dvec3& ego_m, std::span<const std::uint32_t> pieces) {
+    list_.start(ego_m, moving_);
+    list_.add(pieces);
+    list_.upload();
+    pieces_ = static_cast<int>(pieces.size());
+}
+
+void DepthPass::draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer) {
+    const GladGLContext& gl = context_.gl;
+    if (layer < 0)
+        gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, map, 0);
+    else
+        gl.NamedFramebufferTextureLayer(target_, GL_DEPTH_ATTACHMENT, map, 0, layer);
+    gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
+    const float far_away = 0.0F;
+    gl.Scissor(0, 0, width_, height_);
+    gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
+    gl.Scissor(1, 1, width_ - 2, height_ - 2);
+    const glm::mat4 clip_float(clip);
+    gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip_float[0][0]);
+    list_.draw(0);
+    ++work.passes;
+    ++work.shadow_maps_drawn;
+    work.draws += pieces_;
+    work.triangles += list_.triangles();
+}
+
+void DepthPass::end(const char* doing) {
+    context_.gl.Disable(GL_SCISSOR_TEST);
+    context_.gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+    context_.check(doing);
+}
+
+void DepthPass::compile(int width, int height) {
     const GladGLContext& gl = context_.gl;
     const Texture scratch = make_texture(context_, GL_DEPTH_COMPONENT32F, width, height);
-    gl.NamedFramebufferTexture(target, GL_DEPTH_ATTACHMENT, scratch, 0);
-    gl.NamedFramebufferDrawBuffer(target, GL_NONE);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target);
-    program.use();
-    start(glm::dvec3(0.0), scene_.moves());
-    const int nothing = add_nothing();
-    upload();
-    draw(nothing);
+    gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, scratch, 0);
+    gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
+    program_.use();
+    list_.draw_nothing(glm::dvec3(0.0), moving_);
+    context_.check("compiling the shadow pass");
 }
 
 } // namespace fernlicht::gl

@@ -3,6 +3,7 @@
 
 #include "renderer/gl/device/program.h"
 #include "renderer/gl/scene/scene_buffers.h"
+#include "renderer/renderer.h"
 
 #include <span>
 
@@ -30,11 +31,10 @@ class DrawList {
     int add_nothing();
     void upload();
     void draw(int call) const;
-    /// Makes the driver compile a program that draws depth alone, without drawing any: into a texture of this size that is thrown away.
-    void compile_depth_pass(const Program& program, const Framebuffer& target, int width, int height);
+    /// Such a call by itself.
+    void draw_nothing(const glm::dvec3& ego_m, bool extras);
 
     std::uint64_t triangles() const { return triangles_; }
-    int calls() const { return static_cast<int>(calls_.size()); }
 
   private:
     struct Command {
@@ -55,6 +55,34 @@ class DrawList {
     std::vector<Call> calls_;
     Buffer place_buffer_, command_buffer_, extra_buffer_;
     std::uint64_t triangles_ = 0;
+};
+
+/// Draws depth alone, by depth.vert.glsl.
+Program depth_program(Context& context, bool moving);
+
+/// Shadow maps: depth alone, whose outermost texels stay empty, so that what lies outside is lit. Row 0 is the lowest, as look-ups take it.
+class DepthPass {
+  public:
+    /// `moving`: bodies are turned.
+    DepthPass(Context& context, const SceneBuffers& scene, bool moving);
+
+    /// For maps of this size; the clip volume ends so many texels inside them.
+    void begin(int width, int height, int beside = 1);
+    void set_pieces(const glm::dvec3& ego_m, std::span<const std::uint32_t> pieces);
+    /// These pieces alone, into a map or one layer of several.
+    void draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer = -1);
+    void end(const char* doing);
+    /// Makes the driver compile what draw() needs.
+    void compile(int width, int height);
+
+  private:
+    Context& context_;
+    bool moving_;
+    Program program_;
+    GLint matrix_;
+    DrawList list_;
+    Framebuffer target_;
+    int width_ = 0, height_ = 0, pieces_ = 0;
 };
 
 /// Where a piece's bounding sphere stands relative to the car.

@@ -1,10 +1,10 @@
 // One way to light a scene on the GPU: what renderer.cpp asks of it.
 #pragma once
 
-#include "renderer/camera.h"
 #include "renderer/gl/device/pass_clock.h"
 #include "renderer/gl/device/targets.h"
 #include "renderer/renderer.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <memory>
 
@@ -34,8 +34,5 @@ class Lighting {
     /// Of the beam as it is drawn with against its table, relative to the peak; nullopt where no beam of one lamp is drawn with.
     virtual std::optional<double> beam_error(const LampFile& lamp) const = 0;
 };
-
-/// The lighting of a technique by its name. Throws InputError.
-std::unique_ptr<Lighting> make_lighting(Context& context, const Scene& scene, const RendererSettings& settings);
 
 } // namespace fernlicht::gl

@@ -1,6 +1,5 @@
 #include "renderer/gl/scene/scene_buffers.h"
 
-#include "renderer/gl/scene/surface_textures.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 
@@ -78,9 +77,19 @@ bool is_same_shape(const Mesh& a, const Mesh& b) {
            std::ranges::equal(a.batches, b.batches, same_batch) && std::ranges::equal(a.vertices, b.vertices, same_vertex);
 }
 
-/// The triangles of one class of a mesh, gathered over its batches.
-struct Gathered {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> corners; ///< vertex of the mesh, material
+/// The root of `i` in a forest of parents, with the path halved on the way.
+std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
+    while (parent[i] != i)
+        i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+    void add(const glm::dvec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
 };
 
 } // namespace
@@ -109,20 +118,20 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             }
             alike.push_back(number);
         }
-        std::map<SurfaceClass, Gathered> by_class;
+        std::map<SurfaceClass, std::vector<std::pair<std::uint32_t, std::uint32_t>>> by_class; ///< corners: vertex of the mesh, material
         bool ground = true;
         for (const Batch& batch : mesh.batches) {
             const Material& material = scene.materials.at(batch.material);
             ground = ground && is_ground(material.kind);
             SurfaceClass surface = class_of(material);
             surface.moving = mesh.body >= 0;
-            Gathered& gathered = by_class[surface];
+            auto& corners = by_class[surface];
             for (std::uint32_t k = batch.first; k < batch.first + batch.count; ++k)
-                gathered.corners.emplace_back(mesh.indices.at(k), batch.material);
+                corners.emplace_back(mesh.indices.at(k), batch.material);
         }
         ground = ground && mesh.body < 0;
-        for (const auto& [surface, gathered] : by_class) {
-            if (gathered.corners.empty())
+        for (const auto& [surface, corners] : by_class) {
+            if (corners.empty())
                 continue;
             Piece piece;
             piece.origin_m = mesh.origin_m;
@@ -132,12 +141,12 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             piece.body = mesh.body;
             piece.mesh = static_cast<std::uint32_t>(&mesh - scene.meshes.data());
             piece.first_index = static_cast<GLuint>(indices.size());
-            piece.index_count = static_cast<GLuint>(gathered.corners.size());
+            piece.index_count = static_cast<GLuint>(corners.size());
             piece.base_vertex = static_cast<GLint>(vertices.size());
             // A vertex is copied for each material that uses it, so that the material can travel with it.
             std::map<std::pair<std::uint32_t, std::uint32_t>, GLuint> copied;
             glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-            for (const auto& corner : gathered.corners) {
+            for (const auto& corner : corners) {
                 const auto [it, fresh] = copied.try_emplace(corner, static_cast<GLuint>(copied.size()));
                 if (fresh) {
                     const Vertex& vertex = mesh.vertices.at(corner.first);
@@ -155,19 +164,19 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             lowest = std::min(lowest, piece.lowest_m);
             highest = std::max(highest, piece.highest_m);
             piece.first_plane = planes_.size();
-            for (std::size_t k = 0; ground && k + 2 < gathered.corners.size(); k += 3) {
-                const auto at = [&](std::size_t i) { return mesh.vertices[gathered.corners[k + i].first].position_m; };
+            for (std::size_t k = 0; ground && k + 2 < corners.size(); k += 3) {
+                const auto at = [&](std::size_t i) { return mesh.vertices[corners[k + i].first].position_m; };
                 const glm::vec3 n = glm::cross(at(1) - at(0), at(2) - at(0));
                 if (const float length = glm::length(n); length > 0.0F) {
                     planes_.emplace_back(n / length, -glm::dot(n / length, at(0)));
-                    ground_.push_back(ground_triangle({at(0), at(1), at(2)}, {mesh.vertices[gathered.corners[k].first].normal,
-                                                                              mesh.vertices[gathered.corners[k + 1].first].normal,
-                                                                              mesh.vertices[gathered.corners[k + 2].first].normal}));
+                    ground_.push_back(ground_triangle({at(0), at(1), at(2)},
+                                                      {mesh.vertices[corners[k].first].normal, mesh.vertices[corners[k + 1].first].normal,
+                                                       mesh.vertices[corners[k + 2].first].normal}));
                 }
             }
             piece.planes = planes_.size() - piece.first_plane;
             std::vector<glm::dvec3> places;
-            for (const auto& corner : gathered.corners)
+            for (const auto& corner : corners)
                 places.emplace_back(mesh.vertices[corner.first].position_m);
             piece.corners_m = box_round(places);
             piece.bodies_m = ground || mesh.body >= 0 ? std::vector{piece.corners_m} : boxes_round_bodies(places); // a car is one
@@ -184,7 +193,6 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
         }
     }
     flat_ = resting_.empty() && (pieces_.empty() || highest - lowest < flat_within_m);
-    triangles_ = indices.size() / 3;
     find_bridges();
     std::vector<GpuMaterial> materials;
     for (const Material& material : scene.materials)
@@ -329,25 +337,6 @@ void SceneBuffers::find_bridges() {
         });
     }
 }
-
-namespace {
-
-/// The root of `i` in a forest of parents, with the path halved on the way.
-std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
-    while (parent[i] != i)
-        i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-struct Box {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-    void add(const glm::dvec3& p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-};
-
-} // namespace
 
 Corners box_round(const std::vector<glm::dvec3>& triangles) {
     // Strips of road have long edges along the road: the longest edge is tried beside the world's axes, the smallest floor wins.

@@ -7,6 +7,7 @@
 #include "scenarios/values/scene.h"
 
 #include <array>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 #include <map>
@@ -46,6 +47,11 @@ struct Piece {
     double least_up = 1.0;                   ///< ground only: the least z of its normals
     std::vector<Corners> bodies_m;           ///< what stands on the ground: a box round each body; else the one round all
 };
+
+inline glm::dquat turn_of(const Piece& piece) {
+    return {static_cast<double>(piece.turn.w), static_cast<double>(piece.turn.x), static_cast<double>(piece.turn.y),
+            static_cast<double>(piece.turn.z)};
+}
 
 /// Of the ground, relative to its piece's origin.
 struct GroundTriangle {
@@ -92,7 +98,6 @@ class SceneBuffers {
 
     /// All vertices lie in one horizontal plane, so that nothing can stand in a beam.
     bool flat() const { return flat_; }
-    std::size_t triangles() const { return triangles_; }
     std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
@@ -115,7 +120,7 @@ class SceneBuffers {
     VertexArray layout_;
     Texture textures_;
     bool flat_ = true;
-    std::size_t triangles_ = 0, texture_bytes_ = 0;
+    std::size_t texture_bytes_ = 0;
 };
 
 /// Corners of an upright box round triangles (three places each) that lies along the world's axes or along their longest edge. Bit 0 of a
@@ -124,5 +129,12 @@ Corners box_round(const std::vector<glm::dvec3>& triangles);
 
 /// A box round each body: triangles that share a place belong to one. `triangles` holds three places each.
 std::vector<Corners> boxes_round_bodies(const std::vector<glm::dvec3>& triangles);
+
+/// Of the pictures of surfaces: one array texture with mipmaps.
+inline constexpr GLuint surface_texture_unit = 15;
+
+/// One layer a texture, in the order given, repeating, looked up by the context's surface_filter. `encoded`: texels go through the sRGB
+/// curve. Nothing for no textures. Throws InputError when sizes differ or are no powers of two; `bytes` gets the memory taken.
+Texture upload_surface_textures(Context& context, const std::vector<SurfaceTexture>& textures, bool encoded, std::size_t& bytes);
 
 } // namespace fernlicht::gl

@@ -1,4 +1,4 @@
-#include "renderer/gl/scene/surface_textures.h"
+#include "renderer/gl/scene/scene_buffers.h"
 
 #include "scenarios/photometry.h"
 #include "scenarios/values/errors.h"
@@ -48,11 +48,9 @@ Texture upload_surface_textures(Context& context, const std::vector<SurfaceTextu
     const GladGLContext& gl = context.gl;
     const int width = textures[0].width, height = textures[0].height;
     const auto levels = static_cast<GLsizei>(std::bit_width(static_cast<unsigned>(std::max(width, height))));
-    GLuint name = 0;
-    gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
-    Texture array(context, name);
-    gl.TextureStorage3D(name, levels, GL_RGBA8, width, height, static_cast<GLsizei>(textures.size()));
-    set_filter(gl, name, context.surface_filter);
+    Texture array = new_texture(context, GL_TEXTURE_2D_ARRAY);
+    gl.TextureStorage3D(array, levels, GL_RGBA8, width, height, static_cast<GLsizei>(textures.size()));
+    set_filter(gl, array, context.surface_filter);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const std::array<std::uint8_t, 256> curve = srgb_curve();
     for (std::size_t layer = 0; layer < textures.size(); ++layer) {
@@ -60,9 +58,9 @@ Texture upload_surface_textures(Context& context, const std::vector<SurfaceTextu
         for (std::size_t i = 0; encoded && i < texels.size(); ++i)
             if (i % 4 != 3)
                 texels[i] = curve[texels[i]];
-        gl.TextureSubImage3D(name, 0, 0, 0, static_cast<GLint>(layer), width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+        gl.TextureSubImage3D(array, 0, 0, 0, static_cast<GLint>(layer), width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     }
-    gl.GenerateTextureMipmap(name);
+    gl.GenerateTextureMipmap(array);
     bytes = std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * textures.size() * 4 / 3;
     context.check("uploading surface textures");
     return array;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 
 namespace fernlicht::gl {
 namespace {
@@ -38,13 +39,53 @@ bool covered_by(const MapPlan& map, const MapPlan& now, int width, int height) {
     });
 }
 
+/// What lies nearer and at the side of a beam may be lit for want of texels: to hold it too would take texels from all the rest.
+constexpr double one_map_from_m = 3.0;
+/// 72 degrees: of a lamp that looks elsewhere, such as a cornering lamp, only so much is in the map.
+constexpr double one_map_widest_tangent = 3.0;
+
 } // namespace
 
+glm::dmat3 window_homography(const ShadowWindow& window, int width, int height) {
+    const double across = (width - 2.0) / width / (window.right - window.left), up = (height - 2.0) / height / (window.top - window.bottom);
+    return {{across, 0.0, 0.0}, {0.0, up, 0.0}, {1.0 / width - window.left * across, 1.0 / height - window.bottom * up, 1.0}};
+}
+
+double spread_of(const glm::dmat3& texture_from_lamp, int width, int height) {
+    const glm::dmat3 lamp_from_texture = glm::inverse(texture_from_lamp);
+    const glm::dvec3 across = lamp_from_texture[0] / static_cast<double>(width), up = lamp_from_texture[1] / static_cast<double>(height);
+    // Along the diagonal, too, where the two are not at right angles: of a square texel it is the square root of 2.
+    const double diagonal = std::max(glm::length(across + up), glm::length(across - up)) / std::sqrt(2.0);
+    return 1.5 * std::max({glm::length(across), glm::length(up), diagonal});
+}
+
+glm::dmat4 texture_from_ego(const MapPlan& plan, const glm::dvec3& ego_m) {
+    glm::dmat4 texture_from_lamp(0.0);
+    for (int column = 0; column < 3; ++column)
+        texture_from_lamp[column] = glm::dvec4(plan.texture_from_lamp[column], plan.spread * plan.texture_from_lamp[column].z);
+    return texture_from_lamp * lamp_from_ego(plan.from, ego_m);
+}
+
+double edge_shift(const MapPlan& then, const MapPlan& now) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    const glm::dvec3 moved = now.from.position_m - then.from.position_m;
+    const glm::dvec3 m(std::abs(glm::dot(moved, now.from.left())), std::abs(glm::dot(moved, now.from.up())),
+                       std::abs(glm::dot(moved, now.from.forward())));
+    double most = 0.0;
+    for (const Caster& body : now.bodies) {
+        // (X - m_x) / (Z - m_z) - X / Z = (X / Z * m_z - m_x) / (Z - m_z), and so for Y
+        const double nearest = body.nearest_m - m.z;
+        if (nearest <= 0.0)
+            return unknown;
+        const double aside = std::max(std::abs(body.left), std::abs(body.right)),
+                     above = std::max(std::abs(body.bottom), std::abs(body.top));
+        most = std::max(most, std::hypot(aside * m.z + m.x, above * m.z + m.y) / nearest);
+    }
+    return most;
+}
+
 ProjectedMaps::ProjectedMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, std::vector<glm::dvec2> places)
-    : Shadows(context, scene, settings), places_(std::move(places)),
-      program_(context, "depth.vert.glsl", "",
-               scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
-      matrix_(program_.uniform("clip_from_ego")), list_(context, scene), target_(make_framebuffer(context)) {}
+    : Shadows(context, scene, settings), places_(std::move(places)), pass_(context, scene, scene.moves()) {}
 
 Texture ProjectedMaps::make_map() const {
     return make_shadow_texture(context_, {settings_.width, settings_.height, layered() ? static_cast<int>(places_.size()) : 0,
@@ -88,11 +129,7 @@ void ProjectedMaps::set(const std::vector<LitLamp>& lamps, const std::vector<con
 
 MapPlan ProjectedMaps::plain(const LampCasters& lamp) const {
     ShadowWindow window = lamp.window;
-    const double more = kept_tangent(lamp);
-    window.left -= more;
-    window.right += more;
-    window.bottom -= more;
-    window.top += more;
+    widen(window, kept_tangent(lamp));
     MapPlan plan{lamp.lamp.pose, window_homography(window, settings_.width, settings_.height), 0.0, lamp.pieces, lamp.bodies};
     plan.spread = 1.5 * texel_tangent(window, settings_);
     return plan;
@@ -141,40 +178,16 @@ bool ProjectedMaps::stands(const Kept& kept, const MapPlan& plan, const LampCast
 }
 
 void ProjectedMaps::draw_map(Kept& kept, const Shot& shot) {
-    const GladGLContext& gl = context_.gl;
-    program_.use();
-    gl.Viewport(0, 0, settings_.width, settings_.height);
-    gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    gl.Enable(GL_SCISSOR_TEST);
     const glm::dmat4 texture = texture_from_ego(kept.plan, kept.ego_m);
     const glm::dmat4 ego_from_lamp = ego_from_lamp_space(kept.plan.from, kept.ego_m);
-    list_.start(kept.ego_m, scene_.moves());
-    list_.add(kept.plan.pieces);
-    list_.upload();
+    pass_.begin(settings_.width, settings_.height, 0);
+    pass_.set_pieces(kept.ego_m, kept.plan.pieces);
     for (std::size_t k = 0; k < places_.size(); ++k) {
-        if (layered())
-            gl.NamedFramebufferTextureLayer(target_, GL_DEPTH_ATTACHMENT, kept.texture, 0, static_cast<GLint>(k));
-        else
-            gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, kept.texture, 0);
-        gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
-        gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
-        const float far_away = 0.0F;
-        gl.Scissor(0, 0, settings_.width, settings_.height);
-        gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
-        gl.Scissor(1, 1, settings_.width - 2, settings_.height - 2); // the outermost texels stay empty: what lies outside is lit
-        glm::dmat4 from_place = texture;                             // of a point that lies as much to the other side
+        glm::dmat4 from_place = texture; // of a point that lies as much to the other side
         from_place[3] -= texture * (ego_from_lamp[0] * places_[k].x + ego_from_lamp[1] * places_[k].y);
-        const glm::mat4 clip(clip_from_shadow_texture(from_place));
-        gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip[0][0]);
-        list_.draw(0);
-        ++shot.work.passes;
-        ++shot.work.shadow_maps_drawn;
-        shot.work.draws += static_cast<int>(kept.plan.pieces.size());
-        shot.work.triangles += list_.triangles();
+        pass_.draw(kept.texture, clip_from_shadow_texture(from_place), shot.work, layered() ? static_cast<GLint>(k) : -1);
     }
-    gl.Disable(GL_SCISSOR_TEST);
-    gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-    context_.check("drawing a shadow map");
+    pass_.end("drawing a shadow map");
 }
 
 void ProjectedMaps::draw(const Shot& shot) {
@@ -212,10 +225,7 @@ void ProjectedMaps::set_uniforms(const Program& program) const {
                                      &from_lamps_.front()[0][0]);
 }
 
-void ProjectedMaps::compile(const Shot& /*shot*/) {
-    list_.compile_depth_pass(program_, target_, settings_.width, settings_.height);
-    context_.check("compiling the shadow pass");
-}
+void ProjectedMaps::compile(const Shot& /*shot*/) { pass_.compile(settings_.width, settings_.height); }
 
 std::vector<Program::Define> ProjectedMaps::defines(const std::vector<const Beam*>& /*beams*/) const {
     std::vector<Program::Define> defines{
@@ -233,15 +243,6 @@ std::vector<Program::Define> ProjectedMaps::defines(const std::vector<const Beam
 std::size_t ProjectedMaps::texture_bytes() const {
     return kept_.size() * places_.size() * 4 * static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
 }
-
-namespace {
-
-/// What lies nearer and at the side of a beam may be lit for want of texels: to hold it too would take texels from all the rest.
-constexpr double one_map_from_m = 3.0;
-/// 72 degrees: of a lamp that looks elsewhere, such as a cornering lamp, only so much is in the map.
-constexpr double one_map_widest_tangent = 3.0;
-
-} // namespace
 
 LitLamp midway(const std::vector<LitLamp>& lamps) {
     LitLamp between = lamps.front();

@@ -1,7 +1,7 @@
 #include "renderer/gl/shadows/shadow_casters.h"
 
-#include "renderer/camera.h"
 #include "renderer/gl/scene/draw_list.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <algorithm>
 #include <array>
@@ -96,12 +96,7 @@ bool shades(const Caster& caster, const Corners& box, double slack_m) {
 }
 
 glm::dmat4 lamp_clip(const LitLamp& lamp, const ShadowWindow& w, const glm::dvec3& ego_m) {
-    const glm::dvec3 axes[3] = {-lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()}, at = lamp.pose.position_m - ego_m;
-    glm::dmat4 lamp_from_ego(1.0);
-    for (int column = 0; column < 3; ++column)
-        lamp_from_ego[column] = {axes[0][column], axes[1][column], axes[2][column], 0.0};
-    lamp_from_ego[3] = {-glm::dot(axes[0], at), -glm::dot(axes[1], at), -glm::dot(axes[2], at), 1.0};
-    return tangent_projection(w.left, w.right, w.bottom, w.top, shadow_near_m) * lamp_from_ego;
+    return tangent_projection(w.left, w.right, w.bottom, w.top, shadow_near_m) * lamp_from_ego(lamp.pose, ego_m);
 }
 
 double texel_tangent(const ShadowWindow& window, const ShadowSettings& settings) {
@@ -151,11 +146,9 @@ double ShadowCasters::begins_in(const LampCasters& lamp, std::uint32_t piece, co
     auto known = corners_.find(piece);
     if (known == corners_.end())
         known = corners_.emplace(piece, scene_.corners_of(of)).first;
-    const glm::dquat turn(static_cast<double>(of.turn.w), static_cast<double>(of.turn.x), static_cast<double>(of.turn.y),
-                          static_cast<double>(of.turn.z));
     std::vector<glm::dvec3> triangles;
     for (const glm::vec3& corner : known->second)
-        triangles.push_back(to_lamp_space(lamp.lamp, of.origin_m - ego_m_ - lamp.lamp_m + turn * glm::dvec3(corner)));
+        triangles.push_back(to_lamp_space(lamp.lamp, of.origin_m - ego_m_ - lamp.lamp_m + turn_of(of) * glm::dvec3(corner)));
     return begins_in_window(triangles, window);
 }
 
@@ -163,7 +156,8 @@ double ShadowCasters::begins_in(const LampCasters& lamp, std::uint32_t piece, co
 void ShadowCasters::add_bodies(LampCasters& found) {
     const double margin = caster_margin_texels * texel_tangent(found.window, settings_),
                  more = margin + 2.0 * settings_.redraw_texels * texel_tangent(found.window, settings_);
-    const ShadowWindow window{found.window.left - more, found.window.right + more, found.window.bottom - more, found.window.top + more};
+    ShadowWindow window = found.window;
+    gl::widen(window, more);
     for (const std::uint32_t k : found.pieces) {
         std::optional<double> begins_m;
         for (const Corners& body : scene_.pieces()[k].bodies_m) {
@@ -197,24 +191,15 @@ void ShadowCasters::merge(const LitLamp& lamp, const ShadowWindow& window) {
 }
 
 void ShadowCasters::widen(std::size_t lamp, double tangent) {
-    for (Caster& caster : lamps_.at(lamp).bodies) {
-        caster.left -= tangent;
-        caster.right += tangent;
-        caster.bottom -= tangent;
-        caster.top += tangent;
-    }
+    for (Caster& caster : lamps_.at(lamp).bodies)
+        gl::widen(caster, tangent);
 }
 
 void ShadowCasters::soften(double radius_m) {
     for (LampCasters& lamp : lamps_) {
         lamp.slack_m += radius_m;
-        for (Caster& caster : lamp.bodies) {
-            const double tangent = radius_m / std::max(caster.nearest_m, tangents_from_m);
-            caster.left -= tangent;
-            caster.right += tangent;
-            caster.bottom -= tangent;
-            caster.top += tangent;
-        }
+        for (Caster& caster : lamp.bodies)
+            gl::widen(caster, radius_m / std::max(caster.nearest_m, tangents_from_m));
     }
 }
 

@@ -32,6 +32,13 @@ struct Caster {
     double nearest_m = 0.0; ///< along the lamp's axis
     bool around = false;    ///< some of it lies beside or behind the lamp: no tangents of its own
 };
+/// Moves all four sides of a caster or window outwards.
+template <class Sides> void widen(Sides& sides, double tangent) {
+    sides.left -= tangent;
+    sides.right += tangent;
+    sides.bottom -= tangent;
+    sides.top += tangent;
+}
 /// Boxes in lamp space. `margin`: added to the tangents.
 Corners in_lamp_space(const LitLamp& lamp, const glm::dvec3& offset_from_lamp, const Corners& corners);
 Caster caster_of(const Corners& box, double margin);

@@ -10,70 +10,38 @@
 namespace fernlicht::gl {
 
 ShadowMaps::ShadowMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings)
-    : Shadows(context, scene, settings),
-      program_(context, "depth.vert.glsl", "",
-               scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
-      matrix_(program_.uniform("clip_from_ego")), list_(context, scene), target_(make_framebuffer(context)) {}
+    : Shadows(context, scene, settings), pass_(context, scene, scene.moves()) {}
 
 void ShadowMaps::draw(const Shot& shot) {
     shot.clock.begin("shadow maps");
-    const GladGLContext& gl = context_.gl;
     Work& work = shot.work;
     const std::vector<LampCasters>& lamps = casters_.lamps();
     while (textures_.size() < lamps.size())
         textures_.push_back(
             make_shadow_texture(context_, {settings_.width, settings_.height, 0, fmt::format("each lamp by '{}'", name(settings_.method)),
                                            "a smaller map_texels"}));
-    std::vector<glm::dmat4> clips;
-    std::vector<std::vector<std::uint32_t>> pieces;
+    const glm::dvec3 ego_m = casters_.ego_m();
+    Drawn now{{}, {}, ego_m, scene_.placed()};
     for (const LampCasters& lamp : lamps) {
-        clips.push_back(lamp.clip);
-        pieces.push_back(lamp.pieces);
+        now.clips.push_back(lamp.clip);
+        now.pieces.push_back(lamp.pieces);
     }
     work.shadow_maps += static_cast<int>(lamps.size());
-    const glm::dvec3 ego_m = casters_.ego_m();
-    if (clips != drawn_clips_ || pieces != drawn_pieces_ || ego_m != drawn_ego_m_ || scene_.placed() != drawn_placed_) {
-        work.shadow_maps_drawn += static_cast<int>(lamps.size());
-        program_.use();
-        // The outermost texels stay empty: what lies outside the window is lit.
-        gl.Viewport(1, 1, settings_.width - 2, settings_.height - 2);
-        gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); // row 0 is the lowest tangent, as the look-up takes it
-        gl.Enable(GL_SCISSOR_TEST);
+    if (now != drawn_) {
+        pass_.begin(settings_.width, settings_.height);
         for (std::size_t i = 0; i < lamps.size(); ++i) {
-            gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, textures_[i], 0);
-            gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
-            gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
-            const float far_away = 0.0F;
-            gl.Scissor(0, 0, settings_.width, settings_.height);
-            gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
-            gl.Scissor(1, 1, settings_.width - 2, settings_.height - 2);
-            const glm::mat4 clip(lamps[i].clip);
-            gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip[0][0]);
-            list_.start(ego_m, scene_.moves());
-            list_.add(lamps[i].pieces);
-            list_.upload();
-            list_.draw(0);
-            ++work.passes;
-            work.draws += static_cast<int>(lamps[i].pieces.size());
-            work.triangles += list_.triangles();
+            pass_.set_pieces(ego_m, lamps[i].pieces);
+            pass_.draw(textures_[i], lamps[i].clip, work);
         }
-        gl.Disable(GL_SCISSOR_TEST);
-        gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-        context_.check("drawing shadow maps");
-        drawn_clips_ = std::move(clips);
-        drawn_pieces_ = std::move(pieces);
-        drawn_ego_m_ = ego_m;
-        drawn_placed_ = scene_.placed();
+        pass_.end("drawing shadow maps");
+        drawn_ = std::move(now);
     }
     for (std::size_t i = 0; i < lamps.size(); ++i)
-        gl.BindTextureUnit(shadow_unit(i), textures_[i]);
+        context_.gl.BindTextureUnit(shadow_unit(i), textures_[i]);
     shot.clock.end();
 }
 
-void ShadowMaps::compile(const Shot& /*shot*/) {
-    list_.compile_depth_pass(program_, target_, settings_.width, settings_.height);
-    context_.check("compiling the shadow pass");
-}
+void ShadowMaps::compile(const Shot& /*shot*/) { pass_.compile(settings_.width, settings_.height); }
 
 std::vector<Program::Define> ShadowMaps::defines(const std::vector<const Beam*>& beams) const {
     double spread = 0.0;
@@ -124,20 +92,18 @@ Texture make_shadow_texture(Context& context, const ShadowTextureAsked& asked) {
                                             "which {} draws",
                                             asked.width, asked.height, asked.owner, limit, context.info.gl_renderer));
     context.check("drawing before a shadow map was made");
-    GLuint name = 0;
-    gl.CreateTextures(asked.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
-    Texture texture(context, name);
+    Texture texture = new_texture(context, asked.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D);
     if (asked.layers > 0)
-        gl.TextureStorage3D(name, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height, asked.layers);
+        gl.TextureStorage3D(texture, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height, asked.layers);
     else
-        gl.TextureStorage2D(name, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height);
+        gl.TextureStorage2D(texture, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height);
     check_room(context, asked);
-    gl.TextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    gl.TextureParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
-    gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.TextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl.TextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    gl.TextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     context.check("making a shadow map");
     return texture;
 }

@@ -23,15 +23,15 @@ class ShadowMaps : public Shadows {
     const char* title() const override { return "shadow maps"; }
 
   private:
-    Program program_;
-    GLint matrix_;
-    DrawList list_;
-    Framebuffer target_;
+    DepthPass pass_;
     std::vector<Texture> textures_;
-    std::vector<glm::dmat4> drawn_clips_; ///< what the textures hold
-    std::vector<std::vector<std::uint32_t>> drawn_pieces_;
-    glm::dvec3 drawn_ego_m_{0.0};
-    std::uint64_t drawn_placed_ = 0;
+    struct Drawn {
+        std::vector<glm::dmat4> clips;
+        std::vector<std::vector<std::uint32_t>> pieces;
+        glm::dvec3 ego_m{0.0};
+        std::uint64_t placed = 0;
+        bool operator==(const Drawn&) const = default;
+    } drawn_; ///< what the textures hold
 };
 
 struct ShadowTextureAsked {

@@ -12,11 +12,6 @@ namespace {
 /// the road leaves it by 0.1 m under a car 6 m long.
 constexpr double dark_above_m = 0.3, dark_below_m = 0.3;
 
-glm::dquat turn_of(const Piece& piece) {
-    return {static_cast<double>(piece.turn.w), static_cast<double>(piece.turn.x), static_cast<double>(piece.turn.y),
-            static_cast<double>(piece.turn.z)};
-}
-
 /// The hull between both heights, turned outwards.
 void add_prism(const std::vector<glm::dvec2>& outline, std::vector<glm::vec4>& corners) {
     const auto at = [&](std::size_t i, double z) { return glm::vec4(glm::vec2(outline[i % outline.size()]), static_cast<float>(z), 1.0F); };

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "renderer/gl/shadows/shadow_mask.h"
-#include "renderer/gl/shadows/stencil_volumes.h"
 
 #include <glm/vec2.hpp>
 

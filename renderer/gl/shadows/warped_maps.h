@@ -2,9 +2,8 @@
 // Depth maps bent towards what a view sees: what view and beam have in common, and the homographies that spread a map's texels over it.
 #pragma once
 
-#include "renderer/camera.h"
-#include "renderer/gl/shadows/map_plan.h"
 #include "renderer/gl/shadows/projected_maps.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <optional>
 

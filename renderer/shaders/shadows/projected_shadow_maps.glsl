@@ -5,14 +5,8 @@
 #else
 #define SHADOW_SAMPLER sampler2DShadow
 #endif
-layout(binding = 8) uniform SHADOW_SAMPLER shadow_0; // SHADOW_NEAR / w; 0: nothing
-layout(binding = 9) uniform SHADOW_SAMPLER shadow_1;
-layout(binding = 10) uniform SHADOW_SAMPLER shadow_2;
-layout(binding = 11) uniform SHADOW_SAMPLER shadow_3;
-layout(binding = 12) uniform SHADOW_SAMPLER shadow_4;
-layout(binding = 13) uniform SHADOW_SAMPLER shadow_5;
-layout(binding = 14) uniform SHADOW_SAMPLER shadow_6;
-layout(binding = 16) uniform SHADOW_SAMPLER shadow_7;
+#define SHADOW_UNIT(i, beam, map) layout(binding = i < 7 ? 8 + i : 16) uniform SHADOW_SAMPLER map;
+EACH_LAMP(SHADOW_UNIT) // SHADOW_NEAR / w; 0: nothing
 uniform mat4 shadow_from_lamp[LAMP_COUNT];
 
 #ifdef SHADOW_LAYERS

@@ -1,12 +1,6 @@
 // Share of a lamp that a surface sees, by a depth map for each lamp.
-layout(binding = 8) uniform sampler2DShadow shadow_0; // shadow_near_m / distance along the axis; 0: nothing
-layout(binding = 9) uniform sampler2DShadow shadow_1;
-layout(binding = 10) uniform sampler2DShadow shadow_2;
-layout(binding = 11) uniform sampler2DShadow shadow_3;
-layout(binding = 12) uniform sampler2DShadow shadow_4;
-layout(binding = 13) uniform sampler2DShadow shadow_5;
-layout(binding = 14) uniform sampler2DShadow shadow_6;
-layout(binding = 16) uniform sampler2DShadow shadow_7;
+#define SHADOW_UNIT(i, beam, map) layout(binding = i < 7 ? 8 + i : 16) uniform sampler2DShadow map;
+EACH_LAMP(SHADOW_UNIT) // shadow_near_m / distance along the axis; 0: nothing
 const vec4 shadow_window[LAMP_COUNT] = vec4[LAMP_COUNT](SHADOW_WINDOWS); // tangents -> texture: scale x, y, offset x, y
 
 // Share of the lamp seen from a point in lamp space: four texels, weighted. Outside the map nothing is known to stand in the way.

@@ -1,6 +1,6 @@
 #include "runner/experiments/accuracy/reference_shots.h"
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

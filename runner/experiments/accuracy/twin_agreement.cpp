@@ -1,6 +1,6 @@
 #include "runner/experiments/accuracy/twin_agreement.h"
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "runner/experiments/aliasing/motion.h"
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

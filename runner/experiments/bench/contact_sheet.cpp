@@ -1,7 +1,7 @@
 #include "runner/experiments/bench/contact_sheet.h"
 
-#include "renderer/camera.h"
 #include "runner/play/extent_fold.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
 

@@ -1,13 +1,13 @@
 #include "runner/experiments/shadows/scene_study.h"
 
 #include "metrics/statistics/statistics.h"
-#include "renderer/camera.h"
 #include "renderer/renderer.h"
 #include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/experiments/shadows/shown_picture.h"
 #include "runner/play/lux_map.h"
 #include "runner/play/shadows/shadow_truth.h"
 #include "runner/write/tile_sheet.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "runner/experiments/stability/trial.h"
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/errors.h"

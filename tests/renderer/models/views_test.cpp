@@ -1,44 +1,37 @@
 // Views of one moment: the light is the same in all of them, a mirror exchanges left and right, and shadow maps are drawn once.
-#include "renderer/camera.h"
-#include "renderer/renderer.h"
 #include "scenarios/drives/drive.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/light/light.h"
 #include "scenarios/models/placed_model.h"
 #include "scenarios/models/road_user_bodies.h"
+#include "tests/renderer/device_test.h"
+#include "tests/renderer/reference/rooms.h"
 #include "tests/scenarios/models/written_gltf.h"
 #include "tests/trial.h"
-
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
 
 namespace fernlicht {
 namespace {
 
 /// A road 160 m long to the front and the rear, and a car 20 m ahead that casts shadows.
 Scene road_with_car() {
-    Scene scene;
-    scene.materials.push_back({.name = "road", .kind = SurfaceKind::road});
-    Mesh road;
-    road.name = "road";
-    for (const auto& [x, y] : {std::pair(-160.0F, -40.0F), std::pair(160.0F, -40.0F), std::pair(160.0F, 40.0F), std::pair(-160.0F, 40.0F)})
-        road.vertices.push_back({{x, y, 0.0F}, {0.0F, 0.0F, 1.0F}});
-    road.indices = {0, 1, 2, 0, 2, 3};
-    road.batches.push_back({0, 0, 6});
-    scene.meshes.push_back(std::move(road));
+    Scene scene{.materials = {{.name = "road", .kind = SurfaceKind::road}},
+                .meshes = {quads("road", 0, {}, {{{-160, -40, 0}, {160, -40, 0}, {160, 40, 0}, {-160, 40, 0}}})}};
     add_model(scene, car_body({}), {{24.0, 1.5, 0.0}, glm::dmat3(1.0)}, 1.0, SurfaceKind::vehicle);
     return scene;
 }
 
-Moment lit() {
+/// Two low beams above the car's origin, or so far ahead of it.
+Moment low_beams(double ahead_m = 0.0) {
     static const auto file = std::make_shared<const LampFile>(lamp_of_model(lamp_models().at(0)));
     Moment moment;
-    for (const double side : {0.6, -0.6}) {
-        LitLamp lamp{.file = file, .pose = {{3.6, side, 0.65}, glm::dmat3(1.0)}};
-        moment.lamps.push_back(std::move(lamp));
-    }
+    for (const double side : {0.6, -0.6})
+        moment.lamps.push_back({.file = file, .pose = {{ahead_m, side, 0.65}, glm::dmat3(1.0)}});
+    return moment;
+}
+
+Moment lit() {
+    Moment moment = low_beams(3.6);
     moment.daylight.horizontal_illuminance_lx = 0.2; // so that mirrors see something
     return moment;
 }
@@ -59,7 +52,10 @@ glm::dvec2 pixel_of(const Camera& camera, const View& view, const glm::dvec3& po
     return {(clip.x / clip.w + 1.0) * 0.5 * view.width_px, (1.0 - clip.y / clip.w) * 0.5 * view.height_px};
 }
 
-TEST(Views, TheShippedSetShowsWhatMirrorsMust) {
+using Views = DeviceTest;
+using Tessellation = DeviceTest;
+
+TEST_F(Views, TheShippedSetShowsWhatMirrorsMust) {
     const std::vector<View> views = six();
     ASSERT_EQ(views.size(), 7U) << "six and the map";
     const auto sees = [&](const char* name, const glm::dvec3& point_m) {
@@ -93,37 +89,34 @@ TEST(Views, TheShippedSetShowsWhatMirrorsMust) {
     }
 }
 
-TEST(Views, AMirrorExchangesLeftAndRight) {
-    Device device = open_device("auto");
+TEST_F(Views, AMirrorExchangesLeftAndRight) {
     const Scene scene = road_with_car();
-    Renderer renderer(device, scene, {});
+    Renderer renderer(device_, scene, {});
     View view{.position_m = {1.3, 0.35, 1.2}, .yaw_rad = 0.15, .width_px = 160, .height_px = 120};
     const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
     const Frame plain = renderer.draw(lit(), view, wanted);
     view.mirrored = true;
     const Frame mirror = renderer.draw(lit(), view, wanted);
     int differ = 0, seen = 0, changed = 0;
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const int other = view.width_px - 1 - x;
-            differ += plain.ids.at(x, y) != mirror.ids.at(other, y) ||
-                              std::abs(plain.illuminance_lx.at(x, y) - mirror.illuminance_lx.at(other, y)) >
-                                  1e-3F * (1.0F + plain.illuminance_lx.at(x, y))
-                          ? 1
-                          : 0;
-            changed += plain.ids.at(x, y) != mirror.ids.at(x, y) ? 1 : 0;
-            seen += plain.ids.at(x, y) == 2 ? 1 : 0;
-        }
+    for (const auto& [x, y] : each_pixel(view)) {
+        const int other = view.width_px - 1 - x;
+        differ +=
+            plain.ids.at(x, y) != mirror.ids.at(other, y) || std::abs(plain.illuminance_lx.at(x, y) - mirror.illuminance_lx.at(other, y)) >
+                                                                 1e-3F * (1.0F + plain.illuminance_lx.at(x, y))
+                ? 1
+                : 0;
+        changed += plain.ids.at(x, y) != mirror.ids.at(x, y) ? 1 : 0;
+        seen += plain.ids.at(x, y) == 2 ? 1 : 0;
+    }
     EXPECT_GT(seen, 100) << "the car";
     EXPECT_GT(changed, 100) << "it stands on the other side";
     EXPECT_LT(differ, 60) << "pixels on edges alone"; // of 19 200
 }
 
 /// What a pixel of one view shows lies in another view among the pixels round its place there: same point, same light.
-TEST(Views, TheLightIsTheSameInAll) {
-    Device device = open_device("auto");
+TEST_F(Views, TheLightIsTheSameInAll) {
     const Scene scene = road_with_car();
-    Renderer renderer(device, scene, {});
+    Renderer renderer(device_, scene, {});
     const Moment moment = lit();
     std::vector<View> views = six();
     views.pop_back(); // the map
@@ -175,10 +168,9 @@ TEST(Views, TheLightIsTheSameInAll) {
     }
 }
 
-TEST(Views, ShadowMapsAreDrawnOnceForAllViewsOfAMoment) {
-    Device device = open_device("auto");
+TEST_F(Views, ShadowMapsAreDrawnOnceForAllViewsOfAMoment) {
     const Scene scene = road_with_car();
-    Renderer renderer(device, scene, {});
+    Renderer renderer(device_, scene, {});
     std::vector<View> views = six();
     const Moment moment = lit();
     int passes = 0;
@@ -213,24 +205,6 @@ Scene plane(int along, int across) {
     return scene;
 }
 
-Moment low_beams() {
-    static const auto file = std::make_shared<const LampFile>(lamp_of_model(lamp_models().at(0)));
-    Moment moment;
-    for (const double side : {0.6, -0.6}) {
-        LitLamp lamp{.name = side > 0.0 ? "left" : "right", .file = file, .pose = {{0.0, side, 0.65}, axes_from_angles(0.0, 0.0, 0.0)}};
-        moment.lamps.push_back(std::move(lamp));
-    }
-    return moment;
-}
-
-View map_of_plane() {
-    View view{.name = "map", .projection = Projection::map, .map_ahead_m = 65.0, .map_behind_m = -5.0};
-    view.map_left_m = view.map_right_m = 6.0;
-    view.width_px = 48;
-    view.height_px = 240;
-    return view;
-}
-
 /// Root of the mean square of the difference to double precision, over that of the light itself.
 double error_of(const Frame& frame, const std::vector<double>& truth) {
     double error = 0.0, light = 0.0;
@@ -242,19 +216,17 @@ double error_of(const Frame& frame, const std::vector<double>& truth) {
     return std::sqrt(error / light);
 }
 
-TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
-    Device device = open_device("auto");
+TEST_F(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
     const Scene coarse = plane(1, 1), fine = plane(200, 50);
     const Moment moment = low_beams();
-    const View view = map_of_plane();
+    const View view = map_view(65.0, -5.0, 6.0, 48, 240);
     std::vector<double> truth;
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x)
-            truth.push_back(surface_illuminance_lx(
-                moment, {65.0 - 60.0 * (y + 0.5) / view.height_px, 6.0 - 12.0 * (x + 0.5) / view.width_px, 0.0}, {0.0, 0.0, 1.0}));
+    for (const auto& [x, y] : each_pixel(view))
+        truth.push_back(surface_illuminance_lx(
+            moment, {65.0 - 60.0 * (y + 0.5) / view.height_px, 6.0 - 12.0 * (x + 0.5) / view.width_px, 0.0}, {0.0, 0.0, 1.0}));
     ASSERT_GT(*std::ranges::max_element(truth), 5.0);
     const auto drawn = [&](const Scene& scene, const std::string& technique) {
-        return Renderer(device, scene, RendererSettings{.technique = technique}).draw(moment, view, {.illuminance = true});
+        return Renderer(device_, scene, RendererSettings{.technique = technique}).draw(moment, view, {.illuminance = true});
     };
     const Frame two = drawn(coarse, "photometric"), many = drawn(fine, "photometric");
     EXPECT_LT(error_of(two, truth), 1e-4);
@@ -263,7 +235,6 @@ TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
     for (std::size_t i = 0; i < truth.size(); ++i)
         most = std::max(most, std::abs(static_cast<double>(two.illuminance_lx.data()[i] - many.illuminance_lx.data()[i])));
     EXPECT_LT(most, 0.01) << "lx";
-    RecordProperty("photometric_most_difference_lx", fmt::format("{:.3g}", most));
     // What vertices light depends on where they are: told, and that it is so.
     for (const std::string technique : {"vertex-spots", "vertex-projective"}) {
         const Frame few = drawn(coarse, technique), lot = drawn(fine, technique);
@@ -271,7 +242,6 @@ TEST(Tessellation, ThePlaneOfTwoTrianglesHasTheLuxOfThatOfTwentyThousand) {
         for (const float lx : lot.illuminance_lx.pixels())
             own.push_back(static_cast<double>(lx));
         const double apart = error_of(few, own);
-        RecordProperty(technique, fmt::format("2 triangles are {:.3g} (rms) from 20000", apart));
         EXPECT_GT(apart, 0.5) << technique;
     }
 }

@@ -5,11 +5,6 @@
 #include "renderer/twin.h"
 #include "tests/renderer/reference/rooms.h"
 
-#include <algorithm>
-#include <cmath>
-#include <gtest/gtest.h>
-#include <tuple>
-
 namespace fernlicht {
 namespace {
 
@@ -26,14 +21,13 @@ TEST(ReferenceDirect, LightsAWallAt25MetresAsTheInverseSquareAndTheCubeOfTheCosi
     Moment moment{.lamps = {even_lamp(10000.0, looking({0, 0, 0}, 0, 0))}};
     const View view = camera({0, 0, 0}, 0, 0, 60, 33); // an odd number: one pixel on the axis
     const ReferenceImage image = Reference(scene).render(moment, view, everything, centre_rays());
-    for (int y = 0; y < 33; ++y)
-        for (int x = 0; x < 33; ++x) {
-            const double t = std::tan(radians(30)), u = ((x + 0.5) / 16.5 - 1.0) * t, v = ((y + 0.5) / 16.5 - 1.0) * t;
-            const double cosine = 1.0 / std::sqrt(1.0 + u * u + v * v), e = 10000.0 / 625.0 * std::pow(cosine, 3);
-            EXPECT_NEAR(image.illuminance_lx.mean.at(x, y), e, 1e-6 * e) << x << " " << y;
-            EXPECT_NEAR(image.luminance_cdm2.mean.at(x, y), 0.5 * e / pi, 1e-6 * e);
-            EXPECT_EQ(image.ids.at(x, y), 1U);
-        }
+    for (const auto& [x, y] : each_pixel(33, 33)) {
+        const double t = std::tan(radians(30)), u = ((x + 0.5) / 16.5 - 1.0) * t, v = ((y + 0.5) / 16.5 - 1.0) * t;
+        const double cosine = 1.0 / std::sqrt(1.0 + u * u + v * v), e = 10000.0 / 625.0 * std::pow(cosine, 3);
+        EXPECT_NEAR(image.illuminance_lx.mean.at(x, y), e, 1e-6 * e) << x << " " << y;
+        EXPECT_NEAR(image.luminance_cdm2.mean.at(x, y), 0.5 * e / pi, 1e-6 * e);
+        EXPECT_EQ(image.ids.at(x, y), 1U);
+    }
     EXPECT_NEAR(image.illuminance_lx.mean.at(16, 16), 16.0, 16.0 * stored);
 }
 
@@ -46,17 +40,16 @@ TEST(ReferenceDirect, AveragesAPixelOfThePlaneUnderALampAsTheIntegralDoes) {
     const View view = map_about({1.0, 0.5}, 2.0, 4);
     const ReferenceImage image = Reference(scene).render(moment, view, lux, ReferenceSettings{.target_error = 0.001});
     ASSERT_TRUE(image.complete);
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column) {
-            const double x1 = 1.0 + 2.0 - row, x0 = x1 - 1.0, y1 = 0.5 + 2.0 - column, y0 = y1 - 1.0;
-            const auto corner = [&](double x, double y) { return std::atan2(x * y, h * std::sqrt(h * h + x * x + y * y)); };
-            const double truth = cd * (corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0));
-            const double error = image.illuminance_lx.standard_error.at(column, row);
-            // Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom, for one of 16 fixed pixels.
-            EXPECT_NEAR(image.illuminance_lx.mean.at(column, row), truth, 5.0 * error + stored * truth) << column << " " << row;
-            EXPECT_LE(error, 0.001 * truth * 1.05);
-            EXPECT_EQ(image.mixed.at(column, row), 0);
-        }
+    for (const auto& [column, row] : each_pixel(4, 4)) {
+        const double x1 = 1.0 + 2.0 - row, x0 = x1 - 1.0, y1 = 0.5 + 2.0 - column, y0 = y1 - 1.0;
+        const auto corner = [&](double x, double y) { return std::atan2(x * y, h * std::sqrt(h * h + x * x + y * y)); };
+        const double truth = cd * (corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0));
+        const double error = image.illuminance_lx.standard_error.at(column, row);
+        // Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom, for one of 16 fixed pixels.
+        EXPECT_NEAR(image.illuminance_lx.mean.at(column, row), truth, 5.0 * error + stored * truth) << column << " " << row;
+        EXPECT_LE(error, 0.001 * truth * 1.05);
+        EXPECT_EQ(image.mixed.at(column, row), 0);
+    }
 }
 
 /// A lamp 2 m up at x = 0, a thin wall 1 m high at x = 4 across: its shadow ends at x = 8.
@@ -66,9 +59,7 @@ struct Wall {
 
     Wall() {
         scene.materials.push_back(lambert(0.2, SurfaceKind::object));
-        Mesh wall{"wall", {4.0, 0.0, 0.0}, {}, {}, {}};
-        add_quad(wall, {0, 20, 0}, {0, -20, 0}, {0, -20, 1}, {0, 20, 1});
-        scene.meshes.push_back(finished(wall, 1));
+        scene.meshes.push_back(quads("wall", 1, {4.0, 0.0, 0.0}, {{{0, 20, 0}, {0, -20, 0}, {0, -20, 1}, {0, 20, 1}}}));
         moment.lamps = {even_lamp(1000.0, looking({0, 0, 2}, 0, 0))};
     }
 };
@@ -141,12 +132,10 @@ Scene mixed_scene(glm::dvec3 origin) {
         const double a = i, b = i + 10.0;
         add_quad(ground, {a, -30, z(a)}, {b, -30, z(b)}, {b, 30, z(b)}, {a, 30, z(a)});
     }
-    Mesh sign{"board", origin + glm::dvec3(35.0, -4.0, 2.0), {}, {}, {}};
-    add_quad(sign, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
-    Mesh box{"box", origin + glm::dvec3(22.0, 1.5, -1.0), {}, {}, {}};
-    add_quad(box, {0, 0.5, 0}, {0, -0.5, 0}, {0, -0.5, 2.2}, {0, 0.5, 2.2});
-    add_quad(box, {1, 0.5, 0}, {0, 0.5, 0}, {0, 0.5, 2.2}, {1, 0.5, 2.2});
-    scene.meshes = {finished(ground, 0), finished(sign, 1), finished(box, 1)};
+    scene.meshes = {
+        finished(ground, 0), quads("board", 1, origin + glm::dvec3(35.0, -4.0, 2.0), {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
+        quads("box", 1, origin + glm::dvec3(22.0, 1.5, -1.0),
+              {{{0, 0.5, 0}, {0, -0.5, 0}, {0, -0.5, 2.2}, {0, 0.5, 2.2}}, {{1, 0.5, 0}, {0, 0.5, 0}, {0, 0.5, 2.2}, {1, 0.5, 2.2}}})};
     return scene;
 }
 
@@ -155,33 +144,30 @@ class ReferenceAndTwin : public testing::TestWithParam<double> {};
 TEST_P(ReferenceAndTwin, AgreeWhereNoLightBounces) {
     const glm::dvec3 origin(GetParam(), -GetParam() / 3.0, 300.0);
     const Scene scene = mixed_scene(origin);
-    Moment moment;
-    moment.ego.position_m = origin;
+    Moment moment{.ego = {origin, glm::dmat3(1.0)}};
     moment.daylight.horizontal_illuminance_lx = 0.3;
     for (const double side : {0.6, -0.6})
         moment.lamps.push_back(even_lamp(8000.0, looking(origin + glm::dvec3(3.5, side, 0.65), side, 0.5)));
     moment.lamps[0].colour.linear_srgb = {1.2, 0.95, 0.5};
-    View view = camera({1.5, 0.35, 1.2}, 0, -3, 30, 96);
-    view.height_px = 64;
+    const View view = driver_view(96, 64);
     const ReferenceImage image = Reference(scene).render(moment, view, everything, centre_rays());
     const Twin twin(scene, true);
     int shadow_differs = 0, ids_differ = 0, dark = 0, lit = 0;
-    for (int y = 0; y < view.height_px; ++y)
-        for (int x = 0; x < view.width_px; ++x) {
-            const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
-            if (truth.id != image.ids.at(x, y)) { // a float's rounding at the outline of a body
-                ++ids_differ;
-                continue;
-            }
-            // The twin's rays start 1 mm above the surface, these 0.05 mm: at a shadow's edge either may be right.
-            const double e = image.illuminance_lx.mean.at(x, y), difference = std::abs(e - truth.illuminance_lx);
-            if (difference > 1e-6 * truth.illuminance_lx) {
-                ++shadow_differs;
-                continue;
-            }
-            truth.illuminance_lx > 1.0 ? ++lit : ++dark;
-            EXPECT_NEAR(image.luminance_cdm2.mean.at(x, y), truth.luminance_cdm2, 1e-6 * truth.luminance_cdm2) << x << " " << y;
+    for (const auto& [x, y] : each_pixel(view)) {
+        const TwinPixel truth = twin.pixel(moment, view, x + 0.5, y + 0.5);
+        if (truth.id != image.ids.at(x, y)) { // a float's rounding at the outline of a body
+            ++ids_differ;
+            continue;
         }
+        // The twin's rays start 1 mm above the surface, these 0.05 mm: at a shadow's edge either may be right.
+        const double e = image.illuminance_lx.mean.at(x, y), difference = std::abs(e - truth.illuminance_lx);
+        if (difference > 1e-6 * truth.illuminance_lx) {
+            ++shadow_differs;
+            continue;
+        }
+        truth.illuminance_lx > 1.0 ? ++lit : ++dark;
+        EXPECT_NEAR(image.luminance_cdm2.mean.at(x, y), truth.luminance_cdm2, 1e-6 * truth.luminance_cdm2) << x << " " << y;
+    }
     EXPECT_LE(ids_differ, 3);
     EXPECT_LE(shadow_differs, 12); // 0.2 % of the picture
     EXPECT_GT(lit, 1000);
@@ -270,19 +256,17 @@ TEST(Fresnel, RefractionFollowsSnell) {
 
 /// A wall at x = 4 that faces the car, a mirror in the plane x = y that shows it to an eye that looks along +y, and a lamp before the wall.
 Scene mirror_and_wall(const Material& mirror) {
-    Scene scene{.materials = {lambert(0.5, SurfaceKind::object), mirror}};
-    Mesh wall{"wall", {4.0, 0.0, 0.0}, {}, {}, {}}, looking_glass{"mirror", {0.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(wall, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
-    add_quad(looking_glass, {-1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 1}); // faces +x -y
-    scene.meshes = {finished(wall, 0), finished(looking_glass, 1)};
-    return scene;
+    return {.materials = {lambert(0.5, SurfaceKind::object), mirror},
+            .meshes = {
+                quads("wall", 0, {4.0, 0.0, 0.0}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
+                quads("mirror", 1, {0.0, 0.0, 0.0}, {{{-1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 1}}}) // faces +x -y
+            }};
 }
 
 TEST(Whitted, AMirrorShowsTheWall) {
     for (const float share : {1.0F, 0.6F}) {
         const Scene scene = mirror_and_wall(smooth(share, 0.0F));
-        Moment moment;
-        moment.lamps = {even_lamp(900.0, looking({1.0, 0.0, 0.5}, 0, 0))}; // shines on the wall, away from the mirror
+        Moment moment{.lamps = {even_lamp(900.0, looking({1.0, 0.0, 0.5}, 0, 0))}}; // shines on the wall, away from the mirror
         const double d2 = 9.0 + 0.25, e = 900.0 / d2 * 3.0 / std::sqrt(d2), truth = static_cast<double>(share) * 0.5 * e / pi;
         const View view = camera({0.0, -3.0, 0.0}, 90, 0, 1, 1);
         const Reference reference(scene);
@@ -299,11 +283,10 @@ Scene slab_before_shining_wall(float glass_index) {
     Scene scene;
     Material shining = lambert(0.0, SurfaceKind::object, 100.0);
     scene.materials = {smooth(0.0F, glass_index), shining};
-    Mesh slab{"slab", {}, {}, {}, {}}, wall{"wall", {3.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(slab, {1.0, 2, -2}, {1.0, -2, -2}, {1.0, -2, 2}, {1.0, 2, 2});
-    add_quad(slab, {1.2, -2, -2}, {1.2, 2, -2}, {1.2, 2, 2}, {1.2, -2, 2});
-    add_quad(wall, {0, 2, -2}, {0, -2, -2}, {0, -2, 2}, {0, 2, 2});
-    scene.meshes = {finished(slab, 0), finished(wall, 1)};
+    scene.meshes = {
+        quads("slab", 0, {},
+              {{{1.0, 2, -2}, {1.0, -2, -2}, {1.0, -2, 2}, {1.0, 2, 2}}, {{1.2, -2, -2}, {1.2, 2, -2}, {1.2, 2, 2}, {1.2, -2, 2}}}),
+        quads("wall", 1, {3.0, 0.0, 0.0}, {{{0, 2, -2}, {0, -2, -2}, {0, -2, 2}, {0, 2, 2}}})};
     return scene;
 }
 
@@ -322,8 +305,7 @@ TEST(Whitted, ASlabOfGlassLetsThroughWhatStokesSays) {
         settings.most_smooth = 1;
         EXPECT_EQ(reference.render({}, view, everything, settings).luminance_cdm2.mean.at(0, 0), 0.0F);
         const ReferenceImage path = reference.render({}, view, everything, one_ray(Integrator::path));
-        EXPECT_NEAR(path.luminance_cdm2.mean.at(0, 0), truth,
-                    5.0 * static_cast<double>(path.luminance_cdm2.standard_error.at(0, 0)) + 1e-6 * truth);
+        expect_estimate(path.luminance_cdm2, truth);
     }
 }
 
@@ -352,13 +334,11 @@ TEST(Whitted, GlassInAnEvenRoomCannotBeSeen) {
     const ReferenceImage whitted = reference.render({}, view, everything, settings),
                          path = reference.render({}, view, everything, one_ray(Integrator::path));
     int through_glass = 0;
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x) {
-            through_glass += whitted.ids.at(x, y) == 2;
-            EXPECT_NEAR(whitted.luminance_cdm2.mean.at(x, y), 3.0, 3e-4); // 40 surfaces in a row keep less than 1e-4 within
-            EXPECT_NEAR(path.luminance_cdm2.mean.at(x, y), 3.0,
-                        5.0 * static_cast<double>(path.luminance_cdm2.standard_error.at(x, y)) + 3e-4);
-        }
+    for (const auto& [x, y] : each_pixel(8, 8)) {
+        through_glass += whitted.ids.at(x, y) == 2;
+        EXPECT_NEAR(whitted.luminance_cdm2.mean.at(x, y), 3.0, 3e-4); // 40 surfaces in a row keep less than 1e-4 within
+        expect_estimate(path.luminance_cdm2, 3.0, 1e-4, x, y);
+    }
     EXPECT_GT(through_glass, 8);
 }
 

@@ -4,19 +4,13 @@
 #include "renderer/reference/sampling.h"
 #include "renderer/reference/surface_response.h"
 
-#include <cmath>
-#include <gtest/gtest.h>
-
 namespace fernlicht {
 namespace {
 
 double hypotenuse(double a, double b) { return std::hypot(a, b); }
 
-ReferenceSettings paths(double target_error) { return {.integrator = Integrator::path, .target_error = target_error}; }
-
-/// Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom; seeds are fixed. 1e-6: floats store the result.
-void expect_estimate(const Estimate& estimate, double truth, int x = 0, int y = 0) {
-    EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + 1e-6 * truth);
+ReferenceSettings paths(double target_error, Footprint footprint = Footprint::pixel) {
+    return {.integrator = Integrator::path, .footprint = footprint, .target_error = target_error};
 }
 
 /// View factor from a small element, parallel, to a rectangle a x b at height c above it, one of whose corners is above the element
@@ -34,12 +28,11 @@ TEST(ReferencePath, KeepsEnergyInAWhiteClosedRoom) {
         ReferenceSettings settings = paths(0.005);
         settings.most_samples = 1 << 16;
         const ReferenceImage image = Reference(scene).render({}, camera({0.2, 0.1, -0.3}, 20, 10, 60, 3), everything, settings);
-        for (int y = 0; y < 3; ++y)
-            for (int x = 0; x < 3; ++x) {
-                expect_estimate(image.luminance_cdm2, truth, x, y);
-                expect_estimate(image.illuminance_lx, pi * truth, x, y);
-                EXPECT_LE(image.luminance_cdm2.standard_error.at(x, y), 0.005 * truth * 1.05);
-            }
+        for (const auto& [x, y] : each_pixel(3, 3)) {
+            expect_estimate(image.luminance_cdm2, truth, 1e-6, x, y);
+            expect_estimate(image.illuminance_lx, pi * truth, 1e-6, x, y);
+            EXPECT_LE(image.luminance_cdm2.standard_error.at(x, y), 0.005 * truth * 1.05);
+        }
     }
 }
 
@@ -50,8 +43,7 @@ TEST(ReferencePath, ColoursTheWhiteRoomChannelByChannel) {
     const Scene scene = closed_room(wall);
     const double truth = 0.2126 * 1.0 / (1.0 - 0.8) + 0.7152 * 2.0 / (1.0 - 0.5) + 0.0722 * 4.0 / (1.0 - 0.2);
     const ReferenceImage image = Reference(scene).render({}, camera({0, 0, 0}, 20, 10, 60, 1), everything, paths(0.002));
-    EXPECT_NEAR(image.luminance_cdm2.mean.at(0, 0), truth,
-                5.0 * static_cast<double>(image.luminance_cdm2.standard_error.at(0, 0)) + 1e-5 * truth);
+    expect_estimate(image.luminance_cdm2, truth, 1e-5);
 }
 
 TEST(ReferencePath, RetroreflectionMakesNoEnergyHoweverStrong) {
@@ -102,8 +94,7 @@ TEST(ReferencePath, PlatesThatFaceEachOtherExchangeTheViewFactor) {
     EXPECT_NEAR(plates_factor, 0.19982, 1e-5); // the tabulated value
     const ReferenceImage whole = reference.render({}, map_about({0, 0}, 0.5, 1), lux, paths(0.002));
     expect_estimate(whole.illuminance_lx, pi * 100.0 * plates_factor);
-    ReferenceSettings settings = paths(0.002);
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings = paths(0.002, Footprint::centre);
     const ReferenceImage middle = reference.render({}, map_about({0, 0}, 0.5, 1), lux, settings);
     expect_estimate(middle.illuminance_lx, pi * 100.0 * 4.0 * corner_factor(0.5, 0.5, 1.0));
     const ReferenceImage edge = reference.render({}, map_about({0.2, 0.1}, 0.1, 1), lux, settings); // element at (0.2, 0.1)
@@ -116,8 +107,7 @@ TEST(ReferencePath, APlateHidesItsShareOfTheSky) {
     const Scene scene = hidden_sky(100.0);
     Moment moment;
     moment.daylight.horizontal_illuminance_lx = 40.0;
-    ReferenceSettings settings = paths(0.002);
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings = paths(0.002, Footprint::centre);
     const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 0.5, 1), lux, settings);
     expect_estimate(image.illuminance_lx, 40.0 * (1.0 - 4.0 * corner_factor(1.0, 1.0, 2.0)));
     settings.integrator = Integrator::direct; // there nothing hides the sky
@@ -164,12 +154,11 @@ TEST(ReferencePath, AnIntegratingSphereSpreadsALampsLightEvenly) {
     settings.target_error = 0.001;
     const ReferenceImage direct = reference.render(moment, view, lux, settings);
     const double rho = static_cast<double>(0.7F), truth = rho * 2.0 * pi * 10.0 / (4.0 * pi * (1.0 - rho));
-    for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 3; ++x) {
-            const double bounced = all.illuminance_lx.mean.at(x, y) - direct.illuminance_lx.mean.at(x, y),
-                         error = std::hypot(all.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y));
-            EXPECT_NEAR(bounced, truth, 5.0 * error + 0.002 * truth); // flat cells of 2.8 degrees: (pi / 64)^2
-        }
+    for (const auto& [x, y] : each_pixel(3, 3)) {
+        const double bounced = all.illuminance_lx.mean.at(x, y) - direct.illuminance_lx.mean.at(x, y),
+                     error = std::hypot(all.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y));
+        EXPECT_NEAR(bounced, truth, 5.0 * error + 0.002 * truth); // flat cells of 2.8 degrees: (pi / 64)^2
+    }
 }
 
 TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
@@ -186,8 +175,7 @@ TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
     const glm::dvec3 lamp_m{0.1, 0.0, 0.0}, place{0.0, 0.25, 0.0};
     Moment moment{.lamps = {even_lamp(1000.0, looking(lamp_m, 0, 0))}};
     View view = camera({1.0, 0.25, 0.0}, 180, 0, 1, 1);
-    ReferenceSettings settings = paths(0.005);
-    settings.footprint = Footprint::centre;
+    ReferenceSettings settings = paths(0.005, Footprint::centre);
     settings.most_samples = 1 << 16;
     const ReferenceImage image = Reference(scene).render(moment, view, lux, settings);
     const double rho = static_cast<double>(0.1F), k = 1.0 / static_cast<double>(0.05F);
@@ -213,11 +201,9 @@ TEST(ReferencePath, IsDirectLightWhereNothingReflects) {
     const ReferenceImage path = reference.render(moment, map_about({3, 0}, 2.0, 8), lux, settings);
     settings.integrator = Integrator::direct;
     const ReferenceImage direct = reference.render(moment, map_about({3, 0}, 2.0, 8), lux, settings);
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x)
-            EXPECT_NEAR(path.illuminance_lx.mean.at(x, y), direct.illuminance_lx.mean.at(x, y),
-                        5.0 * hypotenuse(path.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y)) +
-                            1e-6);
+    for (const auto& [x, y] : each_pixel(8, 8))
+        EXPECT_NEAR(path.illuminance_lx.mean.at(x, y), direct.illuminance_lx.mean.at(x, y),
+                    5.0 * hypotenuse(path.illuminance_lx.standard_error.at(x, y), direct.illuminance_lx.standard_error.at(x, y)) + 1e-6);
 }
 
 } // namespace

@@ -1,13 +1,10 @@
 // Photons against closed forms and against paths; flux is kept.
 #include "renderer/reference/patches.h"
-#include "renderer/reference/photon_emission.h"
 #include "renderer/reference/photon_map.h"
 #include "renderer/reference/pixel_estimate.h"
 #include "scenarios/values/errors.h"
 #include "tests/renderer/reference/rooms.h"
 
-#include <cmath>
-#include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 namespace fernlicht {
@@ -19,11 +16,6 @@ ReferenceSettings photons(std::int64_t count, double radius_m, bool final_gather
     settings.solver.radius_m = radius_m;
     settings.solver.final_gather = final_gather;
     return settings;
-}
-
-/// Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom; seeds are fixed.
-void expect_estimate(const Estimate& estimate, double truth, double bias, int x = 0, int y = 0) {
-    EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + bias * truth);
 }
 
 struct Solved {
@@ -94,9 +86,8 @@ TEST(PhotonMap, KeepsEnergyInAWhiteClosedRoom) {
     const View view = camera({0, 0, 0}, 0, 0, 20, 2); // the middle of a wall, more than a radius away from its ends
     for (const bool gather : {false, true}) {
         const ReferenceImage image = Reference(scene).render({}, view, everything, photons(1 << 17, 0.1, gather));
-        for (int y = 0; y < 2; ++y)
-            for (int x = 0; x < 2; ++x) // gathered from everywhere: a strip of 0.1 m along the walls' ends has less light
-                expect_estimate(image.luminance_cdm2, truth, gather ? 0.03 : 1e-6, x, y);
+        for (const auto& [x, y] : each_pixel(2, 2)) // gathered from everywhere: a strip of 0.1 m along the walls' ends has less light
+            expect_estimate(image.luminance_cdm2, truth, gather ? 0.03 : 1e-6, x, y);
     }
 }
 
@@ -106,10 +97,8 @@ TEST(PhotonMap, AMirrorThrowsTheLampsLightOnTheWall) {
     Material mirror = lambert(0.0, SurfaceKind::object);
     mirror.mirror = 0.8F;
     scene.materials = {lambert(0.0, SurfaceKind::object), mirror};
-    Mesh wall{"wall", {-3.0, 0.0, 0.0}, {}, {}, {}}, glass{"mirror", {2.0, 0.0, 0.0}, {}, {}, {}};
-    add_quad(wall, {0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1});
-    add_quad(glass, {0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1});
-    scene.meshes = {finished(wall, 0), finished(glass, 1)};
+    scene.meshes = {quads("wall", 0, {-3.0, 0.0, 0.0}, {{{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}}}),
+                    quads("mirror", 1, {2.0, 0.0, 0.0}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}})};
     const double truth = static_cast<double>(0.8F) * 500.0 / 49.0; // 2 m there, 5 m back
     const Moment moment = with(even_lamp(500.0, looking({0, 0, 0}, 0, 0)));
     const Solved solved(scene, moment, photons(1 << 20, 0.2, true));
@@ -141,17 +130,16 @@ TEST(PhotonMap, MeetsPathsInARoomWithALamp) {
     const ReferenceImage truth = reference.render(moment, view, everything, paths),
                          gathered = reference.render(moment, view, everything, photons(1 << 18, 0.05, true)),
                          seen = reference.render(moment, view, everything, photons(1 << 18, 0.1, false));
-    for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) {
-            const double e = truth.illuminance_lx.mean.at(x, y);
-            const auto error = [&](const ReferenceImage& image) -> double {
-                return std::hypot(truth.illuminance_lx.standard_error.at(x, y), image.illuminance_lx.standard_error.at(x, y));
-            };
-            // Strips of 0.05 m along the walls' ends are a tenth of the room and lack a fifth of their light, which is a third of the
-            // whole.
-            EXPECT_NEAR(gathered.illuminance_lx.mean.at(x, y), e, 5.0 * error(gathered) + 0.01 * e) << x << " " << y;
-            EXPECT_NEAR(seen.illuminance_lx.mean.at(x, y), e, 5.0 * error(seen) + 0.01 * e) << x << " " << y;
-        }
+    for (const auto& [x, y] : each_pixel(4, 4)) {
+        const double e = truth.illuminance_lx.mean.at(x, y);
+        const auto error = [&](const ReferenceImage& image) -> double {
+            return std::hypot(truth.illuminance_lx.standard_error.at(x, y), image.illuminance_lx.standard_error.at(x, y));
+        };
+        // Strips of 0.05 m along the walls' ends are a tenth of the room and lack a fifth of their light, which is a third of the
+        // whole.
+        EXPECT_NEAR(gathered.illuminance_lx.mean.at(x, y), e, 5.0 * error(gathered) + 0.01 * e) << x << " " << y;
+        EXPECT_NEAR(seen.illuminance_lx.mean.at(x, y), e, 5.0 * error(seen) + 0.01 * e) << x << " " << y;
+    }
 }
 
 TEST(SolvedLight, HasTheSameBytesForAnyNumberOfThreads) {
@@ -206,18 +194,12 @@ ReferenceSettings radiosity(double patch_m, int rays, bool final_gather) {
     return settings;
 }
 
-/// Five standard errors: 1 in 10 000 of Student's t with 15 degrees of freedom; seeds are fixed.
-void expect_radiosity(const Estimate& estimate, double truth, double bias, int x = 0, int y = 0) {
-    EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + bias * truth);
-}
-
 TEST(Patches, CoverTheirTrianglesAndFindTheirOwnPlaces) {
     Scene scene{.materials = {lambert(0.5)}};
-    Mesh mesh{"triangles", {3.0, -2.0, 0.5}, {}, {}, {}};
-    add_quad(mesh, {0, 0, 0}, {20, 0, 0}, {20, 0.1, 0}, {0, 0.1, 0}); // long and thin
-    add_quad(mesh, {0, 1, 0}, {2, 1, 0}, {2.5, 4, 1}, {0.2, 3, 0.3});
-    add_quad(mesh, {30, 0, 0}, {30.01, 0, 0}, {30.01, 0.01, 0}, {30, 0.01, 0}); // smaller than a patch
-    scene.meshes = {finished(mesh, 0)};
+    scene.meshes = {quads("triangles", 0, {3.0, -2.0, 0.5}, // long and thin; any; smaller than a patch
+                          {{{0, 0, 0}, {20, 0, 0}, {20, 0.1, 0}, {0, 0.1, 0}},
+                           {{0, 1, 0}, {2, 1, 0}, {2.5, 4, 1}, {0.2, 3, 0.3}},
+                           {{30, 0, 0}, {30.01, 0, 0}, {30.01, 0.01, 0}, {30, 0.01, 0}}})};
     const reference::EmbreeScene embree(scene, {0, 0, 0});
     const reference::Patches patches(embree, reference::facets_within(embree, {0, 0, 0}, 100.0), 0.5, 100000);
     EXPECT_GT(patches.size(), 40U + 40U + 20U + 2U); // 20 m of two thin triangles, the slanted ones, one for each of the small
@@ -249,12 +231,11 @@ TEST(Radiosity, IsExactInAClosedRoomOfOneMaterial) {
             ReferenceSettings settings = radiosity(0.5, 16, gather);
             settings.solver.residual = 1e-9;
             const ReferenceImage image = Reference(scene).render({}, camera({0.2, 0.1, -0.3}, 20, 10, 60, 2), everything, settings);
-            for (int y = 0; y < 2; ++y)
-                for (int x = 0; x < 2; ++x) {
-                    EXPECT_NEAR(image.luminance_cdm2.mean.at(x, y), truth, 1e-6 * truth); // a float; the residual over 1 - rho is 1e-8
-                    EXPECT_NEAR(image.illuminance_lx.mean.at(x, y), pi * truth, 1e-6 * pi * truth);
-                    EXPECT_LT(image.luminance_cdm2.standard_error.at(x, y), 1e-6 * truth);
-                }
+            for (const auto& [x, y] : each_pixel(2, 2)) {
+                EXPECT_NEAR(image.luminance_cdm2.mean.at(x, y), truth, 1e-6 * truth); // a float; the residual over 1 - rho is 1e-8
+                EXPECT_NEAR(image.illuminance_lx.mean.at(x, y), pi * truth, 1e-6 * pi * truth);
+                EXPECT_LT(image.luminance_cdm2.standard_error.at(x, y), 1e-6 * truth);
+            }
             EXPECT_LE(image.preparation.residual, 1e-9);
             EXPECT_GT(image.preparation.patches, 6U * 16U);
             EXPECT_EQ(image.preparation.sweeps > 3, albedo > 0.0);
@@ -269,23 +250,22 @@ TEST(Radiosity, PlatesExchangeTheViewFactor) {
     ReferenceSettings settings = radiosity(0.25, 4096, false);
     settings.least_samples = 4096; // light differs from patch to patch within the one pixel
     const ReferenceImage black = Reference(plates(0.0, 0.0, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, settings);
-    expect_radiosity(black.illuminance_lx, pi * 100.0 * f12, 1e-4);
+    expect_estimate(black.illuminance_lx, pi * 100.0 * f12, 1e-4);
     EXPECT_LT(black.illuminance_lx.standard_error.at(0, 0), 0.01 * pi * 100.0 * f12);
     const ReferenceImage gathered =
         Reference(plates(0.0, 0.0, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, radiosity(0.25, 256, true));
-    expect_radiosity(gathered.illuminance_lx, pi * 100.0 * f12, 1e-4);
+    expect_estimate(gathered.illuminance_lx, pi * 100.0 * f12, 1e-4);
     const ReferenceImage white = Reference(plates(0.8, 0.6, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, radiosity(5.0, 4096, false));
     const double rho = static_cast<double>(0.8F) * static_cast<double>(0.6F);
-    expect_radiosity(white.illuminance_lx, pi * 100.0 * f12 / (1.0 - rho * f12 * f12), 1e-3); // (rho F^2)^2, of the halves' difference
+    expect_estimate(white.illuminance_lx, pi * 100.0 * f12 / (1.0 - rho * f12 * f12), 1e-3); // (rho F^2)^2, of the halves' difference
 }
 
 TEST(Radiosity, MeetsPathsInARoomWithALampAndALedge) {
     Scene scene = closed_room(lambert(0.6));
     scene.materials.push_back(lambert(0.2, SurfaceKind::object));
-    Mesh ledge{"ledge", {}, {}, {}, {}};
-    add_quad(ledge, {0.2, -0.5, -0.2}, {0.8, -0.5, -0.2}, {0.8, 0.5, -0.2}, {0.2, 0.5, -0.2});
-    add_quad(ledge, {0.2, -0.5, -0.25}, {0.2, 0.5, -0.25}, {0.8, 0.5, -0.25}, {0.8, -0.5, -0.25});
-    scene.meshes.push_back(finished(ledge, 1));
+    scene.meshes.push_back(quads("ledge", 1, {},
+                                 {{{0.2, -0.5, -0.2}, {0.8, -0.5, -0.2}, {0.8, 0.5, -0.2}, {0.2, 0.5, -0.2}},
+                                  {{0.2, -0.5, -0.25}, {0.2, 0.5, -0.25}, {0.8, 0.5, -0.25}, {0.8, -0.5, -0.25}}}));
     Moment moment{.lamps = {even_lamp(100.0, looking({-0.6, 0.1, 0.3}, 0, -10))}};
     const View view = camera({-0.8, 0.0, 0.0}, 0, -15, 60, 4);
     const Reference reference(scene);
@@ -293,13 +273,12 @@ TEST(Radiosity, MeetsPathsInARoomWithALampAndALedge) {
     solver.target_error = 0.01;
     const ReferenceImage truth = reference.render(moment, view, everything, paths),
                          solved = reference.render(moment, view, everything, solver);
-    for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) {
-            const double e = truth.illuminance_lx.mean.at(x, y),
-                         error = std::hypot(truth.illuminance_lx.standard_error.at(x, y), solved.illuminance_lx.standard_error.at(x, y));
-            EXPECT_NEAR(solved.illuminance_lx.mean.at(x, y), e, 5.0 * error + 0.005 * e) // patches of 0.1 m in a room of 2 m: 0.3 % here
-                << x << " " << y;
-        }
+    for (const auto& [x, y] : each_pixel(4, 4)) {
+        const double e = truth.illuminance_lx.mean.at(x, y),
+                     error = std::hypot(truth.illuminance_lx.standard_error.at(x, y), solved.illuminance_lx.standard_error.at(x, y));
+        EXPECT_NEAR(solved.illuminance_lx.mean.at(x, y), e, 5.0 * error + 0.005 * e) // patches of 0.1 m in a room of 2 m: 0.3 % here
+            << x << " " << y;
+    }
     // What would be missed: light that bounced is most of what some pixels have.
     ReferenceSettings direct;
     double least = 1.0;
@@ -319,7 +298,7 @@ TEST(Radiosity, TheSkyIsThatWhichThingsLetThrough) {
         ReferenceSettings settings = radiosity(0.5, 1024, gather);
         settings.solver.reach_m = 2.0;
         const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 0.1, 1), lux, settings);
-        expect_radiosity(image.illuminance_lx, 40.0 * (1.0 - hidden), 0.003); // the mean over patches of half a metre
+        expect_estimate(image.illuminance_lx, 40.0 * (1.0 - hidden), 0.003); // the mean over patches of half a metre
     }
 }
 

@@ -6,23 +6,17 @@
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 
-#include <gtest/gtest.h>
 #include <stdexcept>
 
 namespace fernlicht {
 namespace {
 
-ReferenceSettings by(Integrator integrator, double target_error = 0.005) {
-    return {.integrator = integrator, .target_error = target_error, .most_samples = 1 << 14};
+ReferenceSettings by(Integrator integrator, double target_error = 0.005, Footprint footprint = Footprint::pixel) {
+    return {.integrator = integrator, .footprint = footprint, .target_error = target_error, .most_samples = 1 << 14};
 }
 
 Moment in_fog(double extinction_per_m, double albedo = 1.0, double asymmetry = 0.85) {
     return {.weather = {extinction_per_m, albedo, asymmetry, 0.0}};
-}
-
-/// Five standard errors (path_test.cpp).
-void expect_in_weather(const Estimate& estimate, double truth, int x = 0, int y = 0) {
-    EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + 1e-5 * truth);
 }
 
 TEST(ReferenceFog, WhiteFogChangesNothingInAnEvenRoom) {
@@ -32,9 +26,9 @@ TEST(ReferenceFog, WhiteFogChangesNothingInAnEvenRoom) {
     for (const double asymmetry : {0.0, 0.85}) {
         const ReferenceImage image =
             Reference(scene).render(in_fog(0.7, 1.0, asymmetry), camera({0.2, 0.1, -0.3}, 20, 10, 60, 2), everything, by(Integrator::path));
-        expect_in_weather(image.luminance_cdm2, 6.0, 0, 0);
-        expect_in_weather(image.luminance_cdm2, 6.0, 1, 1);
-        expect_in_weather(image.illuminance_lx, 6.0 * pi, 1, 0);
+        expect_estimate(image.luminance_cdm2, 6.0, 1e-5, 0, 0);
+        expect_estimate(image.luminance_cdm2, 6.0, 1e-5, 1, 1);
+        expect_estimate(image.illuminance_lx, 6.0 * pi, 1e-5, 1, 0);
     }
     ReferenceSettings once = by(Integrator::path);
     once.most_scatterings = 1;
@@ -82,23 +76,21 @@ TEST(ReferenceFog, SingleScatteringByPathsIsThatOfDirectLight) {
     moment.daylight.horizontal_illuminance_lx = 2.0;
     const View view = camera({-1.0, 0.2, 1.3}, 3, -2, 24, 4);
     const auto drawn = [&](Integrator integrator, int most_scatterings, double target_error) {
-        ReferenceSettings settings = by(integrator, target_error);
-        settings.footprint = Footprint::centre;
+        ReferenceSettings settings = by(integrator, target_error, Footprint::centre);
         settings.most_scatterings = most_scatterings;
         return Reference(scene).render(moment, view, everything, settings);
     };
     const ReferenceImage direct = drawn(Integrator::direct, 1, 0.01), path = drawn(Integrator::path, 1, 0.01),
                          whitted = drawn(Integrator::whitted, 1, 0.01), more = drawn(Integrator::path, 1000, 0.04);
     double single = 0.0, all = 0.0;
-    for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) {
-            const double error = std::hypot(path.luminance_cdm2.standard_error.at(x, y), direct.luminance_cdm2.standard_error.at(x, y));
-            EXPECT_NEAR(path.luminance_cdm2.mean.at(x, y), direct.luminance_cdm2.mean.at(x, y),
-                        5.0 * error + 1e-4 * static_cast<double>(direct.luminance_cdm2.mean.at(x, y)))
-                << x << " " << y;
-            EXPECT_EQ(whitted.luminance_cdm2.mean.at(x, y), direct.luminance_cdm2.mean.at(x, y));
-            single += static_cast<double>(path.luminance_cdm2.mean.at(x, y)), all += static_cast<double>(more.luminance_cdm2.mean.at(x, y));
-        }
+    for (const auto& [x, y] : each_pixel(4, 4)) {
+        const double error = std::hypot(path.luminance_cdm2.standard_error.at(x, y), direct.luminance_cdm2.standard_error.at(x, y));
+        EXPECT_NEAR(path.luminance_cdm2.mean.at(x, y), direct.luminance_cdm2.mean.at(x, y),
+                    5.0 * error + 1e-4 * static_cast<double>(direct.luminance_cdm2.mean.at(x, y)))
+            << x << " " << y;
+        EXPECT_EQ(whitted.luminance_cdm2.mean.at(x, y), direct.luminance_cdm2.mean.at(x, y));
+        single += static_cast<double>(path.luminance_cdm2.mean.at(x, y)), all += static_cast<double>(more.luminance_cdm2.mean.at(x, y));
+    }
     EXPECT_GT(all, 1.02 * single); // further scatterings add
 }
 
@@ -112,22 +104,21 @@ TEST(ReferenceFog, AirHidesAWallAndWhatAMirrorShowsOfIt) {
                     quads("mirror", 1, {}, {{{8, 30, -30}, {8, -30, -30}, {8, -30, 30}, {8, 30, 30}}})};
     const Moment moment = in_fog(0.05, 0.0); // takes and scatters nothing
     for (const Integrator integrator : {Integrator::whitted, Integrator::path}) {
-        ReferenceSettings settings = by(integrator, 0.001);
-        settings.footprint = Footprint::centre;
+        ReferenceSettings settings = by(integrator, 0.001, Footprint::centre);
         const ReferenceImage seen = Reference(scene).render(moment, camera({0, 0, 0}, 180, 0, 2, 1), everything, settings),
                              mirrored = Reference(scene).render(moment, camera({0, 0, 0}, 0, 0, 2, 1), everything, settings);
-        expect_in_weather(seen.luminance_cdm2, 50.0 * std::exp(-0.05 * 12.0));
-        expect_in_weather(mirrored.luminance_cdm2, static_cast<double>(mirror.mirror) * 50.0 * std::exp(-0.05 * (8.0 + 20.0)));
+        expect_estimate(seen.luminance_cdm2, 50.0 * std::exp(-0.05 * 12.0), 1e-5);
+        expect_estimate(mirrored.luminance_cdm2, static_cast<double>(mirror.mirror) * 50.0 * std::exp(-0.05 * (8.0 + 20.0)), 1e-5);
     }
 }
 
 TEST(ReferenceFog, BouncedLightIsTakenOnBothOfItsWays) {
     // Lamp to a board of 1 m x 1 m, board to a black post beside the lamp; nothing scatters: E = rho / pi E_board A cos cos / d^2 nearly.
     Scene scene{.materials = {lambert(0.9), lambert(0.0)}};
-    Mesh board{"board", {}, {}, {}, {}}, post{"post", {}, {}, {}, {}};
-    add_quad(board, {8, 0.5, -0.5}, {8, -0.5, -0.5}, {8, -0.5, 0.5}, {8, 0.5, 0.5});
-    add_quad(post, {0, -1.5, -0.5}, {0, -0.5, -0.5}, {0, -0.5, 0.5}, {0, -1.5, 0.5}); // faces +x
-    scene.meshes = {finished(board, 0), finished(post, 1)};
+    scene.meshes = {
+        quads("board", 0, {}, {{{8, 0.5, -0.5}, {8, -0.5, -0.5}, {8, -0.5, 0.5}, {8, 0.5, 0.5}}}),
+        quads("post", 1, {}, {{{0, -1.5, -0.5}, {0, -0.5, -0.5}, {0, -0.5, 0.5}, {0, -1.5, 0.5}}}) // faces +x
+    };
     Moment clear, fog = in_fog(0.06, 0.0);
     clear.lamps = fog.lamps = {even_lamp(1.0e6, looking({0, 0, 0}, 0, 0))};
     ReferenceSettings settings = by(Integrator::path, 0.02);
@@ -167,13 +158,10 @@ TEST(ReferenceWet, FilmIsSampledAsItMirrors) {
 }
 
 TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
-    Material road = lambert(0.2), wall = lambert(0.0, SurfaceKind::object);
-    wall.emission_cdm2 = glm::vec3(100.0F);
+    Material road = lambert(0.2), wall = lambert(0.0, SurfaceKind::object, 100.0);
     Scene scene = level_ground(40.0, road);
     scene.materials.push_back(wall);
-    Mesh panel{"panel", {}, {}, {}, {}};
-    add_quad(panel, {14, 2, 0.5}, {14, -2, 0.5}, {14, -2, 3.5}, {14, 2, 3.5}); // faces -x
-    scene.meshes.push_back(finished(panel, 1));
+    scene.meshes.push_back(quads("panel", 1, {}, {{{14, 2, 0.5}, {14, -2, 0.5}, {14, -2, 3.5}, {14, 2, 3.5}}})); // faces -x
     for (const double wetness : {0.4, 1.0}) {
         Moment moment;
         moment.weather.wetness = wetness;
@@ -189,11 +177,10 @@ TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
         const glm::dvec3 direction = at - eye;
         View view = camera(eye, degrees(std::atan2(direction.y, direction.x)),
                            degrees(std::atan2(direction.z, std::hypot(direction.x, direction.y))), 1, 1);
-        ReferenceSettings settings = by(Integrator::path, 0.003);
-        settings.footprint = Footprint::centre;
+        ReferenceSettings settings = by(Integrator::path, 0.003, Footprint::centre);
         const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
         EXPECT_LT(image.luminance_cdm2.standard_error.at(0, 0), 0.01 * truth);
-        expect_in_weather(image.luminance_cdm2, truth);
+        expect_estimate(image.luminance_cdm2, truth, 1e-5);
     }
 }
 
@@ -212,10 +199,10 @@ TEST(ReferenceWet, AWetRoomMakesNoEnergy) {
 TEST(ReferenceSun, LightThatTheGroundThrowsUpIsTheSameByAllMethods) {
     // A plate that looks down on the corner of a sunlit square from 1 m up: E = rho E_sun F, view factor of Howell's catalogue B-3.
     Scene scene{.materials = {lambert(0.5), lambert(0.0, SurfaceKind::object)}};
-    Mesh ground{"ground", {}, {}, {}, {}}, plate{"plate", {}, {}, {}, {}};
-    add_quad(ground, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-    add_quad(plate, {-0.01, -0.01, 1}, {-0.01, 0.01, 1}, {0.01, 0.01, 1}, {0.01, -0.01, 1}); // faces down
-    scene.meshes = {finished(ground, 0), finished(plate, 1)};
+    scene.meshes = {
+        quads("ground", 0, {}, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}),
+        quads("plate", 1, {}, {{{-0.01, -0.01, 1}, {-0.01, 0.01, 1}, {0.01, 0.01, 1}, {0.01, -0.01, 1}}}) // faces down
+    };
     Moment moment;
     moment.daylight.sun = {radians(45.0), radians(30.0), 1000.0}; // the plate's shadow falls beside the square
     const double x = 1.0 / std::sqrt(2.0), factor = 2.0 * x * std::atan(x) / (2.0 * pi), truth = 0.5 * 1000.0 * 0.5 * factor;

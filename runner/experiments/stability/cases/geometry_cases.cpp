@@ -1,6 +1,6 @@
 // Triangles as data bases have them: needles, slivers, coplanar ones, a million, and marks thinner than a pixel.
-#include "renderer/camera.h"
 #include "runner/experiments/stability/trial.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/roads/mesh/mesh_builder.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 

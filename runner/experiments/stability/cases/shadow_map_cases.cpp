@@ -2,7 +2,7 @@
 #include "runner/experiments/stability/shadow_trial.h"
 #include "runner/experiments/stability/stability_case.h"
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Hulls behind bodies: closed whatever the mesh, with as many walls as its outline has edges.
-#include "renderer/gl/shadows/silhouettes.h"
+#include "renderer/gl/shadows/shadow_volumes.h"
 #include "renderer/gl/shadows/warped_maps.h"
 
 #include <algorithm>

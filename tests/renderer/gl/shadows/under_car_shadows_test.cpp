@@ -3,8 +3,6 @@
 
 #include "tests/renderer/shadow_scene.h"
 
-#include <algorithm>
-
 namespace fernlicht {
 namespace {
 
@@ -15,9 +13,8 @@ struct StreetAtNight {
     Scene scene = level_road_for_shadows();
     Moment moment;
     StreetAtNight() {
-        Mesh car{"car", {0.0, 0.0, 0.0}, {}, {}, {}};
+        Mesh car = box({0.0, 0.0, 0.0}, {car_low, 0.2F}, {car_high, 1.4F});
         car.body = 0;
-        add_box(car, 1, {car_low, 0.2F}, {car_high, 1.4F});
         scene.meshes.push_back(std::move(car));
         moment.lamps = {lamp_at({3.5, 0.6, 0.65}), lamp_at({3.5, -0.6, 0.65})};
         moment.bodies.push_back({"car", {{12.0, -1.0, 0.0}, axes_from_angles(0.4, 0.0, 0.0)}, true, 0.0, false});
@@ -40,26 +37,23 @@ TEST_F(UnderCar, TheGroundWithinTheOutlineIsDarkAndAllElseIsAsWithoutShadows) {
                 without = drawn_with(device_, s.scene, s.moment, map, ShadowMethod::none);
     const Camera camera = camera_of(s.moment, map);
     int inside = 0;
-    for (int y = 0; y < map.height_px; ++y)
-        for (int x = 0; x < map.width_px; ++x) {
-            const glm::dvec3 ground = pixel_ray(camera, map, x + 0.5, y + 0.5).origin_m;
-            const glm::dvec3 in_car = to_local(s.moment.bodies[0].pose, {ground.x, ground.y, 0.0});
-            const double beyond =
-                std::max(std::max(car_low.x - in_car.x, in_car.x - car_high.x), std::max(car_low.y - in_car.y, in_car.y - car_high.y));
-            if (std::abs(beyond) < 1e-3)
-                continue; // on the outline
-            inside += beyond < 0.0 ? 1 : 0;
-            EXPECT_EQ(with.illuminance_lx.at(x, y), beyond < 0.0 ? 0.0F : without.illuminance_lx.at(x, y)) << x << ' ' << y;
-            EXPECT_EQ(with.target_lx.at(x, y), beyond < 0.0 ? 0.0F : without.target_lx.at(x, y)) << x << ' ' << y;
-        }
+    for (const auto& [x, y] : each_pixel(map)) {
+        const glm::dvec3 ground = pixel_ray(camera, map, x + 0.5, y + 0.5).origin_m;
+        const glm::dvec3 in_car = to_local(s.moment.bodies[0].pose, {ground.x, ground.y, 0.0});
+        const double beyond =
+            std::max(std::max(car_low.x - in_car.x, in_car.x - car_high.x), std::max(car_low.y - in_car.y, in_car.y - car_high.y));
+        if (std::abs(beyond) < 1e-3)
+            continue; // on the outline
+        inside += beyond < 0.0 ? 1 : 0;
+        EXPECT_EQ(with.illuminance_lx.at(x, y), beyond < 0.0 ? 0.0F : without.illuminance_lx.at(x, y)) << x << ' ' << y;
+        EXPECT_EQ(with.target_lx.at(x, y), beyond < 0.0 ? 0.0F : without.target_lx.at(x, y)) << x << ' ' << y;
+    }
     EXPECT_NEAR(inside, 4.0 * 1.8 * 100.0, 10.0);
 }
 
 TEST_F(UnderCar, UprightThingsStayAsLitAsWithoutShadows) {
     StreetAtNight s;
-    Mesh wall{"wall", {16.0, 0.0, 0.0}, {}, {}, {}}; // behind the car, in its shadow if it cast one
-    add_box(wall, 1, {0, -3, 0}, {0.2F, 3, 2});
-    s.scene.meshes.push_back(wall);
+    s.scene.meshes.push_back(box({16.0, 0.0, 0.0}, {0, -3, 0}, {0.2F, 3, 2})); // behind the car, in its shadow if it cast one
     const Frame with = drawn_with(device_, s.scene, s.moment, driver_for_shadows(), ShadowMethod::under_car),
                 without = drawn_with(device_, s.scene, s.moment, driver_for_shadows(), ShadowMethod::none);
     int upright = 0, darker = 0;
@@ -74,17 +68,9 @@ TEST_F(UnderCar, UprightThingsStayAsLitAsWithoutShadows) {
     EXPECT_GT(darker, 50) << "the ground seen between car and road";
 }
 
-TEST_F(UnderCar, PrunedAndUnprunedGiveTheSameBytes) {
-    const StreetAtNight s;
-    for (const View& view : {driver_for_shadows(), map_for_shadows(30.0, 10.0, 5)})
-        expect_same_frames(drawn_with(device_, s.scene, s.moment, view, ShadowMethod::under_car),
-                           drawn_with(device_, s.scene, s.moment, view, ShadowMethod::under_car, "photometric-unpruned"), view.name);
-}
-
 TEST_F(UnderCar, CostsNothingWhereNoLampShinesOnACar) {
     StreetAtNight s;
-    RendererSettings settings;
-    settings.shadows.method = ShadowMethod::under_car;
+    RendererSettings settings{.shadows = {.method = ShadowMethod::under_car}};
     Renderer renderer(device_, s.scene, settings);
     const Work near = renderer.count(s.moment, driver_for_shadows(), all_results);
     s.moment.bodies[0].pose.position_m.x = -30.0; // behind the lamps

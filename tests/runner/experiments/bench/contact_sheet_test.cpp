@@ -1,7 +1,7 @@
 // Contact sheets: the layout of made-up tiles, and whole sheets through the program.
 #include "runner/experiments/bench/contact_sheet.h"
 
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 #include "tests/runner/program.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "renderer/camera.h"
+#include "scenarios/drives/play/camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,6 @@ namespace {
 double near_plane_m(const glm::dvec2& half_extent) { return 0.1 * std::min(1.0, 4.0 / glm::length(glm::dvec3(half_extent, 1.0))); }
 
 constexpr double map_half_height_m = 500.0;
-
-/// View space (x right, y up, z forward) from ego-relative positions.
-glm::dmat4 view_matrix(const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& forward, const glm::dvec3& eye) {
-    glm::dmat4 m(1.0);
-    for (int column = 0; column < 3; ++column)
-        m[column] = {right[column], up[column], forward[column], 0.0};
-    m[3] = {-glm::dot(right, eye), -glm::dot(up, eye), -glm::dot(forward, eye), 1.0};
-    return m;
-}
 
 Camera map_camera(const Moment& moment, const View& view) {
     Camera camera;
@@ -42,6 +33,14 @@ Camera map_camera(const Moment& moment, const View& view) {
 }
 
 } // namespace
+
+glm::dmat4 view_matrix(const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& forward, const glm::dvec3& eye) {
+    glm::dmat4 m(1.0);
+    for (int column = 0; column < 3; ++column)
+        m[column] = {right[column], up[column], forward[column], 0.0};
+    m[3] = {-glm::dot(right, eye), -glm::dot(up, eye), -glm::dot(forward, eye), 1.0};
+    return m;
+}
 
 glm::dmat4 tangent_projection(double left, double right, double bottom, double top, double near) {
     glm::dmat4 m(0.0);

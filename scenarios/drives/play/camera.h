@@ -1,4 +1,4 @@
-// From a view on a car to the GPU's clip space; the one place where OpenGL's conventions are met.
+// From a view on a car to clip space; the one place where OpenGL's conventions are met.
 #pragma once
 
 #include "scenarios/drives/play/moment.h"
@@ -28,6 +28,9 @@ Ray pixel_ray(const Camera& camera, const View& view, double x_px, double y_px);
 
 /// Pixel coordinates of a world point in a map view (centres at .5).
 glm::dvec2 map_pixel(const Camera& camera, const View& view, const Moment& moment, const glm::dvec3& world_m);
+
+/// From positions along the world's axes to a frame (x right, y up, z forward) that stands at `eye_m`.
+glm::dmat4 view_matrix(const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& forward, const glm::dvec3& eye_m);
 
 /// Infinite reversed-depth projection for a window of tangents; depth is near / z.
 glm::dmat4 tangent_projection(double left, double right, double bottom, double top, double near_m);
