@@ -1,5 +1,7 @@
 #include "metrics/beam/beam_zones.h"
 
+#include "metrics/statistics/statistics.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -171,9 +173,7 @@ double strength(const Smoothed& smoothed, const std::vector<std::size_t>& seeds)
     std::vector<double> sizes;
     for (const std::size_t at : seeds)
         sizes.push_back(std::abs(smoothed.mean[at]));
-    const auto quartile = sizes.begin() + static_cast<std::ptrdiff_t>(3 * sizes.size() / 4);
-    std::nth_element(sizes.begin(), quartile, sizes.end());
-    return *quartile;
+    return middle_of(std::move(sizes), 0.75);
 }
 
 /// The largest set of connected seeds, grown or cut to what is at least half as strong as they are; empty without seeds.
@@ -253,10 +253,8 @@ double neighbour_noise(const ResidualGrid& grid, const std::vector<bool>& chosen
     }
     if (sizes.size() < 30)
         return 0.0;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
     // The median of n sizes is off by 1.2 / sqrt(n) of itself, and a noise taken too small claims what is none.
-    return 1.4826 * *middle * (1.0 + 1.2 / std::sqrt(static_cast<double>(sizes.size())));
+    return 1.4826 * middle_of(sizes) * (1.0 + 1.2 / std::sqrt(static_cast<double>(sizes.size())));
 }
 
 std::vector<BeamZone> find_zones(const ResidualGrid& grid, double z_limit) {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <sstream>
 
 namespace fernlicht {
 namespace {
@@ -38,15 +37,9 @@ measure: {{extent: false}}
 
 /// The rows of one kind and name at a tick, split at commas.
 std::vector<std::string> row_of(const std::string& log, int tick, const std::string& kind, const std::string& name) {
-    std::istringstream lines(log);
-    for (std::string line; std::getline(lines, line);) {
-        std::vector<std::string> fields;
-        std::istringstream in(line);
-        for (std::string field; std::getline(in, field, ',');)
-            fields.push_back(field);
+    for (const std::vector<std::string>& fields : csv_rows(log))
         if (fields.size() == 20 && fields[1] == std::to_string(tick) && fields[3] == kind && fields[19] == name)
             return fields;
-    }
     ADD_FAILURE() << "no row of " << kind << " " << name << " at tick " << tick;
     return std::vector<std::string>(20, "0");
 }

@@ -1,4 +1,3 @@
-#include "metrics/aliasing/contrast_sensitivity.h"
 #include "metrics/aliasing/optical_flow.h"
 #include "metrics/aliasing/spatial_aliasing.h"
 #include "metrics/aliasing/temporal_aliasing.h"
