@@ -55,6 +55,18 @@ cv::Mat bytes_of(const cv::Mat& structure, double full) {
     return bytes;
 }
 
+/// Between pixels' centres, linear; (x, y) are pixels with centres at whole numbers, clamped to the picture.
+double between_pixels(const Image<float>& picture, double x, double y) {
+    x = std::clamp(x, 0.0, picture.width() - 1.0);
+    y = std::clamp(y, 0.0, picture.height() - 1.0);
+    const int left = static_cast<int>(x), upper = static_cast<int>(y);
+    const int right = std::min(left + 1, picture.width() - 1), lower = std::min(upper + 1, picture.height() - 1);
+    const auto value = [&](int i, int j) { return static_cast<double>(picture.at(i, j)); };
+    const double tx = x - left, ty = y - upper;
+    return (1.0 - ty) * ((1.0 - tx) * value(left, upper) + tx * value(right, upper)) +
+           ty * ((1.0 - tx) * value(left, lower) + tx * value(right, lower));
+}
+
 } // namespace
 
 Flow optical_flow(const Image<float>& from, const Image<float>& to, FlowMethod method) {
@@ -115,17 +127,6 @@ Image<std::uint8_t> has_contrast(const Image<float>& picture, const Image<float>
             found.at(x, y) = eigenvalue > 4.0 * explained ? 1 : 0;
         }
     return found;
-}
-
-double between_pixels(const Image<float>& picture, double x, double y) {
-    x = std::clamp(x, 0.0, picture.width() - 1.0);
-    y = std::clamp(y, 0.0, picture.height() - 1.0);
-    const int left = static_cast<int>(x), upper = static_cast<int>(y);
-    const int right = std::min(left + 1, picture.width() - 1), lower = std::min(upper + 1, picture.height() - 1);
-    const auto value = [&](int i, int j) { return static_cast<double>(picture.at(i, j)); };
-    const double tx = x - left, ty = y - upper;
-    return (1.0 - ty) * ((1.0 - tx) * value(left, upper) + tx * value(right, upper)) +
-           ty * ((1.0 - tx) * value(left, lower) + tx * value(right, lower));
 }
 
 Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most_px) {

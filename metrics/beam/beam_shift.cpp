@@ -189,7 +189,6 @@ ShiftFit fit_shift(const BeamField& against, std::span<const BeamSample> samples
         fit.log_level += step.z;
         fit.right_error_deg = std::sqrt(covariance[0][0]);
         fit.up_error_deg = std::sqrt(covariance[1][1]);
-        fit.level_error = std::sqrt(covariance[2][2]);
         fit.scale = scale;
         if (std::abs(step.x) < 0.01 * fit.right_error_deg && std::abs(step.y) < 0.01 * fit.up_error_deg)
             break;

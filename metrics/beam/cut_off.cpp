@@ -200,10 +200,6 @@ CutOffScan vertical_scan(const AimedLamp& lamp, double h_deg, double v_from_deg,
     return scan_along(lamp, {true, h_deg, v_from_deg, v_to_deg}, options);
 }
 
-CutOffScan horizontal_scan(const AimedLamp& lamp, double v_deg, double h_from_deg, double h_to_deg, const CutOffOptions& options) {
-    return scan_along(lamp, {false, v_deg, h_from_deg, h_to_deg}, options);
-}
-
 CutOffFigures measure_cut_off(const AimedLamp& lamp, const CutOffOptions& options) {
     const auto upwards = [&](double h) { return vertical_scan(lamp, h, search_from_deg, search_to_deg, options); };
     CutOffFigures c;
@@ -217,7 +213,7 @@ CutOffFigures measure_cut_off(const AimedLamp& lamp, const CutOffOptions& option
     c.rise = {upwards(1.0), upwards(2.0), upwards(3.0)};
     find_kink(c);
     if (c.level.inflection_deg)
-        c.shoulder = horizontal_scan(lamp, *c.level.inflection_deg + 0.37, -5.0, 5.0, options);
+        c.shoulder = scan_along(lamp, {false, *c.level.inflection_deg + 0.37, -5.0, 5.0}, options); // the steepest rise between two H
     else
         c.shoulder.reason = "no level part to measure from";
     return c;

@@ -105,8 +105,8 @@ ColourDifference summary_of_colours(const Image<float>& differences) {
     std::vector<float> sorted = differences.pixels();
     std::ranges::sort(sorted);
     result.mean = sum / static_cast<double>(sorted.size());
-    result.median = ranked(sorted, 0.5);
-    result.p95 = ranked(sorted, 0.95);
+    result.median = by_nearest_rank(sorted, 0.5);
+    result.p95 = by_nearest_rank(sorted, 0.95);
     return result;
 }
 

@@ -179,9 +179,9 @@ FlipSummary summary_of_flip(const Image<float>& errors) {
     s.mean = sum / static_cast<double>(sorted.size());
     s.minimum = static_cast<double>(sorted.front());
     s.maximum = static_cast<double>(sorted.back());
-    s.first_quartile = ranked(sorted, 0.25);
-    s.median = ranked(sorted, 0.5);
-    s.third_quartile = ranked(sorted, 0.75);
+    s.first_quartile = by_nearest_rank(sorted, 0.25);
+    s.median = by_nearest_rank(sorted, 0.5);
+    s.third_quartile = by_nearest_rank(sorted, 0.75);
     const std::pair<double, double*> parts[] = {
         {0.25, &s.weighted_first_quartile}, {0.5, &s.weighted_median}, {0.75, &s.weighted_third_quartile}};
     double so_far = 0.0;

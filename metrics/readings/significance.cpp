@@ -11,6 +11,22 @@ constexpr double double_precision = 1e-6;
 /// The own lane's grid of evenness (docs/seeing.md): patches begin and end at its points.
 constexpr double evenness_step_m = 0.5;
 
+/// Of a reading; nullopt where it is missing or no number.
+std::optional<double> value_of(const PlayedReadings& played, const ReadingKey& key) {
+    const auto found = played.readings.find(key);
+    return found == played.readings.end() ? std::nullopt : found->second.value.number();
+}
+
+/// What is told of all readings of the key's surface, lane and threshold: its median on the lane's centre.
+ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect) {
+    return {.quantity = quantity,
+            .surface = key.surface,
+            .lane = key.lane,
+            .threshold = key.threshold,
+            .aspect = aspect,
+            .statistic = Statistic::median};
+}
+
 std::optional<double> positive(double step) { return step > 0.0 ? std::optional(step) : std::nullopt; }
 
 /// The grid's error on that line and the distance between drawing and double precision.
@@ -218,20 +234,6 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
 }
 
 } // namespace
-
-std::optional<double> value_of(const PlayedReadings& played, const ReadingKey& key) {
-    const auto found = played.readings.find(key);
-    return found == played.readings.end() ? std::nullopt : found->second.value.number();
-}
-
-ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect) {
-    return {.quantity = quantity,
-            .surface = key.surface,
-            .lane = key.lane,
-            .threshold = key.threshold,
-            .aspect = aspect,
-            .statistic = Statistic::median};
-}
 
 const char* change_name(ChangeKind kind) {
     static constexpr const char* names[] = {"real", "within aim", "no difference", "not known"};

@@ -58,12 +58,8 @@ Value difference(const Value& a, const Value& b, std::string_view unit) {
                                                                    up ? "beyond" : "below", *a.figure(), *b.figure(), unit));
 }
 
-const char* bound_sign(const Value& value) {
-    return value.kind() == Value::Kind::at_least ? ">" : value.kind() == Value::Kind::at_most ? "<" : "";
-}
-
 std::string with_bound(const Value& value, const std::string& figure) {
-    return value.censored() ? fmt::format("{} {}", bound_sign(value), figure) : figure;
+    return value.censored() ? fmt::format("{} {}", value.kind() == Value::Kind::at_least ? ">" : "<", figure) : figure;
 }
 
 const char* bound_name(const Value& value) {

@@ -52,7 +52,6 @@ class Value {
 /// nothing bounds the difference: "both beyond 200 m".
 Value difference(const Value& a, const Value& b, std::string_view unit);
 
-const char* bound_sign(const Value& value); ///< ">", "<" or ""
 /// The figure's text with what bounds it: "> 200" for a value of at least 200.
 std::string with_bound(const Value& value, const std::string& figure);
 const char* bound_name(const Value& value); ///< "at_least", "at_most" or ""

@@ -31,7 +31,7 @@ template <class Number> double quantile_of(const std::vector<Number>& ascending,
 }
 
 /// By nearest rank.
-template <class Number> double ranked(const std::vector<Number>& ascending, double share) {
+template <class Number> double by_nearest_rank(const std::vector<Number>& ascending, double share) {
     const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(ascending.size())));
     return static_cast<double>(ascending[rank > 0 ? rank - 1 : 0]);
 }

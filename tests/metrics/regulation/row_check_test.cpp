@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <gmock/gmock.h>
-#include <iostream>
 #include <map>
 #include <set>
 
@@ -332,8 +331,6 @@ TEST(ShippedLamps, MeetTheRowsTheyAreBuiltToWithTheMarginsThatAreDocumented) {
         const RegulationCheck check = check_regulation(regulation(id), {table(lamp)});
         EXPECT_EQ(check.verdict, RowVerdict::pass) << lamp;
         EXPECT_FALSE(check.was_re_aimed) << lamp; // as first aimed
-        for (const RowResult& r : check.rows)
-            std::cout << "    " << lamp << " " << r.id << ": " << r.found << " " << r.unit << ", margin " << 100.0 * r.margin << " %\n";
     }
     // Read off the shipped files by `fernlicht lamp FILE --picture`, and from docs/lamps.md: B50L 248 cd, 75R 26 % above its minimum.
     const RegulationCheck halogen = check_regulation(regulation("r112-b"), {table("halogen-low")});
