@@ -1,6 +1,6 @@
 #include "metrics/aliasing/band_limit.h"
 
-#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -46,23 +46,23 @@ Image<double> filtered_along_x(const Image<double>& fine, int k, const std::vect
     return out;
 }
 
-Image<double> checked_doubles(const Image<float>& reference, int k) {
-    if (k < 4 || k % 2 != 0 || reference.empty() || reference.width() % k != 0 || reference.height() % k != 0)
-        throw std::invalid_argument(
-            fmt::format("a reference of {}x{} is not {} times as fine as a picture", reference.width(), reference.height(), k));
-    Image<double> values(reference.width(), reference.height());
+} // namespace
+
+Image<double> finite_doubles(const Image<float>& picture, const char* what) {
+    Image<double> values(picture.width(), picture.height());
     for (std::size_t i = 0; i < values.size(); ++i) {
-        values.pixels()[i] = static_cast<double>(reference.pixels()[i]);
+        values.pixels()[i] = static_cast<double>(picture.pixels()[i]);
         if (!std::isfinite(values.pixels()[i]))
-            throw std::invalid_argument(fmt::format("the reference's value {} is {}", i, values.pixels()[i]));
+            throw std::invalid_argument(fmt::format("{}'s value {} is {}", what, i, values.pixels()[i]));
     }
     return values;
 }
 
-} // namespace
-
 BandSplit split_bands(const Image<float>& reference, int k) {
-    const Image<double> fine = checked_doubles(reference, k);
+    if (k < 4 || k % 2 != 0 || reference.empty() || reference.width() % k != 0 || reference.height() % k != 0)
+        throw std::invalid_argument(
+            fmt::format("a reference of {}x{} is not {} times as fine as a picture", reference.width(), reference.height(), k));
+    const Image<double> fine = finite_doubles(reference, "the reference");
     const std::vector<double> weights = low_pass(k);
     BandSplit split{filtered_along_x(filtered_along_x(fine, k, weights), k, weights), {}};
     split.folded = split.ideal;
@@ -74,6 +74,49 @@ BandSplit split_bands(const Image<float>& reference, int k) {
             split.folded.at(x, y) = centre - split.ideal.at(x, y);
         }
     return split;
+}
+
+void fourier_transform(std::span<std::complex<double>> values) {
+    const std::size_t count = values.size();
+    if (!std::has_single_bit(count))
+        throw std::invalid_argument("a Fourier transform takes a power of two of values");
+    for (std::size_t i = 1, reversed = 0; i < count; ++i) {
+        std::size_t bit = count >> 1;
+        for (; (reversed & bit) != 0; bit >>= 1)
+            reversed ^= bit;
+        reversed ^= bit;
+        if (i < reversed)
+            std::swap(values[i], values[reversed]);
+    }
+    for (std::size_t half = 1; half < count; half *= 2)
+        for (std::size_t k = 0; k < half; ++k) {
+            const std::complex<double> turn = std::polar(1.0, -std::numbers::pi * static_cast<double>(k) / static_cast<double>(half));
+            for (std::size_t i = k; i < count; i += 2 * half) {
+                const std::complex<double> odd = turn * values[i + half];
+                values[i + half] = values[i] - odd;
+                values[i] += odd;
+            }
+        }
+}
+
+void fourier_transform(std::vector<std::complex<double>>& block, std::size_t side) {
+    if (block.size() != side * side)
+        throw std::invalid_argument("a Fourier transform of a block takes a square");
+    std::vector<std::complex<double>> column(side);
+    for (std::size_t y = 0; y < side; ++y)
+        fourier_transform(std::span(block).subspan(y * side, side));
+    for (std::size_t x = 0; x < side; ++x) {
+        for (std::size_t y = 0; y < side; ++y)
+            column[y] = block[y * side + x];
+        fourier_transform(std::span(column));
+        for (std::size_t y = 0; y < side; ++y)
+            block[y * side + x] = column[y];
+    }
+}
+
+double bin_frequency(std::size_t k, std::size_t count) {
+    const double f = static_cast<double>(k) / static_cast<double>(count);
+    return f < 0.5 ? f : f - 1.0;
 }
 
 } // namespace fernlicht

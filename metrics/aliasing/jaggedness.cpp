@@ -169,16 +169,16 @@ void check(const Image<float>& tested, const EdgeReference& reference, const Ima
                                                 tested.height(), fine.width(), fine.height(), reference.k));
 }
 
-/// For each pixel, the share of its samples of which `is` is true.
-template <class Is> cv::Mat shares(int width, int height, int k, Is is) {
+/// For each pixel, the mean of `value(x, y)` over its k x k samples.
+template <class Value> cv::Mat means(int width, int height, int k, Value value) {
     cv::Mat out(height, width, CV_32FC1);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            int count = 0;
+            double sum = 0.0;
             for (int j = y * k; j < (y + 1) * k; ++j)
                 for (int i = x * k; i < (x + 1) * k; ++i)
-                    count += is(i, j) ? 1 : 0;
-            out.at<float>(y, x) = static_cast<float>(count) / static_cast<float>(k * k);
+                    sum += value(i, j);
+            out.at<float>(y, x) = static_cast<float>(sum / (k * k));
         }
     return out;
 }
@@ -190,26 +190,14 @@ cv::Mat largest_around(const cv::Mat& picture) {
     return out;
 }
 
-Image<std::uint8_t> where_true(const cv::Mat& condition) {
-    Image<std::uint8_t> out(condition.cols, condition.rows);
-    for (int y = 0; y < condition.rows; ++y)
-        for (int x = 0; x < condition.cols; ++x)
-            out.at(x, y) = condition.at<std::uint8_t>(y, x) != 0 ? 1 : 0;
+template <class Pixel> Image<Pixel> image_of(const cv::Mat& values) {
+    Image<Pixel> out(values.cols, values.rows);
+    std::copy(values.begin<Pixel>(), values.end<Pixel>(), out.pixels().begin());
     return out;
 }
 
-/// The mean of each group of k x k.
 Image<float> averaged(const Image<float>& fine, int k) {
-    Image<float> out(fine.width() / k, fine.height() / k);
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x) {
-            double sum = 0.0;
-            for (int j = 0; j < k; ++j)
-                for (int i = 0; i < k; ++i)
-                    sum += static_cast<double>(fine.at(x * k + i, y * k + j));
-            out.at(x, y) = static_cast<float>(sum / (k * k));
-        }
-    return out;
+    return image_of<float>(means(fine.width() / k, fine.height() / k, k, [&](int x, int y) { return static_cast<double>(fine.at(x, y)); }));
 }
 
 std::optional<EdgeJaggedness> with_floor(const Image<float>& tested, const Image<float>& perfect, const Image<float>& line, int k,
@@ -223,16 +211,9 @@ std::optional<EdgeJaggedness> with_floor(const Image<float>& tested, const Image
 
 /// Brightness of one kind of ground around each pixel: the mean of its samples under a Gaussian; 0 where there are none within reach.
 cv::Mat brightness_of(Ground kind, const EdgeReference& reference, const cv::Mat& share) {
-    const int k = reference.k;
-    cv::Mat sum(share.rows, share.cols, CV_32FC1);
-    for (int y = 0; y < share.rows; ++y)
-        for (int x = 0; x < share.cols; ++x) {
-            double of = 0.0;
-            for (int j = y * k; j < (y + 1) * k; ++j)
-                for (int i = x * k; i < (x + 1) * k; ++i)
-                    of += reference.ground.at(i, j) == kind ? static_cast<double>(reference.luminance_cdm2.at(i, j)) : 0.0;
-            sum.at<float>(y, x) = static_cast<float>(of / (k * k));
-        }
+    const cv::Mat sum = means(share.cols, share.rows, reference.k, [&](int x, int y) {
+        return reference.ground.at(x, y) == kind ? static_cast<double>(reference.luminance_cdm2.at(x, y)) : 0.0;
+    });
     cv::Mat above, below, out(share.rows, share.cols, CV_32FC1, cv::Scalar(0.0));
     cv::GaussianBlur(sum, above, {0, 0}, background_px);
     cv::GaussianBlur(share, below, {0, 0}, background_px);
@@ -256,16 +237,10 @@ Image<float> between(const Image<float>& luminance, const cv::Mat& road, const c
 /// Of each sample of the reference, how much of a pixel's area around it is mark.
 Image<float> coverage(const EdgeReference& reference) {
     cv::Mat is_mark(reference.ground.height(), reference.ground.width(), CV_32FC1), blurred;
-    for (int y = 0; y < is_mark.rows; ++y)
-        for (int x = 0; x < is_mark.cols; ++x)
-            is_mark.at<float>(y, x) = reference.ground.at(x, y) == Ground::mark ? 1.0F : 0.0F;
+    std::ranges::transform(reference.ground.pixels(), is_mark.begin<float>(), [](Ground g) { return g == Ground::mark ? 1.0F : 0.0F; });
     const int blur_px = reference.k + (reference.k % 2 == 0 ? 1 : 0); // odd, so that it moves nothing
     cv::blur(is_mark, blurred, {blur_px, blur_px});
-    Image<float> out(is_mark.cols, is_mark.rows);
-    for (int y = 0; y < is_mark.rows; ++y)
-        for (int x = 0; x < is_mark.cols; ++x)
-            out.at(x, y) = blurred.at<float>(y, x);
-    return out;
+    return image_of<float>(blurred);
 }
 
 } // namespace
@@ -273,12 +248,12 @@ Image<float> coverage(const EdgeReference& reference) {
 std::optional<EdgeJaggedness> cut_off_jaggedness(const Image<float>& tested_lx, const EdgeReference& reference, double level_lx) {
     check(tested_lx, reference, reference.illuminance_lx);
     check(tested_lx, reference, reference.unshadowed_lx);
-    const cv::Mat disturbed = shares(tested_lx.width(), tested_lx.height(), reference.k, [&](int x, int y) {
+    const cv::Mat disturbed = means(tested_lx.width(), tested_lx.height(), reference.k, [&](int x, int y) {
         const double lit = static_cast<double>(reference.illuminance_lx.at(x, y));
         const double free = static_cast<double>(reference.unshadowed_lx.at(x, y));
-        return reference.ground.at(x, y) == Ground::other || std::abs(lit - free) > shadow_share * free;
+        return reference.ground.at(x, y) == Ground::other || std::abs(lit - free) > shadow_share * free ? 1.0 : 0.0;
     });
-    const Image<std::uint8_t> where = where_true(largest_around(disturbed) <= 0.0);
+    const Image<std::uint8_t> where = image_of<std::uint8_t>(largest_around(disturbed) <= 0.0);
     return with_floor(tested_lx, averaged(reference.illuminance_lx, reference.k), reference.illuminance_lx, reference.k, level_lx,
                       cut_off_search_px, where);
 }
@@ -286,8 +261,8 @@ std::optional<EdgeJaggedness> cut_off_jaggedness(const Image<float>& tested_lx, 
 std::optional<EdgeJaggedness> mark_jaggedness(const Image<float>& tested_cdm2, const EdgeReference& reference) {
     check(tested_cdm2, reference, reference.luminance_cdm2);
     const auto share_of = [&](Ground kind) {
-        return shares(tested_cdm2.width(), tested_cdm2.height(), reference.k,
-                      [&](int x, int y) { return reference.ground.at(x, y) == kind; });
+        return means(tested_cdm2.width(), tested_cdm2.height(), reference.k,
+                     [&](int x, int y) { return reference.ground.at(x, y) == kind ? 1.0 : 0.0; });
     };
     const cv::Mat road_share = share_of(Ground::road), mark_share = share_of(Ground::mark), other_share = share_of(Ground::other);
     const cv::Mat road = brightness_of(Ground::road, reference, road_share), mark = brightness_of(Ground::mark, reference, mark_share);
@@ -295,8 +270,8 @@ std::optional<EdgeJaggedness> mark_jaggedness(const Image<float>& tested_cdm2, c
     cv::Mat around; // half along a straight border, less at corners, at the ends of dashes and on marks too narrow to tell
     cv::GaussianBlur(mark_share, around, {0, 0}, straight_px);
     const cv::Mat straight = (around >= 0.3) & (around <= 0.7);
-    const Image<std::uint8_t> where = where_true((largest_around(other_share) <= 0.0) & (largest_around(road_share) >= 1.0) &
-                                                 (largest_around(mark_share) >= 1.0) & straight & lit);
+    const Image<std::uint8_t> where = image_of<std::uint8_t>((largest_around(other_share) <= 0.0) & (largest_around(road_share) >= 1.0) &
+                                                             (largest_around(mark_share) >= 1.0) & straight & lit);
     const Image<float> perfect = between(averaged(reference.luminance_cdm2, reference.k), road, mark, where);
     return with_floor(between(tested_cdm2, road, mark, where), perfect, coverage(reference), reference.k, 0.5, mark_search_px, where);
 }

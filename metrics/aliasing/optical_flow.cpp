@@ -2,6 +2,7 @@
 
 #include "metrics/aliasing/band_limit.h"
 #include "metrics/aliasing/spatial_aliasing.h"
+#include "metrics/statistics/statistics.h"
 
 #include <algorithm>
 #include <array>
@@ -38,9 +39,7 @@ double level_of(float luminance_cdm2) { return std::log1p(std::max(0.0, static_c
 /// Headlamps light the road alike from frame to frame, so what they do to it stands on the screen while the road moves: taken out.
 cv::Mat structure_of(const Image<float>& picture) {
     cv::Mat levels(picture.height(), picture.width(), CV_32FC1), slow;
-    for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x)
-            levels.at<float>(y, x) = static_cast<float>(level_of(picture.at(x, y)));
+    std::ranges::transform(picture.pixels(), levels.begin<float>(), [](float v) { return static_cast<float>(level_of(v)); });
     cv::GaussianBlur(levels, slow, {0, 0}, structure_px);
     return levels - slow;
 }
@@ -56,11 +55,16 @@ cv::Mat bytes_of(const cv::Mat& structure, double full) {
     return bytes;
 }
 
-/// Of one value at least; the order is used up.
-double median_of(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
+/// Between pixels' centres, linear; (x, y) are pixels with centres at whole numbers, clamped to the picture.
+double between_pixels(const Image<float>& picture, double x, double y) {
+    x = std::clamp(x, 0.0, picture.width() - 1.0);
+    y = std::clamp(y, 0.0, picture.height() - 1.0);
+    const int left = static_cast<int>(x), upper = static_cast<int>(y);
+    const int right = std::min(left + 1, picture.width() - 1), lower = std::min(upper + 1, picture.height() - 1);
+    const auto value = [&](int i, int j) { return static_cast<double>(picture.at(i, j)); };
+    const double tx = x - left, ty = y - upper;
+    return (1.0 - ty) * ((1.0 - tx) * value(left, upper) + tx * value(right, upper)) +
+           ty * ((1.0 - tx) * value(left, lower) + tx * value(right, lower));
 }
 
 } // namespace
@@ -83,12 +87,8 @@ Flow optical_flow(const Image<float>& from, const Image<float>& to, FlowMethod m
         cv::calcOpticalFlowFarneback(first, second, flow, halved, levels, window_px, rounds, polynomial_px, polynomial_sigma_px, 0);
     }
     Flow out{Image<float>(from.width(), from.height()), Image<float>(from.width(), from.height())};
-    for (int y = 0; y < from.height(); ++y)
-        for (int x = 0; x < from.width(); ++x) {
-            const cv::Vec2f& at = flow.at<cv::Vec2f>(y, x);
-            out.dx_px.at(x, y) = at[0];
-            out.dy_px.at(x, y) = at[1];
-        }
+    std::transform(flow.begin<cv::Vec2f>(), flow.end<cv::Vec2f>(), out.dx_px.pixels().begin(), [](const cv::Vec2f& at) { return at[0]; });
+    std::transform(flow.begin<cv::Vec2f>(), flow.end<cv::Vec2f>(), out.dy_px.pixels().begin(), [](const cv::Vec2f& at) { return at[1]; });
     return out;
 }
 
@@ -127,17 +127,6 @@ Image<std::uint8_t> has_contrast(const Image<float>& picture, const Image<float>
             found.at(x, y) = eigenvalue > 4.0 * explained ? 1 : 0;
         }
     return found;
-}
-
-double between_pixels(const Image<float>& picture, double x, double y) {
-    x = std::clamp(x, 0.0, picture.width() - 1.0);
-    y = std::clamp(y, 0.0, picture.height() - 1.0);
-    const int left = static_cast<int>(x), upper = static_cast<int>(y);
-    const int right = std::min(left + 1, picture.width() - 1), lower = std::min(upper + 1, picture.height() - 1);
-    const auto value = [&](int i, int j) { return static_cast<double>(picture.at(i, j)); };
-    const double tx = x - left, ty = y - upper;
-    return (1.0 - ty) * ((1.0 - tx) * value(left, upper) + tx * value(right, upper)) +
-           ty * ((1.0 - tx) * value(left, lower) + tx * value(right, lower));
 }
 
 Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most_px) {
@@ -184,12 +173,12 @@ FlowError flow_error(const std::vector<FlowPair>& pairs) {
     if (error.points == 0)
         return error;
     error.left_out_percent = 100.0 * static_cast<double>(error.points - off.size()) / static_cast<double>(error.points);
-    error.known_motion_px = median_of(lengths);
+    error.known_motion_px = middle_of(lengths);
     if (off.empty())
         return error;
     error.mean_px /= static_cast<double>(off.size());
     error.far_percent = 100.0 * static_cast<double>(far) / static_cast<double>(off.size());
-    error.median_px = median_of(off);
+    error.median_px = middle_of(off);
     return error;
 }
 
@@ -223,14 +212,6 @@ std::optional<Place> stepped(const Step& step, const Place& at) {
     if (!(to.x >= 0.0 && to.y >= 0.0 && to.x <= width - 1.0 && to.y <= height - 1.0))
         return std::nullopt;
     return to;
-}
-
-double middle_of(std::vector<double> values) {
-    if (values.empty())
-        return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 /// Weights of the pixels floor(at) - 7 ... floor(at) + 8; their sum is 1.

@@ -37,9 +37,6 @@ Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most
 /// demands on the picture as of optical_flow(), and std::invalid_argument for steps of another size.
 Image<std::uint8_t> has_contrast(const Image<float>& picture, const Image<float>& step_cdm2 = {});
 
-/// Between pixels' centres, linear; (x, y) are pixels with centres at whole numbers, clamped to the picture.
-double between_pixels(const Image<float>& picture, double x, double y);
-
 /// How far an estimated flow is off one that is known.
 struct FlowError {
     std::size_t points = 0;        ///< that are known, seen in both pictures

@@ -34,6 +34,12 @@ struct SpatialAliasing {
     Image<double> level_picture; ///< the r.m.s. luminance that contrast is taken to
 };
 
+/// How small a contrast the eye sees: the reciprocal of the modulation (amplitude / mean) at threshold.
+/// Still gratings over 10 x 10 degrees. Barten (2004), Formula for the contrast sensitivity of the human eye, Proc. SPIE 5294, 231-238:
+/// S = 5200 exp(-0.0016 u^2 (1 + 100 / L)^0.08) / sqrt((1 + 144 / X^2 + 0.64 u^2) (63 / L^0.83 + 1 / (1 - exp(-0.02 u^2)))), X^2 = 100.
+/// u > 0 in cycles per degree, L > 0 in cd/m2; 0 at u = 0. Throws std::invalid_argument for others.
+double still_contrast_sensitivity(double cycles_per_degree, double luminance_cdm2);
+
 /// Luminances below count as this where contrast is taken: the lower end of mesopic vision in CIE 191:2010.
 inline constexpr double least_seen_cdm2 = 0.005;
 

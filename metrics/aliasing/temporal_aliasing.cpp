@@ -1,6 +1,5 @@
 #include "metrics/aliasing/temporal_aliasing.h"
 
-#include "metrics/aliasing/contrast_sensitivity.h"
 #include "metrics/aliasing/spatial_aliasing.h"
 
 #include <algorithm>
@@ -144,6 +143,16 @@ void remove_line(std::vector<double>& values) {
 }
 
 } // namespace
+
+double flicker_sensitivity(double cycles_per_degree, double hertz) {
+    if (!(cycles_per_degree > 0.0 && hertz >= 0.0 && std::isfinite(cycles_per_degree) && std::isfinite(hertz)))
+        throw std::invalid_argument("a flicker sensitivity takes a spatial frequency above 0 and a temporal one from 0 up");
+    if (hertz == 0.0)
+        return 0.0;
+    const double a = 2.0 * std::numbers::pi * cycles_per_degree, v = hertz / cycles_per_degree;
+    const double slowness = std::abs(std::log10(v / 3.0));
+    return (6.1 + 7.3 * slowness * slowness * slowness) * v * a * a * std::exp(-2.0 * a * (v + 2.0) / 45.9);
+}
 
 TemporalAliasing measure_temporal_aliasing(const std::vector<Image<double>>& aliasing, const std::vector<Image<double>>& levels,
                                            const std::vector<PixelTrack>& tracks, double rate_hz, double pixels_per_degree) {

@@ -26,8 +26,8 @@ struct TemporalAliasing {
     /// Of flicker: what points of the scene meet as they pass a pattern that stands still on the screen. An eye that follows the screen
     /// sees it stand, one that follows the road sees it flicker. nullopt: not told apart.
     std::optional<double> standing_percent;
-    double visible =
-        0.0; ///< both in multiples of the contrast that an eye just sees: sqrt(sum (modulation * sensitivity)^2), r.m.s. over tracks
+    /// Both in multiples of the contrast that an eye just sees: sqrt(sum (modulation * sensitivity)^2), r.m.s. over tracks.
+    double visible = 0.0;
     std::vector<FlickerBand> spectrum;
 };
 
@@ -38,6 +38,11 @@ struct TrackSamples {
 };
 
 inline constexpr double crawl_below_hz = 4.0;
+
+/// Gratings whose contrast goes up and down. Kelly (1979), Motion and vision II, J. Opt. Soc. Am. 69, 1340-1349, with a = 2 pi u and
+/// v = f / u: S = (6.1 + 7.3 |log10(v / 3)|^3) v a^2 exp(-2 a (v + 2) / 45.9). Measured by day: an eye adapted to a road at night sees less
+/// of fast flicker. u > 0 in cycles per degree, f > 0 in Hz; 0 at f = 0. Throws std::invalid_argument for others.
+double flicker_sensitivity(double cycles_per_degree, double hertz);
 
 /// `aliasing`: what of each frame is not there; `levels`: the luminance that contrast is taken to (aliasing_picture and level_picture of
 /// SpatialAliasing). Along each track the residue less its weighted mean, under a Hann window, goes through a discrete Fourier

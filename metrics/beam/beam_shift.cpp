@@ -1,5 +1,7 @@
 #include "metrics/beam/beam_shift.h"
 
+#include "metrics/statistics/statistics.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,12 +16,6 @@ constexpr double furthest_deg = 2.0, coarse_deg = 0.1;
 constexpr std::size_t fewest = 50;
 constexpr double tukey_c = 4.685, mad_to_sigma = 1.4826;
 
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Mean distance of the residuals from their median, each at most `cap`: what the coarse search makes small.
 double misfit(const BeamField& against, std::span<const BeamSample> samples, const BeamShift& shift, std::size_t stride, double cap) {
     std::vector<double> values;
@@ -28,8 +24,7 @@ double misfit(const BeamField& against, std::span<const BeamSample> samples, con
             values.push_back(r->log_cd);
     if (values.size() < fewest / 2)
         return cap;
-    std::vector<double> sorted = values;
-    const double centre = median(sorted);
+    const double centre = middle_of(values);
     double sum = 0.0;
     for (const double value : values)
         sum += std::min(std::abs(value - centre), cap);
@@ -126,7 +121,7 @@ double scale_of(const std::vector<Row>& rows) {
     std::vector<double> sizes;
     for (const Row& row : rows)
         sizes.push_back(std::abs(row.r) / row.sigma);
-    return std::max(1.0, mad_to_sigma * median(sizes));
+    return std::max(1.0, mad_to_sigma * middle_of(sizes));
 }
 
 struct Normal {
@@ -194,7 +189,6 @@ ShiftFit fit_shift(const BeamField& against, std::span<const BeamSample> samples
         fit.log_level += step.z;
         fit.right_error_deg = std::sqrt(covariance[0][0]);
         fit.up_error_deg = std::sqrt(covariance[1][1]);
-        fit.level_error = std::sqrt(covariance[2][2]);
         fit.scale = scale;
         if (std::abs(step.x) < 0.01 * fit.right_error_deg && std::abs(step.y) < 0.01 * fit.up_error_deg)
             break;

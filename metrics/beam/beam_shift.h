@@ -21,9 +21,8 @@ struct ShiftFit {
     BeamShift shift;
     double log_level = 0.0;                           ///< log of tested over against, the shift undone
     double right_error_deg = 0.0, up_error_deg = 0.0; ///< standard errors
-    double level_error = 0.0;
-    double scale = 0.0; ///< of the residuals: 1.4826 times their median size, at least the noise
-    bool found = false; ///< false: too few directions, or none that is steep
+    double scale = 0.0;                               ///< of the residuals: 1.4826 times their median size, at least the noise
+    bool found = false;                               ///< false: too few directions, or none that is steep
 };
 
 /// Least squares on log intensity by Gauss-Newton, each direction weighted by its noise and by Tukey's biweight (c = 4.685: 95 % efficient

@@ -1,5 +1,7 @@
 #include "metrics/beam/beam_zones.h"
 
+#include "metrics/statistics/statistics.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,25 +53,32 @@ class NoiseSum {
     Terms tested_, against_;
 };
 
+/// What samples together say, each weighed by its noise.
+struct Weighed {
+    double weights = 0.0, sum = 0.0, open = 0.0;
+    void add(const ResidualGrid& grid, std::size_t at, NoiseSum& noise) {
+        const double weight = 1.0 / (grid.noise[at] * grid.noise[at]);
+        weights += weight;
+        sum += weight * grid.r[at];
+        open += weight * grid.open[at];
+        noise.add(grid, at, weight);
+    }
+};
+
 /// Weighted mean over the compared samples within `half` of (x, y); nullopt where (x, y) is not compared.
 std::optional<Block> block_at(const ResidualGrid& grid, int x, int y, int half, NoiseSum& noise) {
     const int columns = static_cast<int>(grid.h_deg.size()), rows = static_cast<int>(grid.v_deg.size());
     if (std::isnan(grid.r[static_cast<std::size_t>(y) * grid.h_deg.size() + static_cast<std::size_t>(x)]))
         return std::nullopt;
     noise.clear();
-    double weights = 0.0, sum = 0.0, open = 0.0;
+    Weighed all;
     for (int j = std::max(0, y - half); j <= std::min(rows - 1, y + half); ++j)
         for (int i = std::max(0, x - half); i <= std::min(columns - 1, x + half); ++i) {
             const std::size_t at = static_cast<std::size_t>(j) * grid.h_deg.size() + static_cast<std::size_t>(i);
-            if (std::isnan(grid.r[at]))
-                continue;
-            const double weight = 1.0 / (grid.noise[at] * grid.noise[at]);
-            weights += weight;
-            sum += weight * grid.r[at];
-            open += weight * grid.open[at];
-            noise.add(grid, at, weight);
+            if (!std::isnan(grid.r[at]))
+                all.add(grid, at, noise);
         }
-    return Block{sum / weights, std::sqrt(noise.variance()) / weights, open / weights};
+    return Block{all.sum / all.weights, std::sqrt(noise.variance()) / all.weights, all.open / all.weights};
 }
 
 struct Smoothed {
@@ -138,14 +147,10 @@ BeamZone zone_of(const ResidualGrid& grid, const Smoothed& smoothed, const std::
     const std::size_t columns = grid.h_deg.size();
     BeamZone zone;
     NoiseSum noise;
-    double weights = 0.0, sum = 0.0, open = 0.0;
+    Weighed all;
     std::vector<std::size_t> xs, ys;
     for (const std::size_t at : members) {
-        const double weight = 1.0 / (grid.noise[at] * grid.noise[at]);
-        weights += weight;
-        sum += weight * grid.r[at];
-        open += weight * grid.open[at];
-        noise.add(grid, at, weight);
+        all.add(grid, at, noise);
         zone.z = std::max(zone.z, smoothed.best_z[at]);
         xs.push_back(at % columns);
         ys.push_back(at / columns);
@@ -154,8 +159,8 @@ BeamZone zone_of(const ResidualGrid& grid, const Smoothed& smoothed, const std::
         zone.v_deg += d.v_deg / static_cast<double>(members.size());
     }
     zone.samples = members.size();
-    zone.share = std::expm1(sum / weights);
-    zone.uncertainty = (1.0 + zone.share) * (std::sqrt(noise.variance()) + open) / weights;
+    zone.share = std::expm1(all.sum / all.weights);
+    zone.uncertainty = (1.0 + zone.share) * (std::sqrt(noise.variance()) + all.open) / all.weights;
     if (grid.un.empty()) {
         std::tie(zone.h_from_deg, zone.h_to_deg) = stretch(grid.h_deg, std::move(xs));
         std::tie(zone.v_from_deg, zone.v_to_deg) = stretch(grid.v_deg, std::move(ys));
@@ -171,9 +176,7 @@ double strength(const Smoothed& smoothed, const std::vector<std::size_t>& seeds)
     std::vector<double> sizes;
     for (const std::size_t at : seeds)
         sizes.push_back(std::abs(smoothed.mean[at]));
-    const auto quartile = sizes.begin() + static_cast<std::ptrdiff_t>(3 * sizes.size() / 4);
-    std::nth_element(sizes.begin(), quartile, sizes.end());
-    return *quartile;
+    return middle_of(std::move(sizes), 0.75);
 }
 
 /// The largest set of connected seeds, grown or cut to what is at least half as strong as they are; empty without seeds.
@@ -253,10 +256,8 @@ double neighbour_noise(const ResidualGrid& grid, const std::vector<bool>& chosen
     }
     if (sizes.size() < 30)
         return 0.0;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
     // The median of n sizes is off by 1.2 / sqrt(n) of itself, and a noise taken too small claims what is none.
-    return 1.4826 * *middle * (1.0 + 1.2 / std::sqrt(static_cast<double>(sizes.size())));
+    return 1.4826 * middle_of(sizes) * (1.0 + 1.2 / std::sqrt(static_cast<double>(sizes.size())));
 }
 
 std::vector<BeamZone> find_zones(const ResidualGrid& grid, double z_limit) {

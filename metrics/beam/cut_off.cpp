@@ -62,10 +62,19 @@ double middle_of_run(const std::vector<double>& g, std::size_t top, double share
 struct ScanLine {
     bool vertical;
     double at_deg, from_deg, to_deg;
+    Direction at(double b) const { return vertical ? Direction{at_deg, b} : Direction{b, at_deg}; }
 };
 
+/// How far log10 E falls, in horizontal scans rises, from one place to another; nullopt without light at both.
+std::optional<double> fall_between(const ReceivedBeam& beam, const ScanLine& line, double from, double to) {
+    const auto low = beam.at(line.at(from)), high = beam.at(line.at(to));
+    if (!low || !high || *low <= 0.0 || *high <= 0.0)
+        return std::nullopt;
+    return (line.vertical ? 1.0 : -1.0) * (std::log10(*low) - std::log10(*high));
+}
+
 /// A file coarser than what G needs tells its edge's place to half a step: the middle of its steepest step.
-void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const ScanLine& line, double sign) {
+void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const ScanLine& line) {
     const std::vector<double>& axis = line.vertical ? lamp.table->v_deg : lamp.table->h_deg;
     const double turned = line.vertical ? lamp.turned.v_deg : lamp.turned.h_deg;
     const ReceivedBeam beam({lamp}, {});
@@ -74,13 +83,9 @@ void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const ScanLine& lin
         const double a = axis[i - 1] + turned, b = axis[i] + turned;
         if (a < line.from_deg || b > line.to_deg)
             continue;
-        const auto low = beam.at(line.vertical ? Direction{line.at_deg, a} : Direction{a, line.at_deg});
-        const auto high = beam.at(line.vertical ? Direction{line.at_deg, b} : Direction{b, line.at_deg});
-        if (!low || !high || *low <= 0.0 || *high <= 0.0)
-            continue;
-        const double fall = sign * (std::log10(*low) - std::log10(*high)) / (b - a);
-        if (fall > steepest) {
-            steepest = fall;
+        const auto fall = fall_between(beam, line, a, b);
+        if (fall && *fall / (b - a) > steepest) {
+            steepest = *fall / (b - a);
             scan.inflection_deg = (a + b) / 2.0;
             scan.position_error_deg = (b - a) / 2.0;
         }
@@ -90,16 +95,13 @@ void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const ScanLine& lin
 CutOffScan scan_along(const AimedLamp& lamp, const ScanLine& line, const CutOffOptions& options) {
     CutOffScan scan;
     scan.at_deg = line.at_deg;
-    const double sign = line.vertical ? 1.0 : -1.0;
     const ReceivedBeam beam({lamp}, {Receiver::Shape::disc, options.detector_deg});
     Profile e;
     const auto n = static_cast<std::size_t>(std::lround((line.to_deg - line.from_deg) / scan_step_deg));
-    for (std::size_t i = 0; i <= n; ++i) {
-        const double b = line.from_deg + scan_step_deg * static_cast<double>(i);
-        e.push_back(beam.at(line.vertical ? Direction{line.at_deg, b} : Direction{b, line.at_deg}).value_or(-1.0));
-    }
+    for (std::size_t i = 0; i <= n; ++i)
+        e.push_back(beam.at(line.at(line.from_deg + scan_step_deg * static_cast<double>(i))).value_or(-1.0));
     bool ends_in_dark = false;
-    const std::vector<double> g = falls(e, sign, ends_in_dark);
+    const std::vector<double> g = falls(e, line.vertical ? 1.0 : -1.0, ends_in_dark);
     const auto top = std::max_element(g.begin(), g.end());
     if (ends_in_dark) {
         scan.reason = "the light ends in 0 cd within 0.1 degrees: its logarithm has no end";
@@ -116,7 +118,7 @@ CutOffScan scan_along(const AimedLamp& lamp, const ScanLine& line, const CutOffO
     if (scan.table_step_deg > 0.1 + 1e-6) {
         scan.reason = fmt::format("the file's step of {:.3g} degrees at the edge is coarser than the 0.1 degrees over which G is taken",
                                   scan.table_step_deg);
-        place_coarsely(scan, lamp, line, sign);
+        place_coarsely(scan, lamp, line);
         return scan;
     }
     scan.sharpness = *top;
@@ -135,11 +137,7 @@ CutOffScan scan_along(const AimedLamp& lamp, const ScanLine& line, const CutOffO
     scan.scatter_deg = scan_step_deg * (highest - lowest);
     scan.inflection_deg = line.from_deg + scan_step_deg * (middle_of_run(g, at, 0.8) + static_cast<double>(over_steps) / 2.0);
     if (options.sharpness == SharpnessRule::at_inflection) {
-        const double from = *scan.inflection_deg, to = from + 0.1;
-        const auto low = beam.at(line.vertical ? Direction{line.at_deg, from} : Direction{from, line.at_deg});
-        const auto high = beam.at(line.vertical ? Direction{line.at_deg, to} : Direction{to, line.at_deg});
-        scan.sharpness =
-            low && high && *low > 0.0 && *high > 0.0 ? std::optional(sign * (std::log10(*low) - std::log10(*high))) : std::nullopt;
+        scan.sharpness = fall_between(beam, line, *scan.inflection_deg, *scan.inflection_deg + 0.1);
         if (!scan.sharpness)
             scan.reason = "no light 0.1 degrees beyond the inflection";
     }
@@ -202,10 +200,6 @@ CutOffScan vertical_scan(const AimedLamp& lamp, double h_deg, double v_from_deg,
     return scan_along(lamp, {true, h_deg, v_from_deg, v_to_deg}, options);
 }
 
-CutOffScan horizontal_scan(const AimedLamp& lamp, double v_deg, double h_from_deg, double h_to_deg, const CutOffOptions& options) {
-    return scan_along(lamp, {false, v_deg, h_from_deg, h_to_deg}, options);
-}
-
 CutOffFigures measure_cut_off(const AimedLamp& lamp, const CutOffOptions& options) {
     const auto upwards = [&](double h) { return vertical_scan(lamp, h, search_from_deg, search_to_deg, options); };
     CutOffFigures c;
@@ -219,7 +213,7 @@ CutOffFigures measure_cut_off(const AimedLamp& lamp, const CutOffOptions& option
     c.rise = {upwards(1.0), upwards(2.0), upwards(3.0)};
     find_kink(c);
     if (c.level.inflection_deg)
-        c.shoulder = horizontal_scan(lamp, *c.level.inflection_deg + 0.37, -5.0, 5.0, options);
+        c.shoulder = scan_along(lamp, {false, *c.level.inflection_deg + 0.37, -5.0, 5.0}, options); // the steepest rise between two H
     else
         c.shoulder.reason = "no level part to measure from";
     return c;

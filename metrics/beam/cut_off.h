@@ -53,8 +53,6 @@ struct CutOffFigures {
 /// taken: between such samples a G would be made up. Where the greatest G is below 0.08, the least that any aim accepts, there is no edge
 /// and no inflection.
 CutOffScan vertical_scan(const AimedLamp& lamp, double h_deg, double v_from_deg, double v_to_deg, const CutOffOptions& options = {});
-/// The steepest rise of log E between two H.
-CutOffScan horizontal_scan(const AimedLamp& lamp, double v_deg, double h_from_deg, double h_to_deg, const CutOffOptions& options = {});
 
 /// Looks for the edge from 3 D to 2 U. All that cannot be had is missing with its reason.
 CutOffFigures measure_cut_off(const AimedLamp& lamp, const CutOffOptions& options = {});

@@ -1,5 +1,6 @@
 #include "metrics/beam/cut_off_elbow.h"
 
+#include "metrics/statistics/statistics.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
@@ -153,11 +154,6 @@ Fit best_fit(const std::vector<EdgePoint>& points, double shortest_deg) {
         search(middle.h0 - reach, middle.h0 + reach, middle.h1 - reach, std::min(middle.h1 + reach, last + step), step);
     }
     return best;
-}
-
-double middle_of(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
 }
 
 /// Leaves out what lies far off and fits again.

@@ -1,6 +1,8 @@
 #include "metrics/beam/lamp_difference.h"
 
 #include "metrics/beam/beam_field.h"
+#include "metrics/beam/beam_shift.h"
+#include "metrics/statistics/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,29 +82,281 @@ class Comparison {
         z_limit_ = z_limit(options.false_claim_chance, 3 * samples_.size() + 6);
     }
 
-    LampDifference find();
+    LampDifference find() {
+        LampDifference result;
+        result.directions = samples_.size();
+        result.z_limit = z_limit_;
+        result.floor_cd = compared_share * peak_cd_;
+        Explanation best;
+        if (!explain_by_cut_off(best, result))
+            explain_by_aim(best, result);
+        set_noise(best); // without what the shift made of it
+        explain_by_level(best, result);
+        result.noise_relative = noise_at_peak_;
+        result.zones = find_zones(residuals(best), z_limit_);
+        if (!result.aim_up_deg && !result.cut_off_up_deg)
+            result.not_told.clear();
+        return result;
+    }
 
   private:
-    void collect();
-    TwoAngles un_of(std::size_t v, std::size_t h) const;
-    void share_noise();
-    void set_noise(const Explanation& explained);
-    ResidualGrid residuals(const Explanation& explained) const;
-    bool is_moved_by_cut_off(double v_deg, const Explanation& explained) const {
-        return explained.cut_off_up_deg != 0.0 && v_deg > line_.lowest_deg() - body_deg;
-    }
-    FieldValue unexplained(const BeamSample& sample, const Explanation& explained) const;
-    std::vector<BeamSample> where(const auto& belongs) const;
-    bool is_beyond(double value, double error, double least) const { return std::abs(value) > std::max(z_limit_ * error, least); }
-    bool is_shift(const ShiftFit& fit) const;
-    std::size_t claimed(const Explanation& explained) const;
     struct Level {
         double log = 0.0, error = 0.0, open = 0.0; ///< `open`: what interpolation leaves open, on the mean
     };
-    Level level_left(const Explanation& explained) const;
-    bool explain_by_cut_off(Explanation& best, LampDifference& result) const;
-    void explain_by_aim(Explanation& best, LampDifference& result) const;
-    void explain_by_level(Explanation& best, LampDifference& result) const;
+
+    TwoAngles un_of(std::size_t v, std::size_t h) const {
+        return system_ ? system_->to_un(tested_.h_deg[h], tested_.v_deg[v]) : TwoAngles{tested_.h_deg[h], tested_.v_deg[v]};
+    }
+
+    void collect() {
+        const double floor_cd = floor_share * peak_cd_, least = std::log(compared_share * peak_cd_);
+        const double rounding_cd = std::hypot(rounding_of(tested_), rounding_of(against_.table())) / std::sqrt(12.0); // of a uniform error
+        for (std::size_t v = 0; v < tested_.v_deg.size(); ++v)
+            for (std::size_t h = 0; h < tested_.h_deg.size(); ++h) {
+                if (!has_data(tested_, tested_.h_deg[h], tested_.v_deg[v]))
+                    continue;
+                const auto [h_deg, v_deg] = un_of(v, h);
+                if (!against_.has(h_deg, v_deg))
+                    continue;
+                const double log_cd = std::log(std::max(tested_.at(v, h), floor_cd)), log_other = against_.at(h_deg, v_deg).log_cd;
+                if (std::max(log_cd, log_other) < least)
+                    continue;
+                samples_.push_back({v, h, h_deg, v_deg, log_cd, 0.0});
+                // The last term is what a double's last digits are worth in a logarithm: two equal tables still need a scale.
+                rounding_.push_back(std::max(rounding_cd * std::exp(-std::min(log_cd, log_other)), 1e-9));
+            }
+    }
+
+    /// Noise may go with the level of light, so it is estimated by decades below the peak.
+    void set_noise(const Explanation& explained) {
+        Explanation plain = explained; // a range of shifts takes noise away with the rest
+        plain.shift.up_deg += std::exchange(plain.cut_off_up_deg, 0.0);
+        const ResidualGrid grid = residuals(plain);
+        const double log_peak = std::log(peak_cd_);
+        for (int decade = 0; decade < 3; ++decade) {
+            const auto is_in = [&](const BeamSample& sample) {
+                return std::clamp(static_cast<int>((log_peak - sample.log_cd) / std::log(10.0)), 0, 2) == decade;
+            };
+            std::vector<bool> chosen(grid.r.size());
+            for (const BeamSample& sample : samples_)
+                chosen[sample.v * tested_.h_deg.size() + sample.h] = is_in(sample);
+            const double noise = std::max(neighbour_noise(grid, chosen), options_.noise_relative);
+            if (decade == 0)
+                noise_at_peak_ = noise * std::sqrt(2.0); // of a difference of two
+            for (std::size_t i = 0; i < samples_.size(); ++i)
+                if (is_in(samples_[i])) {
+                    noise_[i] = std::max(noise, rounding_[i] / std::sqrt(2.0));
+                    samples_[i].noise = noise_[i];
+                    samples_[i].sigma = noise_[i] * spread_[i];
+                }
+        }
+    }
+
+    /// How much a residual counts for in a sum over many: sqrt(copies + share) times one sample's noise. A sample of the other file from
+    /// which many were interpolated adds its noise to each.
+    void share_noise() {
+        std::vector<double> copies(tested_.cd.size()), taken(against_.table().cd.size());
+        std::vector<std::vector<std::pair<std::size_t, double>>> weights;
+        for (const BeamSample& sample : samples_) {
+            copies[source_[sample.v * tested_.h_deg.size() + sample.h]] += 1.0;
+            weights.push_back(against_.weights(sample.h_deg, sample.v_deg));
+            for (const auto& [at, weight] : weights.back())
+                taken[source_against_[at]] += std::abs(weight);
+        }
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            double share = 0.0;
+            for (const auto& [at, weight] : weights[i])
+                share += std::abs(weight) * taken[source_against_[at]];
+            spread_.push_back(std::sqrt(copies[source_[samples_[i].v * tested_.h_deg.size() + samples_[i].h]] + std::max(share, 1.0)));
+        }
+        noise_.assign(samples_.size(), 1.0);
+    }
+
+    /// How far a raised cut-off moves the light near and above it is not known: any shift up to its own explains.
+    FieldValue unexplained(const BeamSample& sample, const Explanation& explained) const {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        const bool is_near = is_moved_by_cut_off(sample.v_deg, explained);
+        double low = std::numeric_limits<double>::infinity(), high = -low, open = 0.0;
+        const int steps = is_near ? 8 : 0;
+        for (int i = 0; i <= steps; ++i) {
+            BeamShift shift = explained.shift;
+            shift.up_deg += is_near ? explained.cut_off_up_deg * i / steps : 0.0;
+            const auto r = residual(against_, sample, shift);
+            if (!r)
+                return {nan, 0.0};
+            low = std::min(low, r->log_cd - explained.log_level);
+            high = std::max(high, r->log_cd - explained.log_level);
+            open = std::max(open, r->uncertainty);
+        }
+        return {low > 0.0 ? low : std::min(high, 0.0), open};
+    }
+
+    ResidualGrid residuals(const Explanation& explained) const {
+        const std::size_t columns = tested_.h_deg.size();
+        ResidualGrid grid;
+        grid.h_deg = tested_.h_deg;
+        grid.v_deg = tested_.v_deg;
+        grid.r.assign(tested_.cd.size(), std::numeric_limits<double>::quiet_NaN());
+        grid.noise.assign(tested_.cd.size(), 1.0);
+        grid.open.assign(tested_.cd.size(), 0.0);
+        grid.source = source_;
+        if (system_)
+            grid.un.assign(tested_.cd.size(), {});
+        std::size_t next = 0; // samples are in the grid's order
+        for (std::size_t at = 0; at < grid.r.size(); ++at) {
+            grid.first.push_back(grid.shared.size());
+            if (next == samples_.size() || samples_[next].v * columns + samples_[next].h != at)
+                continue;
+            const BeamSample& sample = samples_[next];
+            const FieldValue value = unexplained(sample, explained);
+            grid.r[at] = value.log_cd;
+            grid.open[at] = value.uncertainty;
+            grid.noise[at] = noise_[next++];
+            if (system_)
+                grid.un[at] = {sample.h_deg, sample.v_deg};
+            const auto [h, v] = before_shift(sample.h_deg, sample.v_deg, explained.shift);
+            for (const auto& [other, weight] : against_.weights(h, v))
+                grid.shared.emplace_back(source_against_[other], weight);
+        }
+        grid.first.push_back(grid.shared.size());
+        return grid;
+    }
+
+    std::vector<BeamSample> where(const auto& belongs) const {
+        std::vector<BeamSample> chosen, out;
+        std::ranges::copy_if(samples_, std::back_inserter(chosen), belongs);
+        const std::size_t stride = chosen.size() / most_fitted + 1;
+        for (std::size_t i = 0; i < chosen.size(); i += stride)
+            out.push_back(chosen[i]);
+        return out;
+    }
+
+    bool is_shift(const ShiftFit& fit) const {
+        const double least_h = least_step_share * steps_.h_deg, least_v = least_step_share * steps_.v_deg;
+        return fit.found &&
+               (is_beyond(fit.shift.up_deg, fit.up_error_deg, least_v) || is_beyond(fit.shift.right_deg, fit.right_error_deg, least_h));
+    }
+
+    std::size_t claimed(const Explanation& explained) const {
+        std::size_t samples = 0;
+        for (const BeamZone& zone : find_zones(residuals(explained), z_limit_))
+            samples += zone.samples;
+        return samples;
+    }
+
+    /// Whether with one of those tried few enough directions are claimed beside what is claimed without.
+    bool explains(const Explanation& best, std::initializer_list<Explanation> tried) const {
+        const std::size_t without = claimed(best);
+        return without == 0 || std::ranges::any_of(tried, [&](const Explanation& one) {
+                   return static_cast<double>(claimed(one)) <= must_leave * static_cast<double>(without);
+               });
+    }
+
+    bool explain_by_cut_off(Explanation& best, LampDifference& result) const {
+        if (!line_.exists())
+            return false;
+        const auto offset = [&](const BeamSample& sample) {
+            const auto line = line_.at(sample.h_deg);
+            return line ? sample.v_deg - *line : std::numeric_limits<double>::quiet_NaN();
+        };
+        const ShiftFit band = fit_shift(against_, where([&](const BeamSample& s) { return std::abs(offset(s)) <= band_deg; }), {});
+        if (!is_shift(band))
+            return false;
+        const ShiftFit body = fit_shift(against_, where([&](const BeamSample& s) { return s.v_deg < line_.lowest_deg() - body_deg; }), {});
+        const double raise = band.shift.up_deg - body.shift.up_deg, error = std::hypot(band.up_error_deg, body.up_error_deg);
+        if (!body.found || body.up_error_deg > std::abs(band.shift.up_deg) / 4.0) {
+            result.not_told = "the light below the cut-off is too even to tell whether the whole beam moved or the cut-off alone";
+            return false;
+        }
+        const double least = least_step_share * steps_.v_deg;
+        if (!is_beyond(raise, error, least) || std::abs(body.shift.up_deg) > std::abs(raise) / 2.0)
+            return false;
+        Explanation tried = best;
+        tried.cut_off_up_deg = raise;
+        if (is_shift(body))
+            tried.shift = body.shift;
+        else
+            tried.cut_off_up_deg = band.shift.up_deg;
+        if (!explains(best, {tried}))
+            return false;
+        best = tried;
+        result.cut_off_up_deg = {tried.cut_off_up_deg, error};
+        if (is_shift(body)) {
+            result.aim_up_deg = {body.shift.up_deg, body.up_error_deg};
+            result.aim_right_deg = {body.shift.right_deg, body.right_error_deg};
+        }
+        return true;
+    }
+
+    void explain_by_aim(Explanation& best, LampDifference& result) const {
+        const std::vector<BeamSample> all = where([](const BeamSample&) { return true; });
+        ShiftFit fit = fit_shift(against_, all, BeamTurn::angles_shifted);
+        if (!is_shift(fit))
+            return;
+        if (const ShiftFit rotated = fit_shift(against_, all, BeamTurn::lamp_rotated); rotated.found && rotated.scale < fit.scale)
+            fit = rotated;
+        Explanation tried = best;
+        tried.shift = fit.shift;
+        Explanation with_level = tried;
+        with_level.log_level = fit.log_level;
+        if (!explains(best, {tried, with_level}))
+            return;
+        best = tried;
+        result.aim_up_deg = {fit.shift.up_deg, fit.up_error_deg};
+        result.aim_right_deg = {fit.shift.right_deg, fit.right_error_deg};
+    }
+
+    /// Location of what is left over by Tukey's biweight, from the median on; without the light that a cut-off moved by an unknown part.
+    Level level_left(const Explanation& explained) const {
+        ResidualGrid grid = residuals(explained);
+        std::vector<double> sigma(grid.r.size(), 1.0);
+        for (const BeamSample& sample : samples_)
+            sigma[sample.v * tested_.h_deg.size() + sample.h] = sample.sigma;
+        for (const BeamSample& sample : samples_)
+            if (is_moved_by_cut_off(sample.v_deg, explained))
+                grid.r[sample.v * tested_.h_deg.size() + sample.h] = std::numeric_limits<double>::quiet_NaN();
+        std::vector<double> left;
+        for (const double r : grid.r)
+            if (!std::isnan(r))
+                left.push_back(r);
+        if (left.empty())
+            return {};
+        Level level{middle_of(left)};
+        for (int iteration = 0; iteration < 20; ++iteration) {
+            double weights = 0.0, sum = 0.0, open = 0.0;
+            for (std::size_t at = 0; at < grid.r.size(); ++at) {
+                const double u = (grid.r[at] - level.log) / (4.685 * sigma[at]);
+                if (std::isnan(u) || std::abs(u) >= 1.0)
+                    continue;
+                const double weight = (1.0 - u * u) * (1.0 - u * u) / (sigma[at] * sigma[at]);
+                weights += weight;
+                sum += weight * grid.r[at];
+                open += weight * grid.open[at];
+            }
+            if (weights == 0.0)
+                return {};
+            level = {sum / weights, 1.0 / std::sqrt(weights), open / weights};
+        }
+        return level;
+    }
+
+    void explain_by_level(Explanation& best, LampDifference& result) const {
+        const Level level = level_left(best);
+        if (!is_beyond(level.log, level.error, level.open))
+            return;
+        Explanation tried = best;
+        tried.log_level = level.log;
+        if (!explains(best, {tried}))
+            return;
+        best = tried;
+        const double share = std::expm1(level.log);
+        result.level = {share, (1.0 + share) * (level.error + level.open)};
+    }
+
+    bool is_moved_by_cut_off(double v_deg, const Explanation& explained) const {
+        return explained.cut_off_up_deg != 0.0 && v_deg > line_.lowest_deg() - body_deg;
+    }
+    bool is_beyond(double value, double error, double least) const { return std::abs(value) > std::max(z_limit_ * error, least); }
 
     const CandelaTable& tested_; ///< over its own angles
     const AngleSystem* system_;  ///< of those; nullptr: H and V
@@ -118,268 +372,6 @@ class Comparison {
     std::vector<double> spread_;   ///< by sample: see share_noise
     double noise_at_peak_ = 0.0, z_limit_ = 0.0;
 };
-
-TwoAngles Comparison::un_of(std::size_t v, std::size_t h) const {
-    return system_ ? system_->to_un(tested_.h_deg[h], tested_.v_deg[v]) : TwoAngles{tested_.h_deg[h], tested_.v_deg[v]};
-}
-
-void Comparison::collect() {
-    const double floor_cd = floor_share * peak_cd_, least = std::log(compared_share * peak_cd_);
-    const double rounding_cd = std::hypot(rounding_of(tested_), rounding_of(against_.table())) / std::sqrt(12.0); // of a uniform error
-    for (std::size_t v = 0; v < tested_.v_deg.size(); ++v)
-        for (std::size_t h = 0; h < tested_.h_deg.size(); ++h) {
-            if (!has_data(tested_, tested_.h_deg[h], tested_.v_deg[v]))
-                continue;
-            const auto [h_deg, v_deg] = un_of(v, h);
-            if (!against_.has(h_deg, v_deg))
-                continue;
-            const double log_cd = std::log(std::max(tested_.at(v, h), floor_cd)), log_other = against_.at(h_deg, v_deg).log_cd;
-            if (std::max(log_cd, log_other) < least)
-                continue;
-            samples_.push_back({v, h, h_deg, v_deg, log_cd, 0.0});
-            // The last term is what a double's last digits are worth in a logarithm: two equal tables still need a scale.
-            rounding_.push_back(std::max(rounding_cd * std::exp(-std::min(log_cd, log_other)), 1e-9));
-        }
-}
-
-/// Noise may go with the level of light, so it is estimated by decades below the peak.
-void Comparison::set_noise(const Explanation& explained) {
-    Explanation plain = explained; // a range of shifts takes noise away with the rest
-    plain.shift.up_deg += std::exchange(plain.cut_off_up_deg, 0.0);
-    const ResidualGrid grid = residuals(plain);
-    const double log_peak = std::log(peak_cd_);
-    for (int decade = 0; decade < 3; ++decade) {
-        const auto is_in = [&](const BeamSample& sample) {
-            return std::clamp(static_cast<int>((log_peak - sample.log_cd) / std::log(10.0)), 0, 2) == decade;
-        };
-        std::vector<bool> chosen(grid.r.size());
-        for (const BeamSample& sample : samples_)
-            chosen[sample.v * tested_.h_deg.size() + sample.h] = is_in(sample);
-        const double noise = std::max(neighbour_noise(grid, chosen), options_.noise_relative);
-        if (decade == 0)
-            noise_at_peak_ = noise * std::sqrt(2.0); // of a difference of two
-        for (std::size_t i = 0; i < samples_.size(); ++i)
-            if (is_in(samples_[i])) {
-                noise_[i] = std::max(noise, rounding_[i] / std::sqrt(2.0));
-                samples_[i].noise = noise_[i];
-                samples_[i].sigma = noise_[i] * spread_[i];
-            }
-    }
-}
-
-/// How much a residual counts for in a sum over many: sqrt(copies + share) times one sample's noise. A sample of the other file from which
-/// many were interpolated adds its noise to each.
-void Comparison::share_noise() {
-    std::vector<double> copies(tested_.cd.size()), taken(against_.table().cd.size());
-    std::vector<std::vector<std::pair<std::size_t, double>>> weights;
-    for (const BeamSample& sample : samples_) {
-        copies[source_[sample.v * tested_.h_deg.size() + sample.h]] += 1.0;
-        weights.push_back(against_.weights(sample.h_deg, sample.v_deg));
-        for (const auto& [at, weight] : weights.back())
-            taken[source_against_[at]] += std::abs(weight);
-    }
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-        double share = 0.0;
-        for (const auto& [at, weight] : weights[i])
-            share += std::abs(weight) * taken[source_against_[at]];
-        spread_.push_back(std::sqrt(copies[source_[samples_[i].v * tested_.h_deg.size() + samples_[i].h]] + std::max(share, 1.0)));
-    }
-    noise_.assign(samples_.size(), 1.0);
-}
-
-/// How far a raised cut-off moves the light near and above it is not known: any shift up to its own explains.
-FieldValue Comparison::unexplained(const BeamSample& sample, const Explanation& explained) const {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const bool is_near = is_moved_by_cut_off(sample.v_deg, explained);
-    double low = std::numeric_limits<double>::infinity(), high = -low, open = 0.0;
-    const int steps = is_near ? 8 : 0;
-    for (int i = 0; i <= steps; ++i) {
-        BeamShift shift = explained.shift;
-        shift.up_deg += is_near ? explained.cut_off_up_deg * i / steps : 0.0;
-        const auto r = residual(against_, sample, shift);
-        if (!r)
-            return {nan, 0.0};
-        low = std::min(low, r->log_cd - explained.log_level);
-        high = std::max(high, r->log_cd - explained.log_level);
-        open = std::max(open, r->uncertainty);
-    }
-    return {low > 0.0 ? low : std::min(high, 0.0), open};
-}
-
-ResidualGrid Comparison::residuals(const Explanation& explained) const {
-    const std::size_t columns = tested_.h_deg.size();
-    ResidualGrid grid;
-    grid.h_deg = tested_.h_deg;
-    grid.v_deg = tested_.v_deg;
-    grid.r.assign(tested_.cd.size(), std::numeric_limits<double>::quiet_NaN());
-    grid.noise.assign(tested_.cd.size(), 1.0);
-    grid.open.assign(tested_.cd.size(), 0.0);
-    grid.source = source_;
-    if (system_)
-        grid.un.assign(tested_.cd.size(), {});
-    std::size_t next = 0; // samples are in the grid's order
-    for (std::size_t at = 0; at < grid.r.size(); ++at) {
-        grid.first.push_back(grid.shared.size());
-        if (next == samples_.size() || samples_[next].v * columns + samples_[next].h != at)
-            continue;
-        const BeamSample& sample = samples_[next];
-        const FieldValue value = unexplained(sample, explained);
-        grid.r[at] = value.log_cd;
-        grid.open[at] = value.uncertainty;
-        grid.noise[at] = noise_[next++];
-        if (system_)
-            grid.un[at] = {sample.h_deg, sample.v_deg};
-        const auto [h, v] = before_shift(sample.h_deg, sample.v_deg, explained.shift);
-        for (const auto& [other, weight] : against_.weights(h, v))
-            grid.shared.emplace_back(source_against_[other], weight);
-    }
-    grid.first.push_back(grid.shared.size());
-    return grid;
-}
-
-std::vector<BeamSample> Comparison::where(const auto& belongs) const {
-    std::vector<BeamSample> chosen, out;
-    std::ranges::copy_if(samples_, std::back_inserter(chosen), belongs);
-    const std::size_t stride = chosen.size() / most_fitted + 1;
-    for (std::size_t i = 0; i < chosen.size(); i += stride)
-        out.push_back(chosen[i]);
-    return out;
-}
-
-bool Comparison::is_shift(const ShiftFit& fit) const {
-    const double least_h = least_step_share * steps_.h_deg, least_v = least_step_share * steps_.v_deg;
-    return fit.found &&
-           (is_beyond(fit.shift.up_deg, fit.up_error_deg, least_v) || is_beyond(fit.shift.right_deg, fit.right_error_deg, least_h));
-}
-
-std::size_t Comparison::claimed(const Explanation& explained) const {
-    std::size_t samples = 0;
-    for (const BeamZone& zone : find_zones(residuals(explained), z_limit_))
-        samples += zone.samples;
-    return samples;
-}
-
-bool Comparison::explain_by_cut_off(Explanation& best, LampDifference& result) const {
-    if (!line_.exists())
-        return false;
-    const auto offset = [&](const BeamSample& sample) {
-        const auto line = line_.at(sample.h_deg);
-        return line ? sample.v_deg - *line : std::numeric_limits<double>::quiet_NaN();
-    };
-    const ShiftFit band = fit_shift(against_, where([&](const BeamSample& s) { return std::abs(offset(s)) <= band_deg; }), {});
-    if (!is_shift(band))
-        return false;
-    const ShiftFit body = fit_shift(against_, where([&](const BeamSample& s) { return s.v_deg < line_.lowest_deg() - body_deg; }), {});
-    const double raise = band.shift.up_deg - body.shift.up_deg, error = std::hypot(band.up_error_deg, body.up_error_deg);
-    if (!body.found || body.up_error_deg > std::abs(band.shift.up_deg) / 4.0) {
-        result.not_told = "the light below the cut-off is too even to tell whether the whole beam moved or the cut-off alone";
-        return false;
-    }
-    const double least = least_step_share * steps_.v_deg;
-    if (!is_beyond(raise, error, least) || std::abs(body.shift.up_deg) > std::abs(raise) / 2.0)
-        return false;
-    Explanation tried = best;
-    tried.cut_off_up_deg = raise;
-    if (is_shift(body))
-        tried.shift = body.shift;
-    else
-        tried.cut_off_up_deg = band.shift.up_deg;
-    if (const std::size_t without = claimed(best);
-        without > 0 && static_cast<double>(claimed(tried)) > must_leave * static_cast<double>(without))
-        return false;
-    best = tried;
-    result.cut_off_up_deg = {tried.cut_off_up_deg, error};
-    if (is_shift(body)) {
-        result.aim_up_deg = {body.shift.up_deg, body.up_error_deg};
-        result.aim_right_deg = {body.shift.right_deg, body.right_error_deg};
-    }
-    return true;
-}
-
-void Comparison::explain_by_aim(Explanation& best, LampDifference& result) const {
-    const std::vector<BeamSample> all = where([](const BeamSample&) { return true; });
-    ShiftFit fit = fit_shift(against_, all, BeamTurn::angles_shifted);
-    if (!is_shift(fit))
-        return;
-    if (const ShiftFit rotated = fit_shift(against_, all, BeamTurn::lamp_rotated); rotated.found && rotated.scale < fit.scale)
-        fit = rotated;
-    Explanation tried = best;
-    tried.shift = fit.shift;
-    Explanation with_level = tried;
-    with_level.log_level = fit.log_level;
-    const std::size_t without = claimed(best);
-    if (without > 0 && static_cast<double>(std::min(claimed(tried), claimed(with_level))) > must_leave * static_cast<double>(without))
-        return;
-    best = tried;
-    result.aim_up_deg = {fit.shift.up_deg, fit.up_error_deg};
-    result.aim_right_deg = {fit.shift.right_deg, fit.right_error_deg};
-}
-
-/// Location of what is left over by Tukey's biweight, from the median on; without the light that a cut-off moved by an unknown part.
-Comparison::Level Comparison::level_left(const Explanation& explained) const {
-    ResidualGrid grid = residuals(explained);
-    std::vector<double> sigma(grid.r.size(), 1.0);
-    for (const BeamSample& sample : samples_)
-        sigma[sample.v * tested_.h_deg.size() + sample.h] = sample.sigma;
-    for (const BeamSample& sample : samples_)
-        if (is_moved_by_cut_off(sample.v_deg, explained))
-            grid.r[sample.v * tested_.h_deg.size() + sample.h] = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> left;
-    for (const double r : grid.r)
-        if (!std::isnan(r))
-            left.push_back(r);
-    if (left.empty())
-        return {};
-    std::ranges::nth_element(left, left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2));
-    Level level{left[left.size() / 2]};
-    for (int iteration = 0; iteration < 20; ++iteration) {
-        double weights = 0.0, sum = 0.0, open = 0.0;
-        for (std::size_t at = 0; at < grid.r.size(); ++at) {
-            const double u = (grid.r[at] - level.log) / (4.685 * sigma[at]);
-            if (std::isnan(u) || std::abs(u) >= 1.0)
-                continue;
-            const double weight = (1.0 - u * u) * (1.0 - u * u) / (sigma[at] * sigma[at]);
-            weights += weight;
-            sum += weight * grid.r[at];
-            open += weight * grid.open[at];
-        }
-        if (weights == 0.0)
-            return {};
-        level = {sum / weights, 1.0 / std::sqrt(weights), open / weights};
-    }
-    return level;
-}
-
-void Comparison::explain_by_level(Explanation& best, LampDifference& result) const {
-    const Level level = level_left(best);
-    if (!is_beyond(level.log, level.error, level.open))
-        return;
-    Explanation tried = best;
-    tried.log_level = level.log;
-    if (const std::size_t without = claimed(best);
-        without > 0 && static_cast<double>(claimed(tried)) > must_leave * static_cast<double>(without))
-        return;
-    best = tried;
-    const double share = std::expm1(level.log);
-    result.level = {share, (1.0 + share) * (level.error + level.open)};
-}
-
-LampDifference Comparison::find() {
-    LampDifference result;
-    result.directions = samples_.size();
-    result.z_limit = z_limit_;
-    result.floor_cd = compared_share * peak_cd_;
-    Explanation best;
-    if (!explain_by_cut_off(best, result))
-        explain_by_aim(best, result);
-    set_noise(best); // without what the shift made of it
-    explain_by_level(best, result);
-    result.noise_relative = noise_at_peak_;
-    result.zones = find_zones(residuals(best), z_limit_);
-    if (!result.aim_up_deg && !result.cut_off_up_deg)
-        result.not_told.clear();
-    return result;
-}
 
 } // namespace
 

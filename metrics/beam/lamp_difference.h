@@ -8,18 +8,17 @@
 // it.
 #pragma once
 
-#include "metrics/beam/beam_shift.h"
 #include "metrics/beam/beam_zones.h"
 #include "scenarios/lamps/lamp_file.h"
 
+#include <optional>
 #include <string>
 
 namespace fernlicht {
 
 struct LampDifferenceOptions {
     /// Standard deviation of a sample of either table, relative. The estimate from the tables comes on top where it is larger. A tolerance
-    /// of
-    /// +-a is a / sqrt(3) when all within it is as likely.
+    /// of +-a is a / sqrt(3) when all within it is as likely.
     double noise_relative = 0.0;
     double false_claim_chance = 0.005; ///< of any claim at all between two tables of one lamp, were the noise known
 };

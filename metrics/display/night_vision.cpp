@@ -1,6 +1,6 @@
 #include "metrics/display/night_vision.h"
 
-#include "metrics/seeing/mesopic.h"
+#include "metrics/seeing/visibility.h"
 #include "scenarios/display/display_profile.h"
 
 #include <algorithm>

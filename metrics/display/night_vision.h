@@ -12,7 +12,7 @@ namespace fernlicht {
 /// fitted to Shaler's data). L in cd/m2, > 0; 3.0 where the fit ends, at 1e-3 cd/m2 and below.
 double acuity_cycles_per_deg(double adaptation_cdm2);
 
-/// Share of the cones in what is seen: m of CIE 191 (metrics/seeing/mesopic.h) for light of S/P 1. 1 from 5 cd/m2 on, 0 up to 0.005.
+/// Share of the cones in what is seen: m of CIE 191 (metrics/seeing/visibility.h) for light of S/P 1. 1 from 5 cd/m2 on, 0 up to 0.005.
 double cone_share(double adaptation_cdm2);
 
 /// Rods' luminance of light in sRGB's primaries, cd/m2, so scaled that of white it is the photopic one: Y (1.33 (1 + (Y + Z) / X) - 1.68)

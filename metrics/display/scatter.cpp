@@ -22,13 +22,7 @@ struct ScatterCell {
 };
 
 /// Cells of one size, 2^level pixels.
-struct ScatterLevel {
-    int width = 0, height = 0;
-    std::vector<ScatterCell> cells;
-    const ScatterCell& at(int x, int y) const {
-        return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-    }
-};
+using ScatterLevel = Image<ScatterCell>;
 
 float weight(const glm::vec3& rgb) { return 0.2126F * rgb.x + 0.7152F * rgb.y + 0.0722F * rgb.z; }
 
@@ -49,34 +43,28 @@ struct PictureRays {
 };
 
 ScatterLevel finest(const Image<glm::vec3>& light, const PictureRays& rays) {
-    ScatterLevel level{light.width(), light.height(), std::vector<ScatterCell>(light.size())};
+    ScatterLevel level(light.width(), light.height());
     tbb::parallel_for(0, light.height(), [&](int y) {
-        for (int x = 0; x < light.width(); ++x) {
-            ScatterCell& cell =
-                level.cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(light.width()) + static_cast<std::size_t>(x)];
-            cell.lx = light.at(x, y) * static_cast<float>(rays.solid_angle_sr(x, y));
-            cell.towards = rays.towards(x, y);
-        }
+        for (int x = 0; x < light.width(); ++x)
+            level.at(x, y) = {light.at(x, y) * static_cast<float>(rays.solid_angle_sr(x, y)), rays.towards(x, y)};
     });
     return level;
 }
 
 ScatterLevel coarser(const ScatterLevel& fine) {
-    ScatterLevel level{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
-    level.cells.resize(static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
-    tbb::parallel_for(0, level.height, [&](int y) {
-        for (int x = 0; x < level.width; ++x) {
-            ScatterCell cell;
+    ScatterLevel level((fine.width() + 1) / 2, (fine.height() + 1) / 2);
+    tbb::parallel_for(0, level.height(), [&](int y) {
+        for (int x = 0; x < level.width(); ++x) {
+            ScatterCell& cell = level.at(x, y);
             glm::vec3 centre(0.0F), middle(0.0F);
-            for (int k = 2 * y; k < std::min(2 * y + 2, fine.height); ++k)
-                for (int i = 2 * x; i < std::min(2 * x + 2, fine.width); ++i) {
+            for (int k = 2 * y; k < std::min(2 * y + 2, fine.height()); ++k)
+                for (int i = 2 * x; i < std::min(2 * x + 2, fine.width()); ++i) {
                     const ScatterCell& part = fine.at(i, k);
                     cell.lx += part.lx;
                     centre += weight(part.lx) * part.towards;
                     middle += part.towards;
                 }
             cell.towards = glm::normalize(glm::dot(centre, centre) > 0.0F ? centre : middle);
-            level.cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x)] = cell;
         }
     });
     return level;
@@ -138,8 +126,8 @@ class LevelVeil {
     /// Children of the neighbourhood of the cell's parent, without the cell's own neighbourhood.
     template <class Visit> void for_cells(int x, int y, Visit visit) const {
         const int first_x = coarsest_ ? 0 : std::max(2 * (x / 2 - far_), 0), first_y = coarsest_ ? 0 : std::max(2 * (y / 2 - far_), 0);
-        const int last_x = coarsest_ ? level_.width - 1 : std::min(2 * (x / 2 + far_) + 1, level_.width - 1);
-        const int last_y = coarsest_ ? level_.height - 1 : std::min(2 * (y / 2 + far_) + 1, level_.height - 1);
+        const int last_x = coarsest_ ? level_.width() - 1 : std::min(2 * (x / 2 + far_) + 1, level_.width() - 1);
+        const int last_y = coarsest_ ? level_.height() - 1 : std::min(2 * (y / 2 + far_) + 1, level_.height() - 1);
         for (int k = first_y; k <= last_y; ++k)
             for (int i = first_x; i <= last_x; ++i)
                 if (std::max(std::abs(i - x), std::abs(k - y)) > near_ && level_.at(i, k).lx != glm::vec3(0.0F))
@@ -216,14 +204,14 @@ Image<glm::vec3> scattered(const Image<glm::vec3>& light, double vertical_fov_ra
     const PictureRays rays(light.width(), light.height(), vertical_fov_rad);
     const double share = share_between_pixels(function, rays.step);
     std::vector<ScatterLevel> levels{finest(light, rays)};
-    while (std::max(levels.back().width, levels.back().height) > 2 * options.near_cells + 1)
+    while (std::max(levels.back().width(), levels.back().height()) > 2 * options.near_cells + 1)
         levels.push_back(coarser(levels.back()));
     const ChordScatter f(function);
     Image<glm::vec3> veil(light.width(), light.height());
     for (std::size_t k = levels.size(); k-- > 0;) {
         const LevelVeil part(levels, k, rays, f, options.near_cells);
-        tbb::parallel_for(0, levels[k].height, [&](int y) {
-            for (int x = 0; x < levels[k].width; ++x)
+        tbb::parallel_for(0, levels[k].height(), [&](int y) {
+            for (int x = 0; x < levels[k].width(); ++x)
                 part.add(x, y, veil);
         });
     }

@@ -2,6 +2,10 @@
 // How large, and how finely, a picture is seen by who looks at a display.
 #pragma once
 
+#include "metrics/display/night_vision.h"
+
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,11 +26,16 @@ struct SeenSize {
 };
 
 /// 0 < fov < pi; height, pitch, distance > 0.
-SeenSize seen_size(double vertical_fov_rad, int height_px, double pixel_pitch_mm, double viewing_distance_m);
+inline SeenSize seen_size(double vertical_fov_rad, int height_px, double pixel_pitch_mm, double viewing_distance_m) {
+    constexpr double arcmin_a_rad = 60.0 * 180.0 / std::numbers::pi;
+    const double half = std::tan(0.5 * vertical_fov_rad), pitch_m = 1.0e-3 * pixel_pitch_mm;
+    return {2.0 * arcmin_a_rad * std::atan(half / height_px), 2.0 * arcmin_a_rad * std::atan(0.5 * pitch_m / viewing_distance_m),
+            0.5 * height_px * pitch_m / half};
+}
 
 /// Half a period of the finest grating that an eye resolves when it is adapted to this luminance, in minutes of arc: 30 / acuity in cycles
 /// a degree (acuity_cycles_per_deg). cd/m2 > 0; 9.98 at 1e-3 cd/m2 and below, where its fit ends.
-double resolved_arcmin(double adaptation_cdm2);
+inline double resolved_arcmin(double adaptation_cdm2) { return 30.0 / acuity_cycles_per_deg(adaptation_cdm2); }
 
 struct SeenView {
     std::string view;

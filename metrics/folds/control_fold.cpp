@@ -1,9 +1,8 @@
 #include "metrics/folds/control_fold.h"
 
 #include "metrics/folds/place_fold.h"
-#include "metrics/glare/eye_light.h"
+#include "metrics/glare/glare.h"
 #include "metrics/road/lit_line.h"
-#include "metrics/statistics/statistics.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/motion.h"
@@ -77,6 +76,12 @@ ControlFold::ControlFold(const Drive& drive, const Route& route) : drive_(drive)
                 lamps_.push_back(lamp.name);
 }
 
+auto ControlFold::change(std::optional<double> Light::*figure) {
+    return [figure](const Row& row) -> std::optional<double> {
+        return row.moved.*figure && row.still.*figure ? std::optional(*(row.moved.*figure) - *(row.still.*figure)) : std::nullopt;
+    };
+}
+
 ControlFold::Light ControlFold::light(const Moment& moment, double curvature) const {
     Light light;
     light.others_lx = others_lx(moment);
@@ -145,13 +150,12 @@ Readings ControlFold::readings() const {
             most_deg = std::max(most_deg, std::abs(swivel.value_or(0.0)));
     say({.quantity = Quantity::control_swivel, .statistic = Statistic::maximum}, "largest swivel of any lamp",
         rows_.empty() ? std::nullopt : std::optional(most_deg), "no moment was played");
-    const auto in_bends = [&](int side, auto&& value) -> std::optional<double> {
+    const auto in_bends = [&](int side, const std::string& none, auto&& value) {
         std::vector<double> values;
         for (const Row& row : rows_)
             if (const std::optional<double> found = row.bend == side ? value(row) : std::nullopt)
                 values.push_back(*found);
-        const auto spread = spread_of(values);
-        return spread ? std::optional(spread->median) : std::nullopt;
+        return median_value(values, none);
     };
     const auto pair = [&](ReadingKey key, const std::string& where, std::optional<double> Light::*figure) {
         key.statistic = Statistic::median;
@@ -160,16 +164,11 @@ Readings ControlFold::readings() const {
             const std::string none = fmt::format("no moment in a {} bend of less than 1500 m radius has such a place", word);
             key.place = place;
             key.aspect = Aspect::value;
-            say(key, fmt::format("{}, median in {} bends", where, word), in_bends(side, [&](const Row& row) { return row.moved.*figure; }),
-                none);
+            readings.push_back({key, in_bends(side, none, [&](const Row& row) { return row.moved.*figure; }),
+                                fmt::format("{}, median in {} bends", where, word)});
             key.aspect = Aspect::by_control;
-            say(key, fmt::format("{}, against the same lamps held still, median in {} bends", where, word),
-                in_bends(side,
-                         [&](const Row& row) -> std::optional<double> {
-                             return row.moved.*figure && row.still.*figure ? std::optional(*(row.moved.*figure) - *(row.still.*figure))
-                                                                           : std::nullopt;
-                         }),
-                none);
+            readings.push_back({key, in_bends(side, none, change(figure)),
+                                fmt::format("{}, against the same lamps held still, median in {} bends", where, word)});
         }
     };
     pair({.quantity = Quantity::control_inside, .distance_m = look_m},
@@ -213,12 +212,9 @@ Readings ControlFold::readings() const {
 }
 
 std::vector<SeeingSeries> ControlFold::series() const {
-    SeeingSeries series{"control", "Lamps", "distance along the route", {}, {}, {}};
+    SeeingSeries series{"control", "Lamps", "distance along the route"};
     const auto column = [&](const std::string& name, const std::string& label, const std::string& unit, const auto& value) {
-        SeeingSeries::Column added{name, label, unit, false, true, {}};
-        for (const Row& row : rows_)
-            added.values.push_back(Value::of(value(row), "not there in this moment"));
-        series.columns.push_back(std::move(added));
+        series.add({name, label, unit}, rows_, [&](const Row& row) { return Value::of(value(row), "not there in this moment"); });
     };
     for (const Row& row : rows_) {
         series.ticks.push_back(row.tick);
@@ -232,11 +228,6 @@ std::vector<SeeingSeries> ControlFold::series() const {
     }
     column("inside_at_50m_lx", "light inside the bend, 50 m ahead", "lx",
            [](const Row& row) { return row.bend != 0 ? row.moved.inside_lx : std::nullopt; });
-    const auto change = [](std::optional<double> Light::*figure) {
-        return [figure](const Row& row) -> std::optional<double> {
-            return row.moved.*figure && row.still.*figure ? std::optional(*(row.moved.*figure) - *(row.still.*figure)) : std::nullopt;
-        };
-    };
     column("reach_gain_5lx_m", "reach at 5 lx gained by control", "m", change(&Light::reach_m));
     column("glare_at_50m_lx", "light in oncoming eyes, 50 m ahead", "lx", [](const Row& row) { return row.moved.glare_lx; });
     column("glare_cost_at_50m_lx", "of it by control", "lx", change(&Light::glare_lx));

@@ -37,6 +37,7 @@ class ControlFold {
         std::optional<double> mode, high_beam;
     };
     Light light(const Moment& moment, double curvature_per_m) const;
+    static auto change(std::optional<double> Light::*figure); ///< of a row, by control
 
     const Drive& drive_;
     const Route& route_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <glm/geometric.hpp>
 
 namespace fernlicht {
@@ -92,14 +93,12 @@ void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::st
 
 SeeingSeries GlareFollowed::series(const ReadingKey& eye, const std::string& title, const std::string& over,
                                    const std::vector<std::string>& lamps) const {
-    SeeingSeries series{eye_name(eye), title, over, ticks, {}, {}};
+    SeeingSeries series{eye_name(eye), title, over, ticks};
     for (const ApproachSample& sample : facing)
         series.at_m.push_back(sample.distance_m);
     const auto column = [&](const char* name, const char* label, const char* unit, bool logarithmic, const Approach& figure) {
-        SeeingSeries::Column values{name, label, unit, logarithmic, true, {}};
-        for (const ApproachSample& sample : figure)
-            values.values.push_back(Value::of(sample.value, "not measured at this place"));
-        series.columns.push_back(std::move(values));
+        series.add({name, label, unit, logarithmic}, figure,
+                   [](const ApproachSample& sample) { return Value::of(sample.value, "not measured at this place"); });
     };
     column("facing_lx", "illuminance facing the lamps", "lx", true, facing);
     column("eye_lx", "illuminance across the line of sight", "lx", true, eye_lx);
@@ -107,12 +106,8 @@ SeeingSeries GlareFollowed::series(const ReadingKey& eye, const std::string& tit
     column("veiling_cdm2", "veiling luminance", "cd/m2", true, veiling);
     column("threshold_increment_percent", "threshold increment", "%", true, increment);
     column("de_boer", "de Boer's rating", "", false, de_boer);
-    for (std::size_t i = 0; i < theta_deg.size(); ++i) {
-        SeeingSeries::Column theta{
-            fmt::format("theta_{}_deg", i < lamps.size() ? lamps[i] : ""), "angle of " + lamps.at(i), "deg", false, false, {}};
-        theta.values.assign(theta_deg[i].begin(), theta_deg[i].end());
-        series.columns.push_back(std::move(theta));
-    }
+    for (std::size_t i = 0; i < theta_deg.size(); ++i)
+        series.add({"theta_" + lamps.at(i) + "_deg", "angle of " + lamps.at(i), "deg", false, false}, theta_deg[i], std::identity());
     return series;
 }
 
@@ -148,9 +143,7 @@ void OncomingFold::add(const Moment& moment) {
             continue;
         std::vector<GlareSource> sources;
         double facing = 0.0;
-        for (SeenLamp lamp : seen_lamps(moment, *eye.place_m)) {
-            if (lamp.facing_lx > 0.0 && road_hides(route_, moment.distance_m, observer.at_m, lamp.position_m, *eye.place_m))
-                lamp.facing_lx = 0.0;
+        for (const SeenLamp& lamp : lamps_over_road(moment, route_, observer.at_m, *eye.place_m)) {
             facing += lamp.facing_lx;
             sources.push_back(glare_source(lamp, *eye.place_m, eye.gaze));
         }
@@ -220,9 +213,7 @@ void MirrorFold::add(const Moment& moment) {
         for (std::size_t k = 0; k < mirrors.mirrors.size(); ++k) {
             const glm::dvec3 mirror_m = to_parent(car, mirrors.mirrors[k].position_m);
             double on_mirror = 0.0;
-            for (SeenLamp lamp : seen_lamps(moment, mirror_m)) {
-                if (lamp.facing_lx > 0.0 && road_hides(route_, moment.distance_m, ahead_m, lamp.position_m, mirror_m))
-                    lamp.facing_lx = 0.0;
+            for (const SeenLamp& lamp : lamps_over_road(moment, route_, ahead_m, mirror_m)) {
                 on_mirror += lamp.facing_lx;
                 sources.push_back(mirrored_source(lamp, mirror_m, mirrors.reflectance, eye_m, car.forward()));
             }
@@ -269,15 +260,13 @@ std::vector<SeeingSeries> MirrorFold::series() const {
 }
 
 TrafficFold::TrafficFold(const Drive& drive) : drive_(drive) {
-    const auto view = std::ranges::find(drive.views, Projection::perspective, &View::projection);
-    if (view != drive.views.end())
-        eye_m_ = view->position_m;
     for (const RoadUser& user : drive.traffic)
         boxes_.push_back({user.size_m, user.rear_m});
 }
 
 void TrafficFold::add(const Moment& moment) {
-    const std::vector<GlareSource> sources = traffic_glare(moment, to_parent(moment.ego, eye_m_), moment.ego.forward(), boxes_);
+    const std::vector<GlareSource> sources =
+        traffic_glare(moment, to_parent(moment.ego, driver_eye_m(drive_)), moment.ego.forward(), boxes_);
     double facing = 0.0;
     for (const GlareSource& source : sources)
         facing += source.eye_lx / std::cos(radians(source.theta_deg));

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "metrics/folds/seeing_series.h"
-#include "metrics/glare/eye_light.h"
+#include "metrics/glare/glare.h"
 #include "metrics/readings/readings.h"
-#include "metrics/road/approach.h"
+#include "metrics/road/lit_line.h"
 
 namespace fernlicht {
 
@@ -88,7 +88,6 @@ class TrafficFold {
 
   private:
     const Drive& drive_;
-    glm::dvec3 eye_m_{1.3, 0.35, 1.2}; ///< in the car's frame
     std::vector<BodyBox> boxes_;
     GlareFollowed eye_;
 };

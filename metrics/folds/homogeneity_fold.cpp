@@ -1,5 +1,6 @@
 #include "metrics/folds/homogeneity_fold.h"
 
+#include "metrics/folds/place_fold.h"
 #include "metrics/statistics/statistics.h"
 #include "scenarios/light/light.h"
 
@@ -41,18 +42,13 @@ LaneLight lane_light(const Drive& drive, const Route& route, const Moment& momen
 
 } // namespace
 
-HomogeneityFold::HomogeneityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
-    const View* const view = driver_view(drive);
-    eye_m_ = view ? view->position_m : glm::dvec3(1.3, 0.35, 1.2);
-}
-
 void HomogeneityFold::add(const Moment& moment) {
     const HomogeneityParameters& asked = *drive_.seeing.homogeneity;
     Moment lit = moment;
     std::erase_if(lit.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
     if (lit.lamps.empty())
         return;
-    const LaneLight light = lane_light(drive_, route_, lit, to_parent(moment.ego, eye_m_));
+    const LaneLight light = lane_light(drive_, route_, lit, to_parent(moment.ego, driver_eye_m(drive_)));
     rows_.push_back({moment.tick, moment.distance_m, largest_gradients(light, asked.least_lx),
                      patches(light, asked.least_lx, asked.patch_factor), foreground_ratio(light)});
 }
@@ -92,26 +88,22 @@ Readings HomogeneityFold::readings() const {
         else
             missing = "in some moment: " + row.foreground.reason();
     }
-    const std::optional<Spread> spread = missing.empty() ? spread_of(ratios) : std::nullopt;
     readings.push_back({{.quantity = Quantity::foreground_ratio, .lane = "own", .statistic = Statistic::median},
-                        spread ? Value(spread->median) : Value::not_measured(missing),
+                        missing.empty() ? median_value(ratios, missing) : Value::not_measured(missing),
                         "own lane, mean from 5 to 15 m over mean from 40 to 60 m before the lamps, median"});
     return readings;
 }
 
 std::vector<SeeingSeries> HomogeneityFold::series() const {
-    SeeingSeries series{"homogeneity_own", "Evenness of the own lane", "distance along the route", {}, {}, {}};
-    SeeingSeries::Column along{"gradient_along_per_m", "largest gradient along", "1/m", false, true, {}},
-        across{"gradient_across_per_m", "largest gradient across", "1/m", false, true, {}},
-        ratio{"foreground_ratio", "foreground ratio", "", false, true, {}};
+    SeeingSeries series{"homogeneity_own", "Evenness of the own lane", "distance along the route"};
     for (const Row& row : rows_) {
         series.ticks.push_back(row.tick);
         series.at_m.push_back(row.along_m);
-        along.values.push_back(row.gradients.along.per_m);
-        across.values.push_back(row.gradients.across.per_m);
-        ratio.values.push_back(row.foreground);
     }
-    series.columns = {std::move(along), std::move(across), std::move(ratio)};
+    series.add({"gradient_along_per_m", "largest gradient along", "1/m"}, rows_, [](const Row& row) { return row.gradients.along.per_m; });
+    series.add({"gradient_across_per_m", "largest gradient across", "1/m"}, rows_,
+               [](const Row& row) { return row.gradients.across.per_m; });
+    series.add({"foreground_ratio", "foreground ratio", ""}, rows_, [](const Row& row) { return row.foreground; });
     return {series};
 }
 

@@ -11,7 +11,7 @@ namespace fernlicht {
 class HomogeneityFold {
   public:
     /// The drive must ask for homogeneity. Drive and route must outlive the fold.
-    HomogeneityFold(const Drive& drive, const Route& route);
+    HomogeneityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {}
 
     void add(const Moment& moment);
     /// gradient_along_own_per_m and _per_deg, gradient_across_..., patch_dark_own_m and patch_bright_own_m (the longest), medians and
@@ -29,7 +29,6 @@ class HomogeneityFold {
     };
     const Drive& drive_;
     const Route& route_;
-    glm::dvec3 eye_m_{0.0};
     std::vector<Row> rows_;
 };
 

@@ -1,8 +1,7 @@
 #include "metrics/folds/place_fold.h"
 
-#include "metrics/glare/eye_light.h"
+#include "metrics/glare/glare.h"
 #include "metrics/seeing/visibility.h"
-#include "metrics/statistics/statistics.h"
 #include "scenarios/light/light.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 
@@ -26,13 +25,6 @@ constexpr BoardPlace boards[] = {{ReadingPlace::right, Across::right_edge, -2.0,
                                  {ReadingPlace::left, Across::left_edge, 2.0, 2.0},
                                  {ReadingPlace::overhead, Across::own_centre, 0.0, 5.5}};
 
-Material material_named(const std::string& name) {
-    for (const Material& material : road_materials())
-        if (material.name == name)
-            return material;
-    throw std::logic_error("no material " + name);
-}
-
 /// The moment without lamps that a crest of the road hides from a point.
 Moment reaching(const Moment& moment, const Route& route, double to_m, const glm::dvec3& point) {
     Moment lit = moment;
@@ -46,8 +38,6 @@ Moment reaching(const Moment& moment, const Route& route, double to_m, const glm
 
 PlaceFold::PlaceFold(const Drive& drive, const Route& route)
     : drive_(drive), route_(route), board_(material_named("board")), marking_(material_named("marking-white")) {
-    const View* const view = driver_view(drive);
-    eye_m_ = view ? view->position_m : glm::dvec3(1.3, 0.35, 1.2);
     const PlaceParameters& asked = *drive.seeing.places;
     for (const double distance_m : asked.distances_m) {
         const auto figure = [&](Quantity quantity, ReadingSurface surface, ReadingPlace place, const std::string& where) {
@@ -78,7 +68,7 @@ PlaceFold::PlaceFold(const Drive& drive, const Route& route)
 
 void PlaceFold::add(const Moment& moment) {
     const PlaceParameters& asked = *drive_.seeing.places;
-    const glm::dvec3 eye_m = to_parent(moment.ego, eye_m_);
+    const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive_));
     std::size_t next = 0;
     const auto say = [&](std::optional<double> value, const char* missing) {
         Figure& figure = figures_[next++];
@@ -126,14 +116,80 @@ void PlaceFold::add(const Moment& moment) {
 
 Readings PlaceFold::readings() const {
     Readings readings;
-    for (const Figure& figure : figures_) {
-        const std::optional<Spread> spread = figure.missing.empty() ? spread_of(figure.values) : std::nullopt;
+    for (const Figure& figure : figures_)
         readings.push_back(
-            {figure.key,
-             spread ? Value(spread->median) : Value::not_measured(figure.missing.empty() ? "no moment was played" : figure.missing),
+            {figure.key, figure.missing.empty() ? median_value(figure.values, "no moment was played") : Value::not_measured(figure.missing),
              figure.where});
+    return readings;
+}
+
+SensorFold::SensorFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
+    for (const Sensor& sensor : drive.seeing.sensors->points) {
+        const std::optional<double> left_m = offset_across_m(route.cross_section(sensor.at_m), sensor.across);
+        followed_.emplace_back();
+        if (!left_m)
+            continue;
+        const Pose surface = route.pose(sensor.at_m, *left_m);
+        followed_.back().point_m = surface.position_m + sensor.above_m * surface.up();
+    }
+}
+
+void SensorFold::add(const Moment& moment) {
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+        Followed& here = followed_[i];
+        const Sensor& sensor = drive_.seeing.sensors->points[i];
+        const double to_go_m = sensor.at_m - moment.distance_m - drive_.bumper_m;
+        here.passed = here.passed || to_go_m < 0.0;
+        if (!here.point_m || to_go_m < 0.0)
+            continue;
+        const double lx = facing_lx(lamps_over_road(moment, route_, sensor.at_m, *here.point_m));
+        for (const LitLamp& lamp : moment.lamps)
+            here.near_field = here.near_field || glm::distance(lamp.pose.position_m, *here.point_m) < lamp.photometric_distance_m;
+        here.approach.push_back({moment.time_s, to_go_m, lx});
+        here.ticks.push_back(moment.tick);
+    }
+}
+
+Readings SensorFold::readings() const {
+    Readings readings;
+    const SensorParameters& parameters = *drive_.seeing.sensors;
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+        const Sensor& sensor = parameters.points[i];
+        const Followed& here = followed_[i];
+        const std::string cut = cut_short(here.approach, here.passed);
+        const std::string where = fmt::format(
+            "{}, {} m along the route, {} m above the road, facing the lamps{}{}", place_name(sensor.across), sensor.at_m, sensor.above_m,
+            here.near_field ? ", near-field: nearer than a lamp's photometric distance" : "", cut.empty() ? "" : "; " + cut);
+        const auto say = [&](const ReadingKey& key, Value found) {
+            if (!here.point_m)
+                found = Value::not_measured(fmt::format("there is no {} at {} m", place_name(sensor.across), sensor.at_m));
+            readings.push_back({key, found, where});
+            readings.back().key.subject = sensor.name;
+        };
+        for (const double limit : parameters.limits_lx)
+            say({.quantity = Quantity::sensor_reach, .threshold = {limit, ThresholdUnit::lx}},
+                reached_from_m(here.approach, limit, here.passed));
+        for (const double distance_m : parameters.distances_m)
+            say({.quantity = Quantity::sensor_illuminance, .distance_m = distance_m}, value_at(here.approach, distance_m));
+        say({.quantity = Quantity::sensor_illuminance, .statistic = Statistic::maximum},
+            Value::of(largest(here.approach), "no moment of the drive before this place was measured"));
     }
     return readings;
+}
+
+std::vector<SeeingSeries> SensorFold::series() const {
+    std::vector<SeeingSeries> all;
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+        const Sensor& sensor = drive_.seeing.sensors->points[i];
+        SeeingSeries series{"sensor_" + sensor.name, fmt::format("Sensor \u201c{}\u201d", sensor.name), "distance to the sensor",
+                            followed_[i].ticks};
+        for (const ApproachSample& sample : followed_[i].approach)
+            series.at_m.push_back(sample.distance_m);
+        series.add({"facing_lx", "illuminance facing the lamps", "lx", true}, followed_[i].approach,
+                   [](const ApproachSample& sample) { return Value::of(sample.value, "not measured at this place"); });
+        all.push_back(std::move(series));
+    }
+    return all;
 }
 
 std::optional<double> offset_across_m(const CrossSection& section, Across across) {
@@ -155,17 +211,22 @@ std::optional<double> offset_across_m(const CrossSection& section, Across across
 }
 
 std::string place_name(Across across) {
-    switch (across) {
-    case Across::own_centre:
-        return "centre of the own lane";
-    case Across::oncoming_centre:
-        return "centre of the nearest oncoming lane";
-    case Across::right_edge:
-        return "right edge of the lanes";
-    case Across::left_edge:
-        break;
-    }
-    return "left edge of the lanes";
+    return across == Across::own_centre        ? "centre of the own lane"
+           : across == Across::oncoming_centre ? "centre of the nearest oncoming lane"
+           : across == Across::right_edge      ? "right edge of the lanes"
+                                               : "left edge of the lanes";
+}
+
+glm::dvec3 driver_eye_m(const Drive& drive) {
+    const View* const view = driver_view(drive);
+    return view ? view->position_m : glm::dvec3(1.3, 0.35, 1.2);
+}
+
+Material material_named(const std::string& name) {
+    for (const Material& material : road_materials())
+        if (material.name == name)
+            return material;
+    throw std::logic_error("no material " + name);
 }
 
 } // namespace fernlicht

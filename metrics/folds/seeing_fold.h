@@ -5,7 +5,6 @@
 #include "metrics/folds/glare_fold.h"
 #include "metrics/folds/homogeneity_fold.h"
 #include "metrics/folds/place_fold.h"
-#include "metrics/folds/sensor_fold.h"
 #include "metrics/folds/visibility_fold.h"
 #include "metrics/readings/readings.h"
 

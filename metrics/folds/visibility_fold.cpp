@@ -3,10 +3,8 @@
 #include "metrics/folds/place_fold.h"
 #include "metrics/readings/value.h"
 #include "metrics/road/lit_line.h"
-#include "metrics/seeing/mesopic.h"
-#include "metrics/statistics/statistics.h"
+#include "metrics/seeing/visibility.h"
 #include "scenarios/light/light.h"
-#include "scenarios/roads/mesh/road_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +17,7 @@ namespace {
 /// The road behind a target is known so much farther than targets stand: from an eye of 1.2 m, a target's middle of 0.1 m hides what lies
 /// an eleventh farther.
 constexpr double known_behind_m = 100.0;
-const glm::dvec3 usual_eye_m{1.3, 0.35, 1.2};
 constexpr double background_above_m = 0.1;
-
-Material asphalt() {
-    for (const Material& material : road_materials())
-        if (material.name == "asphalt")
-            return material;
-    throw std::logic_error("there is no asphalt among the road's materials");
-}
 
 ReadingKey detection_of(const VisibilityTarget& target, Across across) {
     return {.quantity = Quantity::detection,
@@ -42,9 +32,7 @@ ReadingKey detection_of(const VisibilityTarget& target, Across across) {
 
 } // namespace
 
-VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route), road_(asphalt()) {
-    const View* const view = driver_view(drive);
-    eye_m_ = view ? view->position_m : usual_eye_m;
+VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route), road_(material_named("asphalt")) {
     const VisibilityParameters& asked = *drive.seeing.visibility;
     backgrounds_.resize(asked.distances_m.size());
     for (const VisibilityTarget& target : asked.targets)
@@ -186,7 +174,7 @@ void VisibilityFold::add(const Moment& moment) {
     std::erase_if(lit.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
     const double bumper_m = moment.distance_m + drive_.bumper_m;
     const LaneAhead lane(route_, bumper_m, asked.ahead_m + known_behind_m, asked.step_m);
-    const glm::dvec3 eye_m = to_parent(moment.ego, eye_m_);
+    const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive_));
     ticks_.push_back(moment.tick);
     along_m_.push_back(moment.distance_m);
     for (Stand& stand : stands_)
@@ -200,8 +188,7 @@ Readings VisibilityFold::readings() const {
     Readings readings;
     const auto median = [&](const ReadingKey& key, const std::string& conditions, const std::vector<double>& values,
                             const std::string& missing) {
-        const std::optional<Spread> spread = missing.empty() ? spread_of(values) : std::nullopt;
-        readings.push_back({key, spread ? Value(spread->median) : Value::not_measured(missing.empty() ? "no moment was measured" : missing),
+        readings.push_back({key, missing.empty() ? median_value(values, "no moment was measured") : Value::not_measured(missing),
                             conditions + ", median"});
     };
     for (const Stand& stand : stands_)
@@ -255,16 +242,9 @@ std::vector<SeeingSeries> VisibilityFold::series() const {
         for (const Sight& sight : stand.sights) {
             SeeingSeries series{
                 fmt::format("detection_{}_{}", sight.key.subject, sight.key.lane.empty() ? name_of(sight.key.place) : sight.key.lane),
-                fmt::format("{}, {}", sight.target->name, place_name(stand.across)),
-                "distance along the route",
-                ticks_,
-                along_m_,
-                {}};
-            SeeingSeries::Column from{
-                "detection_m", fmt::format("detection distance, level {}", sight.target->level), "m", false, true, {}};
-            for (const Detection& detection : sight.detections)
-                from.values.push_back(detection.from_m);
-            series.columns.push_back(std::move(from));
+                fmt::format("{}, {}", sight.target->name, place_name(stand.across)), "distance along the route", ticks_, along_m_};
+            series.add({"detection_m", fmt::format("detection distance, level {}", sight.target->level), "m"}, sight.detections,
+                       [](const Detection& detection) { return detection.from_m; });
             for (std::size_t d = 0; d < sight.at.size(); ++d)
                 series.columns.push_back({fmt::format("visibility_level_at_{}m", asked.distances_m[d]),
                                           fmt::format("visibility level {} m ahead", asked.distances_m[d]), "", false, false,

@@ -65,7 +65,6 @@ class VisibilityFold {
     const Drive& drive_;
     const Route& route_;
     Material road_;
-    glm::dvec3 eye_m_{0.0}; ///< in the car's frame
     std::vector<int> ticks_;
     std::vector<double> along_m_;
     std::vector<Stand> stands_;

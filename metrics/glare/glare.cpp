@@ -1,7 +1,11 @@
 #include "metrics/glare/glare.h"
 
+#include "scenarios/light/light.h"
+
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -36,6 +40,14 @@ void check(const std::vector<GlareSource>& sources) {
     for (const GlareSource& source : sources)
         if (!(source.eye_lx >= 0.0) || !std::isfinite(source.eye_lx) || !(source.theta_deg >= 0.0 && source.theta_deg <= 180.0))
             throw std::invalid_argument(fmt::format("a glare source of {} lx at {} degrees", source.eye_lx, source.theta_deg));
+}
+
+constexpr double step_m = 2.0;
+
+/// `lx` on a plane that faces the source, turned to the plane across the gaze.
+GlareSource across_gaze(double lx, const glm::dvec3& towards, const glm::dvec3& gaze) {
+    const double theta_deg = angle_between_deg(towards, gaze);
+    return {theta_deg < 90.0 ? lx * std::cos(radians(theta_deg)) : 0.0, theta_deg};
 }
 
 } // namespace
@@ -83,6 +95,101 @@ Value de_boer_rating(const std::vector<GlareSource>& sources, double adaptation_
     if (glare == 0.0)
         return Value::not_measured("no light reaches the eye");
     return 5.0 - 2.0 * std::log10(glare);
+}
+
+std::vector<SeenLamp> seen_lamps(const Moment& moment, const glm::dvec3& point_m) {
+    std::vector<SeenLamp> seen;
+    for (const LitLamp& lamp : moment.lamps) {
+        const double distance_m = glm::distance(lamp.pose.position_m, point_m), cd = intensity_towards_cd(lamp, point_m);
+        seen.push_back({lamp.name, lamp.pose.position_m, cd > 0.0 ? cd / (distance_m * distance_m) : 0.0, distance_m});
+    }
+    return seen;
+}
+
+double facing_lx(const std::vector<SeenLamp>& lamps) {
+    double lx = 0.0;
+    for (const SeenLamp& lamp : lamps)
+        lx += lamp.facing_lx;
+    return lx;
+}
+
+GlareSource glare_source(const SeenLamp& lamp, const glm::dvec3& eye_m, const glm::dvec3& gaze) {
+    return across_gaze(lamp.facing_lx, lamp.position_m - eye_m, gaze);
+}
+
+GlareSource mirrored_source(const SeenLamp& lamp, const glm::dvec3& mirror_m, double reflectance, const glm::dvec3& eye_m,
+                            const glm::dvec3& gaze) {
+    const double shrunk = lamp.distance_m / (lamp.distance_m + glm::distance(mirror_m, eye_m));
+    return across_gaze(reflectance * lamp.facing_lx * shrunk * shrunk, mirror_m - eye_m, gaze);
+}
+
+double angle_between_deg(const glm::dvec3& a, const glm::dvec3& b) {
+    return degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+bool road_hides(const Route& route, double from_m, double to_m, const glm::dvec3& from, const glm::dvec3& to) {
+    const int steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
+    for (int k = 1; k < steps; ++k) {
+        const double at_m = from_m + k * (to_m - from_m) / steps;
+        const Pose centre = route.pose(at_m);
+        const double along = glm::dot(to - from, centre.forward());
+        const double share = glm::dot(centre.position_m - from, centre.forward()) / along;
+        if (!(share > 0.0 && share < 1.0))
+            continue; // the line does not pass this cross-section between its ends
+        const glm::dvec3 passing = from + share * (to - from);
+        const double left_m = glm::dot(passing - centre.position_m, centre.left());
+        const Pose below = route.pose(at_m, left_m);
+        if (glm::dot(passing - below.position_m, below.up()) >= 0.0)
+            continue;
+        const CrossSection section = route.cross_section(at_m);
+        if (left_m <= section.paved_left_m && left_m >= section.paved_right_m)
+            return true;
+    }
+    return false;
+}
+
+std::vector<SeenLamp> lamps_over_road(const Moment& moment, const Route& route, double to_m, const glm::dvec3& point_m) {
+    std::vector<SeenLamp> seen = seen_lamps(moment, point_m);
+    for (SeenLamp& lamp : seen)
+        if (lamp.facing_lx > 0.0 && road_hides(route, moment.distance_m, to_m, lamp.position_m, point_m))
+            lamp.facing_lx = 0.0;
+    return seen;
+}
+
+bool box_hides(const BodyBox& box, const Pose& pose, const glm::dvec3& from_m, const glm::dvec3& to_m) {
+    const glm::dvec3 low(box.rear_m, -0.5 * box.size_m.y, 0.0), high(box.rear_m + box.size_m.x, 0.5 * box.size_m.y, box.size_m.z);
+    const glm::dvec3 from = to_local(pose, from_m), way = to_local(pose, to_m) - from;
+    double enter = 0.0, leave = 1.0; // Kay and Kajiya's slabs
+    for (int axis = 0; axis < 3; ++axis) {
+        if (way[axis] == 0.0) {
+            if (from[axis] < low[axis] || from[axis] > high[axis])
+                return false;
+            continue;
+        }
+        const double a = (low[axis] - from[axis]) / way[axis], b = (high[axis] - from[axis]) / way[axis];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave;
+}
+
+std::vector<GlareSource> traffic_glare(const Moment& moment, const glm::dvec3& eye_m, const glm::dvec3& gaze,
+                                       const std::vector<BodyBox>& boxes) {
+    std::vector<GlareSource> sources;
+    for (const LitLamp& lamp : moment.other_lamps) {
+        const glm::dvec3 at_m = lamp.pose.position_m, to = at_m - eye_m;
+        const double cd = intensity_towards_cd(lamp, eye_m), d2 = glm::dot(to, to);
+        if (!(cd > 0.0) || !(d2 > 0.0))
+            continue;
+        bool hidden = false;
+        for (std::size_t i = 0; i < moment.bodies.size() && i < boxes.size() && !hidden; ++i)
+            hidden =
+                moment.bodies[i].visible && static_cast<int>(i) != lamp.body && box_hides(boxes[i], moment.bodies[i].pose, eye_m, at_m);
+        const GlareSource source = glare_source({lamp.name, at_m, cd / d2, std::sqrt(d2)}, eye_m, gaze);
+        if (!hidden && source.eye_lx > 0.0)
+            sources.push_back(source);
+    }
+    return sources;
 }
 
 } // namespace fernlicht

@@ -1,12 +1,13 @@
 #include "metrics/images/ciede2000.h"
 
+#include "metrics/images/image_difference.h"
 #include "metrics/images/srgb.h"
+#include "metrics/statistics/statistics.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <tbb/parallel_for.h>
 #include <vector>
@@ -76,11 +77,7 @@ Lab lab_of(const Rgb8& colour) {
 }
 
 Image<float> ciede2000_map(const Image<Rgb8>& tested, const Image<Rgb8>& reference) {
-    if (tested.width() != reference.width() || tested.height() != reference.height())
-        throw std::invalid_argument(fmt::format("pictures of {}x{} and {}x{} cannot be compared", tested.width(), tested.height(),
-                                                reference.width(), reference.height()));
-    if (tested.empty())
-        throw std::invalid_argument("empty pictures cannot be compared");
+    check_comparable(tested, reference);
     Image<float> map(tested.width(), tested.height());
     tbb::parallel_for(0, map.height(), [&](int y) {
         for (int x = 0; x < map.width(); ++x)
@@ -107,13 +104,9 @@ ColourDifference summary_of_colours(const Image<float>& differences) {
         }
     std::vector<float> sorted = differences.pixels();
     std::ranges::sort(sorted);
-    const auto ranked = [&](double part) {
-        const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
-        return static_cast<double>(sorted[rank > 0 ? rank - 1 : 0]);
-    };
     result.mean = sum / static_cast<double>(sorted.size());
-    result.median = ranked(0.5);
-    result.p95 = ranked(0.95);
+    result.median = by_nearest_rank(sorted, 0.5);
+    result.p95 = by_nearest_rank(sorted, 0.95);
     return result;
 }
 

@@ -1,7 +1,9 @@
 #include "metrics/images/flip.h"
 
 #include "metrics/images/flip_tile.h"
+#include "metrics/images/image_difference.h"
 #include "metrics/images/srgb.h"
+#include "metrics/statistics/statistics.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
@@ -15,11 +17,7 @@ namespace fernlicht {
 namespace {
 
 template <class Picture> void check(const Picture& tested, const Picture& reference, double pixels_per_degree) {
-    if (tested.width() != reference.width() || tested.height() != reference.height())
-        throw std::invalid_argument(fmt::format("pictures of {}x{} and {}x{} cannot be compared", tested.width(), tested.height(),
-                                                reference.width(), reference.height()));
-    if (tested.empty())
-        throw std::invalid_argument("empty pictures cannot be compared");
+    check_comparable(tested, reference);
     if (!has_flip_at(pixels_per_degree))
         throw std::invalid_argument(
             fmt::format("{} pixels per degree are not from {} to {}", pixels_per_degree, least_pixels_per_degree, most_pixels_per_degree));
@@ -40,14 +38,15 @@ template <class Work> void for_tiles(int width, int height, const Work& work) {
     });
 }
 
-flip::Rows rows_of(const Image<Rgb8>& picture) {
-    return [&picture](int y, int x, int count, float* r, float* g, float* b) {
-        const auto& linear = srgb_table();
-        const Rgb8* pixel = &picture.at(x, y);
+/// `shown(pixel)`: linear RGB, 0..1.
+template <class Pixel, class Shown> flip::Rows rows_of(const Image<Pixel>& picture, const Shown& shown) {
+    return [&picture, shown](int y, int x, int count, float* r, float* g, float* b) {
+        const Pixel* pixel = &picture.at(x, y);
         for (int i = 0; i < count; ++i) {
-            r[i] = linear[pixel[i].r];
-            g[i] = linear[pixel[i].g];
-            b[i] = linear[pixel[i].b];
+            const glm::vec3 colour = shown(pixel[i]);
+            r[i] = colour.x;
+            g[i] = colour.y;
+            b[i] = colour.z;
         }
     };
 }
@@ -72,24 +71,10 @@ double bright_end() {
 }
 } // namespace aces
 
-flip::Rows rows_of(const Image<glm::vec3>& picture, float factor) {
-    return [&picture, factor](int y, int x, int count, float* r, float* g, float* b) {
-        const glm::vec3* pixel = &picture.at(x, y);
-        for (int i = 0; i < count; ++i) {
-            r[i] = aces::shown(factor * pixel[i].x);
-            g[i] = aces::shown(factor * pixel[i].y);
-            b[i] = aces::shown(factor * pixel[i].z);
-        }
-    };
+glm::vec3 exposed(const glm::vec3& light, float factor) {
+    return {aces::shown(factor * light.x), aces::shown(factor * light.y), aces::shown(factor * light.z)};
 }
-
-flip::Rows rows_of(const Image<float>& picture, float factor) {
-    return [&picture, factor](int y, int x, int count, float* r, float* g, float* b) {
-        const float* pixel = &picture.at(x, y);
-        for (int i = 0; i < count; ++i)
-            r[i] = g[i] = b[i] = aces::shown(factor * pixel[i]);
-    };
-}
+glm::vec3 exposed(float light, float factor) { return glm::vec3(aces::shown(factor * light)); }
 
 bool is_light(float v) { return v >= 0.0F && std::isfinite(v); }
 bool is_light(const glm::vec3& v) { return is_light(v.x) && is_light(v.y) && is_light(v.z); }
@@ -103,12 +88,6 @@ template <class Pixel> void check_light(const Image<Pixel>& picture, const char*
                 throw std::invalid_argument(fmt::format("{} picture: pixel {}, {} is below 0 or not finite", which, x, y));
 }
 
-double median_of(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return static_cast<double>(*middle);
-}
-
 template <class Pixel> ExposureRange exposures_of(const Image<Pixel>& reference) {
     check_light(reference, "reference");
     std::vector<float> luminances;
@@ -117,10 +96,10 @@ template <class Pixel> ExposureRange exposures_of(const Image<Pixel>& reference)
     const double largest = luminances.empty() ? 0.0 : static_cast<double>(*std::ranges::max_element(luminances));
     if (!(largest > 0.0))
         throw std::invalid_argument("a reference without light has no exposure");
-    double middle = median_of(luminances);
+    double middle = middle_of(luminances);
     if (!(middle > 0.0)) {
         std::erase_if(luminances, [](float v) { return !(v > 0.0F); });
-        middle = median_of(luminances);
+        middle = middle_of(luminances);
     }
     ExposureRange range;
     range.start = std::log2(aces::bright_end() / largest);
@@ -129,22 +108,15 @@ template <class Pixel> ExposureRange exposures_of(const Image<Pixel>& reference)
     return range;
 }
 
-template <class Pixel> Image<float> worst_of_exposures(const Image<Pixel>& tested, const Image<Pixel>& reference,
-                                                       const ExposureRange& exposures, double pixels_per_degree, flip::Colours colours) {
-    check(tested, reference, pixels_per_degree);
-    check_light(tested, "tested");
-    check_light(reference, "reference");
+using PairsOfRows = std::vector<std::pair<flip::Rows, flip::Rows>>;
+
+/// The largest error of all pairs.
+Image<float> worst_of(const PairsOfRows& pairs, int width, int height, double pixels_per_degree, flip::Colours colours) {
     const flip::Filters filters = flip::filters_for(pixels_per_degree);
-    std::vector<std::pair<flip::Rows, flip::Rows>> exposed;
-    for (int i = 0; i < exposures.count; ++i) {
-        const double stops = std::lerp(exposures.start, exposures.stop, static_cast<double>(i) / (exposures.count - 1));
-        const auto factor = static_cast<float>(std::exp2(std::min(stops, 127.0))); // a float's largest: 0 times infinity is no light
-        exposed.emplace_back(rows_of(tested, factor), rows_of(reference, factor));
-    }
-    Image<float> map(tested.width(), tested.height());
-    for_tiles(map.width(), map.height(), [&](const flip::Tile& tile, flip::TileMemory& memory, float* errors) {
-        for (const auto& [rows_tested, rows_reference] : exposed) {
-            flip::flip_of_tile(tile, map.width(), map.height(), rows_tested, rows_reference, filters, colours, memory, errors);
+    Image<float> map(width, height);
+    for_tiles(width, height, [&](const flip::Tile& tile, flip::TileMemory& memory, float* errors) {
+        for (const auto& [tested, reference] : pairs) {
+            flip::flip_of_tile(tile, width, height, tested, reference, filters, colours, memory, errors);
             for (int row = 0; row < tile.height; ++row)
                 for (int x = 0; x < tile.width; ++x) {
                     float& worst = map.at(tile.x + x, tile.y + row);
@@ -155,6 +127,21 @@ template <class Pixel> Image<float> worst_of_exposures(const Image<Pixel>& teste
     return map;
 }
 
+template <class Pixel> Image<float> worst_of_exposures(const Image<Pixel>& tested, const Image<Pixel>& reference,
+                                                       const ExposureRange& exposures, double pixels_per_degree, flip::Colours colours) {
+    check(tested, reference, pixels_per_degree);
+    check_light(tested, "tested");
+    check_light(reference, "reference");
+    PairsOfRows pairs;
+    for (int i = 0; i < exposures.count; ++i) {
+        const double stops = std::lerp(exposures.start, exposures.stop, static_cast<double>(i) / (exposures.count - 1));
+        const auto factor = static_cast<float>(std::exp2(std::min(stops, 127.0))); // a float's largest: 0 times infinity is no light
+        const auto shown = [factor](const Pixel& light) { return exposed(light, factor); };
+        pairs.emplace_back(rows_of(tested, shown), rows_of(reference, shown));
+    }
+    return worst_of(pairs, tested.width(), tested.height(), pixels_per_degree, colours);
+}
+
 } // namespace
 
 double pixels_per_degree_of_view(double vertical_fov_rad, int height_px) {
@@ -163,15 +150,9 @@ double pixels_per_degree_of_view(double vertical_fov_rad, int height_px) {
 
 Image<float> flip_ldr(const Image<Rgb8>& tested, const Image<Rgb8>& reference, double pixels_per_degree) {
     check(tested, reference, pixels_per_degree);
-    const flip::Filters filters = flip::filters_for(pixels_per_degree);
-    const flip::Rows rows_tested = rows_of(tested), rows_reference = rows_of(reference);
-    Image<float> map(tested.width(), tested.height());
-    for_tiles(map.width(), map.height(), [&](const flip::Tile& tile, flip::TileMemory& memory, float* errors) {
-        flip::flip_of_tile(tile, map.width(), map.height(), rows_tested, rows_reference, filters, flip::Colours::all, memory, errors);
-        for (int row = 0; row < tile.height; ++row)
-            std::copy_n(errors + row * flip::tile_px, tile.width, &map.at(tile.x, tile.y + row));
-    });
-    return map;
+    const auto shown = [](const Rgb8& p) { return glm::vec3(srgb_table()[p.r], srgb_table()[p.g], srgb_table()[p.b]); };
+    return worst_of({{rows_of(tested, shown), rows_of(reference, shown)}}, tested.width(), tested.height(), pixels_per_degree,
+                    flip::Colours::all);
 }
 
 ExposureRange exposures_for(const Image<glm::vec3>& reference) { return exposures_of(reference); }
@@ -198,13 +179,9 @@ FlipSummary summary_of_flip(const Image<float>& errors) {
     s.mean = sum / static_cast<double>(sorted.size());
     s.minimum = static_cast<double>(sorted.front());
     s.maximum = static_cast<double>(sorted.back());
-    const auto ranked = [&](double part) {
-        const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
-        return static_cast<double>(sorted[rank > 0 ? rank - 1 : 0]);
-    };
-    s.first_quartile = ranked(0.25);
-    s.median = ranked(0.5);
-    s.third_quartile = ranked(0.75);
+    s.first_quartile = by_nearest_rank(sorted, 0.25);
+    s.median = by_nearest_rank(sorted, 0.5);
+    s.third_quartile = by_nearest_rank(sorted, 0.75);
     const std::pair<double, double*> parts[] = {
         {0.25, &s.weighted_first_quartile}, {0.5, &s.weighted_median}, {0.75, &s.weighted_third_quartile}};
     double so_far = 0.0;

@@ -22,16 +22,6 @@ void check_finite(const Image<float>& image, const char* which) {
                 throw std::invalid_argument(fmt::format("{} picture: pixel {}, {} is {}", which, x, y, image.at(x, y)));
 }
 
-void check_comparable(const Image<float>& tested, const Image<float>& reference) {
-    if (tested.width() != reference.width() || tested.height() != reference.height())
-        throw std::invalid_argument(fmt::format("pictures of {}x{} and {}x{} cannot be compared", tested.width(), tested.height(),
-                                                reference.width(), reference.height()));
-    if (tested.empty())
-        throw std::invalid_argument("empty pictures cannot be compared");
-    check_finite(tested, "tested");
-    check_finite(reference, "reference");
-}
-
 double psnr(double peak, double rmse) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (rmse == 0.0)
@@ -41,9 +31,19 @@ double psnr(double peak, double rmse) {
 
 } // namespace
 
+void check_comparable(int width, int height, int reference_width, int reference_height) {
+    if (width != reference_width || height != reference_height)
+        throw std::invalid_argument(
+            fmt::format("pictures of {}x{} and {}x{} cannot be compared", width, height, reference_width, reference_height));
+    if (width == 0 || height == 0)
+        throw std::invalid_argument("empty pictures cannot be compared");
+}
+
 ImageDifference compare_images(const Image<float>& tested, const Image<float>& reference, double threshold_absolute,
                                double threshold_relative) {
     check_comparable(tested, reference);
+    check_finite(tested, "tested");
+    check_finite(reference, "reference");
     if (!(threshold_absolute >= 0.0 && threshold_relative >= 0.0))
         throw std::invalid_argument(
             fmt::format("thresholds {} and {} of a comparison must not be negative", threshold_absolute, threshold_relative));
@@ -86,11 +86,7 @@ template <class Value> Image<float> made_of(const Image<Rgb8>& picture, const Va
 } // namespace
 
 DisplayDifference compare_displays(const Image<Rgb8>& tested, const Image<Rgb8>& reference) {
-    if (tested.width() != reference.width() || tested.height() != reference.height())
-        throw std::invalid_argument(fmt::format("pictures of {}x{} and {}x{} cannot be compared", tested.width(), tested.height(),
-                                                reference.width(), reference.height()));
-    if (tested.empty())
-        throw std::invalid_argument("empty pictures cannot be compared");
+    check_comparable(tested, reference);
     DisplayDifference result;
     std::array<long long, 3> sums{};
     long long squares = 0, different = 0; // whole numbers: exact up to 4e13 pixels
@@ -165,6 +161,7 @@ struct Sums {
     double difference = 0.0, variance = 0.0;
     double estimated = 0.0, squares = 0.0; ///< of the variances as they were estimated
     std::size_t pixels = 0;
+    int x = 0, y = 0; ///< a block's first pixel
 
     double z() const { return variance > 0.0 ? difference / std::sqrt(variance) : 0.0; }
     int freedom(int of_a_pixel) const {
@@ -177,96 +174,74 @@ struct Sums {
     }
 };
 
-class NoisyComparison {
-  public:
-    NoisyComparison(const NoisyPicture& a, const NoisyPicture& b, double absolute, double relative)
-        : a_(a), b_(b), absolute_(absolute), relative_(relative) {}
-
-    NoisyDifference run(double false_alarm) {
-        std::vector<Sums> blocks;
-        std::vector<std::pair<int, int>> places;
-        for (int y = 0; y < a_.mean->height(); y += noise_block_px)
-            for (int x = 0; x < a_.mean->width(); x += noise_block_px)
-                if (const Sums block = sums_of(x, y); block.pixels > 0) {
-                    blocks.push_back(block);
-                    places.emplace_back(x, y);
-                }
-        out_.blocks = blocks.size();
-        out_.sum_ratio = sum_b_ == 0.0 ? 1.0 : sum_a_ / sum_b_;
-        if (!blocks.empty())
-            judge(blocks, places, false_alarm);
-        return out_;
-    }
-
-  private:
-    Sums sums_of(int x0, int y0) {
-        Sums block;
-        for (int y = y0; y < std::min(y0 + noise_block_px, a_.mean->height()); ++y)
-            for (int x = x0; x < std::min(x0 + noise_block_px, a_.mean->width()); ++x)
-                add_pixel(block, x, y);
-        return block;
-    }
-
-    void add_pixel(Sums& block, int x, int y) {
-        const double mean_a = a_.mean->at(x, y), mean_b = b_.mean->at(x, y), difference = mean_a - mean_b;
-        const double variance = raised(*a_.variance, x, y) + raised(*b_.variance, x, y);
-        if (!(variance > 0.0)) {
-            out_.exact_over += std::abs(difference) > absolute_ + relative_ * std::abs(mean_b) ? 1U : 0U;
-            return;
-        }
-        if (is_mixed(a_, x, y) || is_mixed(b_, x, y)) {
-            ++out_.left_out;
-            return;
-        }
-        ++out_.compared;
-        ++block.pixels;
-        sum_a_ += mean_a;
-        sum_b_ += mean_b;
-        block.difference += difference;
-        block.variance += variance;
-        for (const Image<float>* const image : {a_.variance, b_.variance}) {
-            const double estimated = image->at(x, y);
-            block.estimated += estimated;
-            block.squares += estimated * estimated;
+void judge(const std::vector<Sums>& blocks, int of_a_pixel, double false_alarm, NoisyDifference& out) {
+    std::map<int, double> bounds; // many blocks have as many degrees of freedom as others
+    Sums all;
+    double worst = -1.0;
+    for (const Sums& block : blocks) {
+        all.add(block);
+        const auto [at, is_new] = bounds.try_emplace(block.freedom(of_a_pixel), 0.0);
+        if (is_new)
+            at->second = student_bound(at->first, 0.5 * false_alarm, blocks.size());
+        const double z = std::abs(block.z());
+        out.blocks_over += z > at->second ? 1U : 0U;
+        if (z / at->second > worst) {
+            worst = z / at->second;
+            out.worst_z = z;
+            out.worst_bound = at->second;
+            out.worst_x = block.x;
+            out.worst_y = block.y;
         }
     }
-
-    void judge(const std::vector<Sums>& blocks, const std::vector<std::pair<int, int>>& places, double false_alarm) {
-        const int of_a_pixel = std::min(a_.freedom, b_.freedom);
-        std::map<int, double> bounds; // many blocks have as many degrees of freedom as others
-        Sums all;
-        double worst = -1.0;
-        for (std::size_t i = 0; i < blocks.size(); ++i) {
-            all.add(blocks[i]);
-            const auto [at, is_new] = bounds.try_emplace(blocks[i].freedom(of_a_pixel), 0.0);
-            if (is_new)
-                at->second = student_bound(at->first, 0.5 * false_alarm, blocks.size());
-            const double z = std::abs(blocks[i].z());
-            out_.blocks_over += z > at->second ? 1U : 0U;
-            if (z / at->second > worst) {
-                worst = z / at->second;
-                out_.worst_z = z;
-                out_.worst_bound = at->second;
-                out_.worst_x = places[i].first;
-                out_.worst_y = places[i].second;
-            }
-        }
-        out_.sum_z = all.z();
-        out_.sum_bound = normal_bound(0.5 * false_alarm, 1);
-    }
-
-    const NoisyPicture &a_, &b_;
-    double absolute_, relative_, sum_a_ = 0.0, sum_b_ = 0.0;
-    NoisyDifference out_;
-};
+    out.sum_z = all.z();
+    out.sum_bound = normal_bound(0.5 * false_alarm, 1);
+}
 
 } // namespace
 
 NoisyDifference compare_noisy(const NoisyPicture& a, const NoisyPicture& b, double threshold_absolute, double threshold_relative,
                               double false_alarm) {
     check(a, b);
-    NoisyDifference out = NoisyComparison(a, b, threshold_absolute, threshold_relative).run(false_alarm);
+    NoisyDifference out;
     out.identical = same(*a.mean, *b.mean) && same(*a.variance, *b.variance);
+    double sum_a = 0.0, sum_b = 0.0;
+    const auto add_pixel = [&](Sums& block, int x, int y) {
+        const double mean_a = a.mean->at(x, y), mean_b = b.mean->at(x, y), difference = mean_a - mean_b;
+        const double variance = raised(*a.variance, x, y) + raised(*b.variance, x, y);
+        if (!(variance > 0.0)) {
+            out.exact_over += std::abs(difference) > threshold_absolute + threshold_relative * std::abs(mean_b) ? 1U : 0U;
+            return;
+        }
+        if (is_mixed(a, x, y) || is_mixed(b, x, y)) {
+            ++out.left_out;
+            return;
+        }
+        ++out.compared;
+        ++block.pixels;
+        sum_a += mean_a;
+        sum_b += mean_b;
+        block.difference += difference;
+        block.variance += variance;
+        for (const Image<float>* const image : {a.variance, b.variance}) {
+            const double estimated = image->at(x, y);
+            block.estimated += estimated;
+            block.squares += estimated * estimated;
+        }
+    };
+    std::vector<Sums> blocks;
+    for (int y0 = 0; y0 < a.mean->height(); y0 += noise_block_px)
+        for (int x0 = 0; x0 < a.mean->width(); x0 += noise_block_px) {
+            Sums block{.x = x0, .y = y0};
+            for (int y = y0; y < std::min(y0 + noise_block_px, a.mean->height()); ++y)
+                for (int x = x0; x < std::min(x0 + noise_block_px, a.mean->width()); ++x)
+                    add_pixel(block, x, y);
+            if (block.pixels > 0)
+                blocks.push_back(block);
+        }
+    out.blocks = blocks.size();
+    out.sum_ratio = sum_b == 0.0 ? 1.0 : sum_a / sum_b;
+    if (!blocks.empty())
+        judge(blocks, std::min(a.freedom, b.freedom), false_alarm, out);
     return out;
 }
 

@@ -13,6 +13,12 @@
 
 namespace fernlicht {
 
+/// Throws std::invalid_argument for different sizes or empty pictures.
+void check_comparable(int width, int height, int reference_width, int reference_height);
+template <class Picture> void check_comparable(const Picture& tested, const Picture& reference) {
+    check_comparable(tested.width(), tested.height(), reference.width(), reference.height());
+}
+
 struct ImageDifference {
     double maximum = 0.0; ///< largest |a - b|
     int maximum_x = 0, maximum_y = 0;

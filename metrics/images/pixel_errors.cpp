@@ -1,5 +1,7 @@
 #include "metrics/images/pixel_errors.h"
 
+#include "metrics/statistics/statistics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,13 +21,7 @@ ErrorQuantiles quantiles_of(std::vector<float> values) {
     if (values.empty())
         return {};
     std::ranges::sort(values);
-    const auto at = [&](double share) {
-        const double place = share * static_cast<double>(values.size() - 1);
-        const auto below = static_cast<std::size_t>(place);
-        const std::size_t above = std::min(below + 1, values.size() - 1);
-        return std::lerp(static_cast<double>(values[below]), static_cast<double>(values[above]), place - static_cast<double>(below));
-    };
-    return {at(0.5), at(0.95), at(0.99)};
+    return {quantile_of(values, 0.5), quantile_of(values, 0.95), quantile_of(values, 0.99)};
 }
 
 void keep_worse(WorstPixel& worst, double error, const ComparedPixel& p, bool first) {

@@ -1,5 +1,5 @@
 // Roots and powers of floats in a form that compilers turn into SIMD. Errors were found by trying all floats of the stated ranges
-// (tests/metrics/images/quick_powers_test.cpp tries a part).
+// (tests/metrics/images/flip_test.cpp tries a part).
 #pragma once
 
 #include <bit>

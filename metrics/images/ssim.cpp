@@ -1,5 +1,7 @@
 #include "metrics/images/ssim.h"
 
+#include "metrics/images/image_difference.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,52 +37,40 @@ int reflected(int i, int n) {
 }
 
 /// Both pictures' values, squares and product, blurred.
-struct Moments {
-    std::array<double, 5> of{};
-};
+using Moments = std::array<double, 5>;
 
 /// Row by row: each row's window across is taken of the eleven rows weighed down before, so nothing larger than a row is kept.
-class WindowedRow {
-  public:
-    WindowedRow(const Image<float>& a, const Image<float>& b, int y) {
-        static const auto half = window();
-        const int w = a.width(), h = a.height();
-        std::vector<Moments> down(static_cast<std::size_t>(w));
-        for (int dy = -radius; dy <= radius; ++dy) {
-            const double weight = half[static_cast<std::size_t>(std::abs(dy))];
-            const float *ra = &a.at(0, reflected(y + dy, h)), *rb = &b.at(0, reflected(y + dy, h));
-            for (int x = 0; x < w; ++x) {
-                const double va = static_cast<double>(ra[x]), vb = static_cast<double>(rb[x]);
-                auto& m = down[static_cast<std::size_t>(x)].of;
-                m[0] += weight * va;
-                m[1] += weight * vb;
-                m[2] += weight * (va * va);
-                m[3] += weight * (vb * vb);
-                m[4] += weight * (va * vb);
-            }
+std::vector<Moments> windowed_row(const Image<float>& a, const Image<float>& b, int y) {
+    static const auto half = window();
+    const int w = a.width(), h = a.height();
+    std::vector<Moments> down(static_cast<std::size_t>(w));
+    for (int dy = -radius; dy <= radius; ++dy) {
+        const double weight = half[static_cast<std::size_t>(std::abs(dy))];
+        const float *ra = &a.at(0, reflected(y + dy, h)), *rb = &b.at(0, reflected(y + dy, h));
+        for (int x = 0; x < w; ++x) {
+            const double va = static_cast<double>(ra[x]), vb = static_cast<double>(rb[x]);
+            Moments& m = down[static_cast<std::size_t>(x)];
+            m[0] += weight * va;
+            m[1] += weight * vb;
+            m[2] += weight * (va * va);
+            m[3] += weight * (vb * vb);
+            m[4] += weight * (va * vb);
         }
-        row_.resize(static_cast<std::size_t>(w));
-        for (int x = 0; x < w; ++x)
-            for (int dx = -radius; dx <= radius; ++dx) {
-                const double weight = half[static_cast<std::size_t>(std::abs(dx))];
-                const auto& from = down[static_cast<std::size_t>(reflected(x + dx, w))].of;
-                auto& m = row_[static_cast<std::size_t>(x)].of;
-                for (std::size_t k = 0; k < m.size(); ++k)
-                    m[k] += weight * from[k];
-            }
     }
-    const Moments& at(int x) const { return row_[static_cast<std::size_t>(x)]; }
-
-  private:
-    std::vector<Moments> row_;
-};
+    std::vector<Moments> row(static_cast<std::size_t>(w));
+    for (int x = 0; x < w; ++x)
+        for (int dx = -radius; dx <= radius; ++dx) {
+            const double weight = half[static_cast<std::size_t>(std::abs(dx))];
+            const Moments& from = down[static_cast<std::size_t>(reflected(x + dx, w))];
+            Moments& m = row[static_cast<std::size_t>(x)];
+            for (std::size_t k = 0; k < m.size(); ++k)
+                m[k] += weight * from[k];
+        }
+    return row;
+}
 
 void check(const Image<float>& tested, const Image<float>& reference, double range) {
-    if (tested.width() != reference.width() || tested.height() != reference.height())
-        throw std::invalid_argument(fmt::format("pictures of {}x{} and {}x{} cannot be compared", tested.width(), tested.height(),
-                                                reference.width(), reference.height()));
-    if (tested.empty())
-        throw std::invalid_argument("empty pictures cannot be compared");
+    check_comparable(tested, reference);
     if (!(range > 0.0 && std::isfinite(range)))
         throw std::invalid_argument(fmt::format("a range of {} is not above 0", range));
     for (const auto* image : {&tested, &reference})
@@ -102,10 +92,10 @@ Scale similarity(const Image<float>& a, const Image<float>& b, double range) {
     const double c1 = std::pow(0.01 * range, 2.0), c2 = std::pow(0.03 * range, 2.0);
     std::vector<Row> rows(static_cast<std::size_t>(a.height()));
     tbb::parallel_for(0, a.height(), [&](int y) {
-        const WindowedRow blurred(a, b, y);
+        const std::vector<Moments> blurred = windowed_row(a, b, y);
         Row& row = rows[static_cast<std::size_t>(y)];
         for (int x = 0; x < a.width(); ++x) {
-            const auto& m = blurred.at(x).of;
+            const Moments& m = blurred[static_cast<std::size_t>(x)];
             const double covariance = m[4] - m[0] * m[1], variances = (m[2] - m[0] * m[0]) + (m[3] - m[1] * m[1]);
             const double second = (2.0 * covariance + c2) / (variances + c2);
             const double whole = (2.0 * m[0] * m[1] + c1) / (m[0] * m[0] + m[1] * m[1] + c1) * second;

@@ -44,33 +44,25 @@ std::string beyond_in_words(const Threshold& threshold) {
 /// What stands for a word in braces (quantities.cpp).
 std::string filled(std::string_view slot, const ReadingKey& key) {
     const std::string distance = key.distance_m ? fmt::format("{} m", *key.distance_m) : "";
-    const auto plain_place = [&] {
-        return key.place == ReadingPlace::left_bends    ? "left bends"
-               : key.place == ReadingPlace::right_bends ? "right bends"
-                                                        : name_of(key.place);
-    };
-    if (slot == "limit")
-        return fmt::format("{} lx", key.threshold.value);
-    if (slot == "beyond")
-        return beyond_in_words(key.threshold);
-    if (slot == "surface")
-        return key.surface == ReadingSurface::road ? " on the road" : " on a target";
-    if (slot == "lane")
-        return ", " + lane_in_words(key.lane);
-    if (slot == "stand")
-        return key.lane.empty() ? fmt::format("{} edge of the lanes", name_of(key.place)) : lane_in_words(key.lane);
-    if (slot == "place")
-        return plain_place();
-    if (slot == "subject")
-        return key.subject;
-    if (slot == "distance")
-        return distance;
-    if (slot == "before")
-        return distance.empty() || key.place == ReadingPlace::mirrors ? "" : fmt::format(" {} before it", distance);
-    if (slot == "most")
-        return key.statistic == Statistic::maximum ? "largest " : key.statistic == Statistic::minimum ? "smallest " : "";
-    if (slot == "eye")
-        return eyes_in_words(key);
+    const std::pair<const char*, std::string> slots[] = {
+        {"limit", fmt::format("{} lx", key.threshold.value)},
+        {"beyond", beyond_in_words(key.threshold)},
+        {"surface", key.surface == ReadingSurface::road ? " on the road" : " on a target"},
+        {"lane", ", " + lane_in_words(key.lane)},
+        {"stand", key.lane.empty() ? fmt::format("{} edge of the lanes", name_of(key.place)) : lane_in_words(key.lane)},
+        {"place", key.place == ReadingPlace::left_bends    ? "left bends"
+                  : key.place == ReadingPlace::right_bends ? "right bends"
+                                                           : name_of(key.place)},
+        {"subject", key.subject},
+        {"distance", distance},
+        {"before", distance.empty() || key.place == ReadingPlace::mirrors ? "" : fmt::format(" {} before it", distance)},
+        {"most", key.statistic == Statistic::maximum   ? "largest "
+                 : key.statistic == Statistic::minimum ? "smallest "
+                                                       : ""},
+        {"eye", eyes_in_words(key)}};
+    for (const auto& [word, text] : slots)
+        if (slot == word)
+            return text;
     throw std::logic_error(fmt::format("words with {{{}}}", slot));
 }
 

@@ -11,6 +11,22 @@ constexpr double double_precision = 1e-6;
 /// The own lane's grid of evenness (docs/seeing.md): patches begin and end at its points.
 constexpr double evenness_step_m = 0.5;
 
+/// Of a reading; nullopt where it is missing or no number.
+std::optional<double> value_of(const PlayedReadings& played, const ReadingKey& key) {
+    const auto found = played.readings.find(key);
+    return found == played.readings.end() ? std::nullopt : found->second.value.number();
+}
+
+/// What is told of all readings of the key's surface, lane and threshold: its median on the lane's centre.
+ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect) {
+    return {.quantity = quantity,
+            .surface = key.surface,
+            .lane = key.lane,
+            .threshold = key.threshold,
+            .aspect = aspect,
+            .statistic = Statistic::median};
+}
+
 std::optional<double> positive(double step) { return step > 0.0 ? std::optional(step) : std::nullopt; }
 
 /// The grid's error on that line and the distance between drawing and double precision.
@@ -71,16 +87,22 @@ constexpr double noise_deviations = 3.0;
 
 constexpr double rating_by_light = 2.0 / 2.302585092994046; // de Boer: W = 5 - 2 lg (E ...), after ln E
 
-/// The steeper of the slopes to the thresholds next to this one, over the logarithm of the light.
-std::optional<double> slope_over_limits(const PlayedReadings& played, const Reading& reading) {
-    ReadingKey key = reading.key;
-    const double own_lx = key.threshold.value;
-    std::map<double, double> by_lx;
+/// The same figure at all thresholds that have it, by their values.
+std::map<double, double> over_thresholds(const PlayedReadings& played, ReadingKey key) {
+    std::map<double, double> by_threshold;
     for (const auto& [other, found] : played.readings) {
         key.threshold.value = other.threshold.value;
-        if (key == other && found.value.number() && other.threshold.value > 0.0)
-            by_lx[other.threshold.value] = *found.value.number();
+        if (key == other && found.value.number())
+            by_threshold[other.threshold.value] = *found.value.number();
     }
+    return by_threshold;
+}
+
+/// The steeper of the slopes to the thresholds next to this one, over the logarithm of the light.
+std::optional<double> slope_over_limits(const PlayedReadings& played, const Reading& reading) {
+    const double own_lx = reading.key.threshold.value;
+    std::map<double, double> by_lx = over_thresholds(played, reading.key);
+    std::erase_if(by_lx, [](const auto& at) { return !(at.first > 0.0); });
     std::optional<double> slope;
     const auto own = by_lx.find(own_lx);
     if (own == by_lx.end())
@@ -94,13 +116,7 @@ std::optional<double> slope_over_limits(const PlayedReadings& played, const Read
 
 /// Times and lengths below a rating, over the ratings that have them: the steepest slope, by how the rating goes with the light.
 std::optional<double> slope_over_ratings(const PlayedReadings& played, const Reading& reading) {
-    ReadingKey key = reading.key;
-    std::map<double, double> by_rating;
-    for (const auto& [other, found] : played.readings) {
-        key.threshold.value = other.threshold.value;
-        if (key == other && found.value.number())
-            by_rating[other.threshold.value] = *found.value.number();
-    }
+    const std::map<double, double> by_rating = over_thresholds(played, reading.key);
     std::optional<double> slope;
     for (auto above = by_rating.begin(); above != by_rating.end(); ++above)
         if (above != by_rating.begin()) {
@@ -218,20 +234,6 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
 }
 
 } // namespace
-
-std::optional<double> value_of(const PlayedReadings& played, const ReadingKey& key) {
-    const auto found = played.readings.find(key);
-    return found == played.readings.end() ? std::nullopt : found->second.value.number();
-}
-
-ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect) {
-    return {.quantity = quantity,
-            .surface = key.surface,
-            .lane = key.lane,
-            .threshold = key.threshold,
-            .aspect = aspect,
-            .statistic = Statistic::median};
-}
 
 const char* change_name(ChangeKind kind) {
     static constexpr const char* names[] = {"real", "within aim", "no difference", "not known"};

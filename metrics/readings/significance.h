@@ -49,12 +49,6 @@ struct PlayedReadings : Steps {
     std::map<ReadingKey, double> by_repeats; ///< of readings that differ between repeats: what chance reaches in 5 % of them
 };
 
-/// Of a reading; nullopt where it is missing or no number.
-std::optional<double> value_of(const PlayedReadings& played, const ReadingKey& key);
-
-/// What is told of all readings of the key's surface, lane and threshold: its median on the lane's centre.
-ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect);
-
 /// Both sides must have this reading. `lamp_noise` is the standard deviation of the difference of two intensities of the lamps'
 /// tables that is no difference of the lamps, relative; 0 where both sides' tables are taken as they are.
 ReadingChange change_of_reading(const ReadingKey& key, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise = 0.0);

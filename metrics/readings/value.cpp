@@ -58,12 +58,8 @@ Value difference(const Value& a, const Value& b, std::string_view unit) {
                                                                    up ? "beyond" : "below", *a.figure(), *b.figure(), unit));
 }
 
-const char* bound_sign(const Value& value) {
-    return value.kind() == Value::Kind::at_least ? ">" : value.kind() == Value::Kind::at_most ? "<" : "";
-}
-
 std::string with_bound(const Value& value, const std::string& figure) {
-    return value.censored() ? fmt::format("{} {}", bound_sign(value), figure) : figure;
+    return value.censored() ? fmt::format("{} {}", value.kind() == Value::Kind::at_least ? ">" : "<", figure) : figure;
 }
 
 const char* bound_name(const Value& value) {
@@ -79,10 +75,15 @@ std::optional<bool> holds(const Value& value, const std::optional<double>& at_le
     return surely ? std::optional(true) : std::nullopt;
 }
 
+Value median_value(const std::vector<double>& values, const std::string& why_none) {
+    const std::optional<Spread> spread = spread_of(values);
+    return spread ? Value(spread->median) : Value::not_measured(why_none);
+}
+
 namespace {
 
-/// Of ascending values, infinite ones among them.
-double quantile_of(std::vector<double> values, double share) {
+/// Of values, infinite ones among them.
+double quantile_with_bounds(std::vector<double> values, double share) {
     std::ranges::sort(values);
     const double place = share * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::size_t>(place);
@@ -113,7 +114,7 @@ std::string ManyMoments::why_none() const { return left_out_ > 0 ? why_left_out_
 Value ManyMoments::quantile(double share) const {
     if (count() == 0)
         return Value::not_measured(why_none());
-    const double low = quantile_of(low_, share), high = quantile_of(high_, share);
+    const double low = quantile_with_bounds(low_, share), high = quantile_with_bounds(high_, share);
     if (low != high && at_most_ == 0)
         return Value::at_least(low);
     if (low != high && at_least_ == 0)

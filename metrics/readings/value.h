@@ -52,13 +52,15 @@ class Value {
 /// nothing bounds the difference: "both beyond 200 m".
 Value difference(const Value& a, const Value& b, std::string_view unit);
 
-const char* bound_sign(const Value& value); ///< ">", "<" or ""
 /// The figure's text with what bounds it: "> 200" for a value of at least 200.
 std::string with_bound(const Value& value, const std::string& figure);
 const char* bound_name(const Value& value); ///< "at_least", "at_most" or ""
 
 /// Whether the value holds a limit. nullopt: its bound, or that it is not measured, leaves it open.
 std::optional<bool> holds(const Value& value, const std::optional<double>& at_least, const std::optional<double>& at_most);
+
+/// Median of the values; not measured, for this reason, of none.
+Value median_value(const std::vector<double>& values, const std::string& why_none);
 
 /// Quantiles of type 7 (Hyndman and Fan 1996) of what the moments gave. A moment that gave a bound may be anything beyond it: a quantile
 /// that this can move is a bound itself, all others are numbers.

@@ -9,18 +9,18 @@ namespace {
 
 constexpr double followed_to_deg = 0.001; // a hundredth of the coarsest angle that a table of limits names
 
-void take(Extremes& all, double cd, Direction where, WantedExtremes wanted) {
-    if (wanted.lowest && (!all.lowest || cd < all.lowest->cd))
-        all.lowest = Extreme{cd, where};
-    if (wanted.highest && (!all.highest || cd > all.highest->cd))
-        all.highest = Extreme{cd, where};
+void merge(Extremes& all, const Extremes& other) {
+    if (other.lowest && (!all.lowest || other.lowest->cd < all.lowest->cd))
+        all.lowest = other.lowest;
+    if (other.highest && (!all.highest || other.highest->cd > all.highest->cd))
+        all.highest = other.highest;
+    all.all_covered = all.all_covered && other.all_covered;
 }
 
 void look(Extremes& all, const ReceivedBeam& beam, Direction where, WantedExtremes wanted) {
-    if (const std::optional<double> cd = beam.at(where))
-        take(all, *cd, where, wanted);
-    else
-        all.all_covered = false;
+    const std::optional<double> cd = beam.at(where);
+    const auto here = cd ? std::optional(Extreme{*cd, where}) : std::nullopt;
+    merge(all, {wanted.lowest ? here : std::nullopt, wanted.highest ? here : std::nullopt, cd.has_value()});
 }
 
 /// Even-odd rule.
@@ -86,14 +86,6 @@ bool clip(const ReceivedBeam& beam, Direction& from, Direction& to, bool& covere
     if (end < 1.0)
         to = {blend(a.h_deg, b.h_deg, end), blend(a.v_deg, b.v_deg, end)};
     return true;
-}
-
-void merge(Extremes& all, const Extremes& other) {
-    if (other.lowest && (!all.lowest || other.lowest->cd < all.lowest->cd))
-        all.lowest = other.lowest;
-    if (other.highest && (!all.highest || other.highest->cd > all.highest->cd))
-        all.highest = other.highest;
-    all.all_covered = all.all_covered && other.all_covered;
 }
 
 struct Block {

@@ -108,18 +108,17 @@ template <std::size_t columns> void add_column(Regulation& r, const std::vector<
 }
 
 Regulation made(std::string column, const char* what, AimRule aim) {
-    Regulation r;
-    r.title = fmt::format("FMVSS 108, {} {}", what, column);
+    std::string title = fmt::format("FMVSS 108, {} {}", what, column);
     for (char& c : column)
         c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    r.id = "fmvss108-" + column;
-    r.edition = "49 CFR 571.108, annual edition of 1 October 2025";
-    r.source = "one published transcription of the tables' pictures, made twice (US and Canadian prints)";
-    r.receiver = fmvss_receiver;
-    r.aim = aim;
-    r.row_re_aim_deg = 0.25; // S14.2.5.5
-    r.mirrors = false;
-    return r;
+    return {.id = "fmvss108-" + column,
+            .title = std::move(title),
+            .edition = "49 CFR 571.108, annual edition of 1 October 2025",
+            .source = "one published transcription of the tables' pictures, made twice (US and Canadian prints)",
+            .receiver = fmvss_receiver,
+            .aim = aim,
+            .row_re_aim_deg = 0.25, // S14.2.5.5
+            .mirrors = false};
 }
 
 } // namespace

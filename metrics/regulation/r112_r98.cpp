@@ -18,12 +18,7 @@ void add_signs(Regulation& r) {
 }
 
 Regulation passing(const char* id, const char* title, bool d) {
-    Regulation r;
-    r.id = id;
-    r.title = title;
-    r.edition = d ? edition_d : edition_ab;
-    r.source = d ? one_source : two_sources;
-    r.receiver = un_receiver;
+    Regulation r = un_table(id, title, d ? edition_d : edition_ab, d ? one_source : two_sources);
     r.aim = AimRule::automatic;
     r.re_aim = {0.5, 0.75, 0.25};
     r.rows = {point("B50L", -3.43, 0.57, at_most(350)), zone("zone III", zone_3, at_most(625))};
@@ -77,12 +72,7 @@ Regulation passing_d() {
 }
 
 Regulation driving(const char* id, const char* title, bool d, double imax, double at_2_5, double at_5) {
-    Regulation r;
-    r.id = id;
-    r.title = title;
-    r.edition = d ? edition_d : edition_ab;
-    r.source = one_source;
-    r.receiver = un_receiver;
+    Regulation r = un_table(id, title, d ? edition_d : edition_ab, one_source);
     r.aim = AimRule::maximum;
     r.rows = {brightest("Imax", everywhere, between(imax, 215000)),
               at_least_of(point("HV", 0, 0, {}), "Imax", 0.8),

@@ -10,12 +10,8 @@ const char* const r149_source = "one published transcription of the text";
 Regulation passing(bool c) {
     // Class C, then class V.
     const auto of = [c](double class_c, double class_v) { return c ? class_c : class_v; };
-    Regulation r;
-    r.id = c ? "r149-c" : "r149-v";
-    r.title = c ? "UN R149, passing beam class C" : "UN R149, passing beam class V";
-    r.edition = r149_edition;
-    r.source = r149_source;
-    r.receiver = un_receiver;
+    Regulation r =
+        un_table(c ? "r149-c" : "r149-v", c ? "UN R149, passing beam class C" : "UN R149, passing beam class V", r149_edition, r149_source);
     r.aim = AimRule::automatic;
     r.re_aim = {0.75, 0.75, 0.25};
     r.pairs = true;
@@ -62,12 +58,7 @@ struct Driving {
 };
 
 Regulation driving(const Driving& d) {
-    Regulation r;
-    r.id = d.id;
-    r.title = d.title;
-    r.edition = r149_edition;
-    r.source = r149_source;
-    r.receiver = un_receiver;
+    Regulation r = un_table(d.id, d.title, r149_edition, r149_source);
     r.aim = AimRule::maximum;
     r.re_aim = {1.0, 1.0, 0.5};
     r.row_re_aim_deg = 0.25; // 5.1.3

@@ -11,8 +11,7 @@ namespace fernlicht {
 const std::vector<Regulation>& regulations() {
     static const std::vector<Regulation> all = [] {
         std::vector<Regulation> list;
-        for (const auto family :
-             {r149_regulations, r112_and_r98_regulations, r123_passing_regulations, r123_driving_regulations, fmvss108_regulations}) {
+        for (const auto family : {r149_regulations, r112_and_r98_regulations, r123_regulations, fmvss108_regulations}) {
             std::vector<Regulation> some = family();
             std::move(some.begin(), some.end(), std::back_inserter(list));
         }

@@ -37,10 +37,10 @@ struct RegulationRow {
     std::vector<Direction> places; ///< one, two ends, the polygon's corners, or the sum's directions
     Limits limits;
     Scope scope = Scope::beam;
-    std::string ratio_of;         ///< another row of the table, whose value times `ratio` is a limit; empty: none
+    std::string ratio_of = {};    ///< another row of the table, whose value times `ratio` is a limit; empty: none
     double ratio = 0.0;           ///< above 0
     bool ratio_is_minimum = true; ///< else it is a maximum
-    std::string note;
+    std::string note = {};
 };
 
 enum class AimRule {
@@ -67,13 +67,13 @@ struct Regulation {
     std::string source;  ///< how sure the table is: who read it where
     Receiver receiver;
     AimRule aim = AimRule::as_is;
-    ReAim re_aim;
+    ReAim re_aim = {};
     double row_re_aim_deg = 0.0; ///< each row by itself may be measured this far off its place
     bool half_sum = false;       ///< values hold for half the sum of both sides
     bool pairs = false;          ///< two lamps may be given: the left and the right
     bool mirrors = true;         ///< has a form for left-hand traffic
-    std::vector<RegulationRow> rows;
-    std::vector<std::string> notes;
+    std::vector<RegulationRow> rows = {};
+    std::vector<std::string> notes = {};
 };
 
 /// All tables, in the order of `regulation_ids()`.

@@ -10,23 +10,17 @@
 namespace fernlicht {
 namespace {
 
-struct Found {
-    std::optional<Extreme> lowest, highest;
-    bool all_covered = true;
-};
-
 Direction moved(Direction d, Direction by) { return {d.h_deg + by.h_deg, d.v_deg + by.v_deg}; }
 
-Found look_at(const RegulationRow& row, const ReceivedBeam& beam, Direction by, WantedExtremes wanted) {
+Extremes look_at(const RegulationRow& row, const ReceivedBeam& beam, Direction by, WantedExtremes wanted) {
     std::vector<Direction> places = row.places;
     for (Direction& place : places)
         place = moved(place, by);
-    const auto of = [](Extremes e) { return Found{e.lowest, e.highest, e.all_covered}; };
     switch (row.kind) {
     case RowKind::segment:
-        return of(extremes_on(beam, places[0], places[1], wanted));
+        return extremes_on(beam, places[0], places[1], wanted);
     case RowKind::zone:
-        return of(extremes_in(beam, places, wanted));
+        return extremes_in(beam, places, wanted);
     case RowKind::brightest: {
         const Extremes e = extremes_in(beam, places, {false, true});
         return {e.highest, e.highest, e.highest.has_value()}; // a minimum is met where the file has light, a maximum is judged by it
@@ -60,7 +54,7 @@ RowResult judged(const RegulationRow& row, const Limits& limits, const ReceivedB
     result.id = row.id;
     result.limits = limits;
     result.note = row.note;
-    const Found found = look_at(row, beam, by, {has_minimum(limits), has_maximum(limits)});
+    const Extremes found = look_at(row, beam, by, {has_minimum(limits), has_maximum(limits)});
     if (!found.lowest && !found.highest) {
         result.reason = "outside the file's angles";
         return result;
@@ -152,7 +146,7 @@ class Checker {
         if (!row.ratio_of.empty()) {
             const auto other = std::find_if(regulation_.rows.begin(), regulation_.rows.end(),
                                             [&](const RegulationRow& r) { return r.id == row.ratio_of && r.scope == Scope::beam; });
-            const Found value = look_at(*other, beam, {}, {false, true});
+            const Extremes value = look_at(*other, beam, {}, {false, true});
             if (!value.highest || value.highest->cd <= 0.0) {
                 RowResult result;
                 result.id = row.id;

@@ -19,21 +19,16 @@ inline Limits at_most(double cd) { return {0.0, cd}; }
 inline Limits between(double least_cd, double most_cd) { return {least_cd, most_cd}; }
 
 inline RegulationRow point(std::string id, double h_deg, double v_deg, Limits limits) {
-    return {.id = std::move(id), .kind = RowKind::point, .places = {{h_deg, v_deg}}, .limits = limits, .ratio_of = {}, .note = {}};
+    return {std::move(id), RowKind::point, {{h_deg, v_deg}}, limits};
 }
 
 /// Level, from H to H at one V.
 inline RegulationRow segment(std::string id, double h_from_deg, double h_to_deg, double v_deg, Limits limits) {
-    return {.id = std::move(id),
-            .kind = RowKind::segment,
-            .places = {{h_from_deg, v_deg}, {h_to_deg, v_deg}},
-            .limits = limits,
-            .ratio_of = {},
-            .note = {}};
+    return {std::move(id), RowKind::segment, {{h_from_deg, v_deg}, {h_to_deg, v_deg}}, limits};
 }
 
 inline RegulationRow zone(std::string id, std::vector<Direction> corners, Limits limits) {
-    return {.id = std::move(id), .kind = RowKind::zone, .places = std::move(corners), .limits = limits, .ratio_of = {}, .note = {}};
+    return {std::move(id), RowKind::zone, std::move(corners), limits};
 }
 
 inline std::vector<Direction> rectangle(double h_from_deg, double h_to_deg, double v_from_deg, double v_to_deg) {
@@ -41,11 +36,11 @@ inline std::vector<Direction> rectangle(double h_from_deg, double h_to_deg, doub
 }
 
 inline RegulationRow sum_of(std::string id, std::vector<Direction> places, Limits limits) {
-    return {.id = std::move(id), .kind = RowKind::sum, .places = std::move(places), .limits = limits, .ratio_of = {}, .note = {}};
+    return {std::move(id), RowKind::sum, std::move(places), limits};
 }
 
 inline RegulationRow brightest(std::string id, std::vector<Direction> corners, Limits limits) {
-    return {.id = std::move(id), .kind = RowKind::brightest, .places = std::move(corners), .limits = limits, .ratio_of = {}, .note = {}};
+    return {std::move(id), RowKind::brightest, std::move(corners), limits};
 }
 
 inline RegulationRow noted(RegulationRow row, std::string note) {
@@ -61,7 +56,6 @@ inline RegulationRow scoped(RegulationRow row, Scope scope) {
 inline RegulationRow at_least_of(RegulationRow row, std::string of, double ratio) {
     row.ratio_of = std::move(of);
     row.ratio = ratio;
-    row.ratio_is_minimum = true;
     return row;
 }
 
@@ -69,6 +63,15 @@ inline RegulationRow at_most_of(RegulationRow row, std::string of, double ratio)
     row = at_least_of(std::move(row), std::move(of), ratio);
     row.ratio_is_minimum = false;
     return row;
+}
+
+/// A table of the UN's, still without rows.
+inline Regulation un_table(std::string id, std::string title, std::string edition, std::string source) {
+    return {.id = std::move(id),
+            .title = std::move(title),
+            .edition = std::move(edition),
+            .source = std::move(source),
+            .receiver = un_receiver};
 }
 
 /// Zone III of UN R112, R98, R149 and (as III a) R123: the dark side above the cut-off.
@@ -83,8 +86,7 @@ inline const std::vector<Direction> everywhere = rectangle(-180, 180, -90, 90);
 /// The families, each in a file of its own.
 std::vector<Regulation> r149_regulations();
 std::vector<Regulation> r112_and_r98_regulations();
-std::vector<Regulation> r123_passing_regulations();
-std::vector<Regulation> r123_driving_regulations();
+std::vector<Regulation> r123_regulations();
 std::vector<Regulation> fmvss108_regulations();
 
 } // namespace fernlicht

@@ -114,7 +114,7 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
             cuts.push_back({at_m, road.across(at_m)});
     std::vector<LitArea> areas;
     for (const double limit : limits_lx)
-        areas.push_back(road.lit_area(limit));
+        areas.emplace_back(road, limit);
     for (const LaneStrip& strip : lane_strips(grid)) {
         const LaneLines lines = lines_of(road, strip.spans);
         for (std::size_t i = 0; i < limits_lx.size(); ++i)
@@ -128,6 +128,25 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
 }
 
 namespace {
+
+struct PickedGrid {
+    ExtentGrid grid;
+    std::vector<double> lx;
+};
+
+/// Every `step`th of the first `rows` and `columns`: without sections and surface.
+PickedGrid picked(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t step, std::size_t rows, std::size_t columns) {
+    PickedGrid result;
+    for (std::size_t column = 0; column < columns; column += step)
+        result.grid.offset_m.push_back(grid.offset_m[column]);
+    for (std::size_t row = 0; row < rows; row += step) {
+        result.grid.ahead_m.push_back(grid.ahead_m[row]);
+        for (std::size_t column = 0; column < columns; column += step)
+            result.lx.push_back(lx[row * grid.offset_m.size() + column]);
+    }
+    result.grid.cell_m2 = cell_areas_m2(grid, step, rows, columns);
+    return result;
+}
 
 /// Whole steps in a length, one more where rounding took it away.
 int steps_in(double length_m, double step_m) { return static_cast<int>(std::floor(length_m / step_m * (1.0 + 1e-12))); }
@@ -189,20 +208,11 @@ std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::v
     const std::size_t columns = grid.offset_m.size();
     if (grid.ahead_m.size() < 3 || columns < 3)
         return errors;
-    ExtentGrid coarse;
-    coarse.target_height_m = grid.target_height_m;
-    std::vector<double> coarse_lx;
-    for (std::size_t column = 0; column < columns; column += 2)
-        coarse.offset_m.push_back(grid.offset_m[column]);
-    for (std::size_t row = 0; row < grid.ahead_m.size(); row += 2) {
-        coarse.ahead_m.push_back(grid.ahead_m[row]);
-        coarse.sections.push_back(grid.sections[row]);
-        for (std::size_t column = 0; column < columns; column += 2) {
-            coarse.surface.push_back(grid.surface[row * columns + column]);
-            coarse_lx.push_back(lx[row * columns + column]);
-        }
-    }
-    const std::vector<LaneExtent> other = measure_extent(coarse, coarse_lx, plane, limits_lx, {});
+    PickedGrid coarse = picked(grid, lx, 2, grid.ahead_m.size(), columns);
+    coarse.grid.surface.resize(coarse.lx.size()); // whose areas are known
+    for (std::size_t row = 0; row < grid.ahead_m.size(); row += 2)
+        coarse.grid.sections.push_back(grid.sections[row]);
+    const std::vector<LaneExtent> other = measure_extent(coarse.grid, coarse.lx, plane, limits_lx, {});
     for (const LaneExtent& fine : measured) {
         const auto found = std::ranges::find_if(
             other, [&](const LaneExtent& extent) { return extent.lane == fine.lane && extent.limit_lx == fine.limit_lx; });
@@ -218,25 +228,6 @@ std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::v
 
 namespace {
 
-struct PickedGrid {
-    ExtentGrid grid;
-    std::vector<double> lx;
-};
-
-/// Every `step`th of the first `rows` and `columns`: all that reach_and_area asks for.
-PickedGrid picked(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t step, std::size_t rows, std::size_t columns) {
-    PickedGrid result;
-    for (std::size_t column = 0; column < columns; column += step)
-        result.grid.offset_m.push_back(grid.offset_m[column]);
-    for (std::size_t row = 0; row < rows; row += step) {
-        result.grid.ahead_m.push_back(grid.ahead_m[row]);
-        for (std::size_t column = 0; column < columns; column += step)
-            result.lx.push_back(lx[row * grid.offset_m.size() + column]);
-    }
-    result.grid.cell_m2 = cell_areas_m2(grid, step, rows, columns);
-    return result;
-}
-
 struct ReachAndArea {
     std::optional<double> reach_m; ///< nullopt: lit where the grid, road or lane ends
     double area_m2 = 0.0;
@@ -250,7 +241,7 @@ std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vect
     std::vector<ReachAndArea> results;
     for (const double limit : limits_lx) {
         const LitLine reach = lit_line(centre, limit);
-        results.push_back({reach.lit_at_end ? std::nullopt : std::optional(reach.last_m), road.lit_area(limit).all_m2()});
+        results.push_back({reach.lit_at_end ? std::nullopt : std::optional(reach.last_m), LitArea(road, limit).all_m2()});
     }
     return results;
 }

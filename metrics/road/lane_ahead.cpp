@@ -6,7 +6,7 @@
 
 namespace fernlicht {
 
-LaneAhead::LaneAhead(const Route& route, double from_m, double length_m, double step_m) : step_m_(step_m) {
+LaneAhead::LaneAhead(const Route& route, double from_m, double length_m, double step_m) {
     const double room_m = std::min(length_m, route.length_m() - from_m);
     for (int k = 0; k * step_m <= room_m; ++k)
         surface_.push_back(route.pose(from_m + k * step_m));

@@ -11,7 +11,6 @@ class LaneAhead {
     /// Places every `step_m` from `from_m` along the route, to `length_m` farther or the route's end.
     LaneAhead(const Route& route, double from_m, double length_m, double step_m);
 
-    double step_m() const { return step_m_; }
     const std::vector<Pose>& surface() const { return surface_; }
 
     /// True where the lane rises above the line between two points: of no use for points below it.
@@ -23,7 +22,6 @@ class LaneAhead {
   private:
     double height_m(std::size_t place, const glm::dvec3& from, const glm::dvec3& direction, double& share) const;
 
-    double step_m_;
     std::vector<Pose> surface_;
 };
 

@@ -1,5 +1,8 @@
 #include "metrics/road/lit_line.h"
 
+#include <algorithm>
+#include <fmt/format.h>
+
 namespace fernlicht {
 namespace {
 
@@ -47,6 +50,97 @@ LitLine lit_line(const std::vector<LineSample>& line, double limit_lx) {
         before = &sample;
     }
     return result;
+}
+
+namespace {
+
+const char* const nothing = "no moment of the drive before this place was measured";
+
+std::vector<LineSample> by_distance(const Approach& approach) {
+    std::vector<LineSample> line;
+    for (const ApproachSample& sample : approach)
+        line.push_back({sample.distance_m, sample.value});
+    if (!line.empty() && line.front().at_m > line.back().at_m)
+        std::ranges::reverse(line);
+    return line;
+}
+
+double measured_length(const std::vector<LineSample>& line) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i)
+        if (line[i - 1].lx && line[i].lx)
+            length += line[i].at_m - line[i - 1].at_m;
+    return length;
+}
+
+std::vector<LineSample> by_time(const Approach& approach) {
+    std::vector<LineSample> line;
+    for (const ApproachSample& sample : approach)
+        line.push_back({sample.time_s, sample.value});
+    return line;
+}
+
+template <class Order> std::optional<double> outermost(const Approach& approach, Order before) {
+    std::optional<double> found;
+    for (const ApproachSample& sample : approach)
+        if (sample.value && (!found || before(*sample.value, *found)))
+            found = sample.value;
+    return found;
+}
+
+} // namespace
+
+Value value_at(const Approach& approach, double distance_m) {
+    if (approach.empty())
+        return Value::not_measured(nothing);
+    for (std::size_t i = 0; i < approach.size(); ++i) {
+        const ApproachSample& here = approach[i];
+        if (here.distance_m == distance_m && here.value)
+            return *here.value;
+        if (i == 0 || !(approach[i - 1].distance_m > distance_m && here.distance_m < distance_m))
+            continue;
+        const ApproachSample& before = approach[i - 1];
+        if (!before.value || !here.value)
+            return Value::not_measured("not measured in the moments around it");
+        return between_samples(*before.value, *here.value, (before.distance_m - distance_m) / (before.distance_m - here.distance_m));
+    }
+    return Value::not_measured(
+        fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m));
+}
+
+std::string cut_short(const Approach& approach, bool passed) {
+    if (passed || approach.empty() || approach.back().distance_m <= near_enough_m)
+        return {};
+    return fmt::format("the drive comes from {:.1f} m to {:.1f} m before it", approach.front().distance_m, approach.back().distance_m);
+}
+
+Value reached_from_m(const Approach& approach, double limit, bool passed) {
+    const LitLine line = lit_line(by_distance(approach), limit);
+    const std::optional<double> most = largest(approach);
+    if (!most)
+        return Value::not_measured(nothing);
+    if (*most < limit && !cut_short(approach, passed).empty())
+        return Value::at_most(approach.back().distance_m);
+    if (line.lit_at_end)
+        return Value::at_least(approach.front().distance_m);
+    return line.last_m;
+}
+
+Stretch at_or_above(const Approach& approach, double limit) {
+    return {lit_line(by_time(approach), limit).lit_m, lit_line(by_distance(approach), limit).lit_m};
+}
+
+Stretch below(const Approach& approach, double limit) {
+    const Stretch above = at_or_above(approach, limit);
+    return {measured_length(by_time(approach)) - above.time_s, measured_length(by_distance(approach)) - above.length_m};
+}
+
+std::optional<double> largest(const Approach& approach) {
+    return outermost(approach, [](double a, double b) { return a > b; });
+}
+
+std::optional<double> smallest(const Approach& approach) {
+    return outermost(approach, [](double a, double b) { return a < b; });
 }
 
 } // namespace fernlicht

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
@@ -162,20 +163,13 @@ Polygon beside(const Polygon& polygon, double from_ahead_m, double from_offset_m
         [side](const Corner& a, const Corner& b) { return side(a) / (side(a) - side(b)); });
 }
 
-/// One cell with its four corners: near and far row, right and left column.
-struct Cell {
-    Corner near_right, near_left, far_right, far_left;
-
-    std::array<Polygon, 2> triangles() const {
-        return {Polygon{{near_right, far_right, far_left}, 3}, Polygon{{near_right, far_left, near_left}, 3}};
-    }
-};
-
-Cell cell_of(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t row, std::size_t column) {
+/// A cell's two triangles, between its near and far row and its right and left column.
+std::array<Polygon, 2> triangles_of(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t row, std::size_t column) {
     const auto corner = [&](std::size_t r, std::size_t c) {
         return Corner{grid.ahead_m[r], grid.offset_m[c], lx[r * grid.offset_m.size() + c]};
     };
-    return {corner(row, column), corner(row, column + 1), corner(row + 1, column), corner(row + 1, column + 1)};
+    const Corner near_right = corner(row, column), far_left = corner(row + 1, column + 1);
+    return {Polygon{{near_right, corner(row + 1, column), far_left}, 3}, Polygon{{near_right, far_left, corner(row, column + 1)}, 3}};
 }
 
 double triangle_area_m2(const Pose& a, const Pose& b, const Pose& c) {
@@ -183,8 +177,7 @@ double triangle_area_m2(const Pose& a, const Pose& b, const Pose& c) {
 }
 
 /// Area of the part that `cut` leaves of the lit part of each of the cell's triangles.
-template <class Cut> double lit_part_m2(const Cell& cell, const CellArea& areas_m2, double limit_lx, Cut cut) {
-    const std::array<Polygon, 2> triangles = cell.triangles();
+template <class Cut> double lit_part_m2(const std::array<Polygon, 2>& triangles, const CellArea& areas_m2, double limit_lx, Cut cut) {
     double lit_m2 = 0.0;
     for (std::size_t i = 0; i < triangles.size(); ++i)
         lit_m2 += areas_m2[i] * (signed_area(cut(lit_part(triangles[i], limit_lx))) / signed_area(triangles[i]));
@@ -206,56 +199,49 @@ std::vector<CellArea> cell_areas_m2(const ExtentGrid& grid, std::size_t step, st
     return areas_m2;
 }
 
-LitArea::LitArea(const ExtentGrid& grid, const std::vector<CellArea>& cell_m2, const std::vector<double>& lx,
-                 const std::vector<double>& brightest_lx, double limit_lx)
-    : grid_(&grid), cell_m2_(&cell_m2), lx_(&lx), brightest_lx_(&brightest_lx), limit_lx_(limit_lx), lit_m2_(cell_m2.size()) {
-    const std::size_t cells = columns() - 1;
-    for (std::size_t row = 0; row + 1 < grid.ahead_m.size(); ++row) {
+LitArea::LitArea(const LitRoad& road, double limit_lx) : road_(&road), limit_lx_(limit_lx), lit_m2_(road.cell_m2_.size()) {
+    for (std::size_t row = 0; row + 1 < road.grid_.ahead_m.size(); ++row) {
         if (strip_is_dark(row))
             continue;
-        const double* near = &lx[row * columns()];
-        const double* far = near + columns();
+        const double *near = road.row(row), *far = road.row(row + 1);
         int lit_right = (near[0] >= limit_lx ? 1 : 0) + (far[0] >= limit_lx ? 1 : 0);
-        for (std::size_t column = 0; column < cells; ++column) {
+        for (std::size_t column = 0; column < cells(); ++column) {
             const int lit_left = (near[column + 1] >= limit_lx ? 1 : 0) + (far[column + 1] >= limit_lx ? 1 : 0);
             const int lit_corners = lit_right + lit_left;
             lit_right = lit_left;
-            const CellArea& areas_m2 = cell_m2[row * cells + column];
+            const std::size_t cell = row * cells() + column;
+            const CellArea& areas_m2 = road.cell_m2_[cell];
             if (lit_corners == 4)
-                lit_m2_[row * cells + column] = areas_m2[0] + areas_m2[1];
+                lit_m2_[cell] = areas_m2[0] + areas_m2[1];
             else if (lit_corners > 0)
-                lit_m2_[row * cells + column] =
-                    lit_part_m2(cell_of(grid, lx, row, column), areas_m2, limit_lx, [](const Polygon& part) { return part; });
+                lit_m2_[cell] = lit_part_m2(triangles_of(road.grid_, road.lx_, row, column), areas_m2, limit_lx, std::identity());
         }
     }
 }
 
 double LitArea::all_m2() const {
-    const std::size_t cells = columns() - 1;
     double lit_m2 = 0.0;
-    for (std::size_t row = 0; row + 1 < grid_->ahead_m.size(); ++row)
-        for (std::size_t column = 0; !strip_is_dark(row) && column < cells; ++column)
-            lit_m2 += lit_m2_[row * cells + column];
+    for (std::size_t row = 0; row + 1 < road_->grid_.ahead_m.size(); ++row)
+        for (std::size_t column = 0; !strip_is_dark(row) && column < cells(); ++column)
+            lit_m2 += lit_m2_[row * cells() + column];
     return lit_m2;
 }
 
 double LitArea::in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const {
-    const std::size_t cell = row * (columns() - 1) + column;
-    const double* nearer = &(*lx_)[row * columns() + column];
-    const double* farther = nearer + columns();
+    const double *nearer = road_->row(row) + column, *farther = road_->row(row + 1) + column;
     if (nearer[0] < limit_lx_ && nearer[1] < limit_lx_ && farther[0] < limit_lx_ && farther[1] < limit_lx_)
         return 0.0;
-    const double ahead_m = grid_->ahead_m[row];
-    const double length_m = grid_->ahead_m[row + 1] - ahead_m;
-    return lit_part_m2(cell_of(*grid_, *lx_, row, column), (*cell_m2_)[cell], limit_lx_, [&](const Polygon& part) {
-        const Polygon right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
-        return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
-    });
+    const double ahead_m = road_->grid_.ahead_m[row], length_m = road_->grid_.ahead_m[row + 1] - ahead_m;
+    return lit_part_m2(
+        triangles_of(road_->grid_, road_->lx_, row, column), road_->cell_m2_[row * cells() + column], limit_lx_, [&](const Polygon& part) {
+            const Polygon right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
+            return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
+        });
 }
 
 /// Between two rows: cells wholly inside the lane count as they are, those that an edge cuts are clipped.
 double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far) const {
-    const std::vector<double>& offsets = grid_->offset_m;
+    const std::vector<double>& offsets = road_->grid_.offset_m;
     const auto column_at = [&offsets](double offset_m) {
         const auto above = std::ranges::upper_bound(offsets, offset_m);
         return std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - offsets.begin() - 1, 0)), offsets.size() - 2);
@@ -267,14 +253,14 @@ double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpa
     double lit_m2 = 0.0;
     for (std::size_t column = first; column <= last; ++column) {
         const bool inside = offsets[column] >= inner_right_m && offsets[column + 1] <= inner_left_m;
-        lit_m2 += inside ? lit_m2_[row * (columns() - 1) + column] : in_cut_cell_m2(row, column, near, far);
+        lit_m2 += inside ? lit_m2_[row * cells() + column] : in_cut_cell_m2(row, column, near, far);
     }
     return lit_m2;
 }
 
 double LitArea::lane_m2(const LaneSpans& lane) const {
     double lit_m2 = 0.0;
-    for (std::size_t row = 0; row + 1 < grid_->ahead_m.size(); ++row)
+    for (std::size_t row = 0; row + 1 < road_->grid_.ahead_m.size(); ++row)
         if (lane[row] && lane[row + 1] && !strip_is_dark(row))
             lit_m2 += in_strip_m2(row, *lane[row], *lane[row + 1]);
     return lit_m2;

@@ -26,33 +26,6 @@ inline std::vector<CellArea> cell_areas_m2(const ExtentGrid& grid) {
     return cell_areas_m2(grid, 1, grid.ahead_m.size(), grid.offset_m.size());
 }
 
-/// Area of road surface with E >= limit. Each cell is cut into two triangles, the isolux line crosses their sides as in lit_line.h, and
-/// what lies inside counts as the triangle does in the world: in a curve the inner side is shorter.
-class LitArea {
-  public:
-    /// `cell_m2` of the grid; `brightest_lx`: the largest value of each row, so that dark rows cost nothing. Refers to all of them.
-    LitArea(const ExtentGrid& grid, const std::vector<CellArea>& cell_m2, const std::vector<double>& lx,
-            const std::vector<double>& brightest_lx, double limit_lx);
-
-    /// Over the whole grid, m2.
-    double all_m2() const;
-    /// Between the edges of a lane, which run straight from row to row.
-    double lane_m2(const LaneSpans& lane) const;
-
-  private:
-    std::size_t columns() const { return grid_->offset_m.size(); }
-    bool strip_is_dark(std::size_t row) const { return (*brightest_lx_)[row] < limit_lx_ && (*brightest_lx_)[row + 1] < limit_lx_; }
-    double in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const;
-    double in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far) const;
-
-    const ExtentGrid* grid_;
-    const std::vector<CellArea>* cell_m2_;
-    const std::vector<double>* lx_;
-    const std::vector<double>* brightest_lx_;
-    double limit_lx_;
-    std::vector<double> lit_m2_; ///< of each cell, row-major
-};
-
 /// Throws std::invalid_argument where measure_extent says so.
 void check_measurable(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& limits_lx);
 
@@ -94,16 +67,38 @@ class LitRoad {
     /// Values of all columns at a distance that was looked at.
     std::vector<double> across(double ahead_m) const;
 
-    LitArea lit_area(double limit_lx) const { return {grid_, cell_m2_, lx_, brightest_lx_, limit_lx}; }
-
   private:
+    friend class LitArea;
     const double* row(std::size_t index) const { return &lx_[index * grid_.offset_m.size()]; }
 
     const ExtentGrid& grid_;
     const std::vector<double>& lx_;
     std::vector<CellArea> own_cell_m2_; ///< where the grid does not know them
     const std::vector<CellArea>& cell_m2_;
-    std::vector<double> brightest_lx_; ///< of each row
+    std::vector<double> brightest_lx_; ///< of each row, so that dark rows cost nothing
+};
+
+/// Area of road surface with E >= limit. Each cell is cut into two triangles, the isolux line crosses their sides as in lit_line.h, and
+/// what lies inside counts as the triangle does in the world: in a curve the inner side is shorter.
+class LitArea {
+  public:
+    /// Refers to the road.
+    LitArea(const LitRoad& road, double limit_lx);
+
+    /// Over the whole grid, m2.
+    double all_m2() const;
+    /// Between the edges of a lane, which run straight from row to row.
+    double lane_m2(const LaneSpans& lane) const;
+
+  private:
+    std::size_t cells() const { return road_->grid_.offset_m.size() - 1; } ///< of a row
+    bool strip_is_dark(std::size_t row) const { return road_->brightest_lx_[row] < limit_lx_ && road_->brightest_lx_[row + 1] < limit_lx_; }
+    double in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const;
+    double in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far) const;
+
+    const LitRoad* road_;
+    double limit_lx_;
+    std::vector<double> lit_m2_; ///< of each cell, row-major
 };
 
 } // namespace fernlicht

@@ -23,18 +23,13 @@ double twin_lx(const Moment& moment, const Pose& surface, double target_height_m
                                       : target_illuminance_lx(moment, surface.position_m + target_height_m * surface.up());
 }
 
-/// The grid's rows on one offset.
-struct CentreLine {
-    const std::vector<double>& ahead_m;
-    std::vector<Pose> surface;
-    double target_height_m;
-};
-
-/// A centre line in the light of lamps that may stand otherwise than the moment says.
+/// The own lane's centre, the offset nearest to 0, in the light of lamps that may stand otherwise than the moment says.
 class LitCentreLine {
   public:
-    LitCentreLine(const CentreLine& line, Moment moment, ExtentPlane plane)
-        : line_(line), moment_(std::move(moment)), plane_(plane), first_known_(line.surface.size()), row_lx_(line.surface.size()) {}
+    LitCentreLine(const ExtentGrid& grid, Moment moment, ExtentPlane plane)
+        : grid_(grid),
+          column_(std::ranges::min_element(grid.offset_m, {}, [](double offset_m) { return std::abs(offset_m); }) - grid.offset_m.begin()),
+          moment_(std::move(moment)), plane_(plane), first_known_(grid.ahead_m.size()), row_lx_(grid.ahead_m.size()) {}
 
     /// Farthest place with E >= limit, to a millionth of a row; nullopt where that is nowhere or beyond the last row.
     std::optional<double> reach_m(double limit_lx) {
@@ -49,17 +44,17 @@ class LitCentreLine {
             const double middle = 0.5 * (lit_row + unlit_row);
             (lx(middle) >= limit_lx ? lit_row : unlit_row) = middle;
         }
-        return line_.ahead_m[unlit - 1] + (lit_row - static_cast<double>(unlit - 1)) * (line_.ahead_m[unlit] - line_.ahead_m[unlit - 1]);
+        return grid_.ahead_m[unlit - 1] + (lit_row - static_cast<double>(unlit - 1)) * (grid_.ahead_m[unlit] - grid_.ahead_m[unlit - 1]);
     }
 
   private:
     double lx(double row) const {
-        const auto before = std::min(static_cast<std::size_t>(row), line_.surface.size() - 2);
+        const auto before = std::min(static_cast<std::size_t>(row), row_lx_.size() - 2);
         const double share = row - static_cast<double>(before);
-        const Pose& a = line_.surface[before];
-        const Pose& b = line_.surface[before + 1];
+        const Pose* const near = &grid_.surface[before * grid_.offset_m.size()] + column_;
+        const Pose &a = *near, &b = near[grid_.offset_m.size()];
         const Pose between{a.position_m + share * (b.position_m - a.position_m), a.axes + share * (b.axes - a.axes)};
-        return twin_lx(moment_, between, line_.target_height_m, plane_);
+        return twin_lx(moment_, between, grid_.target_height_m, plane_);
     }
 
     /// Asked from the far end on, by one limit after the other.
@@ -69,7 +64,8 @@ class LitCentreLine {
         return row_lx_[row];
     }
 
-    const CentreLine& line_;
+    const ExtentGrid& grid_;
+    std::ptrdiff_t column_;
     Moment moment_;
     ExtentPlane plane_;
     std::size_t first_known_;
@@ -81,15 +77,6 @@ std::optional<double> half_difference_m(LitCentreLine& less, LitCentreLine& more
     const std::optional<double> near_m = less.reach_m(limit_lx);
     const std::optional<double> far_m = near_m ? more.reach_m(limit_lx) : std::nullopt;
     return far_m ? std::optional(0.5 * (*far_m - *near_m)) : std::nullopt;
-}
-
-/// The own lane's centre is the offset nearest to 0.
-CentreLine centre_line(const ExtentGrid& grid) {
-    const auto nearest = std::ranges::min_element(grid.offset_m, {}, [](double offset_m) { return std::abs(offset_m); });
-    CentreLine line{grid.ahead_m, {}, grid.target_height_m};
-    for (auto i = static_cast<std::size_t>(nearest - grid.offset_m.begin()); i < grid.surface.size(); i += grid.offset_m.size())
-        line.surface.push_back(grid.surface[i]);
-    return line;
 }
 
 Moment with_pitch(Moment moment, double more_rad) {
@@ -138,11 +125,10 @@ std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Mo
     std::vector<ReachSensitivity> results;
     if (grid.ahead_m.size() < 2 || grid.offset_m.empty())
         return results;
-    const CentreLine line = centre_line(grid);
     const Moment lit = with_lit_lamps(moment);
     for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        LitCentreLine lower(line, with_pitch(lit, radians(-0.1)), plane), higher(line, with_pitch(lit, radians(0.1)), plane);
-        LitCentreLine weaker(line, with_flux(lit, 0.9), plane), stronger(line, with_flux(lit, 1.1), plane);
+        LitCentreLine lower(grid, with_pitch(lit, radians(-0.1)), plane), higher(grid, with_pitch(lit, radians(0.1)), plane);
+        LitCentreLine weaker(grid, with_flux(lit, 0.9), plane), stronger(grid, with_flux(lit, 1.1), plane);
         for (const double limit : limits_lx) {
             const std::optional<double> by_aim = half_difference_m(lower, higher, limit);
             const std::optional<double> by_flux = half_difference_m(weaker, stronger, limit);

@@ -1,9 +1,10 @@
 #include "metrics/seeing/homogeneity.h"
 
-#include "metrics/glare/eye_light.h"
+#include "metrics/glare/glare.h"
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -78,34 +79,12 @@ std::vector<std::optional<double>> residuals(const LaneLight& light, double leas
     return result;
 }
 
-Patches connected(const std::vector<bool>& inside, std::size_t rows, std::size_t columns, double row_m) {
+Patches connected(const cv::Mat& inside, double row_m) {
+    cv::Mat labels, stats, middles;
     Patches patches;
-    std::vector<bool> left = inside;
-    for (std::size_t start = 0; start < left.size(); ++start) {
-        if (!left[start])
-            continue;
-        ++patches.count;
-        std::size_t first = start / columns, last = first;
-        std::vector<std::size_t> open{start};
-        left[start] = false;
-        while (!open.empty()) {
-            const std::size_t here = open.back(), r = here / columns, c = here % columns;
-            open.pop_back();
-            first = std::min(first, r);
-            last = std::max(last, r);
-            const auto visit = [&](bool there, std::size_t next) {
-                if (there && left[next]) {
-                    left[next] = false;
-                    open.push_back(next);
-                }
-            };
-            visit(r > 0, here - columns);
-            visit(r + 1 < rows, here + columns);
-            visit(c > 0, here - 1);
-            visit(c + 1 < columns, here + 1);
-        }
-        patches.longest_m = std::max(patches.longest_m, static_cast<double>(last - first + 1) * row_m);
-    }
+    patches.count = cv::connectedComponentsWithStats(inside, labels, stats, middles, 4) - 1; // the first is all that is outside
+    for (int i = 1; i <= patches.count; ++i)
+        patches.longest_m = std::max(patches.longest_m, stats.at<int>(i, cv::CC_STAT_HEIGHT) * row_m);
     return patches;
 }
 
@@ -128,18 +107,15 @@ Gradients largest_gradients(const LaneLight& light, double least_lx) {
 
 Unevenness patches(const LaneLight& light, double least_lx, double factor) {
     check(light);
-    if (light.ahead_m.size() < 2)
+    if (light.ahead_m.size() < 2 || light.offset_m.empty())
         return {};
     const double limit = std::log10(factor);
-    std::vector<bool> dark(light.lx.size()), bright(light.lx.size());
+    cv::Mat_<std::uint8_t> dark(static_cast<int>(light.ahead_m.size()), static_cast<int>(light.offset_m.size())), bright = dark.clone();
     const std::vector<std::optional<double>> over = residuals(light, least_lx);
-    for (std::size_t i = 0; i < over.size(); ++i) {
-        dark[i] = over[i] && *over[i] < -limit;
-        bright[i] = over[i] && *over[i] > limit;
-    }
-    const std::size_t rows = light.ahead_m.size(), columns = light.offset_m.size();
+    std::ranges::transform(over, dark.begin(), [&](const auto& lg) { return lg && *lg < -limit ? 1 : 0; });
+    std::ranges::transform(over, bright.begin(), [&](const auto& lg) { return lg && *lg > limit ? 1 : 0; });
     const double row_m = light.ahead_m[1] - light.ahead_m[0];
-    return {connected(dark, rows, columns, row_m), connected(bright, rows, columns, row_m)};
+    return {connected(dark, row_m), connected(bright, row_m)};
 }
 
 Value foreground_ratio(const LaneLight& light) {

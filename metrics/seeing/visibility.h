@@ -7,6 +7,13 @@
 // in cd/m2, alpha in arc minutes, times in s, ages in years. The branches do not meet exactly. Upwards, dL jumps by -1.3 to -2.0 % at Lb =
 // 0.6 and by -0.2 to +0.6 % at 0.00418 (targets of 60 to 1 arc minutes), by -1.4 % at an age of 64, and the factor of negative contrast not
 // at all at 0.1: tests/metrics/seeing/visibility_test.cpp holds them.
+// Mesopic luminance, CIE 191:2010, system MES2: between 0.005 and 5 cd/m2 eyes see by cones and rods, and light with more blue in it (a
+// larger ratio S/P of scotopic to photopic) counts for more than its photopic luminance says.
+//
+//   Lmes = (m Lp + (1 - m) Ls V') / (m + (1 - m) V'),  V' = 683 / 1699,  Ls = S/P Lp,  m = clamp(0.7670 + 0.3334 lg Lmes, 0, 1)
+//
+// a and b were read in another's program (1 - lg(5)/3 and 1/3), V' and the iteration from m = 0.5 are from memory.
+//
 // Luminance of a surface in the light of a moment's lamps, by the same equations as every picture (scenarios/photometry.glsl), in double.
 #pragma once
 
@@ -34,6 +41,18 @@ Value visibility_level(double target_cdm2, double background_cdm2, double adapta
 inline Value visibility_level(double target_cdm2, double background_cdm2, double size_arcmin, const Onlooker& onlooker) {
     return visibility_level(target_cdm2, background_cdm2, background_cdm2, size_arcmin, onlooker);
 }
+
+struct Mesopic {
+    double luminance_cdm2 = 0.0;
+    double m = 0.0;        ///< 0: rods alone (Lmes = Ls), 1: cones alone (Lmes = Lp)
+    bool bisected = false; ///< the fixed point went round in circles, m is the one zero of its residual
+};
+
+/// Lp > 0 and finite, S/P in [0.01, 100], else std::invalid_argument. The published fixed point is followed until m changes by less than
+/// 1e-10. With S/P above 1 larger m means less Lmes, so that the residual has one zero; where the steps there grow instead of shrinking
+/// (S/P of 16 and more, Lp of 0.2 to 5), that zero is found by bisection. With S/P below 1 the steps go one way and always arrive; at S/P
+/// of 0.1 and less more than one m can solve the equations (Lp of 0.03 to 0.4), and it is the one that the steps from 0.5 meet.
+Mesopic mesopic_luminance(double photopic_cdm2, double sp_ratio);
 
 /// Angle under which a length is seen across the line of sight.
 double arc_minutes_of(double length_m, double distance_m);

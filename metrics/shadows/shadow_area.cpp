@@ -7,19 +7,23 @@
 namespace fernlicht {
 namespace {
 
-void check_floor(double floor_lx) {
+/// `area(x, y)`: of a pixel.
+template <class Area> ShadowArea summed(const ShadowImages& images, double floor_lx, Area area) {
     if (!(floor_lx > 0.0))
         throw std::invalid_argument("shadows: the floor is not above 0 lx");
-}
-
-void add_shadow(ShadowArea& sum, const ShadowImages& images, int x, int y, double area, double floor_lx) {
-    const std::optional<ShadowDegrees> degrees = shadow_degrees(images, x, y, floor_lx);
-    if (!degrees || !(area > 0.0))
-        return;
-    sum.counted += area;
-    sum.shadowed += area * degrees->truth;
-    sum.wrongly_lit += area * std::max(0.0, degrees->truth - degrees->drawn);
-    sum.wrongly_dark += area * std::max(0.0, degrees->drawn - degrees->truth);
+    ShadowArea sum;
+    for (int y = 0; y < images.true_lx.height(); ++y)
+        for (int x = 0; x < images.true_lx.width(); ++x) {
+            const std::optional<ShadowDegrees> degrees = shadow_degrees(images, x, y, floor_lx);
+            const double of_pixel = area(x, y);
+            if (!degrees || !(of_pixel > 0.0))
+                continue;
+            sum.counted += of_pixel;
+            sum.shadowed += of_pixel * degrees->truth;
+            sum.wrongly_lit += of_pixel * std::max(0.0, degrees->truth - degrees->drawn);
+            sum.wrongly_dark += of_pixel * std::max(0.0, degrees->drawn - degrees->truth);
+        }
+    return sum;
 }
 
 } // namespace
@@ -56,26 +60,16 @@ std::optional<ShadowDegrees> shadow_degrees(const ShadowImages& images, int x, i
 
 ShadowArea shadow_area(const ShadowImages& images, double pixel_area, double floor_lx) {
     check_sizes(images);
-    check_floor(floor_lx);
     if (!(pixel_area > 0.0))
         throw std::invalid_argument("shadows: the area of a pixel is not above 0");
-    ShadowArea sum;
-    for (int y = 0; y < images.true_lx.height(); ++y)
-        for (int x = 0; x < images.true_lx.width(); ++x)
-            add_shadow(sum, images, x, y, pixel_area, floor_lx);
-    return sum;
+    return summed(images, floor_lx, [&](int, int) { return pixel_area; });
 }
 
 ShadowArea shadow_area(const ShadowImages& images, const Image<float>& areas, double floor_lx) {
     check_sizes(images);
-    check_floor(floor_lx);
     if (areas.width() != images.true_lx.width() || areas.height() != images.true_lx.height())
         throw std::invalid_argument("shadows: areas of another size than the images");
-    ShadowArea sum;
-    for (int y = 0; y < images.true_lx.height(); ++y)
-        for (int x = 0; x < images.true_lx.width(); ++x)
-            add_shadow(sum, images, x, y, static_cast<double>(areas.at(x, y)), floor_lx);
-    return sum;
+    return summed(images, floor_lx, [&](int x, int y) { return static_cast<double>(areas.at(x, y)); });
 }
 
 Image<float> shadow_differences(const ShadowImages& images, double floor_lx) {

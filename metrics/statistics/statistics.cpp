@@ -10,13 +10,6 @@
 namespace fernlicht {
 namespace {
 
-double quantile(const std::vector<double>& ascending, double share) {
-    const double place = share * static_cast<double>(ascending.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, ascending.size() - 1);
-    return std::lerp(ascending[below], ascending[above], place - static_cast<double>(below));
-}
-
 void refuse_not_finite(const std::vector<double>& samples) {
     if (!std::ranges::all_of(samples, [](double sample) { return std::isfinite(sample); }))
         throw std::invalid_argument("spread of samples: a sample is not finite");
@@ -32,9 +25,9 @@ std::optional<Spread> spread_of(std::vector<double> samples) {
     const auto count = static_cast<double>(samples.size());
     Spread spread;
     spread.count = samples.size();
-    spread.median = quantile(samples, 0.5);
-    spread.p05 = quantile(samples, 0.05);
-    spread.p95 = quantile(samples, 0.95);
+    spread.median = quantile_of(samples, 0.5);
+    spread.p05 = quantile_of(samples, 0.05);
+    spread.p95 = quantile_of(samples, 0.95);
     spread.minimum = samples.front();
     spread.maximum = samples.back();
     spread.mean = std::accumulate(samples.begin(), samples.end(), 0.0) / count;
@@ -54,7 +47,7 @@ std::optional<double> median_absolute_deviation(const std::vector<double>& sampl
     for (const double sample : samples)
         distances.push_back(std::abs(sample - spread->median));
     std::ranges::sort(distances);
-    return quantile(distances, 0.5);
+    return quantile_of(distances, 0.5);
 }
 
 std::optional<MedianInterval> median_interval(std::vector<double> samples, double confidence) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,6 +21,29 @@ struct Spread {
 /// nullopt for no samples; throws std::invalid_argument for NaN or infinity. The deviation is the sample's (n - 1), 0 for one sample.
 /// Quantiles by linear interpolation between order statistics (type 7 of Hyndman and Fan 1996).
 std::optional<Spread> spread_of(std::vector<double> samples);
+
+/// Type 7 of values in ascending order, at least one; `share` from 0 to 1.
+template <class Number> double quantile_of(const std::vector<Number>& ascending, double share) {
+    const double place = share * static_cast<double>(ascending.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, ascending.size() - 1);
+    return std::lerp(static_cast<double>(ascending[below]), static_cast<double>(ascending[above]), place - static_cast<double>(below));
+}
+
+/// By nearest rank.
+template <class Number> double by_nearest_rank(const std::vector<Number>& ascending, double share) {
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(ascending.size())));
+    return static_cast<double>(ascending[rank > 0 ? rank - 1 : 0]);
+}
+
+/// The value that this share of them lies below, of an even number's half the upper one; 0 of none.
+template <class Number> double middle_of(std::vector<Number> values, double share = 0.5) {
+    if (values.empty())
+        return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::ranges::nth_element(values, middle);
+    return static_cast<double>(*middle);
+}
 
 /// Median of the distances from the median: what one outlier cannot move. nullopt and errors as spread_of.
 std::optional<double> median_absolute_deviation(const std::vector<double>& samples);

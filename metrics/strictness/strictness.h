@@ -77,7 +77,7 @@ bool has_leaf(const StrictnessNode& tree, StrictnessNode::Kind kind);
 
 struct ErrorHistogram {
     /// Bin i holds differences from edge(i) up to below edge(i + 1); what is smaller or larger than all of them is in the end bins.
-    static constexpr double lowest = 1e-6, highest = 1e6;
+    static constexpr double lowest = 1e-6;
     static constexpr int bins_per_decade = 3, bins = 36;
     static double edge(int i); ///< lowest * 10^(i / 3); 0 <= i <= bins
 

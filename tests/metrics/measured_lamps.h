@@ -3,6 +3,7 @@
 
 #include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/lamp_file.h"
+#include "tests/lamps.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -34,17 +35,11 @@ inline std::optional<AngleSystem> system_of(Kind kind) {
 /// H 18 degrees to both sides and V from 7 D to 5 U; C planes ten steps apart (2.5 degrees at a quarter) over 20 degrees round the beam.
 /// `cd(h, v)` in candela. The table on H and V is the beam without noise, every half degree: no file is resampled here.
 inline LampFile lamp(Kind kind, double step_deg, const std::function<double(double, double)>& cd, const Noise& noise) {
-    const auto axis = [](double from, double to, double step) {
-        std::vector<double> a;
-        for (int i = 0; from + i * step <= to + 1e-9; ++i)
-            a.push_back(from + i * step);
-        return a;
-    };
     const std::optional<AngleSystem> system = system_of(kind);
     const bool planes = system && system->turns_about_beam;
     CandelaTable own;
-    own.h_deg = planes ? axis(-180.0, 180.0, 10.0 * step_deg) : axis(-18.0, 18.0, step_deg);
-    own.v_deg = planes ? axis(-90.0, -70.0, step_deg) : axis(-7.0, 5.0, step_deg);
+    own.h_deg = planes ? tests::steps(-180.0, 180.0, 10.0 * step_deg) : tests::steps(-18.0, 18.0, step_deg);
+    own.v_deg = planes ? tests::steps(-90.0, -70.0, step_deg) : tests::steps(-7.0, 5.0, step_deg);
     std::mt19937 random(noise.seed);
     std::normal_distribution<double> normal;
     for (const double v : own.v_deg)
@@ -62,11 +57,7 @@ inline LampFile lamp(Kind kind, double step_deg, const std::function<double(doub
         out.table = own;
         return out;
     }
-    out.table.h_deg = axis(-18.0, 18.0, 0.5);
-    out.table.v_deg = axis(-7.0, 5.0, 0.25);
-    for (const double v : out.table.v_deg)
-        for (const double h : out.table.h_deg)
-            out.table.cd.push_back(cd(h, v));
+    out.table = tests::table_of(tests::steps(-18.0, 18.0, 0.5), tests::steps(-7.0, 5.0, 0.25), cd, own.rule);
     out.measured = MeasuredTable{own, *system};
     return out;
 }

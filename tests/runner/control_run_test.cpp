@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace fernlicht {
 namespace {
@@ -35,21 +34,12 @@ measure: {{extent: false}}
 using Table = std::vector<std::map<std::string, std::string>>;
 
 Table table_of(const std::string& csv) {
-    std::istringstream lines(csv);
-    std::vector<std::string> header;
-    Table table;
-    for (std::string line; std::getline(lines, line);) {
-        std::vector<std::string> fields;
-        std::istringstream in(line);
-        for (std::string field; std::getline(in, field, ',');)
-            fields.push_back(field);
-        if (header.empty()) {
-            header = fields;
-            continue;
-        }
-        fields.resize(header.size());
-        for (std::size_t i = 0; i < header.size(); ++i)
-            i == 0 ? table.emplace_back()[header[i]] = fields[i] : table.back()[header[i]] = fields[i];
+    std::vector<std::vector<std::string>> rows = csv_rows(csv);
+    Table table(rows.size() - 1);
+    for (std::size_t row = 1; row < rows.size(); ++row) {
+        rows[row].resize(rows[0].size());
+        for (std::size_t i = 0; i < rows[0].size(); ++i)
+            table[row - 1][rows[0][i]] = rows[row][i];
     }
     return table;
 }

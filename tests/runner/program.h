@@ -11,6 +11,7 @@
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 namespace fernlicht {
 
@@ -63,6 +64,19 @@ inline std::string content_of(const std::filesystem::path& path) {
     std::ostringstream text;
     text << stream.rdbuf();
     return text.str();
+}
+
+/// The fields of each line, split at commas.
+inline std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream in(line);
+        rows.emplace_back();
+        for (std::string field; std::getline(in, field, ',');)
+            rows.back().push_back(field);
+    }
+    return rows;
 }
 
 /// A fresh folder, removed at the end.

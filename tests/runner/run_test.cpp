@@ -24,6 +24,14 @@ double reading(const json& report, const std::string& name, const std::string& v
 
 json report_of(const std::string& folder) { return json::parse(content_of(folder + "/report.json")); }
 
+/// Plays a drive of the library with these flags into a folder; its report. Limits may be exceeded where `most_code` is 1.
+json played(const std::string& drive, const std::string& flags, const std::string& out, int most_code = 1) {
+    const Outcome run = run_program("run " + library_file("drives/" + drive + ".yaml") + " " + flags + " --out " + out);
+    if (run.exit_code < 0 || run.exit_code > most_code)
+        throw std::runtime_error(run.output);
+    return report_of(out);
+}
+
 /// The report without what may differ between two runs: machine, date, durations.
 json timeless(json report) {
     report.erase("context");
@@ -57,9 +65,7 @@ constexpr const char* few_moments = " --quiet --frames 0:4 --resolution 96x72 --
 
 TEST(Run, TheWorkedExampleGives0386LuxOnBothPaths) {
     const TemporaryFolder folder;
-    const Outcome run = run_program("run " + library_file("drives/worked-example.yaml") + " --quiet --out " + (folder / "out"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json report = report_of(folder / "out");
+    const json report = played("worked-example", "--quiet", folder / "out", 0);
     const double by_hand = 206.25 * 0.65 / std::pow(std::hypot(7.0, 0.65), 3); // 0.3859 lx
     EXPECT_NEAR(reading(report, "probe_road-7m_twin_lx"), by_hand, 1e-9);
     EXPECT_NEAR(reading(report, "probe_road-7m_lx"), by_hand, 2e-6);
@@ -68,15 +74,12 @@ TEST(Run, TheWorkedExampleGives0386LuxOnBothPaths) {
 /// The light goes on past the grid's end: one answer in every file.
 TEST(Run, WhatLiesBeyondTheGridIsABoundEverywhere) {
     const TemporaryFolder folder;
-    const Outcome run = run_program("run " + library_file("drives/straight.yaml") + " --lamp " + library_file("lamps/xenon-high.ies") +
-                                    few_moments + "--out " + (folder / "out"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json report = report_of(folder / "out"), bound{{"at_least", 200.0}};
-    for (const json& row : report.at("rows")) {
-        if (row.at("name") != "reach_1lx_target_own_m")
-            continue;
-        EXPECT_EQ(row.at("value"), bound);
-    }
+    const json report = played("straight", "--lamp " + library_file("lamps/xenon-high.ies") + few_moments, folder / "out", 0);
+    const json bound{{"at_least", 200.0}};
+    for (const json& row : report.at("rows"))
+        if (row.at("name") == "reach_1lx_target_own_m") {
+            EXPECT_EQ(row.at("value"), bound);
+        }
     for (const json& summary : report.at("drives").at(0).at("summary"))
         if (summary.at("plane") == "target" && summary.at("lane") == "own" && summary.at("limit_lx") == 1.0) {
             EXPECT_EQ(summary.at("reach_m").at("median"), bound);
@@ -126,8 +129,7 @@ TEST(Run, TwiceTheSameBytes) {
 
 TEST(Run, TheResolvedDriveGivesTheSameBytes) {
     const TemporaryFolder folder;
-    const Outcome first = run_program("run " + library_file("drives/straight.yaml") + few_moments + "--out " + (folder / "a"));
-    ASSERT_LE(first.exit_code, 1) << first.output;
+    const json first = played("straight", few_moments, folder / "a");
     std::string resolved;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "a"))
         if (entry.path().extension() == ".yaml")
@@ -136,7 +138,7 @@ TEST(Run, TheResolvedDriveGivesTheSameBytes) {
     const Outcome second = run_program("run " + resolved + " --quiet --frames 0:4 --out " + (folder / "b"));
     ASSERT_LE(second.exit_code, 1) << second.output;
     EXPECT_TRUE(same_files(folder / "a/frames", folder / "b/frames"));
-    EXPECT_TRUE(timeless(report_of(folder / "a")).at("rows") == timeless(report_of(folder / "b")).at("rows"));
+    EXPECT_TRUE(timeless(first).at("rows") == timeless(report_of(folder / "b")).at("rows"));
 }
 
 TEST(Run, EglAndOsMesaAgree) {
@@ -154,31 +156,23 @@ TEST(Run, EglAndOsMesaAgree) {
 
 TEST(Run, AnotherLampGivesAnotherReach) {
     const TemporaryFolder folder;
-    const Outcome run =
-        run_program("run " + library_file("drives/straight.yaml") + few_moments + "--lamp left=" + library_file("lamps/even-0.33lx.csv") +
-                    " --lamp right=" + library_file("lamps/even-0.33lx.csv") + " --out " + (folder / "out"));
-    ASSERT_LE(run.exit_code, 1) << run.output;
+    const std::string even = library_file("lamps/even-0.33lx.csv");
+    const json report = played("straight", few_moments + ("--lamp left=" + even) + " --lamp right=" + even, folder / "out");
     // 206.25 cd twice reach 1 lx on a facing target at sqrt(412.5) = 20.3 m from the lamps, a little less from the bumper ahead of them.
-    EXPECT_NEAR(reading(report_of(folder / "out"), "reach_1lx_target_own_m"), 20.3, 0.5);
+    EXPECT_NEAR(reading(report, "reach_1lx_target_own_m"), 20.3, 0.5);
 }
 
+/// Two signals at once are one wish: sent to a process and to its group, as a terminal or a wrapper does.
 TEST(Run, AnInterruptedRunLeavesAValidReportThatSaysSo) {
-    const TemporaryFolder folder;
-    const Outcome run =
-        run_interrupted("run " + library_file("drives/straight.yaml") + " --resolution 64x48 --out " + (folder / "out"), " moments, ");
-    EXPECT_EQ(run.exit_code, 1) << run.output;
-    const json report = report_of(folder / "out");
-    EXPECT_FALSE(report.at("complete").get<bool>());
-    EXPECT_TRUE(std::filesystem::exists(folder / "out/report.html"));
-    EXPECT_TRUE(std::filesystem::exists(folder / "out/INCOMPLETE"));
-}
-
-TEST(Run, TwoSignalsAtOnceAreOneWish) { // sent to a process and to its group, as a terminal or a wrapper does
-    const TemporaryFolder folder;
-    const Outcome run =
-        run_interrupted("run " + library_file("drives/straight.yaml") + " --resolution 64x48 --out " + (folder / "out"), " moments, ", 2);
-    EXPECT_EQ(run.exit_code, 1) << run.output;
-    EXPECT_FALSE(report_of(folder / "out").at("complete").get<bool>());
+    for (const int signals : {1, 2}) {
+        const TemporaryFolder folder;
+        const Outcome run = run_interrupted("run " + library_file("drives/straight.yaml") + " --resolution 64x48 --out " + (folder / "out"),
+                                            " moments, ", signals);
+        EXPECT_EQ(run.exit_code, 1) << run.output;
+        EXPECT_FALSE(report_of(folder / "out").at("complete").get<bool>());
+        EXPECT_TRUE(std::filesystem::exists(folder / "out/report.html"));
+        EXPECT_TRUE(std::filesystem::exists(folder / "out/INCOMPLETE"));
+    }
 }
 
 TEST(Run, BadInputIsOneSentenceAndExitCodeTwo) {
@@ -257,36 +251,36 @@ TEST(Run, NothingIsOverwritten) {
     EXPECT_TRUE(files_below(folder / "out") == before);
 }
 
-TEST(Run, AFullDiskIsOneSentenceAndKeepsWhatWasDone) {
+/// Where a folder is a file system of its own with these options; skipped where nobody may mount.
+TEST(Run, AFullDiskAndAReadOnlyFolderAreOneSentence) {
     const TemporaryFolder folder;
-    const std::string program = "run " + library_file("drives/straight.yaml") +
-                                " --quiet --capture all --frames 0:40 --resolution 256x192 --out " + folder.path().string();
-    const std::string script = folder.path().string() + ".sh";
-    std::ofstream(script) << "mount -t tmpfs -o size=1500k tmpfs " << folder.path().string() << " || exit 77\n"
-                          << "'" FERNLICHT_BINARY "' " << program << "\ncode=$?\nls -A " << folder.path().string() << "\nexit $code\n";
-    const Outcome run = run_shell("unshare --mount sh " + script);
-    std::filesystem::remove(script);
-    if (run.exit_code == 77 || run.output.find("unshare") != std::string::npos)
-        GTEST_SKIP() << "no right to mount here: " << run.output;
-    EXPECT_EQ(run.exit_code, 3) << run.output;
-    EXPECT_NE(run.output.find("No space left on device"), std::string::npos) << run.output;
-    EXPECT_NE(run.output.find("INCOMPLETE"), std::string::npos) << run.output;
-    EXPECT_NE(run.output.find("frames"), std::string::npos) << run.output;
+    const std::string path = folder.path().string(), script = path + ".sh";
+    const auto says = [&](const std::string& options, const std::string& run, const std::vector<const char*>& words) {
+        std::ofstream(script) << "mount -t tmpfs -o " << options << " tmpfs " << path << " || exit 77\n'" FERNLICHT_BINARY "' run "
+                              << library_file("drives/") << run << "\ncode=$?\nls -A " << path << "\nexit $code\n";
+        const Outcome outcome = run_shell("unshare --mount sh " + script);
+        std::filesystem::remove(script);
+        if (outcome.exit_code == 77 || outcome.output.find("unshare") != std::string::npos)
+            return false;
+        EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+        for (const char* word : words)
+            EXPECT_THAT(outcome.output, testing::HasSubstr(word));
+        return true;
+    };
+    const bool may_mount = says("size=1500k", "straight.yaml --quiet --capture all --frames 0:40 --resolution 256x192 --out " + path,
+                                {"No space left on device", "INCOMPLETE", "frames"});
+    if (!may_mount || !says("ro", "worked-example.yaml --quiet --out " + (folder / "out"), {"Read-only file system"}))
+        GTEST_SKIP() << "no right to mount here";
 }
 
-TEST(Run, AReadOnlyFolderIsOneSentence) {
-    const TemporaryFolder folder;
-    const std::string script = folder.path().string() + ".sh";
-    std::ofstream(script) << "mount -t tmpfs -o ro tmpfs " << folder.path().string() << " || exit 77\n"
-                          << "'" FERNLICHT_BINARY "' run " << library_file("drives/worked-example.yaml") << " --quiet --out "
-                          << folder / "out"
-                          << "\n";
-    const Outcome run = run_shell("unshare --mount sh " + script);
-    std::filesystem::remove(script);
-    if (run.exit_code == 77 || run.output.find("unshare") != std::string::npos)
-        GTEST_SKIP() << "no right to mount here: " << run.output;
-    EXPECT_EQ(run.exit_code, 3) << run.output;
-    EXPECT_NE(run.output.find("Read-only file system"), std::string::npos) << run.output;
+TEST(ProgramCommandLine, AWordThatIsNoCommandIsNamed) {
+    const Outcome misspelt = run_program("diference a.png b.png");
+    EXPECT_EQ(misspelt.exit_code, 2);
+    EXPECT_THAT(misspelt.output,
+                testing::StartsWith("fernlicht: 'diference' is no command, expected one of run, live, study, bench, compare, "));
+    EXPECT_EQ(run_program("").exit_code, 2);
+    EXPECT_EQ(run_program("--version").exit_code, 0);
+    EXPECT_EQ(run_program("run --help").exit_code, 0);
 }
 
 TEST(Doctor, FindsAWayToDraw) {

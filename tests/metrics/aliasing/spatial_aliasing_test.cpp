@@ -1,7 +1,6 @@
-#include "metrics/aliasing/contrast_sensitivity.h"
-#include "metrics/aliasing/fourier.h"
 #include "metrics/aliasing/jaggedness.h"
 #include "metrics/aliasing/spatial_aliasing.h"
+#include "metrics/aliasing/temporal_aliasing.h"
 #include "tests/metrics/aliasing/analytic_pictures.h"
 
 #include <algorithm>
@@ -55,8 +54,6 @@ Image<float> busy_reference(int width_px, int height_px) {
             picture.at(x, y) = 1.0F + static_cast<float>(generator() % 1000) / 1000.0F + (x + y / 5 > picture.width() / 2 ? 2.0F : 0.0F);
     return picture;
 }
-
-int mirrored(int i, int n) { return i < 0 ? -1 - i : i >= n ? 2 * n - 1 - i : i; }
 
 Image<float> blurred_and_sampled(const Image<float>& fine, double sigma_x_px, double sigma_y_px) {
     const auto kernel = [](double sigma_px) {

@@ -1,4 +1,3 @@
-#include "metrics/aliasing/contrast_sensitivity.h"
 #include "metrics/aliasing/optical_flow.h"
 #include "metrics/aliasing/spatial_aliasing.h"
 #include "metrics/aliasing/temporal_aliasing.h"
@@ -27,10 +26,14 @@ std::vector<PixelTrack> tracks_along_x(int width, int frames, double speed_px) {
     return tracks;
 }
 
+/// Of rows of pixels, all at one level.
+TemporalAliasing measured(const std::vector<Image<double>>& residues, const std::vector<PixelTrack>& tracks, double level = 1.0) {
+    return measure_temporal_aliasing(residues, std::vector(residues.size(), Image<double>(residues[0].width(), 1, level)), tracks, rate_hz,
+                                     ppd);
+}
+
 TEST(TemporalAliasing, WhatStandsStillReadsExactlyNothing) {
-    const Image<double> still(64, 1, 0.1);
-    const TemporalAliasing found = measure_temporal_aliasing(std::vector(12, still), std::vector(12, Image<double>(64, 1, 1.0F)),
-                                                             tracks_along_x(64, 12, 0.0), rate_hz, ppd);
+    const TemporalAliasing found = measured(std::vector(12, Image<double>(64, 1, 0.1)), tracks_along_x(64, 12, 0.0));
     EXPECT_EQ(std::tuple(found.tracks, found.crawl_percent, found.flicker_percent, found.visible), std::tuple(64U, 0.0, 0.0, 0.0));
 }
 
@@ -41,9 +44,8 @@ TEST(TemporalAliasing, WhatTheSceneCarriesAlongReadsNothing) {
         for (int x = 0; x < 64; ++x)
             residues.back().at(x, 0) = std::sin(1.7 * (x - 2 * t));
     }
-    const std::vector<Image<double>> levels(12, Image<double>(64, 1, 1.0F));
-    EXPECT_LT(measure_temporal_aliasing(residues, levels, tracks_along_x(64, 12, 2.0), rate_hz, ppd).flicker_percent, 1e-12);
-    EXPECT_GT(measure_temporal_aliasing(residues, levels, tracks_along_x(64, 12, 0.0), rate_hz, ppd).flicker_percent, 60.0);
+    EXPECT_LT(measured(residues, tracks_along_x(64, 12, 2.0)).flicker_percent, 1e-12);
+    EXPECT_GT(measured(residues, tracks_along_x(64, 12, 0.0)).flicker_percent, 60.0);
 }
 
 TEST(TemporalAliasing, AFlickerReadsItsContrastAndItsFrequency) {
@@ -52,8 +54,7 @@ TEST(TemporalAliasing, AFlickerReadsItsContrastAndItsFrequency) {
         std::vector<Image<double>> residues;
         for (int t = 0; t < frames; ++t)
             residues.emplace_back(8, 1, 0.04 * std::cos(2.0 * pi * hertz * t / rate_hz + 0.3));
-        const TemporalAliasing found = measure_temporal_aliasing(residues, std::vector(frames, Image<double>(8, 1, 2.0F)),
-                                                                 tracks_along_x(8, frames, 0.0), rate_hz, ppd);
+        const TemporalAliasing found = measured(residues, tracks_along_x(8, frames, 0.0), 2.0);
         const double expected = 100.0 * 0.02 / std::sqrt(2.0);
         // A Hann window gives the neighbours a quarter of the peak's power each; 2 % for the mean under the window at 2 Hz.
         EXPECT_NEAR((hertz < 4.0 ? *found.crawl_percent : found.flicker_percent) / expected, 1.0, 0.02);
@@ -90,8 +91,7 @@ TEST(TemporalAliasing, AMovingStepFlickersByItsClosedForm) {
         }
     }
     const std::vector<PixelTrack> tracks = tracks_along_x(width, frames, speed_px);
-    const TemporalAliasing found =
-        measure_temporal_aliasing(residues, std::vector(frames, Image<double>(width, 1, 1.0F)), tracks, rate_hz, ppd);
+    const TemporalAliasing found = measured(residues, tracks);
     // A step less its part below 1/2 cycle per pixel has the spectrum 1 / (2 pi i f) beyond. A point at a distance from it is seen in
     // pixels up to half a pixel away, all alike often: its variance is the mean of the squares less the square of the mean, which is a box
     // filter. Summed over distances: 2 integral from 1/2 of (1 - sinc(f)^2) / (4 pi^2 f^2) df.
@@ -140,7 +140,6 @@ double noise(std::uint64_t seed) {
 
 TEST(TemporalAliasing, WhatStandsOnTheScreenIsToldApart) {
     constexpr int width = 4000, frames = 16;
-    const std::vector<Image<double>> levels(frames, Image<double>(width, 1, 1.0));
     const std::vector<PixelTrack> tracks = tracks_along_x(width, frames, 1.37);
     const auto found = [&](double stands, double changes) {
         std::vector<Image<double>> residues;
@@ -149,7 +148,7 @@ TEST(TemporalAliasing, WhatStandsOnTheScreenIsToldApart) {
             for (std::uint64_t x = 0; x < width; ++x)
                 residues.back().pixels()[x] = stands * noise(x) + changes * noise(width * (t + 1) + x);
         }
-        return measure_temporal_aliasing(residues, levels, tracks, rate_hz, ppd);
+        return measured(residues, tracks);
     };
     const TemporalAliasing stands = found(0.1, 0.0), changes = found(0.0, 0.1), both = found(0.1, 0.1);
     EXPECT_NEAR(*stands.standing_percent / stands.flicker_percent, 1.0, 1e-9);

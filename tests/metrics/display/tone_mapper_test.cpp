@@ -2,6 +2,7 @@
 #include "metrics/display/tone_fit.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/values/files.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,10 +145,10 @@ TEST(ToneFit, WhatFitsTheDisplayIsShownAsItIs) {
 
 DisplayProfile example_device() {
     FilesRead opened;
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "device.yaml";
-    write_file(path, "fernlicht_display: 1\nrgb_to_xyz:\n  - [0.170, 0.090, 0.043]\n  - [0.090, 0.180, 0.033]\n  - [0.008, 0.030, 0.240]\n"
-                     "unit: W/(sr m2)\ntransfer: linear\n");
-    return read_display_profile(path, opened);
+    return read_display_profile(tests::written("device.yaml",
+                                               "fernlicht_display: 1\nrgb_to_xyz:\n  - [0.170, 0.090, 0.043]\n  - [0.090, 0.180, 0.033]\n"
+                                               "  - [0.008, 0.030, 0.240]\nunit: W/(sr m2)\ntransfer: linear\n"),
+                                opened);
 }
 
 /// The colour of the display's own white with this luminance.

@@ -1,5 +1,4 @@
 // The ruler for glare: values worked out by hand from the equations, each beside its working.
-#include "metrics/glare/eye_light.h"
 #include "metrics/glare/glare.h"
 #include "tests/lamps.h"
 

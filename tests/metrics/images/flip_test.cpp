@@ -1,6 +1,7 @@
 #include "metrics/images/flip.h"
 #include "metrics/images/flip_filters.h"
 #include "metrics/images/image_difference.h"
+#include "metrics/images/quick_powers.h"
 #include "scenarios/values/pose.h"
 #include "tests/metrics/images/direct_flip.h"
 #include "tests/metrics/images/made_pictures.h"
@@ -84,14 +85,10 @@ TEST(Flip, TilesLeaveNoSeams) {
             ASSERT_EQ(part.at(x, y), whole.at(x + 8, y)) << x << ", " << y;
 }
 
-TEST(Flip, IsTheSameBothWays) {
-    const auto a = made_scene(60, 40), b = disturbed(a, 30, 5);
-    EXPECT_EQ(flip_ldr(a, b), flip_ldr(b, a));
-}
-
-TEST(Flip, AnyNumberOfThreadsGivesTheSameBytes) {
+TEST(Flip, IsTheSameBothWaysByAnyNumberOfThreads) {
     const auto a = made_scene(300, 200), b = disturbed(a, 30, 5);
     const auto many = flip_ldr(a, b);
+    EXPECT_EQ(flip_ldr(b, a), many);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(flip_ldr(a, b), many);
 }
@@ -257,6 +254,20 @@ TEST(FlipHdr, WrongInputIsRefused) {
     EXPECT_THROW(exposures_for(negative), std::invalid_argument);
     EXPECT_THROW(flip_hdr(infinite, light, exposures_for(light)), std::invalid_argument);
     EXPECT_THROW(flip_hdr(grey_scene(2, 3, {1.0F}), light, exposures_for(light)), std::invalid_argument);
+}
+
+TEST(QuickPowers, StayWithinWhatTheySay) {
+    const auto relative = [](float found, double exact) { return std::abs(static_cast<double>(found) / exact - 1.0); };
+    for (double x = 1e-30; x < 1e30; x *= 1.00037)
+        ASSERT_LT(relative(quick_cube_root(static_cast<float>(x)), std::cbrt(static_cast<double>(static_cast<float>(x)))), 3e-7) << x;
+    for (double x = 1e-37; x < 1e37; x *= 1.00037) {
+        const double exact = std::log2(static_cast<double>(static_cast<float>(x)));
+        ASSERT_NEAR(static_cast<double>(quick_log2(static_cast<float>(x))), exact, 3e-7 + 6e-8 * std::abs(exact)) << x;
+    }
+    for (double x = -126.0; x <= 126.0; x += 0.00137)
+        ASSERT_LT(relative(quick_exp2(static_cast<float>(x)), std::exp2(static_cast<double>(static_cast<float>(x)))), 3e-7) << x;
+    EXPECT_EQ(quick_log2(1.0F), 0.0F);
+    EXPECT_EQ(quick_exp2(0.0F), 1.0F);
 }
 
 TEST(DisplayDifference, OfTheSameAndOfBlackAndWhite) {

@@ -33,6 +33,13 @@ inline Image<Rgb8> disturbed(Image<Rgb8> picture, int size, std::uint32_t seed) 
     return picture;
 }
 
+/// These values, row after row.
+inline Image<float> picture(int width, const std::vector<float>& values) {
+    Image<float> image(width, static_cast<int>(values.size()) / width);
+    image.pixels() = values;
+    return image;
+}
+
 /// One pixel to the right; the first column stays.
 inline Image<Rgb8> shifted(const Image<Rgb8>& picture) {
     Image<Rgb8> out = picture;

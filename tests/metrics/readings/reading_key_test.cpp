@@ -19,6 +19,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -113,7 +114,6 @@ TEST(ReadingKey, EveryShapeLeadsBackToItsKeyAndNoTwoShareAName) {
 }
 
 TEST(ReadingKey, NamesOfAcceptedResultsComeBack) {
-    std::set<std::string> units;
     std::size_t readings = 0;
     for (const auto& file : std::filesystem::recursive_directory_iterator(std::string(FERNLICHT_SOURCE_DIR) + "/references/objects")) {
         if (!file.is_regular_file())
@@ -179,21 +179,16 @@ TEST(ReadingKey, WhatIsNoNameIsRefusedAndWhatNoReadingHasNotNamed) {
 }
 
 TEST(ReadingKey, SubjectsThatOthersNamesHoldAreNotClear) {
-    for (const char* name : {"x_min", "x_max", "x_twin", "x_standard_error", "min_max"})
-        EXPECT_FALSE(is_clear_subject(SubjectKind::probe, name)) << name;
-    for (const char* name : {"min", "twin", "kerb-30m", "x_min_x", "x_lx", "minimum"})
-        EXPECT_TRUE(is_clear_subject(SubjectKind::probe, name)) << name;
-    for (const char* name : {"own", "mirrors_at_15m"})
-        EXPECT_FALSE(is_clear_subject(SubjectKind::eye, name)) << name;
-    for (const char* name : {"oncoming", "opposite", "lane-centre", "far_away", "mirrors", "own_2"})
-        EXPECT_TRUE(is_clear_subject(SubjectKind::eye, name)) << name;
-    EXPECT_FALSE(is_clear_subject(SubjectKind::mirror, "left_standard_error_lx"));
-    for (const char* name : {"left", "inside", "left_at_15m"})
-        EXPECT_TRUE(is_clear_subject(SubjectKind::mirror, name)) << name;
-    for (const char* name : {"card", "pedestrian-dark", "card_own"})
-        EXPECT_TRUE(is_clear_subject(SubjectKind::target, name)) << name;
-    for (const char* name : {"", "a b", "a/b"})
-        EXPECT_FALSE(is_clear_subject(SubjectKind::sensor, name)) << name;
+    for (const auto& [kind, clear, names] :
+         {std::tuple(SubjectKind::probe, false, "x_min|x_max|x_twin|x_standard_error|min_max"),
+          std::tuple(SubjectKind::probe, true, "min|twin|kerb-30m|x_min_x|x_lx|minimum"),
+          std::tuple(SubjectKind::eye, false, "own|mirrors_at_15m"),
+          std::tuple(SubjectKind::eye, true, "oncoming|opposite|lane-centre|far_away|mirrors|own_2"),
+          std::tuple(SubjectKind::mirror, false, "left_standard_error_lx"),
+          std::tuple(SubjectKind::mirror, true, "left|inside|left_at_15m"),
+          std::tuple(SubjectKind::target, true, "card|pedestrian-dark|card_own"), std::tuple(SubjectKind::sensor, false, "|a b|a/b")})
+        for (const std::string& name : tests::each_of({{"", names}}))
+            EXPECT_EQ(is_clear_subject(kind, name), clear) << name;
     EXPECT_TRUE(is_clear_subject(SubjectKind::pass, pass_subject("display: glare")));
 }
 

@@ -11,7 +11,7 @@
 namespace fernlicht {
 namespace {
 
-using tests::extent_of, tests::lit_by, tests::straight_grid, tests::two_lanes;
+using tests::extent_of, tests::lit_by, tests::straight_grid, tests::StraightGrid;
 
 constexpr double pi_ = 3.14159265358979323846;
 
@@ -88,6 +88,10 @@ TEST_F(BareLampOnTheRoad, WidthIsTheChord) {
     EXPECT_DOUBLE_EQ(own.widths[1].width_m, 3.5);
 }
 
+std::vector<LaneExtent> evenly_lit(const ExtentGrid& grid, double lx, double limit_lx, const std::vector<double>& width_at_m = {}) {
+    return measure_extent(grid, std::vector<double>(grid.surface.size(), lx), ExtentPlane::road, {limit_lx}, width_at_m);
+}
+
 TEST(Extent, OnATargetFacingTheLamp) {
     const BareLamp lamp;
     const ExtentGrid grid = straight_grid({.ahead_m = 120.0});
@@ -100,7 +104,7 @@ TEST(Extent, OnATargetFacingTheLamp) {
 
 TEST(Extent, BeyondTheGridIsCutOffAndLanesOutsideAreLeftOut) {
     const ExtentGrid grid = straight_grid({.ahead_m = 30.0});
-    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {20.0, 50.0});
+    const auto extents = evenly_lit(grid, 7.0, 5.0, {20.0, 50.0});
     for (const LaneExtent& extent : extents) {
         EXPECT_TRUE(extent.reach_is_cut_off) << extent.lane;
         EXPECT_EQ(extent.reach_centre_m, 30.0) << extent.lane;
@@ -111,8 +115,7 @@ TEST(Extent, BeyondTheGridIsCutOffAndLanesOutsideAreLeftOut) {
     EXPECT_NEAR(extent_of(extents, "own", 5.0).area_m2, 30.0 * 3.5, 1e-9);
     EXPECT_NEAR(extent_of(extents, "all", 5.0).widths[0].width_m, 40.0, 1e-12);
     const ExtentGrid other_grid = straight_grid({.ahead_m = 10.0, .beside_m = 3.0});
-    const auto other_extents =
-        measure_extent(other_grid, std::vector<double>(other_grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {});
+    const auto other_extents = evenly_lit(other_grid, 7.0, 5.0);
     ASSERT_EQ(other_extents.size(), 2U);
     EXPECT_EQ(other_extents[0].lane, "own");
     EXPECT_EQ(other_extents[1].lane, "all");
@@ -120,7 +123,7 @@ TEST(Extent, BeyondTheGridIsCutOffAndLanesOutsideAreLeftOut) {
 
 TEST(Extent, UnlitIsZeroEverywhere) {
     const ExtentGrid grid = straight_grid({.ahead_m = 30.0});
-    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 0.0), ExtentPlane::road, {1.0}, {20.0});
+    const auto extents = evenly_lit(grid, 0.0, 1.0, {20.0});
     ASSERT_EQ(extents.size(), 4U);
     for (const LaneExtent& extent : extents) {
         EXPECT_EQ(std::tuple(extent.reach_centre_m, extent.area_m2), std::tuple(0.0, 0.0));
@@ -173,7 +176,7 @@ TEST(Extent, FollowsLanesThatEndOrRunSlanting) {
     for (std::size_t row = 0; row < grid.sections.size(); ++row)
         if (grid.ahead_m[row] > 25.0)
             grid.sections[row].lanes.erase(grid.sections[row].lanes.begin()); // the oncoming lane is gone
-    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {20.0, 30.0});
+    const auto extents = evenly_lit(grid, 7.0, 5.0, {20.0, 30.0});
     const LaneExtent left = extent_of(extents, "left 1", 5.0);
     EXPECT_EQ(left.reach_centre_m, 25.0);
     EXPECT_TRUE(left.reach_is_cut_off);
@@ -183,8 +186,7 @@ TEST(Extent, FollowsLanesThatEndOrRunSlanting) {
     ExtentGrid other_grid = straight_grid({.ahead_m = 40.0});
     for (std::size_t row = 0; row < other_grid.sections.size(); ++row)
         other_grid.sections[row].lanes = {{"own", "driving", -1, true, 1.0 + other_grid.ahead_m[row] * 0.05, -1.0}};
-    const auto other_extents =
-        measure_extent(other_grid, std::vector<double>(other_grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {10.3});
+    const auto other_extents = evenly_lit(other_grid, 7.0, 5.0, {10.3});
     const LaneExtent own = extent_of(other_extents, "own", 5.0);
     EXPECT_NEAR(own.area_m2, 40.0 * 2.0 + 0.5 * 40.0 * 2.0, 1e-9);
     EXPECT_NEAR(own.widths.at(0).width_m, 2.515, 1e-9);
@@ -199,7 +201,7 @@ TEST(Extent, AreaIsThatOfTheRoadNotOfTheGrid) {
             grid.surface[row * grid.offset_m.size() + column].position_m = {radius_m * std::sin(angle), 50.0 - radius_m * std::cos(angle),
                                                                             0.0};
         }
-    const auto extents = measure_extent(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::road, {5.0}, {});
+    const auto extents = evenly_lit(grid, 7.0, 5.0);
     EXPECT_NEAR(extent_of(extents, "left 1", 5.0).area_m2 / (60.0 * 3.5 * (50.0 - 3.5) / 50.0), 1.0, 1e-4);
     EXPECT_NEAR(extent_of(extents, "own", 5.0).area_m2 / (60.0 * 3.5), 1.0, 1e-4);
 }
@@ -214,14 +216,15 @@ TEST(Extent, RefusesWhatCannotBeMeasured) {
     EXPECT_TRUE(measure_extent({}, {}, ExtentPlane::road, {1.0}, {}).empty());
 }
 
+GridError error_on(const StraightGrid& size) {
+    const ExtentGrid grid = straight_grid(size);
+    return grid_error(grid, lit_by(grid, [](double x, double y) { return BareLamp{}.road_lx(x, y); }), ExtentPlane::road, {3.0}).at(0);
+}
+
 // The error of the reach goes as the square of the cell: E = x^-3 gives c^2 / (8 x) on top of another phase in the cell.
 TEST(GridError, IsSmallForSmoothLightAndShrinksWithTheCell) {
-    const BareLamp lamp;
-    const auto error_with = [&](double cell_m) {
-        const ExtentGrid grid = straight_grid({.ahead_m = 60.0, .along_m = cell_m, .across_m = cell_m / 4.0});
-        return grid_error(grid, lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); }), ExtentPlane::road, {3.0}).at(0);
-    };
-    const GridError coarse = error_with(2.0), fine = error_with(0.5);
+    const GridError coarse = error_on({.ahead_m = 60.0, .along_m = 2.0, .across_m = 0.5}),
+                    fine = error_on({.ahead_m = 60.0, .along_m = 0.5, .across_m = 0.125});
     EXPECT_LT(coarse.reach_m.value(), 4.0 * 4.0 / (8.0 * 12.0));
     EXPECT_GT(coarse.area_m2, 0.0);
     EXPECT_LT(fine.reach_m.value(), 0.015);
@@ -267,23 +270,23 @@ TEST(GridError, EvenNumbersOfRowsCompareTheSameGround) {
 
 // Of two reaches that both end with the grid nothing tells how far apart they are.
 TEST(GridError, AReachThatGoesOnHasNone) {
-    const BareLamp lamp;
-    const auto error_with = [&](double ahead_m) {
-        const ExtentGrid grid = straight_grid({.ahead_m = ahead_m, .along_m = 0.5, .across_m = 0.25});
-        return grid_error(grid, lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); }), ExtentPlane::road, {3.0}).at(0);
-    };
-    EXPECT_TRUE(error_with(60.0).reach_m);
-    EXPECT_FALSE(error_with(8.0).reach_m);
+    EXPECT_TRUE(error_on({.ahead_m = 60.0, .along_m = 0.5, .across_m = 0.25}).reach_m);
+    EXPECT_FALSE(error_on({.ahead_m = 8.0, .along_m = 0.5, .across_m = 0.25}).reach_m);
 }
 
-RoadNetwork library_road(const char* name) { return read_opendrive(std::string(FERNLICHT_SOURCE_DIR "/scenarios/library/roads/") + name); }
-
-Moment at(double distance_m) { return {.distance_m = distance_m}; }
+/// The straight of the library, or another of its roads; a grid from the bumper, 3.6 m before the rear axle, on.
+struct LibraryRoad {
+    std::string name = "straight.xodr";
+    RoadNetwork network = read_opendrive(FERNLICHT_SOURCE_DIR "/scenarios/library/roads/" + name);
+    Route route{network, {}};
+    ExtentGrid grid(double distance_m, const ExtentParameters& parameters = {}) const {
+        return make_extent_grid(route, {.distance_m = distance_m}, 3.6, parameters);
+    }
+};
 
 TEST(ExtentGrid, RowsBeginAtTheBumperAndColumnsReachBothSides) {
-    const RoadNetwork network = library_road("straight.xodr");
-    const Route route(network, {});
-    const ExtentGrid grid = make_extent_grid(route, at(50.0), 3.6, {});
+    const LibraryRoad road;
+    const ExtentGrid grid = road.grid(50.0);
     ASSERT_EQ(grid.ahead_m.size(), 401U);
     EXPECT_EQ(std::tuple(grid.ahead_m.front(), grid.ahead_m.back()), std::tuple(0.0, 200.0));
     EXPECT_EQ(std::tuple(grid.offset_m.front(), grid.offset_m.back()), std::tuple(-20.0, 20.0));
@@ -293,13 +296,12 @@ TEST(ExtentGrid, RowsBeginAtTheBumperAndColumnsReachBothSides) {
     ASSERT_EQ(grid.surface.size(), grid.ahead_m.size() * grid.offset_m.size());
     for (const std::size_t row : {std::size_t{0}, std::size_t{137}, std::size_t{400}})
         for (std::size_t column = 0; column < grid.offset_m.size(); column += 9)
-            EXPECT_EQ(grid.surface[row * grid.offset_m.size() + column], route.pose(53.6 + grid.ahead_m[row], grid.offset_m[column]));
+            EXPECT_EQ(grid.surface[row * grid.offset_m.size() + column], road.route.pose(53.6 + grid.ahead_m[row], grid.offset_m[column]));
 }
 
 TEST(ExtentGrid, IsFineOnTheRoadAndEndsWithTheRoute) {
-    const RoadNetwork network = library_road("straight.xodr");
-    const Route route(network, {});
-    const ExtentGrid grid = make_extent_grid(route, at(50.0), 3.6, {});
+    const LibraryRoad road;
+    const ExtentGrid grid = road.grid(50.0);
     const CrossSection& section = grid.sections.front();
     for (std::size_t column = 0; column + 1 < grid.offset_m.size(); ++column) {
         const double step_m = grid.offset_m[column + 1] - grid.offset_m[column];
@@ -307,17 +309,16 @@ TEST(ExtentGrid, IsFineOnTheRoadAndEndsWithTheRoute) {
         EXPECT_LE(step_m, paved ? 0.125 : 0.5);
     }
     EXPECT_LT(grid.offset_m.size(), 321U);
-    const ExtentGrid near_end = make_extent_grid(route, at(route.length_m() - 13.6), 3.6, {});
+    const ExtentGrid near_end = road.grid(road.route.length_m() - 13.6);
     EXPECT_EQ(near_end.ahead_m.back(), 10.0) << "a route's pose is clamped: rows beyond its end would all be one place";
-    EXPECT_TRUE(make_extent_grid(route, at(route.length_m() - 3.0), 3.6, {}).ahead_m.empty());
+    EXPECT_TRUE(road.grid(road.route.length_m() - 3.0).ahead_m.empty());
 }
 
 // Nothing was looked at: there is nothing to measure, and nothing breaks.
 TEST(ExtentGrid, WithoutRowsGivesNoExtents) {
-    const RoadNetwork network = library_road("straight.xodr");
-    const Route route(network, {});
-    const ExtentGrid grid = make_extent_grid(route, at(route.length_m()), 3.6, {});
-    const Moment moment = at(route.length_m());
+    const LibraryRoad road;
+    const Moment moment{.distance_m = road.route.length_m()};
+    const ExtentGrid grid = road.grid(moment.distance_m);
     const std::vector<double> lx = twin_illuminance_lx(grid, moment, ExtentPlane::road);
     EXPECT_TRUE(lx.empty());
     EXPECT_TRUE(measure_extent(grid, lx, ExtentPlane::road, {1.0}, {20.0}).empty());
@@ -327,9 +328,7 @@ TEST(ExtentGrid, WithoutRowsGivesNoExtents) {
 
 // A lane is as long as its arc: between two rows the own lane's centre advances by the cell, also on clothoids and arcs.
 TEST(ExtentGrid, FollowsTheRoadInACurve) {
-    const RoadNetwork network = library_road("s-bend.xodr");
-    const Route route(network, {});
-    const ExtentGrid grid = make_extent_grid(route, at(300.0), 3.6, {});
+    const ExtentGrid grid = LibraryRoad{"s-bend.xodr"}.grid(300.0);
     const std::size_t columns = grid.offset_m.size();
     const auto centre = static_cast<std::size_t>(std::ranges::lower_bound(grid.offset_m, 0.0) - grid.offset_m.begin());
     double turned = 0.0;
@@ -344,17 +343,12 @@ TEST(ExtentGrid, FollowsTheRoadInACurve) {
 }
 
 TEST(ExtentGrid, RefusesParametersThatGiveNoGrid) {
-    const RoadNetwork network = library_road("straight.xodr");
-    const Route route(network, {});
+    const LibraryRoad road;
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-    for (const double bad : {0.0, -1.0, nan, infinity, 1e-9}) {
-        EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, ExtentParameters{.cell_m = bad}), std::invalid_argument) << bad;
-    }
-    ExtentParameters parameters{.ahead_m = 1e12};
-    EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, parameters), std::invalid_argument);
-    parameters = {};
-    parameters.beside_m = nan;
-    EXPECT_THROW(make_extent_grid(route, at(0.0), 3.6, parameters), std::invalid_argument);
+    for (const ExtentParameters& bad : {ExtentParameters{.cell_m = 0.0}, ExtentParameters{.cell_m = -1.0}, ExtentParameters{.cell_m = nan},
+                                        ExtentParameters{.cell_m = infinity}, ExtentParameters{.cell_m = 1e-9},
+                                        ExtentParameters{.ahead_m = 1e12}, ExtentParameters{.beside_m = nan}})
+        EXPECT_THROW(road.grid(0.0, bad), std::invalid_argument) << bad.cell_m << ", " << bad.ahead_m << ", " << bad.beside_m;
 }
 
 } // namespace

@@ -1,4 +1,3 @@
-#include "metrics/road/approach.h"
 #include "metrics/road/deciding_lx.h"
 #include "metrics/road/extent.h"
 #include "metrics/road/lane_ahead.h"

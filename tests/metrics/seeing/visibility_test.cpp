@@ -1,6 +1,5 @@
 // The ruler for visibility: Adrian's equations worked out by hand, branch by branch.
 #include "metrics/seeing/homogeneity.h"
-#include "metrics/seeing/mesopic.h"
 #include "metrics/seeing/visibility.h"
 
 #include <algorithm>

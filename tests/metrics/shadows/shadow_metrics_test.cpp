@@ -1,20 +1,16 @@
 // Errors of shadows against values worked out by hand.
 #include "metrics/shadows/shadow_edges.h"
+#include "tests/metrics/images/made_pictures.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
-#include <initializer_list>
 #include <limits>
 #include <tuple>
 
 namespace fernlicht {
 namespace {
 
-Image<float> picture(int width, std::initializer_list<float> values) {
-    Image<float> image(width, static_cast<int>(values.size()) / width);
-    image.pixels() = values;
-    return image;
-}
+using tests::picture;
 
 TEST(ShadowArea, CountsByDegree) {
     // Free 2 lx everywhere. Shadow truly 1, 1, 0, 0.5; drawn 1, 0.25, 0.5, 0.5.

@@ -1,6 +1,7 @@
 #include "metrics/strictness/strictness.h"
 
 #include "metrics/strictness/strictness_classes.h"
+#include "tests/metrics/images/made_pictures.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -14,11 +15,7 @@ namespace {
 using Kind = StrictnessNode::Kind;
 using ::testing::HasSubstr;
 
-Image<float> row(const std::vector<float>& values) {
-    Image<float> image(static_cast<int>(values.size()), 1);
-    image.pixels() = values;
-    return image;
-}
+Image<float> row(const std::vector<float>& values) { return tests::picture(static_cast<int>(values.size()), values); }
 
 StrictnessResult judged(const StrictnessNode& node, const Image<float>& tested, const Image<float>& reference) {
     return judge_strictness(node, {tested}, {reference}, "lx");

@@ -3,6 +3,7 @@
 
 #include "metrics/folds/seeing_fold.h"
 #include "scenarios/drives/play/advance.h"
+#include "tests/lamps.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -16,17 +17,15 @@ struct OneLampStraight {
     RoadNetwork network = read_opendrive(drive.road_file);
     Route route{network, drive.start, drive.via};
 
-    OneLampStraight(double cd, double duration_s, double sp_ratio = 1.5) {
+    explicit OneLampStraight(double cd = 1000.0, double duration_s = 12.0) {
         drive.speed = {{0.0, 10.0}};
         drive.step_s = 0.1;
         drive.duration_s = duration_s;
-        auto file = std::make_shared<LampFile>();
-        file->table = {{-180.0, 180.0}, {-90.0, 90.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd};
         MountedLamp lamp;
         lamp.name = "only";
-        lamp.file = file;
+        lamp.file = tests::file_of(tests::even_table(cd));
         lamp.position_m = {drive.bumper_m, 0.0, 0.65};
-        lamp.colour.sp_ratio = sp_ratio;
+        lamp.colour.sp_ratio = 1.5;
         drive.variants.front().lamps = {lamp};
         drive.variants.front().changes.clear();
     }

@@ -2,7 +2,7 @@
 #include "metrics/folds/reading_names.h"
 #include "tests/runner/folds/one_lamp_straight.h"
 
-#include "metrics/glare/eye_light.h"
+#include "metrics/glare/glare.h"
 #include "runner/findings/summary.h"
 #include "runner/judge/limits.h"
 #include "scenarios/values/errors.h"
@@ -15,13 +15,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// 1000 cd, for 12 s.
-struct Straight : OneLampStraight {
-    Straight() : OneLampStraight(1000.0, 12.0) {}
-};
-
 TEST(Seeing, NothingIsMeasuredUnlessAsked) {
-    const Straight straight;
+    const OneLampStraight straight;
     const SeeingFold fold = straight.played();
     EXPECT_TRUE(fold.readings().empty());
     EXPECT_TRUE(fold.series().empty());
@@ -29,7 +24,7 @@ TEST(Seeing, NothingIsMeasuredUnlessAsked) {
 
 // A sensor 100 m along, on the right edge (1.75 m from the own lane's centre), 0.25 m up: E = 1000 / (d^2 + 1.75^2 + 0.4^2).
 TEST(Seeing, ASensorSeesTheLawOfDistance) {
-    Straight straight;
+    OneLampStraight straight;
     straight.drive.seeing.sensors = SensorParameters{{5.0, 0.05, 1e6}, {50.0, 7.77, 500.0}, {{"edge", 100.0, Across::right_edge, 0.25}}};
     const SeeingFold fold = straight.played();
     const Readings readings = fold.readings();
@@ -51,7 +46,7 @@ TEST(Seeing, ASensorSeesTheLawOfDistance) {
 
 // An eye on the oncoming lane's centre, 3.5 m beside, 1.1 m up. Every figure against the ruler at the moment that decides.
 TEST(Seeing, AnOncomingEyeIsDazzledAsTheRulerSays) {
-    Straight straight;
+    OneLampStraight straight;
     GlareParameters& glare = straight.drive.seeing.glare.emplace();
     glare.oncoming = {{"eye", 100.0, 1.1}};
     glare.limits_lx = {1.0};
@@ -82,7 +77,7 @@ TEST(Seeing, AnOncomingEyeIsDazzledAsTheRulerSays) {
 
 // The car ahead at 30 m from the bumper: its mirror 1.9 m before its rear axle, 0.95 m to the left, 1 m up.
 TEST(Seeing, AMirrorAheadGetsTheSameAllAlong) {
-    Straight straight;
+    OneLampStraight straight;
     GlareParameters& glare = straight.drive.seeing.glare.emplace();
     glare.mirrors = MirrorParameters{{30.0}, {1.3, 0.35, 1.2}, 0.5, {{"left", {1.9, 0.95, 1.0}}}};
     const SeeingFold fold = straight.played();
@@ -98,7 +93,7 @@ TEST(Seeing, AMirrorAheadGetsTheSameAllAlong) {
 }
 
 TEST(Seeing, SaysWhereThereIsNobody) {
-    Straight straight;
+    OneLampStraight straight;
     straight.drive.road_file = straight.drive.road_file.parent_path() / "motorway.xodr";
     const RoadNetwork network = read_opendrive(straight.drive.road_file);
     const Route route(network, {});
@@ -125,7 +120,7 @@ TEST(Seeing, SaysWhereThereIsNobody) {
 }
 
 TEST(Seeing, LimitsKnowItsReadings) {
-    Straight straight;
+    OneLampStraight straight;
     straight.drive.seeing.sensors = SensorParameters{{5.0}, {}, {{"edge", 100.0, Across::right_edge, 0.25}}};
     const Readings readings = SeeingFold(straight.drive, straight.route).readings();
     straight.drive.limits = {{"sensor_edge_reach_5lx_m", 10.0, std::nullopt}};

@@ -1,5 +1,4 @@
 // What a drive asks to see, through the program: lamps of 206.25 cd everywhere within 30 degrees, figures by hand.
-#include "metrics/seeing/mesopic.h"
 #include "metrics/seeing/visibility.h"
 #include "tests/runner/program.h"
 

@@ -1,8 +1,7 @@
 // Small targets, evenness and light on boards over a drive on the straight, at places worked out by hand.
 #include "tests/runner/folds/one_lamp_straight.h"
 
-#include "metrics/seeing/mesopic.h"
-#include "scenarios/roads/mesh/road_mesh.h"
+#include "metrics/seeing/visibility.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -12,20 +11,9 @@ namespace {
 
 using testing::HasSubstr;
 
-/// For 1 s.
-struct SeenStraight : OneLampStraight {
-    explicit SeenStraight(double cd, double sp_ratio = 1.5) : OneLampStraight(cd, 1.0, sp_ratio) {}
-};
-double cube(double x) { return x * x * x; }
-
 /// Luminance of asphalt d metres from the bumper, from the driver's eye: rho E / pi and R_L E_perp exp((reference - angle) / falloff).
 double asphalt_cdm2(double cd, double d, double left, double eye_back) {
-    const Material road = [] {
-        for (const Material& material : road_materials())
-            if (material.name == "asphalt")
-                return material;
-        throw std::logic_error("asphalt");
-    }();
+    const Material road = material_named("asphalt");
     const glm::dvec3 to_lamp{-d, -left, 0.65}, to_eye{-d - eye_back, 0.35 - left, 1.2};
     const double square = d * d + left * left + 0.65 * 0.65;
     const double angle = std::acos((to_lamp.x * to_eye.x + to_lamp.y * to_eye.y + to_lamp.z * to_eye.z) /
@@ -43,7 +31,7 @@ VisibilityParameters looking_for(const VisibilityTarget& target, std::vector<dou
 }
 
 TEST(Seeing, ATargetStandsOutAsAdrianSays) {
-    SeenStraight straight(20000.0);
+    OneLampStraight straight(20000.0, 1.0);
     straight.drive.seeing.visibility = looking_for({"grey", 0.2, 1, 0.04, 2.0}, {50.0});
     const Readings readings = straight.played().readings();
     const double eye_back = straight.drive.bumper_m - 1.3;
@@ -59,7 +47,7 @@ TEST(Seeing, ATargetStandsOutAsAdrianSays) {
 }
 
 TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
-    SeenStraight straight(20000.0);
+    OneLampStraight straight(20000.0, 1.0);
     VisibilityTarget target{"t", 0.18, 1, 0.5, 20.0};
     const auto readings = [&](std::vector<double> distances_m) {
         straight.drive.seeing.visibility = looking_for(target, std::move(distances_m));
@@ -85,7 +73,7 @@ TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
 // 50 m ahead at the right edge, 1.75 m beside the lamp: of seven squares of 0.25 m the four below the eye's height, 1.2 m, stand against
 // the road, the others against the dark, for an eye adapted to the road behind the feet.
 TEST(Seeing, APedestrianIsAsVisibleAsTheClearestSegment) {
-    SeenStraight straight(20000.0);
+    OneLampStraight straight(20000.0, 1.0);
     straight.drive.seeing.visibility = looking_for(usual_targets()[2], {50.0});
     const double eye_back = straight.drive.bumper_m - 1.3;
     double clearest = 0.0, adaptation = 0.0;
@@ -111,7 +99,7 @@ TEST(Seeing, APedestrianIsAsVisibleAsTheClearestSegment) {
 }
 
 TEST(Seeing, TheUsualTargetsTellTheirNamesAndPlaces) {
-    SeenStraight straight(20000.0);
+    OneLampStraight straight(20000.0, 1.0);
     straight.drive.seeing.visibility = VisibilityParameters{};
     const Readings readings = straight.played().readings();
     EXPECT_GT(value(readings, "detection_pedestrian-light_right_m"), value(readings, "detection_pedestrian-dark_right_m"));
@@ -122,7 +110,7 @@ TEST(Seeing, TheUsualTargetsTellTheirNamesAndPlaces) {
 
 // On the road E = I h / (x^2 + y^2 + h^2)^1.5 from the lamp: along the middle d lg E / dx = -3 x / (x^2 + h^2) / ln 10.
 TEST(Seeing, EvennessOfOneLampAlone) {
-    SeenStraight straight(20000.0);
+    OneLampStraight straight(20000.0, 1.0);
     straight.drive.seeing.homogeneity = HomogeneityParameters{0.01, 80.0, 1.2};
     const Readings readings = straight.played().readings();
     const auto lg = [](double x) { return -1.5 * std::log10(x * x + 0.65 * 0.65); };
@@ -132,7 +120,7 @@ TEST(Seeing, EvennessOfOneLampAlone) {
     double near_lx = 0.0, far_lx = 0.0;
     for (int k = 10; k <= 120; ++k)
         for (int column = -7; column <= 7; ++column) {
-            const double x = 0.5 * k, y = 0.25 * column, e = 1.0 / cube(std::sqrt(x * x + y * y + 0.65 * 0.65));
+            const double x = 0.5 * k, y = 0.25 * column, e = std::pow(x * x + y * y + 0.65 * 0.65, -1.5);
             if (k <= 30)
                 near_lx += e * (k == 10 || k == 30 ? 0.5 : 1.0) / 20.0;
             if (k >= 80)
@@ -144,7 +132,7 @@ TEST(Seeing, EvennessOfOneLampAlone) {
 
 // 50 m ahead: the right edge 1.75 m beside the lamp, boards 2 m farther and 2 m up, one 5.5 m over the lane.
 TEST(Seeing, KerbAndBoardsByHand) {
-    SeenStraight straight(20000.0);
+    OneLampStraight straight(20000.0, 1.0);
     straight.drive.seeing.places = PlaceParameters{true, true, true, {50.0}};
     const Readings readings = straight.played().readings();
     const auto square = [](double beside, double height) { return 2500.0 + beside * beside + height * height; };
