@@ -82,15 +82,6 @@ CarRun down_and_up_by(Solver solver) {
 
 } // namespace
 
-std::vector<ExtremeTrial> actuators_over_eight_decades() {
-    std::vector<ExtremeTrial> trials;
-    for (int decade = -1; decade <= 7; ++decade) {
-        const double hz = std::pow(10.0, decade);
-        trials.push_back({fmt::format("actuator of {:g} Hz", hz), step_error(2.0 * std::numbers::pi * hz, {}, 1.0)});
-    }
-    return trials;
-}
-
 std::vector<ExtremeTrial> from_60_mps_to_rest_and_back() {
     std::vector<ExtremeTrial> trials;
     const CarRun reference = down_and_up_by(Solver::automatic);

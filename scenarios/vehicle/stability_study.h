@@ -12,10 +12,6 @@ struct ExtremeTrial {
     double error = 0.0; ///< in the unit of its study
 };
 
-/// Actuators from 0.1 Hz to 10 MHz answer a step, solved by the automatic choice at a tolerance of 1e-6. Error: parts of the step, against
-/// the closed form.
-std::vector<ExtremeTrial> actuators_over_eight_decades();
-
 /// 60 m/s, braked with 7.5 m/s2 to rest, away with 3 m/s2 to 60 m/s again; by each solver. Error: the largest change of speed within a
 /// millisecond, over what the friction can do in it, minus 1, where above 0; a jump shows as a large number. And, as trials of their own,
 /// by how much the pitch of each solver differs from the automatic choice's, in rad / 1e-3.

@@ -19,8 +19,6 @@ std::function<Found(StabilityBench&)> worst_of(std::vector<ExtremeTrial> (*study
 
 std::vector<StabilityCase> motion_cases() {
     return {
-        {"motion", "actuator-stiffness", "an explicit solver needs millions of steps, or blows up", 2e-6, "of the step",
-         "a tolerance of 1e-6 a step; errors of earlier steps fade", worst_of(actuators_over_eight_decades)},
         {"motion", "down-to-rest-and-back", "tyres divide by the speed, brakes turn over at rest: the speed or the pitch jumps", 0.1,
          "of 1 g in a millisecond; of 1 mrad of pitch", "a twentieth beyond friction is the springing back; solvers agree within 0.1 mrad",
          worst_of(from_60_mps_to_rest_and_back)},
@@ -32,10 +30,6 @@ std::vector<StabilityCase> motion_cases() {
          1e-5, "rad beyond stops and rate limit",
          "steps are taken to 1e-6 rad each, looked at between them by an interpolant of lower order",
          worst_of(control_of_extreme_actuators)},
-        {"motion", "lamp-control-signals", "signals that no car has reach the lamps", 1e-6, "rad beyond stops and rate limit",
-         "whatever a law asks for, the actuator keeps to its stops and its rate", worst_of(control_with_extreme_signals)},
-        {"motion", "lamp-control-mirrored", "a law or an actuator has a preferred side", 1e-12, "rad", "signs change, roundings do not",
-         worst_of(control_mirrored)},
     };
 }
 
