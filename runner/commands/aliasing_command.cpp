@@ -3,7 +3,6 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/aliasing/aliasing_run.h"
-#include "runner/experiments/aliasing/sequence_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/write/document.h"

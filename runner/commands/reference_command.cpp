@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/experiments/accuracy/lamp_discs.h"
+#include "runner/experiments/accuracy/drive_error.h"
 #include "runner/experiments/reference/reference_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"

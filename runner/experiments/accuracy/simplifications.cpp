@@ -1,7 +1,7 @@
 #include "runner/experiments/accuracy/simplifications.h"
 
 #include "renderer/projected_beam.h"
-#include "runner/experiments/accuracy/reference_shots.h"
+#include "runner/experiments/accuracy/picture_errors.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "renderer/device.h"
-#include "runner/experiments/accuracy/reference_shots.h"
+#include "runner/experiments/accuracy/picture_errors.h"
 
 #include <functional>
 
@@ -41,8 +41,5 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
 
 /// How a drive is drawn in a configuration.
 RendererSettings settings_of(const Drive& drive, const Configuration& configuration);
-
-/// The drive's lamp set of that name, the first for "". Throws InputError.
-const Variant& variant_of(const Drive& drive, const std::string& name);
 
 } // namespace fernlicht

@@ -20,7 +20,6 @@
 #include "runner/play/interruption.h"
 #include "runner/play/preparation.h"
 #include "runner/play/progress.h"
-#include "runner/play/shadows/check_planar.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/shown_picture.h"
 #include "runner/play/stage.h"

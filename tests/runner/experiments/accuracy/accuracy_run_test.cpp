@@ -286,7 +286,7 @@ class PictureErrors : public testing::Test {
         measured.extent->limits_lx = {1.0, 5.0};
         const std::vector<Moment> moments = moments_at({5}, stage, stage.drive.variants.front());
         References references(stage, measured, device, moments, settings);
-        const View view = resized(*driver_view(stage.drive), 128, 96);
+        const View view = at_size(*driver_view(stage.drive), 128, 96);
         references.add_driver(0, view);
         references.add_map(0);
         Renderer renderer(device, stage.scene, {});
