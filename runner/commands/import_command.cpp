@@ -1,4 +1,3 @@
-#include "runner/commands/import_command.h"
 
 #include "runner/commands/commands.h"
 #include "runner/commands/model_command.h"

@@ -2,8 +2,6 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/judging_flags.h"
-#include "runner/commands/log_flags.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"

@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "renderer/device.h"
-#include "runner/commands/judging_flags.h"
+#include "runner/commands/flag_values.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
 #include "runner/files/output_folder.h"

@@ -2,7 +2,6 @@
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/log_flags.h"
 #include "runner/play/interruption.h"
 #include "scenarios/can/can_frame.h"
 

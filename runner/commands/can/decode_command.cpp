@@ -3,7 +3,7 @@
 #include "runner/commands/can/databases.h"
 #include "runner/commands/can/decoded_text.h"
 #include "runner/commands/can/line_output.h"
-#include "runner/commands/log_flags.h"
+#include "runner/commands/flag_values.h"
 #include "runner/play/interruption.h"
 #include "scenarios/can/signal_codec.h"
 

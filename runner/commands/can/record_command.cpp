@@ -1,7 +1,7 @@
 #include "runner/commands/can/can_command.h"
 
 #include "runner/commands/can/line_output.h"
-#include "runner/commands/log_flags.h"
+#include "runner/commands/flag_values.h"
 #include "runner/play/stage.h"
 #include "scenarios/can/candump_log.h"
 #include "scenarios/drives/play/bus_recording.h"

@@ -1,4 +1,4 @@
-#include "runner/commands/import_command.h"
+#include "runner/commands/model_command.h"
 #include "scenarios/models/model.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/commands/written_flight.h"

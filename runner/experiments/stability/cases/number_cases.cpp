@@ -1,11 +1,11 @@
 // Numbers themselves: rounding as IEEE 754 has it, denormals, the largest, and none that is not finite in a file.
 #include "renderer/reference/reference.h"
 #include "runner/experiments/run/run_drives.h"
-#include "runner/experiments/stability/float_habits.h"
 #include "runner/experiments/stability/trial.h"
 #include "runner/files/picture_file.h"
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -15,10 +15,61 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
 namespace fernlicht {
 namespace {
 
 using namespace stability;
+
+/// A value that the compiler does not know.
+template <class T> T unknown(T value) {
+    volatile T hidden = value;
+    return hidden;
+}
+
+template <class T> void try_type(const std::string& type, T big, std::vector<std::string>& broken) {
+    const auto must = [&](bool holds, const char* rule) {
+        if (!holds)
+            broken.push_back(type + ": " + rule);
+    };
+    using Limits = std::numeric_limits<T>;
+    const T zero = unknown(T(0)), one = unknown(T(1)), nan = unknown(Limits::quiet_NaN()), infinity = unknown(Limits::infinity());
+    // With -ffinite-math-only these comparisons are folded away.
+    must(nan != nan && !(nan == nan) && !(nan < one) && std::isnan(nan * zero), "NaN is no number");
+    must(one / zero == infinity && std::isinf(infinity) && infinity > Limits::max(), "1 / 0 is infinite");
+    // -fno-signed-zeros, -freciprocal-math
+    must(std::signbit(-zero) && one / -zero == -infinity && !std::signbit(-zero + zero), "zeros have signs");
+    const T three = unknown(T(3)), ten = unknown(T(10));
+    must(three / ten != three * (one / ten) || sizeof(T) == 4, "a quotient is no product with the reciprocal");
+    // -fassociative-math would give back 1.
+    must((one + big) - big == zero && one + (big - big) == one, "sums are taken in the order written");
+    // (1 + e)^2 = 1 + 2 e + e^2: rounded the product loses e^2, fused it keeps it.
+    const T e = unknown(Limits::epsilon()), factor = one + e, product = factor * factor;
+    must(unknown(factor) * unknown(factor) + unknown(-product) == zero && std::fma(factor, factor, -product) == e * e,
+         "a product is rounded before it is added");
+    const T smallest = unknown(Limits::min()), half = unknown(T(0.5));
+    must(smallest * half > zero && (smallest * half) * (one + one) == smallest, "denormals are kept");
+    must(unknown(Limits::denorm_min()) > zero, "the least denormal is not 0");
+}
+
+/// On the calling thread: each rule of IEEE 754 that does not hold, in words; empty where all do. Tried are NaN, signed zeros, infinities,
+/// the order of sums, products that are not fused into sums, denormals, and where there is one, the control register (MXCSR).
+std::vector<std::string> broken_float_rules() {
+    std::vector<std::string> broken;
+    try_type<float>("float", 1e9F, broken);
+    try_type<double>("double", 1e17, broken);
+    if (std::fegetround() != FE_TONEAREST)
+        broken.emplace_back("rounding is to nearest");
+#if defined(__SSE2__)
+    constexpr unsigned flush_to_zero = 1U << 15U, denormals_are_zero = 1U << 6U;
+    if ((_mm_getcsr() & (flush_to_zero | denormals_are_zero)) != 0)
+        broken.emplace_back("MXCSR: neither flush-to-zero nor denormals-are-zero is set");
+#endif
+    return broken;
+}
 
 /// Before and after a device, Embree and oneTBB had their chance to set flush-to-zero, on this thread and on theirs.
 Found float_rules(StabilityBench& bench) {
