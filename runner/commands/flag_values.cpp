@@ -1,7 +1,7 @@
 #include "runner/commands/flag_values.h"
 
 #include "runner/findings/run_context.h"
-#include "runner/play/interruption.h"
+#include "runner/play/progress.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
 

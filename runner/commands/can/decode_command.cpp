@@ -4,7 +4,7 @@
 #include "runner/commands/can/decoded_text.h"
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
-#include "runner/play/interruption.h"
+#include "runner/play/progress.h"
 #include "scenarios/can/signal_codec.h"
 
 #include <CLI/CLI.hpp>

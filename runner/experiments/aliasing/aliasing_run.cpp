@@ -6,8 +6,6 @@
 #include "runner/experiments/aliasing/motion.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
-#include "runner/play/fit_tone_mapper.h"
-#include "runner/play/interruption.h"
 #include "runner/play/preparation.h"
 #include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"

@@ -8,7 +8,6 @@
 #include "runner/files/picture_file.h"
 #include "runner/files/shown_alike.h"
 #include "runner/findings/run_context.h"
-#include "runner/play/interruption.h"
 #include "runner/play/progress.h"
 #include "runner/play/stage.h"
 #include "scenarios/values/errors.h"

@@ -5,7 +5,6 @@
 #include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
-#include "runner/play/interruption.h"
 #include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "scenarios/drives/play/advance.h"

@@ -1,4 +1,4 @@
-#include "runner/play/live/frame_order.h"
+#include "runner/play/live/live_loop.h"
 
 #include <gtest/gtest.h>
 #include <tuple>
