@@ -5,6 +5,7 @@
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
+#include "tests/trial.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -248,28 +249,13 @@ TEST(AccuracyRun, WeighsWhatIsInTheAirAndOnTheRoad) {
 
 TEST(AccuracyRun, RefusesWhatItCannotUse) {
     const std::string drive = library_file("drives/straight.yaml");
-    for (const char* flags : {"--techniques no-such",
-                              "--techniques full,full",
-                              "--resolutions 8x8",
-                              "--resolutions 64",
-                              "--variant neon",
-                              "--moments 100000",
-                              "--moments 0",
-                              "--target-error 0",
-                              "--beams 64x32",
-                              "--beams 64x32x12",
-                              "--beams 1x1x8",
-                              "--diagrams all,nonsense",
-                              "--techniques photometric,",
-                              "--techniques ,full",
-                              "--resolutions 64x48,,32x24",
-                              "--beams float,",
-                              "--shadow-maps 64x64,",
-                              "--diagrams ,extent",
-                              "--no-such-flag",
-                              "--moments x"}) {
+    for (const std::string& flags :
+         tests::each_of({{"", "--techniques no-such|--techniques full,full|--techniques photometric,|--techniques ,full|"
+                              "--resolutions 8x8|--resolutions 64|--resolutions 64x48,,32x24|--variant neon|--moments 100000|"
+                              "--moments 0|--moments x|--target-error 0|--beams 64x32|--beams 64x32x12|--beams 1x1x8|--beams float,|"
+                              "--shadow-maps 64x64,|--diagrams all,nonsense|--diagrams ,extent|--no-such-flag"}})) {
         const TemporaryFolder folder;
-        const Outcome run = run_program("accuracy --quiet " + std::string(flags) + " --out " + (folder / "out ") + drive);
+        const Outcome run = run_program("accuracy --quiet " + flags + " --out " + (folder / "out ") + drive);
         EXPECT_EQ(run.exit_code, 2) << flags << "\n" << run.output;
         EXPECT_TRUE(run.output.starts_with("fernlicht: ")) << run.output;
         EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << flags;
