@@ -2,7 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
-#include "runner/experiments/accuracy/studies/accuracy_run.h"
+#include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"

@@ -90,4 +90,21 @@ class ConfigurationErrors {
     std::vector<std::vector<LaneExtent>> rendered_; ///< by the moments_
 };
 
+/// Adds a picture. `edges`: the same view by the pixels' areas, whose marks say where shadows and surfaces end. The frame has illuminance,
+/// depth and ids. Pixels that several surfaces share, or whose mesh differs, or without light to speak of, are left out and counted.
+class TwinAgreementFold {
+  public:
+    explicit TwinAgreementFold(double least_lx) : least_lx_(least_lx) {}
+
+    void add(const Moment& moment, const View& view, const Frame& frame, const ReferenceImage& twin, const ReferenceImage& edges,
+             int picture);
+    TwinAgreement finish() const;
+
+  private:
+    double least_lx_;
+    PixelErrorFold flat_, of_bound_; ///< of_bound_: error over what gradient and angle error allow
+    TwinAgreement counts_;
+    std::size_t within_ = 0;
+};
+
 } // namespace fernlicht

@@ -1,4 +1,4 @@
-#include "runner/experiments/accuracy/simplifications.h"
+#include "runner/experiments/accuracy/technique_sweep.h"
 
 #include "renderer/projected_beam.h"
 #include "runner/experiments/accuracy/picture_errors.h"

@@ -1,8 +1,6 @@
 #include "runner/experiments/accuracy/technique_sweep.h"
 
 #include "runner/experiments/accuracy/picture_errors.h"
-#include "runner/experiments/accuracy/simplifications.h"
-#include "runner/experiments/accuracy/twin_agreement.h"
 #include "runner/experiments/bench/bench_run.h"
 #include "runner/play/preparation.h"
 #include "scenarios/drives/play/advance.h"

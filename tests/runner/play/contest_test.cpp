@@ -1,6 +1,5 @@
 #include "metrics/statistics/statistics.h"
 #include "runner/play/contest.h"
-#include "runner/play/machine_load.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-#include "runner/experiments/accuracy/studies/accuracy_run.h"
 
 #include "renderer/sanity.h"
 #include "runner/experiments/accuracy/picture_errors.h"

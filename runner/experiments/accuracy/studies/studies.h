@@ -5,6 +5,7 @@
 #include "renderer/device.h"
 #include "renderer/reference/reference.h"
 #include "runner/experiments/accuracy/accuracy_result.h"
+#include "runner/experiments/accuracy/technique_sweep.h"
 #include "runner/play/stage.h"
 #include "scenarios/vehicle/solver_study.h"
 
@@ -72,5 +73,22 @@ std::vector<WorkPrecision> solver_diagrams(const std::vector<SolverRow>& rows);
 /// each pixel to each lamp, over the time of a frame in colour with all lamps. Error: of five moments evenly spread over the drive
 /// together; time: of the middle one and the one before it, in turn. No rows without lamps of others, and for drives without shadows.
 WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on);
+
+struct AccuracyRequest {
+    std::vector<Drive> drives;
+    SweepRequest sweep;
+    std::vector<std::string> diagrams{"techniques"}; ///< of diagram_names()
+    std::string backend = "auto";
+    std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
+    std::vector<std::string> command;
+    bool quiet = false;
+    std::function<void(const AccuracyResult&)> write; ///< takes what was found, also when it was interrupted; the folder is there
+};
+
+/// "techniques", "reference", "classical", "solvers", "control", "extent", "beam", "metrics", "step", "shadows" ...
+std::vector<std::string> diagram_names();
+
+/// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.
+AccuracyResult run_accuracy(const AccuracyRequest& request);
 
 } // namespace fernlicht
