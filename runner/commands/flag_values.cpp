@@ -1,5 +1,6 @@
 #include "runner/commands/flag_values.h"
 
+#include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/progress.h"
 #include "scenarios/drives/keys/drive_keys.h"
@@ -40,6 +41,29 @@ std::int64_t utc_offset_of(const std::string& text) {
 }
 
 } // namespace
+
+std::filesystem::path result_folder(const std::string& out, const std::string& name) {
+    return out.empty() ? default_output_folder(name, utc_now()) : std::filesystem::path(out);
+}
+
+void refuse_existing(const char* flag, const std::filesystem::path& path, bool force) {
+    std::error_code error;
+    if (!force && std::filesystem::exists(path, error))
+        throw InputError({{}, 0, 0, flag}, printable(path.string(), 400) + " is there already", "a new file, or --force");
+}
+
+std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::vector<std::string>& texts) {
+    std::vector<std::pair<std::string, std::filesystem::path>> lamps;
+    for (const std::string& text : texts) {
+        const std::size_t at = text.find('=');
+        lamps.emplace_back(at == std::string::npos ? "" : text.substr(0, at), at == std::string::npos ? text : text.substr(at + 1));
+    }
+    return lamps;
+}
+
+void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text) {
+    command.add_option("--seed", seed, text)->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))->capture_default_str();
+}
 
 void add_tables_flag(CLI::App& command, std::string& tables) {
     command.add_option("--tables", tables, "csv or tex: write each table of the page also as a file in tables/");

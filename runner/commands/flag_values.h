@@ -37,6 +37,16 @@ double share_of(const char* flag, const std::string& text);
 /// "float" (nullopt), "eight-bit" or "512x128x8". Throws InputError naming --beams.
 std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& texts);
 
+/// The folder of --out; for "" a new one, named after what is played and the time.
+std::filesystem::path result_folder(const std::string& out, const std::string& name);
+
+/// Throws InputError naming the flag where there is a file of this name and `force` does not say to replace it.
+void refuse_existing(const char* flag, const std::filesystem::path& path, bool force);
+
+/// What --lamp says, "[SIDE=]FILE" each: lamps by a part of their names ("": all), and files.
+std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::vector<std::string>& texts);
+
+void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text);
 /// --tables, the same for all commands that write a document.
 void add_tables_flag(CLI::App& command, std::string& tables);
 /// "csv", "tex" or "". Throws InputError naming --tables.
