@@ -44,8 +44,8 @@ AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& 
 double rounding_bound_lx(const LitLamp& lamp, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m);
 
 // Files of a user, as the cases write them: lamps, a road, drives.
-/// A beam matrix in cd over goniometer angles.
-std::string matrix_text(const CandelaTable& table);
+/// A beam matrix of this name in the bench's folder.
+std::filesystem::path write_matrix(StabilityBench& bench, const std::string& name, const CandelaTable& table);
 
 /// One road of OpenDRIVE. `plan`: its geometry elements; `lanes`: of the right side; `profiles`: elevation and lateral profile.
 std::string road_text(double length_m, const std::string& plan, const std::string& lanes, const std::string& profiles = {});

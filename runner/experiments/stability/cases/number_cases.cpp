@@ -8,10 +8,8 @@
 #include <cfenv>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 #include <regex>
-#include <sstream>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -147,13 +145,6 @@ Found brightest(StabilityBench& bench) {
     return worst;
 }
 
-std::string content_of(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 /// Numbers that are none, in a text of JSON or CSV.
 std::size_t not_numbers(const std::string& text) {
     static const std::regex word(R"((^|[\s,:\[])-?(nan|inf|infinity)($|[\s,\]}]))", std::regex::icase);
@@ -183,11 +174,8 @@ Played play_to_the_end(StabilityBench& bench, const std::filesystem::path& drive
 
 /// A dark lamp, the brightest lamp, probes in the dark and right at a lamp: whatever is written must be a number.
 Found reports(StabilityBench& bench) {
-    const auto table = [](double cd) {
-        return matrix_text({{-40.0, 40.0}, {-20.0, 20.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd});
-    };
-    bench.write("dark.csv", table(0.0));
-    bench.write("brightest.csv", table(1e12));
+    for (const auto& [name, cd] : {std::pair("dark.csv", 0.0), std::pair("brightest.csv", 1e12)})
+        write_matrix(bench, name, {{-40.0, 40.0}, {-20.0, 20.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd});
     Found worst;
     for (const char* file : {"dark.csv", "brightest.csv"}) {
         const std::string more = fmt::format(
@@ -196,8 +184,9 @@ Found reports(StabilityBench& bench) {
             "  probes: {{at_lamp: {{ahead_m: 3.5, left_m: 0.6, above_m: 0.65}}, dark: {{ahead_m: -50}}, road: {{ahead_m: 20}}}}",
             file);
         const Played played = play_to_the_end(bench, write_drive_file(bench, "report.yaml", more), "report");
+        FilesRead read;
         for (const char* text : {"report.json", "readings.csv", "times.csv"})
-            worst.add(static_cast<double>(not_numbers(content_of(played.folder / text))), fmt::format("{} with {}", text, file));
+            worst.add(static_cast<double>(not_numbers(read_file(played.folder / text, read))), fmt::format("{} with {}", text, file));
         std::size_t pictures = 0, values = 0, bad = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(played.folder))
             if (entry.path().extension() == ".exr")

@@ -29,7 +29,7 @@ CandelaTable table_of(std::vector<double> h, std::vector<double> v, const std::f
 }
 
 CandelaTable through_a_file(StabilityBench& bench, const std::string& name, const CandelaTable& table) {
-    return read_lamp(bench.write(name + ".csv", matrix_text(table))).table;
+    return read_lamp(write_matrix(bench, name + ".csv", table)).table;
 }
 
 Found four_thousand(StabilityBench& bench) {
