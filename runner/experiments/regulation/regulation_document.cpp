@@ -88,16 +88,7 @@ std::string remark(const RowResult& row) {
 
 /// Rows with found value, limit and margin.
 Table rows_table(const std::string& name, const std::vector<RowResult>& rows) {
-    Table table{name,
-                "",
-                {{.head = "row", .words = true},
-                 {"found"},
-                 {"limit"},
-                 {.head = "in", .words = true},
-                 {"margin"},
-                 {"at H, V"},
-                 {.head = "verdict", .words = true}},
-                {}};
+    Table table{name, "", columns_of("row<|found|limit|in<|margin|at H, V|verdict<"), {}};
     for (const RowResult& row : rows) {
         const std::string text = remark(row);
         if (row.verdict == RowVerdict::not_measured)
