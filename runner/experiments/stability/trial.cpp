@@ -4,7 +4,6 @@
 #include "scenarios/lamps/beam_matrix.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
-#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -164,15 +163,6 @@ std::filesystem::path write_drive_file(StabilityBench& bench, const std::string&
     return bench.write(name, fmt::format("fernlicht: 1\nname: trial\nroad: straight.xodr\n{}\ncar:\n  lamps:\n    right: {{file: even.csv, "
                                          "position_m: [3.5, -0.6, 0.65]}}\n{}\n",
                                          time.empty() ? "speed_kmh: 60\nstep_s: 0.1\nduration_s: 8" : time, more));
-}
-
-std::string refusal(const std::function<void()>& read) {
-    try {
-        read();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
 }
 
 } // namespace fernlicht::stability

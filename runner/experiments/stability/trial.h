@@ -58,7 +58,4 @@ inline const std::string line_of_600_m = R"(<geometry s="0" x="0" y="0" hdg="0" 
 std::filesystem::path write_drive_file(StabilityBench& bench, const std::string& name, const std::string& more,
                                        const std::string& time = {});
 
-/// What the readers say to an input that they refuse; "" when they take it. Anything but InputError is thrown on.
-std::string refusal(const std::function<void()>& read);
-
 } // namespace fernlicht::stability
