@@ -68,8 +68,8 @@ const std::vector<StabilityCase>& stability_cases() {
     static const std::vector<StabilityCase> all = [] {
         std::vector<StabilityCase> cases;
         for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases, geometry_cases, shadow_cases, shadow_plane_cases,
-                                  shadow_map_cases, shadow_volume_cases, road_cases, image_cases, comparison_cases, time_cases,
-                                  number_cases, motion_cases, weather_cases, traffic_cases, equation_cases})
+                                  shadow_map_cases, shadow_volume_cases, road_cases, image_cases, time_cases, number_cases, motion_cases,
+                                  weather_cases, traffic_cases, equation_cases})
             for (StabilityCase& one : family())
                 cases.push_back(std::move(one));
         return cases;

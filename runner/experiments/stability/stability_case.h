@@ -91,7 +91,7 @@ std::string stability_json(const StabilityResult& result);
 
 // The families, one file each.
 std::vector<StabilityCase> lamp_cases(), camera_cases(), table_cases(), tone_cases(), geometry_cases(), shadow_cases(),
-    shadow_plane_cases(), shadow_map_cases(), shadow_volume_cases(), road_cases(), image_cases(), comparison_cases(), time_cases(),
-    number_cases(), motion_cases(), weather_cases(), traffic_cases(), equation_cases();
+    shadow_plane_cases(), shadow_map_cases(), shadow_volume_cases(), road_cases(), image_cases(), time_cases(), number_cases(),
+    motion_cases(), weather_cases(), traffic_cases(), equation_cases();
 
 } // namespace fernlicht

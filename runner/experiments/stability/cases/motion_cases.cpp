@@ -69,9 +69,6 @@ Found time_steps(StabilityBench& bench) {
 
 std::vector<StabilityCase> motion_cases() {
     return {
-        {"motion", "down-to-rest-and-back", "tyres divide by the speed, brakes turn over at rest: the speed or the pitch jumps", 0.1,
-         "of 1 g in a millisecond; of 1 mrad of pitch", "a twentieth beyond friction is the springing back; solvers agree within 0.1 mrad",
-         worst_of(from_60_mps_to_rest_and_back)},
         {"motion", "tiny-and-huge-steps", "roundings of a hundred thousand steps add up; a step of 50 periods swings", 1e-12, "of the step",
          "some roundings of 1, and of 1 / h in the implicit method", worst_of(steps_of_a_microsecond_and_of_ten_seconds)},
         {"motion", "largest-stable-step", "a solver is not the one of the books", 1e-9, "of the step by theory; unstable steps",
